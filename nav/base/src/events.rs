@@ -1,0 +1,112 @@
+//! What happened on the way: rejections with their reason, counters, changes of state.
+
+use std::collections::BTreeMap;
+
+use crate::messages::Source;
+use crate::solution::Mode;
+use crate::time::Time;
+
+/// Why a message or a part of it was not used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Rejection {
+    /// Innovation outside the chi-square gate.
+    ChiSquare,
+    /// Innovation outside dP_INS + dP_GNSS * DOP.
+    DopTest,
+    /// Another quantity of the same receiver failed its gate at this epoch, or a moment ago.
+    SourceSuspect,
+    /// The receiver itself says that it has no fix.
+    NoFix,
+    /// NaN, infinite or outside any physical range.
+    OutOfRange,
+    /// Older than the history that is kept.
+    TooLate,
+    /// Same time of validity as the sample before.
+    Duplicate,
+    /// Time of validity before that of the sample before.
+    OutOfOrder,
+    /// Not usable in the present mode (for example a log before any alignment).
+    NotUsable,
+}
+
+impl Rejection {
+    /// A short name for tables: `chi_square`, `dop_test`, ...
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Rejection::ChiSquare => "chi_square",
+            Rejection::DopTest => "dop_test",
+            Rejection::SourceSuspect => "source_suspect",
+            Rejection::NoFix => "no_fix",
+            Rejection::OutOfRange => "out_of_range",
+            Rejection::TooLate => "too_late",
+            Rejection::Duplicate => "duplicate",
+            Rejection::OutOfOrder => "out_of_order",
+            Rejection::NotUsable => "not_usable",
+        }
+    }
+}
+
+/// Something worth telling the operator or the log.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Event {
+    /// The mode changed.
+    ModeChanged {
+        /// When.
+        time: Time,
+        /// To what.
+        to: Mode,
+    },
+    /// A measurement was not used.
+    Rejected {
+        /// Its time of validity.
+        time: Time,
+        /// From whom.
+        source: Source,
+        /// Of which aid: `gnss_position`, `log_bottom`, ...
+        aid: &'static str,
+        /// Why.
+        reason: Rejection,
+    },
+    /// IMU samples were missing; the gap was bridged with interpolated increments.
+    ImuGap {
+        /// End of the gap.
+        time: Time,
+        /// Missing time, s.
+        missing: f64,
+    },
+    /// The position was set anew from a source that the gate had kept out for too long.
+    PositionReset {
+        /// When.
+        time: Time,
+    },
+}
+
+/// Counters of everything that was used, floored, rejected or bridged.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Counts {
+    /// Measurements used, by aid.
+    pub accepted: BTreeMap<&'static str, u64>,
+    /// Measurements not used, by aid and reason.
+    pub rejected: BTreeMap<(&'static str, Rejection), u64>,
+    /// Standard deviations that were missing, zero or absurd and were replaced by a floor, by aid.
+    pub floored: BTreeMap<&'static str, u64>,
+    /// IMU samples used.
+    pub imu_samples: u64,
+    /// Gaps in the IMU data that were bridged.
+    pub imu_gaps: u64,
+    /// IMU samples repeated with the same time.
+    pub imu_duplicates: u64,
+    /// IMU samples with a time before the last one.
+    pub imu_out_of_order: u64,
+    /// IMU samples with values that are not finite or not physical.
+    pub imu_out_of_range: u64,
+}
+
+impl Counts {
+    /// All rejections of all aids.
+    #[must_use]
+    pub fn rejected_total(&self) -> u64 {
+        self.rejected.values().sum()
+    }
+}

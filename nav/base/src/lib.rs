@@ -1,0 +1,30 @@
+//! The vocabulary that every crate of insd shares.
+//!
+//! Pure: no I/O, no clock, no thread, no randomness. SI units and radians inside; degrees, knots
+//! and the like appear only where a name says so. Axes: `n` = north, east, down (NED); `b` =
+//! forward, starboard, down of the hull (FRD); `e` = Earth-centred, Earth-fixed (ECEF, WGS-84);
+//! `c_eb` rotates a vector from `b` to `e`.
+
+pub mod attitude;
+pub mod earth;
+pub mod events;
+pub mod frames;
+pub mod gnss;
+pub mod messages;
+pub mod sensor;
+pub mod solution;
+pub mod time;
+pub mod units;
+pub mod voyage;
+
+pub use attitude::Attitude;
+pub use events::{Counts, Event, Rejection};
+pub use frames::{Body, Ecef, Geodetic, Ned};
+pub use gnss::{FixQuality, GnssFix};
+pub use messages::{
+    ExternalReference, ImuSample, LogReference, LogVelocity, Message, Received, Source,
+};
+pub use sensor::{AccelTriad, GyroTriad, ImuSpec, LeverArms};
+pub use solution::{Mode, Solution, SolutionSigma};
+pub use time::{Span, Time};
+pub use voyage::{Stamped, StartCondition, Truth, Voyage, VoyageHeader};

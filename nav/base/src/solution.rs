@@ -1,0 +1,142 @@
+//! What the system says of the ship: a solution, its standard deviations and its mode.
+
+use nalgebra::Vector3;
+
+use crate::attitude::Attitude;
+use crate::frames::{Body, Geodetic, Ned};
+use crate::time::Time;
+
+/// What the system is doing, as in the last column of `nav.csv`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Mode {
+    /// Levelling and first search for the heading.
+    CoarseAlignment,
+    /// At the berth: the mean velocity is known to be zero.
+    FineAlignment,
+    /// Under way: the heading is being found from GNSS.
+    InMotionAlignment,
+    /// Aligned, GNSS in use.
+    Aided,
+    /// Aligned, log or reference in use, no GNSS.
+    DeadReckoning,
+    /// Aligned, nothing but the IMU.
+    Inertial,
+    /// The solution must not be used.
+    Fault,
+}
+
+impl Mode {
+    /// The word of `nav.csv`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Mode::CoarseAlignment => "coarse_alignment",
+            Mode::FineAlignment => "fine_alignment",
+            Mode::InMotionAlignment => "in_motion_alignment",
+            Mode::Aided => "aided",
+            Mode::DeadReckoning => "dead_reckoning",
+            Mode::Inertial => "inertial",
+            Mode::Fault => "fault",
+        }
+    }
+
+    /// The mode of a word of `nav.csv`.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        [
+            Mode::CoarseAlignment,
+            Mode::FineAlignment,
+            Mode::InMotionAlignment,
+            Mode::Aided,
+            Mode::DeadReckoning,
+            Mode::Inertial,
+            Mode::Fault,
+        ]
+        .into_iter()
+        .find(|mode| mode.as_str() == word)
+    }
+
+    /// Whether the heading is good enough to steer and navigate by.
+    #[must_use]
+    pub fn is_navigating(self) -> bool {
+        matches!(self, Mode::Aided | Mode::DeadReckoning | Mode::Inertial)
+    }
+}
+
+/// 1-sigma of each component of a [`Solution`], SI and radians.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct SolutionSigma {
+    /// North, east, down, m.
+    pub position: Ned,
+    /// North, east, down, m/s.
+    pub velocity: Ned,
+    /// Roll, rad.
+    pub roll: f64,
+    /// Pitch, rad.
+    pub pitch: f64,
+    /// Heading, rad.
+    pub heading: f64,
+}
+
+/// Where the ship is, how she moves and lies, at the IMU, and how sure that is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solution {
+    /// Time of validity.
+    pub time: Time,
+    /// Position.
+    pub position: Geodetic,
+    /// Velocity over the Earth, m/s.
+    pub velocity: Ned,
+    /// Roll, pitch, heading.
+    pub attitude: Attitude,
+    /// Angular rate of the hull with respect to the NED axes, body axes, rad/s.
+    pub rate: Body,
+    /// 1-sigma of the above.
+    pub sigma: SolutionSigma,
+    /// What the system is doing.
+    pub mode: Mode,
+}
+
+impl Solution {
+    /// Rate of turn: the change of heading, rad/s, starboard positive. Groves, 2nd ed., eq. (2.57):
+    /// (omega_y sin(roll) + omega_z cos(roll)) / cos(pitch).
+    #[must_use]
+    pub fn rate_of_turn(&self) -> f64 {
+        let (sin_r, cos_r) = self.attitude.roll.sin_cos();
+        let rate: &Vector3<f64> = &self.rate.0;
+        (rate.y * sin_r + rate.z * cos_r) / self.attitude.pitch.cos().max(1e-9)
+    }
+
+    /// Speed over ground, m/s.
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.velocity.0.xy().norm()
+    }
+
+    /// Course over ground, rad, [0, 2 pi), clockwise from true north. Meaningless at rest.
+    #[must_use]
+    pub fn course(&self) -> f64 {
+        crate::units::wrap_two_pi(self.velocity.0.y.atan2(self.velocity.0.x))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_mode_is_found_by_its_word() {
+        for word in [
+            "coarse_alignment",
+            "fine_alignment",
+            "in_motion_alignment",
+            "aided",
+            "dead_reckoning",
+            "inertial",
+            "fault",
+        ] {
+            assert_eq!(Mode::from_word(word).unwrap().as_str(), word);
+        }
+        assert_eq!(Mode::from_word("AIDED"), None);
+    }
+}
