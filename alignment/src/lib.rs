@@ -1,1 +1,15 @@
-//! insd-alignment
+//! Alignment: from nothing but sensor data to the initial state that navigation starts from.
+//!
+//! [`levelling`] finds which way is down while the ship moves; [`bank`] runs one filter for each
+//! heading that the ship could have until the data have chosen one. Both work at rest (the Earth's
+//! rotation tells the heading), in a swell and under way (GNSS velocity against specific force
+//! tells it).
+//!
+//! Pure: no I/O, no clock, no thread, no randomness.
+
+pub mod bank;
+pub mod levelling;
+pub mod mixture;
+
+pub use bank::Bank;
+pub use levelling::{Level, Levelling};

@@ -1,1 +1,31 @@
-//! insd-nav
+//! The navigator: strapdown mechanisation, error model, Kalman filter, aids, gates and the time line
+//! on which late measurements are applied when they were valid.
+//!
+//! Pure: no I/O, no clock, no thread, no randomness. A [`Filter`] can only be built from an
+//! [`InitialState`], which alignment makes.
+
+pub mod aids;
+pub mod block;
+pub mod config;
+pub mod error_state;
+pub mod filter;
+pub mod floors;
+pub mod gate;
+pub mod increments;
+pub mod initial;
+pub mod innovation;
+pub mod nominal;
+pub mod propagation;
+pub mod report;
+pub mod spread;
+pub mod strapdown;
+pub mod timeline;
+pub mod trust;
+
+pub use config::NavConfig;
+pub use filter::Filter;
+pub use increments::{Conditioned, Conditioner, Increment};
+pub use initial::InitialState;
+pub use nominal::Nominal;
+pub use report::{AidReport, Outcome, Report};
+pub use timeline::{Estimator, Timeline};

@@ -1,10 +1,27 @@
 //! The engine: messages in, solutions and events out. The daemon, the replay, the campaign and the
 //! demo all run this one, so that a recording replays to the same bits.
 //!
-//! Sans-I/O: [`Engine::handle`] takes one message; then [`Engine::poll_output`] is drained.
+//! Sans-I/O: [`Engine::handle`] takes one message; then [`Engine::poll_output`] is drained. Pure: no
+//! I/O, no clock, no thread, no randomness.
 
-use insd_base::VoyageHeader;
-use insd_base::{Counts, Event, Geodetic, ImuSpec, LeverArms, Received, Solution, StartCondition};
+mod checks;
+mod coarse;
+mod recent;
+mod ship;
+
+use std::collections::VecDeque;
+
+use insd_base::{
+    Counts, Event, Geodetic, ImuSample, ImuSpec, Innovation, LeverArms, Message, Mode, Received,
+    Rejection, Solution, Source, Span, StartCondition, Time, VoyageHeader,
+};
+use insd_nav::{
+    Conditioned, Conditioner, Estimator, Increment, NavConfig, Outcome, Report, Timeline,
+};
+
+use coarse::Coarse;
+use recent::Recent;
+use ship::Ship;
 
 /// What the engine must know before the first message.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,29 +57,69 @@ impl EngineConfig {
 pub enum Output {
     /// The state of the ship at an output epoch.
     Solution(Solution),
+    /// An innovation of a measurement.
+    Innovation(Innovation),
     /// Something worth telling.
     Event(Event),
+}
+
+/// What the engine is doing with the data.
+#[derive(Debug)]
+enum Stage {
+    /// Finding which way is down.
+    Levelling(Box<Coarse>),
+    /// A ship on her time line.
+    Running(Box<Timeline<Ship>>),
 }
 
 /// The mode machine around alignment and navigation.
 #[derive(Debug)]
 pub struct Engine {
+    config: EngineConfig,
+    nav: NavConfig,
+    conditioner: Conditioner,
+    stage: Stage,
+    recent: Recent,
+    period: Span,
+    next_epoch: Option<i64>,
+    mode: Option<Mode>,
     counts: Counts,
+    outputs: VecDeque<Output>,
 }
+
+/// A gap in the IMU data after which the ship's attitude is anyone's guess, s.
+const LOST: f64 = 60.0;
 
 impl Engine {
     /// An engine that knows nothing yet.
     #[must_use]
-    pub fn new(_config: EngineConfig) -> Self {
-        Engine { counts: Counts::default() }
+    pub fn new(config: EngineConfig) -> Self {
+        let nav = NavConfig::new(config.imu, config.lever_arms);
+        Engine {
+            conditioner: Conditioner::new(config.imu.rate),
+            stage: Stage::Levelling(Box::new(Coarse::new(&config))),
+            period: Span::from_seconds(1.0 / config.output_rate),
+            recent: Recent::default(),
+            next_epoch: None,
+            mode: None,
+            counts: Counts::default(),
+            outputs: VecDeque::new(),
+            nav,
+            config,
+        }
     }
 
     /// Takes one message, in order of receipt.
-    pub fn handle(&mut self, _received: &Received) {}
+    pub fn handle(&mut self, received: &Received) {
+        match received.message {
+            Message::Imu(sample) => self.handle_imu(&sample),
+            _ => self.handle_aid(received),
+        }
+    }
 
-    /// The next solution or event, until there is none.
+    /// The next solution, innovation or event, until there is none.
     pub fn poll_output(&mut self) -> Option<Output> {
-        None
+        self.outputs.pop_front()
     }
 
     /// Counters of everything used, floored, rejected and bridged.
@@ -70,4 +127,190 @@ impl Engine {
     pub fn counts(&self) -> &Counts {
         &self.counts
     }
+
+    fn handle_imu(&mut self, sample: &ImuSample) {
+        match self.conditioner.take(sample) {
+            Conditioned::First => self.counts.imu_samples += 1,
+            Conditioned::Sample(increment) => {
+                self.counts.imu_samples += 1;
+                self.advance(&increment);
+            }
+            Conditioned::AfterGap(bridge, increment) => {
+                self.counts.imu_samples += 1;
+                self.counts.imu_gaps += 1;
+                let missing = bridge.duration();
+                self.tell(Event::ImuGap { time: bridge.to, missing });
+                if missing > LOST {
+                    self.start_over();
+                } else {
+                    self.advance(&bridge);
+                }
+                self.advance(&increment);
+            }
+            Conditioned::Rejected(reason) => self.count_imu(reason),
+        }
+    }
+
+    fn start_over(&mut self) {
+        self.stage = Stage::Levelling(Box::new(Coarse::new(&self.config)));
+        self.next_epoch = None;
+    }
+
+    fn count_imu(&mut self, reason: Rejection) {
+        match reason {
+            Rejection::Duplicate => self.counts.imu_duplicates += 1,
+            Rejection::OutOfOrder => self.counts.imu_out_of_order += 1,
+            _ => self.counts.imu_out_of_range += 1,
+        }
+    }
+
+    fn advance(&mut self, increment: &Increment) {
+        match &mut self.stage {
+            Stage::Levelling(coarse) => {
+                coarse.advance(increment);
+                self.try_start();
+            }
+            Stage::Running(line) => {
+                let mut solutions = Vec::new();
+                epochs(self.period, &mut self.next_epoch, increment, line, &mut solutions);
+                let reports = line.advance(increment);
+                if let Some(time) = due_at(self.period, &mut self.next_epoch, increment.to) {
+                    solutions.push(Solution { time, ..line.estimator().solution() });
+                }
+                for report in &reports {
+                    self.note(report);
+                }
+                for solution in solutions {
+                    self.emit(solution);
+                }
+            }
+        }
+    }
+
+    fn try_start(&mut self) {
+        let Stage::Levelling(coarse) = &self.stage else { return };
+        let Some((level, kinematics)) = coarse.ready() else { return };
+        let ship = Ship::aligning(&self.nav, &level, &kinematics);
+        self.stage = Stage::Running(Box::new(Timeline::new(ship, level.time)));
+    }
+
+    fn handle_aid(&mut self, received: &Received) {
+        let source = received.source;
+        if let Err(reason) = self.recent.admit(source, received.message.time()) {
+            self.reject(received, source.name(), reason);
+            return;
+        }
+        let (checked, faults) = checks::checked(received);
+        for aid in faults {
+            self.reject(received, aid, Rejection::OutOfRange);
+        }
+        match &mut self.stage {
+            Stage::Levelling(coarse) => coarse.observe(&checked.message),
+            Stage::Running(line) => {
+                if let Some(report) = line.measure(&checked) {
+                    self.note(&report);
+                }
+            }
+        }
+    }
+
+    fn reject(&mut self, received: &Received, aid: &'static str, reason: Rejection) {
+        *self.counts.rejected.entry((aid, reason)).or_insert(0) += 1;
+        let time = received.message.time();
+        self.tell(Event::Rejected { time, source: received.source, aid, reason });
+    }
+
+    fn note(&mut self, report: &Report) {
+        for aid in &report.floored {
+            *self.counts.floored.entry(aid).or_insert(0) += 1;
+        }
+        for aid in &report.aids {
+            let accepted = aid.outcome == Outcome::Accepted;
+            for (component, (innovation, sigma)) in (0..3_u8).zip(aid.innovation) {
+                if innovation.is_finite() {
+                    self.outputs.push_back(Output::Innovation(Innovation {
+                        time: aid.time,
+                        aid: aid.aid,
+                        component,
+                        innovation,
+                        sigma,
+                        accepted,
+                    }));
+                }
+            }
+            match aid.outcome {
+                Outcome::Accepted => *self.counts.accepted.entry(aid.aid).or_insert(0) += 1,
+                Outcome::Rejected(reason) => {
+                    self.note_rejection(aid.time, aid.source, aid.aid, reason)
+                }
+            }
+        }
+        if report.position_reset {
+            let time = report.aids.first().map_or(Time::START, |aid| aid.time);
+            self.tell(Event::PositionReset { time });
+        }
+    }
+
+    fn note_rejection(&mut self, time: Time, source: Source, aid: &'static str, reason: Rejection) {
+        *self.counts.rejected.entry((aid, reason)).or_insert(0) += 1;
+        self.tell(Event::Rejected { time, source, aid, reason });
+    }
+
+    fn emit(&mut self, solution: Solution) {
+        let mut solution = solution;
+        if !checks::is_sound(&solution) {
+            solution.mode = Mode::Fault;
+        }
+        if self.mode != Some(solution.mode) {
+            self.mode = Some(solution.mode);
+            self.tell(Event::ModeChanged { time: solution.time, to: solution.mode });
+        }
+        if solution.mode == Mode::Fault {
+            self.start_over();
+        } else {
+            self.outputs.push_back(Output::Solution(solution));
+        }
+    }
+
+    fn tell(&mut self, event: Event) {
+        self.outputs.push_back(Output::Event(event));
+    }
+}
+
+/// The instant of an epoch: whole multiples of the period since the start of the voyage.
+fn epoch_time(period: Span, index: i64) -> Time {
+    Time::from_nanos(index.saturating_mul(period.as_nanos()))
+}
+
+/// First epoch after an instant.
+fn epoch_after(period: Span, time: Time) -> i64 {
+    time.as_nanos().div_euclid(period.as_nanos().max(1)) + 1
+}
+
+/// Solutions at the epochs strictly inside an increment, before the ship moves over it.
+fn epochs(
+    period: Span,
+    next: &mut Option<i64>,
+    increment: &Increment,
+    line: &Timeline<Ship>,
+    solutions: &mut Vec<Solution>,
+) {
+    let mut index = *next.get_or_insert_with(|| epoch_after(period, increment.from));
+    while epoch_time(period, index) < increment.to {
+        let at = epoch_time(period, index);
+        if at > increment.from {
+            solutions.push(line.estimator().solution_at(increment, at));
+        }
+        index += 1;
+    }
+    *next = Some(index);
+}
+
+/// The epoch at an instant, if there is one; it is then passed.
+fn due_at(period: Span, next: &mut Option<i64>, time: Time) -> Option<Time> {
+    let index = (*next)?;
+    (epoch_time(period, index) == time).then(|| {
+        *next = Some(index + 1);
+        time
+    })
 }

@@ -82,6 +82,23 @@ pub enum Event {
     },
 }
 
+/// One component of an innovation: measured minus predicted, with the sigma that was expected.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Innovation {
+    /// Time of validity.
+    pub time: Time,
+    /// Of which aid: `gnss_position`, ...
+    pub aid: &'static str,
+    /// Component, 0..2.
+    pub component: u8,
+    /// Measured minus predicted, SI.
+    pub innovation: f64,
+    /// Expected 1-sigma, SI.
+    pub sigma: f64,
+    /// Whether it was used.
+    pub accepted: bool,
+}
+
 /// Counters of everything that was used, floored, rejected or bridged.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Counts {

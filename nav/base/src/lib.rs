@@ -18,7 +18,7 @@ pub mod units;
 pub mod voyage;
 
 pub use attitude::Attitude;
-pub use events::{Counts, Event, Rejection};
+pub use events::{Counts, Event, Innovation, Rejection};
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
 pub use messages::{

@@ -1,0 +1,217 @@
+//! A bank of filters, one for each heading that the ship could have.
+//!
+//! A linear filter that starts with an unknown heading locks onto a wrong one with a small sigma.
+//! Here each filter starts close enough to its own heading to be linear; the likelihood of every
+//! measurement weighs them (Gaussian-sum filter: Alspach and Sorenson, IEEE Trans. AC 17 (1972)).
+//! Filters that the data refute are dropped, filters that have come together are joined; when one is
+//! left and knows its heading, it is the navigator, without a step in any output.
+
+use std::f64::consts::TAU;
+
+use insd_base::units::{DEG, wrap_pi};
+use insd_base::{Geodetic, Received, Solution, Span, Time};
+use insd_nav::error_state::{ATTITUDE, POSITION, VELOCITY};
+use insd_nav::initial::sensor_covariance;
+use insd_nav::{Estimator, Filter, Increment, InitialState, NavConfig, Nominal, Report};
+use nalgebra::{Matrix3, Vector3};
+
+use crate::levelling::Level;
+use crate::mixture::{join, mixed};
+
+/// Where and how fast the ship is when the bank starts, with 1-sigma errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kinematics {
+    /// Position of the IMU.
+    pub position: Geodetic,
+    /// Of each component of the position, m.
+    pub position_std: f64,
+    /// Velocity, NED, m/s.
+    pub velocity: Vector3<f64>,
+    /// Of each component of the velocity, m/s.
+    pub velocity_std: f64,
+    /// Mean acceleration over the levelling window, NED, m/s^2.
+    pub acceleration: Vector3<f64>,
+    /// Whether the ship is known to lie at her berth.
+    pub moored: bool,
+}
+
+/// The filters and their weights.
+#[derive(Clone, Debug)]
+pub struct Bank {
+    members: Vec<Member>,
+    next_tidy: Time,
+}
+
+#[derive(Clone, Debug)]
+struct Member {
+    filter: Box<Filter>,
+    log_weight: f64,
+}
+
+/// Headings at the start.
+const HEADINGS: usize = 24;
+/// Sigma of each over their spacing: neighbours overlap to an almost even density.
+const OVERLAP: f64 = 0.55;
+/// Weight, as logarithm below the best, at which a heading is taken as refuted.
+const REFUTED: f64 = -14.0;
+/// Distance of two headings in units of their joint sigma at which they are taken as one.
+const TOGETHER: f64 = 0.7;
+/// Heading sigma below which one filter alone is linear enough to go on.
+const LINEAR: f64 = 5.0 * DEG;
+/// Sigma of roll and pitch after levelling, sensor bias aside.
+const LEVEL_STD: f64 = 1.0 * DEG;
+/// How often the bank is tidied.
+const TIDY: Span = Span::from_nanos(1_000_000_000);
+
+impl Bank {
+    /// A bank of all headings around a levelled ship.
+    #[must_use]
+    pub fn new(config: &NavConfig, level: &Level, kinematics: &Kinematics) -> Self {
+        let members = (0..HEADINGS)
+            .map(|i| {
+                let heading = TAU * i as f64 / HEADINGS as f64;
+                let initial = hypothesis(config, level, kinematics, heading);
+                Member {
+                    filter: Box::new(Filter::new(config, &initial, kinematics.moored)),
+                    log_weight: 0.0,
+                }
+            })
+            .collect();
+        Bank { members, next_tidy: level.time + TIDY }
+    }
+
+    /// Headings still in question.
+    #[must_use]
+    pub fn candidates(&self) -> usize {
+        self.members.len()
+    }
+
+    /// The one filter left, once it knows its heading well enough to go on alone.
+    #[must_use]
+    pub fn winner(&self) -> Option<&Filter> {
+        match self.members.as_slice() {
+            [only] if only.filter.heading_std() < LINEAR => Some(&only.filter),
+            _ => None,
+        }
+    }
+
+    /// Whether the likeliest filter still takes the ship as lying at her berth.
+    #[must_use]
+    pub fn is_moored(&self) -> bool {
+        self.members
+            .iter()
+            .max_by(|a, b| a.log_weight.total_cmp(&b.log_weight))
+            .is_some_and(|member| member.filter.is_moored())
+    }
+
+    fn tidy(&mut self) {
+        let best = self.members.iter().map(|m| m.log_weight).fold(f64::NEG_INFINITY, f64::max);
+        for member in &mut self.members {
+            member.log_weight -= best;
+        }
+        self.members.retain(|member| member.log_weight > REFUTED);
+        let mut first = 0;
+        while first < self.members.len() {
+            let mut second = first + 1;
+            while second < self.members.len() {
+                if self.are_together(first, second) {
+                    self.join(first, second);
+                } else {
+                    second += 1;
+                }
+            }
+            first += 1;
+        }
+    }
+
+    fn are_together(&self, first: usize, second: usize) -> bool {
+        let a = self.members[first].filter.solution();
+        let b = self.members[second].filter.solution();
+        let distance = wrap_pi(a.attitude.heading - b.attitude.heading).abs();
+        distance < TOGETHER * a.sigma.heading.hypot(b.sigma.heading)
+            && a.sigma.heading.max(b.sigma.heading) < 2.0 * LINEAR
+    }
+
+    fn join(&mut self, first: usize, second: usize) {
+        let other = self.members.remove(second);
+        let member = &mut self.members[first];
+        let share = 1.0 / (1.0 + (member.log_weight - other.log_weight).exp());
+        member.filter.settle();
+        let mut settled = other.filter;
+        settled.settle();
+        join(&mut member.filter, &settled, share);
+        let (high, low) = if member.log_weight > other.log_weight {
+            (member.log_weight, other.log_weight)
+        } else {
+            (other.log_weight, member.log_weight)
+        };
+        member.log_weight = high + (low - high).exp().ln_1p();
+    }
+
+    fn weighted(&self, solution: impl Fn(&Filter) -> Solution) -> Vec<(f64, Solution)> {
+        let best = self.members.iter().map(|m| m.log_weight).fold(f64::NEG_INFINITY, f64::max);
+        self.members
+            .iter()
+            .map(|member| ((member.log_weight - best).exp(), solution(&member.filter)))
+            .collect()
+    }
+
+    /// What the bank says together; the likeliest member where the mixture is empty of sense.
+    fn together(&self, solution: impl Fn(&Filter) -> Solution) -> Solution {
+        mixed(&self.weighted(&solution)).unwrap_or_else(|| solution(&self.members[0].filter))
+    }
+}
+
+impl Estimator for Bank {
+    fn advance(&mut self, increment: &Increment) {
+        for member in &mut self.members {
+            member.filter.advance(increment);
+            member.log_weight += member.filter.take_internal_likelihood();
+        }
+    }
+
+    fn apply(&mut self, received: &Received) -> Report {
+        let mut best: Option<(f64, Report)> = None;
+        for member in &mut self.members {
+            let report = member.filter.apply(received);
+            member.log_weight += report.log_likelihood;
+            if best.as_ref().is_none_or(|(weight, _)| member.log_weight > *weight) {
+                best = Some((member.log_weight, report));
+            }
+        }
+        let at = received.message.time();
+        if at >= self.next_tidy {
+            self.next_tidy = at + TIDY;
+            self.tidy();
+        }
+        best.map(|(_, report)| report).unwrap_or_default()
+    }
+
+    fn solution(&self) -> Solution {
+        self.together(Filter::solution)
+    }
+
+    fn solution_at(&self, increment: &Increment, at: Time) -> Solution {
+        self.together(|filter| filter.solution_at(increment, at))
+    }
+}
+
+fn hypothesis(
+    config: &NavConfig,
+    level: &Level,
+    kinematics: &Kinematics,
+    heading: f64,
+) -> InitialState {
+    let attitude = level.attitude(heading, &kinematics.position, &kinematics.acceleration);
+    let nominal = Nominal::at(&kinematics.position, &kinematics.velocity, &attitude.c_nb());
+    let mut covariance = sensor_covariance(config);
+    let diagonal = |std: f64| Matrix3::from_diagonal_element(std * std);
+    POSITION.renew(&mut covariance, &diagonal(kinematics.position_std));
+    VELOCITY.renew(&mut covariance, &diagonal(kinematics.velocity_std));
+    let tilt = LEVEL_STD.hypot(config.imu.accel.bias_std / 9.8);
+    let turn = OVERLAP * TAU / HEADINGS as f64;
+    let in_ned = Matrix3::from_diagonal(&Vector3::new(tilt * tilt, tilt * tilt, turn * turn));
+    let c_en = insd_base::earth::c_ne(&kinematics.position).transpose();
+    ATTITUDE.renew(&mut covariance, &(c_en * in_ned * c_en.transpose()));
+    InitialState { time: level.time, nominal, covariance, rate: level.rate }
+}

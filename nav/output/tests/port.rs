@@ -1,0 +1,188 @@
+//! What a port says of a solution, and when it is silent.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
+
+use insd_base::units::{DEG, KNOT};
+use insd_base::{Attitude, Body, Geodetic, Mode, Ned, Solution, SolutionSigma, Time};
+use insd_output::{CivilTime, Date, Port, PortConfig, TimeOfDay};
+use proptest::prelude::*;
+
+const UTC: CivilTime = CivilTime {
+    date: Date { year: 2026, month: 1, day: 2 },
+    time: TimeOfDay { hour: 3, minute: 4, second: 5, nanosecond: 600_000_000 },
+};
+
+fn solution() -> Solution {
+    Solution {
+        time: Time::START,
+        position: Geodetic::from_degrees(35.5, -139.25, 40.0),
+        velocity: Ned::new(0.0, 10.0 * KNOT, 0.0),
+        attitude: Attitude { roll: 0.02, pitch: -0.01, heading: 91.5 * DEG },
+        rate: Body::new(0.0, 0.0, -12.0 * DEG / 60.0),
+        sigma: SolutionSigma {
+            position: Ned::new(1.0, 1.0, 2.0),
+            velocity: Ned::new(0.02, 0.02, 0.02),
+            roll: 0.01 * DEG,
+            pitch: 0.01 * DEG,
+            heading: 0.02 * DEG,
+        },
+        mode: Mode::Aided,
+    }
+}
+
+fn said(config: &PortConfig, solution: &Solution) -> Vec<String> {
+    let mut port = Port::new(config.clone());
+    let bytes = port.sentences(solution, UTC).to_vec();
+    String::from_utf8(bytes).unwrap().split_terminator("\r\n").map(str::to_owned).collect()
+}
+
+/// The sentence with this address, without checksum.
+fn one(config: &PortConfig, solution: &Solution, address: &str) -> Option<String> {
+    let line = said(config, solution).into_iter().find(|line| line[1..].starts_with(address))?;
+    Some(line.split('*').next().unwrap().to_owned())
+}
+
+#[test]
+fn an_aided_ship_is_told_in_full() {
+    let lines = said(&PortConfig::bridge(), &solution());
+    let stems: Vec<&str> = lines.iter().map(|line| line.split('*').next().unwrap()).collect();
+    assert_eq!(
+        stems,
+        [
+            "$HEHDT,91.50,T",
+            "$HETHS,91.50,A",
+            "$TIROT,-12.0,A",
+            "$INZDA,030405.60,02,01,2026,,",
+            "$INGGA,030405.60,3530.00000,N,13915.00000,W,1,,,,,,,,",
+            "$INVTG,90.00,T,,M,10.00,N,18.52,K,A",
+        ]
+    );
+}
+
+#[test]
+fn a_simulated_ship_is_marked_in_every_sentence_that_has_a_mark() {
+    let config = PortConfig { simulated: true, ..PortConfig::bridge() };
+    let lines = said(&config, &solution());
+    assert_eq!(lines.len(), 4, "HDT and ROT have no mark and are not sent: {lines:?}");
+    assert!(one(&config, &solution(), "HETHS").unwrap().ends_with(",S"));
+    assert!(one(&config, &solution(), "INGGA").unwrap().contains(",W,8,"));
+    assert!(one(&config, &solution(), "INVTG").unwrap().ends_with(",S"));
+    assert_eq!(said(&PortConfig::demo(), &solution()).len(), 6);
+}
+
+#[test]
+fn hdt_stops_and_ths_says_v_when_the_heading_is_not_to_be_used() {
+    let mut unsure = solution();
+    unsure.sigma.heading = 3.0 * DEG;
+    let aligning = Solution { mode: Mode::FineAlignment, ..solution() };
+    let mut lost = solution();
+    lost.sigma.heading = f64::NAN;
+    for config in [PortConfig::bridge(), PortConfig::demo()] {
+        for solution in [&unsure, &aligning, &lost] {
+            assert_eq!(one(&config, solution, "HEHDT"), None);
+            assert_eq!(one(&config, solution, "HETHS").unwrap(), "$HETHS,,V");
+        }
+    }
+}
+
+#[test]
+fn a_heading_between_the_limits_is_estimated() {
+    let mut solution = solution();
+    solution.sigma.heading = 1.0 * DEG;
+    assert_eq!(one(&PortConfig::bridge(), &solution, "HETHS").unwrap(), "$HETHS,91.50,E");
+    assert!(one(&PortConfig::bridge(), &solution, "HEHDT").is_some());
+}
+
+#[test]
+fn position_quality_follows_the_sigma() {
+    for (sigma, digit) in [(0.05, 4), (0.2, 5), (0.8, 2), (5.0, 1), (50.0, 6)] {
+        let mut solution = solution();
+        solution.sigma.position = Ned::new(sigma, 0.0, 0.0);
+        let gga = one(&PortConfig::bridge(), &solution, "INGGA").unwrap();
+        assert!(gga.contains(&format!(",W,{digit},")), "{sigma}: {gga}");
+    }
+}
+
+#[test]
+fn dead_reckoning_is_never_called_better_than_estimated() {
+    for mode in [Mode::DeadReckoning, Mode::Inertial] {
+        let solution = Solution { mode, ..solution() };
+        assert!(one(&PortConfig::bridge(), &solution, "INGGA").unwrap().contains(",W,6,"));
+        assert!(one(&PortConfig::bridge(), &solution, "INVTG").unwrap().ends_with(",E"));
+    }
+}
+
+#[test]
+fn an_invalid_position_is_empty() {
+    let fault = Solution { mode: Mode::Fault, ..solution() };
+    let mut lost = solution();
+    lost.sigma.position = Ned::new(90.0, 90.0, 1.0);
+    for config in [PortConfig::bridge(), PortConfig::demo()] {
+        for solution in [&fault, &lost] {
+            let gga = one(&config, solution, "INGGA").unwrap();
+            assert_eq!(gga, "$INGGA,030405.60,,,,,0,,,,,,,,");
+            assert_eq!(one(&config, solution, "INVTG").unwrap(), "$INVTG,,T,,M,,N,,K,N");
+        }
+    }
+}
+
+#[test]
+fn a_ship_at_rest_has_a_speed_but_no_course() {
+    let mut solution = solution();
+    solution.velocity = Ned::new(0.01, 0.0, 0.0);
+    let vtg = one(&PortConfig::bridge(), &solution, "INVTG").unwrap();
+    assert_eq!(vtg, "$INVTG,,T,,M,0.02,N,0.04,K,A");
+}
+
+#[test]
+fn height_above_sea_level_is_said_only_where_the_geoid_is_known() {
+    let config = PortConfig { geoid_separation: Some(36.7), ..PortConfig::bridge() };
+    let gga = one(&config, &solution(), "INGGA").unwrap();
+    assert!(gga.ends_with(",W,1,,,3.30,M,36.70,M,,"), "{gga}");
+}
+
+#[test]
+fn one_second_of_solutions_gives_ten_headings_and_one_position() {
+    let mut port = Port::new(PortConfig::bridge());
+    let mut lines = Vec::new();
+    for step in 0..10 {
+        let time = Time::from_nanos(step * 100_000_000);
+        let bytes = port.sentences(&Solution { time, ..solution() }, UTC);
+        let text = String::from_utf8(bytes.to_vec()).unwrap();
+        lines.extend(text.split_terminator("\r\n").map(|line| line[3..6].to_owned()));
+    }
+    let count = |formatter: &str| lines.iter().filter(|line| *line == formatter).count();
+    assert_eq!([count("HDT"), count("THS"), count("ROT")], [10, 10, 10]);
+    assert_eq!([count("GGA"), count("VTG"), count("ZDA")], [1, 1, 1]);
+}
+
+proptest! {
+    #[test]
+    fn whatever_the_solution_every_sentence_is_short_and_readable(
+        values in prop::array::uniform16(any::<f64>()), mode in 0..7_usize, simulated: bool,
+    ) {
+        let [lat, lon, height, vn, ve, vd, roll, pitch, heading, wx, wy, wz, sn, se, sv, sh] = values;
+        let mode = [
+            Mode::CoarseAlignment, Mode::FineAlignment, Mode::InMotionAlignment, Mode::Aided,
+            Mode::DeadReckoning, Mode::Inertial, Mode::Fault,
+        ][mode];
+        let solution = Solution {
+            time: Time::START,
+            position: Geodetic { latitude: lat, longitude: lon, height },
+            velocity: Ned::new(vn, ve, vd),
+            attitude: Attitude { roll, pitch, heading },
+            rate: Body::new(wx, wy, wz),
+            sigma: SolutionSigma {
+                position: Ned::new(sn, se, 0.0),
+                velocity: Ned::new(sv, sv, sv),
+                roll: 0.0, pitch: 0.0, heading: sh,
+            },
+            mode,
+        };
+        let config = PortConfig { simulated, geoid_separation: Some(sn), ..PortConfig::demo() };
+        for line in said(&config, &solution) {
+            prop_assert!(line.len() <= 80);
+            prop_assert!(insd_wire::nmea::Sentence::read(line.as_bytes()).is_ok(), "{}", line);
+        }
+    }
+}

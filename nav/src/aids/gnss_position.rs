@@ -1,0 +1,46 @@
+//! GNSS position at the antenna.
+//!
+//! Predicted: p = r + C_eb l, measured minus predicted in NED axes. The error of the fix has a
+//! white part and a slowly varying part that the filter estimates in units of its sigma:
+//!
+//! z_n = C_ne (dr - [C_eb l x] phi) + diag(sigma_slow) x_slow + white.
+//!
+//! Groves, 2nd ed., eqs. (14.103), (14.113); correlated error: Brown and Hwang, Introduction to
+//! Random Signals and Applied Kalman Filtering, 4th ed., section 5.2 (state augmentation).
+//! Held by `every_measurement_matrix_agrees_with_perturbed_predictions`.
+
+use insd_base::attitude::skew;
+use insd_base::{Geodetic, earth};
+use nalgebra::{Matrix3, SMatrix, Vector3};
+
+use super::View;
+use crate::error_state::{ATTITUDE, GNSS_POSITION_ERROR, POSITION};
+use crate::innovation::Innovation;
+
+/// A fix with its sigmas split into white and slow parts, NED, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PositionFix {
+    /// Position of the antenna.
+    pub position: Geodetic,
+    /// 1-sigma of the white part.
+    pub white: Vector3<f64>,
+    /// 1-sigma of the slowly varying part.
+    pub slow: Vector3<f64>,
+}
+
+/// Innovation of a GNSS position; `lever` from the IMU to the antenna, body axes, m.
+#[must_use]
+pub fn innovation(view: &View, fix: &PositionFix, lever: &Vector3<f64>) -> Innovation<3> {
+    let arm_e = view.c_eb * lever;
+    let difference = earth::ecef(&fix.position).0 - view.nominal.position - arm_e;
+    let expected_error = fix.slow.component_mul(&view.nominal.gnss_position_error);
+    let mut h = SMatrix::zeros();
+    POSITION.set_columns(&mut h, &view.c_ne);
+    ATTITUDE.set_columns(&mut h, &(-view.c_ne * skew(&arm_e)));
+    GNSS_POSITION_ERROR.set_columns(&mut h, &Matrix3::from_diagonal(&fix.slow));
+    Innovation {
+        z: view.c_ne * difference - expected_error,
+        h,
+        r: Matrix3::from_diagonal(&fix.white.component_mul(&fix.white)),
+    }
+}

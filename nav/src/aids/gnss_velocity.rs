@@ -1,0 +1,50 @@
+//! GNSS velocity at the antenna.
+//!
+//! Predicted: v + C_eb (omega_eb x l) in NED axes, with the slow part of the receiver's error as for
+//! the position:
+//!
+//! z_n = C_ne (dv - [C_eb (omega x l) x] phi + C_eb [l x] db_g) + diag(sigma_slow) x_slow + white,
+//!
+//! db_g the gyro bias (the other gyro errors enter in the same way but are too small on a lever arm
+//! to matter). Groves, 2nd ed., eqs. (14.103), (14.114).
+//! Held by `every_measurement_matrix_agrees_with_perturbed_predictions`.
+
+use insd_base::attitude::skew;
+use nalgebra::{Matrix3, SMatrix, Vector3};
+
+use super::View;
+use crate::error_state::{ATTITUDE, GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT, VELOCITY};
+use crate::innovation::Innovation;
+
+/// A velocity with its sigmas split into white and slow parts, NED, m/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VelocityFix {
+    /// Velocity of the antenna over the Earth.
+    pub velocity: Vector3<f64>,
+    /// 1-sigma of the white part.
+    pub white: Vector3<f64>,
+    /// 1-sigma of the slowly varying part.
+    pub slow: Vector3<f64>,
+}
+
+/// Innovation of a GNSS velocity; `lever` from the IMU to the antenna, body axes, m.
+#[must_use]
+pub fn innovation(view: &View, fix: &VelocityFix, lever: &Vector3<f64>) -> Innovation<3> {
+    let swing_e = view.c_eb * view.rate.cross(lever);
+    let predicted = view.c_ne * (view.nominal.velocity + swing_e);
+    let expected_error = fix.slow.component_mul(&view.nominal.gnss_velocity_error);
+    let mut h = SMatrix::zeros();
+    VELOCITY.set_columns(&mut h, &view.c_ne);
+    let by_gyro = view.c_nb() * skew(lever);
+    let by_attitude = by_gyro * view.earth_rate_by_attitude() - view.c_ne * skew(&swing_e);
+    ATTITUDE.set_columns(&mut h, &by_attitude);
+    GYRO_BIAS.set_columns(&mut h, &by_gyro);
+    GYRO_DRIFT.set_columns(&mut h, &by_gyro);
+    GNSS_VELOCITY_ERROR.set_columns(&mut h, &Matrix3::from_diagonal(&fix.slow));
+    let swing_noise = by_gyro * by_gyro.transpose() * view.rate_variance;
+    Innovation {
+        z: fix.velocity - predicted - expected_error,
+        h,
+        r: Matrix3::from_diagonal(&fix.white.component_mul(&fix.white)) + swing_noise,
+    }
+}

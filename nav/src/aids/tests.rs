@@ -1,0 +1,107 @@
+//! Measurement matrices against perturbed predictions, driven from one table.
+
+use insd_base::units::DEG;
+use insd_base::{Attitude, Geodetic, LogReference};
+use nalgebra::{Vector2, Vector3};
+
+use super::*;
+use crate::error_state::{ErrorState, STATES};
+use crate::innovation::Innovation;
+
+const MEASURED_RATE: Vector3<f64> = Vector3::new(0.02, -0.05, 0.03);
+
+fn estimate() -> Nominal {
+    let attitude = Attitude { roll: 0.2, pitch: -0.1, heading: 2.2 };
+    let place = Geodetic::from_degrees(52.0, 179.9, 25.0);
+    let mut nominal = Nominal::at(&place, &Vector3::new(5.0, -3.0, 0.4), &attitude.c_nb());
+    nominal.gnss_position_error = Vector3::new(0.3, -0.4, 0.5);
+    nominal.gnss_velocity_error = Vector3::new(-0.3, 0.1, 0.2);
+    nominal.current = Vector2::new(0.4, -0.6);
+    nominal.log_scale = 0.01;
+    nominal.log_misalignment = Vector2::new(0.02, -0.03);
+    nominal.sea_level = 24.0;
+    nominal
+}
+
+/// Innovation as a list of rows, whatever its size.
+type Rows = Vec<(f64, [f64; STATES])>;
+
+fn rows<const M: usize>(innovation: &Innovation<M>) -> Rows {
+    (0..M).map(|i| (innovation.z[i], std::array::from_fn(|j| innovation.h[(i, j)]))).collect()
+}
+
+fn table() -> Vec<(&'static str, fn(&View) -> Rows)> {
+    const LEVER: Vector3<f64> = Vector3::new(-6.0, -0.8, -14.0);
+    let position = |view: &View| {
+        let fix = gnss_position::PositionFix {
+            position: Geodetic::from_degrees(52.000_01, 179.900_02, 40.0),
+            white: Vector3::repeat(0.5),
+            slow: Vector3::new(0.8, 0.8, 1.4),
+        };
+        rows(&gnss_position::innovation(view, &fix, &LEVER))
+    };
+    let velocity = |view: &View| {
+        let fix = gnss_velocity::VelocityFix {
+            velocity: Vector3::new(4.0, -3.0, 0.2),
+            white: Vector3::repeat(0.03),
+            slow: Vector3::repeat(0.01),
+        };
+        rows(&gnss_velocity::innovation(view, &fix, &LEVER))
+    };
+    vec![
+        ("gnss_position", position),
+        ("gnss_velocity", velocity),
+        ("log_bottom", |view| log_rows(view, LogReference::Bottom)),
+        ("log_water", |view| log_rows(view, LogReference::Water)),
+        ("mooring", |view| rows(&mooring::innovation(view, 0.3))),
+        ("sea_level", |view| rows(&sea_level::innovation(view, 0.3))),
+        ("reference_heading", |view| rows(&reference_heading::innovation(view, 2.0, DEG))),
+        ("reference_velocity", |view| {
+            rows(&reference_velocity::innovation(view, &Vector2::new(5.0, -3.0), 0.1))
+        }),
+        ("reference_position", |view| {
+            let berth = Geodetic::from_degrees(52.000_01, 179.900_02, 0.0);
+            rows(&reference_position::innovation(view, &berth, 0.3))
+        }),
+    ]
+}
+
+fn log_rows(view: &View, reference: LogReference) -> Rows {
+    let prediction = log_velocity::predict(view, reference, &Vector3::new(9.0, -1.0, 9.0));
+    rows(&log_velocity::complete(&prediction, &Vector3::new(5.0, 0.5, 0.1), 0.03))
+}
+
+fn view_moved_by(state: usize, amount: f64) -> View {
+    let mut error = ErrorState::zeros();
+    error[state] = amount;
+    let mut nominal = estimate();
+    nominal.inject(&error);
+    View::new(&nominal, &MEASURED_RATE, 0.0)
+}
+
+/// A step large enough against rounding and small enough against curvature.
+fn step_of(state: usize) -> f64 {
+    if state < 3 { 1.0 } else { 1e-5 }
+}
+
+#[test]
+fn every_measurement_matrix_agrees_with_perturbed_predictions() {
+    for (name, rows_of) in table() {
+        let here = rows_of(&view_moved_by(0, 0.0));
+        for state in 0..STATES {
+            let step = step_of(state);
+            let ahead = rows_of(&view_moved_by(state, step));
+            let behind = rows_of(&view_moved_by(state, -step));
+            for (row, (_, h)) in here.iter().enumerate() {
+                // moving the estimate by +x lowers the innovation by H x
+                let slope = -(ahead[row].0 - behind[row].0) / (2.0 * step);
+                let tolerance = 2e-5 * (1.0 + h[state].abs());
+                assert!(
+                    (slope - h[state]).abs() < tolerance,
+                    "{name} row {row} state {state}: slope {slope}, matrix {}",
+                    h[state],
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! What the filter assumes of sensors and sea beyond the IMU's data sheet.
+
+use insd_base::units::DEG;
+use insd_base::{ImuSpec, LeverArms};
+
+/// Error model of GNSS positions and velocities.
+///
+/// A receiver states one sigma; part of its error is white and part varies slowly (atmosphere,
+/// multipath, orbits). The shares are of the variance, the times are of a first-order Gauss-Markov
+/// process. The values follow the usual split of code and carrier errors over minutes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GnssModel {
+    /// Share of the position variance that varies slowly, for code solutions.
+    pub position_slow_share: f64,
+    /// Share of the position variance that varies slowly, for fixed carrier ambiguities.
+    pub rtk_slow_share: f64,
+    /// Time constant of the slow part of the position error, s.
+    pub position_time: f64,
+    /// Share of the velocity variance that varies slowly.
+    pub velocity_slow_share: f64,
+    /// Time constant of the slow part of the velocity error, s.
+    pub velocity_time: f64,
+}
+
+/// Error model of a velocity log.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LogModel {
+    /// Scale factor, 1-sigma, ratio.
+    pub scale_std: f64,
+    /// Misalignment about each axis, 1-sigma, rad.
+    pub misalignment_std: f64,
+    /// Each component where the log states none or an absurd one, 1-sigma, m/s.
+    pub default_std: f64,
+    /// Water current, 1-sigma of each component, m/s.
+    pub current_std: f64,
+    /// Time constant of the current, s.
+    pub current_time: f64,
+}
+
+/// Ship and sea.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeaModel {
+    /// Random walk of the mean height (tide, draught), m/sqrt(s).
+    pub level_walk: f64,
+    /// Least heave, 1-sigma, m.
+    pub least_heave: f64,
+    /// Heave before any has been seen, 1-sigma, m.
+    pub initial_heave: f64,
+    /// Sway velocity of a moored ship, 1-sigma of each horizontal component, m/s.
+    pub mooring_velocity_std: f64,
+    /// Time over which a moored ship's position and velocity decorrelate, s.
+    pub mooring_time: f64,
+}
+
+/// Gates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GateModel {
+    /// Probability that a good measurement passes the chi-square gate.
+    pub probability: f64,
+    /// Base GNSS position error at 99 % for DOP 1, m: dP_GNSS of systems.md (5), code solutions.
+    pub code_base_error: f64,
+    /// The same for RTK solutions, m.
+    pub rtk_base_error: f64,
+    /// Growth of the INS position error since the last fix at 99 %, m/s: dP_INS of (5).
+    pub ins_growth: f64,
+    /// After a receiver was found in error, seconds of agreement before it is believed again.
+    pub suspect_time: f64,
+    /// After this many seconds of refused positions while velocities agree, the position is reset.
+    pub reset_time: f64,
+}
+
+/// Everything the filter is told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NavConfig {
+    /// The IMU's error model.
+    pub imu: ImuSpec,
+    /// Where the sensors sit.
+    pub lever_arms: LeverArms,
+    /// GNSS errors.
+    pub gnss: GnssModel,
+    /// Log errors.
+    pub log: LogModel,
+    /// Ship and sea.
+    pub sea: SeaModel,
+    /// Gates.
+    pub gate: GateModel,
+    /// Longest interval between propagations of the covariance, s.
+    pub covariance_interval: f64,
+}
+
+impl NavConfig {
+    /// Defaults for a ship with this IMU and these lever arms.
+    #[must_use]
+    pub fn new(imu: ImuSpec, lever_arms: LeverArms) -> Self {
+        NavConfig {
+            imu,
+            lever_arms,
+            gnss: GnssModel {
+                position_slow_share: 0.72,
+                rtk_slow_share: 0.5,
+                position_time: 300.0,
+                velocity_slow_share: 0.12,
+                velocity_time: 100.0,
+            },
+            log: LogModel {
+                scale_std: 0.005,
+                misalignment_std: 0.3 * DEG,
+                default_std: 0.1,
+                current_std: 0.5,
+                current_time: 7200.0,
+            },
+            sea: SeaModel {
+                level_walk: 0.002,
+                least_heave: 0.1,
+                initial_heave: 2.0,
+                mooring_velocity_std: 0.3,
+                mooring_time: 5.0,
+            },
+            gate: GateModel {
+                probability: 0.999,
+                code_base_error: 5.0,
+                rtk_base_error: 0.5,
+                ins_growth: 1.0,
+                suspect_time: 5.0,
+                reset_time: 180.0,
+            },
+            covariance_interval: 0.1,
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Standard deviations as stated by sensors, made believable: missing, zero, negative, not finite
+//! or absurd ones are replaced, and the caller is told.
+
+use insd_base::{FixQuality, Ned};
+use nalgebra::Vector3;
+
+/// A sigma to use and whether it had to be replaced.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Floored<T> {
+    /// Sigma to use.
+    pub value: T,
+    /// Whether the stated one was not usable.
+    pub replaced: bool,
+}
+
+/// The range in which a stated sigma is believed, and what is taken where none is stated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Believable {
+    /// Least believable sigma.
+    pub least: f64,
+    /// Greatest sigma worth using.
+    pub greatest: f64,
+    /// Where none is stated.
+    pub default: f64,
+}
+
+/// Sigma of a scalar.
+#[must_use]
+pub fn scalar(stated: Option<f64>, range: &Believable) -> Floored<f64> {
+    match stated {
+        Some(std) if std.is_finite() && std > 0.0 => {
+            let value = std.clamp(range.least, range.greatest);
+            Floored { value, replaced: value != std }
+        }
+        _ => Floored { value: range.default, replaced: true },
+    }
+}
+
+/// Sigma of each component of a vector.
+#[must_use]
+pub fn vector(stated: Option<Ned>, range: &[Believable; 3]) -> Floored<Vector3<f64>> {
+    let each: [Floored<f64>; 3] =
+        std::array::from_fn(|i| scalar(stated.map(|s| s.0[i]), &range[i]));
+    Floored {
+        value: Vector3::from_fn(|i, _| each[i].value),
+        replaced: each.iter().any(|f| f.replaced),
+    }
+}
+
+/// Believable sigmas of a GNSS position by fix quality, NED, m.
+#[must_use]
+pub fn gnss_position(quality: FixQuality) -> [Believable; 3] {
+    let (least, default) = match quality {
+        FixQuality::RtkFixed => (0.003, 0.02),
+        FixQuality::RtkFloat => (0.02, 0.4),
+        FixQuality::Differential | FixQuality::Precise => (0.05, 1.5),
+        _ => (0.2, 3.0),
+    };
+    let horizontal = Believable { least, greatest: 1000.0, default };
+    [horizontal, horizontal, Believable { default: 2.0 * default, ..horizontal }]
+}
+
+/// Believable sigmas of a GNSS velocity, NED, m/s.
+#[must_use]
+pub fn gnss_velocity() -> [Believable; 3] {
+    let horizontal = Believable { least: 0.005, greatest: 50.0, default: 0.1 };
+    [horizontal, horizontal, Believable { default: 0.2, ..horizontal }]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn missing_zero_negative_and_endless_sigmas_are_replaced() {
+        let range = Believable { least: 0.1, greatest: 10.0, default: 1.0 };
+        for stated in [None, Some(0.0), Some(-3.0), Some(f64::NAN), Some(f64::INFINITY)] {
+            assert_eq!(scalar(stated, &range), Floored { value: 1.0, replaced: true });
+        }
+        assert_eq!(scalar(Some(0.01), &range), Floored { value: 0.1, replaced: true });
+        assert_eq!(scalar(Some(1e9), &range), Floored { value: 10.0, replaced: true });
+        assert_eq!(scalar(Some(2.5), &range), Floored { value: 2.5, replaced: false });
+    }
+}

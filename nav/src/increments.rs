@@ -1,0 +1,188 @@
+//! IMU samples made ready for integration: gaps and duplicates told apart, coning and sculling
+//! compensated, and cut at any instant where a measurement falls inside the interval.
+
+use insd_base::{ImuSample, Rejection, Span, Time};
+use nalgebra::Vector3;
+
+/// Compensated increments over an interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Increment {
+    /// Start of the interval.
+    pub from: Time,
+    /// End of the interval.
+    pub to: Time,
+    /// Rotation vector of the body over the interval, rad (coning compensated).
+    pub rotation: Vector3<f64>,
+    /// Specific-force integral, m/s (sculling compensated, without the half-angle rotation term).
+    pub velocity: Vector3<f64>,
+    /// Angular rate at the end of the interval, rad/s, extrapolated from the last two samples.
+    pub end_rate: Vector3<f64>,
+    /// Change of the angular rate, rad/s^2.
+    pub angular_acceleration: Vector3<f64>,
+    /// Whether it was interpolated over missing samples.
+    pub bridged: bool,
+}
+
+impl Increment {
+    /// Length of the interval, s.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        (self.to - self.from).as_seconds()
+    }
+
+    /// The part up to an instant inside the interval, and the rest.
+    #[must_use]
+    pub fn split(&self, at: Time) -> (Increment, Increment) {
+        let share = (at - self.from).as_seconds() / self.duration();
+        let remaining = (self.to - at).as_seconds();
+        let head = Increment {
+            to: at,
+            rotation: self.rotation * share,
+            velocity: self.velocity * share,
+            end_rate: self.end_rate - self.angular_acceleration * remaining,
+            ..*self
+        };
+        let tail = Increment {
+            from: at,
+            rotation: self.rotation * (1.0 - share),
+            velocity: self.velocity * (1.0 - share),
+            ..*self
+        };
+        (head, tail)
+    }
+}
+
+/// What one IMU sample gave.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Conditioned {
+    /// The first sample: its interval has no known start, only its time is kept.
+    First,
+    /// The increments of the sample.
+    Sample(Increment),
+    /// Samples were missing before this one: the bridge over the gap, then the sample.
+    AfterGap(Increment, Increment),
+    /// Not used.
+    Rejected(Rejection),
+}
+
+/// Turns samples into increments; remembers the last sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conditioner {
+    nominal: f64,
+    last: Option<Last>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Last {
+    time: Time,
+    mean: Mean,
+}
+
+/// Mean angular rate and specific force of a sample, and its length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Mean {
+    rate: Vector3<f64>,
+    force: Vector3<f64>,
+    duration: f64,
+}
+
+/// Rates beyond this are no ship's, rad/s.
+const MAX_RATE: f64 = 50.0;
+/// Specific forces beyond this are no ship's, m/s^2.
+const MAX_FORCE: f64 = 500.0;
+/// An interval longer than this many nominal ones holds missing samples.
+const GAP: f64 = 1.5;
+
+impl Conditioner {
+    /// A conditioner for samples at this nominal rate, Hz.
+    #[must_use]
+    pub fn new(rate: f64) -> Self {
+        Conditioner { nominal: 1.0 / rate, last: None }
+    }
+
+    /// Takes the next sample.
+    ///
+    /// An interval within 1.5 nominal ones is taken as it is (uneven stamps: the increments cover
+    /// (last, this]); beyond that the sample covers the last nominal interval and the time before it
+    /// is a gap, bridged with the mean of the rates on both sides.
+    pub fn take(&mut self, sample: &ImuSample) -> Conditioned {
+        let Some(last) = self.last else { return self.first(sample) };
+        let elapsed = (sample.time - last.time).as_seconds();
+        if sample.time == last.time {
+            return Conditioned::Rejected(Rejection::Duplicate);
+        }
+        if elapsed < 0.0 {
+            return Conditioned::Rejected(Rejection::OutOfOrder);
+        }
+        let gap = elapsed > GAP * self.nominal;
+        let duration = if gap { self.nominal } else { elapsed };
+        let Some(mean) = mean_of(sample, duration) else {
+            return Conditioned::Rejected(Rejection::OutOfRange);
+        };
+        self.last = Some(Last { time: sample.time, mean });
+        if gap {
+            let start = sample.time - Span::from_seconds(self.nominal);
+            let bridge = bridge(&last, start, &mean);
+            Conditioned::AfterGap(bridge, compensated(&mean, &mean, start, sample.time))
+        } else {
+            Conditioned::Sample(compensated(&last.mean, &mean, last.time, sample.time))
+        }
+    }
+
+    fn first(&mut self, sample: &ImuSample) -> Conditioned {
+        match mean_of(sample, self.nominal) {
+            Some(mean) => {
+                self.last = Some(Last { time: sample.time, mean });
+                Conditioned::First
+            }
+            None => Conditioned::Rejected(Rejection::OutOfRange),
+        }
+    }
+}
+
+fn mean_of(sample: &ImuSample, duration: f64) -> Option<Mean> {
+    let rate = sample.delta_theta.0 / duration;
+    let force = sample.delta_velocity.0 / duration;
+    let physical = rate.amax() < MAX_RATE && force.amax() < MAX_FORCE;
+    let finite = rate.iter().chain(force.iter()).all(|x| x.is_finite());
+    (physical && finite).then_some(Mean { rate, force, duration })
+}
+
+fn bridge(last: &Last, to: Time, next: &Mean) -> Increment {
+    let missing = (to - last.time).as_seconds();
+    Increment {
+        from: last.time,
+        to,
+        rotation: (last.mean.rate + next.rate) * (0.5 * missing),
+        velocity: (last.mean.force + next.force) * (0.5 * missing),
+        end_rate: next.rate,
+        angular_acceleration: Vector3::zeros(),
+        bridged: true,
+    }
+}
+
+/// Coning and sculling compensation from this sample and the one before, both rates taken as linear
+/// in time over the two intervals, which need not be equal:
+///
+/// coning = h^3/12 (omega x omega'), sculling = h^3/12 (omega x f' - omega' x f),
+///
+/// with omega and f at the middle of this interval and omega', f' their slopes. For equal intervals
+/// these are the two-sample forms of Savage, Strapdown Inertial Navigation Integration Algorithm
+/// Design, J. Guidance 21 (1998), eqs. (33), (55)-(57) in part 1 and part 2.
+fn compensated(before: &Mean, this: &Mean, from: Time, to: Time) -> Increment {
+    let h = this.duration;
+    let spacing = 0.5 * (before.duration + h);
+    let rate_slope = (this.rate - before.rate) / spacing;
+    let force_slope = (this.force - before.force) / spacing;
+    let weight = h * h * h / 12.0;
+    Increment {
+        from,
+        to,
+        rotation: this.rate * h + this.rate.cross(&rate_slope) * weight,
+        velocity: this.force * h
+            + (this.rate.cross(&force_slope) - rate_slope.cross(&this.force)) * weight,
+        end_rate: this.rate + rate_slope * (0.5 * h),
+        angular_acceleration: rate_slope,
+        bridged: false,
+    }
+}

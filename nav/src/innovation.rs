@@ -1,0 +1,148 @@
+//! Innovations and the Kalman update: what every aid returns and what the filter does with it.
+
+use nalgebra::{Cholesky, Const, SMatrix, SVector};
+
+use crate::error_state::{Covariance, ErrorState, STATES};
+
+/// Measured minus predicted, and how it depends on the error state: z = H x + noise(R).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Innovation<const M: usize> {
+    /// Measured minus predicted.
+    pub z: SVector<f64, M>,
+    /// Measurement matrix.
+    pub h: SMatrix<f64, M, STATES>,
+    /// Covariance of the measurement noise.
+    pub r: SMatrix<f64, M, M>,
+}
+
+/// An innovation with its covariance factored: ready to be judged and applied.
+#[derive(Clone, Debug)]
+pub struct Weighed<const M: usize> {
+    innovation: Innovation<M>,
+    pht: SMatrix<f64, STATES, M>,
+    factor: Cholesky<f64, Const<M>>,
+}
+
+impl<const M: usize> Innovation<M> {
+    /// Computes S = H P H^T + R and factors it; `None` if S is not positive definite or a value is
+    /// not finite.
+    #[must_use]
+    pub fn weigh(&self, p: &Covariance) -> Option<Weighed<M>> {
+        if !self.z.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        let pht = p_h_transposed(p, &self.h);
+        let s = self.h * pht + self.r;
+        let symmetric = (s + s.transpose()) * 0.5;
+        let factor = Cholesky::new(symmetric)?;
+        Some(Weighed { innovation: *self, pht, factor })
+    }
+}
+
+impl<const M: usize> Weighed<M> {
+    /// Normalised innovation squared, z^T S^-1 z: chi-square with M degrees of freedom.
+    #[must_use]
+    pub fn nis(&self) -> f64 {
+        self.whitened().norm_squared()
+    }
+
+    /// Logarithm of the Gaussian likelihood, the constant left out.
+    #[must_use]
+    pub fn log_likelihood(&self) -> f64 {
+        -0.5 * self.nis() - self.log_root_determinant()
+    }
+
+    /// Half the logarithm of det S.
+    #[must_use]
+    pub fn log_root_determinant(&self) -> f64 {
+        self.factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum()
+    }
+
+    /// The innovation.
+    #[must_use]
+    pub fn z(&self) -> &SVector<f64, M> {
+        &self.innovation.z
+    }
+
+    /// 1-sigma that the filter expects of each component.
+    #[must_use]
+    pub fn sigma(&self) -> SVector<f64, M> {
+        let l = self.factor.l();
+        SVector::from_fn(|i, _| l.row(i).norm())
+    }
+
+    fn whitened(&self) -> SVector<f64, M> {
+        let mut z = self.innovation.z;
+        self.factor.l_dirty().solve_lower_triangular_mut(&mut z);
+        z
+    }
+
+    /// Kalman update: returns the estimated error and lowers the covariance.
+    ///
+    /// With S = L L^T and W = P H^T L^-T the update is x = W L^-1 z, P <- P - W W^T, which keeps P
+    /// exactly symmetric. The covariance must be the one that [`Innovation::weigh`] saw.
+    #[must_use]
+    pub fn update(&self, p: &mut Covariance) -> ErrorState {
+        let l = self.factor.l();
+        let mut w_t = self.pht.transpose();
+        l.solve_lower_triangular_mut(&mut w_t);
+        let w = w_t.transpose();
+        *p -= w * w_t;
+        w * self.whitened()
+    }
+}
+
+/// P H^T, the empty columns of H left out.
+fn p_h_transposed<const M: usize>(
+    p: &Covariance,
+    h: &SMatrix<f64, M, STATES>,
+) -> SMatrix<f64, STATES, M> {
+    let mut pht = SMatrix::<f64, STATES, M>::zeros();
+    for state in 0..STATES {
+        for row in 0..M {
+            let weight = h[(row, state)];
+            if weight != 0.0 {
+                pht.column_mut(row).axpy(weight, &p.column(state), 1.0);
+            }
+        }
+    }
+    pht
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn an_update_agrees_with_the_joseph_form() {
+        let root = SMatrix::<f64, STATES, STATES>::from_fn(|i, j| {
+            ((i * 7 + j * 3) as f64).sin() + if i == j { 2.0 } else { 0.0 }
+        });
+        let p: Covariance = root * root.transpose();
+        let innovation = Innovation::<2> {
+            z: SVector::<f64, 2>::new(0.3, -0.2),
+            h: SMatrix::from_fn(|i, j| if (i + j) % 5 == 0 { 1.0 - i as f64 } else { 0.0 }),
+            r: SMatrix::<f64, 2, 2>::from_diagonal_element(0.5),
+        };
+        let s = innovation.h * p * innovation.h.transpose() + innovation.r;
+        let k = p * innovation.h.transpose() * s.try_inverse().unwrap();
+        let i_kh = Covariance::identity() - k * innovation.h;
+        let joseph = i_kh * p * i_kh.transpose() + k * innovation.r * k.transpose();
+        let mut updated = p;
+        let x = innovation.weigh(&p).unwrap().update(&mut updated);
+        assert_relative_eq!(updated, joseph, epsilon = 1e-8);
+        assert_relative_eq!(x, k * innovation.z, epsilon = 1e-8);
+        assert_eq!(updated, updated.transpose());
+    }
+
+    #[test]
+    fn a_value_that_is_not_finite_is_never_weighed() {
+        let innovation = Innovation::<1> {
+            z: SVector::<f64, 1>::new(f64::NAN),
+            h: SMatrix::zeros(),
+            r: SMatrix::<f64, 1, 1>::identity(),
+        };
+        assert!(innovation.weigh(&Covariance::identity()).is_none());
+    }
+}

@@ -1,0 +1,234 @@
+//! Propagation of the error covariance over a stretch of strapdown steps.
+//!
+//! x' = F x + w with, in ECEF axes (Groves, 2nd ed., section 14.2.3; signs for phi defined by
+//! C_true = (I + [phi x]) C_estimated):
+//!
+//! dr' = dv,
+//! dv' = G dr - 2 omega_ie x dv - f_e x phi - C_eb (b_a + d_a + diag(f_b) s_a),
+//! phi' = - omega_ie x phi - C_eb (b_g + d_g + diag(omega_b) s_g),
+//!
+//! G the gravity gradient. Every other state is constant, a random walk or Gauss-Markov. Only the
+//! nine strapdown rows of the transition matrix differ from a diagonal, and all three errors of a
+//! triad enter through the same 9 x 3 matrix, which is what makes a step cheap.
+
+use insd_base::attitude::skew;
+use insd_base::earth;
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+
+use crate::config::NavConfig;
+use crate::error_state::{
+    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, CURRENT, Covariance, GNSS_POSITION_ERROR,
+    GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, POSITION, SEA_LEVEL, STATES,
+    STRAPDOWN_STATES, VELOCITY,
+};
+use crate::strapdown::Step;
+
+type Transition = SMatrix<f64, STRAPDOWN_STATES, STRAPDOWN_STATES>;
+type Input = SMatrix<f64, STRAPDOWN_STATES, 3>;
+type Columns = SMatrix<f64, STATES, STRAPDOWN_STATES>;
+
+/// Sums over the strapdown steps since the covariance was last propagated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// Length, s.
+    pub duration: f64,
+    /// Integral of C_eb, s.
+    pub c_eb: Matrix3<f64>,
+    /// Integral of specific force in ECEF axes, m/s.
+    pub force: Vector3<f64>,
+    /// Integral of the body's angular rate, body axes, rad.
+    pub rotation: Vector3<f64>,
+    /// Integral of specific force, body axes, m/s.
+    pub velocity: Vector3<f64>,
+    /// Attitude variance added by bridged gaps, rad^2.
+    pub gap_attitude: f64,
+    /// Velocity variance added by bridged gaps, (m/s)^2.
+    pub gap_velocity: f64,
+}
+
+impl Stretch {
+    /// Nothing yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Stretch {
+            duration: 0.0,
+            c_eb: Matrix3::zeros(),
+            force: Vector3::zeros(),
+            rotation: Vector3::zeros(),
+            velocity: Vector3::zeros(),
+            gap_attitude: 0.0,
+            gap_velocity: 0.0,
+        }
+    }
+
+    /// Adds a step.
+    pub fn add(&mut self, step: &Step) {
+        self.duration += step.duration;
+        self.c_eb += step.c_eb * step.duration;
+        self.force += step.c_eb * step.velocity;
+        self.rotation += step.rotation;
+        self.velocity += step.velocity;
+    }
+
+    /// Adds the uncertainty of a step that was interpolated over a gap of `missing` seconds.
+    ///
+    /// Within a gap the ship's rate and force go on nearly linearly for a time much shorter than a
+    /// wave and are anyone's guess beyond it.
+    pub fn add_gap(&mut self, missing: f64) {
+        const WAVE: f64 = 2.0;
+        const RATE: f64 = 0.05;
+        const FORCE: f64 = 0.5;
+        let guess = missing * (missing / WAVE).powi(2).min(1.0);
+        self.gap_attitude += (RATE * guess).powi(2);
+        self.gap_velocity += (FORCE * guess).powi(2);
+    }
+}
+
+impl Default for Stretch {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The nine strapdown rows of the transition matrix over a stretch.
+#[derive(Clone, Copy, Debug)]
+pub struct StrapdownRows {
+    /// Position, velocity and attitude into themselves.
+    pub transition: Transition,
+    /// Gyro errors, rad/s, into them.
+    pub gyro: Input,
+    /// Accelerometer errors, m/s^2, into them.
+    pub accel: Input,
+}
+
+/// Transition of the strapdown errors over a stretch, second order in its length where velocity
+/// feeds position and attitude feeds velocity.
+#[must_use]
+pub fn strapdown_rows(stretch: &Stretch, gradient: &Matrix3<f64>) -> StrapdownRows {
+    let dt = stretch.duration;
+    let turn = skew(&earth::rate_e()) * dt;
+    let velocity_from_attitude = -skew(&stretch.force);
+    let velocity_from_gyro = velocity_from_attitude * stretch.c_eb * -0.5;
+    let mut transition = Transition::identity();
+    let mut put = |row: usize, column: usize, m: &Matrix3<f64>| {
+        transition.fixed_view_mut::<3, 3>(row, column).copy_from(m);
+    };
+    put(POSITION.start(), VELOCITY.start(), &(Matrix3::identity() * dt));
+    put(POSITION.start(), ATTITUDE.start(), &(velocity_from_attitude * (0.5 * dt)));
+    put(VELOCITY.start(), POSITION.start(), &(gradient * dt));
+    put(VELOCITY.start(), VELOCITY.start(), &(Matrix3::identity() - turn * 2.0));
+    put(VELOCITY.start(), ATTITUDE.start(), &velocity_from_attitude);
+    put(ATTITUDE.start(), ATTITUDE.start(), &(Matrix3::identity() - turn));
+    let mut gyro = Input::zeros();
+    gyro.fixed_rows_mut::<3>(VELOCITY.start()).copy_from(&velocity_from_gyro);
+    gyro.fixed_rows_mut::<3>(ATTITUDE.start()).copy_from(&-stretch.c_eb);
+    let mut accel = Input::zeros();
+    accel.fixed_rows_mut::<3>(POSITION.start()).copy_from(&(stretch.c_eb * (-0.5 * dt)));
+    accel.fixed_rows_mut::<3>(VELOCITY.start()).copy_from(&-stretch.c_eb);
+    StrapdownRows { transition, gyro, accel }
+}
+
+/// Propagates the covariance over a stretch: P <- Phi P Phi^T + Q.
+pub fn propagate(
+    p: &mut Covariance,
+    stretch: &Stretch,
+    gradient: &Matrix3<f64>,
+    config: &NavConfig,
+) {
+    if stretch.duration <= 0.0 {
+        return;
+    }
+    let rows = strapdown_rows(stretch, gradient);
+    let columns = strapdown_columns(p, stretch, &rows);
+    let corner = strapdown_corner(&columns, stretch, &rows);
+    p.fixed_columns_mut::<STRAPDOWN_STATES>(0).copy_from(&columns);
+    p.fixed_rows_mut::<STRAPDOWN_STATES>(0).copy_from(&columns.transpose());
+    p.fixed_view_mut::<STRAPDOWN_STATES, STRAPDOWN_STATES>(0, 0).copy_from(&corner);
+    relax_markov(p, stretch.duration, config);
+    add_noise(p, stretch, config);
+}
+
+/// P Phi^T in the columns of the strapdown states.
+fn strapdown_columns(p: &Covariance, stretch: &Stretch, rows: &StrapdownRows) -> Columns {
+    let dt = stretch.duration;
+    let own = p.fixed_columns::<STRAPDOWN_STATES>(0);
+    let triad = |bias: usize, drift: usize, scale: usize, mean: Vector3<f64>| {
+        let mut sum = p.fixed_columns::<3>(bias) + p.fixed_columns::<3>(drift);
+        for axis in 0..3 {
+            sum.column_mut(axis).axpy(mean[axis], &p.column(scale + axis), 1.0);
+        }
+        sum
+    };
+    let gyro =
+        triad(GYRO_BIAS.start(), GYRO_DRIFT.start(), GYRO_SCALE.start(), stretch.rotation / dt);
+    let accel =
+        triad(ACCEL_BIAS.start(), ACCEL_DRIFT.start(), ACCEL_SCALE.start(), stretch.velocity / dt);
+    own * rows.transition.transpose()
+        + gyro * rows.gyro.transpose()
+        + accel * rows.accel.transpose()
+}
+
+/// Phi (P Phi^T) in the rows and columns of the strapdown states, made symmetric.
+fn strapdown_corner(columns: &Columns, stretch: &Stretch, rows: &StrapdownRows) -> Transition {
+    let dt = stretch.duration;
+    let triad = |bias: usize, drift: usize, scale: usize, mean: Vector3<f64>| {
+        let scaled = Matrix3::from_diagonal(&mean) * columns.fixed_rows::<3>(scale);
+        columns.fixed_rows::<3>(bias) + columns.fixed_rows::<3>(drift) + scaled
+    };
+    let gyro =
+        triad(GYRO_BIAS.start(), GYRO_DRIFT.start(), GYRO_SCALE.start(), stretch.rotation / dt);
+    let accel =
+        triad(ACCEL_BIAS.start(), ACCEL_DRIFT.start(), ACCEL_SCALE.start(), stretch.velocity / dt);
+    let corner = rows.transition * columns.fixed_rows::<STRAPDOWN_STATES>(0)
+        + rows.gyro * gyro
+        + rows.accel * accel;
+    (corner + corner.transpose()) * 0.5
+}
+
+/// Gauss-Markov states with their steady sigma and time constant.
+fn markov(config: &NavConfig) -> [(usize, usize, f64, f64); 5] {
+    let (gyro, accel) = (&config.imu.gyro, &config.imu.accel);
+    [
+        (GYRO_DRIFT.start(), GYRO_DRIFT.end(), gyro.instability_std, gyro.instability_time),
+        (ACCEL_DRIFT.start(), ACCEL_DRIFT.end(), accel.instability_std, accel.instability_time),
+        (GNSS_POSITION_ERROR.start(), GNSS_POSITION_ERROR.end(), 1.0, config.gnss.position_time),
+        (GNSS_VELOCITY_ERROR.start(), GNSS_VELOCITY_ERROR.end(), 1.0, config.gnss.velocity_time),
+        (CURRENT.start(), CURRENT.end(), config.log.current_std, config.log.current_time),
+    ]
+}
+
+/// Share of a Gauss-Markov value that is left after `dt`.
+#[must_use]
+pub fn markov_decay(dt: f64, time_constant: f64) -> f64 {
+    (-dt / time_constant).exp()
+}
+
+fn relax_markov(p: &mut Covariance, dt: f64, config: &NavConfig) {
+    let mut decay = SVector::<f64, STATES>::repeat(1.0);
+    let processes = markov(config);
+    for (start, end, _, time) in processes {
+        let left = markov_decay(dt, time);
+        decay.rows_mut(start, end - start).fill(left);
+    }
+    for (start, end, _, _) in processes {
+        for i in start..end {
+            let left = decay[i];
+            p.column_mut(i).scale_mut(left);
+            p.row_mut(i).scale_mut(left);
+        }
+    }
+    for (start, end, std, _) in processes {
+        for i in start..end {
+            p[(i, i)] += std * std * (1.0 - decay[i] * decay[i]);
+        }
+    }
+}
+
+fn add_noise(p: &mut Covariance, stretch: &Stretch, config: &NavConfig) {
+    let dt = stretch.duration;
+    let angle = config.imu.gyro.random_walk.powi(2) * dt + stretch.gap_attitude;
+    let velocity = config.imu.accel.random_walk.powi(2) * dt + stretch.gap_velocity;
+    ATTITUDE.inflate(p, angle);
+    VELOCITY.inflate(p, velocity);
+    SEA_LEVEL.inflate(p, config.sea.level_walk.powi(2) * dt);
+}
