@@ -22,17 +22,17 @@ pub struct Levelling {
     now: Time,
     turn: UnitQuaternion<f64>,
     sum: Vector3<f64>,
-    rate: Vector3<f64>,
+    rate: Option<Vector3<f64>>,
 }
 
-/// Mean specific force of the window in the body axes of its end, m/s^2.
+/// Mean specific force of the window in the body axes of its start, m/s^2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
-    /// End of the window.
+    /// Start of the window.
     pub time: Time,
     /// Mean specific force.
     pub force: Vector3<f64>,
-    /// Angular rate at the end, rad/s.
+    /// Angular rate at the start, rad/s.
     pub rate: Vector3<f64>,
     /// Length of the window, s.
     pub duration: f64,
@@ -47,7 +47,7 @@ impl Levelling {
             now: start,
             turn: UnitQuaternion::identity(),
             sum: Vector3::zeros(),
-            rate: Vector3::zeros(),
+            rate: None,
         }
     }
 
@@ -56,7 +56,7 @@ impl Levelling {
         let half = self.turn * UnitQuaternion::new(increment.rotation * 0.5);
         self.sum += half * increment.velocity;
         self.turn *= UnitQuaternion::new(increment.rotation);
-        self.rate = increment.end_rate;
+        self.rate.get_or_insert(increment.end_rate);
         self.now = increment.to;
     }
 
@@ -78,14 +78,15 @@ impl Levelling {
         self.now
     }
 
-    /// The mean specific force; `None` before there is any.
+    /// The mean specific force in the axes of the window's start; `None` before there is any.
     #[must_use]
-    pub fn level(&self) -> Option<Level> {
+    pub fn level_at_start(&self) -> Option<Level> {
         let duration = self.duration();
+        let rate = self.rate?;
         (duration > 0.0).then(|| Level {
-            time: self.now,
-            force: self.turn.inverse_transform_vector(&self.sum) / duration,
-            rate: self.rate,
+            time: self.start,
+            force: self.sum / duration,
+            rate,
             duration,
         })
     }

@@ -69,6 +69,12 @@ impl<const W: usize> Block<W> {
         p.fixed_view_mut::<W, W>(self.start, self.start).copy_from(covariance);
     }
 
+    /// Adds to the covariance of this block.
+    pub fn add(self, p: &mut Covariance, covariance: &SMatrix<f64, W, W>) {
+        let mut block = p.fixed_view_mut::<W, W>(self.start, self.start);
+        block += (covariance + covariance.transpose()) * 0.5;
+    }
+
     /// Adds a variance to each component.
     pub fn inflate(self, p: &mut Covariance, variance: f64) {
         for i in self.start..self.end() {

@@ -1,6 +1,6 @@
 //! What the filter assumes of sensors and sea beyond the IMU's data sheet.
 
-use insd_base::units::DEG;
+use insd_base::units::{DEG, DEG_PER_HOUR};
 use insd_base::{ImuSpec, LeverArms};
 
 /// Error model of GNSS positions and velocities.
@@ -14,12 +14,34 @@ pub struct GnssModel {
     pub position_slow_share: f64,
     /// Share of the position variance that varies slowly, for fixed carrier ambiguities.
     pub rtk_slow_share: f64,
-    /// Time constant of the slow part of the position error, s.
+    /// Time constant of the slow part of the position error, code solutions, s.
     pub position_time: f64,
+    /// Time constant of the slow part of the position error, fixed carrier ambiguities, s.
+    pub rtk_position_time: f64,
     /// Share of the velocity variance that varies slowly.
     pub velocity_slow_share: f64,
     /// Time constant of the slow part of the velocity error, s.
     pub velocity_time: f64,
+    /// Delay of epochs behind the IMU's time base, 1-sigma, s.
+    pub delay_std: f64,
+    /// Delay of the velocity behind the position, 1-sigma, s: receivers average or filter it.
+    pub velocity_delay_std: f64,
+    /// Lever arm of the antenna, 1-sigma of each component, m.
+    pub lever_std: f64,
+}
+
+impl GnssModel {
+    /// Time constant of the slow part of the position error for this kind of solution, s.
+    #[must_use]
+    pub fn position_time_for(&self, rtk: bool) -> f64 {
+        if rtk { self.rtk_position_time } else { self.position_time }
+    }
+
+    /// Share of the position variance that varies slowly for this kind of solution.
+    #[must_use]
+    pub fn position_slow_share_for(&self, rtk: bool) -> f64 {
+        if rtk { self.rtk_slow_share } else { self.position_slow_share }
+    }
 }
 
 /// Error model of a velocity log.
@@ -42,10 +64,10 @@ pub struct LogModel {
 pub struct SeaModel {
     /// Random walk of the mean height (tide, draught), m/sqrt(s).
     pub level_walk: f64,
-    /// Least heave, 1-sigma, m.
-    pub least_heave: f64,
-    /// Heave before any has been seen, 1-sigma, m.
-    pub initial_heave: f64,
+    /// Least heave averaged over the sea-level window, 1-sigma, m.
+    pub least_mean_heave: f64,
+    /// Averaged heave before any has been seen, 1-sigma, m.
+    pub initial_mean_heave: f64,
     /// Sway velocity of a moored ship, 1-sigma of each horizontal component, m/s.
     pub mooring_velocity_std: f64,
     /// Time over which a moored ship's position and velocity decorrelate, s.
@@ -65,8 +87,11 @@ pub struct GateModel {
     pub ins_growth: f64,
     /// After a receiver was found in error, seconds of agreement before it is believed again.
     pub suspect_time: f64,
-    /// After this many seconds of refused positions while velocities agree, the position is reset.
+    /// After this many seconds without any use of a receiver that sends fixes, the filter takes
+    /// itself as lost and starts again from the receiver's word, s.
     pub reset_time: f64,
+    /// The same where another sensor or good gyros vouch for the filter, s.
+    pub judged_reset_time: f64,
 }
 
 /// Everything the filter is told.
@@ -99,8 +124,12 @@ impl NavConfig {
                 position_slow_share: 0.72,
                 rtk_slow_share: 0.5,
                 position_time: 300.0,
-                velocity_slow_share: 0.12,
+                rtk_position_time: 60.0,
+                velocity_slow_share: 0.1,
                 velocity_time: 100.0,
+                delay_std: synchronisation_std(&imu),
+                velocity_delay_std: 0.1,
+                lever_std: lever_std(&lever_arms),
             },
             log: LogModel {
                 scale_std: 0.005,
@@ -111,20 +140,39 @@ impl NavConfig {
             },
             sea: SeaModel {
                 level_walk: 0.002,
-                least_heave: 0.1,
-                initial_heave: 2.0,
+                least_mean_heave: 0.02,
+                initial_mean_heave: 0.3,
                 mooring_velocity_std: 0.3,
                 mooring_time: 5.0,
             },
             gate: GateModel {
-                probability: 0.999,
+                probability: 0.9999,
                 code_base_error: 5.0,
                 rtk_base_error: 0.5,
                 ins_growth: 1.0,
-                suspect_time: 5.0,
-                reset_time: 180.0,
+                suspect_time: 3.0,
+                reset_time: 5.0,
+                judged_reset_time: 600.0,
             },
             covariance_interval: 0.1,
         }
     }
+}
+
+/// How well an IMU's time base agrees with GNSS time where nobody states it, 1-sigma, s.
+///
+/// Navigation-grade units are driven by the receiver's pulse per second; consumer units are stamped
+/// when the host reads them, tens of milliseconds late. The gyros tell the one from the other.
+fn synchronisation_std(imu: &ImuSpec) -> f64 {
+    const SECONDS_PER_RATE: f64 = 1e-4 / DEG_PER_HOUR;
+    (imu.gyro.bias_std * SECONDS_PER_RATE).clamp(1e-6, 0.1)
+}
+
+/// How well the antenna's lever arm is known where nobody states it, 1-sigma, m.
+///
+/// No antenna sits inside the IMU: a lever arm of exactly zero is one that was not measured.
+fn lever_std(arms: &LeverArms) -> f64 {
+    const SURVEYED: f64 = 0.002;
+    const UNMEASURED: f64 = 1.0;
+    if arms.gnss.0.norm() == 0.0 { UNMEASURED } else { SURVEYED }
 }

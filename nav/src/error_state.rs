@@ -31,8 +31,14 @@ pub const ACCEL_SCALE: Block<3> = Block::after(ACCEL_DRIFT);
 pub const GNSS_POSITION_ERROR: Block<3> = Block::after(ACCEL_SCALE);
 /// Slowly varying part of the GNSS velocity error, NED, in units of its own sigma, Gauss-Markov.
 pub const GNSS_VELOCITY_ERROR: Block<3> = Block::after(GNSS_POSITION_ERROR);
+/// Delay of the GNSS velocity behind the position of the same epoch, s, constant.
+pub const GNSS_VELOCITY_DELAY: Block<1> = Block::after(GNSS_VELOCITY_ERROR);
+/// Delay of GNSS epochs behind the IMU's time base, s, constant.
+pub const GNSS_DELAY: Block<1> = Block::after(GNSS_VELOCITY_DELAY);
+/// Lever arm from the IMU to the GNSS antenna, body axes, m, constant.
+pub const GNSS_LEVER: Block<3> = Block::after(GNSS_DELAY);
 /// Water current, north and east, m/s, Gauss-Markov.
-pub const CURRENT: Block<2> = Block::after(GNSS_VELOCITY_ERROR);
+pub const CURRENT: Block<2> = Block::after(GNSS_LEVER);
 /// Log scale factor, ratio, constant.
 pub const LOG_SCALE: Block<1> = Block::after(CURRENT);
 /// Log misalignment about the starboard and down axes, rad, constant.

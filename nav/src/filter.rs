@@ -2,11 +2,12 @@
 
 use insd_base::{
     Attitude, Body, Ecef, Message, Mode, Ned, Received, Rejection, Solution, SolutionSigma, Source,
-    Span, Time, earth,
+    Time, earth,
 };
 use nalgebra::{Matrix3, Vector3};
 
 use crate::aids::{View, sea_level};
+use crate::antenna::AntennaMotion;
 use crate::config::NavConfig;
 use crate::error_state::{ATTITUDE, Covariance, POSITION, VELOCITY};
 use crate::gate::ChiSquareGate;
@@ -16,6 +17,7 @@ use crate::innovation::{Innovation, Weighed};
 use crate::nominal::Nominal;
 use crate::propagation::{self, Stretch, markov_decay};
 use crate::report::{AidReport, Outcome, Report};
+use crate::sea_window::LevelWindow;
 use crate::spread::Spread;
 use crate::strapdown::{self, LocalGravity};
 use crate::timeline::Estimator;
@@ -37,11 +39,12 @@ pub struct Filter {
     rate: Vector3<f64>,
     trust: Trust,
     rtk: Option<bool>,
-    heave: Spread,
+    level: LevelWindow,
     sway: Spread,
     moored: bool,
+    navigating: bool,
+    antenna: AntennaMotion,
     strayed: u32,
-    next_level: Time,
     next_mooring: Time,
     last_relative: Option<Time>,
     internal_likelihood: f64,
@@ -54,8 +57,6 @@ pub(crate) struct Judged {
     innovation: [(f64, f64); 3],
 }
 
-/// Heave is narrow-band: samples of it are spaced by more than a wave, s.
-const LEVEL_SPACING: f64 = 10.0;
 /// After this long without GNSS the solution no longer counts as aided by it, s.
 const GNSS_TIMEOUT: f64 = 5.0;
 /// The same for logs and references, which may be slower, s.
@@ -71,16 +72,17 @@ impl Filter {
             time: initial.time,
             nominal: initial.nominal,
             covariance: initial.covariance,
-            gravity: LocalGravity::around(&initial.nominal.position),
+            gravity: LocalGravity::around(&initial.nominal.position, &initial.nominal.geodetic()),
             stretch: Stretch::new(),
             rate: initial.rate,
             trust: Trust::default(),
             rtk: None,
-            heave: Spread::new(config.sea.initial_heave, config.sea.least_heave),
+            level: LevelWindow::new(&config.sea),
             sway: Spread::new(config.sea.mooring_velocity_std, 0.01),
             moored,
+            navigating: false,
+            antenna: AntennaMotion::default(),
             strayed: 0,
-            next_level: initial.time,
             next_mooring: initial.time,
             last_relative: None,
             internal_likelihood: 0.0,
@@ -111,6 +113,11 @@ impl Filter {
         self.moored
     }
 
+    /// Ends alignment: the filter now stands for itself and may judge the sensors' honesty.
+    pub fn begin_navigation(&mut self) {
+        self.navigating = true;
+    }
+
     /// Moves estimate and covariance by an error and a covariance from outside: for alignment, which
     /// joins hypotheses.
     pub fn replace(&mut self, nominal: Nominal, covariance: Covariance) {
@@ -123,25 +130,31 @@ impl Filter {
         if self.stretch.duration <= 0.0 {
             return;
         }
+        let rtk = self.is_rtk();
         propagation::propagate(
             &mut self.covariance,
             &self.stretch,
             self.gravity.gradient(),
             &self.config,
+            rtk,
         );
         self.relax_nominal(self.stretch.duration);
         self.nominal.attitude.renormalize();
-        self.gravity = LocalGravity::around(&self.nominal.position);
+        self.antenna.note(self.time, &self.antenna_velocity());
+        let place = self.nominal.geodetic();
+        self.level.add(place.height, self.stretch.duration);
+        self.gravity = LocalGravity::around(&self.nominal.position, &place);
         self.stretch = Stretch::new();
     }
 
     /// The expected values of Gauss-Markov states decay as the states do.
     fn relax_nominal(&mut self, dt: f64) {
         let (imu, gnss, log) = (&self.config.imu, &self.config.gnss, &self.config.log);
+        let rtk = self.is_rtk();
         let nominal = &mut self.nominal;
         nominal.gyro_drift *= markov_decay(dt, imu.gyro.instability_time);
         nominal.accel_drift *= markov_decay(dt, imu.accel.instability_time);
-        nominal.gnss_position_error *= markov_decay(dt, gnss.position_time);
+        nominal.gnss_position_error *= markov_decay(dt, gnss.position_time_for(rtk));
         nominal.gnss_velocity_error *= markov_decay(dt, gnss.velocity_time);
         nominal.current *= markov_decay(dt, log.current_time);
     }
@@ -182,14 +195,18 @@ impl Filter {
         -0.5 * weighed.nis().min(self.gate.limit::<M>()) - weighed.log_root_determinant()
     }
 
+    /// Whether GNSS positions come from fixed carrier ambiguities.
+    fn is_rtk(&self) -> bool {
+        self.rtk == Some(true)
+    }
+
+    /// Holds the mean height over a window of waves against the sea level.
     fn hold_sea_level(&mut self) {
-        self.next_level = self.time + Span::from_seconds(LEVEL_SPACING);
-        let innovation = sea_level::innovation(&self.view(), self.heave.std());
+        let (mean, length) = self.level.take_mean();
+        let innovation = sea_level::innovation(&self.view(), mean, length, self.level.heave.std());
         let Some(weighed) = innovation.weigh(&self.covariance) else { return };
-        if self.trust.since_used(self.time) < GNSS_TIMEOUT {
-            let expected = weighed.sigma().x.powi(2) - innovation.r.x;
-            self.heave.learn(innovation.z.x, expected);
-        }
+        let expected = weighed.sigma().x.powi(2) - innovation.r.x;
+        self.level.heave.learn(innovation.z.x, expected);
         if weighed.nis() < self.gate.limit::<1>() {
             self.absorb(&weighed);
         }
@@ -236,6 +253,7 @@ impl Estimator for Filter {
     fn advance(&mut self, increment: &Increment) {
         let step = strapdown::integrate(&mut self.nominal, &self.gravity, increment);
         self.stretch.add(&step);
+        self.stretch.add_noise(increment);
         if increment.bridged {
             self.stretch.add_gap(step.duration);
         }
@@ -244,7 +262,7 @@ impl Estimator for Filter {
         if self.stretch.duration >= self.config.covariance_interval - 1e-6 {
             self.settle();
         }
-        if self.time >= self.next_level {
+        if self.level.is_full() {
             self.settle();
             self.hold_sea_level();
         }

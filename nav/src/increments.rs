@@ -1,8 +1,10 @@
 //! IMU samples made ready for integration: gaps and duplicates told apart, coning and sculling
 //! compensated, and cut at any instant where a measurement falls inside the interval.
 
-use insd_base::{ImuSample, Rejection, Span, Time};
+use insd_base::{ImuSample, ImuSpec, Rejection, Span, Time};
 use nalgebra::Vector3;
+
+use crate::noise::NoiseMonitor;
 
 /// Compensated increments over an interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +21,10 @@ pub struct Increment {
     pub end_rate: Vector3<f64>,
     /// Change of the angular rate, rad/s^2.
     pub angular_acceleration: Vector3<f64>,
+    /// Noise density of the rate beyond the stated random walk, body axes, rad^2/s.
+    pub rate_noise: Vector3<f64>,
+    /// Noise density of the force beyond the stated random walk, body axes, m^2/s^3.
+    pub force_noise: Vector3<f64>,
     /// Whether it was interpolated over missing samples.
     pub bridged: bool,
 }
@@ -55,8 +61,6 @@ impl Increment {
 /// What one IMU sample gave.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Conditioned {
-    /// The first sample: its interval has no known start, only its time is kept.
-    First,
     /// The increments of the sample.
     Sample(Increment),
     /// Samples were missing before this one: the bridge over the gap, then the sample.
@@ -69,6 +73,9 @@ pub enum Conditioned {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conditioner {
     nominal: f64,
+    random_walks: (f64, f64),
+    rate: NoiseMonitor,
+    force: NoiseMonitor,
     last: Option<Last>,
 }
 
@@ -94,19 +101,28 @@ const MAX_FORCE: f64 = 500.0;
 const GAP: f64 = 1.5;
 
 impl Conditioner {
-    /// A conditioner for samples at this nominal rate, Hz.
+    /// A conditioner for samples of this IMU.
     #[must_use]
-    pub fn new(rate: f64) -> Self {
-        Conditioner { nominal: 1.0 / rate, last: None }
+    pub fn new(imu: &ImuSpec) -> Self {
+        Conditioner {
+            nominal: 1.0 / imu.rate,
+            random_walks: (imu.gyro.random_walk, imu.accel.random_walk),
+            rate: NoiseMonitor::default(),
+            force: NoiseMonitor::default(),
+            last: None,
+        }
     }
 
     /// Takes the next sample.
     ///
     /// An interval within 1.5 nominal ones is taken as it is (uneven stamps: the increments cover
     /// (last, this]); beyond that the sample covers the last nominal interval and the time before it
-    /// is a gap, bridged with the mean of the rates on both sides.
+    /// is a gap, bridged with the mean of the rates on both sides. The first sample covers a nominal
+    /// interval.
     pub fn take(&mut self, sample: &ImuSample) -> Conditioned {
-        let Some(last) = self.last else { return self.first(sample) };
+        let Some(last) = self.last else {
+            return self.first(sample);
+        };
         let elapsed = (sample.time - last.time).as_seconds();
         if sample.time == last.time {
             return Conditioned::Rejected(Rejection::Duplicate);
@@ -121,22 +137,44 @@ impl Conditioner {
         };
         self.last = Some(Last { time: sample.time, mean });
         if gap {
+            self.rate.interrupt();
+            self.force.interrupt();
+        }
+        self.rate.learn(&mean.rate, duration);
+        self.force.learn(&mean.force, duration);
+        if gap {
             let start = sample.time - Span::from_seconds(self.nominal);
             let bridge = bridge(&last, start, &mean);
-            Conditioned::AfterGap(bridge, compensated(&mean, &mean, start, sample.time))
+            Conditioned::AfterGap(
+                bridge,
+                self.with_noise(compensated(&mean, &mean, start, sample.time)),
+            )
         } else {
-            Conditioned::Sample(compensated(&last.mean, &mean, last.time, sample.time))
+            Conditioned::Sample(self.with_noise(compensated(
+                &last.mean,
+                &mean,
+                last.time,
+                sample.time,
+            )))
+        }
+    }
+
+    fn with_noise(&self, increment: Increment) -> Increment {
+        let (gyro, accel) = self.random_walks;
+        Increment {
+            rate_noise: self.rate.excess(gyro),
+            force_noise: self.force.excess(accel),
+            ..increment
         }
     }
 
     fn first(&mut self, sample: &ImuSample) -> Conditioned {
-        match mean_of(sample, self.nominal) {
-            Some(mean) => {
-                self.last = Some(Last { time: sample.time, mean });
-                Conditioned::First
-            }
-            None => Conditioned::Rejected(Rejection::OutOfRange),
-        }
+        let Some(mean) = mean_of(sample, self.nominal) else {
+            return Conditioned::Rejected(Rejection::OutOfRange);
+        };
+        self.last = Some(Last { time: sample.time, mean });
+        let start = sample.time - Span::from_seconds(self.nominal);
+        Conditioned::Sample(compensated(&mean, &mean, start, sample.time))
     }
 }
 
@@ -157,6 +195,8 @@ fn bridge(last: &Last, to: Time, next: &Mean) -> Increment {
         velocity: (last.mean.force + next.force) * (0.5 * missing),
         end_rate: next.rate,
         angular_acceleration: Vector3::zeros(),
+        rate_noise: Vector3::zeros(),
+        force_noise: Vector3::zeros(),
         bridged: true,
     }
 }
@@ -183,6 +223,8 @@ fn compensated(before: &Mean, this: &Mean, from: Time, to: Time) -> Increment {
             + (this.rate.cross(&force_slope) - rate_slope.cross(&this.force)) * weight,
         end_rate: this.rate + rate_slope * (0.5 * h),
         angular_acceleration: rate_slope,
+        rate_noise: Vector3::zeros(),
+        force_noise: Vector3::zeros(),
         bridged: false,
     }
 }

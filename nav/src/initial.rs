@@ -5,8 +5,9 @@ use nalgebra::{Matrix1, Matrix2, Matrix3, Vector3};
 
 use crate::config::NavConfig;
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, CURRENT, Covariance, GNSS_POSITION_ERROR,
-    GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, SEA_LEVEL,
+    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, CURRENT, Covariance, GNSS_DELAY, GNSS_LEVER,
+    GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT,
+    GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, SEA_LEVEL,
 };
 use crate::nominal::Nominal;
 
@@ -41,6 +42,10 @@ pub fn sensor_covariance(config: &NavConfig) -> Covariance {
     ACCEL_SCALE.renew(&mut p, &three(accel.scale_std));
     GNSS_POSITION_ERROR.renew(&mut p, &three(1.0));
     GNSS_VELOCITY_ERROR.renew(&mut p, &three(1.0));
+    let delay = Matrix1::new(config.gnss.velocity_delay_std.powi(2));
+    GNSS_VELOCITY_DELAY.renew(&mut p, &delay);
+    GNSS_DELAY.renew(&mut p, &Matrix1::new(config.gnss.delay_std.powi(2)));
+    GNSS_LEVER.renew(&mut p, &three(config.gnss.lever_std));
     let log = &config.log;
     CURRENT.renew(&mut p, &Matrix2::from_diagonal_element(log.current_std.powi(2)));
     LOG_SCALE.renew(&mut p, &Matrix1::new(log.scale_std.powi(2)));

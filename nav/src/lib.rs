@@ -5,6 +5,7 @@
 //! [`InitialState`], which alignment makes.
 
 pub mod aids;
+pub mod antenna;
 pub mod block;
 pub mod config;
 pub mod error_state;
@@ -14,9 +15,11 @@ pub mod gate;
 pub mod increments;
 pub mod initial;
 pub mod innovation;
+pub mod noise;
 pub mod nominal;
 pub mod propagation;
 pub mod report;
+pub mod sea_window;
 pub mod spread;
 pub mod strapdown;
 pub mod timeline;

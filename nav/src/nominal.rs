@@ -6,9 +6,9 @@ use insd_base::{Ecef, Geodetic};
 use nalgebra::{Matrix3, UnitQuaternion, Vector1, Vector2, Vector3};
 
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, CURRENT, ErrorState, GNSS_POSITION_ERROR,
-    GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, POSITION,
-    SEA_LEVEL, VELOCITY,
+    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, CURRENT, ErrorState, GNSS_DELAY, GNSS_LEVER,
+    GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT,
+    GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, POSITION, SEA_LEVEL, VELOCITY,
 };
 
 /// Estimated values of everything in the error state; units and axes as stated there.
@@ -36,6 +36,12 @@ pub struct Nominal {
     pub gnss_position_error: Vector3<f64>,
     /// Slow GNSS velocity error, NED, sigmas.
     pub gnss_velocity_error: Vector3<f64>,
+    /// Correction of the stated lever arm of the GNSS antenna, body axes, m.
+    pub gnss_lever: Vector3<f64>,
+    /// Delay of GNSS epochs behind the IMU's time base, s.
+    pub gnss_delay: f64,
+    /// Delay of the GNSS velocity behind the position, s.
+    pub gnss_velocity_delay: f64,
     /// Water current, north and east, m/s.
     pub current: Vector2<f64>,
     /// Log scale factor, ratio.
@@ -63,6 +69,9 @@ impl Nominal {
             accel_scale: Vector3::zeros(),
             gnss_position_error: Vector3::zeros(),
             gnss_velocity_error: Vector3::zeros(),
+            gnss_lever: Vector3::zeros(),
+            gnss_delay: 0.0,
+            gnss_velocity_delay: 0.0,
             current: Vector2::zeros(),
             log_scale: 0.0,
             log_misalignment: Vector2::zeros(),
@@ -95,6 +104,9 @@ impl Nominal {
         self.accel_scale += ACCEL_SCALE.of(error);
         self.gnss_position_error += GNSS_POSITION_ERROR.of(error);
         self.gnss_velocity_error += GNSS_VELOCITY_ERROR.of(error);
+        self.gnss_lever += GNSS_LEVER.of(error);
+        self.gnss_delay += GNSS_DELAY.of(error).x;
+        self.gnss_velocity_delay += GNSS_VELOCITY_DELAY.of(error).x;
         self.current += CURRENT.of(error);
         self.log_scale += LOG_SCALE.of(error).x;
         self.log_misalignment += LOG_MISALIGNMENT.of(error);
@@ -119,6 +131,10 @@ impl Nominal {
         GNSS_POSITION_ERROR.set(&mut error, &position_error);
         let velocity_error = other.gnss_velocity_error - self.gnss_velocity_error;
         GNSS_VELOCITY_ERROR.set(&mut error, &velocity_error);
+        GNSS_LEVER.set(&mut error, &(other.gnss_lever - self.gnss_lever));
+        GNSS_DELAY.set(&mut error, &Vector1::new(other.gnss_delay - self.gnss_delay));
+        let delay = other.gnss_velocity_delay - self.gnss_velocity_delay;
+        GNSS_VELOCITY_DELAY.set(&mut error, &Vector1::new(delay));
         CURRENT.set(&mut error, &(other.current - self.current));
         LOG_SCALE.set(&mut error, &Vector1::new(other.log_scale - self.log_scale));
         LOG_MISALIGNMENT.set(&mut error, &(other.log_misalignment - self.log_misalignment));

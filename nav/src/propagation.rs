@@ -21,6 +21,7 @@ use crate::error_state::{
     GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, POSITION, SEA_LEVEL, STATES,
     STRAPDOWN_STATES, VELOCITY,
 };
+use crate::increments::Increment;
 use crate::strapdown::Step;
 
 type Transition = SMatrix<f64, STRAPDOWN_STATES, STRAPDOWN_STATES>;
@@ -40,6 +41,10 @@ pub struct Stretch {
     pub rotation: Vector3<f64>,
     /// Integral of specific force, body axes, m/s.
     pub velocity: Vector3<f64>,
+    /// Integral of the excess noise density of the rate, body axes, rad^2.
+    pub rate_noise: Vector3<f64>,
+    /// Integral of the excess noise density of the force, body axes, (m/s)^2.
+    pub force_noise: Vector3<f64>,
     /// Attitude variance added by bridged gaps, rad^2.
     pub gap_attitude: f64,
     /// Velocity variance added by bridged gaps, (m/s)^2.
@@ -56,6 +61,8 @@ impl Stretch {
             force: Vector3::zeros(),
             rotation: Vector3::zeros(),
             velocity: Vector3::zeros(),
+            rate_noise: Vector3::zeros(),
+            force_noise: Vector3::zeros(),
             gap_attitude: 0.0,
             gap_velocity: 0.0,
         }
@@ -68,6 +75,13 @@ impl Stretch {
         self.force += step.c_eb * step.velocity;
         self.rotation += step.rotation;
         self.velocity += step.velocity;
+    }
+
+    /// Adds the noise of an increment beyond the stated random walks.
+    pub fn add_noise(&mut self, increment: &Increment) {
+        let duration = increment.duration();
+        self.rate_noise += increment.rate_noise * duration;
+        self.force_noise += increment.force_noise * duration;
     }
 
     /// Adds the uncertainty of a step that was interpolated over a gap of `missing` seconds.
@@ -128,12 +142,14 @@ pub fn strapdown_rows(stretch: &Stretch, gradient: &Matrix3<f64>) -> StrapdownRo
     StrapdownRows { transition, gyro, accel }
 }
 
-/// Propagates the covariance over a stretch: P <- Phi P Phi^T + Q.
+/// Propagates the covariance over a stretch: P <- Phi P Phi^T + Q. `rtk` tells which kind of GNSS
+/// position error is being estimated.
 pub fn propagate(
     p: &mut Covariance,
     stretch: &Stretch,
     gradient: &Matrix3<f64>,
     config: &NavConfig,
+    rtk: bool,
 ) {
     if stretch.duration <= 0.0 {
         return;
@@ -144,7 +160,7 @@ pub fn propagate(
     p.fixed_columns_mut::<STRAPDOWN_STATES>(0).copy_from(&columns);
     p.fixed_rows_mut::<STRAPDOWN_STATES>(0).copy_from(&columns.transpose());
     p.fixed_view_mut::<STRAPDOWN_STATES, STRAPDOWN_STATES>(0, 0).copy_from(&corner);
-    relax_markov(p, stretch.duration, config);
+    relax_markov(p, stretch.duration, config, rtk);
     add_noise(p, stretch, config);
 }
 
@@ -186,12 +202,17 @@ fn strapdown_corner(columns: &Columns, stretch: &Stretch, rows: &StrapdownRows) 
 }
 
 /// Gauss-Markov states with their steady sigma and time constant.
-fn markov(config: &NavConfig) -> [(usize, usize, f64, f64); 5] {
+fn markov(config: &NavConfig, rtk: bool) -> [(usize, usize, f64, f64); 5] {
     let (gyro, accel) = (&config.imu.gyro, &config.imu.accel);
     [
         (GYRO_DRIFT.start(), GYRO_DRIFT.end(), gyro.instability_std, gyro.instability_time),
         (ACCEL_DRIFT.start(), ACCEL_DRIFT.end(), accel.instability_std, accel.instability_time),
-        (GNSS_POSITION_ERROR.start(), GNSS_POSITION_ERROR.end(), 1.0, config.gnss.position_time),
+        (
+            GNSS_POSITION_ERROR.start(),
+            GNSS_POSITION_ERROR.end(),
+            1.0,
+            config.gnss.position_time_for(rtk),
+        ),
         (GNSS_VELOCITY_ERROR.start(), GNSS_VELOCITY_ERROR.end(), 1.0, config.gnss.velocity_time),
         (CURRENT.start(), CURRENT.end(), config.log.current_std, config.log.current_time),
     ]
@@ -203,9 +224,9 @@ pub fn markov_decay(dt: f64, time_constant: f64) -> f64 {
     (-dt / time_constant).exp()
 }
 
-fn relax_markov(p: &mut Covariance, dt: f64, config: &NavConfig) {
+fn relax_markov(p: &mut Covariance, dt: f64, config: &NavConfig, rtk: bool) {
     let mut decay = SVector::<f64, STATES>::repeat(1.0);
-    let processes = markov(config);
+    let processes = markov(config, rtk);
     for (start, end, _, time) in processes {
         let left = markov_decay(dt, time);
         decay.rows_mut(start, end - start).fill(left);
@@ -230,5 +251,13 @@ fn add_noise(p: &mut Covariance, stretch: &Stretch, config: &NavConfig) {
     let velocity = config.imu.accel.random_walk.powi(2) * dt + stretch.gap_velocity;
     ATTITUDE.inflate(p, angle);
     VELOCITY.inflate(p, velocity);
+    let c_eb = stretch.c_eb / dt;
+    let in_ecef = |noise: &Vector3<f64>| c_eb * Matrix3::from_diagonal(noise) * c_eb.transpose();
+    if stretch.rate_noise.amax() > 0.0 {
+        ATTITUDE.add(p, &in_ecef(&stretch.rate_noise));
+    }
+    if stretch.force_noise.amax() > 0.0 {
+        VELOCITY.add(p, &in_ecef(&stretch.force_noise));
+    }
     SEA_LEVEL.inflate(p, config.sea.level_walk.powi(2) * dt);
 }

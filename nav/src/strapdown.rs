@@ -6,7 +6,7 @@
 //! GNSS, Inertial and Multisensor Integrated Navigation Systems, 2nd ed., section 5.3.
 
 use insd_base::earth;
-use insd_base::{Ecef, Time};
+use insd_base::{Ecef, Geodetic, Time};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::increments::Increment;
@@ -22,14 +22,13 @@ pub struct LocalGravity {
 }
 
 impl LocalGravity {
-    /// Gravity around an ECEF position, m.
+    /// Gravity around an ECEF position, m, of which the geodetic coordinates are known.
     #[must_use]
-    pub fn around(position: &Vector3<f64>) -> Self {
-        let anchor = Ecef(*position);
+    pub fn around(position: &Vector3<f64>, geodetic: &Geodetic) -> Self {
         LocalGravity {
             anchor: *position,
-            value: earth::gravity_e(&earth::geodetic(&anchor)),
-            gradient: earth::gravity_gradient_e(&anchor),
+            value: earth::gravity_e(geodetic),
+            gradient: earth::gravity_gradient_e(&Ecef(*position)),
         }
     }
 
@@ -129,7 +128,7 @@ pub fn extrapolated(nominal: &Nominal, increment: &Increment, at: Time) -> Nomin
     if at > increment.from {
         let (head, _) =
             if at < increment.to { increment.split(at) } else { (*increment, *increment) };
-        integrate(&mut moved, &LocalGravity::around(&nominal.position), &head);
+        integrate(&mut moved, &LocalGravity::around(&nominal.position, &nominal.geodetic()), &head);
     }
     moved
 }

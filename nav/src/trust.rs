@@ -1,6 +1,7 @@
-//! How far a GNSS receiver is trusted: which of its errors were seen, and when it is believed again.
+//! How far a GNSS receiver is trusted: which of its errors were seen, how honest its sigmas are, and
+//! when it is believed again.
 
-use insd_base::Time;
+use insd_base::{Span, Time};
 use nalgebra::Vector3;
 
 /// Memory of one receiver's agreement with the filter.
@@ -9,33 +10,60 @@ pub struct Trust {
     last_used: Option<Time>,
     suspect_until: Option<Time>,
     refused_since: Option<Time>,
-    velocity: Persistence,
-    position: Persistence,
+    /// Agreement of its velocities.
+    pub velocity: Agreement,
+    /// Agreement of its positions.
+    pub position: Agreement,
 }
 
-/// A running mean of innovations, to find errors too small for a single epoch: the innovations of a
-/// filter in agreement with its models are white, so that their mean must shrink.
+/// Running statistics of the innovations of one quantity.
 ///
-/// Mean m <- m + w (z - m); under whiteness var(m) = w / (2 - w) var(z).
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-struct Persistence {
+/// In a filter that agrees with its models innovations are white with the expected covariance. Their
+/// running mean then shrinks: m <- m + w (z - m), var(m) = w / (2 - w) var(z); an error too small for
+/// a single epoch shows in it. Their running mean square shows a receiver whose sigmas are too small.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Agreement {
     mean: Vector3<f64>,
+    mean_square: f64,
     samples: u32,
 }
 
-/// Samples that the running mean spans.
+impl Default for Agreement {
+    fn default() -> Self {
+        Agreement { mean: Vector3::zeros(), mean_square: 1.0, samples: 0 }
+    }
+}
+
+/// Samples that the running means span.
 const SPAN: f64 = 20.0;
 /// Sigmas of the running mean beyond which an error is taken as real.
 const PERSISTENT: f64 = 6.0;
+/// Mean square (one is expected) up to which the stated sigmas are taken as they are.
+const HONEST: f64 = 1.6;
+/// Mean square of one epoch beyond which it is a fault and not noise.
+pub const FAULT: f64 = 30.0;
 
-impl Persistence {
-    fn learn(&mut self, whitened: &Vector3<f64>) {
+impl Agreement {
+    /// Learns from an innovation in units of its expected sigma, component by component, and its
+    /// normalised square divided by the number of components. A fault teaches nothing about noise.
+    pub fn learn(&mut self, whitened: &Vector3<f64>, mean_square: f64) {
+        if mean_square > FAULT {
+            return;
+        }
         self.samples = self.samples.saturating_add(1);
-        let bounded = whitened.map(|z| z.clamp(-5.0, 5.0));
-        self.mean += (bounded - self.mean) / SPAN;
+        self.mean += (whitened - self.mean) / SPAN;
+        self.mean_square += (mean_square - self.mean_square) / SPAN;
     }
 
-    fn is_off(&self) -> bool {
+    /// Factor on the variance of the receiver's white noise that makes its sigmas honest.
+    #[must_use]
+    pub fn variance_factor(&self) -> f64 {
+        (self.mean_square / HONEST).max(1.0)
+    }
+
+    /// Whether a horizontal component is off on the mean.
+    #[must_use]
+    pub fn is_off(&self) -> bool {
         let weight = 1.0 / SPAN;
         let std = (weight / (2.0 - weight)).sqrt();
         f64::from(self.samples) >= SPAN && self.mean.xy().amax() > PERSISTENT * std
@@ -55,12 +83,16 @@ impl Trust {
         self.last_used
     }
 
-    /// Whether the receiver was in error a moment ago.
+    /// Whether the receiver was found in fault a moment ago.
     #[must_use]
     pub fn is_suspect(&self, now: Time) -> bool {
         self.suspect_until.is_some_and(|until| now < until)
-            || self.velocity.is_off()
-            || self.position.is_off()
+    }
+
+    /// Whether its positions or velocities are off on the mean.
+    #[must_use]
+    pub fn is_off(&self) -> bool {
+        self.velocity.is_off() || self.position.is_off()
     }
 
     /// Notes a position that was used.
@@ -69,30 +101,39 @@ impl Trust {
         self.refused_since = None;
     }
 
-    /// Notes an error of the receiver; it is suspect for `hold` seconds from now.
+    /// Notes a fault of the receiver; it is suspect for `hold` seconds from now.
     pub fn suspect(&mut self, now: Time, hold: f64) {
-        self.suspect_until = Some(now + insd_base::Span::from_seconds(hold));
+        self.suspect_until = Some(now + Span::from_seconds(hold));
     }
 
-    /// Notes a position that was refused while the velocity agreed, and returns for how long this
-    /// has been so, s.
+    /// Notes a position that was refused and returns for how long none was used, s.
     pub fn refused(&mut self, now: Time) -> f64 {
         let since = *self.refused_since.get_or_insert(now);
         (now - since).as_seconds()
     }
 
-    /// Learns from a velocity innovation in units of its sigma.
-    pub fn learn_velocity(&mut self, whitened: &Vector3<f64>) {
-        self.velocity.learn(whitened);
-    }
-
-    /// Learns from a position innovation in units of its sigma.
-    pub fn learn_position(&mut self, whitened: &Vector3<f64>) {
-        self.position.learn(whitened);
-    }
-
     /// Forgets all suspicion.
     pub fn clear(&mut self) {
         *self = Trust { last_used: self.last_used, ..Trust::default() };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_persistent_error_is_found_and_white_noise_is_not() {
+        let mut honest = Agreement::default();
+        let mut biased = Agreement::default();
+        for i in 0..200_u32 {
+            let noise = Vector3::repeat(if i % 2 == 0 { 1.0 } else { -1.0 });
+            honest.learn(&noise, 1.0);
+            biased.learn(&noise.add_scalar(1.5), 3.0);
+        }
+        assert!(!honest.is_off());
+        assert!(biased.is_off());
+        assert!((honest.variance_factor() - 1.0).abs() < 1e-12);
+        assert!(biased.variance_factor() > 1.5);
     }
 }

@@ -2,7 +2,7 @@
 
 use insd_alignment::bank::Kinematics;
 use insd_alignment::{Level, Levelling};
-use insd_base::{Geodetic, GnssFix, Message, StartCondition, Time};
+use insd_base::{Geodetic, GnssFix, Message, Received, StartCondition, Time};
 use insd_nav::Increment;
 use nalgebra::Vector3;
 
@@ -23,6 +23,8 @@ pub(crate) struct Coarse {
     levelling: Option<Levelling>,
     first: Option<GnssFix>,
     last: Option<GnssFix>,
+    increments: Vec<Increment>,
+    messages: Vec<Received>,
 }
 
 impl Coarse {
@@ -33,15 +35,18 @@ impl Coarse {
             levelling: None,
             first: None,
             last: None,
+            increments: Vec::new(),
+            messages: Vec::new(),
         }
     }
 
     pub(crate) fn advance(&mut self, increment: &Increment) {
         self.levelling.get_or_insert_with(|| Levelling::new(increment.from)).advance(increment);
+        self.increments.push(*increment);
     }
 
-    pub(crate) fn observe(&mut self, message: &Message) {
-        match message {
+    pub(crate) fn observe(&mut self, received: &Received) {
+        match &received.message {
             Message::Gnss(fix) if fix.quality.is_measured() && fix.position.is_some() => {
                 // the mean acceleration belongs to the levelling window only
                 if self.levelling.is_some() && fix.velocity.is_some() {
@@ -49,35 +54,49 @@ impl Coarse {
                 }
                 self.last = Some(*fix);
             }
-            Message::Reference(reference) => self.berth = reference.position.or(self.berth),
+            Message::Reference(reference) => {
+                // a horizontal position: the height is only known from elsewhere
+                let height = self.berth.map_or(0.0, |berth| berth.height);
+                let place = reference.position.map(|place| Geodetic { height, ..place });
+                self.berth = place.or(self.berth);
+            }
             _ => {}
         }
+        self.messages.push(*received);
     }
 
-    /// Level and kinematics once both are known.
+    /// Level and kinematics of the window's start, once both are known.
     pub(crate) fn ready(&self) -> Option<(Level, Kinematics)> {
         let levelling = self.levelling.as_ref()?;
         let elapsed = levelling.duration();
         if elapsed < WINDOW {
             return None;
         }
-        let level = levelling.level()?;
         let by_gnss = self.by_gnss(levelling.now());
         let known = by_gnss.is_some() || self.moored || elapsed > PATIENCE;
         let kinematics = by_gnss.or_else(|| self.by_berth())?;
-        known.then_some((level, kinematics))
+        known.then_some((levelling.level_at_start()?, kinematics))
+    }
+
+    /// Whether the window has grown useless, because nothing tells where the ship is.
+    pub(crate) fn is_stale(&self) -> bool {
+        self.levelling.as_ref().is_some_and(|levelling| levelling.duration() > 2.0 * PATIENCE)
+    }
+
+    /// Everything seen in the window: increments and messages.
+    pub(crate) fn into_data(self) -> (Vec<Increment>, Vec<Received>) {
+        (self.increments, self.messages)
     }
 
     fn by_gnss(&self, now: Time) -> Option<Kinematics> {
         let last = self.last.filter(|fix| (now - fix.time).as_seconds() < FRESH)?;
-        let velocity = last.velocity;
-        let acceleration = self.acceleration(&last).unwrap_or_else(Vector3::zeros);
+        let start = self.first.unwrap_or(last);
         Some(Kinematics {
-            position: last.position?,
+            position: start.position?,
             position_std: 100.0,
-            velocity: velocity.map_or_else(Vector3::zeros, |v| v.0),
-            velocity_std: if velocity.is_some() { 3.0 } else { 10.0 },
-            acceleration,
+            velocity: start.velocity.map_or_else(Vector3::zeros, |v| v.0),
+            velocity_std: if start.velocity.is_some() { 3.0 } else { 10.0 },
+            acceleration: self.acceleration(&last).unwrap_or_else(Vector3::zeros),
             moored: self.moored,
         })
     }
@@ -85,9 +104,8 @@ impl Coarse {
     fn acceleration(&self, last: &GnssFix) -> Option<Vector3<f64>> {
         let first = self.first?;
         let elapsed = (last.time - first.time).as_seconds();
-        (elapsed > 0.5 * WINDOW)
-            .then_some(Some((last.velocity?.0 - first.velocity?.0) / elapsed))
-            .flatten()
+        let change = last.velocity?.0 - first.velocity?.0;
+        (elapsed > 0.5 * WINDOW).then_some(change / elapsed)
     }
 
     fn by_berth(&self) -> Option<Kinematics> {

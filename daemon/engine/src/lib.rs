@@ -96,7 +96,7 @@ impl Engine {
     pub fn new(config: EngineConfig) -> Self {
         let nav = NavConfig::new(config.imu, config.lever_arms);
         Engine {
-            conditioner: Conditioner::new(config.imu.rate),
+            conditioner: Conditioner::new(&config.imu),
             stage: Stage::Levelling(Box::new(Coarse::new(&config))),
             period: Span::from_seconds(1.0 / config.output_rate),
             recent: Recent::default(),
@@ -130,7 +130,6 @@ impl Engine {
 
     fn handle_imu(&mut self, sample: &ImuSample) {
         match self.conditioner.take(sample) {
-            Conditioned::First => self.counts.imu_samples += 1,
             Conditioned::Sample(increment) => {
                 self.counts.imu_samples += 1;
                 self.advance(&increment);
@@ -187,11 +186,28 @@ impl Engine {
         }
     }
 
+    /// Starts the ship at the beginning of the levelling window and lets her sail through it.
     fn try_start(&mut self) {
-        let Stage::Levelling(coarse) = &self.stage else { return };
-        let Some((level, kinematics)) = coarse.ready() else { return };
+        let Stage::Levelling(coarse) = &mut self.stage else { return };
+        let Some((level, kinematics)) = coarse.ready() else {
+            if coarse.is_stale() {
+                **coarse = Coarse::new(&self.config);
+            }
+            return;
+        };
         let ship = Ship::aligning(&self.nav, &level, &kinematics);
-        self.stage = Stage::Running(Box::new(Timeline::new(ship, level.time)));
+        let mut line = Timeline::new(ship, level.time);
+        let fresh = Coarse::new(&self.config);
+        let (increments, messages) = std::mem::replace(&mut **coarse, fresh).into_data();
+        let mut reports: Vec<Report> =
+            messages.iter().filter_map(|received| line.measure(received)).collect();
+        for increment in &increments {
+            reports.extend(line.advance(increment));
+        }
+        self.stage = Stage::Running(Box::new(line));
+        for report in &reports {
+            self.note(report);
+        }
     }
 
     fn handle_aid(&mut self, received: &Received) {
@@ -205,7 +221,7 @@ impl Engine {
             self.reject(received, aid, Rejection::OutOfRange);
         }
         match &mut self.stage {
-            Stage::Levelling(coarse) => coarse.observe(&checked.message),
+            Stage::Levelling(coarse) => coarse.observe(&checked),
             Stage::Running(line) => {
                 if let Some(report) = line.measure(&checked) {
                     self.note(&report);
@@ -241,7 +257,7 @@ impl Engine {
             match aid.outcome {
                 Outcome::Accepted => *self.counts.accepted.entry(aid.aid).or_insert(0) += 1,
                 Outcome::Rejected(reason) => {
-                    self.note_rejection(aid.time, aid.source, aid.aid, reason)
+                    self.note_rejection(aid.time, aid.source, aid.aid, reason);
                 }
             }
         }

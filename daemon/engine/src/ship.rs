@@ -77,7 +77,9 @@ impl Estimator for Ship {
             Ship::Aligning(bank) => {
                 let report = bank.apply(received);
                 if let Some(filter) = bank.winner() {
-                    *self = Ship::Navigating(Box::new(filter.clone()));
+                    let mut navigator = Box::new(filter.clone());
+                    navigator.begin_navigation();
+                    *self = Ship::Navigating(navigator);
                 }
                 report
             }

@@ -1,1 +1,91 @@
-//! insd-simulator
+//! Makes voyages: a ship in a seaway, her sensors with their errors, and the truth.
+//!
+//! A [`Scenario`] is read from TOML and, with a seed, decides a [`Voyage`] down to the last bit.
+//! Pure: no I/O, no clock, no thread, and randomness only from the seed.
+//!
+//! The truth does not come out of a navigator run backwards. Velocity and attitude are closed
+//! formulas of time: a guidance path of smooth turns and changes of speed, plus a sum of sinusoids
+//! for the waves. Their derivatives are exact, and the increments of the IMU are the integrals of
+//! those derivatives. Of the navigator nothing but the vocabulary of `insd-base` is shared, so an
+//! error in its mechanisation cannot hide here as well.
+
+mod motion;
+mod quadrature;
+mod random;
+mod scenario;
+mod sensors;
+mod shipped;
+mod track;
+
+use insd_base::earth::{c_ne, ecef, geodetic};
+use insd_base::{Body, Ecef, Geodetic, LeverArms, Truth, Voyage, VoyageHeader};
+use nalgebra::Vector3;
+
+use random::{Purpose, normal3, stream};
+use scenario::{Gnss, Log};
+use sensors::epochs;
+use track::Track;
+
+pub use scenario::{Fault, Scenario, ScenarioError};
+pub use shipped::shipped;
+
+/// Simulates the voyage of a scenario. The same scenario and seed give the same voyage; every source
+/// of error draws from a random stream of its own, so that a change to one leaves the others alone.
+#[must_use]
+pub fn simulate(scenario: &Scenario, seed: u64) -> Voyage {
+    let track = Track::new(scenario, seed);
+    let duration = scenario.duration();
+    let berth = track::start_of(scenario);
+    let gnss = |gnss| sensors::gnss::fixes(gnss, &track, duration, seed);
+    let log = |log| sensors::log::velocities(log, &scenario.current, &track, duration, seed);
+    let reference =
+        |reference| sensors::reference::messages(reference, &berth, &track, duration, seed);
+    Voyage {
+        header: header(scenario, seed),
+        imu: sensors::imu::samples(&scenario.imu, &track, duration, seed),
+        gnss: scenario.gnss.as_ref().map(gnss).unwrap_or_default(),
+        log: scenario.log.as_ref().map(log).unwrap_or_default(),
+        reference: scenario.reference.as_ref().map(reference).unwrap_or_default(),
+        truth: truth(&track, scenario.truth.rate_hz, duration),
+    }
+}
+
+fn header(scenario: &Scenario, seed: u64) -> VoyageHeader {
+    let default = (Gnss::default().lever_arm_m, Log::default().lever_arm_m);
+    let gnss = scenario.gnss.as_ref().map_or(default.0, |gnss| gnss.lever_arm_m);
+    let log = scenario.log.as_ref().map_or(default.1, |log| log.lever_arm_m);
+    VoyageHeader {
+        start_utc: scenario.start_utc.clone(),
+        start: scenario.mode.into(),
+        initial: Some(stated_start(scenario, seed)),
+        imu: scenario.imu.stated(),
+        lever_arms: LeverArms { gnss: Body(Vector3::from(gnss)), log: Body(Vector3::from(log)) },
+    }
+}
+
+/// The starting position with the error that the scenario gives it.
+fn stated_start(scenario: &Scenario, seed: u64) -> Geodetic {
+    let start = track::start_of(scenario);
+    let std = scenario.start.stated_std_m;
+    if std == 0.0 {
+        return start;
+    }
+    let error_n = normal3(&mut stream(seed, Purpose::StartPosition)) * std;
+    geodetic(&Ecef(ecef(&start).0 + c_ne(&start).tr_mul(&error_n)))
+}
+
+fn truth(track: &Track, rate: f64, duration: f64) -> Vec<Truth> {
+    let at = |time: insd_base::Time| {
+        let ship = track.at(time.as_seconds());
+        Truth {
+            time,
+            position: ship.point,
+            velocity: Some(ship.velocity_n()),
+            attitude: Some(ship.attitude()),
+        }
+    };
+    epochs(rate, 0, duration).map(at).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -42,8 +42,11 @@ pub struct Policy {
     /// Horizontal velocity (root sum square of north and east), m/s; beyond it VTG N. Default
     /// 1 m/s.
     pub velocity: f64,
-    /// Course over ground, rad; beyond it the course is left empty, as at the berth. Default 5 deg.
+    /// Course over ground, rad; beyond it the course is left empty. Default 5 deg.
     pub course: f64,
+    /// Speed, m/s, below which there is no course, however well the velocity is known: a ship that
+    /// sways at her berth goes nowhere. Default 0.1 m/s.
+    pub least_speed: f64,
 }
 
 impl Default for PositionLimits {
@@ -67,6 +70,7 @@ impl Default for Policy {
             heading_estimated: 2.5 * DEG,
             velocity: 1.0,
             course: 5.0 * DEG,
+            least_speed: 0.1,
         }
     }
 }
@@ -125,12 +129,13 @@ impl Policy {
         }
     }
 
-    /// Whether the ship moves fast enough, for what is known of her velocity, to have a course:
-    /// to first order its sigma is that of the velocity across the track over the speed.
+    /// Whether the ship moves fast enough, also for what is known of her velocity, to have a
+    /// course: to first order its sigma is that of the velocity across the track over the speed.
     #[must_use]
     pub fn has_course(&self, solution: &Solution) -> bool {
         let sigma = solution.sigma.velocity.0.xy().max();
-        sigma <= solution.speed() * self.course
+        let speed = solution.speed();
+        speed >= self.least_speed && sigma <= speed * self.course
     }
 }
 

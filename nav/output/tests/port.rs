@@ -135,6 +135,16 @@ fn a_ship_at_rest_has_a_speed_but_no_course() {
 }
 
 #[test]
+fn a_course_that_the_velocity_does_not_support_is_left_empty() {
+    let mut solution = solution();
+    solution.velocity = Ned::new(0.3, 0.0, 0.0);
+    solution.sigma.velocity = Ned::new(0.02, 0.02, 0.02);
+    assert!(one(&PortConfig::bridge(), &solution, "INVTG").unwrap().starts_with("$INVTG,0.00,T"));
+    solution.sigma.velocity = Ned::new(0.02, 0.05, 0.02);
+    assert!(one(&PortConfig::bridge(), &solution, "INVTG").unwrap().starts_with("$INVTG,,T"));
+}
+
+#[test]
 fn height_above_sea_level_is_said_only_where_the_geoid_is_known() {
     let config = PortConfig { geoid_separation: Some(36.7), ..PortConfig::bridge() };
     let gga = one(&config, &solution(), "INGGA").unwrap();

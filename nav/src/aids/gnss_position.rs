@@ -3,7 +3,9 @@
 //! Predicted: p = r + C_eb l, measured minus predicted in NED axes. The error of the fix has a
 //! white part and a slowly varying part that the filter estimates in units of its sigma:
 //!
-//! z_n = C_ne (dr - [C_eb l x] phi) + diag(sigma_slow) x_slow + white.
+//! z_n = C_ne (dr - [C_eb l x] phi) + diag(sigma_slow) x_slow - v_n dtau + white,
+//!
+//! tau the delay of the epoch behind the IMU's time base and v the antenna's velocity.
 //!
 //! Groves, 2nd ed., eqs. (14.103), (14.113); correlated error: Brown and Hwang, Introduction to
 //! Random Signals and Applied Kalman Filtering, 4th ed., section 5.2 (state augmentation).
@@ -14,7 +16,7 @@ use insd_base::{Geodetic, earth};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use super::View;
-use crate::error_state::{ATTITUDE, GNSS_POSITION_ERROR, POSITION};
+use crate::error_state::{ATTITUDE, GNSS_DELAY, GNSS_LEVER, GNSS_POSITION_ERROR, POSITION};
 use crate::innovation::Innovation;
 
 /// A fix with its sigmas split into white and slow parts, NED, m.
@@ -26,6 +28,8 @@ pub struct PositionFix {
     pub white: Vector3<f64>,
     /// 1-sigma of the slowly varying part.
     pub slow: Vector3<f64>,
+    /// Velocity of the antenna as predicted, NED, m/s.
+    pub velocity: Vector3<f64>,
 }
 
 /// Innovation of a GNSS position; `lever` from the IMU to the antenna, body axes, m.
@@ -37,9 +41,11 @@ pub fn innovation(view: &View, fix: &PositionFix, lever: &Vector3<f64>) -> Innov
     let mut h = SMatrix::zeros();
     POSITION.set_columns(&mut h, &view.c_ne);
     ATTITUDE.set_columns(&mut h, &(-view.c_ne * skew(&arm_e)));
+    GNSS_LEVER.set_columns(&mut h, &view.c_nb());
+    GNSS_DELAY.set_columns(&mut h, &-fix.velocity);
     GNSS_POSITION_ERROR.set_columns(&mut h, &Matrix3::from_diagonal(&fix.slow));
     Innovation {
-        z: view.c_ne * difference - expected_error,
+        z: view.c_ne * difference - expected_error + fix.velocity * view.nominal.gnss_delay,
         h,
         r: Matrix3::from_diagonal(&fix.white.component_mul(&fix.white)),
     }

@@ -1,19 +1,24 @@
 //! GNSS velocity at the antenna.
 //!
 //! Predicted: v + C_eb (omega_eb x l) in NED axes, with the slow part of the receiver's error as for
-//! the position:
+//! the position, the delay tau of
+//! the epoch and a delay tau_v of its own: receivers give a velocity averaged or filtered over the time before
+//! its stamp, and a ship in waves tells by how much, with her antenna's acceleration a:
 //!
-//! z_n = C_ne (dv - [C_eb (omega x l) x] phi + C_eb [l x] db_g) + diag(sigma_slow) x_slow + white,
+//! z_n = C_ne (dv - [C_eb (omega x l) x] phi + C_eb [l x] db_g) + diag(sigma_slow) x_slow
+//!       - a_n (dtau + dtau_v) + white,
 //!
-//! db_g the gyro bias (the other gyro errors enter in the same way but are too small on a lever arm
-//! to matter). Groves, 2nd ed., eqs. (14.103), (14.114).
+//! db_g the gyro bias; in-run bias, scale factor and the Earth rate's share enter in the same way. Groves, 2nd ed., eqs. (14.103), (14.114).
 //! Held by `every_measurement_matrix_agrees_with_perturbed_predictions`.
 
 use insd_base::attitude::skew;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use super::View;
-use crate::error_state::{ATTITUDE, GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT, VELOCITY};
+use crate::error_state::{
+    ATTITUDE, GNSS_DELAY, GNSS_LEVER, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS,
+    GYRO_DRIFT, GYRO_SCALE, VELOCITY,
+};
 use crate::innovation::Innovation;
 
 /// A velocity with its sigmas split into white and slow parts, NED, m/s.
@@ -25,6 +30,8 @@ pub struct VelocityFix {
     pub white: Vector3<f64>,
     /// 1-sigma of the slowly varying part.
     pub slow: Vector3<f64>,
+    /// Acceleration of the antenna as predicted, NED, m/s^2.
+    pub acceleration: Vector3<f64>,
 }
 
 /// Innovation of a GNSS velocity; `lever` from the IMU to the antenna, body axes, m.
@@ -32,6 +39,7 @@ pub struct VelocityFix {
 pub fn innovation(view: &View, fix: &VelocityFix, lever: &Vector3<f64>) -> Innovation<3> {
     let swing_e = view.c_eb * view.rate.cross(lever);
     let predicted = view.c_ne * (view.nominal.velocity + swing_e);
+    let delay = view.nominal.gnss_delay + view.nominal.gnss_velocity_delay;
     let expected_error = fix.slow.component_mul(&view.nominal.gnss_velocity_error);
     let mut h = SMatrix::zeros();
     VELOCITY.set_columns(&mut h, &view.c_ne);
@@ -40,10 +48,15 @@ pub fn innovation(view: &View, fix: &VelocityFix, lever: &Vector3<f64>) -> Innov
     ATTITUDE.set_columns(&mut h, &by_attitude);
     GYRO_BIAS.set_columns(&mut h, &by_gyro);
     GYRO_DRIFT.set_columns(&mut h, &by_gyro);
+    let by_scale = by_gyro * Matrix3::from_diagonal(&view.inertial_rate);
+    GYRO_SCALE.set_columns(&mut h, &by_scale);
+    GNSS_LEVER.set_columns(&mut h, &(view.c_nb() * skew(&view.rate)));
+    GNSS_DELAY.set_columns(&mut h, &-fix.acceleration);
+    GNSS_VELOCITY_DELAY.set_columns(&mut h, &-fix.acceleration);
     GNSS_VELOCITY_ERROR.set_columns(&mut h, &Matrix3::from_diagonal(&fix.slow));
     let swing_noise = by_gyro * by_gyro.transpose() * view.rate_variance;
     Innovation {
-        z: fix.velocity - predicted - expected_error,
+        z: fix.velocity - predicted - expected_error + fix.acceleration * delay,
         h,
         r: Matrix3::from_diagonal(&fix.white.component_mul(&fix.white)) + swing_noise,
     }

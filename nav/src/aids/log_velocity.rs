@@ -18,7 +18,8 @@ use nalgebra::{Matrix3, SMatrix, Vector1, Vector3};
 
 use super::View;
 use crate::error_state::{
-    ATTITUDE, CURRENT, GYRO_BIAS, GYRO_DRIFT, LOG_MISALIGNMENT, LOG_SCALE, STATES, VELOCITY,
+    ATTITUDE, CURRENT, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, STATES,
+    VELOCITY,
 };
 use crate::innovation::Innovation;
 
@@ -51,6 +52,8 @@ pub fn predict(view: &View, reference: LogReference, lever: &Vector3<f64>) -> Pr
     ATTITUDE.set_columns(&mut h, &by_attitude);
     GYRO_BIAS.set_columns(&mut h, &by_gyro);
     GYRO_DRIFT.set_columns(&mut h, &by_gyro);
+    let by_scale = by_gyro * Matrix3::from_diagonal(&view.inertial_rate);
+    GYRO_SCALE.set_columns(&mut h, &by_scale);
     if water {
         CURRENT.set_columns(&mut h, &(-gain * c_be * to_north_east.transpose()));
     }

@@ -31,6 +31,9 @@ pub struct View {
     pub c_eb: Matrix3<f64>,
     /// Angular rate of the body with respect to the Earth, body axes, rad/s.
     pub rate: Vector3<f64>,
+    /// Derivative of that rate with respect to the gyros' scale factors, negated: the rate itself with
+    /// respect to inertial space, rad/s.
+    pub inertial_rate: Vector3<f64>,
     /// Variance of the noise of that rate, (rad/s)^2, each axis.
     pub rate_variance: f64,
 }
@@ -47,6 +50,7 @@ impl View {
             c_ne: earth::c_ne(&geodetic),
             c_eb: nominal.c_eb(),
             rate: earth_relative_rate(nominal, measured_rate),
+            inertial_rate: *measured_rate,
             rate_variance,
         }
     }

@@ -1,25 +1,32 @@
-//! Mean sea level: a ship's height is the sea's plus heave.
+//! Mean sea level: a ship's mean height over some waves is the sea's.
 //!
-//! z = 0 - (h - h_sea) = dh - dh_sea + heave. The mean height is a state, so that a height learnt
-//! from GNSS goes on holding the vertical channel without it, with the uncertainty it was learnt
-//! with. Heave is narrow-band: samples must be spaced by more than a wave.
+//! With the mean of the estimated height over a window of length T that ends now,
+//!
+//! z = h_sea - mean(h) = (dh - (T/2) dv_up) - dh_sea + mean heave,
+//!
+//! the error of the mean being that of the middle of the window.
+//!
+//! The sea level is a state, so that a height learnt from GNSS goes on holding the vertical channel
+//! without it, with the uncertainty it was learnt with.
 //! Held by `every_measurement_matrix_agrees_with_perturbed_predictions`.
 
 use nalgebra::{SMatrix, Vector1};
 
 use super::View;
-use crate::error_state::{POSITION, SEA_LEVEL};
+use crate::error_state::{POSITION, SEA_LEVEL, VELOCITY};
 use crate::innovation::Innovation;
 
-/// Innovation of the height against the mean height, heave sigma `std`, m.
+/// Innovation of the mean height over the last `length` seconds against the sea level; `std` is the
+/// 1-sigma of the heave's mean, m.
 #[must_use]
-pub fn innovation(view: &View, std: f64) -> Innovation<1> {
+pub fn innovation(view: &View, mean_height: f64, length: f64, std: f64) -> Innovation<1> {
     let up = -view.c_ne.fixed_rows::<1>(2);
     let mut h = SMatrix::zeros();
     POSITION.set_columns(&mut h, &up);
+    VELOCITY.set_columns(&mut h, &(up * (-0.5 * length)));
     SEA_LEVEL.set_columns(&mut h, &Vector1::new(-1.0));
     Innovation {
-        z: Vector1::new(view.nominal.sea_level - view.geodetic.height),
+        z: Vector1::new(view.nominal.sea_level - mean_height),
         h,
         r: Vector1::new(std * std),
     }

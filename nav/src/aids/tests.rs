@@ -16,6 +16,8 @@ fn estimate() -> Nominal {
     let mut nominal = Nominal::at(&place, &Vector3::new(5.0, -3.0, 0.4), &attitude.c_nb());
     nominal.gnss_position_error = Vector3::new(0.3, -0.4, 0.5);
     nominal.gnss_velocity_error = Vector3::new(-0.3, 0.1, 0.2);
+    nominal.gnss_velocity_delay = 0.04;
+    nominal.gnss_delay = -0.02;
     nominal.current = Vector2::new(0.4, -0.6);
     nominal.log_scale = 0.01;
     nominal.log_misalignment = Vector2::new(0.02, -0.03);
@@ -37,16 +39,18 @@ fn table() -> Vec<(&'static str, fn(&View) -> Rows)> {
             position: Geodetic::from_degrees(52.000_01, 179.900_02, 40.0),
             white: Vector3::repeat(0.5),
             slow: Vector3::new(0.8, 0.8, 1.4),
+            velocity: Vector3::new(5.0, -3.0, 0.4),
         };
-        rows(&gnss_position::innovation(view, &fix, &LEVER))
+        rows(&gnss_position::innovation(view, &fix, &(LEVER + view.nominal.gnss_lever)))
     };
     let velocity = |view: &View| {
         let fix = gnss_velocity::VelocityFix {
             velocity: Vector3::new(4.0, -3.0, 0.2),
             white: Vector3::repeat(0.03),
             slow: Vector3::repeat(0.01),
+            acceleration: Vector3::new(0.3, -0.2, 0.5),
         };
-        rows(&gnss_velocity::innovation(view, &fix, &LEVER))
+        rows(&gnss_velocity::innovation(view, &fix, &(LEVER + view.nominal.gnss_lever)))
     };
     vec![
         ("gnss_position", position),
@@ -54,7 +58,11 @@ fn table() -> Vec<(&'static str, fn(&View) -> Rows)> {
         ("log_bottom", |view| log_rows(view, LogReference::Bottom)),
         ("log_water", |view| log_rows(view, LogReference::Water)),
         ("mooring", |view| rows(&mooring::innovation(view, 0.3))),
-        ("sea_level", |view| rows(&sea_level::innovation(view, 0.3))),
+        ("sea_level", |view| {
+            let half = 10.0 * view.v_n().z;
+            let mean = view.geodetic.height + half;
+            rows(&sea_level::innovation(view, mean, 20.0, 0.3))
+        }),
         ("reference_heading", |view| rows(&reference_heading::innovation(view, 2.0, DEG))),
         ("reference_velocity", |view| {
             rows(&reference_velocity::innovation(view, &Vector2::new(5.0, -3.0), 0.1))

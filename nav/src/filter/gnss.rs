@@ -1,19 +1,28 @@
 //! A GNSS fix: velocity first, then position, each through its gates.
 
+use insd_base::units::DEG_PER_HOUR;
 use insd_base::{FixQuality, GnssFix, Rejection, Source};
 use nalgebra::{Matrix3, Vector3};
 
 use super::{Filter, Judged, NO_INNOVATION, enter, imu_position};
 use crate::aids::gnss_position::{self, PositionFix};
 use crate::aids::gnss_velocity::{self, VelocityFix};
-use crate::error_state::{GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, POSITION};
+use crate::error_state::{ATTITUDE, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, POSITION, VELOCITY};
 use crate::floors;
 use crate::gate::dop_limit;
 use crate::innovation::Innovation;
 use crate::report::{Outcome, Report};
+use crate::strapdown::earth_relative_rate;
+use crate::trust::{Agreement, FAULT};
 
 const POSITION_AID: &str = "gnss_position";
 const VELOCITY_AID: &str = "gnss_velocity";
+/// A log or reference used within this time vouches for the filter's velocity, s.
+const VOUCHED: f64 = 5.0;
+/// Gyros with a smaller turn-on bias than this can judge a receiver on their own, rad/s.
+const JUDGING_GYRO: f64 = 1.0 * DEG_PER_HOUR;
+/// Attitude that a filter found to be lost is unsure of, 1-sigma, rad.
+const LOST_ATTITUDE: f64 = 0.05;
 
 impl Filter {
     pub(super) fn apply_gnss(&mut self, fix: &GnssFix, source: Source, report: &mut Report) {
@@ -24,8 +33,8 @@ impl Filter {
             return;
         }
         self.note_quality(fix.quality);
-        let velocity = self.apply_velocity(fix, source, report);
-        self.apply_position(fix, source, velocity, report);
+        self.apply_velocity(fix, source, report);
+        self.apply_position(fix, source, report);
     }
 
     /// The slow errors of code and carrier solutions have nothing to do with each other.
@@ -40,63 +49,55 @@ impl Filter {
         self.rtk = Some(rtk);
     }
 
-    fn apply_velocity(
-        &mut self,
-        fix: &GnssFix,
-        source: Source,
-        report: &mut Report,
-    ) -> Option<Outcome> {
+    fn apply_velocity(&mut self, fix: &GnssFix, source: Source, report: &mut Report) {
+        let Some(measured) = self.velocity_fix(fix, report) else { return };
+        let lever = self.antenna_lever();
+        let innovation = gnss_velocity::innovation(&self.view(), &measured, &lever);
+        let fault = self.agreement(&innovation, |filter| &mut filter.trust.velocity);
+        if fault && self.can_judge() {
+            self.trust.suspect(self.time, self.config.gate.suspect_time);
+        }
+        let suspect = self.is_receiver_suspect().then_some(Rejection::SourceSuspect);
+        let judged = self.judge(&innovation, suspect);
+        enter(report, fix.time, source, VELOCITY_AID, &judged);
+    }
+
+    fn velocity_fix(&self, fix: &GnssFix, report: &mut Report) -> Option<VelocityFix> {
         let velocity = fix.velocity?;
+        let view = self.view();
         let std = floors::vector(fix.velocity_std, &floors::gnss_velocity());
         if std.replaced {
             report.floored.push(VELOCITY_AID);
         }
         let share = self.config.gnss.velocity_slow_share;
-        let measured = VelocityFix {
+        let factor = self.trust.velocity.variance_factor();
+        Some(VelocityFix {
             velocity: velocity.0,
-            white: std.value * (1.0 - share).sqrt(),
+            white: std.value * ((1.0 - share) * factor).sqrt(),
             slow: std.value * share.sqrt(),
-        };
-        let lever = self.config.lever_arms.gnss.0;
-        let innovation = gnss_velocity::innovation(&self.view(), &measured, &lever);
-        if let Some(whitened) = self.componentwise(&innovation) {
-            self.trust.learn_velocity(&whitened);
-        }
-        let suspect = self.trust.is_suspect(self.time).then_some(Rejection::SourceSuspect);
-        let judged = self.judge(&innovation, suspect);
-        let outcome = enter(report, fix.time, source, VELOCITY_AID, &judged);
-        if outcome == Outcome::Rejected(Rejection::ChiSquare) {
-            self.trust.suspect(self.time, self.config.gate.suspect_time);
-        }
-        Some(outcome)
+            acceleration: view.c_ne
+                * self.antenna.acceleration(self.time, &self.antenna_velocity()),
+        })
     }
 
-    fn apply_position(
-        &mut self,
-        fix: &GnssFix,
-        source: Source,
-        velocity: Option<Outcome>,
-        report: &mut Report,
-    ) {
-        let Some(position) = fix.position else { return };
-        let std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality));
-        if std.replaced {
-            report.floored.push(POSITION_AID);
-        }
-        let gnss = &self.config.gnss;
-        let rtk = self.rtk == Some(true);
-        let share = if rtk { gnss.rtk_slow_share } else { gnss.position_slow_share };
-        let measured = PositionFix {
-            position,
-            white: std.value * (1.0 - share).sqrt(),
-            slow: std.value * share.sqrt(),
-        };
-        let lever = self.config.lever_arms.gnss.0;
+    /// Lever arm from the IMU to the antenna as now known, body axes, m.
+    fn antenna_lever(&self) -> Vector3<f64> {
+        self.config.lever_arms.gnss.0 + self.nominal.gnss_lever
+    }
+
+    /// Velocity of the antenna, ECEF axes, m/s.
+    pub(super) fn antenna_velocity(&self) -> Vector3<f64> {
+        let rate = earth_relative_rate(&self.nominal, &self.rate);
+        let swing = rate.cross(&self.antenna_lever());
+        self.nominal.velocity + self.nominal.attitude.transform_vector(&swing)
+    }
+
+    fn apply_position(&mut self, fix: &GnssFix, source: Source, report: &mut Report) {
+        let Some(measured) = self.position_fix(fix, report) else { return };
+        let lever = self.antenna_lever();
         let innovation = gnss_position::innovation(&self.view(), &measured, &lever);
-        if let Some(whitened) = self.componentwise(&innovation) {
-            self.trust.learn_position(&whitened);
-        }
-        let refused = if self.trust.is_suspect(self.time) {
+        self.agreement(&innovation, |filter| &mut filter.trust.position);
+        let refused = if self.is_receiver_suspect() {
             Some(Rejection::SourceSuspect)
         } else {
             self.exceeds_dop_limit(fix, &innovation).then_some(Rejection::DopTest)
@@ -104,14 +105,48 @@ impl Filter {
         let judged = self.judge(&innovation, refused);
         match enter(report, fix.time, source, POSITION_AID, &judged) {
             Outcome::Accepted => self.trust.used(self.time),
-            Outcome::Rejected(_) => self.consider_reset(&measured, velocity, report),
+            Outcome::Rejected(_) => self.consider_reset(fix, &measured, report),
         }
     }
 
-    /// Innovation in units of the sigma expected of each component.
-    fn componentwise(&self, innovation: &Innovation<3>) -> Option<Vector3<f64>> {
-        let weighed = innovation.weigh(&self.covariance)?;
-        Some(innovation.z.component_div(&weighed.sigma()))
+    fn position_fix(&self, fix: &GnssFix, report: &mut Report) -> Option<PositionFix> {
+        let position = fix.position?;
+        let std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality));
+        if std.replaced {
+            report.floored.push(POSITION_AID);
+        }
+        let share = self.config.gnss.position_slow_share_for(self.is_rtk());
+        let factor = self.trust.position.variance_factor();
+        Some(PositionFix {
+            position,
+            white: std.value * ((1.0 - share) * factor).sqrt(),
+            slow: std.value * share.sqrt(),
+            velocity: self.view().c_ne * self.antenna_velocity(),
+        })
+    }
+
+    /// Enters an innovation in the statistics of its quantity; tells whether it is a fault.
+    fn agreement(
+        &mut self,
+        innovation: &Innovation<3>,
+        of: impl Fn(&mut Filter) -> &mut Agreement,
+    ) -> bool {
+        let Some(weighed) = innovation.weigh(&self.covariance) else { return true };
+        let mean_square = weighed.nis() / 3.0;
+        of(self).learn(&innovation.z.component_div(&weighed.sigma()), mean_square);
+        mean_square > FAULT
+    }
+
+    /// Whether the filter may find a receiver in fault rather than itself: its velocity is vouched
+    /// for by another sensor, or its gyros are good.
+    fn can_judge(&self) -> bool {
+        let vouched =
+            self.last_relative.is_some_and(|last| (self.time - last).as_seconds() < VOUCHED);
+        self.navigating && (vouched || self.config.imu.gyro.bias_std < JUDGING_GYRO)
+    }
+
+    fn is_receiver_suspect(&self) -> bool {
+        self.trust.is_suspect(self.time) || (self.can_judge() && self.trust.is_off())
     }
 
     fn exceeds_dop_limit(&self, fix: &GnssFix, innovation: &Innovation<3>) -> bool {
@@ -119,29 +154,32 @@ impl Filter {
         let predicted = p.diagonal().max().max(0.0).sqrt();
         let hdop = fix.hdop.filter(|hdop| hdop.is_finite() && *hdop > 0.0).unwrap_or(1.0);
         let since = self.trust.since_used(self.time);
-        let limit = dop_limit(&self.config.gate, self.rtk == Some(true), hdop, predicted, since);
+        let limit = dop_limit(&self.config.gate, self.is_rtk(), hdop, predicted, since);
         innovation.z.xy().norm() > limit
     }
 
-    /// Positions that stay refused while the velocities of the same receiver agree mean that it is
-    /// the filter that is lost: it must not be locked out by its own gate.
-    fn consider_reset(
-        &mut self,
-        measured: &PositionFix,
-        velocity: Option<Outcome>,
-        report: &mut Report,
-    ) {
-        if velocity == Some(Outcome::Rejected(Rejection::ChiSquare)) {
+    /// When nothing of a receiver has been used for long, it is the filter that is lost: it must not
+    /// be locked out by its own gate. A filter that can judge waits longer.
+    fn consider_reset(&mut self, fix: &GnssFix, measured: &PositionFix, report: &mut Report) {
+        let gate = &self.config.gate;
+        let patience = if self.can_judge() { gate.judged_reset_time } else { gate.reset_time };
+        if !self.navigating || self.trust.refused(self.time) < patience {
             return;
         }
-        if self.trust.refused(self.time) < self.config.gate.reset_time {
-            return;
-        }
-        let lever = self.config.lever_arms.gnss.0;
-        let place = imu_position(&self.view(), &measured.position, &lever);
+        let lever = self.antenna_lever();
+        let view = self.view();
+        let place = imu_position(&view, &measured.position, &lever);
         let variance = (measured.white + measured.slow).map(|s| s * s).max();
         POSITION.renew(&mut self.covariance, &Matrix3::from_diagonal_element(variance));
         self.nominal.position = place.0;
+        if let (Some(velocity), Some(velocity_fix)) = (fix.velocity, self.velocity_fix(fix, report))
+        {
+            let swing = view.c_eb * view.rate.cross(&lever);
+            let variance = (velocity_fix.white + velocity_fix.slow).map(|s| s * s).max();
+            VELOCITY.renew(&mut self.covariance, &Matrix3::from_diagonal_element(variance));
+            self.nominal.velocity = view.c_ne.transpose() * velocity.0 - swing;
+        }
+        ATTITUDE.inflate(&mut self.covariance, LOST_ATTITUDE * LOST_ATTITUDE);
         self.trust.clear();
         self.trust.used(self.time);
         report.position_reset = true;
