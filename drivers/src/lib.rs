@@ -1,1 +1,3 @@
-//! insd-drivers
+//! Where bytes enter and leave: recordings of voyages.
+
+pub mod recording;

@@ -1,15 +1,14 @@
 //! The error-state Kalman filter around the strapdown: blocks 23-32 of JP3375720B2.
 
 use insd_base::{
-    Attitude, Body, Ecef, Message, Mode, Ned, Received, Rejection, Solution, SolutionSigma, Source,
-    Time, earth,
+    Body, Ecef, Message, Mode, Ned, Received, Rejection, Solution, Source, Time, earth,
 };
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use crate::aids::{View, sea_level};
 use crate::antenna::AntennaMotion;
 use crate::config::NavConfig;
-use crate::error_state::{ATTITUDE, Covariance, POSITION, VELOCITY};
+use crate::error_state::Covariance;
 use crate::gate::ChiSquareGate;
 use crate::increments::Increment;
 use crate::initial::InitialState;
@@ -18,6 +17,7 @@ use crate::nominal::Nominal;
 use crate::propagation::{self, Stretch, markov_decay};
 use crate::report::{AidReport, Outcome, Report};
 use crate::sea_window::LevelWindow;
+use crate::solution_sigma::solution_sigma;
 use crate::spread::Spread;
 use crate::strapdown::{self, LocalGravity};
 use crate::timeline::Estimator;
@@ -305,24 +305,6 @@ impl Estimator for Filter {
         ahead.nominal = strapdown::extrapolated(&self.nominal, increment, at);
         ahead.time = at;
         ahead.solution()
-    }
-}
-
-/// Sigmas of a solution from the covariance of the error state.
-#[must_use]
-pub fn solution_sigma(view: &View, p: &Covariance) -> SolutionSigma {
-    let in_ned = |block: Matrix3<f64>| view.c_ne * block * view.c_ne.transpose();
-    let root = |m: &Matrix3<f64>| m.diagonal().map(|variance| variance.max(0.0).sqrt());
-    let attitude: Attitude = view.attitude();
-    let jacobian = attitude.jacobian_of_ned_rotation();
-    let euler = jacobian * in_ned(ATTITUDE.covariance(p)) * jacobian.transpose();
-    let euler_std = root(&euler);
-    SolutionSigma {
-        position: Ned(root(&in_ned(POSITION.covariance(p)))),
-        velocity: Ned(root(&in_ned(VELOCITY.covariance(p)))),
-        roll: euler_std.x,
-        pitch: euler_std.y,
-        heading: euler_std.z,
     }
 }
 

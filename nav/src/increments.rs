@@ -76,6 +76,8 @@ pub struct Conditioner {
     random_walks: (f64, f64),
     rate: NoiseMonitor,
     force: NoiseMonitor,
+    /// Mean square of the stamps' departure from the nominal interval, s^2.
+    jitter: f64,
     last: Option<Last>,
 }
 
@@ -97,6 +99,8 @@ struct Mean {
 const MAX_RATE: f64 = 50.0;
 /// Specific forces beyond this are no ship's, m/s^2.
 const MAX_FORCE: f64 = 500.0;
+/// Weight of a new interval in the mean square of the stamps' jitter.
+const JITTER_WEIGHT: f64 = 0.01;
 /// An interval longer than this many nominal ones holds missing samples.
 const GAP: f64 = 1.5;
 
@@ -109,6 +113,7 @@ impl Conditioner {
             random_walks: (imu.gyro.random_walk, imu.accel.random_walk),
             rate: NoiseMonitor::default(),
             force: NoiseMonitor::default(),
+            jitter: 0.0,
             last: None,
         }
     }
@@ -144,18 +149,37 @@ impl Conditioner {
         self.force.learn(&mean.force, duration);
         if gap {
             let start = sample.time - Span::from_seconds(self.nominal);
-            let bridge = bridge(&last, start, &mean);
+            let bridge = self.bridge(&last, start, &mean);
             Conditioned::AfterGap(
                 bridge,
                 self.with_noise(compensated(&mean, &mean, start, sample.time)),
             )
         } else {
+            self.jitter += ((elapsed - self.nominal).powi(2) - self.jitter) * JITTER_WEIGHT;
             Conditioned::Sample(self.with_noise(compensated(
                 &last.mean,
                 &mean,
                 last.time,
                 sample.time,
             )))
+        }
+    }
+
+    /// The increment over missing samples. Where stamps jitter, nobody knows to a stamp's error when
+    /// the sample after the gap began: mean rate and force over that time are added to the noise.
+    fn bridge(&self, last: &Last, to: Time, next: &Mean) -> Increment {
+        let missing = (to - last.time).as_seconds();
+        let square = |v: &Vector3<f64>| v.component_mul(v) * (self.jitter / missing);
+        Increment {
+            from: last.time,
+            to,
+            rotation: (last.mean.rate + next.rate) * (0.5 * missing),
+            velocity: (last.mean.force + next.force) * (0.5 * missing),
+            end_rate: next.rate,
+            angular_acceleration: Vector3::zeros(),
+            rate_noise: square(&next.rate),
+            force_noise: square(&next.force),
+            bridged: true,
         }
     }
 
@@ -184,21 +208,6 @@ fn mean_of(sample: &ImuSample, duration: f64) -> Option<Mean> {
     let physical = rate.amax() < MAX_RATE && force.amax() < MAX_FORCE;
     let finite = rate.iter().chain(force.iter()).all(|x| x.is_finite());
     (physical && finite).then_some(Mean { rate, force, duration })
-}
-
-fn bridge(last: &Last, to: Time, next: &Mean) -> Increment {
-    let missing = (to - last.time).as_seconds();
-    Increment {
-        from: last.time,
-        to,
-        rotation: (last.mean.rate + next.rate) * (0.5 * missing),
-        velocity: (last.mean.force + next.force) * (0.5 * missing),
-        end_rate: next.rate,
-        angular_acceleration: Vector3::zeros(),
-        rate_noise: Vector3::zeros(),
-        force_noise: Vector3::zeros(),
-        bridged: true,
-    }
 }
 
 /// Coning and sculling compensation from this sample and the one before, both rates taken as linear

@@ -20,6 +20,7 @@ pub mod nominal;
 pub mod propagation;
 pub mod report;
 pub mod sea_window;
+pub mod solution_sigma;
 pub mod spread;
 pub mod strapdown;
 pub mod timeline;

@@ -1,0 +1,73 @@
+//! `insd evaluate`: a solution against truth.
+
+use std::path::PathBuf;
+
+use insd_base::Time;
+use insd_drivers::recording::{read_nav_rows, read_truth_rows};
+
+use crate::cli::BadInput;
+use crate::evaluation::plot::Picture;
+use crate::evaluation::{Report, drifts, errors, outages, read_innovations};
+
+/// Options of `insd evaluate`.
+///
+/// Errors are solution minus truth. NEES is the mean of (error / claimed sigma)^2, 1 when the
+/// claims are honest; honest claims hold 68.3, 95.4 and 99.7 % of errors within 1, 2 and 3 sigma.
+#[derive(Clone, Debug, clap::Args)]
+pub struct EvaluateArgs {
+    /// Solution to score
+    #[arg(value_name = "NAV.csv")]
+    nav: PathBuf,
+    /// Truth, plain or compressed
+    #[arg(value_name = "TRUTH.csv")]
+    truth: PathBuf,
+    /// Leave out what is before this time, s
+    #[arg(long, value_name = "T", value_parser = super::seconds)]
+    from: Option<f64>,
+    /// Print JSON instead of a table
+    #[arg(long)]
+    json: bool,
+    /// Draw track, errors with claimed 3-sigma bands and innovations
+    #[arg(long, value_name = "FILE.png|.svg", value_parser = super::picture)]
+    plot: Option<PathBuf>,
+    /// Innovations written by `insd replay --innovations`, for the plot
+    #[arg(long, value_name = "FILE.csv", requires = "plot")]
+    innovations: Option<PathBuf>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A file cannot be read, or the two have no common time.
+pub fn run(args: &EvaluateArgs) -> anyhow::Result<()> {
+    let nav = read_nav_rows(&args.nav)?;
+    let truth = read_truth_rows(&args.truth)?;
+    let found = errors(&nav.rows, &truth.rows, args.from.map(Time::from_seconds));
+    if found.epochs.is_empty() {
+        let (nav, truth) = (args.nav.display(), args.truth.display());
+        return Err(BadInput(format!("{nav} and {truth} have no common time to compare")).into());
+    }
+    let report = Report {
+        nav: args.nav.display().to_string(),
+        truth: args.truth.display().to_string(),
+        skipped_nav_rows: nav.report.faulty(),
+        skipped_truth_rows: truth.report.faulty(),
+        ..Report::new(&found, drifts(&outages(&nav.rows), &found.epochs))
+    };
+    if args.json {
+        println!("{}", serde_json::to_string_pretty(&report)?);
+    } else {
+        print!("{report}");
+    }
+    let Some(file) = &args.plot else { return Ok(()) };
+    let innovations = args.innovations.as_deref().map(read_innovations).transpose()?;
+    let name = args.nav.file_name().unwrap_or(args.nav.as_os_str()).to_string_lossy();
+    Picture {
+        title: &format!("{name}: errors with claimed ±3σ bands"),
+        nav: &nav.rows,
+        truth: &truth.rows,
+        errors: &found,
+        innovations: innovations.as_deref().unwrap_or_default(),
+    }
+    .draw(file)
+}

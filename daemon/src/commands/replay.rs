@@ -1,0 +1,136 @@
+//! `insd replay`: a recorded voyage through the same engine as the daemon, without a clock.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use insd_base::{Event, Innovation, Mode, Time};
+use insd_drivers::recording::{NavWriter, VoyageReader};
+use insd_engine::{Engine, EngineConfig, Output};
+
+use super::outage::SensorOutage;
+use super::output_file::OutputFile;
+use super::summary;
+use crate::evaluation::{InnovationRow, InnovationWriter};
+
+/// Options of `insd replay`.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ReplayArgs {
+    /// Voyage directory
+    dir: PathBuf,
+    /// File to write the solution to
+    #[arg(long, value_name = "NAV.csv")]
+    out: PathBuf,
+    /// Solutions per second
+    #[arg(long, value_name = "HZ", default_value_t = 10.0, value_parser = super::rate)]
+    rate: f64,
+    /// Take a sensor (imu, gnss, log, reference) away while FROM <= t_s < TO; may be repeated
+    #[arg(long = "outage", value_name = "SENSOR:FROM..TO")]
+    outages: Vec<SensorOutage>,
+    /// Also write the innovations of all aids
+    #[arg(long, value_name = "FILE.csv")]
+    innovations: Option<PathBuf>,
+}
+
+/// Where the outputs of the engine go.
+struct Sink {
+    nav: NavWriter<OutputFile>,
+    innovations: Option<InnovationWriter<OutputFile>>,
+    modes: Vec<(Time, Mode)>,
+    resets: Vec<Time>,
+    solutions: u64,
+}
+
+/// Runs the command. What it writes is a function of the voyage and the options alone.
+///
+/// # Errors
+/// The voyage cannot be read or the output not written.
+pub fn run(args: &ReplayArgs) -> anyhow::Result<()> {
+    let mut reader = VoyageReader::open(&args.dir)?;
+    let mut engine = Engine::new(EngineConfig::for_voyage(reader.header(), args.rate));
+    let mut sink = Sink::create(args)?;
+    let mut dropped = 0_u64;
+    for received in &mut reader {
+        let received = received?;
+        if args.outages.iter().any(|outage| outage.drops(&received)) {
+            dropped += 1;
+            continue;
+        }
+        engine.handle(&received);
+        while let Some(output) = engine.poll_output() {
+            sink.take(&output).context("cannot write the solution")?;
+        }
+    }
+    let summary = summary::Summary {
+        solutions: sink.solutions,
+        left_out: sink.nav.left_out(),
+        modes: &sink.modes,
+        resets: &sink.resets,
+        counts: engine.counts(),
+        dropped,
+        files: reader.skipped(),
+    };
+    eprint!("{summary}");
+    sink.finish()
+}
+
+impl Sink {
+    fn create(args: &ReplayArgs) -> anyhow::Result<Self> {
+        let innovations = |path: &PathBuf| OutputFile::create(path).map(InnovationWriter::new);
+        Ok(Sink {
+            nav: open_nav(&args.out)?,
+            innovations: args.innovations.as_ref().map(innovations).transpose()?,
+            modes: Vec::new(),
+            resets: Vec::new(),
+            solutions: 0,
+        })
+    }
+
+    fn take(&mut self, output: &Output) -> std::io::Result<()> {
+        match output {
+            Output::Solution(solution) => {
+                self.solutions += 1;
+                self.nav.write(solution)
+            }
+            Output::Innovation(innovation) => match &mut self.innovations {
+                Some(file) => file.write(&row(innovation)),
+                None => Ok(()),
+            },
+            Output::Event(event) => {
+                self.note(event);
+                Ok(())
+            }
+        }
+    }
+
+    fn note(&mut self, event: &Event) {
+        tracing::debug!(?event);
+        match *event {
+            Event::ModeChanged { time, to } => self.modes.push((time, to)),
+            Event::PositionReset { time } => self.resets.push(time),
+            _ => {}
+        }
+    }
+
+    fn finish(self) -> anyhow::Result<()> {
+        self.nav.finish().context("cannot write the solution")?.finish()?;
+        match self.innovations {
+            Some(file) => file.finish()?.finish(),
+            None => Ok(()),
+        }
+    }
+}
+
+fn open_nav(path: &Path) -> anyhow::Result<NavWriter<OutputFile>> {
+    NavWriter::new(OutputFile::create(path)?).context("cannot write the solution")
+}
+
+fn row(innovation: &Innovation) -> InnovationRow {
+    InnovationRow {
+        t_s: innovation.time.as_seconds(),
+        aid: innovation.aid.to_owned(),
+        component: innovation.component,
+        innovation: innovation.innovation,
+        sigma: innovation.sigma,
+        accepted: innovation.accepted,
+    }
+}

@@ -1,0 +1,81 @@
+//! Scenarios by file, by name or by number.
+
+use std::fs;
+use std::path::Path;
+
+use insd_simulator::{Scenario, shipped};
+
+use crate::cli::BadInput;
+
+/// A scenario and what to call it.
+#[derive(Debug)]
+pub(crate) struct Named {
+    pub(crate) name: String,
+    pub(crate) scenario: Scenario,
+}
+
+/// Reads a scenario from a file or, if there is none of that name, from those that are shipped:
+/// `02-coastal-2h-navigation`, `coastal-2h-navigation` or `2`.
+pub(crate) fn find(word: &str) -> anyhow::Result<Named> {
+    let path = Path::new(word);
+    if path.is_file() {
+        let text =
+            fs::read_to_string(path).map_err(|fault| BadInput(format!("{word}: {fault}")))?;
+        let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+        return parse(&stem, word, &text);
+    }
+    let found = shipped().iter().find(|(file, _)| answers_to(stem(file), word));
+    match found {
+        Some((file, text)) => parse(stem(file), file, text),
+        None => Err(BadInput(unknown(word)).into()),
+    }
+}
+
+fn parse(name: &str, place: &str, text: &str) -> anyhow::Result<Named> {
+    let scenario =
+        Scenario::from_toml(text).map_err(|fault| BadInput(format!("{place}: {fault}")))?;
+    Ok(Named { name: name.to_owned(), scenario })
+}
+
+fn stem(file: &str) -> &str {
+    file.strip_suffix(".toml").unwrap_or(file)
+}
+
+/// Whether a word is the full name, the name without number, or the number.
+fn answers_to(full: &str, word: &str) -> bool {
+    let word = stem(word);
+    let (number, name) = full.split_once('-').unwrap_or((full, full));
+    let is_number = word.parse::<u32>().is_ok_and(|word| number.parse() == Ok(word));
+    word == full || word == name || is_number
+}
+
+fn unknown(word: &str) -> String {
+    let names: Vec<&str> = shipped().iter().map(|(file, _)| stem(file)).collect();
+    format!("{word}: no such file; shipped scenarios are\n  {}", names.join("\n  "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shipped_scenario_answers_to_its_number_and_its_names() {
+        for word in ["2", "02", "two-ways", "02-two-ways", "02-two-ways.toml"] {
+            assert!(answers_to("02-two-ways", word), "{word}");
+        }
+        assert!(!answers_to("02-two-ways", "12") && !answers_to("02-two-ways", "ways"));
+    }
+
+    #[test]
+    fn every_shipped_scenario_is_found_and_sound() {
+        for (file, _) in shipped() {
+            assert_eq!(find(stem(file)).unwrap().name, stem(file));
+        }
+    }
+
+    #[test]
+    fn an_unknown_word_lists_what_there_is() {
+        let message = find("nowhere").unwrap_err().to_string();
+        assert!(message.contains("nowhere") && message.contains(stem(shipped()[0].0)));
+    }
+}

@@ -1,0 +1,10 @@
+//! `insd`, the inertial navigation system of a ship: the commands around the engine.
+//!
+//! The engine and all below it are pure. Here are the files, the terminal, the threads and the one
+//! clock ([`clock`]).
+
+pub mod cli;
+pub mod clock;
+pub mod commands;
+pub mod demo;
+pub mod evaluation;

@@ -1,0 +1,235 @@
+//! The commands from outside: exit status, messages, files.
+
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use assert_cmd::Command;
+use tempfile::TempDir;
+
+fn insd(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_insd"));
+    command.args(arguments);
+    command
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// Standard error of a command that must end with this status.
+fn told(arguments: &[&str], status: i32) -> String {
+    let output = insd(arguments).output().unwrap();
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(status), "{arguments:?}: {message}");
+    message
+}
+
+fn printed(arguments: &[&str]) -> String {
+    let output = insd(arguments).output().unwrap();
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// A directory to work in, with a short simulated voyage.
+struct Desk {
+    dir: TempDir,
+}
+
+impl Desk {
+    fn with_voyage() -> Self {
+        let desk = Desk { dir: tempfile::tempdir().unwrap() };
+        fs::write(desk.path("short.toml"), SCENARIO_TEXT).unwrap();
+        let out = desk.voyage();
+        told(&["simulate", &desk.name("short.toml"), "--seed", "1", "--out", &out], 0);
+        desk
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.dir.path().join(name)
+    }
+
+    fn name(&self, name: &str) -> String {
+        self.path(name).display().to_string()
+    }
+
+    fn voyage(&self) -> String {
+        self.name("voyage")
+    }
+
+    /// Replays the voyage to a file and gives the summary.
+    fn replay(&self, out: &str, more: &[&str]) -> String {
+        let (dir, out) = (self.voyage(), self.name(out));
+        let mut arguments = vec!["replay", &dir, "--out", &out];
+        arguments.extend(more);
+        told(&arguments, 0)
+    }
+
+    /// Changes a file of the voyage and gives what the replay says to that.
+    fn refused(&self, file: &str, change: impl FnOnce(&str) -> String) -> String {
+        let path = Path::new(&self.voyage()).join(file);
+        let sound = fs::read_to_string(&path).unwrap();
+        fs::write(&path, change(&sound)).unwrap();
+        let message = told(&["replay", &self.voyage(), "--out", &self.name("bad.csv")], 2);
+        assert!(!self.path("bad.csv").exists() && !self.path("bad.csv.part").exists());
+        fs::write(&path, sound).unwrap();
+        message
+    }
+}
+
+/// Four minutes under way with a turn.
+const SCENARIO_TEXT: &str = r#"
+name = "short"
+description = "Four minutes under way with a turn."
+mode = "underway"
+[start]
+lat_deg = 35.0
+lon_deg = -59.956
+height_m = 28.0
+[[route.legs]]
+heading_deg = 150.0
+speed_kn = 10.0
+duration_s = 120.0
+[[route.legs]]
+heading_deg = 80.0
+speed_kn = 10.0
+duration_s = 120.0
+[sea]
+state = 3
+from_deg = 210.0
+[imu]
+grade = "navigation"
+[gnss]
+"#;
+
+#[test]
+fn a_voyage_is_simulated_replayed_and_scored() {
+    let desk = Desk::with_voyage();
+    let innovations = desk.name("innovations.csv");
+    let summary = desk.replay("nav.csv", &["--innovations", &innovations]);
+    assert!(summary.contains("gnss_position"), "{summary}");
+    let (nav, truth) = (desk.name("nav.csv"), format!("{}/truth.csv", desk.voyage()));
+    let table = printed(&["evaluate", &nav, &truth]);
+    assert!(table.contains("horizontal") && table.contains("velocity north"), "{table}");
+    let picture = desk.name("errors.png");
+    let plot = ["--plot", &picture, "--innovations", &innovations];
+    let json =
+        printed(&[&["evaluate", &nav, &truth, "--json", "--from", "60"], &plot[..]].concat());
+    let report: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert!(report["components"]["horizontal"]["rms"].as_f64().unwrap() < 20.0, "{json}");
+    assert!(report["from_s"].as_f64().unwrap() >= 60.0);
+    assert!(fs::metadata(picture).unwrap().len() > 10_000);
+}
+
+#[test]
+fn two_replays_give_the_same_bytes() {
+    let desk = Desk::with_voyage();
+    desk.replay("a.csv", &[]);
+    desk.replay("b.csv", &[]);
+    let a = fs::read(desk.path("a.csv")).unwrap();
+    assert!(a.len() > 1000 && a == fs::read(desk.path("b.csv")).unwrap());
+}
+
+#[test]
+fn the_same_seed_gives_the_same_voyage_compressed_or_not() {
+    let desk = Desk::with_voyage();
+    let (scenario, out) = (desk.name("short.toml"), desk.name("again"));
+    told(&["simulate", &scenario, "--seed", "1", "--out", &out, "--compress"], 0);
+    assert!(desk.path("again/imu.csv.zst").exists());
+    let (plain, compressed) = (desk.name("plain.csv"), desk.name("compressed.csv"));
+    told(&["replay", &desk.voyage(), "--out", &plain], 0);
+    told(&["replay", &out, "--out", &compressed], 0);
+    assert_eq!(fs::read(plain).unwrap(), fs::read(compressed).unwrap());
+}
+
+#[test]
+fn a_sensor_can_be_taken_away() {
+    let desk = Desk::with_voyage();
+    let summary =
+        desk.replay("nav.csv", &["--outage", "gnss:100..200", "--outage", "gnss:210..220"]);
+    assert!(summary.contains("messages dropped by --outage"), "{summary}");
+    let (dir, nav) = (desk.voyage(), desk.name("nav.csv"));
+    let message = told(&["replay", &dir, "--out", &nav, "--outage", "radar:1..2"], 2);
+    assert!(message.contains("gnss:600..900"), "{message}");
+}
+
+#[test]
+fn bad_voyages_end_with_status_2_and_a_message_with_the_place() {
+    let desk = Desk::with_voyage();
+    let header = desk.refused("imu.csv", |text| text.replacen("dvel_x_mps", "x", 1));
+    assert!(header.contains("imu.csv:1: missing column dvel_x_mps"), "{header}");
+    let long = desk.refused("imu.csv", |text| format!("{text}{}", "9".repeat(200_000)));
+    assert!(long.contains("line longer than 65536 bytes"), "{long}");
+    let nan = desk.refused("imu.csv", |text| {
+        let time_of = |row: &str| row.split(',').next().unwrap_or_default().to_owned();
+        let rows = text.lines().skip(1).map(|row| time_of(row) + ",nan,0,0,0,0,0\n");
+        format!("{}\n{}", text.lines().next().unwrap(), rows.collect::<String>())
+    });
+    assert!(nan.contains("imu.csv:2:dtheta_x_rad: expected a finite number"), "{nan}");
+    let toml = desk.refused("voyage.toml", |text| text.replace("rate_hz", "rate"));
+    assert!(toml.contains("missing key imu.rate_hz"), "{toml}");
+    fs::remove_file(Path::new(&desk.voyage()).join("imu.csv")).unwrap();
+    let missing = told(&["replay", &desk.voyage(), "--out", &desk.name("nav.csv")], 2);
+    assert!(missing.contains("imu.csv: no such file"), "{missing}");
+}
+
+#[test]
+fn a_few_bad_rows_are_skipped_and_told() {
+    let desk = Desk::with_voyage();
+    let path = Path::new(&desk.voyage()).join("gnss.csv");
+    let sound = fs::read_to_string(&path).unwrap();
+    fs::write(&path, &sound[..sound.len() - 60]).unwrap();
+    let summary = desk.replay("nav.csv", &[]);
+    assert!(
+        summary.contains("gnss.csv: 1 of") && summary.contains("1 too_few_fields"),
+        "{summary}"
+    );
+}
+
+#[test]
+fn files_that_cannot_be_compared_are_refused() {
+    let desk = Desk::with_voyage();
+    desk.replay("nav.csv", &[]);
+    let (nav, truth) = (desk.name("nav.csv"), format!("{}/truth.csv", desk.voyage()));
+    let late = told(&["evaluate", &nav, &truth, "--from", "99999"], 2);
+    assert!(late.contains("no common time"), "{late}");
+    assert!(told(&["evaluate", &truth, &truth], 2).contains("missing columns std_n_m"));
+    assert!(told(&["evaluate", "none.csv", &truth], 2).contains("none.csv: no such file"));
+    assert!(told(&["evaluate", &nav, &truth, "--plot", "a.gif"], 2).contains(".png or .svg"));
+}
+
+#[test]
+fn what_cannot_be_written_is_not_the_fault_of_the_input() {
+    let desk = Desk::with_voyage();
+    let message = told(&["replay", &desk.voyage(), "--out", "/nowhere/nav.csv"], 1);
+    assert!(message.contains("/nowhere/nav.csv: cannot be written"), "{message}");
+}
+
+#[test]
+fn scenarios_are_refused_by_name_and_by_content() {
+    let desk = Desk::with_voyage();
+    let out = desk.name("out");
+    let unknown = told(&["simulate", "atlantis", "--seed", "1", "--out", &out], 2);
+    assert!(
+        unknown.contains("shipped scenarios are") && unknown.contains("underway-restart"),
+        "{unknown}"
+    );
+    fs::write(desk.path("broken.toml"), "duration_s = \"long\"").unwrap();
+    let broken = told(&["simulate", &desk.name("broken.toml"), "--seed", "1", "--out", &out], 2);
+    assert!(broken.contains("broken.toml"), "{broken}");
+}
+
+#[test]
+fn a_campaign_gives_estimates_with_their_confidence() {
+    let desk = Desk::with_voyage();
+    let scenario = desk.name("short.toml");
+    let campaign = ["campaign", &scenario, "--seeds", "1..4", "--from", "120"];
+    let table = printed(&campaign);
+    assert!(table.contains("3 seeds") && table.contains('['), "{table}");
+    let json = printed(&[&campaign[..], &["--json", "--jobs", "1"]].concat());
+    let report: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(report["seeds"], serde_json::json!([1, 2, 3]));
+    assert!(report["components"]["heading"]["nees"]["mean"].as_f64().is_some(), "{json}");
+    assert!(told(&["campaign", &scenario, "--seeds", "4..1"], 2).contains("A < B"));
+}

@@ -1,0 +1,209 @@
+//! `nav.csv`: the answer of a replay.
+
+use std::f64::consts::TAU;
+use std::io::{self, Write};
+use std::path::Path;
+
+use insd_base::{Ned, Solution};
+
+use super::error::RecordingError;
+use super::number::{Zeros, push_fixed, push_time};
+use super::reader::{Rows, read_all};
+use super::table::Row;
+
+const DEGREE_PLACES: usize = 10;
+const METRE_PLACES: usize = 5;
+const ANGLE_PLACES: usize = 6;
+/// Claimed where a standard deviation is not finite or larger, in the unit of the column.
+const MAX_SIGMA: f64 = 1e6;
+
+/// Writes `nav.csv`: fixed decimal places (latitude and longitude 10, heights and velocities 5,
+/// angles 6, standard deviations 5 in m and 6 in m/s and deg), the same bytes for the same
+/// solutions. A standard deviation is always a positive finite number.
+#[derive(Debug)]
+pub struct NavWriter<W: Write> {
+    target: W,
+    row: Vec<u8>,
+    left_out: u64,
+}
+
+impl<W: Write> NavWriter<W> {
+    /// Writes the header line. The target should be buffered.
+    ///
+    /// # Errors
+    /// The target cannot be written.
+    pub fn new(mut target: W) -> io::Result<Self> {
+        writeln!(target, "{}", Solution::COLUMNS.join(","))?;
+        Ok(NavWriter { target, row: Vec::with_capacity(256), left_out: 0 })
+    }
+
+    /// Writes one row. A solution that is not finite is left out and counted.
+    ///
+    /// # Errors
+    /// The target cannot be written.
+    pub fn write(&mut self, solution: &Solution) -> io::Result<()> {
+        if !is_finite(solution) {
+            self.left_out += 1;
+            return Ok(());
+        }
+        self.row.clear();
+        push_state(&mut self.row, solution);
+        push_sigmas(&mut self.row, solution);
+        self.row.push(b',');
+        self.row.extend_from_slice(solution.mode.as_str().as_bytes());
+        self.row.push(b'\n');
+        self.target.write_all(&self.row)
+    }
+
+    /// Solutions that were left out because they were not finite.
+    #[must_use]
+    pub fn left_out(&self) -> u64 {
+        self.left_out
+    }
+
+    /// Flushes and gives the target back.
+    ///
+    /// # Errors
+    /// The target cannot be written.
+    pub fn finish(mut self) -> io::Result<W> {
+        self.target.flush()?;
+        Ok(self.target)
+    }
+}
+
+/// Reads a `nav.csv`, plain or compressed, with the count of its faulty rows. The angular rate,
+/// which it does not hold, is zero.
+///
+/// # Errors
+/// The file is missing, its header is wrong, or it has no or too many faulty rows.
+pub fn read_nav_rows(path: &Path) -> Result<Rows<Solution>, RecordingError> {
+    read_all(path)
+}
+
+/// Reads a `nav.csv`, plain or compressed.
+///
+/// # Errors
+/// As [`read_nav_rows`].
+pub fn read_nav(path: &Path) -> Result<Vec<Solution>, RecordingError> {
+    read_all(path).map(|all| all.rows)
+}
+
+fn push_state(row: &mut Vec<u8>, solution: &Solution) {
+    let (position, attitude) = (&solution.position, &solution.attitude);
+    push_time(row, solution.time);
+    push(row, position.latitude.to_degrees(), DEGREE_PLACES);
+    push(row, position.longitude.to_degrees(), DEGREE_PLACES);
+    push(row, position.height, METRE_PLACES);
+    for velocity in &solution.velocity.0 {
+        push(row, *velocity, METRE_PLACES);
+    }
+    push(row, attitude.roll.to_degrees(), ANGLE_PLACES);
+    push(row, attitude.pitch.to_degrees(), ANGLE_PLACES);
+    let heading = attitude.heading.rem_euclid(TAU).to_degrees();
+    // 359.9999996 would be written as 360
+    push(row, if heading >= 360.0 - 0.5e-6 { 0.0 } else { heading }, ANGLE_PLACES);
+}
+
+fn push_sigmas(row: &mut Vec<u8>, solution: &Solution) {
+    let sigma = &solution.sigma;
+    for position in &sigma.position.0 {
+        push_sigma(row, *position, METRE_PLACES);
+    }
+    for velocity in &sigma.velocity.0 {
+        push_sigma(row, *velocity, ANGLE_PLACES);
+    }
+    for angle in [sigma.roll, sigma.pitch, sigma.heading] {
+        push_sigma(row, angle.to_degrees(), ANGLE_PLACES);
+    }
+}
+
+fn push(row: &mut Vec<u8>, value: f64, places: usize) {
+    row.push(b',');
+    push_fixed(row, value, places, Zeros::Kept);
+}
+
+/// A NaN or infinite claim is one of knowing nothing; none is smaller than the last place.
+fn push_sigma(row: &mut Vec<u8>, sigma: f64, places: usize) {
+    let known = if sigma.is_finite() { sigma } else { MAX_SIGMA };
+    push(row, known.clamp(10_f64.powi(-(places as i32)), MAX_SIGMA), places);
+}
+
+fn is_finite(solution: &Solution) -> bool {
+    let (position, attitude) = (&solution.position, &solution.attitude);
+    let Ned(velocity) = &solution.velocity;
+    let angles = [position.latitude, position.longitude, attitude.roll, attitude.pitch];
+    angles.iter().chain(velocity).all(|value| value.is_finite())
+        && position.height.is_finite()
+        && attitude.heading.is_finite()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use insd_base::{Attitude, Body, Geodetic, Mode, SolutionSigma, Time};
+
+    fn solution() -> Solution {
+        Solution {
+            time: Time::from_seconds(12.3),
+            position: Geodetic::from_degrees(-35.123_456_789_01, 179.999_999_999_99, -3.25),
+            velocity: Ned::new(1.0, -2.5, 0.000_01),
+            attitude: Attitude { roll: -0.01, pitch: 0.02, heading: -1e-12 },
+            rate: Body::default(),
+            sigma: SolutionSigma {
+                position: Ned::new(f64::NAN, 0.0, f64::INFINITY),
+                velocity: Ned::new(0.01, 0.01, 0.02),
+                roll: 1e-5,
+                pitch: 1e-5,
+                heading: -0.0,
+            },
+            mode: Mode::DeadReckoning,
+        }
+    }
+
+    fn text(solutions: &[Solution]) -> String {
+        let mut writer = NavWriter::new(Vec::new()).unwrap();
+        for solution in solutions {
+            writer.write(solution).unwrap();
+        }
+        String::from_utf8(writer.finish().unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_row_is_written_exactly_as_the_format_says() {
+        let text = text(&[solution()]);
+        let mut lines = text.lines();
+        assert_eq!(
+            lines.next().unwrap(),
+            "t_s,lat_deg,lon_deg,height_m,vn_mps,ve_mps,vd_mps,roll_deg,pitch_deg,heading_deg,\
+             std_n_m,std_e_m,std_d_m,std_vn_mps,std_ve_mps,std_vd_mps,std_roll_deg,std_pitch_deg,\
+             std_heading_deg,mode"
+        );
+        assert_eq!(
+            lines.next().unwrap(),
+            "12.3,-35.1234567890,180.0000000000,-3.25000,1.00000,-2.50000,0.00001,-0.572958,\
+             1.145916,0.000000,1000000.00000,0.00001,1000000.00000,0.010000,0.010000,0.020000,\
+             0.000573,0.000573,0.000001,dead_reckoning"
+        );
+    }
+
+    #[test]
+    fn a_solution_that_is_not_finite_is_left_out_and_counted() {
+        let mut writer = NavWriter::new(Vec::new()).unwrap();
+        let bad = Solution { velocity: Ned::new(f64::NAN, 0.0, 0.0), ..solution() };
+        writer.write(&bad).unwrap();
+        assert_eq!(writer.left_out(), 1);
+        assert_eq!(writer.finish().unwrap().iter().filter(|b| **b == b'\n').count(), 1);
+    }
+
+    #[test]
+    fn what_is_written_reads_back() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("nav.csv");
+        std::fs::write(&path, text(&[solution()])).unwrap();
+        let back = read_nav(&path).unwrap()[0];
+        let expected = solution();
+        assert_eq!((back.time, back.mode), (expected.time, expected.mode));
+        assert!((back.position.latitude - expected.position.latitude).abs() < 1e-12);
+        assert!((back.attitude.roll - expected.attitude.roll).abs() < 1e-8);
+    }
+}

@@ -1,0 +1,98 @@
+//! Claimed 1-sigma of what a solution says, from the covariance of the error state.
+
+use insd_base::attitude::skew;
+use insd_base::{Ned, SolutionSigma, earth};
+use nalgebra::{Matrix3, SMatrix};
+
+use crate::aids::View;
+use crate::error_state::{ATTITUDE, Covariance, POSITION, STRAPDOWN_STATES, VELOCITY};
+
+type Rows = SMatrix<f64, 3, STRAPDOWN_STATES>;
+
+/// Sigmas of position and velocity along north, east, down and of roll, pitch, heading.
+///
+/// North itself depends on where the ship is: an error of position dr_n turns the NED axes by
+/// dtheta = T dr_n, so that
+///
+/// dv_n = C_ne dv + [v_n x] T dr_n,   d(roll, pitch, heading) = J (C_ne phi - T dr_n),
+///
+/// T = [0, 1/(N+h), 0; -1/(M+h), 0, 0; 0, -tan(lat)/(N+h), 0] as in the transport rate (Groves, 2nd
+/// ed., eq. (5.44)). Anywhere but near a pole T is nothing; there it is what the heading is worth.
+/// Held by `velocity_and_heading_near_the_pole_share_the_position_error`.
+#[must_use]
+pub fn solution_sigma(view: &View, p: &Covariance) -> SolutionSigma {
+    let corner = p.fixed_view::<STRAPDOWN_STATES, STRAPDOWN_STATES>(0, 0).into_owned();
+    let std = |rows: &Rows| {
+        (rows * corner * rows.transpose()).diagonal().map(|variance| variance.max(0.0).sqrt())
+    };
+    let (velocity, angles) = rows(view);
+    let mut position = Rows::zeros();
+    position.fixed_columns_mut::<3>(POSITION.start()).copy_from(&view.c_ne);
+    let euler = std(&angles);
+    SolutionSigma {
+        position: Ned(std(&position)),
+        velocity: Ned(std(&velocity)),
+        roll: euler.x,
+        pitch: euler.y,
+        heading: euler.z,
+    }
+}
+
+/// Derivatives of NED velocity and of the Euler angles with respect to the strapdown errors.
+fn rows(view: &View) -> (Rows, Rows) {
+    let turn = axes_turn(view) * view.c_ne;
+    let jacobian = view.attitude().jacobian_of_ned_rotation();
+    let mut velocity = Rows::zeros();
+    velocity.fixed_columns_mut::<3>(POSITION.start()).copy_from(&(skew(&view.v_n()) * turn));
+    velocity.fixed_columns_mut::<3>(VELOCITY.start()).copy_from(&view.c_ne);
+    let mut angles = Rows::zeros();
+    angles.fixed_columns_mut::<3>(POSITION.start()).copy_from(&(-jacobian * turn));
+    angles.fixed_columns_mut::<3>(ATTITUDE.start()).copy_from(&(jacobian * view.c_ne));
+    (velocity, angles)
+}
+
+/// Turn of the NED axes by a displacement in NED axes, rad/m.
+fn axes_turn(view: &View) -> Matrix3<f64> {
+    let (meridian, prime) = earth::radii(view.geodetic.latitude);
+    let north = 1.0 / (meridian + view.geodetic.height);
+    let east = 1.0 / (prime + view.geodetic.height);
+    let convergence = east * view.geodetic.latitude.tan();
+    Matrix3::new(0.0, east, 0.0, -north, 0.0, 0.0, 0.0, -convergence, 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error_state::ErrorState;
+    use crate::nominal::Nominal;
+    use insd_base::units::wrap_pi;
+    use insd_base::{Attitude, Geodetic};
+    use nalgebra::Vector3;
+
+    #[test]
+    fn velocity_and_heading_near_the_pole_share_the_position_error() {
+        let attitude = Attitude { roll: 0.1, pitch: -0.05, heading: 1.0 };
+        let place = Geodetic::from_degrees(89.99, 40.0, 10.0);
+        let nominal = Nominal::at(&place, &Vector3::new(5.0, 2.0, 0.1), &attitude.c_nb());
+        let view_of = |nominal: &Nominal| View::new(nominal, &Vector3::zeros(), 0.0);
+        let (velocity, angles) = rows(&view_of(&nominal));
+        for state in 0..STRAPDOWN_STATES {
+            let step = if state < 3 { 0.1 } else { 1e-5 };
+            let moved = |amount: f64| {
+                let mut error = ErrorState::zeros();
+                error[state] = amount;
+                let mut moved = nominal;
+                moved.inject(&error);
+                view_of(&moved)
+            };
+            let (ahead, behind) = (moved(step), moved(-step));
+            let by_velocity = (ahead.v_n() - behind.v_n()) / (2.0 * step);
+            assert!((by_velocity - velocity.column(state)).norm() < 1e-5, "state {state}");
+            let (a, b) = (ahead.attitude(), behind.attitude());
+            let change =
+                Vector3::new(a.roll - b.roll, a.pitch - b.pitch, wrap_pi(a.heading - b.heading))
+                    / (2.0 * step);
+            assert!((change - angles.column(state)).norm() < 1e-5, "state {state}");
+        }
+    }
+}
