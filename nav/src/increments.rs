@@ -101,6 +101,8 @@ const MAX_RATE: f64 = 50.0;
 const MAX_FORCE: f64 = 500.0;
 /// Weight of a new interval in the mean square of the stamps' jitter.
 const JITTER_WEIGHT: f64 = 0.01;
+/// Jitter over the nominal interval beyond which stamps count as uneven.
+const JITTERING: f64 = 0.01;
 /// An interval longer than this many nominal ones holds missing samples.
 const GAP: f64 = 1.5;
 
@@ -136,7 +138,7 @@ impl Conditioner {
             return Conditioned::Rejected(Rejection::OutOfOrder);
         }
         let gap = elapsed > GAP * self.nominal;
-        let duration = if gap { self.nominal } else { elapsed };
+        let duration = if gap { self.coverage_after_gap(sample, &last) } else { elapsed };
         let Some(mean) = mean_of(sample, duration) else {
             return Conditioned::Rejected(Rejection::OutOfRange);
         };
@@ -148,7 +150,7 @@ impl Conditioner {
         self.rate.learn(&mean.rate, duration);
         self.force.learn(&mean.force, duration);
         if gap {
-            let start = sample.time - Span::from_seconds(self.nominal);
+            let start = sample.time - Span::from_seconds(duration);
             let bridge = self.bridge(&last, start, &mean);
             Conditioned::AfterGap(
                 bridge,
@@ -163,6 +165,18 @@ impl Conditioner {
                 sample.time,
             )))
         }
+    }
+
+    /// How much time the sample after a gap covers, s: a nominal interval, unless the stamps jitter.
+    /// Then gravity is the better clock: the specific force is much the same before and after.
+    fn coverage_after_gap(&self, sample: &ImuSample, last: &Last) -> f64 {
+        let jitters = self.jitter.sqrt() > JITTERING * self.nominal;
+        let before = last.mean.force.norm();
+        if !jitters || before <= 0.0 {
+            return self.nominal;
+        }
+        let by_force = sample.delta_velocity.0.norm() / before;
+        by_force.clamp(0.5 * self.nominal, GAP * self.nominal)
     }
 
     /// The increment over missing samples. Where stamps jitter, nobody knows to a stamp's error when

@@ -1,1 +1,29 @@
-//! insd-tests
+//! What the whole-ship tests share: shipped scenarios and variants of them, a voyage through the
+//! engine in memory, and scores.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
+
+pub mod noise_free;
+pub mod sailing;
+pub mod scores;
+
+use insd_simulator::{Scenario, shipped};
+
+/// A shipped scenario by its number.
+#[must_use]
+pub fn scenario(number: usize) -> Scenario {
+    variant(number, &[])
+}
+
+/// A shipped scenario with pieces of its text replaced. A piece that is not there is a mistake of
+/// the test, or of who changed the scenario.
+#[must_use]
+pub fn variant(number: usize, replacements: &[(&str, &str)]) -> Scenario {
+    let (file, text) = shipped()[number - 1];
+    let mut text = text.to_owned();
+    for (old, new) in replacements {
+        assert!(text.contains(old), "{file} has no {old:?}");
+        text = text.replace(old, new);
+    }
+    Scenario::from_toml(&text).unwrap_or_else(|fault| panic!("{file}: {fault}"))
+}

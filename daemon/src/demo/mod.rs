@@ -36,7 +36,7 @@ pub struct DemoArgs {
     pub speed: f64,
 
     /// A shipped scenario by number or name, or a scenario file
-    #[arg(long, value_name = "NAME|NUMBER|FILE", default_value = "01")]
+    #[arg(long, value_name = "NAME|NUMBER|FILE", default_value = "06")]
     pub scenario: String,
 
     /// Which voyage of the scenario: other seeds, other waves and sensor errors
