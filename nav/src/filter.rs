@@ -285,8 +285,9 @@ impl Estimator for Filter {
     }
 
     fn solution(&self) -> Solution {
-        let view = self.view();
-        let sigma = solution_sigma(&view, &self.covariance);
+        let acceleration = self.antenna.acceleration(self.time, &self.antenna_velocity());
+        let view = self.view().at_gnss_time(&acceleration);
+        let sigma = solution_sigma(&view, &acceleration, &self.covariance);
         let v_n = view.v_n();
         let turn_of_n = view.c_nb().transpose() * earth::transport_rate(&view.geodetic, &v_n);
         Solution {

@@ -2,10 +2,10 @@
 
 use insd_base::attitude::skew;
 use insd_base::{Ned, SolutionSigma, earth};
-use nalgebra::{Matrix3, SMatrix};
+use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use crate::aids::View;
-use crate::error_state::{ATTITUDE, Covariance, POSITION, STRAPDOWN_STATES, VELOCITY};
+use crate::error_state::{ATTITUDE, Covariance, GNSS_DELAY, POSITION, STRAPDOWN_STATES, VELOCITY};
 
 type Rows = SMatrix<f64, 3, STRAPDOWN_STATES>;
 
@@ -19,19 +19,28 @@ type Rows = SMatrix<f64, 3, STRAPDOWN_STATES>;
 /// T = [0, 1/(N+h), 0; -1/(M+h), 0, 0; 0, -tan(lat)/(N+h), 0] as in the transport rate (Groves, 2nd
 /// ed., eq. (5.44)). Anywhere but near a pole T is nothing; there it is what the heading is worth.
 /// Held by `velocity_and_heading_near_the_pole_share_the_position_error`.
+///
+/// The solution is given in GNSS time; what is not known of the IMU's delay behind it counts with the
+/// ship's velocity, her acceleration (ECEF axes, m/s^2) and her turning.
 #[must_use]
-pub fn solution_sigma(view: &View, p: &Covariance) -> SolutionSigma {
+pub fn solution_sigma(view: &View, acceleration: &Vector3<f64>, p: &Covariance) -> SolutionSigma {
     let corner = p.fixed_view::<STRAPDOWN_STATES, STRAPDOWN_STATES>(0, 0).into_owned();
-    let std = |rows: &Rows| {
-        (rows * corner * rows.transpose()).diagonal().map(|variance| variance.max(0.0).sqrt())
+    let delay = GNSS_DELAY.start();
+    let with_delay = p.fixed_view::<STRAPDOWN_STATES, 1>(0, delay).into_owned();
+    let std = |rows: &Rows, by_delay: &Vector3<f64>| {
+        let cross = (rows * with_delay).component_mul(by_delay) * 2.0;
+        let own = by_delay.component_mul(by_delay) * p[(delay, delay)];
+        let variance = (rows * corner * rows.transpose()).diagonal() + cross + own;
+        variance.map(|variance| variance.max(0.0).sqrt())
     };
     let (velocity, angles) = rows(view);
     let mut position = Rows::zeros();
     position.fixed_columns_mut::<3>(POSITION.start()).copy_from(&view.c_ne);
-    let euler = std(&angles);
+    let turning = view.attitude().jacobian_of_ned_rotation() * (view.c_nb() * view.rate);
+    let euler = std(&angles, &-turning);
     SolutionSigma {
-        position: Ned(std(&position)),
-        velocity: Ned(std(&velocity)),
+        position: Ned(std(&position, &-view.v_n())),
+        velocity: Ned(std(&velocity, &-(view.c_ne * acceleration))),
         roll: euler.x,
         pitch: euler.y,
         heading: euler.z,
@@ -67,7 +76,6 @@ mod tests {
     use crate::nominal::Nominal;
     use insd_base::units::wrap_pi;
     use insd_base::{Attitude, Geodetic};
-    use nalgebra::Vector3;
 
     #[test]
     fn velocity_and_heading_near_the_pole_share_the_position_error() {

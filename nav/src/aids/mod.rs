@@ -13,7 +13,7 @@ pub mod sea_level;
 use insd_base::attitude::skew;
 use insd_base::earth;
 use insd_base::{Attitude, Geodetic};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::nominal::Nominal;
 use crate::strapdown::earth_relative_rate;
@@ -53,6 +53,19 @@ impl View {
             inertial_rate: *measured_rate,
             rate_variance,
         }
+    }
+
+    /// The estimate at the instant that GNSS time, not the IMU's time base, calls now: the delay of
+    /// GNSS epochs earlier. `acceleration` in ECEF axes, m/s^2.
+    #[must_use]
+    pub fn at_gnss_time(&self, acceleration: &Vector3<f64>) -> Self {
+        let delay = self.nominal.gnss_delay;
+        let mut nominal = self.nominal;
+        nominal.position -= self.nominal.velocity * delay;
+        nominal.velocity -= acceleration * delay;
+        nominal.attitude *= UnitQuaternion::new(self.rate * -delay);
+        let geodetic = nominal.geodetic();
+        View { nominal, geodetic, c_ne: earth::c_ne(&geodetic), c_eb: nominal.c_eb(), ..*self }
     }
 
     /// Rotation from body to NED axes.
