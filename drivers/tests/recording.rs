@@ -7,9 +7,9 @@ use std::io::Write;
 use std::path::Path;
 
 use insd_base::{
-    AccelTriad, Attitude, Body, ExternalReference, FixQuality, Geodetic, GnssFix, GyroTriad,
-    ImuSample, ImuSpec, LeverArms, LogReference, LogVelocity, Message, Ned, Received, Source,
-    Stamped, StartCondition, Time, Truth, Voyage, VoyageHeader,
+    Attitude, Body, ExternalReference, FixQuality, Geodetic, GnssFix, ImuSample, ImuSpec,
+    LeverArms, LogReference, LogVelocity, Message, Ned, Received, Source, Stamped, StartCondition,
+    Time, Triad, Truth, Voyage, VoyageHeader,
 };
 use insd_drivers::recording::{
     Compression, RecordingError, RowFault, VoyageReader, read_truth, write_voyage,
@@ -27,14 +27,14 @@ fn header() -> VoyageHeader {
         initial: Some(Geodetic::from_degrees(35.0, 139.0, 1.5)),
         imu: ImuSpec {
             rate: RATE as f64,
-            gyro: GyroTriad {
+            gyro: Triad {
                 bias_std: 1e-7,
                 instability_std: 1e-8,
                 instability_time: 3600.0,
                 random_walk: 1e-6,
                 scale_std: 1e-5,
             },
-            accel: AccelTriad {
+            accel: Triad {
                 bias_std: 1e-4,
                 instability_std: 1e-5,
                 instability_time: 3600.0,

@@ -12,8 +12,8 @@ use std::hint::black_box;
 use gungraun::{library_benchmark, library_benchmark_group, main};
 use insd_base::units::{DEG_PER_HOUR, DEG_PER_SQRT_HOUR, MICRO_G, MPS_PER_SQRT_HOUR};
 use insd_base::{
-    AccelTriad, Body, FixQuality, Geodetic, GnssFix, GyroTriad, ImuSample, ImuSpec, LeverArms,
-    Message, Ned, Received, Source, Time,
+    Body, FixQuality, Geodetic, GnssFix, ImuSample, ImuSpec, LeverArms, Message, Ned, Received,
+    Source, Time, Triad,
 };
 use insd_nav::error_state::{ATTITUDE, Covariance, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
@@ -32,14 +32,14 @@ const WARM_UP: usize = 6000;
 
 const IMU: ImuSpec = ImuSpec {
     rate: 100.0,
-    gyro: GyroTriad {
+    gyro: Triad {
         bias_std: 0.01 * DEG_PER_HOUR,
         instability_std: 0.003 * DEG_PER_HOUR,
         instability_time: 3600.0,
         random_walk: 0.003 * DEG_PER_SQRT_HOUR,
         scale_std: 1e-5,
     },
-    accel: AccelTriad {
+    accel: Triad {
         bias_std: 50.0 * MICRO_G,
         instability_std: 10.0 * MICRO_G,
         instability_time: 3600.0,

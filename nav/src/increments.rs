@@ -251,3 +251,6 @@ fn compensated(before: &Mean, this: &Mean, from: Time, to: Time) -> Increment {
         bridged: false,
     }
 }
+
+#[cfg(test)]
+mod tests;

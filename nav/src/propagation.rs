@@ -261,3 +261,6 @@ fn add_noise(p: &mut Covariance, stretch: &Stretch, config: &NavConfig) {
     }
     SEA_LEVEL.inflate(p, config.sea.level_walk.powi(2) * dt);
 }
+
+#[cfg(test)]
+mod tests;

@@ -199,3 +199,6 @@ fn too_late(received: &Received) -> Report {
     };
     Report { aids: vec![lost], ..Report::default() }
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,9 +6,7 @@ use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 
 use insd_base::units::{DEG_PER_HOUR, DEG_PER_SQRT_HOUR, MICRO_G, MPS_PER_SQRT_HOUR, PPM};
-use insd_base::{
-    AccelTriad, Body, Geodetic, GyroTriad, ImuSpec, LeverArms, StartCondition, VoyageHeader,
-};
+use insd_base::{Body, Geodetic, ImuSpec, LeverArms, StartCondition, Triad, VoyageHeader};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -135,14 +133,14 @@ fn imu(section: &Section<'_, '_>, faults: &mut Vec<String>) -> Option<ImuSpec> {
     let accel_scale = number("accel_scale_factor_std_ppm", SIGMA);
     Some(ImuSpec {
         rate: rate?,
-        gyro: GyroTriad {
+        gyro: Triad {
             bias_std: gyro_bias? * DEG_PER_HOUR,
             instability_std: gyro_instability? * DEG_PER_HOUR,
             instability_time: gyro_time?,
             random_walk: angle_random_walk? * DEG_PER_SQRT_HOUR,
             scale_std: gyro_scale? * PPM,
         },
-        accel: AccelTriad {
+        accel: Triad {
             bias_std: accel_bias? * MICRO_G,
             instability_std: accel_instability? * MICRO_G,
             instability_time: accel_time?,

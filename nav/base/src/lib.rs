@@ -24,7 +24,7 @@ pub use gnss::{FixQuality, GnssFix};
 pub use messages::{
     ExternalReference, ImuSample, LogReference, LogVelocity, Message, Received, Source,
 };
-pub use sensor::{AccelTriad, GyroTriad, ImuSpec, LeverArms};
+pub use sensor::{ImuSpec, LeverArms, Triad};
 pub use solution::{Mode, Solution, SolutionSigma};
 pub use time::{Span, Time};
 pub use voyage::{Stamped, StartCondition, Truth, Voyage, VoyageHeader};

@@ -2,31 +2,17 @@
 
 use crate::frames::Body;
 
-/// 1-sigma errors of three gyros, SI.
+/// 1-sigma errors of three sensors of a kind, in the unit of what they measure: rad/s for gyros, m/s^2
+/// for accelerometers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GyroTriad {
-    /// Turn-on bias, rad/s, constant through a voyage.
+pub struct Triad {
+    /// Turn-on bias, constant through a voyage.
     pub bias_std: f64,
-    /// In-run bias, rad/s, first-order Gauss-Markov.
+    /// In-run bias, first-order Gauss-Markov.
     pub instability_std: f64,
     /// Time constant of the in-run bias, s.
     pub instability_time: f64,
-    /// Angle random walk, rad/sqrt(s).
-    pub random_walk: f64,
-    /// Scale-factor error, ratio.
-    pub scale_std: f64,
-}
-
-/// 1-sigma errors of three accelerometers, SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AccelTriad {
-    /// Turn-on bias, m/s^2, constant through a voyage.
-    pub bias_std: f64,
-    /// In-run bias, m/s^2, first-order Gauss-Markov.
-    pub instability_std: f64,
-    /// Time constant of the in-run bias, s.
-    pub instability_time: f64,
-    /// Velocity random walk, (m/s)/sqrt(s).
+    /// Random walk of the integral: rad/sqrt(s) or (m/s)/sqrt(s).
     pub random_walk: f64,
     /// Scale-factor error, ratio.
     pub scale_std: f64,
@@ -38,9 +24,9 @@ pub struct ImuSpec {
     /// Nominal sampling rate, Hz.
     pub rate: f64,
     /// Gyros.
-    pub gyro: GyroTriad,
+    pub gyro: Triad,
     /// Accelerometers.
-    pub accel: AccelTriad,
+    pub accel: Triad,
 }
 
 /// Where the sensors sit, from the IMU, body axes, m.

@@ -1,12 +1,12 @@
 //! Measurements that arrive late and out of order.
 
 use insd::evaluation::Component;
-use insd_base::{Message, Received, Solution, Voyage};
+use insd_base::{Message, Received, Solution, Voyage, earth};
 use insd_engine::EngineConfig;
 use insd_simulator::simulate;
-use insd_tests::sailing::{delayed, prompt, sail_messages, OUTPUT_RATE};
+use insd_tests::sailing::{OUTPUT_RATE, delayed, prompt, sail_messages};
 use insd_tests::scores::{Scores, pooled};
-use insd_tests::scenario;
+use insd_tests::{scenario, variant};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::figure;
@@ -43,29 +43,46 @@ fn s13_delays_of_up_to_a_second_cost_less_than_five_percent() {
     assert!(late.horizontal().rms < 1.05 * on_time.horizontal().rms);
 }
 
-/// The messages of a voyage whose aids fall silent two seconds before its end.
-fn silent_at_the_end(voyage: &Voyage, seconds: f64, delay: impl Fn(usize) -> f64) -> Vec<Received> {
-    let mut messages = delayed(voyage, delay);
-    messages.retain(|received| {
-        matches!(received.message, Message::Imu(_))
-            || received.message.time().as_seconds() < seconds - 2.0
+/// The messages of a voyage of 300 s whose aids fall silent two seconds before its end, delayed from
+/// `late_from` on, s.
+fn silent_at_the_end(voyage: &Voyage, late_from: f64) -> Vec<Received> {
+    let messages = voyage.received();
+    let is_late = |index: usize| messages[index].message.time().as_seconds() >= late_from;
+    let delay = |index| if is_late(index) { up_to_a_second(index) } else { 0.0 };
+    let mut late = delayed(voyage, delay);
+    late.retain(|received| {
+        matches!(received.message, Message::Imu(_)) || received.message.time().as_seconds() < 298.0
     });
-    messages
+    late
 }
 
+/// The last solution of such a voyage.
+fn end(voyage: &Voyage, late_from: f64) -> Solution {
+    *sail(voyage, &silent_at_the_end(voyage, late_from)).last().unwrap()
+}
+
+/// Closely and not to the bit: where a fix and a log velocity are valid at the same instant, they are
+/// applied in the order of their arrival, and a start chooses its first estimate from what has
+/// arrived.
 #[test]
 fn s13_once_all_has_arrived_the_solution_is_as_if_it_had_come_on_time() {
     for voyage in voyages(300.0, 0..2) {
-        let on_time = sail(&voyage, &silent_at_the_end(&voyage, 300.0, |_| 0.0));
-        let late = sail(&voyage, &silent_at_the_end(&voyage, 300.0, up_to_a_second));
-        let (a, b) = (on_time.last().unwrap(), late.last().unwrap());
+        let (a, b) = (end(&voyage, f64::MAX), end(&voyage, 0.0));
         assert_eq!(a.time, b.time);
-        let apart = insd_base::earth::ecef(&a.position).0 - insd_base::earth::ecef(&b.position).0;
+        let apart = earth::ecef(&a.position).0 - earth::ecef(&b.position).0;
+        let slipped = a.velocity.0 - b.velocity.0;
         let turned = (a.attitude.heading - b.attitude.heading).abs();
-        figure!("s13 end {:e} m, {:e} m/s, {turned:e} rad", apart.norm(), (a.velocity.0 - b.velocity.0).norm());
-        assert!(apart.norm() < 1e-3, "{apart:?}");
-        assert!((a.velocity.0 - b.velocity.0).norm() < 1e-4);
+        figure!("s13 end {:e} m {:e} m/s {turned:e} rad", apart.norm(), slipped.norm());
+        assert!(apart.norm() < 0.01 * a.sigma.position.0.norm(), "{apart:?}");
+        assert!(slipped.norm() < 0.01 * a.sigma.velocity.0.norm(), "{slipped:?}");
         assert!(turned < 0.01 * a.sigma.heading, "{turned:e}");
         assert!((a.sigma.heading / b.sigma.heading - 1.0).abs() < 1e-3);
     }
+}
+
+#[test]
+fn s13_once_all_fixes_have_arrived_the_solution_is_the_same_to_the_bit() {
+    let only_gnss = [("[log]\narrival = { fixed_s = 0.2, random_s = 0.2 }", "")];
+    let voyage = simulate(&variant(13, &only_gnss).with_duration(300.0), 0);
+    assert_eq!(end(&voyage, 20.0), end(&voyage, f64::MAX));
 }

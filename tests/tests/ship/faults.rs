@@ -32,18 +32,21 @@ fn s05_jumps_and_spikes_and_spoofing_are_refused_with_a_reason_and_never_believe
 #[test]
 fn after_a_long_outage_a_filter_that_went_astray_takes_gnss_again_within_seconds() {
     let lost = [
-        ("when = { at_s = [2064.5] }\nduration_s = 60.0", "when = { at_s = [500.5] }\nduration_s = 1200.0"),
+        (
+            "when = { at_s = [2064.5] }\nduration_s = 60.0",
+            "when = { at_s = [1300.5] }\nduration_s = 1200.0",
+        ),
         ("\n[log]\n", "\n"),
     ];
-    let passages = sail_all(&variant(3, &lost).with_duration(1800.0), 0..3);
+    let passages = sail_all(&variant(3, &lost).with_duration(2700.0), 0..3);
     for passage in &passages {
-        let astray = passage.scores_between(1690.0, 1700.0).horizontal();
+        let astray = passage.scores_between(2490.0, 2500.0).horizontal();
         let last = passage.log.solutions.iter().filter(|s| s.mode == Mode::Inertial);
         let aided_at = last.last().unwrap().time.as_seconds();
         figure!("lock-out {astray:?} back at {aided_at}");
         assert!(astray.rms > 100.0, "no test of anything: {astray:?}");
-        assert!(aided_at < 1710.0, "still inertial at {aided_at} s");
-        let found = passage.scores_from(1715.0).horizontal();
+        assert!(aided_at < 2510.0, "still inertial at {aided_at} s");
+        let found = passage.scores_from(2515.0).horizontal();
         assert!(found.max < 10.0, "{found:?}");
     }
 }
@@ -123,7 +126,7 @@ fn standard_deviations_that_are_zero_missing_or_absurd_are_replaced_and_counted(
 }
 
 #[test]
-fn a_receiver_without_velocity_or_without_height_sigmas_still_aids() {
+fn a_receiver_without_velocity_still_aids() {
     let mut voyage = simulate(&scenario(10).with_duration(600.0), 1);
     for fix in &mut voyage.gnss {
         fix.message.velocity = None;

@@ -96,8 +96,7 @@ fn spoil(received: &mut Received, field: u8, value: f64) {
         Message::Imu(m) => m.delta_velocity = Body::new(value, value, value),
         Message::Gnss(m) => match field % 6 {
             0 => {
-                m.position =
-                    Some(Geodetic { latitude: value, longitude: value, height: 0.0 });
+                m.position = Some(Geodetic { latitude: value, longitude: value, height: 0.0 });
             }
             1 => m.velocity = Some(Ned::new(value, 0.0, 0.0)),
             2 => m.position_std = Some(Ned::new(value, value, value)),
@@ -173,5 +172,8 @@ fn a_message_from_the_far_future_does_not_stop_the_clock() {
     }
     let log = sail_messages(&EngineConfig::for_voyage(&voyage.header, 10.0), &messages, 1);
     let last = log.solutions.last().map(|solution| solution.time);
-    assert!(last.is_some_and(|time| time > Time::from_seconds(85.0) && time < Time::from_seconds(91.0)), "{last:?}");
+    assert!(
+        last.is_some_and(|time| time > Time::from_seconds(85.0) && time < Time::from_seconds(91.0)),
+        "{last:?}"
+    );
 }

@@ -4,7 +4,7 @@ use insd_base::units::{DEG, wrap_pi};
 use insd_base::{Solution, Truth, earth};
 use insd_engine::EngineConfig;
 use insd_simulator::simulate;
-use insd_tests::sailing::{Passage, sail, sail_messages, sail_voyage};
+use insd_tests::sailing::{Passage, sail, sail_all, sail_messages, sail_voyage};
 use insd_tests::{scenario, variant};
 use nalgebra::{Matrix3, Rotation3};
 
@@ -26,14 +26,21 @@ fn s11_the_antimeridian_is_crossed_without_a_step() {
 
 #[test]
 fn s12_over_the_pole_position_and_attitude_stay_true_while_the_heading_turns_over() {
-    let passage = sail(&scenario(12).with_duration(1400.0), 1);
+    for passage in sail_all(&scenario(12), 0..4) {
+        assert_over_the_pole(&passage);
+    }
+}
+
+fn assert_over_the_pole(passage: &Passage) {
     let closest = passage.log.solutions.iter().map(|s| s.position.latitude).fold(0.0, f64::max);
     assert!((90.0 * DEG - closest) * 6.4e6 < 200.0);
     let error = passage.scores_from(600.0).horizontal();
-    let worst = attitude_error(&passage, 600.0);
-    figure!("s12 {error:?} attitude {} deg", worst / DEG);
+    // on the straight track nothing tells the heading there; the turn at 1500 s does
+    let (straight, turned) = (attitude_error(passage, 600.0), attitude_error(passage, 1800.0));
+    figure!("s12 {error:?} attitude {} and {} deg", straight / DEG, turned / DEG);
     assert!(error.max < 6.0, "{error:?}");
-    assert!(worst < 2.0 * DEG, "{} deg", worst / DEG);
+    assert!(straight < 15.0 * DEG, "{} deg", straight / DEG);
+    assert!(turned < 0.6 * DEG, "{} deg", turned / DEG);
     assert!(steps(&passage.log.solutions).into_iter().all(|step| step < 8.0));
     assert_eq!(passage.log.rejected("gnss_position"), 0, "{:?}", passage.log.counts);
 }

@@ -4,10 +4,11 @@ use insd::evaluation::Component;
 use insd_base::units::DEG;
 use insd_base::{Mode, Time};
 use insd_simulator::simulate;
-use insd_tests::noise_free;
+use insd_tests::noise_free::{self, Loss};
 use insd_tests::sailing::{Passage, sail_all};
 use insd_tests::scores::{Scores, dishonest, pooled};
 use insd_tests::{scenario, variant};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::figure;
 
@@ -22,17 +23,21 @@ const HORIZONTAL: [Component; 5] = [
 /// The mechanisation alone, from the true state, with a perfect IMU in sea state 6.
 ///
 /// The free vertical channel is unstable: gravity falls with height, so that an error in height grows
-/// with exp(t / 570 s), 23-fold in the half hour of this test and 300,000-fold in two hours, and
-/// through Eotvos acceleration and Coriolis a little of it comes into the horizontal. What is said of
-/// the height here is therefore how small the error is that starts it. `just noise-free` sails the
-/// whole two hours.
+/// with exp(t / 570 s), 23-fold in half an hour and 300,000-fold in two hours, and as a ship that
+/// rises is thrown west, some of it comes into the horizontal. Only the horizontal and the attitude
+/// are therefore held to a bar over the whole two hours, and the height over the first half hour;
+/// after two hours it is off by some 60 m, grown from 0.2 mm. `just noise-free` prints the figures of
+/// some seeds.
 #[test]
-fn s01_without_sensor_errors_the_mechanisation_loses_next_to_nothing_in_a_rough_sea() {
-    let loss = noise_free::integrate(&simulate(&scenario(15).with_duration(1800.0), 1));
-    figure!("s01 {loss:?}");
-    assert!(loss.horizontal < 0.1, "{loss:?}");
-    assert!(loss.vertical < 0.1, "{loss:?}");
-    assert!(loss.attitude < 1e-5 * DEG, "{loss:?}");
+fn s01_without_sensor_errors_the_mechanisation_stays_within_5_m_in_two_hours_of_rough_sea() {
+    let losses: Vec<Loss> = [1800.0, 7200.0]
+        .into_par_iter()
+        .map(|length| noise_free::integrate(&simulate(&scenario(15).with_duration(length), 1)))
+        .collect();
+    figure!("s01 {losses:?}");
+    assert!(losses[0].vertical < 0.1, "{losses:?}");
+    assert!(losses[1].horizontal < 5.0, "{losses:?}");
+    assert!(losses[1].attitude < 0.002 * DEG, "{losses:?}");
 }
 
 #[test]
@@ -52,7 +57,10 @@ fn s02_with_gnss_and_log_position_and_heading_are_good_and_honest() {
 }
 
 /// A MEMS voyage of 20 min whose GNSS is lost from 700 s to 1000 s.
-const SHORT_OUTAGE: (&str, &str) = ("when = { at_s = [2064.5] }\nduration_s = 60.0", "when = { at_s = [700.5] }\nduration_s = 300.0");
+const SHORT_OUTAGE: (&str, &str) = (
+    "when = { at_s = [2064.5] }\nduration_s = 60.0",
+    "when = { at_s = [700.5] }\nduration_s = 300.0",
+);
 
 #[test]
 fn s03_in_an_outage_the_log_holds_the_drift_to_what_is_claimed() {

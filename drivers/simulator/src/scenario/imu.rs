@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use insd_base::units::{DEG_PER_HOUR, DEG_PER_SQRT_HOUR, MICRO_G, MPS_PER_SQRT_HOUR, PPM};
-use insd_base::{AccelTriad, GyroTriad, ImuSpec};
+use insd_base::{ImuSpec, Triad};
 
 use super::fault::Faults;
 use super::when::{Spread, When};
@@ -77,14 +77,14 @@ impl ImuErrors {
     pub(crate) fn spec(&self, rate: f64) -> ImuSpec {
         ImuSpec {
             rate,
-            gyro: GyroTriad {
+            gyro: Triad {
                 bias_std: self.gyro_bias_std_deg_h * DEG_PER_HOUR,
                 instability_std: self.gyro_bias_instability_deg_h * DEG_PER_HOUR,
                 instability_time: self.gyro_bias_time_constant_s,
                 random_walk: self.angle_random_walk_deg_sqrt_h * DEG_PER_SQRT_HOUR,
                 scale_std: self.gyro_scale_factor_std_ppm * PPM,
             },
-            accel: AccelTriad {
+            accel: Triad {
                 bias_std: self.accel_bias_std_ug * MICRO_G,
                 instability_std: self.accel_bias_instability_ug * MICRO_G,
                 instability_time: self.accel_bias_time_constant_s,
