@@ -39,8 +39,10 @@ pub const GNSS_DELAY: Block<1> = Block::after(GNSS_VELOCITY_DELAY);
 pub const GNSS_LEVER: Block<3> = Block::after(GNSS_DELAY);
 /// Water current, north and east, m/s, Gauss-Markov.
 pub const CURRENT: Block<2> = Block::after(GNSS_LEVER);
+/// Displacement of a moored ship from her berth, north and east, m, Gauss-Markov.
+pub const BERTH_OFFSET: Block<2> = Block::after(CURRENT);
 /// Log scale factor, ratio, constant.
-pub const LOG_SCALE: Block<1> = Block::after(CURRENT);
+pub const LOG_SCALE: Block<1> = Block::after(BERTH_OFFSET);
 /// Log misalignment about the starboard and down axes, rad, constant.
 pub const LOG_MISALIGNMENT: Block<2> = Block::after(LOG_SCALE);
 /// Mean height of the IMU over the ellipsoid (sea level plus mounting height), m, random walk.

@@ -14,7 +14,7 @@ use crate::increments::Increment;
 use crate::initial::InitialState;
 use crate::innovation::{Innovation, Weighed};
 use crate::nominal::Nominal;
-use crate::propagation::{self, Stretch, markov_decay};
+use crate::propagation::{self, Regime, Stretch, markov_decay};
 use crate::report::{AidReport, Outcome, Report};
 use crate::sea_window::LevelWindow;
 use crate::solution_sigma::solution_sigma;
@@ -46,6 +46,7 @@ pub struct Filter {
     antenna: AntennaMotion,
     strayed: u32,
     next_mooring: Time,
+    berth_offset_std: f64,
     last_relative: Option<Time>,
     internal_likelihood: f64,
 }
@@ -55,6 +56,12 @@ pub(crate) struct Judged {
     outcome: Outcome,
     log_likelihood: f64,
     innovation: [(f64, f64); 3],
+}
+
+impl Judged {
+    fn outcome(&self) -> Outcome {
+        self.outcome
+    }
 }
 
 /// After this long without GNSS the solution no longer counts as aided by it, s.
@@ -84,6 +91,7 @@ impl Filter {
             antenna: AntennaMotion::default(),
             strayed: 0,
             next_mooring: initial.time,
+            berth_offset_std: config.sea.berth_offset_std,
             last_relative: None,
             internal_likelihood: 0.0,
         }
@@ -130,13 +138,13 @@ impl Filter {
         if self.stretch.duration <= 0.0 {
             return;
         }
-        let rtk = self.is_rtk();
+        let regime = Regime { rtk: self.is_rtk(), berth_offset_std: self.berth_offset_std };
         propagation::propagate(
             &mut self.covariance,
             &self.stretch,
             self.gravity.gradient(),
             &self.config,
-            rtk,
+            &regime,
         );
         self.relax_nominal(self.stretch.duration);
         self.nominal.attitude.renormalize();
@@ -156,6 +164,7 @@ impl Filter {
         nominal.accel_drift *= markov_decay(dt, imu.accel.instability_time);
         nominal.gnss_position_error *= markov_decay(dt, gnss.position_time_for(rtk));
         nominal.gnss_velocity_error *= markov_decay(dt, gnss.velocity_time);
+        nominal.berth_offset *= markov_decay(dt, self.config.sea.berth_offset_time);
         nominal.current *= markov_decay(dt, log.current_time);
     }
 

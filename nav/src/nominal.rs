@@ -6,9 +6,9 @@ use insd_base::{Ecef, Geodetic};
 use nalgebra::{Matrix3, UnitQuaternion, Vector1, Vector2, Vector3};
 
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, CURRENT, ErrorState, GNSS_DELAY, GNSS_LEVER,
-    GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT,
-    GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, POSITION, SEA_LEVEL, VELOCITY,
+    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, BERTH_OFFSET, CURRENT, ErrorState, GNSS_DELAY,
+    GNSS_LEVER, GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS,
+    GYRO_DRIFT, GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, POSITION, SEA_LEVEL, VELOCITY,
 };
 
 /// Estimated values of everything in the error state; units and axes as stated there.
@@ -44,6 +44,8 @@ pub struct Nominal {
     pub gnss_velocity_delay: f64,
     /// Water current, north and east, m/s.
     pub current: Vector2<f64>,
+    /// Displacement from the berth, north and east, m.
+    pub berth_offset: Vector2<f64>,
     /// Log scale factor, ratio.
     pub log_scale: f64,
     /// Log misalignment about starboard and down, rad.
@@ -73,6 +75,7 @@ impl Nominal {
             gnss_delay: 0.0,
             gnss_velocity_delay: 0.0,
             current: Vector2::zeros(),
+            berth_offset: Vector2::zeros(),
             log_scale: 0.0,
             log_misalignment: Vector2::zeros(),
             sea_level: position.height,
@@ -108,6 +111,7 @@ impl Nominal {
         self.gnss_delay += GNSS_DELAY.of(error).x;
         self.gnss_velocity_delay += GNSS_VELOCITY_DELAY.of(error).x;
         self.current += CURRENT.of(error);
+        self.berth_offset += BERTH_OFFSET.of(error);
         self.log_scale += LOG_SCALE.of(error).x;
         self.log_misalignment += LOG_MISALIGNMENT.of(error);
         self.sea_level += SEA_LEVEL.of(error).x;
@@ -136,6 +140,7 @@ impl Nominal {
         let delay = other.gnss_velocity_delay - self.gnss_velocity_delay;
         GNSS_VELOCITY_DELAY.set(&mut error, &Vector1::new(delay));
         CURRENT.set(&mut error, &(other.current - self.current));
+        BERTH_OFFSET.set(&mut error, &(other.berth_offset - self.berth_offset));
         LOG_SCALE.set(&mut error, &Vector1::new(other.log_scale - self.log_scale));
         LOG_MISALIGNMENT.set(&mut error, &(other.log_misalignment - self.log_misalignment));
         SEA_LEVEL.set(&mut error, &Vector1::new(other.sea_level - self.sea_level));

@@ -17,9 +17,9 @@ use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use crate::config::NavConfig;
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, CURRENT, Covariance, GNSS_POSITION_ERROR,
-    GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, POSITION, SEA_LEVEL, STATES,
-    STRAPDOWN_STATES, VELOCITY,
+    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, BERTH_OFFSET, CURRENT, Covariance,
+    GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, POSITION,
+    SEA_LEVEL, STATES, STRAPDOWN_STATES, VELOCITY,
 };
 use crate::increments::Increment;
 use crate::strapdown::Step;
@@ -104,6 +104,15 @@ impl Default for Stretch {
     }
 }
 
+/// What the error models depend on at the moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Regime {
+    /// GNSS positions come from fixed carrier ambiguities.
+    pub rtk: bool,
+    /// Displacement of a moored ship from her berth, 1-sigma of each component, m.
+    pub berth_offset_std: f64,
+}
+
 /// The nine strapdown rows of the transition matrix over a stretch.
 #[derive(Clone, Copy, Debug)]
 pub struct StrapdownRows {
@@ -142,14 +151,13 @@ pub fn strapdown_rows(stretch: &Stretch, gradient: &Matrix3<f64>) -> StrapdownRo
     StrapdownRows { transition, gyro, accel }
 }
 
-/// Propagates the covariance over a stretch: P <- Phi P Phi^T + Q. `rtk` tells which kind of GNSS
-/// position error is being estimated.
+/// Propagates the covariance over a stretch: P <- Phi P Phi^T + Q.
 pub fn propagate(
     p: &mut Covariance,
     stretch: &Stretch,
     gradient: &Matrix3<f64>,
     config: &NavConfig,
-    rtk: bool,
+    regime: &Regime,
 ) {
     if stretch.duration <= 0.0 {
         return;
@@ -160,7 +168,7 @@ pub fn propagate(
     p.fixed_columns_mut::<STRAPDOWN_STATES>(0).copy_from(&columns);
     p.fixed_rows_mut::<STRAPDOWN_STATES>(0).copy_from(&columns.transpose());
     p.fixed_view_mut::<STRAPDOWN_STATES, STRAPDOWN_STATES>(0, 0).copy_from(&corner);
-    relax_markov(p, stretch.duration, config, rtk);
+    relax_markov(p, stretch.duration, config, regime);
     add_noise(p, stretch, config);
 }
 
@@ -202,7 +210,7 @@ fn strapdown_corner(columns: &Columns, stretch: &Stretch, rows: &StrapdownRows) 
 }
 
 /// Gauss-Markov states with their steady sigma and time constant.
-fn markov(config: &NavConfig, rtk: bool) -> [(usize, usize, f64, f64); 5] {
+fn markov(config: &NavConfig, regime: &Regime) -> [(usize, usize, f64, f64); 6] {
     let (gyro, accel) = (&config.imu.gyro, &config.imu.accel);
     [
         (GYRO_DRIFT.start(), GYRO_DRIFT.end(), gyro.instability_std, gyro.instability_time),
@@ -211,10 +219,16 @@ fn markov(config: &NavConfig, rtk: bool) -> [(usize, usize, f64, f64); 5] {
             GNSS_POSITION_ERROR.start(),
             GNSS_POSITION_ERROR.end(),
             1.0,
-            config.gnss.position_time_for(rtk),
+            config.gnss.position_time_for(regime.rtk),
         ),
         (GNSS_VELOCITY_ERROR.start(), GNSS_VELOCITY_ERROR.end(), 1.0, config.gnss.velocity_time),
         (CURRENT.start(), CURRENT.end(), config.log.current_std, config.log.current_time),
+        (
+            BERTH_OFFSET.start(),
+            BERTH_OFFSET.end(),
+            regime.berth_offset_std,
+            config.sea.berth_offset_time,
+        ),
     ]
 }
 
@@ -224,9 +238,9 @@ pub fn markov_decay(dt: f64, time_constant: f64) -> f64 {
     (-dt / time_constant).exp()
 }
 
-fn relax_markov(p: &mut Covariance, dt: f64, config: &NavConfig, rtk: bool) {
+fn relax_markov(p: &mut Covariance, dt: f64, config: &NavConfig, regime: &Regime) {
     let mut decay = SVector::<f64, STATES>::repeat(1.0);
-    let processes = markov(config, rtk);
+    let processes = markov(config, regime);
     for (start, end, _, time) in processes {
         let left = markov_decay(dt, time);
         decay.rows_mut(start, end - start).fill(left);

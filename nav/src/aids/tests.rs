@@ -19,6 +19,7 @@ fn estimate() -> Nominal {
     nominal.gnss_velocity_delay = 0.04;
     nominal.gnss_delay = -0.02;
     nominal.current = Vector2::new(0.4, -0.6);
+    nominal.berth_offset = Vector2::new(0.3, -0.2);
     nominal.log_scale = 0.01;
     nominal.log_misalignment = Vector2::new(0.02, -0.03);
     nominal.sea_level = 24.0;
@@ -32,7 +33,10 @@ fn rows<const M: usize>(innovation: &Innovation<M>) -> Rows {
     (0..M).map(|i| (innovation.z[i], std::array::from_fn(|j| innovation.h[(i, j)]))).collect()
 }
 
-fn table() -> Vec<(&'static str, fn(&View) -> Rows)> {
+/// A named aid and its rows.
+type Entry = (&'static str, fn(&View) -> Rows);
+
+fn table() -> Vec<Entry> {
     const LEVER: Vector3<f64> = Vector3::new(-6.0, -0.8, -14.0);
     let position = |view: &View| {
         let fix = gnss_position::PositionFix {
@@ -57,6 +61,9 @@ fn table() -> Vec<(&'static str, fn(&View) -> Rows)> {
         ("gnss_velocity", velocity),
         ("log_bottom", |view| log_rows(view, LogReference::Bottom)),
         ("log_water", |view| log_rows(view, LogReference::Water)),
+        ("berth", |view| {
+            rows(&berth::innovation(view, &Geodetic::from_degrees(52.000_01, 179.900_02, 0.0), 0.1))
+        }),
         ("mooring", |view| rows(&mooring::innovation(view, 0.3))),
         ("sea_level", |view| {
             let half = 10.0 * view.v_n().z;

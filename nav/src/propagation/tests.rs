@@ -103,6 +103,8 @@ fn the_transition_agrees_with_perturbed_mechanisations() {
     }
 }
 
+const REGIME: Regime = Regime { rtk: false, berth_offset_std: 0.4 };
+
 fn config() -> NavConfig {
     let gyro = Triad {
         bias_std: DEG_PER_HOUR,
@@ -147,10 +149,10 @@ fn the_cheap_propagation_is_the_full_matrix_product() {
     let root = Covariance::from_fn(|i, j| ((i * 5 + j * 11) as f64).sin() * DEG);
     let start = root * root.transpose();
     let mut full = phi * start * phi.transpose();
-    relax_markov(&mut full, stretch.duration, &config(), false);
+    relax_markov(&mut full, stretch.duration, &config(), &REGIME);
     add_noise(&mut full, &stretch, &config());
     let mut cheap = start;
-    propagate(&mut cheap, &stretch, gravity.gradient(), &config(), false);
+    propagate(&mut cheap, &stretch, gravity.gradient(), &config(), &REGIME);
     assert!((full - cheap).amax() < 1e-9 * full.amax());
     assert!((cheap - cheap.transpose()).amax() < 1e-15 * full.amax());
 }
