@@ -17,7 +17,7 @@ use insd_base::{
 };
 use insd_nav::error_state::{ATTITUDE, Covariance, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
-use insd_nav::propagation::{Stretch, propagate};
+use insd_nav::propagation::{Regime, Stretch, propagate};
 use insd_nav::strapdown::{LocalGravity, Step, integrate};
 use insd_nav::{
     Conditioned, Conditioner, Estimator, Filter, Increment, InitialState, NavConfig, Nominal,
@@ -153,7 +153,8 @@ fn covariance_propagation(
     mut run: Box<(Covariance, Stretch, LocalGravity, NavConfig)>,
 ) -> Box<(Covariance, Stretch, LocalGravity, NavConfig)> {
     let (covariance, stretch, gravity, config) = &mut *run;
-    propagate(black_box(covariance), stretch, gravity.gradient(), config, false);
+    let regime = Regime { rtk: false, berth_offset_std: 0.4 };
+    propagate(black_box(covariance), stretch, gravity.gradient(), config, &regime);
     run
 }
 

@@ -3,12 +3,12 @@
 use insd_base::{
     Body, Ecef, Message, Mode, Ned, Received, Rejection, Solution, Source, Time, earth,
 };
-use nalgebra::Vector3;
+use nalgebra::{SMatrix, Vector3};
 
 use crate::aids::{View, sea_level};
 use crate::antenna::AntennaMotion;
 use crate::config::NavConfig;
-use crate::error_state::Covariance;
+use crate::error_state::{Covariance, POSITION, SEA_LEVEL, VELOCITY};
 use crate::gate::ChiSquareGate;
 use crate::increments::Increment;
 use crate::initial::InitialState;
@@ -216,9 +216,31 @@ impl Filter {
         let Some(weighed) = innovation.weigh(&self.covariance) else { return };
         let expected = weighed.sigma().x.powi(2) - innovation.r.x;
         self.level.heave.learn(innovation.z.x, expected);
-        if weighed.nis() < self.gate.limit::<1>() {
+        if weighed.nis() > self.gate.limit::<1>() {
+            return;
+        }
+        if self.mode() == Mode::Inertial {
+            self.absorb_vertically(&weighed);
+        } else {
             self.absorb(&weighed);
         }
+    }
+
+    /// Lets a height move the vertical channel only. Without any other aid tilt and heading errors
+    /// grow until their squares matter to the height, and the linear filter would take them for
+    /// knowledge of the horizontal.
+    fn absorb_vertically(&mut self, weighed: &Weighed<1>) {
+        let up = self.nominal.position.normalize();
+        let error = weighed.update_shaped(&mut self.covariance, |optimal| {
+            let mut gain = SMatrix::zeros();
+            for block in [POSITION, VELOCITY] {
+                let along = block.of(optimal).dot(&up);
+                block.set(&mut gain, &(up * along));
+            }
+            SEA_LEVEL.set(&mut gain, &SEA_LEVEL.of(optimal));
+            gain
+        });
+        self.nominal.inject(&error);
     }
 
     fn gnss_is_fresh(&self) -> bool {

@@ -79,6 +79,7 @@ pub struct Conditioner {
     /// Mean square of the stamps' departure from the nominal interval, s^2.
     jitter: f64,
     last: Option<Last>,
+    leap: Option<Time>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,6 +102,8 @@ const MAX_RATE: f64 = 50.0;
 const MAX_FORCE: f64 = 500.0;
 /// Weight of a new interval in the mean square of the stamps' jitter.
 const JITTER_WEIGHT: f64 = 0.01;
+/// A leap of the stamps that must be confirmed, s.
+const LEAP: f64 = 30.0;
 /// Jitter over the nominal interval beyond which stamps count as uneven.
 const JITTERING: f64 = 0.01;
 /// An interval longer than this many nominal ones holds missing samples.
@@ -117,6 +120,7 @@ impl Conditioner {
             force: NoiseMonitor::default(),
             jitter: 0.0,
             last: None,
+            leap: None,
         }
     }
 
@@ -136,6 +140,9 @@ impl Conditioner {
         }
         if elapsed < 0.0 {
             return Conditioned::Rejected(Rejection::OutOfOrder);
+        }
+        if elapsed > LEAP && !self.is_confirmed(sample.time) {
+            return Conditioned::Rejected(Rejection::OutOfRange);
         }
         let gap = elapsed > GAP * self.nominal;
         let duration = if gap { self.coverage_after_gap(sample, &last) } else { elapsed };
@@ -195,6 +202,17 @@ impl Conditioner {
             force_noise: square(&next.force),
             bridged: true,
         }
+    }
+
+    /// A stamp that leaps far ahead counts once the next sample follows it: a single wild stamp must
+    /// not put all that come after it in the past.
+    fn is_confirmed(&mut self, time: Time) -> bool {
+        let follows = self.leap.is_some_and(|leap| {
+            let step = (time - leap).as_seconds();
+            step > 0.0 && step <= GAP * self.nominal
+        });
+        self.leap = (!follows).then_some(time);
+        follows
     }
 
     fn with_noise(&self, increment: Increment) -> Increment {

@@ -71,6 +71,21 @@ impl<const M: usize> Weighed<M> {
         SVector::from_fn(|i, _| l.row(i).norm())
     }
 
+    /// Update with a gain of one's own choice, which need not be the optimal one: Joseph's form,
+    /// P <- (I - K H) P (I - K H)^T + K R K^T. `shape` makes the gain from the optimal one.
+    #[must_use]
+    pub fn update_shaped(
+        &self,
+        p: &mut Covariance,
+        shape: impl Fn(&SMatrix<f64, STATES, M>) -> SMatrix<f64, STATES, M>,
+    ) -> ErrorState {
+        let gain = shape(&(self.pht * self.factor.inverse()));
+        let left = Covariance::identity() - gain * self.innovation.h;
+        *p = left * *p * left.transpose() + gain * self.innovation.r * gain.transpose();
+        *p = (*p + p.transpose()) * 0.5;
+        gain * self.innovation.z
+    }
+
     fn whitened(&self) -> SVector<f64, M> {
         let mut z = self.innovation.z;
         self.factor.l_dirty().solve_lower_triangular_mut(&mut z);

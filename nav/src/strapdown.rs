@@ -76,9 +76,9 @@ pub fn integrate(nominal: &mut Nominal, gravity: &LocalGravity, increment: &Incr
     // mean rotation matrix over the step differs by theta x (theta x dv) / 24.
     let force = c_eb * (velocity + rotation.cross(&rotation.cross(&velocity)) / 24.0);
     let old_velocity = nominal.velocity;
-    let middle = old_velocity + 0.5 * force;
-    let pull = gravity.at(&(nominal.position + 0.5 * h * old_velocity))
-        - 2.0 * earth::rate_e().cross(&middle);
+    let weight = gravity.at(&(nominal.position + 0.5 * h * old_velocity));
+    let middle = old_velocity + 0.5 * (force + weight * h);
+    let pull = weight - 2.0 * earth::rate_e().cross(&middle);
     nominal.velocity += force + pull * h;
     nominal.position += 0.5 * h * (old_velocity + nominal.velocity);
     nominal.attitude =

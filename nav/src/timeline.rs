@@ -7,7 +7,7 @@
 
 use std::collections::VecDeque;
 
-use insd_base::{Received, Rejection, Solution, Span, Time};
+use insd_base::{Received, Rejection, Solution, Source, Span, Time};
 
 use crate::increments::Increment;
 use crate::report::{AidReport, Outcome, Report};
@@ -95,8 +95,8 @@ impl<E: Estimator> Timeline<E> {
             insert_in_order(&mut self.pending, *received);
             return None;
         }
-        let newest = self.measurements.back().map_or(at, |m| m.message.time());
-        if at == self.now && newest <= at {
+        let is_newest = self.measurements.back().is_none_or(|m| order(m) <= order(received));
+        if at == self.now && is_newest {
             insert_in_order(&mut self.measurements, *received);
             return Some(self.estimator.apply(received));
         }
@@ -182,9 +182,15 @@ fn run_until<E: Estimator>(estimator: &mut E, increment: Increment, at: Time) ->
     tail
 }
 
-/// Inserts behind everything that is valid at or before the same time; returns the place.
+/// The order in which measurements are applied: by time of validity and, where that is the same, by
+/// source, so that the order of arrival leaves no trace.
+fn order(received: &Received) -> (Time, Source) {
+    (received.message.time(), received.source)
+}
+
+/// Inserts in order, behind its equals; returns the place.
 fn insert_in_order(list: &mut VecDeque<Received>, received: Received) -> usize {
-    let place = list.partition_point(|m| m.message.time() <= received.message.time());
+    let place = list.partition_point(|m| order(m) <= order(&received));
     list.insert(place, received);
     place
 }

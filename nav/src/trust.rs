@@ -38,6 +38,8 @@ impl Default for Agreement {
 const SPAN: f64 = 20.0;
 /// Sigmas of the running mean beyond which an error is taken as real.
 const PERSISTENT: f64 = 6.0;
+/// The same while the innovations are correlated.
+const CORRELATED: f64 = 2.5;
 /// Mean square (one is expected) up to which the stated sigmas are taken as they are.
 const HONEST: f64 = 1.6;
 /// Mean square of one epoch beyond which it is a fault and not noise.
@@ -61,12 +63,20 @@ impl Agreement {
         (self.mean_square / HONEST).max(1.0)
     }
 
-    /// Whether a horizontal component is off on the mean.
+    /// Whether a horizontal component is off on the mean. While the receiver is refused, nothing of
+    /// its innovations is absorbed and they are no longer white: then only a mean of several whole
+    /// sigmas counts.
     #[must_use]
-    pub fn is_off(&self) -> bool {
+    pub fn is_off(&self, refused: bool) -> bool {
         let weight = 1.0 / SPAN;
-        let std = (weight / (2.0 - weight)).sqrt();
-        f64::from(self.samples) >= SPAN && self.mean.xy().amax() > PERSISTENT * std
+        let white = PERSISTENT * (weight / (2.0 - weight)).sqrt();
+        let limit = if refused { CORRELATED } else { white };
+        f64::from(self.samples) >= SPAN && self.mean.xy().amax() > limit
+    }
+
+    fn forget_mean(&mut self) {
+        self.mean = Vector3::zeros();
+        self.samples = 0;
     }
 }
 
@@ -83,16 +93,17 @@ impl Trust {
         self.last_used
     }
 
-    /// Whether the receiver was found in fault a moment ago.
-    #[must_use]
-    pub fn is_suspect(&self, now: Time) -> bool {
-        self.suspect_until.is_some_and(|until| now < until)
-    }
-
-    /// Whether its positions or velocities are off on the mean.
-    #[must_use]
-    pub fn is_off(&self) -> bool {
-        self.velocity.is_off() || self.position.is_off()
+    /// Whether the receiver is to be refused: found in fault a moment ago, or off on the mean. The
+    /// verdict holds for `hold` seconds and as long as the error goes on.
+    pub fn is_refused(&mut self, now: Time, hold: f64) -> bool {
+        let refused = self.suspect_until.is_some_and(|until| now < until);
+        if self.velocity.is_off(refused) || self.position.is_off(refused) {
+            self.suspect(now, hold);
+        } else if !refused && self.suspect_until.take().is_some() {
+            self.velocity.forget_mean();
+            self.position.forget_mean();
+        }
+        self.suspect_until.is_some()
     }
 
     /// Notes a position that was used.
@@ -103,7 +114,8 @@ impl Trust {
 
     /// Notes a fault of the receiver; it is suspect for `hold` seconds from now.
     pub fn suspect(&mut self, now: Time, hold: f64) {
-        self.suspect_until = Some(now + Span::from_seconds(hold));
+        let until = now + Span::from_seconds(hold);
+        self.suspect_until = self.suspect_until.max(Some(until));
     }
 
     /// Notes a position that was refused and returns for how long none was used, s.
@@ -131,8 +143,8 @@ mod tests {
             honest.learn(&noise, 1.0);
             biased.learn(&noise.add_scalar(1.5), 3.0);
         }
-        assert!(!honest.is_off());
-        assert!(biased.is_off());
+        assert!(!honest.is_off(false));
+        assert!(biased.is_off(false) && !biased.is_off(true));
         assert!((honest.variance_factor() - 1.0).abs() < 1e-12);
         assert!(biased.variance_factor() > 1.5);
     }

@@ -50,9 +50,9 @@ impl Coarse {
             Message::Gnss(fix) if fix.quality.is_measured() && fix.position.is_some() => {
                 // the mean acceleration belongs to the levelling window only
                 if self.levelling.is_some() && fix.velocity.is_some() {
-                    self.first.get_or_insert(*fix);
+                    self.first = earlier(self.first, *fix);
                 }
-                self.last = Some(*fix);
+                self.last = later(self.last, *fix);
             }
             Message::Reference(reference) => {
                 // a horizontal position: the height is only known from elsewhere
@@ -118,4 +118,14 @@ impl Coarse {
             moored: self.moored,
         })
     }
+}
+
+/// The fix that was valid first; fixes may arrive in any order.
+fn earlier(known: Option<GnssFix>, fix: GnssFix) -> Option<GnssFix> {
+    Some(known.filter(|known| known.time <= fix.time).unwrap_or(fix))
+}
+
+/// The fix that was valid last.
+fn later(known: Option<GnssFix>, fix: GnssFix) -> Option<GnssFix> {
+    Some(known.filter(|known| known.time > fix.time).unwrap_or(fix))
 }

@@ -212,6 +212,10 @@ impl Engine {
 
     fn handle_aid(&mut self, received: &Received) {
         let source = received.source;
+        if self.is_from_the_future(received) {
+            self.reject(received, source.name(), Rejection::OutOfRange);
+            return;
+        }
         if let Err(reason) = self.recent.admit(source, received.message.time()) {
             self.reject(received, source.name(), reason);
             return;
@@ -227,6 +231,14 @@ impl Engine {
                     self.note(&report);
                 }
             }
+        }
+    }
+
+    /// Whether a message claims a time that the IMU is nowhere near.
+    fn is_from_the_future(&self, received: &Received) -> bool {
+        match &self.stage {
+            Stage::Levelling(_) => false,
+            Stage::Running(line) => (received.message.time() - line.now()).as_seconds() > LOST,
         }
     }
 

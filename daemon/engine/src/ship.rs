@@ -9,13 +9,16 @@ use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
 /// Heading sigma at the equator at which a moored ship counts as aligned; it grows with sec(lat).
 const ALIGNED: f64 = 0.1 * DEG;
 
+/// Heading sigma below which a ship can be steered by it for the first time.
+const STEERABLE: f64 = 1.0 * DEG;
+
 /// What runs on the time line.
 #[derive(Clone, Debug)]
 pub(crate) enum Ship {
     /// Several headings are possible.
     Aligning(Bank),
-    /// One is known.
-    Navigating(Box<Filter>),
+    /// One is known, `aligned` once well enough to steer by.
+    Navigating { filter: Box<Filter>, aligned: bool },
 }
 
 impl Ship {
@@ -26,7 +29,7 @@ impl Ship {
     fn moored(&self) -> bool {
         match self {
             Ship::Aligning(bank) => bank.is_moored(),
-            Ship::Navigating(filter) => filter.is_moored(),
+            Ship::Navigating { filter, .. } => filter.is_moored(),
         }
     }
 
@@ -34,8 +37,8 @@ impl Ship {
         let aligned = ALIGNED / solution.position.latitude.cos().max(1e-3);
         let mode = match self {
             _ if self.moored() && solution.sigma.heading > aligned => Mode::FineAlignment,
-            Ship::Aligning(_) => Mode::InMotionAlignment,
-            Ship::Navigating(_) => solution.mode,
+            Ship::Aligning(_) | Ship::Navigating { aligned: false, .. } => Mode::InMotionAlignment,
+            Ship::Navigating { .. } => solution.mode,
         };
         Solution { mode, ..solution }
     }
@@ -43,7 +46,7 @@ impl Ship {
     fn inner(&self) -> &dyn Solver {
         match self {
             Ship::Aligning(bank) => bank,
-            Ship::Navigating(filter) => filter.as_ref(),
+            Ship::Navigating { filter, .. } => filter.as_ref(),
         }
     }
 }
@@ -68,7 +71,7 @@ impl Estimator for Ship {
     fn advance(&mut self, increment: &Increment) {
         match self {
             Ship::Aligning(bank) => bank.advance(increment),
-            Ship::Navigating(filter) => filter.advance(increment),
+            Ship::Navigating { filter, .. } => filter.advance(increment),
         }
     }
 
@@ -79,11 +82,15 @@ impl Estimator for Ship {
                 if let Some(filter) = bank.winner() {
                     let mut navigator = Box::new(filter.clone());
                     navigator.begin_navigation();
-                    *self = Ship::Navigating(navigator);
+                    *self = Ship::Navigating { filter: navigator, aligned: false };
                 }
                 report
             }
-            Ship::Navigating(filter) => filter.apply(received),
+            Ship::Navigating { filter, aligned } => {
+                let report = filter.apply(received);
+                *aligned = *aligned || filter.heading_std() < STEERABLE;
+                report
+            }
         }
     }
 

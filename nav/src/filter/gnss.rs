@@ -1,7 +1,7 @@
 //! A GNSS fix: velocity first, then position, each through its gates.
 
 use insd_base::units::DEG_PER_HOUR;
-use insd_base::{FixQuality, GnssFix, Rejection, Source};
+use insd_base::{FixQuality, GnssFix, Rejection, Source, earth};
 use nalgebra::{Matrix3, Vector3};
 
 use super::{Filter, Judged, NO_INNOVATION, enter, imu_position};
@@ -21,6 +21,8 @@ const VELOCITY_AID: &str = "gnss_velocity";
 const VOUCHED: f64 = 5.0;
 /// Gyros with a smaller turn-on bias than this can judge a receiver on their own, rad/s.
 const JUDGING_GYRO: f64 = 1.0 * DEG_PER_HOUR;
+/// A receiver that is off on the mean is refused for at least this long, s.
+const OFF_HOLD: f64 = 10.0;
 /// Attitude that a filter found to be lost is unsure of, 1-sigma, rad.
 const LOST_ATTITUDE: f64 = 0.05;
 
@@ -57,7 +59,7 @@ impl Filter {
         if fault && self.can_judge() {
             self.trust.suspect(self.time, self.config.gate.suspect_time);
         }
-        let suspect = self.is_receiver_suspect().then_some(Rejection::SourceSuspect);
+        let suspect = self.is_receiver_refused().then_some(Rejection::SourceSuspect);
         let judged = self.judge(&innovation, suspect);
         enter(report, fix.time, source, VELOCITY_AID, &judged);
     }
@@ -71,8 +73,10 @@ impl Filter {
         }
         let share = self.config.gnss.velocity_slow_share;
         let factor = self.trust.velocity.variance_factor();
+        // near a pole north at the antenna is not north at the IMU
+        let c_ne = fix.position.map_or(view.c_ne, |antenna| earth::c_ne(&antenna));
         Some(VelocityFix {
-            velocity: velocity.0,
+            velocity: view.c_ne * c_ne.transpose() * velocity.0,
             white: std.value * ((1.0 - share) * factor).sqrt(),
             slow: std.value * share.sqrt(),
             acceleration: view.c_ne
@@ -97,7 +101,7 @@ impl Filter {
         let lever = self.antenna_lever();
         let innovation = gnss_position::innovation(&self.view(), &measured, &lever);
         self.agreement(&innovation, |filter| &mut filter.trust.position);
-        let refused = if self.is_receiver_suspect() {
+        let refused = if self.is_receiver_refused() {
             Some(Rejection::SourceSuspect)
         } else {
             self.exceeds_dop_limit(fix, &innovation).then_some(Rejection::DopTest)
@@ -145,8 +149,8 @@ impl Filter {
         self.navigating && (vouched || self.config.imu.gyro.bias_std < JUDGING_GYRO)
     }
 
-    fn is_receiver_suspect(&self) -> bool {
-        self.trust.is_suspect(self.time) || (self.can_judge() && self.trust.is_off())
+    fn is_receiver_refused(&mut self) -> bool {
+        self.can_judge() && self.trust.is_refused(self.time, OFF_HOLD)
     }
 
     fn exceeds_dop_limit(&self, fix: &GnssFix, innovation: &Innovation<3>) -> bool {

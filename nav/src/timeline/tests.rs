@@ -1,7 +1,7 @@
 //! The order of things on a time line, told by an estimator that only keeps a diary.
 
 use insd_base::{
-    Attitude, Body, Geodetic, LogReference, LogVelocity, Message, Mode, Ned, SolutionSigma, Source,
+    Attitude, Body, Geodetic, LogReference, LogVelocity, Message, Mode, Ned, SolutionSigma,
 };
 use nalgebra::Vector3;
 

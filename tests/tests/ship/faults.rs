@@ -41,8 +41,8 @@ fn after_a_long_outage_a_filter_that_went_astray_takes_gnss_again_within_seconds
     let passages = sail_all(&variant(3, &lost).with_duration(2700.0), 0..3);
     for passage in &passages {
         let astray = passage.scores_between(2490.0, 2500.0).horizontal();
-        let last = passage.log.solutions.iter().filter(|s| s.mode == Mode::Inertial);
-        let aided_at = last.last().unwrap().time.as_seconds();
+        let last = passage.log.solutions.iter().rfind(|s| s.mode == Mode::Inertial);
+        let aided_at = last.unwrap().time.as_seconds();
         figure!("lock-out {astray:?} back at {aided_at}");
         assert!(astray.rms > 100.0, "no test of anything: {astray:?}");
         assert!(aided_at < 2510.0, "still inertial at {aided_at} s");
