@@ -159,7 +159,7 @@ impl NavConfig {
                 ins_growth: 1.0,
                 suspect_time: 3.0,
                 reset_time: 5.0,
-                judged_reset_time: 600.0,
+                judged_reset_time: 300.0,
             },
             covariance_interval: 0.1,
         }

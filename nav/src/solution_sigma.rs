@@ -1,7 +1,7 @@
 //! Claimed 1-sigma of what a solution says, from the covariance of the error state.
 
 use insd_base::attitude::skew;
-use insd_base::{Ned, SolutionSigma, earth};
+use insd_base::{Geodetic, Ned, SolutionSigma, earth};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use crate::aids::View;
@@ -49,7 +49,7 @@ pub fn solution_sigma(view: &View, acceleration: &Vector3<f64>, p: &Covariance) 
 
 /// Derivatives of NED velocity and of the Euler angles with respect to the strapdown errors.
 fn rows(view: &View) -> (Rows, Rows) {
-    let turn = axes_turn(view) * view.c_ne;
+    let turn = axes_turn(&view.geodetic) * view.c_ne;
     let jacobian = view.attitude().jacobian_of_ned_rotation();
     let mut velocity = Rows::zeros();
     velocity.fixed_columns_mut::<3>(POSITION.start()).copy_from(&(skew(&view.v_n()) * turn));
@@ -61,11 +61,12 @@ fn rows(view: &View) -> (Rows, Rows) {
 }
 
 /// Turn of the NED axes by a displacement in NED axes, rad/m.
-fn axes_turn(view: &View) -> Matrix3<f64> {
-    let (meridian, prime) = earth::radii(view.geodetic.latitude);
-    let north = 1.0 / (meridian + view.geodetic.height);
-    let east = 1.0 / (prime + view.geodetic.height);
-    let convergence = east * view.geodetic.latitude.tan();
+#[must_use]
+pub fn axes_turn(place: &Geodetic) -> Matrix3<f64> {
+    let (meridian, prime) = earth::radii(place.latitude);
+    let north = 1.0 / (meridian + place.height);
+    let east = 1.0 / (prime + place.height);
+    let convergence = east * place.latitude.tan();
     Matrix3::new(0.0, east, 0.0, -north, 0.0, 0.0, 0.0, -convergence, 0.0)
 }
 
@@ -74,8 +75,8 @@ mod tests {
     use super::*;
     use crate::error_state::ErrorState;
     use crate::nominal::Nominal;
+    use insd_base::Attitude;
     use insd_base::units::wrap_pi;
-    use insd_base::{Attitude, Geodetic};
 
     #[test]
     fn velocity_and_heading_near_the_pole_share_the_position_error() {

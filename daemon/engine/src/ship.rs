@@ -37,7 +37,10 @@ impl Ship {
         let aligned = ALIGNED / solution.position.latitude.cos().max(1e-3);
         let mode = match self {
             _ if self.moored() && solution.sigma.heading > aligned => Mode::FineAlignment,
-            Ship::Aligning(_) | Ship::Navigating { aligned: false, .. } => Mode::InMotionAlignment,
+            Ship::Aligning(_) => Mode::InMotionAlignment,
+            Ship::Navigating { aligned: false, .. } if solution.mode == Mode::Aided => {
+                Mode::InMotionAlignment
+            }
             Ship::Navigating { .. } => solution.mode,
         };
         Solution { mode, ..solution }

@@ -12,6 +12,7 @@ use crate::floors;
 use crate::gate::dop_limit;
 use crate::innovation::Innovation;
 use crate::report::{Outcome, Report};
+use crate::solution_sigma::axes_turn;
 use crate::strapdown::earth_relative_rate;
 use crate::trust::{Agreement, FAULT};
 
@@ -73,11 +74,14 @@ impl Filter {
         }
         let share = self.config.gnss.velocity_slow_share;
         let factor = self.trust.velocity.variance_factor();
-        // near a pole north at the antenna is not north at the IMU
+        // near a pole north at the antenna is not north at the IMU, and is known no better than the fix
         let c_ne = fix.position.map_or(view.c_ne, |antenna| earth::c_ne(&antenna));
+        let place = floors::vector(fix.position_std, &floors::gnss_position(fix.quality)).value;
+        let north_std = place.xy().max() * axes_turn(&view.geodetic).amax();
+        let by_north = (velocity.0.xy().norm() * north_std).powi(2);
         Some(VelocityFix {
             velocity: view.c_ne * c_ne.transpose() * velocity.0,
-            white: std.value * ((1.0 - share) * factor).sqrt(),
+            white: std.value.map(|s| (s * s * (1.0 - share) * factor + by_north).sqrt()),
             slow: std.value * share.sqrt(),
             acceleration: view.c_ne
                 * self.antenna.acceleration(self.time, &self.antenna_velocity()),
