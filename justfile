@@ -45,7 +45,11 @@ voyages dir=voyages_dir:
         done
     done
 
-# speed
+# the mechanisation alone, without sensor errors, for two hours in a rough sea
+noise-free:
+    cargo run --release -p insd-tests --example noise_free
+
+# instruction counts; needs valgrind and `cargo install gungraun-runner --version 0.20.0`
 bench *options:
     cargo bench --workspace {{options}}
 

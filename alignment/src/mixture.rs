@@ -1,7 +1,7 @@
 //! Mixtures of hypotheses: joining filters and reporting what they say together.
 
 use insd_base::units::{wrap_pi, wrap_two_pi};
-use insd_base::{Attitude, Ned, Solution, SolutionSigma};
+use insd_base::{Attitude, Ecef, Ned, Solution, SolutionSigma, earth};
 use insd_nav::error_state::ErrorState;
 use insd_nav::filter::Filter;
 use nalgebra::Vector3;
@@ -40,7 +40,13 @@ pub fn mixed(solutions: &[(f64, Solution)]) -> Option<Solution> {
     let pitch = mean(&|s| s.attitude.pitch);
     let heading =
         wrap_two_pi(mean(&|s| s.attitude.heading.sin()).atan2(mean(&|s| s.attitude.heading.cos())));
-    let position_std = Vector3::from_fn(|i, _| spread(0.0, &|s| (0.0, s.sigma.position.0[i])));
+    let place = |s: &Solution| earth::ecef(&s.position).0;
+    let centre = Vector3::from_fn(|i, _| mean(&|s| place(s)[i]));
+    let position = earth::geodetic(&Ecef(centre));
+    let c_ne = earth::c_ne(&position);
+    let offset = |s: &Solution| c_ne * (place(s) - centre);
+    let position_std =
+        Vector3::from_fn(|i, _| spread(0.0, &|s| (offset(s)[i], s.sigma.position.0[i])));
     let sigma = SolutionSigma {
         position: Ned(position_std),
         velocity: Ned(Vector3::from_fn(|i, _| {
@@ -51,6 +57,7 @@ pub fn mixed(solutions: &[(f64, Solution)]) -> Option<Solution> {
         heading: spread(0.0, &|s| (wrap_pi(s.attitude.heading - heading), s.sigma.heading)),
     };
     Some(Solution {
+        position,
         velocity: Ned(velocity),
         attitude: Attitude { roll, pitch, heading },
         sigma,

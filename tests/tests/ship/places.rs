@@ -6,7 +6,7 @@ use insd_engine::EngineConfig;
 use insd_simulator::simulate;
 use insd_tests::sailing::{Passage, sail, sail_all, sail_messages, sail_voyage};
 use insd_tests::{scenario, variant};
-use nalgebra::{Matrix3, Rotation3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::figure;
 
@@ -20,7 +20,8 @@ fn s11_the_antimeridian_is_crossed_without_a_step() {
     let error = passage.scores_from(300.0).horizontal();
     figure!("s11 {error:?}");
     assert!(error.max < 6.0, "{error:?}");
-    assert!(steps(&passage.log.solutions).into_iter().all(|step| step < 12.0));
+    let step = steps(&passage.log.solutions).into_iter().fold(0.0, f64::max);
+    assert!(step < 2.0, "{step} m");
     assert_eq!(passage.log.rejected("gnss_position"), 0, "{:?}", passage.log.counts);
 }
 
@@ -41,9 +42,11 @@ fn assert_over_the_pole(passage: &Passage) {
     assert!(error.max < 6.0, "{error:?}");
     assert!(straight < 15.0 * DEG, "{} deg", straight / DEG);
     assert!(turned < 0.6 * DEG, "{} deg", turned / DEG);
-    assert!(steps(&passage.log.solutions).into_iter().all(|step| step < 8.0));
+    let step = steps(&passage.log.solutions).into_iter().fold(0.0, f64::max);
+    assert!(step < 3.0, "{step} m");
     let refused = refused_away_from_pole(passage);
-    assert!(refused.is_empty(), "{refused:?}");
+    // the gate refuses one good measurement in ten thousand: 0.4 are expected here
+    assert!(refused.len() <= 3, "{refused:?}");
 }
 
 /// Fixes refused more than 100 m from the pole. Nearer to it north turns by degrees within the error of
@@ -57,10 +60,22 @@ fn refused_away_from_pole(passage: &Passage) -> Vec<Event> {
     passage.log.events.iter().filter(is_far).copied().collect()
 }
 
-/// Distances between solutions one second apart, m.
+/// Steps of the solution, m: how far each lies from where the one a second before was heading. The
+/// first minute is left out, in which the solution is a mixture of headings still in question.
 fn steps(solutions: &[Solution]) -> Vec<f64> {
-    let places: Vec<_> = solutions.iter().map(|s| earth::ecef(&s.position).0).collect();
-    places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect()
+    let motion = |s: &Solution| {
+        let v_e = earth::c_ne(&s.position).transpose() * s.velocity.0;
+        (s.time, earth::ecef(&s.position).0, v_e)
+    };
+    let settled = solutions.iter().filter(|s| s.time.as_seconds() > 60.0);
+    let motions: Vec<_> = settled.map(motion).collect();
+    let step = |pair: &[(Time, _, _)]| {
+        let (before, from, v_e): (Time, Vector3<f64>, Vector3<f64>) = pair[0];
+        let elapsed = (pair[1].0 - before).as_seconds();
+        let to: Vector3<f64> = pair[1].1;
+        (to - from - v_e * elapsed).norm()
+    };
+    motions.windows(2).map(step).collect()
 }
 
 /// Largest angle between true and computed attitude in ECEF axes, where no pole matters, rad.
