@@ -1,7 +1,7 @@
 # The recipes that people and CI run. `just` alone lists them.
 
 # where recorded and reference voyages lie
-voyages_dir := env("INSD_VOYAGES", "../shared/voyages")
+voyages_dir := env("INSD_VOYAGES", "voyages")
 
 _default:
     @just --list --unsorted
