@@ -80,12 +80,6 @@ impl Bank {
         Bank { members, next_tidy: level.time + TIDY }
     }
 
-    /// Headings still in question.
-    #[must_use]
-    pub fn candidates(&self) -> usize {
-        self.members.len()
-    }
-
     /// The one filter left, once it knows its heading well enough to go on alone.
     #[must_use]
     pub fn winner(&self) -> Option<&Filter> {

@@ -34,8 +34,6 @@ pub struct Level {
     pub force: Vector3<f64>,
     /// Angular rate at the start, rad/s.
     pub rate: Vector3<f64>,
-    /// Length of the window, s.
-    pub duration: f64,
 }
 
 impl Levelling {
@@ -66,12 +64,6 @@ impl Levelling {
         (self.now - self.start).as_seconds()
     }
 
-    /// Start of the window.
-    #[must_use]
-    pub fn start(&self) -> Time {
-        self.start
-    }
-
     /// End of the window so far.
     #[must_use]
     pub fn now(&self) -> Time {
@@ -83,12 +75,7 @@ impl Levelling {
     pub fn level_at_start(&self) -> Option<Level> {
         let duration = self.duration();
         let rate = self.rate?;
-        (duration > 0.0).then(|| Level {
-            time: self.start,
-            force: self.sum / duration,
-            rate,
-            duration,
-        })
+        (duration > 0.0).then(|| Level { time: self.start, force: self.sum / duration, rate })
     }
 }
 
@@ -138,7 +125,7 @@ mod tests {
         let acceleration = Vector3::new(0.4, -0.3, 0.1);
         let gravity = Vector3::new(0.0, 0.0, earth::normal_gravity(place.latitude, place.height));
         let force = truth.c_nb().transpose() * (acceleration - gravity);
-        let level = Level { time: Time::START, force, rate: Vector3::zeros(), duration: 10.0 };
+        let level = Level { time: Time::START, force, rate: Vector3::zeros() };
         let found = level.attitude(truth.heading, &place, &acceleration);
         assert_relative_eq!(found.roll, truth.roll, epsilon = 1e-9);
         assert_relative_eq!(found.pitch, truth.pitch, epsilon = 1e-9);

@@ -58,12 +58,6 @@ pub(crate) struct Judged {
     innovation: [(f64, f64); 3],
 }
 
-impl Judged {
-    fn outcome(&self) -> Outcome {
-        self.outcome
-    }
-}
-
 /// After this long without GNSS the solution no longer counts as aided by it, s.
 const GNSS_TIMEOUT: f64 = 5.0;
 /// The same for logs and references, which may be slower, s.

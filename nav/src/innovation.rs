@@ -46,12 +46,6 @@ impl<const M: usize> Weighed<M> {
         self.whitened().norm_squared()
     }
 
-    /// Logarithm of the Gaussian likelihood, the constant left out.
-    #[must_use]
-    pub fn log_likelihood(&self) -> f64 {
-        -0.5 * self.nis() - self.log_root_determinant()
-    }
-
     /// Half the logarithm of det S.
     #[must_use]
     pub fn log_root_determinant(&self) -> f64 {

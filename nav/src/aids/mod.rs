@@ -32,8 +32,8 @@ pub struct View {
     pub c_eb: Matrix3<f64>,
     /// Angular rate of the body with respect to the Earth, body axes, rad/s.
     pub rate: Vector3<f64>,
-    /// Derivative of that rate with respect to the gyros' scale factors, negated: the rate itself with
-    /// respect to inertial space, rad/s.
+    /// Angular rate with respect to inertial space as measured, body axes, rad/s: what a scale factor
+    /// acts on.
     pub inertial_rate: Vector3<f64>,
     /// Variance of the noise of that rate, (rad/s)^2, each axis.
     pub rate_variance: f64,

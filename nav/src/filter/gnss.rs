@@ -5,6 +5,7 @@ use insd_base::{FixQuality, GnssFix, Rejection, Source, earth};
 use nalgebra::{Matrix3, Vector3};
 
 use super::{Filter, Judged, NO_INNOVATION, enter, imu_position};
+use crate::aids::View;
 use crate::aids::gnss_position::{self, PositionFix};
 use crate::aids::gnss_velocity::{self, VelocityFix};
 use crate::error_state::{ATTITUDE, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, POSITION, VELOCITY};
@@ -36,8 +37,8 @@ impl Filter {
             return;
         }
         self.note_quality(fix.quality);
-        self.apply_velocity(fix, source, report);
-        self.apply_position(fix, source, report);
+        let velocity = self.apply_velocity(fix, source, report);
+        self.apply_position(fix, velocity.as_ref(), source, report);
     }
 
     /// The slow errors of code and carrier solutions have nothing to do with each other.
@@ -52,10 +53,16 @@ impl Filter {
         self.rtk = Some(rtk);
     }
 
-    fn apply_velocity(&mut self, fix: &GnssFix, source: Source, report: &mut Report) {
-        let Some(measured) = self.velocity_fix(fix, report) else { return };
-        let lever = self.antenna_lever();
-        let innovation = gnss_velocity::innovation(&self.view(), &measured, &lever);
+    /// Returns the velocity as it was offered to the filter, used or not.
+    fn apply_velocity(
+        &mut self,
+        fix: &GnssFix,
+        source: Source,
+        report: &mut Report,
+    ) -> Option<VelocityFix> {
+        let view = self.view();
+        let measured = self.velocity_fix(&view, fix, report)?;
+        let innovation = gnss_velocity::innovation(&view, &measured, &self.antenna_lever());
         let fault = self.agreement(&innovation, |filter| &mut filter.trust.velocity);
         if fault && self.can_judge() {
             self.trust.suspect(self.time, self.config.gate.suspect_time);
@@ -63,11 +70,11 @@ impl Filter {
         let suspect = self.is_receiver_refused().then_some(Rejection::SourceSuspect);
         let judged = self.judge(&innovation, suspect);
         enter(report, fix.time, source, VELOCITY_AID, &judged);
+        Some(measured)
     }
 
-    fn velocity_fix(&self, fix: &GnssFix, report: &mut Report) -> Option<VelocityFix> {
+    fn velocity_fix(&self, view: &View, fix: &GnssFix, report: &mut Report) -> Option<VelocityFix> {
         let velocity = fix.velocity?;
-        let view = self.view();
         let std = floors::vector(fix.velocity_std, &floors::gnss_velocity());
         if std.replaced {
             report.floored.push(VELOCITY_AID);
@@ -100,10 +107,16 @@ impl Filter {
         self.nominal.velocity + self.nominal.attitude.transform_vector(&swing)
     }
 
-    fn apply_position(&mut self, fix: &GnssFix, source: Source, report: &mut Report) {
-        let Some(measured) = self.position_fix(fix, report) else { return };
-        let lever = self.antenna_lever();
-        let innovation = gnss_position::innovation(&self.view(), &measured, &lever);
+    fn apply_position(
+        &mut self,
+        fix: &GnssFix,
+        velocity: Option<&VelocityFix>,
+        source: Source,
+        report: &mut Report,
+    ) {
+        let view = self.view();
+        let Some(measured) = self.position_fix(&view, fix, report) else { return };
+        let innovation = gnss_position::innovation(&view, &measured, &self.antenna_lever());
         self.agreement(&innovation, |filter| &mut filter.trust.position);
         let refused = if self.is_receiver_refused() {
             Some(Rejection::SourceSuspect)
@@ -113,11 +126,11 @@ impl Filter {
         let judged = self.judge(&innovation, refused);
         match enter(report, fix.time, source, POSITION_AID, &judged) {
             Outcome::Accepted => self.trust.used(self.time),
-            Outcome::Rejected(_) => self.consider_reset(fix, &measured, report),
+            Outcome::Rejected(_) => self.consider_reset(&measured, velocity, report),
         }
     }
 
-    fn position_fix(&self, fix: &GnssFix, report: &mut Report) -> Option<PositionFix> {
+    fn position_fix(&self, view: &View, fix: &GnssFix, report: &mut Report) -> Option<PositionFix> {
         let position = fix.position?;
         let std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality));
         if std.replaced {
@@ -129,7 +142,7 @@ impl Filter {
             position,
             white: std.value * ((1.0 - share) * factor).sqrt(),
             slow: std.value * share.sqrt(),
-            velocity: self.view().c_ne * self.antenna_velocity(),
+            velocity: view.c_ne * self.antenna_velocity(),
         })
     }
 
@@ -168,7 +181,12 @@ impl Filter {
 
     /// When nothing of a receiver has been used for long, it is the filter that is lost: it must not
     /// be locked out by its own gate. A filter that can judge waits longer.
-    fn consider_reset(&mut self, fix: &GnssFix, measured: &PositionFix, report: &mut Report) {
+    fn consider_reset(
+        &mut self,
+        measured: &PositionFix,
+        velocity: Option<&VelocityFix>,
+        report: &mut Report,
+    ) {
         let gate = &self.config.gate;
         let patience = if self.can_judge() { gate.judged_reset_time } else { gate.reset_time };
         if !self.navigating || self.trust.refused(self.time) < patience {
@@ -180,12 +198,11 @@ impl Filter {
         let variance = (measured.white + measured.slow).map(|s| s * s).max();
         POSITION.renew(&mut self.covariance, &Matrix3::from_diagonal_element(variance));
         self.nominal.position = place.0;
-        if let (Some(velocity), Some(velocity_fix)) = (fix.velocity, self.velocity_fix(fix, report))
-        {
+        if let Some(velocity) = velocity {
             let swing = view.c_eb * view.rate.cross(&lever);
-            let variance = (velocity_fix.white + velocity_fix.slow).map(|s| s * s).max();
+            let variance = (velocity.white + velocity.slow).map(|s| s * s).max();
             VELOCITY.renew(&mut self.covariance, &Matrix3::from_diagonal_element(variance));
-            self.nominal.velocity = view.c_ne.transpose() * velocity.0 - swing;
+            self.nominal.velocity = view.c_ne.transpose() * velocity.velocity - swing;
         }
         ATTITUDE.inflate(&mut self.covariance, LOST_ATTITUDE * LOST_ATTITUDE);
         self.trust.clear();

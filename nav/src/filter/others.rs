@@ -91,7 +91,7 @@ impl Filter {
             self.nominal.berth_offset = Vector2::zeros();
         }
         let judged = self.judge(&berth::innovation(&self.view(), berth, BERTH_SURVEY), None);
-        self.count_straying(judged.outcome() == Outcome::Accepted);
+        self.count_straying(judged.outcome == Outcome::Accepted);
         let patience = self.config.sea.berth_offset_time * 2.0;
         self.next_mooring = self.time + Span::from_seconds(patience);
         judged
