@@ -15,6 +15,8 @@ use insd_nav::initial::sensor_covariance;
 use insd_nav::{Estimator, Filter, Increment, InitialState, NavConfig, Nominal, Report};
 use nalgebra::{Matrix3, Vector3};
 
+use crate::config::Method;
+use crate::fine::Fine;
 use crate::levelling::Level;
 use crate::mixture::{join, mixed};
 
@@ -44,7 +46,7 @@ pub struct Bank {
 
 #[derive(Clone, Debug)]
 struct Member {
-    filter: Box<Filter>,
+    fine: Box<Fine>,
     log_weight: f64,
 }
 
@@ -59,22 +61,25 @@ const TOGETHER: f64 = 0.7;
 /// Heading sigma below which one filter alone is linear enough to go on.
 const LINEAR: f64 = 5.0 * DEG;
 /// Sigma of roll and pitch after levelling, sensor bias aside.
-const LEVEL_STD: f64 = 1.0 * DEG;
+const LEVEL_STD: f64 = 2.0 * DEG;
 /// How often the bank is tidied.
 const TIDY: Span = Span::from_nanos(1_000_000_000);
 
 impl Bank {
     /// A bank of all headings around a levelled ship.
     #[must_use]
-    pub fn new(config: &NavConfig, level: &Level, kinematics: &Kinematics) -> Self {
+    pub fn new(config: &NavConfig, level: &Level, kinematics: &Kinematics, method: Method) -> Self {
         let members = (0..HEADINGS)
             .map(|i| {
                 let heading = TAU * i as f64 / HEADINGS as f64;
                 let initial = hypothesis(config, level, kinematics, heading);
-                Member {
-                    filter: Box::new(Filter::new(config, &initial, kinematics.moored)),
-                    log_weight: 0.0,
-                }
+                let filter = Filter::new(config, &initial);
+                let fine = if kinematics.moored {
+                    Fine::moored(filter, method)
+                } else {
+                    Fine::under_way(filter)
+                };
+                Member { fine: Box::new(fine), log_weight: 0.0 }
             })
             .collect();
         Bank { members, next_tidy: level.time + TIDY }
@@ -82,20 +87,34 @@ impl Bank {
 
     /// The one filter left, once it knows its heading well enough to go on alone.
     #[must_use]
-    pub fn winner(&self) -> Option<&Filter> {
+    pub fn winner(&self) -> Option<&Fine> {
         match self.members.as_slice() {
-            [only] if only.filter.heading_std() < LINEAR => Some(&only.filter),
+            [only] if only.fine.filter().heading_std() < LINEAR => Some(&only.fine),
             _ => None,
         }
     }
 
-    /// Whether the likeliest filter still takes the ship as lying at her berth.
+    /// Whether the ship is taken as lying at her berth.
     #[must_use]
     pub fn is_moored(&self) -> bool {
-        self.members
-            .iter()
-            .max_by(|a, b| a.log_weight.total_cmp(&b.log_weight))
-            .is_some_and(|member| member.filter.is_moored())
+        self.likeliest().is_some_and(Fine::is_moored)
+    }
+
+    /// The likeliest filter.
+    #[must_use]
+    pub fn likeliest(&self) -> Option<&Fine> {
+        let heaviest = self.members.iter().max_by(|a, b| a.log_weight.total_cmp(&b.log_weight));
+        heaviest.map(|member| member.fine.as_ref())
+    }
+
+    /// Lets all go if the likeliest has left the berth: one that stayed would be judged by other
+    /// evidence than one that left.
+    fn follow_departure(&mut self) {
+        if self.likeliest().is_some_and(Fine::seems_to_leave) {
+            for member in &mut self.members {
+                member.fine.cast_off();
+            }
+        }
     }
 
     fn tidy(&mut self) {
@@ -119,8 +138,8 @@ impl Bank {
     }
 
     fn are_together(&self, first: usize, second: usize) -> bool {
-        let a = self.members[first].filter.solution();
-        let b = self.members[second].filter.solution();
+        let a = self.members[first].fine.solution();
+        let b = self.members[second].fine.solution();
         let distance = wrap_pi(a.attitude.heading - b.attitude.heading).abs();
         distance < TOGETHER * a.sigma.heading.hypot(b.sigma.heading)
             && a.sigma.heading.max(b.sigma.heading) < 2.0 * LINEAR
@@ -130,10 +149,11 @@ impl Bank {
         let other = self.members.remove(second);
         let member = &mut self.members[first];
         let share = 1.0 / (1.0 + (member.log_weight - other.log_weight).exp());
-        member.filter.settle();
-        let mut settled = other.filter;
-        settled.settle();
-        join(&mut member.filter, &settled, share);
+        let mut settled = other.fine;
+        settled.filter_mut().settle();
+        let filter = member.fine.filter_mut();
+        filter.settle();
+        join(filter, settled.filter(), share);
         let (high, low) = if member.log_weight > other.log_weight {
             (member.log_weight, other.log_weight)
         } else {
@@ -142,51 +162,52 @@ impl Bank {
         member.log_weight = high + (low - high).exp().ln_1p();
     }
 
-    fn weighted(&self, solution: impl Fn(&Filter) -> Solution) -> Vec<(f64, Solution)> {
+    fn weighted(&self, solution: impl Fn(&Fine) -> Solution) -> Vec<(f64, Solution)> {
         let best = self.members.iter().map(|m| m.log_weight).fold(f64::NEG_INFINITY, f64::max);
         self.members
             .iter()
-            .map(|member| ((member.log_weight - best).exp(), solution(&member.filter)))
+            .map(|member| ((member.log_weight - best).exp(), solution(&member.fine)))
             .collect()
     }
 
     /// What the bank says together; the likeliest member where the mixture is empty of sense.
-    fn together(&self, solution: impl Fn(&Filter) -> Solution) -> Solution {
-        mixed(&self.weighted(&solution)).unwrap_or_else(|| solution(&self.members[0].filter))
+    fn together(&self, solution: impl Fn(&Fine) -> Solution) -> Solution {
+        mixed(&self.weighted(&solution)).unwrap_or_else(|| solution(&self.members[0].fine))
     }
 }
 
 impl Estimator for Bank {
     fn advance(&mut self, increment: &Increment) {
         for member in &mut self.members {
-            member.filter.advance(increment);
-            member.log_weight += member.filter.take_internal_likelihood();
+            member.fine.advance(increment);
+            member.log_weight += member.fine.take_likelihood();
+        }
+        let at = increment.to;
+        if at >= self.next_tidy {
+            self.next_tidy = at + TIDY;
+            self.tidy();
+            self.follow_departure();
         }
     }
 
     fn apply(&mut self, received: &Received) -> Report {
         let mut best: Option<(f64, Report)> = None;
         for member in &mut self.members {
-            let report = member.filter.apply(received);
+            let report = member.fine.apply(received);
             member.log_weight += report.log_likelihood;
             if best.as_ref().is_none_or(|(weight, _)| member.log_weight > *weight) {
                 best = Some((member.log_weight, report));
             }
         }
-        let at = received.message.time();
-        if at >= self.next_tidy {
-            self.next_tidy = at + TIDY;
-            self.tidy();
-        }
         best.map(|(_, report)| report).unwrap_or_default()
     }
 
     fn solution(&self) -> Solution {
-        self.together(Filter::solution)
+        self.together(Fine::solution)
     }
 
     fn solution_at(&self, increment: &Increment, at: Time) -> Solution {
-        self.together(|filter| filter.solution_at(increment, at))
+        self.together(|fine| fine.solution_at(increment, at))
     }
 }
 

@@ -8,8 +8,19 @@
 //! Pure: no I/O, no clock, no thread, no randomness.
 
 pub mod bank;
+pub mod config;
+pub mod departure;
+pub mod disturbance;
+pub mod fine;
+pub mod in_motion;
 pub mod levelling;
 pub mod mixture;
+pub mod moorings;
+pub mod prefiltered;
+pub mod white;
 
 pub use bank::Bank;
+pub use config::{AlignmentConfig, InMotion, Method};
+pub use fine::Fine;
+pub use in_motion::EightState;
 pub use levelling::{Level, Levelling};

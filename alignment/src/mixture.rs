@@ -4,17 +4,24 @@ use insd_base::units::{wrap_pi, wrap_two_pi};
 use insd_base::{Attitude, Ecef, Ned, Solution, SolutionSigma, earth};
 use insd_nav::error_state::ErrorState;
 use insd_nav::filter::Filter;
+use insd_nav::symmetry::turn_biases;
 use nalgebra::Vector3;
 
 /// Joins two filters of one instant into the first: mean and covariance of the mixture
 /// (Bar-Shalom, Li and Kirubarajan, Estimation with Applications to Tracking and Navigation,
-/// eq. (1.4.16-10)). `share` is the weight of the second, 0..1.
+/// eq. (1.4.16-10)), each covariance seen from the mean. `share` is the weight of the second, 0..1.
 pub fn join(first: &mut Filter, second: &Filter, share: f64) {
     let error: ErrorState = first.nominal().error_to(second.nominal());
     let mut nominal = *first.nominal();
     nominal.inject(&(error * share));
     let spread = error * error.transpose() * (share * (1.0 - share));
-    let covariance = first.covariance() * (1.0 - share) + second.covariance() * share + spread;
+    let seen_from_there = |filter: &Filter| {
+        let mut covariance = *filter.covariance();
+        turn_biases(&mut covariance, &filter.nominal().c_eb(), &nominal.c_eb());
+        covariance
+    };
+    let covariance =
+        seen_from_there(first) * (1.0 - share) + seen_from_there(second) * share + spread;
     first.replace(nominal, covariance);
 }
 

@@ -110,7 +110,7 @@ fn under_way(covariance_interval: f64) -> (Filter, Vec<Increment>) {
         covariance: covariance(&config),
         rate: Vector3::zeros(),
     };
-    let mut filter = Filter::new(&config, &initial, false);
+    let mut filter = Filter::new(&config, &initial);
     filter.begin_navigation();
     let mut increments = increments(WARM_UP + STEPS);
     let ahead = increments.split_off(WARM_UP);
@@ -153,7 +153,7 @@ fn covariance_propagation(
     mut run: Box<(Covariance, Stretch, LocalGravity, NavConfig)>,
 ) -> Box<(Covariance, Stretch, LocalGravity, NavConfig)> {
     let (covariance, stretch, gravity, config) = &mut *run;
-    let regime = Regime { rtk: false, berth_offset_std: 0.4 };
+    let regime = Regime { rtk: false, sway: None };
     propagate(black_box(covariance), stretch, gravity.gradient(), config, &regime);
     run
 }

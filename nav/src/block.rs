@@ -75,6 +75,14 @@ impl<const W: usize> Block<W> {
         block += (covariance + covariance.transpose()) * 0.5;
     }
 
+    /// Transforms this block of the error by a matrix.
+    pub fn transform(self, p: &mut Covariance, matrix: &SMatrix<f64, W, W>) {
+        let columns = p.fixed_columns::<W>(self.start) * matrix.transpose();
+        p.fixed_columns_mut::<W>(self.start).copy_from(&columns);
+        let rows = matrix * p.fixed_rows::<W>(self.start);
+        p.fixed_rows_mut::<W>(self.start).copy_from(&rows);
+    }
+
     /// Adds a variance to each component.
     pub fn inflate(self, p: &mut Covariance, variance: f64) {
         for i in self.start..self.end() {

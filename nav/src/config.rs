@@ -68,15 +68,6 @@ pub struct SeaModel {
     pub least_mean_heave: f64,
     /// Averaged heave before any has been seen, 1-sigma, m.
     pub initial_mean_heave: f64,
-    /// Displacement of a moored ship from her berth before a reference states it, 1-sigma of each
-    /// horizontal component, m.
-    pub berth_offset_std: f64,
-    /// Time constant of that displacement, s.
-    pub berth_offset_time: f64,
-    /// Sway velocity of a moored ship, 1-sigma of each horizontal component, m/s.
-    pub mooring_velocity_std: f64,
-    /// Time over which a moored ship's position and velocity decorrelate, s.
-    pub mooring_time: f64,
 }
 
 /// Gates.
@@ -143,15 +134,7 @@ impl NavConfig {
                 current_std: 0.5,
                 current_time: 7200.0,
             },
-            sea: SeaModel {
-                level_walk: 0.002,
-                least_mean_heave: 0.02,
-                initial_mean_heave: 0.3,
-                berth_offset_std: 0.5,
-                berth_offset_time: 12.0,
-                mooring_velocity_std: 0.3,
-                mooring_time: 5.0,
-            },
+            sea: SeaModel { level_walk: 0.002, least_mean_heave: 0.02, initial_mean_heave: 0.3 },
             gate: GateModel {
                 probability: 0.9999,
                 code_base_error: 5.0,

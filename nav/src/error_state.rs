@@ -39,10 +39,14 @@ pub const GNSS_DELAY: Block<1> = Block::after(GNSS_VELOCITY_DELAY);
 pub const GNSS_LEVER: Block<3> = Block::after(GNSS_DELAY);
 /// Water current, north and east, m/s, Gauss-Markov.
 pub const CURRENT: Block<2> = Block::after(GNSS_LEVER);
-/// Displacement of a moored ship from her berth, north and east, m, Gauss-Markov.
+/// Mean place of a moored ship from her named berth, north and east, m, constant but for shifts.
 pub const BERTH_OFFSET: Block<2> = Block::after(CURRENT);
+/// Slow swaying of a moored ship about that place, north and east of each of two oscillators, m.
+pub const SWAY: Block<4> = Block::after(BERTH_OFFSET);
+/// Velocity of that swaying, m/s.
+pub const SWAY_VELOCITY: Block<4> = Block::after(SWAY);
 /// Log scale factor, ratio, constant.
-pub const LOG_SCALE: Block<1> = Block::after(BERTH_OFFSET);
+pub const LOG_SCALE: Block<1> = Block::after(SWAY_VELOCITY);
 /// Log misalignment about the starboard and down axes, rad, constant.
 pub const LOG_MISALIGNMENT: Block<2> = Block::after(LOG_SCALE);
 /// Mean height of the IMU over the ellipsoid (sea level plus mounting height), m, random walk.

@@ -3,12 +3,15 @@
 use insd_base::{
     Body, Ecef, Message, Mode, Ned, Received, Rejection, Solution, Source, Time, earth,
 };
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::{Matrix2, Matrix4, SMatrix, UnitQuaternion, Vector2, Vector3};
 
 use crate::aids::{View, sea_level};
 use crate::antenna::AntennaMotion;
 use crate::config::NavConfig;
-use crate::error_state::{Covariance, POSITION, SEA_LEVEL, VELOCITY};
+use crate::error_state::{
+    ATTITUDE, BERTH_OFFSET, Covariance, ErrorState, POSITION, SEA_LEVEL, SWAY, SWAY_VELOCITY,
+    VELOCITY,
+};
 use crate::gate::ChiSquareGate;
 use crate::increments::Increment;
 use crate::initial::InitialState;
@@ -18,8 +21,9 @@ use crate::propagation::{self, Regime, Stretch, markov_decay};
 use crate::report::{AidReport, Outcome, Report};
 use crate::sea_window::LevelWindow;
 use crate::solution_sigma::solution_sigma;
-use crate::spread::Spread;
 use crate::strapdown::{self, LocalGravity};
+use crate::sway::Sway;
+use crate::symmetry::{keep_turn_unknown, turn_biases};
 use crate::timeline::Estimator;
 use crate::trust::Trust;
 
@@ -40,23 +44,27 @@ pub struct Filter {
     trust: Trust,
     rtk: Option<bool>,
     level: LevelWindow,
-    sway: Spread,
-    moored: bool,
+    sway: Option<Sway>,
     navigating: bool,
     antenna: AntennaMotion,
-    strayed: u32,
-    next_mooring: Time,
-    berth_offset_std: f64,
     last_relative: Option<Time>,
-    internal_likelihood: f64,
+    turned: Vector3<f64>,
+    corrected: ErrorState,
 }
 
 /// What the gates said of an innovation.
-pub(crate) struct Judged {
-    outcome: Outcome,
-    log_likelihood: f64,
-    innovation: [(f64, f64); 3],
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judged {
+    /// Whether it was absorbed, or why not.
+    pub outcome: Outcome,
+    /// Logarithm of its likelihood, bounded by the gate.
+    pub log_likelihood: f64,
+    /// Value and expected sigma of each component; NaN where there is none.
+    pub innovation: [(f64, f64); 3],
 }
+
+/// Correction of the attitude after which the knowledge of the biases is turned with it, rad.
+const TURN: f64 = 2e-4;
 
 /// After this long without GNSS the solution no longer counts as aided by it, s.
 const GNSS_TIMEOUT: f64 = 5.0;
@@ -64,9 +72,9 @@ const GNSS_TIMEOUT: f64 = 5.0;
 const RELATIVE_TIMEOUT: f64 = 15.0;
 
 impl Filter {
-    /// A filter from an initial state; `moored` if the ship is known to lie at her berth.
+    /// A filter from an initial state.
     #[must_use]
-    pub fn new(config: &NavConfig, initial: &InitialState, moored: bool) -> Self {
+    pub fn new(config: &NavConfig, initial: &InitialState) -> Self {
         Filter {
             config: *config,
             gate: ChiSquareGate::new(config.gate.probability),
@@ -79,15 +87,12 @@ impl Filter {
             trust: Trust::default(),
             rtk: None,
             level: LevelWindow::new(&config.sea),
-            sway: Spread::new(config.sea.mooring_velocity_std, 0.01),
-            moored,
+            sway: None,
             navigating: false,
             antenna: AntennaMotion::default(),
-            strayed: 0,
-            next_mooring: initial.time,
-            berth_offset_std: config.sea.berth_offset_std,
             last_relative: None,
-            internal_likelihood: 0.0,
+            turned: Vector3::zeros(),
+            corrected: ErrorState::zeros(),
         }
     }
 
@@ -109,12 +114,6 @@ impl Filter {
         &self.covariance
     }
 
-    /// Whether the ship is still taken as lying at her berth.
-    #[must_use]
-    pub fn is_moored(&self) -> bool {
-        self.moored
-    }
-
     /// Ends alignment: the filter now stands for itself and may judge the sensors' honesty.
     pub fn begin_navigation(&mut self) {
         self.navigating = true;
@@ -132,7 +131,7 @@ impl Filter {
         if self.stretch.duration <= 0.0 {
             return;
         }
-        let regime = Regime { rtk: self.is_rtk(), berth_offset_std: self.berth_offset_std };
+        let regime = Regime { rtk: self.is_rtk(), sway: self.sway };
         propagation::propagate(
             &mut self.covariance,
             &self.stretch,
@@ -158,11 +157,15 @@ impl Filter {
         nominal.accel_drift *= markov_decay(dt, imu.accel.instability_time);
         nominal.gnss_position_error *= markov_decay(dt, gnss.position_time_for(rtk));
         nominal.gnss_velocity_error *= markov_decay(dt, gnss.velocity_time);
-        nominal.berth_offset *= markov_decay(dt, self.config.sea.berth_offset_time);
         nominal.current *= markov_decay(dt, log.current_time);
+        if let Some(sway) = &self.sway {
+            sway.relax(nominal, dt);
+        }
     }
 
-    fn view(&self) -> View {
+    /// The estimate with what aids need of it.
+    #[must_use]
+    pub fn view(&self) -> View {
         // the rate comes from one sample and is extrapolated by half of it from the one before
         let noise = self.config.imu.gyro.random_walk.powi(2) * self.config.imu.rate * 2.5;
         View::new(&self.nominal, &self.rate, noise)
@@ -192,6 +195,71 @@ impl Filter {
     fn absorb<const M: usize>(&mut self, weighed: &Weighed<M>) {
         let error = weighed.update(&mut self.covariance);
         self.nominal.inject(&error);
+        self.corrected += error;
+        if self.sway.is_some() {
+            let down = -self.nominal.position.normalize();
+            keep_turn_unknown(&mut self.covariance, &error, &down);
+        }
+        self.turned += ATTITUDE.of(&error);
+        if self.turned.norm() > TURN {
+            let now = self.nominal.attitude;
+            let before = UnitQuaternion::new(-self.turned) * now;
+            let axes = |attitude: UnitQuaternion<f64>| attitude.to_rotation_matrix().into_inner();
+            turn_biases(&mut self.covariance, &axes(before), &axes(now));
+            self.turned = Vector3::zeros();
+        }
+    }
+
+    /// Brings in a condition from outside, such as that the ship lies at her berth: judged and
+    /// absorbed as a measurement.
+    pub fn impose<const M: usize>(&mut self, innovation: &Innovation<M>) -> Judged {
+        self.settle();
+        let judged = self.judge(innovation, None);
+        self.note(judged.outcome);
+        judged
+    }
+
+    /// Sum of all corrections of the estimate since the last call.
+    pub fn take_correction(&mut self) -> ErrorState {
+        std::mem::replace(&mut self.corrected, ErrorState::zeros())
+    }
+
+    /// Takes the ship as lying at a berth about which she sways; how far her mean place is from it is
+    /// known to `offset_std` of each component, m.
+    pub fn moor(&mut self, sway: Sway, offset_std: f64) {
+        self.settle();
+        sway.begin(&mut self.nominal, &mut self.covariance);
+        self.nominal.berth_offset = Vector2::zeros();
+        let offset = Matrix2::from_diagonal_element(offset_std * offset_std);
+        BERTH_OFFSET.renew(&mut self.covariance, &offset);
+        self.sway = Some(sway);
+    }
+
+    /// How the ship sways, as far as she is taken as moored.
+    #[must_use]
+    pub fn sway(&self) -> Option<&Sway> {
+        self.sway.as_ref()
+    }
+
+    /// Changes what is assumed of the swaying from now on.
+    pub fn set_sway(&mut self, sway: Sway) {
+        self.settle();
+        self.sway = Some(sway);
+    }
+
+    /// Admits that the ship's mean place at the berth has shifted by as much as this, 1-sigma of each
+    /// component, m.
+    pub fn loosen_berth(&mut self, std: f64) {
+        BERTH_OFFSET.inflate(&mut self.covariance, std * std);
+    }
+
+    /// The ship is no longer taken as moored.
+    pub fn cast_off(&mut self) {
+        self.settle();
+        self.sway = None;
+        BERTH_OFFSET.renew(&mut self.covariance, &Matrix2::zeros());
+        SWAY.renew(&mut self.covariance, &Matrix4::zeros());
+        SWAY_VELOCITY.renew(&mut self.covariance, &Matrix4::zeros());
     }
 
     fn bounded_likelihood<const M: usize>(&self, weighed: &Weighed<M>) -> f64 {
@@ -241,12 +309,6 @@ impl Filter {
         self.trust.last_used().is_some_and(|last| (self.time - last).as_seconds() < GNSS_TIMEOUT)
     }
 
-    /// Log-likelihood of the conditions that the filter imposed on itself (zero mean velocity at the
-    /// berth) since the last call.
-    pub fn take_internal_likelihood(&mut self) -> f64 {
-        std::mem::take(&mut self.internal_likelihood)
-    }
-
     /// Which aids carry the solution.
     #[must_use]
     pub fn mode(&self) -> Mode {
@@ -290,10 +352,6 @@ impl Estimator for Filter {
         if self.level.is_full() {
             self.settle();
             self.hold_sea_level();
-        }
-        if self.moored && self.time >= self.next_mooring {
-            self.settle();
-            self.hold_mooring();
         }
     }
 

@@ -5,9 +5,9 @@ use nalgebra::{Matrix1, Matrix2, Matrix3, Vector3};
 
 use crate::config::NavConfig;
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, BERTH_OFFSET, CURRENT, Covariance, GNSS_DELAY,
-    GNSS_LEVER, GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS,
-    GYRO_DRIFT, GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, SEA_LEVEL,
+    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, CURRENT, Covariance, GNSS_DELAY, GNSS_LEVER,
+    GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT,
+    GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, SEA_LEVEL,
 };
 use crate::nominal::Nominal;
 
@@ -48,8 +48,6 @@ pub fn sensor_covariance(config: &NavConfig) -> Covariance {
     GNSS_LEVER.renew(&mut p, &three(config.gnss.lever_std));
     let log = &config.log;
     CURRENT.renew(&mut p, &Matrix2::from_diagonal_element(log.current_std.powi(2)));
-    let offset = config.sea.berth_offset_std.powi(2);
-    BERTH_OFFSET.renew(&mut p, &Matrix2::from_diagonal_element(offset));
     LOG_SCALE.renew(&mut p, &Matrix1::new(log.scale_std.powi(2)));
     let misalignment = Matrix2::from_diagonal_element(log.misalignment_std.powi(2));
     LOG_MISALIGNMENT.renew(&mut p, &misalignment);

@@ -23,6 +23,8 @@ pub mod sea_window;
 pub mod solution_sigma;
 pub mod spread;
 pub mod strapdown;
+pub mod sway;
+pub mod symmetry;
 pub mod timeline;
 pub mod trust;
 
@@ -32,4 +34,5 @@ pub use increments::{Conditioned, Conditioner, Increment};
 pub use initial::InitialState;
 pub use nominal::Nominal;
 pub use report::{AidReport, Outcome, Report};
+pub use sway::{Oscillator, Sway};
 pub use timeline::{Estimator, Timeline};

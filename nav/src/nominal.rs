@@ -3,12 +3,13 @@
 
 use insd_base::earth;
 use insd_base::{Ecef, Geodetic};
-use nalgebra::{Matrix3, UnitQuaternion, Vector1, Vector2, Vector3};
+use nalgebra::{Matrix3, Rotation2, UnitQuaternion, Vector1, Vector2, Vector3, Vector4};
 
 use crate::error_state::{
     ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, BERTH_OFFSET, CURRENT, ErrorState, GNSS_DELAY,
     GNSS_LEVER, GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS,
-    GYRO_DRIFT, GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, POSITION, SEA_LEVEL, VELOCITY,
+    GYRO_DRIFT, GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, POSITION, SEA_LEVEL, SWAY, SWAY_VELOCITY,
+    VELOCITY,
 };
 
 /// Estimated values of everything in the error state; units and axes as stated there.
@@ -44,8 +45,12 @@ pub struct Nominal {
     pub gnss_velocity_delay: f64,
     /// Water current, north and east, m/s.
     pub current: Vector2<f64>,
-    /// Displacement from the berth, north and east, m.
+    /// Mean place from the named berth, north and east, m.
     pub berth_offset: Vector2<f64>,
+    /// Slow swaying about that place, north and east of each oscillator, m.
+    pub sway: Vector4<f64>,
+    /// Velocity of that swaying, m/s.
+    pub sway_velocity: Vector4<f64>,
     /// Log scale factor, ratio.
     pub log_scale: f64,
     /// Log misalignment about starboard and down, rad.
@@ -76,10 +81,18 @@ impl Nominal {
             gnss_velocity_delay: 0.0,
             current: Vector2::zeros(),
             berth_offset: Vector2::zeros(),
+            sway: Vector4::zeros(),
+            sway_velocity: Vector4::zeros(),
             log_scale: 0.0,
             log_misalignment: Vector2::zeros(),
             sea_level: position.height,
         }
+    }
+
+    /// Slow swaying, both oscillators together, north and east, m.
+    #[must_use]
+    pub fn swaying(&self) -> Vector2<f64> {
+        self.sway.fixed_rows::<2>(0) + self.sway.fixed_rows::<2>(2)
     }
 
     /// Geodetic position of the IMU.
@@ -94,7 +107,8 @@ impl Nominal {
         self.attitude.to_rotation_matrix().into_inner()
     }
 
-    /// Moves the estimate by an error vector: estimated + error = true.
+    /// Moves the estimate by an error vector: estimated + error = true. The swaying of a moored ship
+    /// is held in the axes of the computed heading and turns with it ([`crate::aids::berth`]).
     pub fn inject(&mut self, error: &ErrorState) {
         self.position += POSITION.of(error);
         self.velocity += VELOCITY.of(error);
@@ -111,7 +125,10 @@ impl Nominal {
         self.gnss_delay += GNSS_DELAY.of(error).x;
         self.gnss_velocity_delay += GNSS_VELOCITY_DELAY.of(error).x;
         self.current += CURRENT.of(error);
-        self.berth_offset += BERTH_OFFSET.of(error);
+        let turn = turn_about_down(&ATTITUDE.of(error), &self.position);
+        self.berth_offset = turn * self.berth_offset + BERTH_OFFSET.of(error);
+        self.sway = turned(&turn, &self.sway) + SWAY.of(error);
+        self.sway_velocity = turned(&turn, &self.sway_velocity) + SWAY_VELOCITY.of(error);
         self.log_scale += LOG_SCALE.of(error).x;
         self.log_misalignment += LOG_MISALIGNMENT.of(error);
         self.sea_level += SEA_LEVEL.of(error).x;
@@ -140,12 +157,32 @@ impl Nominal {
         let delay = other.gnss_velocity_delay - self.gnss_velocity_delay;
         GNSS_VELOCITY_DELAY.set(&mut error, &Vector1::new(delay));
         CURRENT.set(&mut error, &(other.current - self.current));
-        BERTH_OFFSET.set(&mut error, &(other.berth_offset - self.berth_offset));
+        let about_down = turn_about_down(&turn.scaled_axis(), &other.position);
+        let offset = other.berth_offset - about_down * self.berth_offset;
+        BERTH_OFFSET.set(&mut error, &offset);
+        SWAY.set(&mut error, &(other.sway - turned(&about_down, &self.sway)));
+        let velocity = other.sway_velocity - turned(&about_down, &self.sway_velocity);
+        SWAY_VELOCITY.set(&mut error, &velocity);
         LOG_SCALE.set(&mut error, &Vector1::new(other.log_scale - self.log_scale));
         LOG_MISALIGNMENT.set(&mut error, &(other.log_misalignment - self.log_misalignment));
         SEA_LEVEL.set(&mut error, &Vector1::new(other.sea_level - self.sea_level));
         error
     }
+}
+
+/// The part of a small rotation, ECEF axes, that turns the horizontal axes at a place.
+///
+/// Down is minus the normal of the ellipsoid, which is along (x/a^2, y/a^2, z/b^2).
+fn turn_about_down(rotation: &Vector3<f64>, place: &Vector3<f64>) -> Rotation2<f64> {
+    let flat = 1.0 - earth::ECCENTRICITY_SQ;
+    let up = Vector3::new(place.x, place.y, place.z / flat).normalize();
+    Rotation2::new(-rotation.dot(&up))
+}
+
+/// North and east of both oscillators, turned.
+fn turned(turn: &Rotation2<f64>, sway: &Vector4<f64>) -> Vector4<f64> {
+    let component = |i: usize| (turn.matrix() * sway.fixed_rows::<2>(i & 2))[i & 1];
+    Vector4::from_fn(|i, _| component(i))
 }
 
 #[cfg(test)]

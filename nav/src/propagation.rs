@@ -17,12 +17,13 @@ use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use crate::config::NavConfig;
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, BERTH_OFFSET, CURRENT, Covariance,
-    GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, POSITION,
-    SEA_LEVEL, STATES, STRAPDOWN_STATES, VELOCITY,
+    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, CURRENT, Covariance, GNSS_POSITION_ERROR,
+    GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, POSITION, SEA_LEVEL, STATES,
+    STRAPDOWN_STATES, VELOCITY,
 };
 use crate::increments::Increment;
 use crate::strapdown::Step;
+use crate::sway::Sway;
 
 type Transition = SMatrix<f64, STRAPDOWN_STATES, STRAPDOWN_STATES>;
 type Input = SMatrix<f64, STRAPDOWN_STATES, 3>;
@@ -109,8 +110,8 @@ impl Default for Stretch {
 pub struct Regime {
     /// GNSS positions come from fixed carrier ambiguities.
     pub rtk: bool,
-    /// Displacement of a moored ship from her berth, 1-sigma of each component, m.
-    pub berth_offset_std: f64,
+    /// How a moored ship sways; `None` under way.
+    pub sway: Option<Sway>,
 }
 
 /// The nine strapdown rows of the transition matrix over a stretch.
@@ -169,6 +170,9 @@ pub fn propagate(
     p.fixed_rows_mut::<STRAPDOWN_STATES>(0).copy_from(&columns.transpose());
     p.fixed_view_mut::<STRAPDOWN_STATES, STRAPDOWN_STATES>(0, 0).copy_from(&corner);
     relax_markov(p, stretch.duration, config, regime);
+    if let Some(sway) = &regime.sway {
+        sway.propagate(p, stretch.duration);
+    }
     add_noise(p, stretch, config);
 }
 
@@ -210,7 +214,7 @@ fn strapdown_corner(columns: &Columns, stretch: &Stretch, rows: &StrapdownRows) 
 }
 
 /// Gauss-Markov states with their steady sigma and time constant.
-fn markov(config: &NavConfig, regime: &Regime) -> [(usize, usize, f64, f64); 6] {
+fn markov(config: &NavConfig, regime: &Regime) -> [(usize, usize, f64, f64); 5] {
     let (gyro, accel) = (&config.imu.gyro, &config.imu.accel);
     [
         (GYRO_DRIFT.start(), GYRO_DRIFT.end(), gyro.instability_std, gyro.instability_time),
@@ -223,12 +227,6 @@ fn markov(config: &NavConfig, regime: &Regime) -> [(usize, usize, f64, f64); 6] 
         ),
         (GNSS_VELOCITY_ERROR.start(), GNSS_VELOCITY_ERROR.end(), 1.0, config.gnss.velocity_time),
         (CURRENT.start(), CURRENT.end(), config.log.current_std, config.log.current_time),
-        (
-            BERTH_OFFSET.start(),
-            BERTH_OFFSET.end(),
-            regime.berth_offset_std,
-            config.sea.berth_offset_time,
-        ),
     ]
 }
 

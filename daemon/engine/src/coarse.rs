@@ -113,7 +113,7 @@ impl Coarse {
             position: self.berth?,
             position_std: 100.0,
             velocity: Vector3::zeros(),
-            velocity_std: if self.moored { 1.0 } else { 10.0 },
+            velocity_std: if self.moored { 2.0 } else { 10.0 },
             acceleration: Vector3::zeros(),
             moored: self.moored,
         })

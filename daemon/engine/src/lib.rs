@@ -11,6 +11,7 @@ mod ship;
 
 use std::collections::VecDeque;
 
+use insd_alignment::AlignmentConfig;
 use insd_base::{
     Counts, Event, Geodetic, ImuSample, ImuSpec, Innovation, LeverArms, Message, Mode, Received,
     Rejection, Solution, Source, Span, StartCondition, Time, VoyageHeader,
@@ -36,6 +37,8 @@ pub struct EngineConfig {
     pub initial: Option<Geodetic>,
     /// Solutions per second.
     pub output_rate: f64,
+    /// How the ship finds her attitude and heading.
+    pub alignment: AlignmentConfig,
 }
 
 impl EngineConfig {
@@ -48,6 +51,7 @@ impl EngineConfig {
             start: header.start,
             initial: header.initial,
             output_rate,
+            alignment: AlignmentConfig::default(),
         }
     }
 }
@@ -195,7 +199,7 @@ impl Engine {
             }
             return;
         };
-        let ship = Ship::aligning(&self.nav, &level, &kinematics);
+        let ship = Ship::aligning(&self.nav, &level, &kinematics, &self.config.alignment);
         let mut line = Timeline::new(ship, level.time);
         let fresh = Coarse::new(&self.config);
         let (increments, messages) = std::mem::replace(&mut **coarse, fresh).into_data();

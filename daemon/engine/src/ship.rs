@@ -1,7 +1,7 @@
-//! The ship on her time line: aligning with a bank of filters, then navigating with the one left.
+//! The ship on her time line: finding her heading, then navigating.
 
 use insd_alignment::bank::Kinematics;
-use insd_alignment::{Bank, Level};
+use insd_alignment::{AlignmentConfig, Bank, EightState, Fine, InMotion, Level};
 use insd_base::units::DEG;
 use insd_base::{Mode, Received, Solution, Time};
 use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
@@ -17,19 +17,31 @@ const STEERABLE: f64 = 1.0 * DEG;
 pub(crate) enum Ship {
     /// Several headings are possible.
     Aligning(Bank),
+    /// Under way, with a heading that may be anything.
+    InMotion { finder: Box<EightState>, config: NavConfig },
     /// One is known, `aligned` once well enough to steer by.
-    Navigating { filter: Box<Filter>, aligned: bool },
+    Navigating { fine: Box<Fine>, aligned: bool },
 }
 
 impl Ship {
-    pub(crate) fn aligning(config: &NavConfig, level: &Level, kinematics: &Kinematics) -> Self {
-        Ship::Aligning(Bank::new(config, level, kinematics))
+    pub(crate) fn aligning(
+        config: &NavConfig,
+        level: &Level,
+        kinematics: &Kinematics,
+        choice: &AlignmentConfig,
+    ) -> Self {
+        if !kinematics.moored && choice.in_motion == InMotion::EightState {
+            let finder = Box::new(EightState::new(config, level, kinematics));
+            return Ship::InMotion { finder, config: *config };
+        }
+        Ship::Aligning(Bank::new(config, level, kinematics, choice.moored))
     }
 
     fn moored(&self) -> bool {
         match self {
             Ship::Aligning(bank) => bank.is_moored(),
-            Ship::Navigating { filter, .. } => filter.is_moored(),
+            Ship::InMotion { .. } => false,
+            Ship::Navigating { fine, .. } => fine.is_moored(),
         }
     }
 
@@ -37,7 +49,7 @@ impl Ship {
         let aligned = ALIGNED / solution.position.latitude.cos().max(1e-3);
         let mode = match self {
             _ if self.moored() && solution.sigma.heading > aligned => Mode::FineAlignment,
-            Ship::Aligning(_) => Mode::InMotionAlignment,
+            Ship::Aligning(_) | Ship::InMotion { .. } => Mode::InMotionAlignment,
             Ship::Navigating { aligned: false, .. } if solution.mode == Mode::Aided => {
                 Mode::InMotionAlignment
             }
@@ -46,10 +58,26 @@ impl Ship {
         Solution { mode, ..solution }
     }
 
+    /// Makes what has found the heading the navigator, so that nothing steps.
+    fn hand_over(&mut self) {
+        let found = match self {
+            Ship::Aligning(bank) => bank.winner().cloned(),
+            Ship::InMotion { finder, config } => {
+                finder.initial_state().map(|initial| Fine::under_way(Filter::new(config, &initial)))
+            }
+            Ship::Navigating { .. } => None,
+        };
+        if let Some(mut fine) = found {
+            fine.filter_mut().begin_navigation();
+            *self = Ship::Navigating { fine: Box::new(fine), aligned: false };
+        }
+    }
+
     fn inner(&self) -> &dyn Solver {
         match self {
             Ship::Aligning(bank) => bank,
-            Ship::Navigating { filter, .. } => filter.as_ref(),
+            Ship::InMotion { finder, .. } => finder.as_ref(),
+            Ship::Navigating { fine, .. } => fine.as_ref(),
         }
     }
 }
@@ -73,27 +101,30 @@ impl<E: Estimator> Solver for E {
 impl Estimator for Ship {
     fn advance(&mut self, increment: &Increment) {
         match self {
-            Ship::Aligning(bank) => bank.advance(increment),
-            Ship::Navigating { filter, .. } => filter.advance(increment),
+            Ship::Aligning(bank) => {
+                bank.advance(increment);
+                self.hand_over();
+            }
+            Ship::InMotion { finder, .. } => finder.advance(increment),
+            Ship::Navigating { fine, aligned } => {
+                fine.advance(increment);
+                if fine.seems_to_leave() {
+                    fine.cast_off();
+                }
+                *aligned = *aligned || fine.filter().heading_std() < STEERABLE;
+            }
         }
     }
 
     fn apply(&mut self, received: &Received) -> Report {
         match self {
-            Ship::Aligning(bank) => {
-                let report = bank.apply(received);
-                if let Some(filter) = bank.winner() {
-                    let mut navigator = Box::new(filter.clone());
-                    navigator.begin_navigation();
-                    *self = Ship::Navigating { filter: navigator, aligned: false };
-                }
+            Ship::Aligning(bank) => bank.apply(received),
+            Ship::InMotion { finder, .. } => {
+                let report = finder.apply(received);
+                self.hand_over();
                 report
             }
-            Ship::Navigating { filter, aligned } => {
-                let report = filter.apply(received);
-                *aligned = *aligned || filter.heading_std() < STEERABLE;
-                report
-            }
+            Ship::Navigating { fine, .. } => fine.apply(received),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use insd_base::units::DEG;
 use insd_base::{Attitude, Geodetic, LogReference};
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Vector2, Vector3, Vector4};
 
 use super::*;
 use crate::error_state::{ErrorState, STATES};
@@ -20,6 +20,7 @@ fn estimate() -> Nominal {
     nominal.gnss_delay = -0.02;
     nominal.current = Vector2::new(0.4, -0.6);
     nominal.berth_offset = Vector2::new(0.3, -0.2);
+    nominal.sway = Vector4::new(-0.1, 0.4, 0.2, 0.1);
     nominal.log_scale = 0.01;
     nominal.log_misalignment = Vector2::new(0.02, -0.03);
     nominal.sea_level = 24.0;
@@ -61,10 +62,7 @@ fn table() -> Vec<Entry> {
         ("gnss_velocity", velocity),
         ("log_bottom", |view| log_rows(view, LogReference::Bottom)),
         ("log_water", |view| log_rows(view, LogReference::Water)),
-        ("berth", |view| {
-            rows(&berth::innovation(view, &Geodetic::from_degrees(52.000_01, 179.900_02, 0.0), 0.1))
-        }),
-        ("mooring", |view| rows(&mooring::innovation(view, 0.3))),
+        ("berth", |view| rows(&berth::innovation(view, &berth_of_the_swaying_ship(), 0.1))),
         ("sea_level", |view| {
             let half = 10.0 * view.v_n().z;
             let mean = view.geodetic.height + half;
@@ -79,6 +77,17 @@ fn table() -> Vec<Entry> {
             rows(&reference_position::innovation(view, &berth, 0.3))
         }),
     ]
+}
+
+/// The berth from which the estimate is as far away as its swaying says: a turn about the berth is
+/// then without effect.
+fn berth_of_the_swaying_ship() -> Geodetic {
+    let nominal = estimate();
+    let away = nominal.berth_offset + nominal.swaying();
+    let here = nominal.geodetic();
+    let c_en = earth::c_ne(&here).transpose();
+    let place = nominal.position - c_en * Vector3::new(away.x, away.y, 0.0);
+    Geodetic { height: here.height, ..earth::geodetic(&insd_base::Ecef(place)) }
 }
 
 fn log_rows(view: &View, reference: LogReference) -> Rows {

@@ -1,20 +1,12 @@
-//! Log, external reference and berth.
+//! Log and external reference.
 
-use insd_base::{ExternalReference, Geodetic, LogReference, LogVelocity, Source, Span};
-use nalgebra::{Matrix2, Vector2};
+use insd_base::{ExternalReference, LogReference, LogVelocity, Source};
+use nalgebra::Vector2;
 
-use super::{Filter, Judged, enter};
-use crate::aids::{
-    berth, log_velocity, mooring, reference_heading, reference_position, reference_velocity,
-};
-use crate::error_state::BERTH_OFFSET;
+use super::{Filter, enter};
+use crate::aids::{log_velocity, reference_heading, reference_position, reference_velocity};
 use crate::floors::{self, Believable, Floored};
 use crate::report::{Outcome, Report};
-
-/// The berth itself is known to this, 1-sigma of each component, m.
-const BERTH_SURVEY: f64 = 0.05;
-/// Zero velocities or berth positions that fail their gate one after the other before the ship has left the berth.
-const STRAYED: u32 = 4;
 
 impl Filter {
     pub(super) fn apply_log(&mut self, log: &LogVelocity, source: Source, report: &mut Report) {
@@ -58,11 +50,8 @@ impl Filter {
         if let Some(position) = reference.position {
             let range = Believable { least: 0.01, greatest: 1e4, default: 20.0 };
             let std = floored(reference.position_std, &range, "reference_position", report);
-            let judged = if self.moored {
-                self.judge_berth(&position, std)
-            } else {
-                self.judge(&reference_position::innovation(&self.view(), &position, std), None)
-            };
+            let judged =
+                self.judge(&reference_position::innovation(&self.view(), &position, std), None);
             self.note(enter(report, reference.time, source, "reference_position", &judged));
         }
         if let Some(heading) = reference.heading {
@@ -76,49 +65,10 @@ impl Filter {
         }
     }
 
-    fn note(&mut self, outcome: Outcome) {
+    pub(super) fn note(&mut self, outcome: Outcome) {
         if outcome == Outcome::Accepted {
             self.last_relative = Some(self.time);
         }
-    }
-
-    /// The reference names the berth, and its sigma is the ship's play on her moorings.
-    fn judge_berth(&mut self, berth: &Geodetic, play: f64) -> Judged {
-        if self.berth_offset_std != play {
-            self.berth_offset_std = play;
-            let variance = Matrix2::from_diagonal_element(play * play);
-            BERTH_OFFSET.renew(&mut self.covariance, &variance);
-            self.nominal.berth_offset = Vector2::zeros();
-        }
-        let judged = self.judge(&berth::innovation(&self.view(), berth, BERTH_SURVEY), None);
-        self.count_straying(judged.outcome == Outcome::Accepted);
-        let patience = self.config.sea.berth_offset_time * 2.0;
-        self.next_mooring = self.time + Span::from_seconds(patience);
-        judged
-    }
-
-    /// A ship that is again and again not where she is tied has left.
-    fn count_straying(&mut self, agrees: bool) {
-        self.strayed = if agrees { 0 } else { self.strayed + 1 };
-        self.moored = self.strayed < STRAYED;
-    }
-
-    /// Zero velocity at the berth where no reference position comes, spaced by the time over which the sway decorrelates.
-    pub(super) fn hold_mooring(&mut self) {
-        self.next_mooring = self.time + Span::from_seconds(self.config.sea.mooring_time);
-        let innovation = mooring::innovation(&self.view(), self.sway.std());
-        let Some(weighed) = innovation.weigh(&self.covariance) else { return };
-        let sigma = weighed.sigma();
-        for axis in 0..2 {
-            let expected = sigma[axis].powi(2) - innovation.r[(axis, axis)];
-            self.sway.learn(innovation.z[axis], expected);
-        }
-        self.internal_likelihood += self.bounded_likelihood(&weighed);
-        let agrees = weighed.nis() < self.gate.limit::<2>();
-        if agrees {
-            self.absorb(&weighed);
-        }
-        self.count_straying(agrees);
     }
 }
 

@@ -1,0 +1,76 @@
+//! What alignment is told.
+
+/// How the motion of a moored ship is kept apart from the errors of her navigator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Zero velocity with the sea as white noise: the plain Kalman filter, for comparison.
+    WhiteNoise,
+    /// The reference method, of JP3375720B2: an autoregressive model of the velocity in a sliding
+    /// window takes the sea out before the Kalman filter ([`crate::disturbance`]).
+    Autoregressive,
+    /// The ship's swaying on her moorings as states of the Kalman filter, observed by her
+    /// displacement from the berth ([`crate::moorings`]).
+    #[default]
+    Moorings,
+}
+
+impl Method {
+    /// All of them, in the order of their age.
+    pub const ALL: [Method; 3] = [Method::WhiteNoise, Method::Autoregressive, Method::Moorings];
+
+    /// Its name in configuration: `white_noise`, `autoregressive`, `moorings`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Method::WhiteNoise => "white_noise",
+            Method::Autoregressive => "autoregressive",
+            Method::Moorings => "moorings",
+        }
+    }
+
+    /// The method of a name.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.as_str() == word)
+    }
+}
+
+/// How a ship under way finds her heading.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum InMotion {
+    /// The reference method, of JAE's hybrid navigation: one filter of eight states, linear in the
+    /// sine and cosine of the heading ([`crate::in_motion`]).
+    EightState,
+    /// A bank of full filters, one for each heading ([`crate::bank`]).
+    #[default]
+    Bank,
+}
+
+impl InMotion {
+    /// Both of them.
+    pub const ALL: [InMotion; 2] = [InMotion::EightState, InMotion::Bank];
+
+    /// Its name in configuration: `eight_state`, `bank`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            InMotion::EightState => "eight_state",
+            InMotion::Bank => "bank",
+        }
+    }
+
+    /// The method of a name.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.as_str() == word)
+    }
+}
+
+/// Choices of alignment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct AlignmentConfig {
+    /// At the berth.
+    pub moored: Method,
+    /// Under way.
+    pub in_motion: InMotion,
+}

@@ -1,0 +1,72 @@
+//! Whether a ship that was moored has left her berth, from the estimate alone.
+
+use insd_base::{Geodetic, Span, Time, earth};
+use insd_nav::Filter;
+use insd_nav::error_state::{POSITION, VELOCITY};
+use nalgebra::Vector3;
+
+/// Watches how far and how fast the estimate moves away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Departure {
+    from: Vector3<f64>,
+    speed: f64,
+    certain: bool,
+    start: Time,
+    next: Time,
+}
+
+/// Spacing of looks, s.
+const SPACING: f64 = 1.0;
+/// Time over which the speed is averaged: longer than any wave, s.
+const AVERAGE: f64 = 15.0;
+/// Mean speed that moorings do not allow, m/s; a gust of 5 m in 20 s stays below.
+const SPEED: f64 = 0.6;
+/// Displacement before a speed counts as leaving, m.
+const WAY: f64 = 4.0;
+/// Displacement that moorings do not allow, m.
+const FAR: f64 = 20.0;
+/// Before this a motion of the estimate may well be its own tilt, s.
+const SETTLING: f64 = 60.0;
+/// Sigmas of its own error by which the estimate must be sure.
+const SURE: f64 = 5.0;
+
+impl Departure {
+    /// Watches from where the filter is.
+    #[must_use]
+    pub fn new(filter: &Filter) -> Self {
+        Departure {
+            from: filter.nominal().position,
+            speed: 0.0,
+            certain: false,
+            start: filter.time(),
+            next: filter.time(),
+        }
+    }
+
+    /// Looks at the estimate, if it is time to.
+    pub fn watch(&mut self, filter: &Filter) {
+        if filter.time() < self.next {
+            return;
+        }
+        self.next = filter.time() + Span::from_seconds(SPACING);
+        let place: Geodetic = filter.nominal().geodetic();
+        let c_ne = earth::c_ne(&place);
+        let away = c_ne * (filter.nominal().position - self.from);
+        let distance = away.xy().norm();
+        let velocity = (c_ne * filter.nominal().velocity).xy();
+        let along = if distance > 0.0 { velocity.dot(&away.xy()) / distance } else { 0.0 };
+        self.speed += (along - self.speed) * SPACING / AVERAGE;
+        let position_std = (POSITION.covariance(filter.covariance()).trace() / 3.0).sqrt();
+        let velocity_std = (VELOCITY.covariance(filter.covariance()).trace() / 3.0).sqrt();
+        let leaves = distance > WAY && self.speed > SPEED.max(SURE * velocity_std);
+        let is_far = distance > FAR;
+        let settled = (filter.time() - self.start).as_seconds() > SETTLING;
+        self.certain = settled && distance > SURE * position_std && (leaves || is_far);
+    }
+
+    /// Whether the ship has left.
+    #[must_use]
+    pub fn is_certain(&self) -> bool {
+        self.certain
+    }
+}

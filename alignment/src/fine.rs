@@ -1,0 +1,146 @@
+//! Fine alignment: a Kalman filter that knows that the ship lies at her berth, for as long as she
+//! does.
+//!
+//! The same filter then navigates: it is handed over, not copied into another, and nothing steps.
+
+use insd_base::{Message, Received, Solution, Time};
+use insd_nav::{AidReport, Estimator, Filter, Increment, Outcome, Report};
+
+use crate::config::Method;
+use crate::departure::Departure;
+use crate::moorings::Moorings;
+use crate::prefiltered::Prefiltered;
+use crate::white::WhiteNoise;
+
+/// A filter and, while the ship is moored, what holds it.
+#[derive(Clone, Debug)]
+pub struct Fine {
+    filter: Filter,
+    hold: Option<Hold>,
+    departure: Departure,
+    likelihood: f64,
+}
+
+/// The ways of holding a filter at the berth.
+#[derive(Clone, Debug)]
+enum Hold {
+    WhiteNoise(WhiteNoise),
+    Prefiltered(Box<Prefiltered>),
+    Moorings(Moorings),
+}
+
+impl Fine {
+    /// A filter of a ship at her berth.
+    #[must_use]
+    pub fn moored(filter: Filter, method: Method) -> Self {
+        let mut filter = filter;
+        let hold = match method {
+            Method::WhiteNoise => Hold::WhiteNoise(WhiteNoise::new(&filter)),
+            Method::Autoregressive => Hold::Prefiltered(Box::new(Prefiltered::new(&filter))),
+            Method::Moorings => Hold::Moorings(Moorings::new(&mut filter)),
+        };
+        let departure = Departure::new(&filter);
+        Fine { filter, hold: Some(hold), departure, likelihood: 0.0 }
+    }
+
+    /// A filter of a ship under way.
+    #[must_use]
+    pub fn under_way(filter: Filter) -> Self {
+        let departure = Departure::new(&filter);
+        Fine { filter, hold: None, departure, likelihood: 0.0 }
+    }
+
+    /// The filter.
+    #[must_use]
+    pub fn filter(&self) -> &Filter {
+        &self.filter
+    }
+
+    /// The filter, to be joined with others.
+    pub fn filter_mut(&mut self) -> &mut Filter {
+        &mut self.filter
+    }
+
+    /// Whether the ship is taken as lying at her berth.
+    #[must_use]
+    pub fn is_moored(&self) -> bool {
+        self.hold.is_some()
+    }
+
+    /// Whether the estimate moves away as a moored ship does not.
+    #[must_use]
+    pub fn seems_to_leave(&self) -> bool {
+        self.is_moored() && self.departure.is_certain()
+    }
+
+    /// The ship is no longer taken as moored.
+    pub fn cast_off(&mut self) {
+        self.hold = None;
+        self.filter.cast_off();
+    }
+
+    /// The moorings, where they are what holds the filter.
+    #[must_use]
+    pub fn moorings(&self) -> Option<&Moorings> {
+        match &self.hold {
+            Some(Hold::Moorings(moorings)) => Some(moorings),
+            _ => None,
+        }
+    }
+
+    /// Log-likelihood of what the berth said since the last call.
+    pub fn take_likelihood(&mut self) -> f64 {
+        std::mem::take(&mut self.likelihood)
+    }
+
+    /// Gives the position of a reference to the moorings and leaves the rest for the filter.
+    fn take_berth(&mut self, received: &Received, report: &mut Report) -> Received {
+        let mut rest = *received;
+        let (Some(Hold::Moorings(moorings)), Message::Reference(reference)) =
+            (&mut self.hold, &mut rest.message)
+        else {
+            return rest;
+        };
+        if let Some(place) = reference.position.take() {
+            let stated = reference.position_std.filter(|std| (0.01..1e3).contains(std));
+            moorings.name_berth(&mut self.filter, &place, stated);
+            report.aids.push(AidReport {
+                time: reference.time,
+                source: received.source,
+                aid: "reference_position",
+                outcome: Outcome::Accepted,
+                innovation: [(f64::NAN, f64::NAN); 3],
+            });
+        }
+        rest
+    }
+}
+
+impl Estimator for Fine {
+    fn advance(&mut self, increment: &Increment) {
+        self.filter.advance(increment);
+        let Some(hold) = &mut self.hold else { return };
+        self.likelihood += match hold {
+            Hold::WhiteNoise(white) => white.hold(&mut self.filter),
+            Hold::Prefiltered(prefiltered) => prefiltered.hold(&mut self.filter),
+            Hold::Moorings(moorings) => moorings.hold(&mut self.filter),
+        };
+        self.departure.watch(&self.filter);
+    }
+
+    fn apply(&mut self, received: &Received) -> Report {
+        let mut report = Report::default();
+        let rest = self.take_berth(received, &mut report);
+        let mut said = self.filter.apply(&rest);
+        said.aids.splice(0..0, report.aids);
+        said
+    }
+
+    fn solution(&self) -> Solution {
+        self.filter.solution()
+    }
+
+    fn solution_at(&self, increment: &Increment, at: Time) -> Solution {
+        self.filter.solution_at(increment, at)
+    }
+}

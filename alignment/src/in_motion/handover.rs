@@ -1,0 +1,185 @@
+//! The computed frame turned upright and true, and the initial state of the full filter.
+//!
+//! Turning the frame is a change of coordinates, linear in the errors and exact for any dpsi: with
+//! C_pb' = exp([a, 0]) R_z(d) C_pb,
+//!
+//! phi' = phi - R(dpsi') a,   (1-c', s') = R(-d) (1-c, s),   dpsi' = dpsi - d.
+
+use insd_base::earth;
+use insd_nav::antenna::AntennaMotion;
+use insd_nav::error_state::{
+    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, CURRENT, ErrorState, GNSS_DELAY, GNSS_LEVER,
+    GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT,
+    GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, POSITION, STATES as ALL, VELOCITY,
+};
+use insd_nav::initial::sensor_covariance;
+use insd_nav::{InitialState, Nominal};
+use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector1, Vector2, Vector3};
+
+use super::belief::{CONSIDERED, Covariance, Innovation, STATES, considered as k, state as x};
+use super::motion::{across, rotation};
+use super::{ASTRAY, EightState, LEAN};
+
+impl EightState {
+    /// Levels the frame: turns it by the a that leaves the least mean square tilt,
+    /// a = E[R(dpsi)^T phi], which is known long before the heading.
+    pub(super) fn level(&mut self) {
+        let a = self.lean();
+        self.motion.tilt -= self.motion.turn() * a;
+        self.motion.attitude =
+            UnitQuaternion::new(Vector3::new(a.x, a.y, 0.0)) * self.motion.attitude;
+        let mut t = Covariance::identity();
+        t.fixed_view_mut::<2, 1>(x::TILT, x::SINE).copy_from(&-across(&a));
+        t.fixed_view_mut::<2, 1>(x::TILT, x::VERSINE).copy_from(&a);
+        self.belief.transform(&t);
+    }
+
+    fn lean(&self) -> Vector2<f64> {
+        let p = &self.belief.own;
+        let (n, e) = (x::TILT, x::TILT + 1);
+        let spread = Vector2::new(
+            p[(x::SINE, e)] - p[(x::VERSINE, n)],
+            -p[(x::SINE, n)] - p[(x::VERSINE, e)],
+        );
+        self.motion.turn().transpose() * self.motion.tilt + spread
+    }
+
+    pub(super) fn keep_upright(&mut self) {
+        if self.lean().norm() > LEAN {
+            self.level();
+        }
+    }
+
+    /// After every update: notes the heading; turns the frame true once it is known.
+    pub(super) fn after_update(&mut self) {
+        self.note_heading();
+        if self.centred && self.heading.0.abs() > ASTRAY {
+            self.turn_by(self.heading.0);
+            self.note_heading();
+        } else if !self.centred && self.finished() {
+            self.centre();
+        }
+    }
+
+    /// Turns the frame by the estimated dpsi; from then on dpsi is a small angle, s = dpsi and c
+    /// nothing: the constraint s^2 + (1-c)^2 = 1, linear at last, is applied to the belief.
+    fn centre(&mut self) {
+        let (turn, sigma) = self.heading;
+        self.turn_by(turn);
+        let mut h = SMatrix::<f64, 1, STATES>::zeros();
+        h[x::VERSINE] = 1.0;
+        let variance = sigma * sigma;
+        let innovation = Innovation {
+            z: Vector1::new(0.5 * variance - self.motion.versine),
+            h,
+            hc: SMatrix::zeros(),
+            r: Vector1::new((variance * variance).max(1e-10)),
+        };
+        if let Some(weighed) = self.belief.weigh(&innovation) {
+            let errors = self.belief.absorb(&innovation, &weighed);
+            self.motion.inject(&self.local, &errors);
+        }
+        // the curvature of the circle, which the tangent leaves out
+        let p = &mut self.belief.own;
+        p[(x::SINE, x::SINE)] = p[(x::SINE, x::SINE)].max(variance);
+        self.centred = true;
+        self.note_heading();
+        self.level();
+    }
+
+    fn turn_by(&mut self, angle: f64) {
+        let (sin, cos) = angle.sin_cos();
+        self.motion.attitude =
+            UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle) * self.motion.attitude;
+        let (old_cos, old_sin) = (1.0 - self.motion.versine, self.motion.sine);
+        self.motion.versine = 1.0 - (cos * old_cos + sin * old_sin);
+        self.motion.sine = cos * old_sin - sin * old_cos;
+        let mut t = Covariance::identity();
+        t[(x::SINE, x::SINE)] = cos;
+        t[(x::SINE, x::VERSINE)] = sin;
+        t[(x::VERSINE, x::SINE)] = -sin;
+        t[(x::VERSINE, x::VERSINE)] = cos;
+        self.belief.transform(&t);
+        let back = rotation(&Vector2::new(cos, -sin));
+        for pair in [k::GYRO, k::ACCEL, k::LEVER] {
+            self.belief.turn_considered_pair(pair, &back);
+        }
+        let push = back.transpose() * self.push.xy();
+        self.push = Vector3::new(push.x, push.y, self.push.z);
+        self.antenna = AntennaMotion::default();
+    }
+
+    /// What the full filter starts from, once [`EightState::finished`]: the estimate, its covariance,
+    /// and its correlations with the sensor errors it has lived with.
+    #[must_use]
+    pub fn initial_state(&self) -> Option<InitialState> {
+        let mut own = self.clone();
+        own.settle();
+        if !own.finished() {
+            return None;
+        }
+        own.turn_by(own.heading.0);
+        own.level();
+        let place = insd_base::Geodetic { height: own.vertical.height, ..own.motion.place };
+        let v = own.motion.velocity;
+        let v_n = Vector3::new(v.x, v.y, own.vertical.down);
+        let nominal = Nominal::at(&place, &v_n, &own.motion.c_pb());
+        let c_en = earth::c_ne(&place).transpose();
+        let into = own.errors_in_full(&c_en);
+        let learnt = own.sensors_in_full();
+        let mut covariance = sensor_covariance(&own.config);
+        let mixed = into * own.belief.cross * learnt.transpose();
+        covariance += into * own.belief.own * into.transpose() + mixed + mixed.transpose();
+        let (height, down) = own.vertical.variances();
+        let up = c_en.column(2) * c_en.column(2).transpose();
+        POSITION.add(&mut covariance, &(up * height));
+        VELOCITY.add(&mut covariance, &(up * down));
+        covariance = (covariance + covariance.transpose()) * 0.5;
+        Some(InitialState { time: own.time, nominal, covariance, rate: own.rate })
+    }
+
+    /// The eight errors as errors of the full filter; the frame being true, s is the heading error.
+    fn errors_in_full(&self, c_en: &Matrix3<f64>) -> SMatrix<f64, ALL, STATES> {
+        let column = |state: usize| {
+            let mut error = ErrorState::zeros();
+            let axis = |i: usize| c_en.column(i).into_owned();
+            match state {
+                x::SINE => ATTITUDE.set(&mut error, &axis(2)),
+                x::VERSINE => {}
+                _ => [POSITION, VELOCITY, ATTITUDE][state / 2].set(&mut error, &axis(state % 2)),
+            }
+            error
+        };
+        SMatrix::from_columns(&std::array::from_fn::<_, STATES, _>(column))
+    }
+
+    /// Expected sensor errors of the full filter for given considered errors. Constant and drifting
+    /// parts of a bias share it by their variances.
+    fn sensors_in_full(&self) -> SMatrix<f64, ALL, CONSIDERED> {
+        let mut m = SMatrix::<f64, ALL, CONSIDERED>::zeros();
+        let prior = &self.belief.prior;
+        let mut put = |row: usize, column: usize, value: f64| m[(row, column)] = value;
+        let share = |std: f64, at: usize| std * std / prior[at].max(f64::MIN_POSITIVE);
+        let (gyro, accel) = (&self.config.imu.gyro, &self.config.imu.accel);
+        for axis in 0..3 {
+            let at = k::GYRO + axis;
+            put(GYRO_BIAS.start() + axis, at, share(gyro.bias_std, at));
+            put(GYRO_DRIFT.start() + axis, at, share(gyro.instability_std, at));
+        }
+        for axis in 0..2 {
+            let at = k::ACCEL + axis;
+            put(ACCEL_BIAS.start() + axis, at, share(accel.bias_std, at));
+            put(ACCEL_DRIFT.start() + axis, at, share(accel.instability_std, at));
+            put(GNSS_LEVER.start() + axis, k::LEVER + axis, 1.0);
+            put(GNSS_POSITION_ERROR.start() + axis, k::SLOW_POSITION + axis, 1.0);
+            put(GNSS_VELOCITY_ERROR.start() + axis, k::SLOW_VELOCITY + axis, 1.0);
+            put(CURRENT.start() + axis, k::CURRENT + axis, 1.0);
+        }
+        put(GYRO_SCALE.start() + 2, k::GYRO_SCALE_DOWN, 1.0);
+        put(GNSS_DELAY.start(), k::DELAY, 1.0);
+        put(GNSS_VELOCITY_DELAY.start(), k::VELOCITY_DELAY, 1.0);
+        put(LOG_SCALE.start(), k::LOG_SCALE, 1.0);
+        put(LOG_MISALIGNMENT.start() + 1, k::LOG_TURN, 1.0);
+        m
+    }
+}

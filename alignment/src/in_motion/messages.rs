@@ -1,0 +1,212 @@
+//! Messages taken one by one: made believable, weighed, gated, absorbed.
+
+use insd_base::{
+    ExternalReference, FixQuality, Geodetic, GnssFix, LogReference, LogVelocity, Rejection, Source,
+};
+use insd_nav::floors::{self, Believable};
+use insd_nav::{AidReport, Outcome, Report};
+use nalgebra::{Vector2, Vector3};
+
+use super::EightState;
+use super::aids::{self, LogReading, Split};
+use super::belief::{Innovation, considered as k};
+
+const GNSS_VELOCITY: &str = "gnss_velocity";
+const GNSS_POSITION: &str = "gnss_position";
+
+impl EightState {
+    /// A GNSS fix, valid now.
+    pub fn gnss(&mut self, fix: &GnssFix, source: Source) -> Report {
+        let mut report = Report::default();
+        if !fix.quality.is_measured() {
+            enter(&mut report, fix.time, source, GNSS_POSITION, Rejection::NoFix);
+            return report;
+        }
+        self.settle();
+        self.note_quality(fix.quality);
+        let lever = self.config.lever_arms.gnss.0;
+        let mut passed = Vec::new();
+        if let Some(velocity) = fix.velocity {
+            let std = floors::vector(fix.velocity_std, &floors::gnss_velocity());
+            if std.replaced {
+                report.floored.push(GNSS_VELOCITY);
+            }
+            let share = self.config.gnss.velocity_slow_share;
+            let split = split(velocity.0.xy(), &std.value, share);
+            let scene = self.scene();
+            let swing = scene.swing(&lever);
+            let moving = self.antenna.acceleration(self.time, &(self.push + swing));
+            let innovation =
+                aids::gnss_velocity(&scene, &split, &lever, &moving.xy(), &self.belief);
+            passed.push(self.judge(&innovation, fix.time, source, GNSS_VELOCITY, &mut report));
+            let (white, slow) = shares(std.value.z, share);
+            self.vertical.measure_down(velocity.0.z - swing.z, white, slow);
+        }
+        if let Some(position) = fix.position {
+            let std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality));
+            if std.replaced {
+                report.floored.push(GNSS_POSITION);
+            }
+            let share = self.config.gnss.position_slow_share_for(self.rtk == Some(true));
+            let split = split(position, &std.value, share);
+            let innovation = aids::gnss_position(&self.scene(), &split, &lever);
+            passed.push(self.judge(&innovation, fix.time, source, GNSS_POSITION, &mut report));
+            let above = (self.motion.c_pb() * lever).z;
+            let (white, slow) = shares(std.value.z, share);
+            self.vertical.measure_height(position.height + above, white, slow);
+            self.heard_height = self.time;
+        }
+        self.consider_restart(fix, &passed, &mut report);
+        report
+    }
+
+    /// A log's velocity, valid now. Without a forward component it is not usable.
+    pub fn log(&mut self, log: &LogVelocity, source: Source) -> Report {
+        let mut report = Report::default();
+        let water = log.reference == LogReference::Water;
+        let aid = if water { "log_water" } else { "log_bottom" };
+        let Some(u) = log.u else {
+            enter(&mut report, log.time, source, aid, Rejection::NotUsable);
+            return report;
+        };
+        self.settle();
+        let range =
+            Believable { least: 0.005, greatest: 10.0, default: self.config.log.default_std };
+        let std = floors::scalar(log.std, &range);
+        if std.replaced {
+            report.floored.push(aid);
+        }
+        let reading = LogReading { u, v: log.v, w: log.w, std: std.value, water };
+        let lever = self.config.lever_arms.log.0;
+        let innovation = aids::log_velocity(&self.scene(), &reading, &lever, &self.belief);
+        self.judge(&innovation, log.time, source, aid, &mut report);
+        report
+    }
+
+    /// An external reference, valid now.
+    pub fn reference(&mut self, reference: &ExternalReference, source: Source) -> Report {
+        let mut report = Report::default();
+        self.settle();
+        let at = reference.time;
+        if let Some(velocity) = reference.velocity() {
+            let std = believed(reference.velocity_std, 0.1);
+            let innovation = aids::reference_velocity(&self.scene(), &velocity.0.xy(), std);
+            self.judge(&innovation, at, source, "reference_velocity", &mut report);
+        }
+        if let Some(place) = reference.position {
+            let std = believed(reference.position_std, 10.0);
+            let innovation = aids::reference_position(&self.scene(), &place, std);
+            self.judge(&innovation, at, source, "reference_position", &mut report);
+        }
+        if let Some(heading) = reference.heading {
+            let std = believed(reference.heading_std, 0.02).max(1e-3);
+            let innovation = aids::reference_heading(&self.scene(), heading, std);
+            self.judge(&innovation, at, source, "reference_heading", &mut report);
+        }
+        report
+    }
+
+    /// The slow errors of code and carrier solutions have nothing to do with each other.
+    fn note_quality(&mut self, quality: FixQuality) {
+        let rtk = quality == FixQuality::RtkFixed;
+        if self.rtk.is_some_and(|before| before != rtk) {
+            self.belief.forget_considered_pair(k::SLOW_POSITION);
+            self.belief.forget_considered_pair(k::SLOW_VELOCITY);
+        }
+        self.rtk = Some(rtk);
+    }
+
+    /// Applies an innovation if it passes the chi-square gate; tells whether it did.
+    fn judge(
+        &mut self,
+        innovation: &Innovation<2>,
+        time: insd_base::Time,
+        source: Source,
+        aid: &'static str,
+        report: &mut Report,
+    ) -> bool {
+        let Some(weighed) = self.belief.weigh(innovation) else {
+            enter(report, time, source, aid, Rejection::OutOfRange);
+            return false;
+        };
+        let limit = self.gate.limit::<2>();
+        let passes = weighed.nis <= limit;
+        if passes {
+            let errors = self.belief.absorb(innovation, &weighed);
+            self.motion.inject(&self.local, &errors);
+            self.after_update();
+        }
+        let sigma = weighed.sigma();
+        let z = innovation.z;
+        report.log_likelihood += -0.5 * weighed.nis.min(limit) - weighed.log_root_determinant;
+        report.aids.push(AidReport {
+            time,
+            source,
+            aid,
+            outcome: if passes {
+                Outcome::Accepted
+            } else {
+                Outcome::Rejected(Rejection::ChiSquare)
+            },
+            innovation: [(z.x, sigma.x), (z.y, sigma.y), (f64::NAN, f64::NAN)],
+        });
+        passes
+    }
+
+    /// A filter that refuses its receiver for long is itself in error: it starts again from the
+    /// receiver's word, with the heading unknown.
+    fn consider_restart(&mut self, fix: &GnssFix, passed: &[bool], report: &mut Report) {
+        if passed.iter().all(|passed| *passed) {
+            self.refused_since = None;
+            return;
+        }
+        let since = *self.refused_since.get_or_insert(self.time);
+        let (Some(place), Some(velocity)) = (fix.position, fix.velocity) else { return };
+        if (self.time - since).as_seconds() < self.config.gate.reset_time {
+            return;
+        }
+        let spread = |std: Vector3<f64>, arm: f64| std.xy().norm() + arm;
+        let lever = self.config.lever_arms.gnss.0;
+        let place_std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality)).value;
+        let speed_std = floors::vector(fix.velocity_std, &floors::gnss_velocity()).value;
+        let swing = self.scene().swing(&lever).norm();
+        self.motion.place = Geodetic { height: self.vertical.height, ..place };
+        self.motion.velocity = velocity.0.xy();
+        self.renew(spread(place_std, lever.norm()), spread(speed_std, swing));
+        self.refused_since = None;
+        report.position_reset = true;
+    }
+}
+
+fn split<T>(value: T, std: &Vector3<f64>, slow_share: f64) -> Split<T> {
+    let (white, slow) = shares(1.0, slow_share);
+    let std: Vector2<f64> = std.xy();
+    Split { value, white: std * white, slow: std * slow }
+}
+
+/// White and slow part of a sigma, of the variance of which a share is slow.
+fn shares(std: f64, slow_share: f64) -> (f64, f64) {
+    (std * (1.0 - slow_share).sqrt(), std * slow_share.sqrt())
+}
+
+fn believed(stated: Option<f64>, default: f64) -> f64 {
+    floors::scalar(stated, &Believable { least: 1e-4, greatest: 1000.0, default }).value
+}
+
+/// Notes a quantity that was not even weighed.
+fn enter(
+    report: &mut Report,
+    time: insd_base::Time,
+    source: Source,
+    aid: &'static str,
+    reason: Rejection,
+) {
+    let innovation = [(f64::NAN, f64::NAN); 3];
+    report.aids.push(AidReport {
+        time,
+        source,
+        aid,
+        outcome: Outcome::Rejected(reason),
+        innovation,
+    });
+}

@@ -1,0 +1,326 @@
+//! Alignment under way: the ship restarts at sea and only her heading is not small.
+//!
+//! The linear Kalman filter of JAE's hybrid navigation (systems.md S2, "In-motion alignment", eq.
+//! (6)): position, velocity and tilt errors along true north and east, s = sin(dpsi) and c = 1 -
+//! cos(dpsi), dpsi = true minus assumed heading. [`motion`] has the equations, linear in (s, c) for
+//! any dpsi; so one filter starts where a bank of headings would need two dozen.
+//!
+//! What tells the heading:
+//! * **GNSS and a change of velocity**: specific force integrated in the computed frame against the
+//!   change of velocity over the ground, sigma about sigma_v / |change of velocity|. A turn, a change
+//!   of speed, the swell; and the swing of a masthead antenna as the ship rolls. A straight and steady
+//!   course in a calm tells nothing, whatever its speed.
+//! * **GNSS and a log over the bottom**: two views of one velocity, sigma about sigma_log / speed, at
+//!   once and without a manoeuvre. Through the water the unknown current enters: sigma_current / speed.
+//! * **The Earth's rate**, with GNSS, reference or log: the misheaded frame tilts at up to 2 w_N (30
+//!   deg/h at the equator), which shows in the velocity as g w_N t^2 / 2, 1 m/s after a minute. Sigma
+//!   not less than (gyro bias) / w_N, so that it is for gyros much better than 10 deg/h.
+//! * **A log alone** measures velocity *in the computed frame*. Its change against the specific force
+//!   there shows the tilt, whatever the heading, for both are misheaded alike: turns and changes of
+//!   speed tell nothing, only the Earth's rate breaks the symmetry. With gyros of 0.01 deg/h and a log
+//!   of 0.05 m/s in a calm at 35 deg of latitude that gives 7 deg after one minute, 1 deg after two,
+//!   0.2 deg after five; with gyros of 30 deg/h nothing, ever. Velocity north and east is as unsure as
+//!   the heading; position only grows less sure, as no log measures it.
+//!
+//! Sensor errors are considered, not estimated ([`belief`]), so that the sigmas hold; the heading comes
+//! from (s, c) by their distribution on the unit circle ([`circle`]). When its sigma is small, the
+//! frame is turned true, and [`EightState::initial_state`] hands over to the full filter, correlations
+//! with the sensor errors included. Not for the vicinity of the poles (latitudes beyond 89 deg), where
+//! north and east turn under the ship.
+
+pub mod aids;
+pub mod belief;
+pub mod circle;
+mod handover;
+mod messages;
+pub mod motion;
+pub mod vertical;
+
+use insd_base::units::{DEG, wrap_two_pi};
+use insd_base::{
+    Attitude, Body, Message, Mode, Ned, Received, Solution, SolutionSigma, Time, earth,
+};
+use insd_nav::antenna::AntennaMotion;
+use insd_nav::gate::ChiSquareGate;
+use insd_nav::{Estimator, Increment, NavConfig, Report};
+use nalgebra::{Matrix2, Rotation3, UnitQuaternion, Vector2, Vector3};
+
+use crate::bank::Kinematics;
+use crate::levelling::Level;
+use aids::Scene;
+use belief::{Belief, considered as k, state as x};
+use motion::{Local, Motion, Stretch};
+use vertical::Vertical;
+
+/// The filter of eight states.
+#[derive(Clone, Debug)]
+pub struct EightState {
+    config: NavConfig,
+    gate: ChiSquareGate,
+    goal: f64,
+    time: Time,
+    motion: Motion,
+    local: Local,
+    belief: Belief,
+    vertical: Vertical,
+    stretch: Stretch,
+    rate: Vector3<f64>,
+    /// Integral of the force, computed frame, m/s: only its changes are used.
+    push: Vector3<f64>,
+    antenna: AntennaMotion,
+    rtk: Option<bool>,
+    heard_height: Time,
+    refused_since: Option<Time>,
+    heading: (f64, f64),
+    centred: bool,
+}
+
+/// Heading sigma at which the phase ends unless stated otherwise, rad.
+pub const GOAL: f64 = 5.0 * DEG;
+/// Sigma of the tilt after levelling, sensor bias aside, rad.
+const LEVEL_STD: f64 = 1.0 * DEG;
+/// Longest stretch between propagations of the covariance, s.
+const STRETCH: f64 = 0.5;
+/// Tilt beyond which the computed frame is levelled, rad.
+const LEAN: f64 = 1.0 * DEG;
+/// Misheading beyond which a frame that has once been turned true is turned again, rad.
+const ASTRAY: f64 = 1.0 * DEG;
+/// Without a height for so long the ship is taken to float, s.
+const SILENT: f64 = 3.0;
+
+impl EightState {
+    /// From a levelled ship and her place and velocity at the start of the levelling window. The
+    /// heading is assumed as zero and taken as unknown.
+    ///
+    /// The frame is levelled as if the mean force were gravity alone. What it is off by is the tilt of
+    /// the ship's mean acceleration a, phi = (a_E, -a_N) / g, and of the accelerometer bias, and that
+    /// is the same whatever the heading.
+    #[must_use]
+    pub fn new(config: &NavConfig, level: &Level, start: &Kinematics) -> Self {
+        let attitude = level.attitude(0.0, &start.position, &Vector3::zeros());
+        let mut motion = Motion {
+            place: start.position,
+            velocity: start.velocity.xy(),
+            tilt: Vector2::zeros(),
+            sine: 0.0,
+            versine: 1.0,
+            attitude: UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(
+                attitude.c_nb(),
+            )),
+        };
+        let local = Local::new(&motion);
+        motion.tilt = motion::across(&start.acceleration.xy()) / -local.gravity;
+        let mut filter = EightState {
+            config: *config,
+            gate: ChiSquareGate::new(config.gate.probability),
+            goal: GOAL,
+            time: level.time,
+            motion,
+            local,
+            belief: Belief::new(config),
+            vertical: Vertical::new(
+                start.position.height,
+                start.position_std,
+                start.velocity.z,
+                start.velocity_std,
+            ),
+            stretch: Stretch::default(),
+            rate: level.rate,
+            push: Vector3::zeros(),
+            antenna: AntennaMotion::default(),
+            rtk: None,
+            heard_height: level.time,
+            refused_since: None,
+            heading: (0.0, circle::UNKNOWN),
+            centred: false,
+        };
+        filter.renew(start.position_std, start.velocity_std);
+        filter
+    }
+
+    /// With another heading sigma, rad, at which the phase ends.
+    #[must_use]
+    pub fn with_goal(mut self, goal: f64) -> Self {
+        self.goal = goal;
+        self
+    }
+
+    /// Nothing known of the heading, the rest as stated, m and m/s.
+    fn renew(&mut self, position_std: f64, velocity_std: f64) {
+        self.belief = Belief::new(&self.config);
+        self.belief.renew_pair(x::POSITION, position_std * position_std);
+        self.belief.renew_pair(x::VELOCITY, velocity_std * velocity_std);
+        // a heading that could be anything: cosine and sine have mean 0 and variance 1/2
+        self.belief.renew_pair(x::SINE, 0.5);
+        self.motion.sine = 0.0;
+        self.motion.versine = 1.0;
+        let bias = self.belief.prior[k::ACCEL];
+        let gravity = self.local.gravity;
+        self.belief.renew_pair(x::TILT, LEVEL_STD.powi(2) + bias / (gravity * gravity));
+        // levelling with a biased force: phi = -(down x bias) / g
+        let leaning = Matrix2::new(0.0, 1.0, -1.0, 0.0) / gravity;
+        let hull = self.scene().hull;
+        let cross = leaning * hull * bias;
+        self.belief.cross.fixed_view_mut::<2, 2>(x::TILT, k::ACCEL).copy_from(&cross);
+        self.centred = false;
+        self.note_heading();
+    }
+
+    /// Instant of the estimate.
+    #[must_use]
+    pub fn time(&self) -> Time {
+        self.time
+    }
+
+    /// The estimate, for tests and tools.
+    #[must_use]
+    pub fn motion(&self) -> &Motion {
+        &self.motion
+    }
+
+    /// True heading and its 1-sigma, rad; the sigma of an unknown heading is 104 deg.
+    #[must_use]
+    pub fn heading(&self) -> (f64, f64) {
+        let (turn, sigma) = self.heading;
+        (wrap_two_pi(self.assumed_heading() + turn), sigma)
+    }
+
+    /// Whether the heading is known well enough for the full filter.
+    #[must_use]
+    pub fn finished(&self) -> bool {
+        self.heading.1 < self.goal
+    }
+
+    fn assumed_heading(&self) -> f64 {
+        let bow = self.motion.attitude * Vector3::x();
+        bow.y.atan2(bow.x)
+    }
+
+    fn scene(&self) -> Scene {
+        // one sample's rate, extrapolated by half of it, as in the full filter
+        let noise = self.config.imu.gyro.random_walk.powi(2) * self.config.imu.rate * 2.5;
+        let down = (self.vertical.down, self.vertical.variances().1);
+        Scene::new(&self.motion, &self.rate, noise, down)
+    }
+
+    /// Angle and sigma of dpsi from (s, c).
+    fn note_heading(&mut self) {
+        let p = &self.belief.own;
+        let (sin, off) = (self.motion.sine, self.motion.versine);
+        self.heading = if self.centred {
+            (sin.atan2(1.0 - off), p[(x::SINE, x::SINE)].max(0.0).sqrt())
+        } else {
+            let across = -p[(x::SINE, x::VERSINE)];
+            let covariance =
+                Matrix2::new(p[(x::VERSINE, x::VERSINE)], across, across, p[(x::SINE, x::SINE)]);
+            circle::angle(&Vector2::new(1.0 - off, sin), &covariance)
+        };
+    }
+
+    /// Brings the belief up to the time of the estimate.
+    fn settle(&mut self) {
+        if self.stretch.duration <= 0.0 {
+            return;
+        }
+        let transition =
+            self.stretch.transition(&self.motion, &self.local, &self.belief, &self.config);
+        self.belief.propagate(&transition);
+        self.vertical.settle(self.stretch.duration, self.belief.prior[k::ACCEL].sqrt());
+        if (self.time - self.heard_height).as_seconds() > SILENT {
+            self.vertical.hold_afloat();
+        }
+        self.motion.place.height = self.vertical.height;
+        self.motion.attitude.renormalize();
+        self.stretch = Stretch::default();
+        self.keep_upright();
+        self.local = Local::new(&self.motion);
+        self.note_heading();
+    }
+
+    /// Notes the antenna's velocity but for a constant, for its acceleration.
+    fn note_antenna(&mut self) {
+        let swing = self.motion.attitude * self.rate.cross(&self.config.lever_arms.gnss.0);
+        self.antenna.note(self.time, &(self.push + swing));
+    }
+
+    /// Roll, pitch and heading with their sigmas, rad: of a copy that has been turned upright.
+    fn attitude(&self) -> (Attitude, f64) {
+        let mut upright = self.clone();
+        upright.level();
+        let c = Rotation3::from_axis_angle(&Vector3::z_axis(), self.heading.0).into_inner()
+            * upright.motion.c_pb();
+        let left = upright.motion.tilt.norm_squared();
+        let variance = 0.5 * (upright.belief.pair(x::TILT).sum() + left);
+        (Attitude::from_c_nb(&c), variance.sqrt())
+    }
+}
+
+impl Estimator for EightState {
+    fn advance(&mut self, increment: &Increment) {
+        let step = self.motion.advance(&self.local, increment, self.vertical.down);
+        self.vertical.advance(step.down, increment.duration());
+        self.push += step.force;
+        self.stretch.add(&step, increment);
+        self.rate = increment.end_rate;
+        self.time = increment.to;
+        self.push.z += self.local.gravity * increment.duration();
+        self.note_antenna();
+        if self.stretch.duration >= STRETCH - 1e-6 {
+            self.settle();
+        }
+    }
+
+    fn apply(&mut self, received: &Received) -> Report {
+        match &received.message {
+            Message::Imu(_) => Report::default(),
+            Message::Gnss(fix) => self.gnss(fix, received.source),
+            Message::Log(log) => self.log(log, received.source),
+            Message::Reference(reference) => self.reference(reference, received.source),
+        }
+    }
+
+    fn solution(&self) -> Solution {
+        let (attitude, tilt) = self.attitude();
+        let std = |at: usize, down: f64| {
+            let variance = self.belief.pair(at);
+            Ned::new(variance.x.sqrt(), variance.y.sqrt(), down.sqrt())
+        };
+        let (height, down) = self.vertical.variances();
+        let velocity =
+            Vector3::new(self.motion.velocity.x, self.motion.velocity.y, self.vertical.down);
+        let place = self.motion.place;
+        let turn_of_n = attitude.c_nb().transpose()
+            * (earth::rate_n(place.latitude) + earth::transport_rate(&place, &velocity));
+        Solution {
+            time: self.time,
+            position: insd_base::Geodetic { height: self.vertical.height, ..place },
+            velocity: Ned(velocity),
+            attitude,
+            rate: Body(self.rate - turn_of_n),
+            sigma: SolutionSigma {
+                position: std(x::POSITION, height),
+                velocity: std(x::VELOCITY, down),
+                roll: tilt / attitude.pitch.cos().max(1e-9),
+                pitch: tilt,
+                heading: self.heading.1,
+            },
+            mode: Mode::InMotionAlignment,
+        }
+    }
+
+    fn solution_at(&self, increment: &Increment, at: Time) -> Solution {
+        let mut ahead = self.clone();
+        if at > increment.from {
+            let (head, _) =
+                if at < increment.to { increment.split(at) } else { (*increment, *increment) };
+            let step = ahead.motion.advance(&ahead.local, &head, ahead.vertical.down);
+            ahead.vertical.advance(step.down, head.duration());
+            ahead.rate = head.end_rate;
+        }
+        ahead.time = at;
+        ahead.solution()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,211 @@
+//! A ship on her moorings: the default way of holding her at the berth.
+//!
+//! Her mean velocity is zero, but that is the lesser part of what is known: her *displacement* is
+//! bounded, for hours. Her position is the berth's plus a slow swaying, which is a state of the
+//! filter with the spectrum of moorings ([`insd_nav::sway`]), plus the waves, which are nearly white
+//! at the spacing of the samples. The filter then weighs every frequency by what the sea puts there;
+//! taken as white noise, the swaying would be believed to average out within seconds, and would be
+//! found again in tilt and heading.
+//!
+//! A gust or a tug that shifts the ship is found by the innovation, and her mean place set free.
+
+use insd_base::{Geodetic, Span, Time};
+use insd_nav::aids::berth;
+use insd_nav::error_state::{BERTH_OFFSET, POSITION, SWAY};
+use insd_nav::innovation::Innovation;
+use insd_nav::{Filter, Oscillator, Outcome, Sway};
+use nalgebra::Vector2;
+
+/// What is known of the ship at her berth, and learnt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moorings {
+    place: Geodetic,
+    sway_variance: [f64; 2],
+    learning_time: f64,
+    wave_variance: f64,
+    next: Time,
+    shifting_until: Time,
+    start: Time,
+    refused: u32,
+    shifts: u32,
+}
+
+/// Spacing of the samples: about half a wave, so that the waves of consecutive ones have little in
+/// common, s.
+const SPACING: f64 = 2.0;
+/// Natural periods of the two oscillators that cover the one to three minutes of a ship on her
+/// moorings (systems.md S1), s.
+const PERIODS: [f64; 2] = [68.0, 120.0];
+/// Damping that fills the band between them and little beyond.
+const DAMPING: f64 = 0.055;
+/// Share of the stated displacement that is slow swaying.
+const SLOW_SHARE: f64 = 0.93;
+/// The share that is waves, before they have been seen.
+const WAVE_SHARE: f64 = 0.4;
+/// How far her mean place may be from the named berth, as share of her stated displacement.
+const OFFSET_SHARE: f64 = 0.15;
+/// Displacement before anyone states it, 1-sigma of each component, m.
+const UNSTATED: f64 = 0.7;
+/// The same of a berth that is only known as the place of the start, m.
+const UNSURVEYED: f64 = 10.0;
+/// Time over which the swaying is learnt where a reference states it, and where nobody does, s.
+const LEARNING_STATED: f64 = 900.0;
+const LEARNING_UNSTATED: f64 = 200.0;
+/// Time over which the waves are learnt, s.
+const LEARNING_WAVES: f64 = 60.0;
+/// Least displacement by waves and by swaying that is believed, 1-sigma, m.
+const LEAST_WAVES: f64 = 0.005;
+const LEAST_SWAY: f64 = 0.01;
+/// Before this the filter is still finding its tilt, s.
+const SETTLING: f64 = 90.0;
+/// Samples one after the other that do not fit before the ship counts as shifted.
+const SHIFT: u32 = 2;
+/// After a shift was found, her mean place stays free for this long, s.
+const SHIFTING: f64 = 20.0;
+/// How far it may wander from one sample to the next, 1-sigma, m.
+const WANDER: f64 = 0.5;
+
+impl Moorings {
+    /// Takes the ship as lying where the filter has her, until a reference names the berth.
+    #[must_use]
+    pub fn new(filter: &mut Filter) -> Self {
+        let place = filter.nominal().geodetic();
+        let mut moorings = Moorings {
+            place,
+            sway_variance: [0.5 * UNSTATED * UNSTATED; 2],
+            learning_time: LEARNING_UNSTATED,
+            wave_variance: (WAVE_SHARE * UNSTATED).powi(2),
+            next: filter.time() + Span::from_seconds(SPACING),
+            shifting_until: filter.time(),
+            start: filter.time(),
+            refused: 0,
+            shifts: 0,
+        };
+        moorings.begin(filter, UNSURVEYED);
+        moorings
+    }
+
+    /// A reference names the berth and, if `stated`, the ship's displacement from it, 1-sigma of each
+    /// component, m. To name the same berth again tells nothing new.
+    pub fn name_berth(&mut self, filter: &mut Filter, place: &Geodetic, stated: Option<f64>) {
+        let same = place.latitude == self.place.latitude && place.longitude == self.place.longitude;
+        if same && self.learning_time == LEARNING_STATED {
+            return;
+        }
+        let std = stated.unwrap_or(UNSTATED);
+        self.place = *place;
+        self.sway_variance = [0.5 * (SLOW_SHARE * std).powi(2); 2];
+        self.wave_variance = (WAVE_SHARE * std).powi(2);
+        self.learning_time = LEARNING_STATED;
+        self.begin(filter, OFFSET_SHARE * std);
+    }
+
+    fn begin(&mut self, filter: &mut Filter, offset_std: f64) {
+        filter.moor(self.sway(), offset_std);
+    }
+
+    fn sway(&self) -> Sway {
+        Sway(std::array::from_fn(|i| Oscillator {
+            std: self.sway_variance[i].sqrt().max(LEAST_SWAY),
+            period: PERIODS[i],
+            damping: DAMPING,
+        }))
+    }
+
+    /// Displacement by waves, 1-sigma of each horizontal component, m.
+    #[must_use]
+    pub fn waves_std(&self) -> f64 {
+        self.wave_variance.sqrt().max(LEAST_WAVES)
+    }
+
+    /// Displacement by slow swaying, 1-sigma of each horizontal component, m.
+    #[must_use]
+    pub fn sway_std(&self) -> f64 {
+        self.sway().std()
+    }
+
+    /// How often her mean place was found to have shifted.
+    #[must_use]
+    pub fn shifts(&self) -> u32 {
+        self.shifts
+    }
+
+    /// The berth.
+    #[must_use]
+    pub fn place(&self) -> &Geodetic {
+        &self.place
+    }
+
+    /// Holds the filter against the berth if it is time to; returns the log-likelihood.
+    pub fn hold(&mut self, filter: &mut Filter) -> f64 {
+        let now = filter.time();
+        if now < self.next {
+            return 0.0;
+        }
+        self.next = now + Span::from_seconds(SPACING);
+        filter.settle();
+        if now < self.shifting_until {
+            filter.loosen_berth(WANDER);
+        }
+        let innovation = berth::innovation(&filter.view(), &self.place, self.waves_std());
+        let judged = filter.impose(&innovation);
+        let z = innovation.z;
+        if judged.outcome == Outcome::Accepted {
+            let s = Vector2::from_fn(|i, _| judged.innovation[i].1.powi(2));
+            self.learn(filter, &z, &s);
+            self.refused = 0;
+        } else {
+            self.refuse(filter, &innovation);
+        }
+        judged.log_likelihood
+    }
+
+    /// One sample that does not fit counts for less. Several of them, once the filter knows its tilt,
+    /// are a shift of the ship's mean place; before, it may well be the tilt.
+    fn refuse(&mut self, filter: &mut Filter, innovation: &Innovation<2>) {
+        let now = filter.time();
+        self.refused += 1;
+        let settled = (now - self.start).as_seconds() > SETTLING;
+        let shifting = self.refused >= SHIFT && self.refused < 3 * SHIFT;
+        if settled && shifting {
+            self.shifts += u32::from(self.refused == SHIFT);
+            self.shifting_until = now + Span::from_seconds(SHIFTING);
+            filter.loosen_berth(innovation.z.norm());
+        }
+        let mut doubtful = *innovation;
+        while filter.impose(&doubtful).outcome != Outcome::Accepted && doubtful.r[(0, 0)] < 1e8 {
+            doubtful.r *= 4.0;
+        }
+    }
+
+    /// Learns the waves from what the filter did not foresee, and the swaying from what it found:
+    /// E[x^2] = x_estimated^2 + P_xx (Shumway and Stoffer, J. Time Series Analysis 3 (1982), the
+    /// step of expectation and maximisation, here as a running mean).
+    fn learn(&mut self, filter: &mut Filter, z: &Vector2<f64>, s: &Vector2<f64>) {
+        let r = self.waves_std().powi(2);
+        for axis in 0..2 {
+            let seen = (z[axis].powi(2) - (s[axis] - r)).clamp(0.0, 9.0 * r);
+            let clearness = (r / s[axis]).powi(2);
+            self.wave_variance +=
+                SPACING / LEARNING_WAVES * clearness * (seen - self.wave_variance);
+        }
+        if filter.time() < self.shifting_until {
+            return;
+        }
+        let variance = SWAY.covariance(filter.covariance()).diagonal();
+        let square = filter.nominal().sway.component_mul(&filter.nominal().sway) + variance;
+        for (learnt, seen) in self.sway_variance.iter_mut().zip([0, 2]) {
+            *learnt +=
+                SPACING / self.learning_time * (square.fixed_rows::<2>(seen).mean() - *learnt);
+        }
+        filter.set_sway(self.sway());
+    }
+
+    /// Sigma of the ship's position and of her mean place, each component, m.
+    #[must_use]
+    pub fn position_std(filter: &Filter) -> (f64, f64) {
+        let position = POSITION.covariance(filter.covariance()).trace() / 3.0;
+        let offset = BERTH_OFFSET.covariance(filter.covariance()).trace() / 2.0;
+        (position.sqrt(), offset.sqrt())
+    }
+}
