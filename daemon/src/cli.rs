@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use insd_drivers::recording::RecordingError;
 
-use crate::commands::{campaign, evaluate, replay, simulate};
+use crate::commands::{campaign, evaluate, limit, replay, simulate};
 use crate::demo;
 
 /// Exit status when the input is to blame.
@@ -33,6 +33,8 @@ enum Command {
     Evaluate(evaluate::EvaluateArgs),
     /// Run a scenario with many seeds and score errors and claims
     Campaign(campaign::CampaignArgs),
+    /// How well the optimal filter could do in a scenario
+    Limit(limit::LimitArgs),
 }
 
 /// The input is to blame, not the machine: ends with exit status 2.
@@ -52,6 +54,7 @@ impl Cli {
             Command::Replay(args) => replay::run(&args),
             Command::Evaluate(args) => evaluate::run(&args),
             Command::Campaign(args) => campaign::run(&args),
+            Command::Limit(args) => limit::run(&args),
         }
     }
 }

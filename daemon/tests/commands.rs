@@ -233,3 +233,37 @@ fn a_campaign_gives_estimates_with_their_confidence() {
     assert!(report["components"]["heading"]["nees"]["mean"].as_f64().is_some(), "{json}");
     assert!(told(&["campaign", &scenario, "--seeds", "4..1"], 2).contains("A < B"));
 }
+
+#[test]
+fn a_campaign_at_instants_holds_the_heading_against_the_limit() {
+    let desk = Desk::with_voyage();
+    let scenario = desk.name("short.toml");
+    let campaign = ["campaign", &scenario, "--seeds", "1..3", "--at", "200", "--at", "100"];
+    let table = printed(&campaign);
+    assert!(table.contains("RMS / limit") && table.contains("claimed σ first below"), "{table}");
+    let json = printed(&[&campaign[..], &["--json", "--set", "start.lat_deg=60"]].concat());
+    let report: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert!(report["scenario"].as_str().unwrap().ends_with("start.lat_deg=60"), "{json}");
+    assert_eq!(report["instants"][0]["at_s"], 100.0);
+    assert!(report["instants"][1]["rms_over_limit"].as_f64().is_some(), "{json}");
+    assert!((report["aligned"]["bar_deg"].as_f64().unwrap() - 0.2).abs() < 1e-6);
+    assert!(report["worst_heading"]["seed"].as_u64().is_some(), "{json}");
+    let late = told(&["campaign", &scenario, "--seeds", "1..2", "--at", "9999"], 2);
+    assert!(late.contains("found 9999 s"), "{late}");
+}
+
+#[test]
+fn the_limit_is_told_as_a_table_and_as_json_and_refused_where_it_is_not_known() {
+    let table = printed(&["limit", "7"]);
+    assert!(table.contains("heading deg") && table.lines().count() == 9, "{table}");
+    let json = printed(&["limit", "7", "--at", "600", "--set", "start.lat_deg=60", "--json"]);
+    let report: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let heading = report["limits"][0]["heading_deg"].as_f64().unwrap();
+    assert!((heading - 0.065 * 1.638).abs() < 0.003, "{json}");
+    let log = told(&["limit", "2"], 2);
+    assert!(log.contains("not known for a scenario with a velocity log"), "{log}");
+    let unknown = told(&["limit", "7", "--set", "sea.stat=5"], 2);
+    assert!(unknown.contains("sea.stat: unknown field"), "{unknown}");
+    let syntax = told(&["limit", "7", "--set", "sea.state"], 2);
+    assert!(syntax.contains("expected KEY=VALUE"), "{syntax}");
+}

@@ -5,13 +5,16 @@ use std::ops::Range;
 use indicatif::{ProgressBar, ProgressStyle};
 use insd_base::{Solution, Time, Voyage};
 use insd_engine::{Engine, EngineConfig, Output};
-use insd_simulator::{Scenario, simulate};
+use insd_simulator::{LimitError, Override, Scenario, limit, simulate};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
+use super::alignment::AlignmentArgs;
 use super::outage::SensorOutage;
-use super::scenario;
+use super::{limit as limits, scenario};
 use crate::cli::BadInput;
-use crate::evaluation::{CampaignReport, Run, drifts, errors, outages};
+use crate::evaluation::{
+    CampaignReport, Instant, Run, Yardstick, drifts, errors, good_heading, outages,
+};
 
 /// Options of `insd campaign`.
 ///
@@ -26,6 +29,15 @@ pub struct CampaignArgs {
     /// Leave out what is before this time, s
     #[arg(long, value_name = "T", value_parser = super::seconds)]
     from: Option<f64>,
+    /// Score roll, pitch and heading at this instant, s, beside the limit of the optimal filter; may be
+    /// repeated; for a moored scenario 60, 120, 300, 600, 900 and 1800 if not given
+    #[arg(long, value_name = "T", value_parser = super::seconds)]
+    at: Vec<f64>,
+    /// Set a key of the scenario to another value, as start.lat_deg=60; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<Override>,
+    #[command(flatten)]
+    alignment: AlignmentArgs,
     /// Print JSON instead of a table
     #[arg(long)]
     json: bool,
@@ -45,16 +57,17 @@ pub struct CampaignArgs {
 /// # Errors
 /// The scenario is faulty, or no seed gave a solution.
 pub fn run(args: &CampaignArgs) -> anyhow::Result<()> {
-    let scenario = scenario::find(&args.scenario)?;
+    let scenario = scenario::find(&args.scenario, &args.sets)?;
+    let yardstick = yardstick(&scenario, &args.at)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(args.jobs.unwrap_or(0)).build()?;
     let bar = progress_bar(args.seeds.end - args.seeds.start)?;
     let runs: Vec<Run> = pool.install(|| {
         let seeds: Vec<u64> = args.seeds.clone().collect();
-        let score = |seed| run_seed(&scenario.scenario, seed, args);
+        let score = |seed| run_seed(&scenario.scenario, seed, yardstick.as_ref(), args);
         seeds.into_par_iter().map(score).inspect(|_| bar.inc(1)).collect()
     });
     bar.finish_and_clear();
-    let report = CampaignReport::new(&scenario.name, runs);
+    let report = CampaignReport::new(&scenario.name, runs, yardstick.as_ref());
     if args.json {
         println!("{}", serde_json::to_string_pretty(&report)?);
     } else {
@@ -71,16 +84,51 @@ fn progress_bar(length: u64) -> anyhow::Result<ProgressBar> {
     Ok(ProgressBar::new(length).with_style(ProgressStyle::with_template(style)?))
 }
 
-fn run_seed(scenario: &Scenario, seed: u64, args: &CampaignArgs) -> Run {
+/// What the heading is held against, if instants are asked for or the ship is moored.
+fn yardstick(scenario: &scenario::Named, at: &[f64]) -> anyhow::Result<Option<Yardstick>> {
+    let (name, scenario) = (&scenario.name, &scenario.scenario);
+    if at.is_empty() && !scenario.is_moored() {
+        return Ok(None);
+    }
+    let mut at = if at.is_empty() { limits::instants(scenario) } else { at.to_vec() };
+    at.sort_by(f64::total_cmp);
+    let (instants, no_limit) = match limit(scenario, &at) {
+        Ok(limits) => {
+            let instant =
+                |limit: insd_simulator::Limit| Instant { at: limit.at, limit: Some(limit.heading) };
+            (limits.into_iter().map(instant).collect(), None)
+        }
+        Err(fault @ LimitError::NotCovered(_)) => {
+            let instants = at.into_iter().map(|at| Instant { at, limit: None });
+            (instants.collect(), Some(fault.to_string()))
+        }
+        Err(fault) => return Err(BadInput(format!("{name}: {fault}")).into()),
+    };
+    let bar = good_heading(scenario.start_latitude());
+    Ok(Some(Yardstick { instants, no_limit, bar }))
+}
+
+fn run_seed(
+    scenario: &Scenario,
+    seed: u64,
+    yardstick: Option<&Yardstick>,
+    args: &CampaignArgs,
+) -> Run {
     let voyage = simulate(scenario, seed);
     let nav = navigate(&voyage, args);
     let found = errors(&nav, &voyage.truth, args.from.map(Time::from_seconds));
-    Run::new(seed, &found, drifts(&outages(&nav), &found.epochs))
+    let run = Run::new(seed, &found, drifts(&outages(&nav), &found.epochs));
+    match yardstick {
+        Some(yardstick) => run.measured(&errors(&nav, &voyage.truth, None).epochs, yardstick),
+        None => run,
+    }
 }
 
 /// The solutions of the engine on a voyage in memory.
 fn navigate(voyage: &Voyage, args: &CampaignArgs) -> Vec<Solution> {
-    let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, args.rate));
+    let mut config = EngineConfig::for_voyage(&voyage.header, args.rate);
+    config.alignment = args.alignment.config();
+    let mut engine = Engine::new(config);
     let mut solutions = Vec::new();
     for received in voyage.received() {
         if args.outages.iter().any(|outage| outage.drops(&received)) {

@@ -1,7 +1,9 @@
 //! One command, one file.
 
+pub mod alignment;
 pub mod campaign;
 pub mod evaluate;
+pub mod limit;
 mod outage;
 mod output_file;
 pub mod replay;

@@ -7,6 +7,7 @@ use insd_base::{Event, Innovation, Mode, Time};
 use insd_drivers::recording::{NavWriter, VoyageReader};
 use insd_engine::{Engine, EngineConfig, Output};
 
+use super::alignment::AlignmentArgs;
 use super::outage::SensorOutage;
 use super::output_file::OutputFile;
 use super::summary;
@@ -26,6 +27,8 @@ pub struct ReplayArgs {
     /// Take a sensor (imu, gnss, log, reference) away while FROM <= t_s < TO; may be repeated
     #[arg(long = "outage", value_name = "SENSOR:FROM..TO")]
     outages: Vec<SensorOutage>,
+    #[command(flatten)]
+    alignment: AlignmentArgs,
     /// Also write the innovations of all aids
     #[arg(long, value_name = "FILE.csv")]
     innovations: Option<PathBuf>,
@@ -46,7 +49,9 @@ struct Sink {
 /// The voyage cannot be read or the output not written.
 pub fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     let mut reader = VoyageReader::open(&args.dir)?;
-    let mut engine = Engine::new(EngineConfig::for_voyage(reader.header(), args.rate));
+    let mut config = EngineConfig::for_voyage(reader.header(), args.rate);
+    config.alignment = args.alignment.config();
+    let mut engine = Engine::new(config);
     let mut sink = Sink::create(args)?;
     let mut dropped = 0_u64;
     for received in &mut reader {

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use insd_simulator::{Scenario, shipped};
+use insd_simulator::{Override, Scenario, shipped};
 
 use crate::cli::BadInput;
 
@@ -15,26 +15,27 @@ pub(crate) struct Named {
 }
 
 /// Reads a scenario from a file or, if there is none of that name, from those that are shipped:
-/// `02-coastal-2h-navigation`, `coastal-2h-navigation` or `2`.
-pub(crate) fn find(word: &str) -> anyhow::Result<Named> {
+/// `02-coastal-2h-navigation`, `coastal-2h-navigation` or `2`; and sets some of its keys.
+pub(crate) fn find(word: &str, sets: &[Override]) -> anyhow::Result<Named> {
     let path = Path::new(word);
     if path.is_file() {
         let text =
             fs::read_to_string(path).map_err(|fault| BadInput(format!("{word}: {fault}")))?;
         let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-        return parse(&stem, word, &text);
+        return parse(&stem, word, &text, sets);
     }
     let found = shipped().iter().find(|(file, _)| answers_to(stem(file), word));
     match found {
-        Some((file, text)) => parse(stem(file), file, text),
+        Some((file, text)) => parse(stem(file), file, text, sets),
         None => Err(BadInput(unknown(word)).into()),
     }
 }
 
-fn parse(name: &str, place: &str, text: &str) -> anyhow::Result<Named> {
-    let scenario =
-        Scenario::from_toml(text).map_err(|fault| BadInput(format!("{place}: {fault}")))?;
-    Ok(Named { name: name.to_owned(), scenario })
+fn parse(name: &str, place: &str, text: &str, sets: &[Override]) -> anyhow::Result<Named> {
+    let scenario = Scenario::with_overrides(text, sets)
+        .map_err(|fault| BadInput(format!("{place}: {fault}")))?;
+    let name = sets.iter().fold(name.to_owned(), |name, set| format!("{name} {set}"));
+    Ok(Named { name, scenario })
 }
 
 fn stem(file: &str) -> &str {
@@ -69,13 +70,22 @@ mod tests {
     #[test]
     fn every_shipped_scenario_is_found_and_sound() {
         for (file, _) in shipped() {
-            assert_eq!(find(stem(file)).unwrap().name, stem(file));
+            assert_eq!(find(stem(file), &[]).unwrap().name, stem(file));
         }
     }
 
     #[test]
+    fn what_is_set_stands_in_the_name() {
+        let set = |text: &str| text.parse::<Override>().unwrap();
+        let named = find("7", &[set("start.lat_deg=60"), set("sea.state=5")]).unwrap();
+        assert_eq!(named.name, "07-moored-ss3 start.lat_deg=60 sea.state=5");
+        let message = find("7", &[set("start.lat=60")]).unwrap_err().to_string();
+        assert!(message.starts_with("07-moored-ss3.toml: start.lat: unknown field"), "{message}");
+    }
+
+    #[test]
     fn an_unknown_word_lists_what_there_is() {
-        let message = find("nowhere").unwrap_err().to_string();
+        let message = find("nowhere", &[]).unwrap_err().to_string();
         assert!(message.contains("nowhere") && message.contains(stem(shipped()[0].0)));
     }
 }

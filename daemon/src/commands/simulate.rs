@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use insd_drivers::recording::{Compression, write_voyage};
-use insd_simulator::simulate;
+use insd_simulator::{Override, simulate};
 
 use super::scenario;
 
@@ -19,6 +19,9 @@ pub struct SimulateArgs {
     /// Directory to write
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// Set a key of the scenario to another value, as start.lat_deg=60; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<Override>,
     /// Compress imu.csv and truth.csv
     #[arg(long)]
     compress: bool,
@@ -29,7 +32,7 @@ pub struct SimulateArgs {
 /// # Errors
 /// The scenario is faulty or the directory cannot be written.
 pub fn run(args: &SimulateArgs) -> anyhow::Result<()> {
-    let scenario = scenario::find(&args.scenario)?;
+    let scenario = scenario::find(&args.scenario, &args.sets)?;
     let voyage = simulate(&scenario.scenario, args.seed);
     let compression = if args.compress { Compression::Zstd } else { Compression::None };
     write_voyage(&args.out, &voyage, compression).context("cannot write the voyage")?;

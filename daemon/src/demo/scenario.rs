@@ -18,7 +18,7 @@ impl Choice {
     /// # Errors
     /// With the list of shipped scenarios if there is no such one, or with what is wrong in it.
     pub fn find(wanted: &str, seed: u64) -> anyhow::Result<Self> {
-        Ok(Choice { scenario: scenario::find(wanted)?.scenario, seed })
+        Ok(Choice { scenario: scenario::find(wanted, &[])?.scenario, seed })
     }
 
     /// What to call it on the screen.

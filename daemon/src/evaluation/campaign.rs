@@ -5,8 +5,10 @@ use std::fmt;
 
 use serde::Serialize;
 
+use super::aligned::{self, AlignedEstimates, Alignment, WorstHeading, WorstRun};
 use super::drift::Drift;
-use super::errors::Errors;
+use super::errors::{EpochError, Errors};
+use super::instants::{self, Instant, InstantEstimates, Moment};
 use super::interval::Estimate;
 use super::report::{row_order, summaries};
 use super::statistics::{Summary, quantile};
@@ -26,6 +28,23 @@ pub struct Run {
     pub components: BTreeMap<&'static str, Option<Summary>>,
     /// Errors in each stretch without GNSS.
     pub outages: Vec<Drift>,
+    /// The boldest claim of the heading.
+    pub worst_heading: Option<WorstHeading>,
+    /// At each of the instants of the yardstick.
+    pub moments: Vec<Option<Moment>>,
+    /// When the heading was good.
+    pub alignment: Alignment,
+}
+
+/// What the heading is held against, beside its own claims.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Yardstick {
+    /// Instants in order of time, with the limits there.
+    pub instants: Vec<Instant>,
+    /// Why there are no limits, if there are none.
+    pub no_limit: Option<String>,
+    /// The heading that counts as aligned, rad.
+    pub bar: f64,
 }
 
 /// One component over all seeds.
@@ -83,6 +102,14 @@ pub struct CampaignReport {
     pub components: BTreeMap<&'static str, Option<ComponentEstimates>>,
     /// Stretches without GNSS.
     pub outages: Vec<OutageEstimates>,
+    /// The largest error of the heading over its claimed 1-sigma, of all runs.
+    pub worst_heading: Option<WorstRun>,
+    /// Roll, pitch and heading at some instants; empty unless asked for.
+    pub instants: Vec<InstantEstimates>,
+    /// Why the limit of the optimal filter is not among them.
+    pub no_limit: Option<String>,
+    /// When the heading was good; null unless instants are asked for.
+    pub aligned: Option<AlignedEstimates>,
 }
 
 impl Run {
@@ -90,15 +117,35 @@ impl Run {
     #[must_use]
     pub fn new(seed: u64, errors: &Errors, outages: Vec<Drift>) -> Self {
         let epochs = errors.epochs.len() as u64;
-        Run { seed, epochs, components: summaries(errors), outages }
+        Run {
+            seed,
+            epochs,
+            components: summaries(errors),
+            outages,
+            worst_heading: aligned::worst_heading(&errors.epochs),
+            moments: Vec::new(),
+            alignment: Alignment::default(),
+        }
+    }
+
+    /// The same with the heading held against a yardstick at all of its epochs, in order of time.
+    #[must_use]
+    pub fn measured(self, epochs: &[EpochError], yardstick: &Yardstick) -> Self {
+        Run {
+            moments: instants::moments(epochs, &yardstick.instants),
+            alignment: aligned::alignment(epochs, yardstick.bar),
+            ..self
+        }
     }
 }
 
 impl CampaignReport {
-    /// Puts the runs together. The result does not depend on their order.
+    /// Puts the runs together, all measured with the same yardstick if there is one. The result does
+    /// not depend on their order.
     #[must_use]
-    pub fn new(scenario: &str, mut runs: Vec<Run>) -> Self {
+    pub fn new(scenario: &str, mut runs: Vec<Run>, yardstick: Option<&Yardstick>) -> Self {
         runs.sort_by_key(|run| run.seed);
+        let alignments: Vec<Alignment> = runs.iter().map(|run| run.alignment).collect();
         let (heard, silent): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(|r| r.epochs > 0);
         let names = row_order().into_iter();
         CampaignReport {
@@ -108,8 +155,25 @@ impl CampaignReport {
             epochs: heard.iter().map(|run| run.epochs).sum(),
             components: names.map(|name| (name, component(&heard, name))).collect(),
             outages: same_outages(&heard).iter().filter_map(|drifts| outage(drifts)).collect(),
+            worst_heading: worst_run(&heard),
+            instants: yardstick.map_or_else(Vec::new, |yardstick| at_instants(&heard, yardstick)),
+            no_limit: yardstick.and_then(|yardstick| yardstick.no_limit.clone()),
+            aligned: yardstick.map(|yardstick| aligned::together(yardstick.bar, &alignments)),
         }
     }
+}
+
+fn worst_run(runs: &[Run]) -> Option<WorstRun> {
+    let of_run = |run: &Run| Some(WorstRun { seed: run.seed, worst: run.worst_heading? });
+    runs.iter().filter_map(of_run).max_by(|a, b| a.worst.ratio.total_cmp(&b.worst.ratio))
+}
+
+fn at_instants(runs: &[Run], yardstick: &Yardstick) -> Vec<InstantEstimates> {
+    let at = |(index, instant): (usize, &Instant)| {
+        let moments = runs.iter().filter_map(|run| run.moments.get(index).copied().flatten());
+        instants::together(instant, &moments.collect::<Vec<Moment>>())
+    };
+    yardstick.instants.iter().enumerate().filter_map(at).collect()
 }
 
 fn component(runs: &[Run], name: &str) -> Option<ComponentEstimates> {
@@ -173,12 +237,35 @@ impl fmt::Display for CampaignReport {
             self.scenario
         )?;
         write!(f, "{}", component_table(&self.components))?;
+        if let Some(WorstRun { seed, worst: WorstHeading { ratio, at_s } }) = self.worst_heading {
+            let ratio = significant(ratio, 3);
+            writeln!(f, "\nworst heading: {ratio} claimed σ with seed {seed} at {at_s} s")?;
+        }
         if !self.outages.is_empty() {
             writeln!(f, "\nwithout GNSS")?;
             write!(f, "{}", outage_table(&self.outages))?;
         }
+        self.write_heading(f)?;
         if !self.silent_seeds.is_empty() {
             writeln!(f, "\nno solution to compare with seeds {:?}", self.silent_seeds)?;
+        }
+        Ok(())
+    }
+}
+
+impl CampaignReport {
+    /// The heading at the instants and the times of alignment.
+    fn write_heading(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.instants.is_empty() {
+            writeln!(f, "\nat instants, beside the limit of the optimal filter")?;
+            write!(f, "{}", instants::table(&self.instants))?;
+        }
+        if let Some(why) = &self.no_limit {
+            writeln!(f, "no limit: {why}")?;
+        }
+        if let Some(aligned) = &self.aligned {
+            writeln!(f, "\nheading within {} deg", significant(aligned.bar_deg, 3))?;
+            write!(f, "{}", aligned::table(aligned))?;
         }
         Ok(())
     }
@@ -237,7 +324,7 @@ fn outage_table(outages: &[OutageEstimates]) -> Table {
 }
 
 /// `1.02 [0.98, 1.06]`
-fn shown(estimate: &Estimate, text: impl Fn(f64) -> String) -> String {
+pub(super) fn shown(estimate: &Estimate, text: impl Fn(f64) -> String) -> String {
     match (estimate.low, estimate.high) {
         (Some(low), Some(high)) => {
             format!("{} [{}, {}]", text(estimate.mean), text(low), text(high))
@@ -275,14 +362,14 @@ mod tests {
     fn runs_are_put_together_in_order_of_their_seeds() {
         let make = |seeds: [u64; 3]| {
             let runs = seeds.map(|seed| run(seed, seed as f64, Vec::new()));
-            serde_json::to_string(&CampaignReport::new("x", runs.to_vec())).unwrap()
+            serde_json::to_string(&CampaignReport::new("x", runs.to_vec(), None)).unwrap()
         };
         assert_eq!(make([1, 2, 3]), make([3, 1, 2]));
     }
 
     #[test]
     fn nees_over_seeds_is_the_mean_of_the_runs() {
-        let report = CampaignReport::new("x", vec![run(0, 1.0, vec![]), run(1, 2.0, vec![])]);
+        let report = CampaignReport::new("x", vec![run(0, 1.0, vec![]), run(1, 2.0, vec![])], None);
         let north = report.components["north"].as_ref().unwrap();
         assert!((north.nees.mean - 2.5).abs() < 0.01, "{north:?}");
         assert!(report.to_string().contains("north"));
@@ -295,7 +382,7 @@ mod tests {
             run(1, 0.0, vec![drift(901.0, 1.0)]),
             run(2, 0.0, vec![drift(99.0, 4.0), drift(900.0, 5.0)]),
         ];
-        let report = CampaignReport::new("x", runs);
+        let report = CampaignReport::new("x", runs, None);
         assert_eq!(report.outages.iter().map(|o| o.runs).collect::<Vec<_>>(), [2, 3]);
         let rms = report.outages[0].end_horizontal_rms_m.mean;
         assert!((rms - 12.5_f64.sqrt()).abs() < 1e-9);
@@ -303,9 +390,30 @@ mod tests {
     }
 
     #[test]
+    fn the_heading_is_held_against_a_yardstick_if_there_is_one() {
+        let instants = [(3.0, Some(0.005)), (99.0, Some(0.005))];
+        let instants = instants.map(|(at, limit)| Instant { at, limit }).to_vec();
+        let yardstick = Yardstick { instants, no_limit: None, bar: 0.02 };
+        let nav: Vec<_> = (0..10).map(|t| solution(f64::from(t), Geodetic::default())).collect();
+        let mut still: Vec<_> = (0..10).map(|t| truth(f64::from(t), Geodetic::default())).collect();
+        still[4].attitude.as_mut().unwrap().heading = 0.03;
+        let found = errors(&nav, &still, None);
+        let run = |seed| Run::new(seed, &found, vec![]).measured(&found.epochs, &yardstick);
+        let report = CampaignReport::new("x", vec![run(5), run(6)], Some(&yardstick));
+        assert_eq!(report.instants.len(), 1, "there is no epoch at 99 s");
+        assert!((report.instants[0].sigma_over_limit.unwrap() - 2.0).abs() < 1e-9);
+        let aligned = report.aligned.unwrap();
+        assert_eq!((aligned.error.median_s, aligned.claim.max_s), (Some(5.0), Some(0.0)));
+        let worst = report.worst_heading.unwrap().worst;
+        assert!((worst.ratio - 3.0).abs() < 1e-9 && worst.at_s == 4.0);
+        let text = report.to_string();
+        assert!(text.contains("claim / limit") && text.contains("heading within 1.15 deg"));
+    }
+
+    #[test]
     fn a_seed_without_solution_is_told() {
         let silent = Run::new(9, &Errors::default(), Vec::new());
-        let report = CampaignReport::new("x", vec![run(0, 0.0, vec![]), silent]);
+        let report = CampaignReport::new("x", vec![run(0, 0.0, vec![]), silent], None);
         assert_eq!((report.seeds.len(), report.silent_seeds.as_slice()), (1, &[9_u64][..]));
     }
 }

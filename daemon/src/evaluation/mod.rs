@@ -3,11 +3,13 @@
 //! Pure functions over lists of solutions and truths; the commands `evaluate` and `campaign` and
 //! the tests of the house all use these.
 
+mod aligned;
 mod campaign;
 mod component;
 mod drift;
 mod errors;
 mod innovation;
+mod instants;
 mod interval;
 pub mod plot;
 mod report;
@@ -15,11 +17,16 @@ mod series;
 mod statistics;
 mod table;
 
-pub use campaign::{CampaignReport, ComponentEstimates, OutageEstimates, Run};
+pub use aligned::{
+    AlignedEstimates, Alignment, Times, WorstHeading, WorstRun, alignment, good_heading,
+    worst_heading,
+};
+pub use campaign::{CampaignReport, ComponentEstimates, OutageEstimates, Run, Yardstick};
 pub use component::Component;
 pub use drift::{Drift, Outage, drifts, outages};
 pub use errors::{EpochError, Errors, LeftOut, errors, normalised};
 pub use innovation::{InnovationRow, InnovationWriter, read_innovations};
+pub use instants::{Instant, InstantEstimates, Moment, moments};
 pub use interval::Estimate;
 pub use report::Report;
 pub use statistics::{Summary, mean, quantile, summarise, summarise_horizontal};

@@ -9,6 +9,7 @@
 //! those derivatives. Of the navigator nothing but the vocabulary of `insd-base` is shared, so an
 //! error in its mechanisation cannot hide here as well.
 
+mod limit;
 mod motion;
 mod quadrature;
 mod random;
@@ -26,7 +27,8 @@ use scenario::{Gnss, Log};
 use sensors::epochs;
 use track::Track;
 
-pub use scenario::{Fault, Scenario, ScenarioError};
+pub use limit::{Limit, LimitError, limit};
+pub use scenario::{Fault, Override, Scenario, ScenarioError};
 pub use shipped::shipped;
 
 /// Simulates the voyage of a scenario. The same scenario and seed give the same voyage; every source

@@ -40,6 +40,7 @@ pub(crate) enum Purpose {
     LogArrival,
     Current,
     ReferenceNoise,
+    ImuLosses,
 }
 
 /// The stream of one purpose in the voyage of one seed.

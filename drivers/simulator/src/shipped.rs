@@ -26,5 +26,12 @@ pub fn shipped() -> &'static [(&'static str, &'static str)] {
         "14-water-track-current.toml",
         "15-noise-free-rough-sea.toml",
         "16-imu-gaps-and-duplicates.toml",
+        "17-moored-calm.toml",
+        "18-moored-swell.toml",
+        "19-moored-gust.toml",
+        "20-moored-tug.toml",
+        "21-moored-lost-samples.toml",
+        "22-moored-gnss.toml",
+        "23-moored-departure.toml",
     ]
 }

@@ -7,6 +7,7 @@ mod jet;
 mod path;
 mod ramp;
 mod seaway;
+mod shift;
 mod spectrum;
 
 use insd_base::units::DEG;
@@ -15,8 +16,9 @@ use rand_pcg::Pcg64;
 pub(crate) use jet::Jet;
 pub(crate) use path::Path;
 pub(crate) use ramp::length_for_slope;
-pub(crate) use seaway::SeaMotion;
 use seaway::{Exposure, Seaway};
+pub(crate) use seaway::{SeaMotion, Swing};
+use shift::Shifts;
 
 use crate::random::{Purpose, stream};
 use crate::scenario::{Scenario, Sea, Ship};
@@ -47,6 +49,7 @@ pub(crate) struct Motion {
     /// One for each stage of the path.
     seaways: Vec<Seaway>,
     exposure: Exposure,
+    shifts: Shifts,
 }
 
 impl Motion {
@@ -58,7 +61,14 @@ impl Motion {
             None => vec![Seaway::default(); path.stages().len()],
         };
         let points = scenario.sea.as_ref().map_or(&[][..], |sea| &sea.exposure);
-        Motion { ship: scenario.ship, path, seaways, exposure: Exposure::new(points) }
+        let shifts = scenario.sea.as_ref().map_or(&[][..], |sea| &sea.shifts);
+        Motion {
+            ship: scenario.ship,
+            path,
+            seaways,
+            exposure: Exposure::new(points),
+            shifts: Shifts::new(shifts),
+        }
     }
 
     /// The guidance path.
@@ -70,6 +80,17 @@ impl Motion {
     pub(crate) fn sway_std(&self, t: f64) -> f64 {
         let seaway = self.seaways.get(self.path.stage_index(t));
         seaway.map_or(0.0, Seaway::horizontal_std) * self.exposure.at(t).value
+    }
+
+    /// Surge and sway about the berth as seen at time `t`, s: in the moorings, in the waves.
+    pub(crate) fn swings(&self, t: f64) -> [[Swing; 2]; 2] {
+        let factor = self.exposure.at(t).value;
+        let seaway = self.seaways.get(self.path.stage_index(t));
+        let scaled = |swing: Swing| Swing { std: swing.std * factor, ..swing };
+        let axes = |of: fn(&Seaway, usize) -> Swing| {
+            [0, 1].map(|axis| seaway.map_or(Swing::default(), |sea| scaled(of(sea, axis))))
+        };
+        [axes(Seaway::mooring), axes(Seaway::waves)]
     }
 
     /// The motion at time `t`, s.
@@ -99,8 +120,12 @@ impl Motion {
         }
     }
 
-    /// The motion in waves and moorings at time `t`, s.
+    /// The motion in waves and moorings at time `t`, s, with the shifts on the latter.
     pub(crate) fn sea(&self, t: f64) -> SeaMotion {
+        self.shifts.added_to(self.swell(t), t)
+    }
+
+    fn swell(&self, t: f64) -> SeaMotion {
         let index = self.path.stage_index(t);
         let Some(seaway) = self.seaways.get(index) else { return SeaMotion::default() };
         let steady = seaway.at(t);

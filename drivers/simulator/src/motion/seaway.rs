@@ -19,9 +19,14 @@ const GRAVITY: f64 = 9.81;
 const ROLL_SLOPE: f64 = 0.7;
 /// Yaw over wave slope in quartering seas.
 const YAW_SLOPE: f64 = 0.4;
-/// Components of each slow mooring motion and their periods, s.
+/// Components of each slow mooring motion and their periods, s. They are spread evenly in frequency,
+/// as in the moored voyages that we compare with: those have nothing slower than 150 s, and a mean
+/// period of 86 s.
 const MOORING_COMPONENTS: usize = 10;
-const MOORING_PERIODS: (f64, f64) = (60.0, 180.0);
+const MOORING_PERIODS: (f64, f64) = (60.0, 150.0);
+/// What has a longer period is motion in the moorings, s: waves of the longest peak period, 25 s, are
+/// cut off at twice that.
+const LONGEST_WAVE: f64 = 55.0;
 
 /// The six degrees of freedom in this order: surge, sway, heave (m, forward, starboard, up), roll,
 /// pitch, yaw (rad, starboard down, bow up, bow to starboard).
@@ -98,6 +103,15 @@ pub(crate) struct Heading {
     pub(crate) speed: f64,
 }
 
+/// What is known of a stationary oscillation of one axis without knowing its phases.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Swing {
+    /// Standard deviation, m.
+    pub(crate) std: f64,
+    /// Mean angular frequency m1 / m0 of its spectrum, rad/s; 0 if it has no power.
+    pub(crate) omega: f64,
+}
+
 impl Seaway {
     /// The response of `ship` to `waves` that come, on average, from `from`, rad.
     pub(crate) fn new(ship: &Ship, waves: &[Wave], from: f64, heading: Heading) -> Self {
@@ -111,11 +125,11 @@ impl Seaway {
             let amplitude = std * (2.0 / MOORING_COMPONENTS as f64).sqrt();
             for band in 0..MOORING_COMPONENTS {
                 let share = (band as f64 + uniform(rng, 0.0, 1.0)) / MOORING_COMPONENTS as f64;
-                let period = MOORING_PERIODS.0 + share * (MOORING_PERIODS.1 - MOORING_PERIODS.0);
+                let (fast, slow) = (TAU / MOORING_PERIODS.0, TAU / MOORING_PERIODS.1);
                 let mut cosine = [0.0; DEGREES];
                 cosine[degree] = amplitude;
                 self.0.push(Component {
-                    omega: TAU / period,
+                    omega: slow + share * (fast - slow),
                     phase: uniform(rng, 0.0, TAU),
                     cosine,
                     sine: [0.0; DEGREES],
@@ -130,6 +144,25 @@ impl Seaway {
             (0..2).map(|d| c.cosine[d].powi(2) + c.sine[d].powi(2)).sum::<f64>() / 2.0
         };
         (self.0.iter().map(power).sum::<f64>() / 2.0).sqrt()
+    }
+
+    /// The motion in the waves of one horizontal axis: 0 surge, 1 sway.
+    pub(crate) fn waves(&self, axis: usize) -> Swing {
+        self.swing(axis, |component| component.omega > TAU / LONGEST_WAVE)
+    }
+
+    /// The slow motion in the moorings of one horizontal axis: 0 surge, 1 sway.
+    pub(crate) fn mooring(&self, axis: usize) -> Swing {
+        self.swing(axis, |component| component.omega <= TAU / LONGEST_WAVE)
+    }
+
+    fn swing(&self, axis: usize, of_kind: impl Fn(&Component) -> bool) -> Swing {
+        let power = |c: &Component| (c.cosine[axis].powi(2) + c.sine[axis].powi(2)) / 2.0;
+        let chosen = self.0.iter().filter(|component| of_kind(component));
+        let (m0, m1) = chosen.fold((0.0, 0.0), |(m0, m1), component| {
+            (m0 + power(component), m1 + power(component) * component.omega.abs())
+        });
+        Swing { std: m0.sqrt(), omega: if m0 > 0.0 { m1 / m0 } else { 0.0 } }
     }
 
     /// The motion at time `t`, s.

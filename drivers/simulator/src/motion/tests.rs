@@ -127,3 +127,59 @@ fn she_heels_outward_in_a_turn() {
     assert!(motion.at(105.0).roll.value < -0.01 * DEG);
     assert!(motion.at(400.0).roll.value > 0.1 * DEG);
 }
+
+#[test]
+fn a_gust_leaves_the_moored_ship_elsewhere_and_a_tug_lets_her_come_back() {
+    let sea = |until: &str| {
+        format!(
+            "{{ significant_height_m = 0.0, peak_period_s = 8.0, mooring_sway_m = 0.0, \
+             shifts = [{{ at_s = 100.0, forward_m = 3.0, starboard_m = -4.0{until} }}] }}"
+        )
+    };
+    let (gust, tug) =
+        (lying(90.0, true, "{}", &sea("")), lying(90.0, true, "{}", &sea(", until_s = 220.0")));
+    // heading east, forward is east and port is north
+    for (t, north, east) in [(99.0, 0.0, 0.0), (110.0, 2.0, 1.5), (121.0, 4.0, 3.0)] {
+        for motion in [&gust, &tug] {
+            assert_relative_eq!(motion.at(t).displacement[0], north, epsilon = 1e-9);
+            assert_relative_eq!(motion.at(t).displacement[1], east, epsilon = 1e-9);
+        }
+    }
+    assert_relative_eq!(gust.at(1e4).displacement[0], 4.0, epsilon = 1e-9);
+    assert_relative_eq!(tug.at(219.0).displacement[0], 4.0, epsilon = 1e-9);
+    assert_relative_eq!(tug.at(241.0).displacement[0], 0.0, epsilon = 1e-9);
+}
+
+#[test]
+fn the_velocity_of_a_shift_is_the_smooth_derivative_of_its_displacement() {
+    let sea = "{ state = 3, shifts = [{ at_s = 10.0, starboard_m = 5.0, until_s = 31.0 }] }";
+    let motion = lying(30.0, true, "{}", sea);
+    let h = 1e-4;
+    for i in 0..450 {
+        let t = 8.0 + 0.1 * f64::from(i);
+        let (before, now, after) = (motion.at(t - h), motion.at(t), motion.at(t + h));
+        for axis in 0..2 {
+            let slope = (after.displacement[axis] - before.displacement[axis]) / (2.0 * h);
+            assert_relative_eq!(now.velocity[axis].value, slope, epsilon = 1e-6);
+            let slope = (after.velocity[axis].value - before.velocity[axis].value) / (2.0 * h);
+            assert_relative_eq!(now.velocity[axis].rate, slope, epsilon = 1e-5);
+        }
+    }
+}
+
+#[test]
+fn what_is_said_of_the_swinging_at_the_berth_is_what_she_does() {
+    let sea = "{ state = 4, from_deg = 60.0, exposure = [{ at_s = 0.0, factor = 0.5 }] }";
+    let motion = lying(0.0, true, "{}", sea);
+    let [moorings, waves] = motion.swings(0.0);
+    for axis in 0..2 {
+        let both = moorings[axis].std.hypot(waves[axis].std);
+        assert_relative_eq!(std(|t| motion.at(t).displacement[axis]), both, max_relative = 0.03);
+        // the square of the mean frequency is a little below the mean of the square
+        let speed =
+            (moorings[axis].std * moorings[axis].omega).hypot(waves[axis].std * waves[axis].omega);
+        assert_relative_eq!(std(|t| motion.at(t).velocity[axis].value), speed, max_relative = 0.1);
+        let period = std::f64::consts::TAU / moorings[axis].omega;
+        assert!((80.0..92.0).contains(&period), "{period}");
+    }
+}

@@ -141,6 +141,9 @@ pub(crate) struct Imu {
     /// the uneven intervals.
     #[serde(default)]
     pub(crate) jitter_std_s: f64,
+    /// Share of the samples that never arrive, each lost on its own.
+    #[serde(default)]
+    pub(crate) lost_share: f64,
     /// Missing samples.
     #[serde(default)]
     pub(crate) gaps: Vec<ImuGap>,
@@ -173,6 +176,7 @@ impl Imu {
     pub(super) fn check(&self, faults: &mut Faults) {
         faults.range("imu.rate_hz", self.rate_hz, 10.0, 1000.0);
         faults.range("imu.jitter_std_s", self.jitter_std_s, 0.0, 0.2 / self.rate_hz);
+        faults.range("imu.lost_share", self.lost_share, 0.0, 0.5);
         match (self.grade, &self.errors) {
             (Some(_), None) => {}
             (None, Some(errors)) => errors.check(faults),

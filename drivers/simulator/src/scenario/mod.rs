@@ -7,11 +7,13 @@ mod fault;
 mod gnss;
 mod imu;
 mod log;
+mod overrides;
 mod reference;
 mod sea;
 mod voyage;
 mod when;
 
+use insd_base::units::DEG;
 use serde::Deserialize;
 
 use fault::Faults;
@@ -20,8 +22,9 @@ pub use fault::{Fault, ScenarioError};
 pub(crate) use gnss::{Gnss, GnssGrade, GnssNoise, StdFault};
 pub(crate) use imu::Imu;
 pub(crate) use log::{Current, Log, LogAxes};
+pub use overrides::Override;
 pub(crate) use reference::{PositionReference, Reference};
-pub(crate) use sea::{ExposurePoint, Sea};
+pub(crate) use sea::{ExposurePoint, Sea, Shift};
 pub(crate) use voyage::{
     HeadingReference, Leg, Mode, Route, SHORTEST_CHANGE, Ship, Start, TURN_ENTRY, Truth,
 };
@@ -90,6 +93,34 @@ impl Scenario {
         Ok(scenario)
     }
 
+    /// Reads a scenario, sound in itself, and sets some of its keys to other values.
+    ///
+    /// # Errors
+    /// Those of [`Scenario::from_toml`]; the key of an override that names nothing, or whose value is
+    /// of the wrong type; all values out of range.
+    pub fn with_overrides(text: &str, overrides: &[Override]) -> Result<Scenario, ScenarioError> {
+        let mut scenario = Scenario::from_toml(text)?;
+        let mut table: toml::Table =
+            toml::from_str(text).map_err(|error| ScenarioError::Syntax(error.to_string()))?;
+        for change in overrides {
+            scenario = change.apply(&mut table)?;
+        }
+        scenario.check()?;
+        Ok(scenario)
+    }
+
+    /// Whether the navigator is told that she lies at her berth when the voyage starts.
+    #[must_use]
+    pub fn is_moored(&self) -> bool {
+        self.mode == Mode::Moored
+    }
+
+    /// Latitude of the start, rad.
+    #[must_use]
+    pub fn start_latitude(&self) -> f64 {
+        self.start.lat_deg * DEG
+    }
+
     /// What to call it in tables.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -113,6 +144,11 @@ impl Scenario {
     pub fn with_duration(mut self, seconds: f64) -> Self {
         self.duration_s = Some(seconds.max(1.0));
         self
+    }
+
+    /// Whether a reference gives the position of the berth while she lies there.
+    pub(crate) fn knows_berth(&self) -> bool {
+        self.reference.is_some_and(|reference| reference.position == PositionReference::Berth)
     }
 
     fn check(&self) -> Result<(), ScenarioError> {

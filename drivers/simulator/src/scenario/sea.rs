@@ -29,6 +29,45 @@ pub(crate) struct ExposurePoint {
     pub(crate) factor: f64,
 }
 
+/// A moored ship shifted on her lines, by a gust or a tug. Her mean position is another from then on,
+/// or until she comes back; the reference goes on stating the berth.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Shift {
+    /// When it begins.
+    pub(crate) at_s: f64,
+    /// How long it takes to build up, and to go away.
+    #[serde(default = "twenty")]
+    pub(crate) over_s: f64,
+    /// When she begins to come back; never if absent.
+    pub(crate) until_s: Option<f64>,
+    /// Forward.
+    #[serde(default)]
+    pub(crate) forward_m: f64,
+    /// To starboard.
+    #[serde(default)]
+    pub(crate) starboard_m: f64,
+}
+
+fn twenty() -> f64 {
+    20.0
+}
+
+impl Shift {
+    fn check(&self, key: &str, faults: &mut Faults) {
+        faults.not_negative(format!("{key}.at_s"), self.at_s);
+        faults.range(format!("{key}.over_s"), self.over_s, 5.0, 1000.0);
+        faults.range(format!("{key}.forward_m"), self.forward_m, -100.0, 100.0);
+        faults.range(format!("{key}.starboard_m"), self.starboard_m, -100.0, 100.0);
+        if self
+            .until_s
+            .is_some_and(|until| !(until.is_finite() && until >= self.at_s + self.over_s))
+        {
+            faults.add(format!("{key}.until_s"), "expected at_s + over_s or later");
+        }
+    }
+}
+
 /// The waves.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(default, deny_unknown_fields)]
@@ -53,6 +92,8 @@ pub(crate) struct Sea {
     pub(crate) mooring_yaw_deg: Option<f64>,
     /// How open the place is to the sea, in order of time, smooth between the points; 1 if empty.
     pub(crate) exposure: Vec<ExposurePoint>,
+    /// Shifts of the moored ship.
+    pub(crate) shifts: Vec<Shift>,
 }
 
 impl Default for Sea {
@@ -68,6 +109,7 @@ impl Default for Sea {
             mooring_sway_m: None,
             mooring_yaw_deg: None,
             exposure: Vec::new(),
+            shifts: Vec::new(),
         }
     }
 }
@@ -118,6 +160,9 @@ impl Sea {
             let key = format!("sea.exposure[{index}]");
             faults.not_negative(format!("{key}.at_s"), point.at_s);
             faults.range(format!("{key}.factor"), point.factor, 0.0, 1.0);
+        }
+        for (index, shift) in self.shifts.iter().enumerate() {
+            shift.check(&format!("sea.shifts[{index}]"), faults);
         }
         let mut pairs = self.exposure.iter().zip(self.exposure.iter().skip(1));
         if pairs.any(|(a, b)| b.at_s - a.at_s < 10.0) {

@@ -126,3 +126,16 @@ fn the_start_must_be_an_instant_in_utc() {
     let text = format!("start_utc = \"yesterday\"\n{SMALL}");
     assert_eq!(faults_of(&text)[0].key, "start_utc");
 }
+
+#[test]
+fn a_shift_comes_back_after_it_was_there() {
+    let with = |shift: &str| {
+        Scenario::from_toml(&format!("{SMALL}[sea]\nstate = 2\nshifts = [{{ {shift} }}]\n"))
+    };
+    assert!(with("at_s = 5.0, forward_m = 1.0").is_ok());
+    assert!(with("at_s = 5.0, until_s = 25.0, forward_m = 1.0").is_ok());
+    for bad in ["at_s = 5.0, until_s = 24.0", "at_s = -1.0", "at_s = 5.0, over_s = 0.0"] {
+        let error = with(bad).unwrap_err().to_string();
+        assert!(error.starts_with("sea.shifts[0]."), "{error}");
+    }
+}

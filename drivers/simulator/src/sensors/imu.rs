@@ -9,7 +9,7 @@ use insd_base::{Body, ImuSample, ImuSpec, Stamped, Time};
 use super::epochs;
 use super::windows::{Window, windows};
 use crate::quadrature::{NODES, WEIGHTS};
-use crate::random::{GaussMarkov, Purpose, normal, normal3, stream};
+use crate::random::{GaussMarkov, Purpose, normal, normal3, stream, uniform};
 use crate::scenario::{Imu, Spread};
 use crate::track::{Kinematics, Track};
 
@@ -99,6 +99,9 @@ struct LineFaults {
     gaps: Vec<Window>,
     /// Instants at and after which the next sample is sent twice, latest first.
     duplicates: Vec<f64>,
+    /// Share of the samples lost one by one.
+    lost_share: f64,
+    losses: Pcg64,
 }
 
 impl LineFaults {
@@ -110,12 +113,14 @@ impl LineFaults {
         let instants = imu.duplicates.iter().flat_map(|w| windows(w, Spread::Fixed(0.0), &mut rng));
         let mut duplicates: Vec<f64> = instants.map(|window| window.start).collect();
         duplicates.sort_by(|a, b| b.total_cmp(a));
-        LineFaults { gaps, duplicates }
+        let losses = stream(seed, Purpose::ImuLosses);
+        LineFaults { gaps, duplicates, lost_share: imu.lost_share, losses }
     }
 
     /// How often a sample of time `t`, s, arrives.
     fn copies(&mut self, t: f64) -> usize {
-        if self.gaps.iter().any(|gap| gap.contains(t)) {
+        let lost = uniform(&mut self.losses, 0.0, 1.0) < self.lost_share;
+        if lost || self.gaps.iter().any(|gap| gap.contains(t)) {
             return 0;
         }
         match self.duplicates.last() {

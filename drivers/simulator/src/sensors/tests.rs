@@ -142,6 +142,20 @@ fn gaps_and_duplicates_leave_all_other_samples_as_they_were() {
 }
 
 #[test]
+fn samples_lost_one_by_one_leave_the_others_as_they_were() {
+    let samples = |faults: &str| {
+        let rest = format!("imu = {{ grade = \"mems\"{faults} }}\n");
+        let scenario = scenario(10.0, 60.0, &rest);
+        super::imu::samples(&scenario.imu, &Track::new(&scenario, 4), 60.0, 4)
+    };
+    let (clean, lossy) = (samples(""), samples(", lost_share = 0.02"));
+    let lost = clean.len() - lossy.len();
+    assert!((80..=160).contains(&lost), "{lost} of 6000");
+    let mut rest = clean.iter();
+    assert!(lossy.iter().all(|sample| rest.any(|one| one == sample)));
+}
+
+#[test]
 fn uneven_samples_cover_the_voyage_without_gap_or_overlap() {
     let sum = |jitter: f64| {
         let rest = format!("imu = {{ grade = \"perfect\", jitter_std_s = {jitter} }}\n{ROUGH}");

@@ -1,0 +1,36 @@
+//! The choice of alignment on the command line.
+
+use clap::builder::PossibleValuesParser;
+use clap::builder::TypedValueParser;
+use insd_alignment::{AlignmentConfig, InMotion, Method};
+
+/// How the ship finds her attitude and heading.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub struct AlignmentArgs {
+    /// How the sea is kept out of the alignment at the berth
+    #[arg(long = "alignment", value_name = "METHOD", default_value = Method::default().as_str(),
+        value_parser = methods())]
+    moored: Method,
+    /// How a ship under way finds her heading
+    #[arg(long, value_name = "METHOD", default_value = InMotion::default().as_str(),
+        value_parser = in_motion_methods())]
+    in_motion: InMotion,
+}
+
+impl AlignmentArgs {
+    /// As the engine takes it.
+    #[must_use]
+    pub fn config(&self) -> AlignmentConfig {
+        AlignmentConfig { moored: self.moored, in_motion: self.in_motion }
+    }
+}
+
+fn methods() -> impl TypedValueParser<Value = Method> {
+    PossibleValuesParser::new(Method::ALL.map(Method::as_str))
+        .map(|word| Method::from_word(&word).unwrap_or_default())
+}
+
+fn in_motion_methods() -> impl TypedValueParser<Value = InMotion> {
+    PossibleValuesParser::new(InMotion::ALL.map(InMotion::as_str))
+        .map(|word| InMotion::from_word(&word).unwrap_or_default())
+}

@@ -1,0 +1,189 @@
+//! When the heading is good enough, in truth and by its claim, and where the claim is worst.
+
+use insd_base::units::DEG;
+use serde::Serialize;
+
+use super::component::Component;
+use super::errors::{EpochError, normalised};
+use super::statistics::quantile;
+use super::table::{Align, Table, significant};
+
+/// A heading of this 1-sigma counts as aligned on the equator, rad; elsewhere it is larger by the
+/// secant of the latitude, as the horizontal Earth rate is smaller.
+const GOOD_HEADING: f64 = 0.1 * DEG;
+
+/// When one run was aligned, s; `None` if it never was.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Alignment {
+    /// From when on the error of the heading stays below the bar.
+    pub error: Option<f64>,
+    /// When the claimed sigma first is below it.
+    pub claim: Option<f64>,
+}
+
+/// The largest error of the heading in terms of its claimed sigma, of one run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct WorstHeading {
+    /// |error| / sigma.
+    pub ratio: f64,
+    /// Where, s.
+    pub at_s: f64,
+}
+
+/// The same over all runs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct WorstRun {
+    /// Seed of the run.
+    pub seed: u64,
+    /// The largest ratio of that run.
+    #[serde(flatten)]
+    pub worst: WorstHeading,
+}
+
+/// Times of alignment over the runs, s; null where so many runs never were aligned.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Times {
+    /// Half of the runs are not later.
+    pub median_s: Option<f64>,
+    /// Nine tenths are not later.
+    pub p90_s: Option<f64>,
+    /// The last.
+    pub max_s: Option<f64>,
+    /// Runs that never were.
+    pub never: usize,
+}
+
+/// When the runs are aligned.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct AlignedEstimates {
+    /// What counts as aligned, deg: 0.1 deg times the secant of the latitude.
+    pub bar_deg: f64,
+    /// From when on the error stays below the bar.
+    pub error: Times,
+    /// When the claim first is below it.
+    pub claim: Times,
+}
+
+/// The heading, rad, that counts as aligned at a latitude, rad.
+#[must_use]
+pub fn good_heading(latitude: f64) -> f64 {
+    GOOD_HEADING / latitude.cos()
+}
+
+/// When a run was aligned within `bar`, rad. An epoch at which truth does not know the heading is
+/// passed over.
+#[must_use]
+pub fn alignment(epochs: &[EpochError], bar: f64) -> Alignment {
+    let known = || epochs.iter().filter_map(|e| Some((e, e.of(Component::Heading)?.abs())));
+    let last_bad = known().filter(|(_, error)| *error >= bar).map(|(e, _)| e.time).next_back();
+    let good = |e: &EpochError| last_bad.is_none_or(|bad| e.time > bad);
+    let claimed = |e: &&EpochError| e.sigma_of(Component::Heading) < bar;
+    Alignment {
+        error: known().find(|(e, _)| good(e)).map(|(e, _)| e.time.as_seconds()),
+        claim: epochs.iter().find(claimed).map(|e| e.time.as_seconds()),
+    }
+}
+
+/// The epoch at which the error of the heading is largest in terms of its claim.
+#[must_use]
+pub fn worst_heading(epochs: &[EpochError]) -> Option<WorstHeading> {
+    let heading = Component::Heading;
+    let ratio = |e: &EpochError| {
+        let ratio = normalised(e.of(heading)?, e.sigma_of(heading))?.abs();
+        Some(WorstHeading { ratio, at_s: e.time.as_seconds() })
+    };
+    epochs.iter().filter_map(ratio).max_by(|a, b| a.ratio.total_cmp(&b.ratio))
+}
+
+/// The runs put together.
+pub(super) fn together(bar: f64, runs: &[Alignment]) -> AlignedEstimates {
+    AlignedEstimates {
+        bar_deg: bar / DEG,
+        error: times(runs.iter().map(|run| run.error)),
+        claim: times(runs.iter().map(|run| run.claim)),
+    }
+}
+
+/// Quantiles of times of which some are never.
+fn times(of_runs: impl Iterator<Item = Option<f64>>) -> Times {
+    let mut sorted: Vec<f64> = of_runs.map(|time| time.unwrap_or(f64::INFINITY)).collect();
+    sorted.sort_by(f64::total_cmp);
+    let at = |p| Some(quantile(&sorted, p)).filter(|time| time.is_finite());
+    Times {
+        median_s: at(0.5),
+        p90_s: at(0.9),
+        max_s: at(1.0),
+        never: sorted.iter().filter(|time| time.is_infinite()).count(),
+    }
+}
+
+/// A row for the error and one for the claim.
+pub(super) fn table(aligned: &AlignedEstimates) -> Table {
+    let names = ["median s", "90 % s", "max s", "never"];
+    let mut columns = vec![("aligned", Align::Left)];
+    columns.extend(names.map(|name| (name, Align::Right)));
+    let mut table = Table::new(&columns);
+    let time = |time: Option<f64>| time.map_or("-".to_owned(), |time| significant(time, 4));
+    for (name, times) in
+        [("error stays below", &aligned.error), ("claimed σ first below", &aligned.claim)]
+    {
+        let quantiles = [times.median_s, times.p90_s, times.max_s].map(time);
+        let mut row = vec![name.to_owned()];
+        row.extend(quantiles);
+        row.push(times.never.to_string());
+        table.push(row);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use insd_base::Time;
+
+    fn run(of: impl Fn(f64) -> (f64, f64)) -> Vec<EpochError> {
+        let epoch = |t: i32| {
+            let (error, sigma) = of(f64::from(t));
+            let time = Time::from_seconds(f64::from(t));
+            EpochError { time, error: [Some(error); 9], sigma: [sigma; 9] }
+        };
+        (0..100).map(epoch).collect()
+    }
+
+    #[test]
+    fn a_heading_that_passes_zero_is_not_aligned_until_it_stays_there() {
+        let wild = run(|t| (if t < 50.0 { (t - 20.0) / 100.0 } else { -0.01 }, 1.0 / (t + 1.0)));
+        assert_eq!(alignment(&wild, 0.1), Alignment { error: Some(50.0), claim: Some(10.0) });
+        let lost = run(|t| (t / 50.0, 1.0));
+        assert_eq!(alignment(&lost, 0.1), Alignment::default());
+        assert_eq!(alignment(&run(|_| (0.0, 0.0)), 0.1).error, Some(0.0));
+        assert_eq!(alignment(&[], 0.1), Alignment::default());
+    }
+
+    #[test]
+    fn the_worst_heading_is_that_of_the_boldest_claim() {
+        let epochs =
+            run(|t| (if t == 30.0 { -0.5 } else { 1.0 }, if t == 30.0 { 0.1 } else { 1.0 }));
+        assert_eq!(worst_heading(&epochs), Some(WorstHeading { ratio: 5.0, at_s: 30.0 }));
+        assert_eq!(worst_heading(&run(|_| (1.0, 0.0))), None);
+    }
+
+    #[test]
+    fn runs_that_never_align_count_as_the_latest() {
+        let claim = Some(1.0);
+        let runs: Vec<Alignment> =
+            (1..=9).map(|i| Alignment { error: Some(f64::from(i)), claim }).collect();
+        let all = together(0.1 * DEG, &[&runs[..], &[Alignment { error: None, claim }]].concat());
+        assert_eq!(
+            all.error,
+            Times { median_s: Some(5.0), p90_s: Some(9.0), max_s: None, never: 1 }
+        );
+        assert_eq!(all.claim.max_s, Some(1.0));
+        assert!((all.bar_deg - 0.1).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_bar_is_twice_as_wide_at_60_degrees() {
+        assert!((good_heading(60.0 * DEG) / good_heading(0.0) - 2.0).abs() < 1e-9);
+    }
+}
