@@ -32,14 +32,14 @@ pub struct Moorings {
 
 /// Spacing of the samples: about half a wave, so that the waves of consecutive ones have little in
 /// common, s.
-const SPACING: f64 = 2.0;
+const SPACING: f64 = 4.0;
 /// Natural periods of the two oscillators that cover the one to three minutes of a ship on her
 /// moorings (systems.md S1), s.
-const PERIODS: [f64; 2] = [68.0, 120.0];
+const PERIODS: [f64; 2] = [66.0, 106.0];
 /// Damping that fills the band between them and little beyond.
-const DAMPING: f64 = 0.055;
+const DAMPING: f64 = 0.045;
 /// Share of the stated displacement that is slow swaying.
-const SLOW_SHARE: f64 = 0.93;
+const SLOW_SHARE: f64 = 0.9;
 /// The share that is waves, before they have been seen.
 const WAVE_SHARE: f64 = 0.4;
 /// How far her mean place may be from the named berth, as share of her stated displacement.
