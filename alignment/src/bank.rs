@@ -62,6 +62,8 @@ const TOGETHER: f64 = 0.7;
 const LINEAR: f64 = 5.0 * DEG;
 /// Sigma of roll and pitch after levelling, sensor bias aside.
 const LEVEL_STD: f64 = 2.0 * DEG;
+/// Interval between propagations of the covariances, s: the search needs no more, and there are many.
+const COVARIANCE_INTERVAL: f64 = 0.5;
 /// How often the bank is tidied.
 const TIDY: Span = Span::from_nanos(1_000_000_000);
 
@@ -73,7 +75,8 @@ impl Bank {
             .map(|i| {
                 let heading = TAU * i as f64 / HEADINGS as f64;
                 let initial = hypothesis(config, level, kinematics, heading);
-                let filter = Filter::new(config, &initial);
+                let mut filter = Filter::new(config, &initial);
+                filter.slow_down(COVARIANCE_INTERVAL);
                 let fine = if kinematics.moored {
                     Fine::moored(filter, method)
                 } else {
@@ -123,26 +126,21 @@ impl Bank {
             member.log_weight -= best;
         }
         self.members.retain(|member| member.log_weight > REFUTED);
+        let mut headings: Vec<_> = self.members.iter().map(Member::heading).collect();
         let mut first = 0;
         while first < self.members.len() {
             let mut second = first + 1;
             while second < self.members.len() {
-                if self.are_together(first, second) {
+                if are_together(headings[first], headings[second]) {
                     self.join(first, second);
+                    headings.remove(second);
+                    headings[first] = self.members[first].heading();
                 } else {
                     second += 1;
                 }
             }
             first += 1;
         }
-    }
-
-    fn are_together(&self, first: usize, second: usize) -> bool {
-        let a = self.members[first].fine.solution();
-        let b = self.members[second].fine.solution();
-        let distance = wrap_pi(a.attitude.heading - b.attitude.heading).abs();
-        distance < TOGETHER * a.sigma.heading.hypot(b.sigma.heading)
-            && a.sigma.heading.max(b.sigma.heading) < 2.0 * LINEAR
     }
 
     fn join(&mut self, first: usize, second: usize) {
@@ -209,6 +207,19 @@ impl Estimator for Bank {
     fn solution_at(&self, increment: &Increment, at: Time) -> Solution {
         self.together(|fine| fine.solution_at(increment, at))
     }
+}
+
+impl Member {
+    /// Heading and its sigma, rad.
+    fn heading(&self) -> (f64, f64) {
+        let solution = self.fine.solution();
+        (solution.attitude.heading, solution.sigma.heading)
+    }
+}
+
+/// Whether two headings with their sigmas, rad, are as good as one.
+fn are_together((a, a_std): (f64, f64), (b, b_std): (f64, f64)) -> bool {
+    wrap_pi(a - b).abs() < TOGETHER * a_std.hypot(b_std) && a_std.max(b_std) < 2.0 * LINEAR
 }
 
 fn hypothesis(

@@ -40,9 +40,9 @@ impl Method {
 pub enum InMotion {
     /// The reference method, of JAE's hybrid navigation: one filter of eight states, linear in the
     /// sine and cosine of the heading ([`crate::in_motion`]).
+    #[default]
     EightState,
     /// A bank of full filters, one for each heading ([`crate::bank`]).
-    #[default]
     Bank,
 }
 

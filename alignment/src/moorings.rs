@@ -143,7 +143,7 @@ impl Moorings {
             return 0.0;
         }
         self.next = now + Span::from_seconds(SPACING);
-        filter.settle();
+        filter.settle_sway();
         if now < self.shifting_until {
             filter.loosen_berth(WANDER);
         }

@@ -153,7 +153,7 @@ fn covariance_propagation(
     mut run: Box<(Covariance, Stretch, LocalGravity, NavConfig)>,
 ) -> Box<(Covariance, Stretch, LocalGravity, NavConfig)> {
     let (covariance, stretch, gravity, config) = &mut *run;
-    let regime = Regime { rtk: false, sway: None };
+    let regime = Regime { rtk: false };
     propagate(black_box(covariance), stretch, gravity.gradient(), config, &regime);
     run
 }

@@ -50,6 +50,8 @@ pub struct Filter {
     last_relative: Option<Time>,
     turned: Vector3<f64>,
     corrected: ErrorState,
+    interval: f64,
+    unswayed: f64,
 }
 
 /// What the gates said of an innovation.
@@ -93,6 +95,8 @@ impl Filter {
             last_relative: None,
             turned: Vector3::zeros(),
             corrected: ErrorState::zeros(),
+            interval: config.covariance_interval,
+            unswayed: 0.0,
         }
     }
 
@@ -114,9 +118,17 @@ impl Filter {
         &self.covariance
     }
 
-    /// Ends alignment: the filter now stands for itself and may judge the sensors' honesty.
+    /// Ends the search for the heading: the filter now stands for itself, may judge the sensors'
+    /// honesty and keeps its covariance as fresh as navigation needs it.
     pub fn begin_navigation(&mut self) {
         self.navigating = true;
+        self.interval = self.config.covariance_interval;
+    }
+
+    /// Propagates the covariance only every so many seconds until navigation begins: for searches
+    /// that run many filters.
+    pub fn slow_down(&mut self, interval: f64) {
+        self.interval = interval;
     }
 
     /// Moves estimate and covariance by an error and a covariance from outside: for alignment, which
@@ -131,7 +143,7 @@ impl Filter {
         if self.stretch.duration <= 0.0 {
             return;
         }
-        let regime = Regime { rtk: self.is_rtk(), sway: self.sway };
+        let regime = Regime { rtk: self.is_rtk() };
         propagation::propagate(
             &mut self.covariance,
             &self.stretch,
@@ -158,9 +170,7 @@ impl Filter {
         nominal.gnss_position_error *= markov_decay(dt, gnss.position_time_for(rtk));
         nominal.gnss_velocity_error *= markov_decay(dt, gnss.velocity_time);
         nominal.current *= markov_decay(dt, log.current_time);
-        if let Some(sway) = &self.sway {
-            sway.relax(nominal, dt);
-        }
+        self.unswayed += dt;
     }
 
     /// The estimate with what aids need of it.
@@ -210,10 +220,21 @@ impl Filter {
         }
     }
 
+    /// Carries the swaying up to the time of the estimate. Nothing but the berth depends on it, so it
+    /// waits until the berth is looked at.
+    pub fn settle_sway(&mut self) {
+        self.settle();
+        if let Some(sway) = &self.sway {
+            sway.propagate(&mut self.covariance, self.unswayed);
+            sway.relax(&mut self.nominal, self.unswayed);
+        }
+        self.unswayed = 0.0;
+    }
+
     /// Brings in a condition from outside, such as that the ship lies at her berth: judged and
     /// absorbed as a measurement.
     pub fn impose<const M: usize>(&mut self, innovation: &Innovation<M>) -> Judged {
-        self.settle();
+        self.settle_sway();
         let judged = self.judge(innovation, None);
         self.note(judged.outcome);
         judged
@@ -227,7 +248,7 @@ impl Filter {
     /// Takes the ship as lying at a berth about which she sways; how far her mean place is from it is
     /// known to `offset_std` of each component, m.
     pub fn moor(&mut self, sway: Sway, offset_std: f64) {
-        self.settle();
+        self.settle_sway();
         sway.begin(&mut self.nominal, &mut self.covariance);
         self.nominal.berth_offset = Vector2::zeros();
         let offset = Matrix2::from_diagonal_element(offset_std * offset_std);
@@ -243,7 +264,7 @@ impl Filter {
 
     /// Changes what is assumed of the swaying from now on.
     pub fn set_sway(&mut self, sway: Sway) {
-        self.settle();
+        self.settle_sway();
         self.sway = Some(sway);
     }
 
@@ -346,7 +367,7 @@ impl Estimator for Filter {
         }
         self.rate = increment.end_rate;
         self.time = increment.to;
-        if self.stretch.duration >= self.config.covariance_interval - 1e-6 {
+        if self.stretch.duration >= self.interval - 1e-6 {
             self.settle();
         }
         if self.level.is_full() {

@@ -23,7 +23,6 @@ use crate::error_state::{
 };
 use crate::increments::Increment;
 use crate::strapdown::Step;
-use crate::sway::Sway;
 
 type Transition = SMatrix<f64, STRAPDOWN_STATES, STRAPDOWN_STATES>;
 type Input = SMatrix<f64, STRAPDOWN_STATES, 3>;
@@ -110,8 +109,6 @@ impl Default for Stretch {
 pub struct Regime {
     /// GNSS positions come from fixed carrier ambiguities.
     pub rtk: bool,
-    /// How a moored ship sways; `None` under way.
-    pub sway: Option<Sway>,
 }
 
 /// The nine strapdown rows of the transition matrix over a stretch.
@@ -170,9 +167,6 @@ pub fn propagate(
     p.fixed_rows_mut::<STRAPDOWN_STATES>(0).copy_from(&columns.transpose());
     p.fixed_view_mut::<STRAPDOWN_STATES, STRAPDOWN_STATES>(0, 0).copy_from(&corner);
     relax_markov(p, stretch.duration, config, regime);
-    if let Some(sway) = &regime.sway {
-        sway.propagate(p, stretch.duration);
-    }
     add_noise(p, stretch, config);
 }
 

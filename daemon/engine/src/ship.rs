@@ -12,6 +12,9 @@ const ALIGNED: f64 = 0.1 * DEG;
 /// Heading sigma below which a ship can be steered by it for the first time.
 const STEERABLE: f64 = 1.0 * DEG;
 
+/// Latitude beyond which north turns under the ship too fast for the filter of eight states.
+const POLAR: f64 = 88.0 * DEG;
+
 /// What runs on the time line.
 #[derive(Clone, Debug)]
 pub(crate) enum Ship {
@@ -30,7 +33,8 @@ impl Ship {
         kinematics: &Kinematics,
         choice: &AlignmentConfig,
     ) -> Self {
-        if !kinematics.moored && choice.in_motion == InMotion::EightState {
+        let is_polar = kinematics.position.latitude.abs() > POLAR;
+        if !kinematics.moored && !is_polar && choice.in_motion == InMotion::EightState {
             let finder = Box::new(EightState::new(config, level, kinematics));
             return Ship::InMotion { finder, config: *config };
         }

@@ -9,7 +9,6 @@ use crate::error_state::ErrorState;
 use crate::increments::Increment;
 use crate::nominal::Nominal;
 use crate::strapdown::{self, LocalGravity};
-use crate::sway::{Oscillator, Sway};
 
 const STEPS: i64 = 10;
 
@@ -104,10 +103,7 @@ fn the_transition_agrees_with_perturbed_mechanisations() {
     }
 }
 
-const REGIME: Regime = Regime {
-    rtk: false,
-    sway: Some(Sway([Oscillator { std: 0.4, period: 68.0, damping: 0.06 }; 2])),
-};
+const REGIME: Regime = Regime { rtk: false };
 
 fn config() -> NavConfig {
     let gyro = Triad {
@@ -154,7 +150,6 @@ fn the_cheap_propagation_is_the_full_matrix_product() {
     let start = root * root.transpose();
     let mut full = phi * start * phi.transpose();
     relax_markov(&mut full, stretch.duration, &config(), &REGIME);
-    REGIME.sway.as_ref().unwrap().propagate(&mut full, stretch.duration);
     add_noise(&mut full, &stretch, &config());
     let mut cheap = start;
     propagate(&mut cheap, &stretch, gravity.gradient(), &config(), &REGIME);
