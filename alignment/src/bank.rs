@@ -35,6 +35,8 @@ pub struct Kinematics {
     pub acceleration: Vector3<f64>,
     /// Whether the ship is known to lie at her berth.
     pub moored: bool,
+    /// Whether a receiver tells her velocity.
+    pub gnss_velocity: bool,
 }
 
 /// The filters and their weights.

@@ -98,6 +98,7 @@ impl Coarse {
             velocity_std: if start.velocity.is_some() { 3.0 } else { 10.0 },
             acceleration: self.acceleration(&last).unwrap_or_else(Vector3::zeros),
             moored: self.moored,
+            gnss_velocity: start.velocity.is_some(),
         })
     }
 
@@ -116,6 +117,7 @@ impl Coarse {
             velocity_std: if self.moored { 2.0 } else { 10.0 },
             acceleration: Vector3::zeros(),
             moored: self.moored,
+            gnss_velocity: false,
         })
     }
 }

@@ -1,7 +1,7 @@
 //! The ship on her time line: finding her heading, then navigating.
 
 use insd_alignment::bank::Kinematics;
-use insd_alignment::{AlignmentConfig, Bank, EightState, Fine, InMotion, Level};
+use insd_alignment::{AlignmentConfig, Bank, EightState, Fine, InMotion, Level, Method};
 use insd_base::units::DEG;
 use insd_base::{Mode, Received, Solution, Time};
 use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
@@ -20,8 +20,9 @@ const POLAR: f64 = 88.0 * DEG;
 pub(crate) enum Ship {
     /// Several headings are possible.
     Aligning(Bank),
-    /// Under way, with a heading that may be anything.
-    InMotion { finder: Box<EightState>, config: NavConfig },
+    /// A receiver tells the velocity, the heading may be anything; `berth` is how the ship is held
+    /// once it is found, if she is moored.
+    InMotion { finder: Box<EightState>, config: NavConfig, berth: Option<Method> },
     /// One is known, `aligned` once well enough to steer by.
     Navigating { fine: Box<Fine>, aligned: bool },
 }
@@ -34,9 +35,11 @@ impl Ship {
         choice: &AlignmentConfig,
     ) -> Self {
         let is_polar = kinematics.position.latitude.abs() > POLAR;
-        if !kinematics.moored && !is_polar && choice.in_motion == InMotion::EightState {
+        let is_told = !kinematics.moored || kinematics.gnss_velocity;
+        if is_told && !is_polar && choice.in_motion == InMotion::EightState {
             let finder = Box::new(EightState::new(config, level, kinematics));
-            return Ship::InMotion { finder, config: *config };
+            let berth = kinematics.moored.then_some(choice.moored);
+            return Ship::InMotion { finder, config: *config, berth };
         }
         Ship::Aligning(Bank::new(config, level, kinematics, choice.moored))
     }
@@ -44,7 +47,7 @@ impl Ship {
     fn moored(&self) -> bool {
         match self {
             Ship::Aligning(bank) => bank.is_moored(),
-            Ship::InMotion { .. } => false,
+            Ship::InMotion { berth, .. } => berth.is_some(),
             Ship::Navigating { fine, .. } => fine.is_moored(),
         }
     }
@@ -66,9 +69,13 @@ impl Ship {
     fn hand_over(&mut self) {
         let found = match self {
             Ship::Aligning(bank) => bank.winner().cloned(),
-            Ship::InMotion { finder, config } => {
-                finder.initial_state().map(|initial| Fine::under_way(Filter::new(config, &initial)))
-            }
+            Ship::InMotion { finder, config, berth } => finder.initial_state().map(|initial| {
+                let filter = Filter::new(config, &initial);
+                match berth {
+                    Some(method) => Fine::moored(filter, *method),
+                    None => Fine::under_way(filter),
+                }
+            }),
             Ship::Navigating { .. } => None,
         };
         if let Some(mut fine) = found {
