@@ -67,10 +67,23 @@ impl InMotion {
 }
 
 /// Choices of alignment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AlignmentConfig {
     /// At the berth.
     pub moored: Method,
     /// Under way.
     pub in_motion: InMotion,
+    /// Heading sigma on the equator that counts as aligned, rad; elsewhere
+    /// [`insd_base::alignment::heading_target`].
+    pub accuracy: f64,
+}
+
+impl Default for AlignmentConfig {
+    fn default() -> Self {
+        AlignmentConfig {
+            moored: Method::default(),
+            in_motion: InMotion::default(),
+            accuracy: insd_base::alignment::ACCURACY,
+        }
+    }
 }

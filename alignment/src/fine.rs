@@ -3,13 +3,15 @@
 //!
 //! The same filter then navigates: it is handed over, not copied into another, and nothing steps.
 
-use insd_base::{Message, Received, Solution, Time};
+use insd_base::{Forecast, ImuSpec, Lack, Message, Received, SeaEstimate, Solution, Time};
 use insd_nav::{AidReport, Estimator, Filter, Increment, Outcome, Report};
 
 use crate::config::Method;
 use crate::departure::Departure;
+use crate::forecast;
 use crate::moorings::Moorings;
 use crate::prefiltered::Prefiltered;
+use crate::sea_state::SeaTracker;
 use crate::white::WhiteNoise;
 
 /// A filter and, while the ship is moored, what holds it.
@@ -18,6 +20,7 @@ pub struct Fine {
     filter: Filter,
     hold: Option<Hold>,
     departure: Departure,
+    sea: SeaTracker,
     likelihood: f64,
 }
 
@@ -39,15 +42,15 @@ impl Fine {
             Method::Autoregressive => Hold::Prefiltered(Box::new(Prefiltered::new(&filter))),
             Method::Moorings => Hold::Moorings(Moorings::new(&mut filter)),
         };
-        let departure = Departure::new(&filter);
-        Fine { filter, hold: Some(hold), departure, likelihood: 0.0 }
+        Fine { hold: Some(hold), ..Fine::under_way(filter) }
     }
 
     /// A filter of a ship under way.
     #[must_use]
     pub fn under_way(filter: Filter) -> Self {
         let departure = Departure::new(&filter);
-        Fine { filter, hold: None, departure, likelihood: 0.0 }
+        let sea = SeaTracker::new(filter.time());
+        Fine { filter, hold: None, departure, sea, likelihood: 0.0 }
     }
 
     /// The filter.
@@ -88,6 +91,31 @@ impl Fine {
         }
     }
 
+    /// When the heading of a ship at her berth will have this sigma, rad, if all stays as it is.
+    #[must_use]
+    pub fn forecast(&self, imu: &ImuSpec, target: f64) -> Forecast {
+        match self.moorings() {
+            Some(moorings) => {
+                let waves = self.sea.motion();
+                forecast::at_the_berth(&self.filter, moorings, waves.as_ref(), imu, target)
+            }
+            None => Forecast::Unknown { lacks: Lack::Method },
+        }
+    }
+
+    /// The sea, once it has been seen.
+    #[must_use]
+    pub fn sea(&self) -> Option<SeaEstimate> {
+        let motion = self.sea.motion()?;
+        Some(SeaEstimate {
+            period: motion.period(),
+            significant_heave: motion.significant_heave(),
+            significant_horizontal: motion.significant_horizontal(),
+            waves_std: self.moorings().map(Moorings::waves_std),
+            sway_std: self.moorings().map(Moorings::sway_std),
+        })
+    }
+
     /// Log-likelihood of what the berth said since the last call.
     pub fn take_likelihood(&mut self) -> f64 {
         std::mem::take(&mut self.likelihood)
@@ -119,6 +147,7 @@ impl Fine {
 impl Estimator for Fine {
     fn advance(&mut self, increment: &Increment) {
         self.filter.advance(increment);
+        self.sea.watch(&self.filter);
         let Some(hold) = &mut self.hold else { return };
         self.likelihood += match hold {
             Hold::WhiteNoise(white) => white.hold(&mut self.filter),

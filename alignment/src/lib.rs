@@ -12,11 +12,13 @@ pub mod config;
 pub mod departure;
 pub mod disturbance;
 pub mod fine;
+pub mod forecast;
 pub mod in_motion;
 pub mod levelling;
 pub mod mixture;
 pub mod moorings;
 pub mod prefiltered;
+pub mod sea_state;
 pub mod white;
 
 pub use bank::Bank;

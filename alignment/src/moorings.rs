@@ -32,7 +32,7 @@ pub struct Moorings {
 
 /// Spacing of the samples: about half a wave, so that the waves of consecutive ones have little in
 /// common, s.
-const SPACING: f64 = 4.0;
+pub const SPACING: f64 = 4.0;
 /// Natural periods of the two oscillators that cover the one to three minutes of a ship on her
 /// moorings (systems.md S1), s.
 const PERIODS: [f64; 2] = [66.0, 106.0];
@@ -128,6 +128,12 @@ impl Moorings {
     #[must_use]
     pub fn shifts(&self) -> u32 {
         self.shifts
+    }
+
+    /// Since when the ship is held at the berth.
+    #[must_use]
+    pub fn start(&self) -> Time {
+        self.start
     }
 
     /// The berth.

@@ -26,7 +26,9 @@ use crate::sway::Sway;
 use crate::symmetry::{keep_turn_unknown, turn_biases};
 use crate::timeline::Estimator;
 use crate::trust::Trust;
+use ahead::VelocityEpoch;
 
+pub mod ahead;
 mod gnss;
 mod others;
 
@@ -52,6 +54,8 @@ pub struct Filter {
     corrected: ErrorState,
     interval: f64,
     unswayed: f64,
+    absorbed: Vector3<f64>,
+    velocity_epoch: Option<VelocityEpoch>,
 }
 
 /// What the gates said of an innovation.
@@ -97,6 +101,8 @@ impl Filter {
             corrected: ErrorState::zeros(),
             interval: config.covariance_interval,
             unswayed: 0.0,
+            absorbed: Vector3::zeros(),
+            velocity_epoch: None,
         }
     }
 
@@ -206,6 +212,7 @@ impl Filter {
         let error = weighed.update(&mut self.covariance);
         self.nominal.inject(&error);
         self.corrected += error;
+        self.absorbed += VELOCITY.of(&error);
         if self.sway.is_some() {
             let down = -self.nominal.position.normalize();
             keep_turn_unknown(&mut self.covariance, &error, &down);
@@ -324,6 +331,13 @@ impl Filter {
             gain
         });
         self.nominal.inject(&error);
+        self.absorbed += VELOCITY.of(&error);
+    }
+
+    /// Velocity as if it had never been corrected, ECEF axes, m/s: it drifts, but does not step.
+    #[must_use]
+    pub fn smooth_velocity(&self) -> Vector3<f64> {
+        self.nominal.velocity - self.absorbed
     }
 
     fn gnss_is_fresh(&self) -> bool {

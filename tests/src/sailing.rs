@@ -1,7 +1,8 @@
 //! A voyage in memory through the engine, and all that came out of it.
 
 use insd_base::{
-    Counts, Event, Innovation, Message, Mode, Received, Rejection, Solution, Source, Time, Voyage,
+    AlignmentStatus, Counts, Event, Innovation, Message, Mode, Received, Rejection, Solution,
+    Source, Time, Voyage,
 };
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_simulator::{Scenario, simulate};
@@ -18,6 +19,8 @@ pub struct Logbook {
     pub innovations: Vec<Innovation>,
     /// In order of their appearance.
     pub events: Vec<Event>,
+    /// In order of their appearance.
+    pub alignment: Vec<AlignmentStatus>,
     /// After the last message.
     pub counts: Counts,
 }
@@ -76,6 +79,7 @@ impl Logbook {
         match output {
             Output::Solution(solution) => self.solutions.push(solution),
             Output::Innovation(innovation) => self.innovations.push(innovation),
+            Output::Alignment(status) => self.alignment.push(status),
             Output::Event(event) => self.events.push(event),
         }
     }

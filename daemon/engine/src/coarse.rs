@@ -78,6 +78,16 @@ impl Coarse {
         known.then_some((levelling.level_at_start()?, kinematics))
     }
 
+    /// Whether the ship lies at her berth.
+    pub(crate) fn is_moored(&self) -> bool {
+        self.moored
+    }
+
+    /// Where the ship is, as far as anybody said.
+    pub(crate) fn place(&self) -> Option<Geodetic> {
+        self.last.and_then(|fix| fix.position).or(self.berth)
+    }
+
     /// Whether the window has grown useless, because nothing tells where the ship is.
     pub(crate) fn is_stale(&self) -> bool {
         self.levelling.as_ref().is_some_and(|levelling| levelling.duration() > 2.0 * PATIENCE)

@@ -6,6 +6,7 @@
 
 mod checks;
 mod coarse;
+mod herald;
 mod recent;
 mod ship;
 
@@ -13,14 +14,15 @@ use std::collections::VecDeque;
 
 use insd_alignment::AlignmentConfig;
 use insd_base::{
-    Counts, Event, Geodetic, ImuSample, ImuSpec, Innovation, LeverArms, Message, Mode, Received,
-    Rejection, Solution, Source, Span, StartCondition, Time, VoyageHeader,
+    AlignmentStatus, Counts, Event, Geodetic, ImuSample, ImuSpec, Innovation, LeverArms, Message,
+    Mode, Received, Rejection, Solution, Source, Span, StartCondition, Time, VoyageHeader,
 };
 use insd_nav::{
     Conditioned, Conditioner, Estimator, Increment, NavConfig, Outcome, Report, Timeline,
 };
 
 use coarse::Coarse;
+use herald::Herald;
 use recent::Recent;
 use ship::Ship;
 
@@ -63,6 +65,9 @@ pub enum Output {
     Solution(Solution),
     /// An innovation of a measurement.
     Innovation(Innovation),
+    /// What the alignment knows of itself: when its phase changes and every ten seconds until the ship
+    /// is aligned.
+    Alignment(AlignmentStatus),
     /// Something worth telling.
     Event(Event),
 }
@@ -83,6 +88,7 @@ pub struct Engine {
     nav: NavConfig,
     conditioner: Conditioner,
     stage: Stage,
+    herald: Herald,
     recent: Recent,
     period: Span,
     next_epoch: Option<i64>,
@@ -102,6 +108,7 @@ impl Engine {
         Engine {
             conditioner: Conditioner::new(&config.imu),
             stage: Stage::Levelling(Box::new(Coarse::new(&config))),
+            herald: Herald::new(&config.imu, config.alignment.accuracy),
             period: Span::from_seconds(1.0 / config.output_rate),
             recent: Recent::default(),
             next_epoch: None,
@@ -156,6 +163,7 @@ impl Engine {
 
     fn start_over(&mut self) {
         self.stage = Stage::Levelling(Box::new(Coarse::new(&self.config)));
+        self.herald = Herald::new(&self.config.imu, self.config.alignment.accuracy);
         self.next_epoch = None;
     }
 
@@ -172,6 +180,7 @@ impl Engine {
             Stage::Levelling(coarse) => {
                 coarse.advance(increment);
                 self.try_start();
+                self.tell_levelling(increment.to);
             }
             Stage::Running(line) => {
                 let mut solutions = Vec::new();
@@ -186,8 +195,24 @@ impl Engine {
                 for solution in solutions {
                     self.emit(solution);
                 }
+                self.tell_alignment();
             }
         }
+    }
+
+    fn tell_levelling(&mut self, now: Time) {
+        let Stage::Levelling(coarse) = &self.stage else { return };
+        let place = coarse.place();
+        if let Some(status) = self.herald.levelling(now, coarse.is_moored(), place.as_ref()) {
+            self.outputs.push_back(Output::Alignment(status));
+        }
+    }
+
+    fn tell_alignment(&mut self) {
+        let Stage::Running(line) = &self.stage else { return };
+        let (departure, status) = self.herald.look(line.estimator(), line.now());
+        self.outputs.extend(departure.map(Output::Event));
+        self.outputs.extend(status.map(Output::Alignment));
     }
 
     /// Starts the ship at the beginning of the levelling window and lets her sail through it.
@@ -228,6 +253,7 @@ impl Engine {
         for aid in faults {
             self.reject(received, aid, Rejection::OutOfRange);
         }
+        self.herald.hear(&checked);
         match &mut self.stage {
             Stage::Levelling(coarse) => coarse.observe(&checked),
             Stage::Running(line) => {

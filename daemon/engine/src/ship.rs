@@ -2,12 +2,10 @@
 
 use insd_alignment::bank::Kinematics;
 use insd_alignment::{AlignmentConfig, Bank, EightState, Fine, InMotion, Level, Method};
+use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::units::DEG;
 use insd_base::{Mode, Received, Solution, Time};
 use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
-
-/// Heading sigma at the equator at which a moored ship counts as aligned; it grows with sec(lat).
-const ALIGNED: f64 = 0.1 * DEG;
 
 /// Heading sigma below which a ship can be steered by it for the first time.
 const STEERABLE: f64 = 1.0 * DEG;
@@ -22,7 +20,7 @@ pub(crate) enum Ship {
     Aligning(Bank),
     /// A receiver tells the velocity, the heading may be anything; `berth` is how the ship is held
     /// once it is found, if she is moored.
-    InMotion { finder: Box<EightState>, config: NavConfig, berth: Option<Method> },
+    InMotion { finder: Box<EightState>, config: Box<NavConfig>, berth: Option<Method> },
     /// One is known, `aligned` once well enough to steer by.
     Navigating { fine: Box<Fine>, aligned: bool },
 }
@@ -39,12 +37,13 @@ impl Ship {
         if is_told && !is_polar && choice.in_motion == InMotion::EightState {
             let finder = Box::new(EightState::new(config, level, kinematics));
             let berth = kinematics.moored.then_some(choice.moored);
-            return Ship::InMotion { finder, config: *config, berth };
+            return Ship::InMotion { finder, config: Box::new(*config), berth };
         }
         Ship::Aligning(Bank::new(config, level, kinematics, choice.moored))
     }
 
-    fn moored(&self) -> bool {
+    /// Whether she is taken as lying at her berth.
+    pub(crate) fn is_moored(&self) -> bool {
         match self {
             Ship::Aligning(bank) => bank.is_moored(),
             Ship::InMotion { berth, .. } => berth.is_some(),
@@ -52,10 +51,29 @@ impl Ship {
         }
     }
 
+    /// Whether a single filter is left.
+    pub(crate) fn has_one_heading(&self) -> bool {
+        matches!(self, Ship::Navigating { .. })
+    }
+
+    /// Whether the heading has been good enough to steer by.
+    pub(crate) fn is_steerable(&self) -> bool {
+        matches!(self, Ship::Navigating { aligned: true, .. })
+    }
+
+    /// The likeliest of her filters, if she has a full one.
+    pub(crate) fn likeliest(&self) -> Option<&Fine> {
+        match self {
+            Ship::Aligning(bank) => bank.likeliest(),
+            Ship::InMotion { .. } => None,
+            Ship::Navigating { fine, .. } => Some(fine.as_ref()),
+        }
+    }
+
     fn with_mode(&self, solution: Solution) -> Solution {
-        let aligned = ALIGNED / solution.position.latitude.cos().max(1e-3);
+        let aligned = heading_target(ACCURACY, solution.position.latitude);
         let mode = match self {
-            _ if self.moored() && solution.sigma.heading > aligned => Mode::FineAlignment,
+            _ if self.is_moored() && solution.sigma.heading > aligned => Mode::FineAlignment,
             Ship::Aligning(_) | Ship::InMotion { .. } => Mode::InMotionAlignment,
             Ship::Navigating { aligned: false, .. } if solution.mode == Mode::Aided => {
                 Mode::InMotionAlignment

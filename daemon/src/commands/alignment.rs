@@ -21,7 +21,11 @@ impl AlignmentArgs {
     /// As the engine takes it.
     #[must_use]
     pub fn config(&self) -> AlignmentConfig {
-        AlignmentConfig { moored: self.moored, in_motion: self.in_motion }
+        AlignmentConfig {
+            moored: self.moored,
+            in_motion: self.in_motion,
+            ..AlignmentConfig::default()
+        }
     }
 }
 

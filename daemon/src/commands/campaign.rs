@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use insd_base::{Solution, Time, Voyage};
+use insd_base::alignment::{ACCURACY, heading_target};
+use insd_base::{AlignmentStatus, Solution, Time, Voyage};
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_simulator::{LimitError, Override, Scenario, limit, simulate};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -12,9 +13,7 @@ use super::alignment::AlignmentArgs;
 use super::outage::SensorOutage;
 use super::{limit as limits, scenario};
 use crate::cli::BadInput;
-use crate::evaluation::{
-    CampaignReport, Instant, Run, Yardstick, drifts, errors, good_heading, outages,
-};
+use crate::evaluation::{CampaignReport, Instant, Run, Yardstick, drifts, errors, outages};
 
 /// Options of `insd campaign`.
 ///
@@ -104,7 +103,7 @@ fn yardstick(scenario: &scenario::Named, at: &[f64]) -> anyhow::Result<Option<Ya
         }
         Err(fault) => return Err(BadInput(format!("{name}: {fault}")).into()),
     };
-    let bar = good_heading(scenario.start_latitude());
+    let bar = heading_target(ACCURACY, scenario.start_latitude());
     Ok(Some(Yardstick { instants, no_limit, bar }))
 }
 
@@ -115,33 +114,35 @@ fn run_seed(
     args: &CampaignArgs,
 ) -> Run {
     let voyage = simulate(scenario, seed);
-    let nav = navigate(&voyage, args);
+    let (nav, statuses) = navigate(&voyage, args);
     let found = errors(&nav, &voyage.truth, args.from.map(Time::from_seconds));
-    let run = Run::new(seed, &found, drifts(&outages(&nav), &found.epochs));
+    let run = Run::new(seed, &found, drifts(&outages(&nav), &found.epochs)).telling(statuses);
     match yardstick {
         Some(yardstick) => run.measured(&errors(&nav, &voyage.truth, None).epochs, yardstick),
         None => run,
     }
 }
 
-/// The solutions of the engine on a voyage in memory.
-fn navigate(voyage: &Voyage, args: &CampaignArgs) -> Vec<Solution> {
+/// The solutions of the engine on a voyage in memory, and what it said of its alignment.
+fn navigate(voyage: &Voyage, args: &CampaignArgs) -> (Vec<Solution>, Vec<AlignmentStatus>) {
     let mut config = EngineConfig::for_voyage(&voyage.header, args.rate);
     config.alignment = args.alignment.config();
     let mut engine = Engine::new(config);
-    let mut solutions = Vec::new();
+    let (mut solutions, mut statuses) = (Vec::new(), Vec::new());
     for received in voyage.received() {
         if args.outages.iter().any(|outage| outage.drops(&received)) {
             continue;
         }
         engine.handle(&received);
         while let Some(output) = engine.poll_output() {
-            if let Output::Solution(solution) = output {
-                solutions.push(solution);
+            match output {
+                Output::Solution(solution) => solutions.push(solution),
+                Output::Alignment(status) => statuses.push(status),
+                Output::Innovation(_) | Output::Event(_) => {}
             }
         }
     }
-    solutions
+    (solutions, statuses)
 }
 
 /// `A..B` as a range that is not empty.

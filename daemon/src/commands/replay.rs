@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use insd_base::{Event, Innovation, Mode, Time};
+use insd_base::{AlignmentStatus, Event, Innovation, Mode, Time};
 use insd_drivers::recording::{NavWriter, VoyageReader};
 use insd_engine::{Engine, EngineConfig, Output};
 
@@ -11,7 +11,7 @@ use super::alignment::AlignmentArgs;
 use super::outage::SensorOutage;
 use super::output_file::OutputFile;
 use super::summary;
-use crate::evaluation::{InnovationRow, InnovationWriter};
+use crate::evaluation::{AlignmentRow, AlignmentWriter, InnovationRow, InnovationWriter};
 
 /// Options of `insd replay`.
 #[derive(Clone, Debug, clap::Args)]
@@ -32,13 +32,19 @@ pub struct ReplayArgs {
     /// Also write the innovations of all aids
     #[arg(long, value_name = "FILE.csv")]
     innovations: Option<PathBuf>,
+    /// Also write what the alignment says of itself: phase, sigmas, forecast, sea
+    #[arg(long, value_name = "FILE.csv")]
+    alignment_log: Option<PathBuf>,
 }
 
 /// Where the outputs of the engine go.
 struct Sink {
     nav: NavWriter<OutputFile>,
     innovations: Option<InnovationWriter<OutputFile>>,
+    alignment_log: Option<AlignmentWriter<OutputFile>>,
+    alignment: Vec<AlignmentStatus>,
     modes: Vec<(Time, Mode)>,
+    departures: Vec<Time>,
     resets: Vec<Time>,
     solutions: u64,
 }
@@ -68,7 +74,9 @@ pub fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     let summary = summary::Summary {
         solutions: sink.solutions,
         left_out: sink.nav.left_out(),
+        alignment: &sink.alignment,
         modes: &sink.modes,
+        departures: &sink.departures,
         resets: &sink.resets,
         counts: engine.counts(),
         dropped,
@@ -81,10 +89,14 @@ pub fn run(args: &ReplayArgs) -> anyhow::Result<()> {
 impl Sink {
     fn create(args: &ReplayArgs) -> anyhow::Result<Self> {
         let innovations = |path: &PathBuf| OutputFile::create(path).map(InnovationWriter::new);
+        let log = |path: &PathBuf| OutputFile::create(path).map(AlignmentWriter::new);
         Ok(Sink {
             nav: open_nav(&args.out)?,
             innovations: args.innovations.as_ref().map(innovations).transpose()?,
+            alignment_log: args.alignment_log.as_ref().map(log).transpose()?,
+            alignment: Vec::new(),
             modes: Vec::new(),
+            departures: Vec::new(),
             resets: Vec::new(),
             solutions: 0,
         })
@@ -100,6 +112,13 @@ impl Sink {
                 Some(file) => file.write(&row(innovation)),
                 None => Ok(()),
             },
+            Output::Alignment(status) => {
+                self.alignment.push(*status);
+                match &mut self.alignment_log {
+                    Some(file) => file.write(&AlignmentRow::from(status)),
+                    None => Ok(()),
+                }
+            }
             Output::Event(event) => {
                 self.note(event);
                 Ok(())
@@ -111,6 +130,7 @@ impl Sink {
         tracing::debug!(?event);
         match *event {
             Event::ModeChanged { time, to } => self.modes.push((time, to)),
+            Event::LeftBerth { time } => self.departures.push(time),
             Event::PositionReset { time } => self.resets.push(time),
             _ => {}
         }
@@ -118,6 +138,9 @@ impl Sink {
 
     fn finish(self) -> anyhow::Result<()> {
         self.nav.finish().context("cannot write the solution")?.finish()?;
+        if let Some(file) = self.alignment_log {
+            file.finish()?.finish()?;
+        }
         match self.innovations {
             Some(file) => file.finish()?.finish(),
             None => Ok(()),

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use insd_base::{Counts, Mode, Time};
+use insd_base::{AlignmentStatus, Counts, Forecast, Mode, Time};
 use insd_drivers::recording::FileReport;
 
 use crate::evaluation::{Align, Table};
@@ -10,11 +10,16 @@ use crate::evaluation::{Align, Table};
 /// Changes of mode that are told one by one.
 const MODES_TOLD: usize = 40;
 
+/// The forecast of this time into the voyage is told, s.
+const TOLD: f64 = 120.0;
+
 /// Everything that was used, rejected, floored, bridged and skipped.
 pub(super) struct Summary<'a> {
     pub(super) solutions: u64,
     pub(super) left_out: u64,
+    pub(super) alignment: &'a [AlignmentStatus],
     pub(super) modes: &'a [(Time, Mode)],
+    pub(super) departures: &'a [Time],
     pub(super) resets: &'a [Time],
     pub(super) counts: &'a Counts,
     pub(super) dropped: u64,
@@ -39,6 +44,7 @@ impl fmt::Display for Summary<'_> {
         }
         self.files.iter().try_for_each(|report| write_report(f, report))?;
         self.write_modes(f)?;
+        self.write_alignment(f)?;
         let aids = aid_table(self.counts);
         if let Some(aids) = aids {
             write!(f, "\n{aids}")?;
@@ -56,8 +62,31 @@ impl Summary<'_> {
         if self.modes.len() > MODES_TOLD {
             writeln!(f, "  ... and {} more", self.modes.len() - MODES_TOLD)?;
         }
+        for time in self.departures.iter().take(MODES_TOLD) {
+            writeln!(f, "  {:>10.1} s  left the berth", time.as_seconds())?;
+        }
         for time in self.resets.iter().take(MODES_TOLD) {
             writeln!(f, "  {:>10.1} s  position set anew", time.as_seconds())?;
+        }
+        Ok(())
+    }
+
+    /// What the alignment said after two minutes, what came of it, and the sea.
+    fn write_alignment(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(last) = self.alignment.last() else { return Ok(()) };
+        let told = Time::from_seconds(TOLD);
+        let early = self.alignment.iter().find(|status| status.time >= told);
+        writeln!(f, "alignment")?;
+        for status in early.filter(|early| early.time < last.time).into_iter().chain([last]) {
+            writeln!(f, "  {:>10.1} s  {status}", status.time.as_seconds())?;
+        }
+        if let Forecast::Unreachable { .. } | Forecast::Unknown { .. } = last.ready {
+            writeln!(f, "  the heading never was as good as is asked for")?;
+        }
+        if let Some(sea) = last.sea {
+            let period = sea.period.map_or("no period".to_owned(), |t| format!("every {t:.1} s"));
+            let (heave, level) = (sea.significant_heave, sea.significant_horizontal);
+            writeln!(f, "  heave {heave:.2} m {period}, {level:.2} m horizontally (significant)")?;
         }
         Ok(())
     }
@@ -127,7 +156,9 @@ mod tests {
         let text = Summary {
             solutions: 5,
             left_out: 0,
+            alignment: &[],
             modes: &[(Time::from_seconds(12.0), Mode::Aided)],
+            departures: &[Time::from_seconds(77.0)],
             resets: &[],
             counts: &counts,
             dropped: 2,
@@ -135,6 +166,7 @@ mod tests {
         }
         .to_string();
         assert!(text.contains("90        0        10  7 chi_square, 3 dop_test"), "{text}");
+        assert!(text.contains("77.0 s  left the berth"), "{text}");
         assert!(text.contains("12.0 s  aided") && text.contains("2 messages dropped"), "{text}");
     }
 }

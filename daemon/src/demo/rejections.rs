@@ -48,6 +48,7 @@ pub fn event(event: &Event) -> String {
             format!("✗ {}: {}", aid(name), reason(*why))
         }
         Event::ImuGap { missing, .. } => format!("IMU gap of {missing:.2} s"),
+        Event::LeftBerth { .. } => "Left the berth".to_owned(),
         Event::PositionReset { .. } => "Position set anew".to_owned(),
     }
 }

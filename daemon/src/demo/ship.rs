@@ -95,7 +95,7 @@ impl Ship {
     fn take(&mut self, output: Output, wire: &mut dyn FnMut(&[u8])) {
         match output {
             Output::Event(event) => self.note(&event),
-            Output::Innovation(_) => {}
+            Output::Innovation(_) | Output::Alignment(_) => {}
             Output::Solution(solution) => {
                 let utc = self.calendar.and_then(|calendar| calendar.utc(solution.time));
                 if let Some(utc) = utc {

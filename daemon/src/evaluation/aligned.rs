@@ -1,16 +1,14 @@
 //! When the heading is good enough, in truth and by its claim, and where the claim is worst.
 
+use insd_base::AlignmentStatus;
 use insd_base::units::DEG;
 use serde::Serialize;
 
 use super::component::Component;
 use super::errors::{EpochError, normalised};
+use super::promises::{self, PromiseEstimates};
 use super::statistics::quantile;
 use super::table::{Align, Table, significant};
-
-/// A heading of this 1-sigma counts as aligned on the equator, rad; elsewhere it is larger by the
-/// secant of the latitude, as the horizontal Earth rate is smaller.
-const GOOD_HEADING: f64 = 0.1 * DEG;
 
 /// When one run was aligned, s; `None` if it never was.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -54,7 +52,7 @@ pub struct Times {
 }
 
 /// When the runs are aligned.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AlignedEstimates {
     /// What counts as aligned, deg: 0.1 deg times the secant of the latitude.
     pub bar_deg: f64,
@@ -62,12 +60,8 @@ pub struct AlignedEstimates {
     pub error: Times,
     /// When the claim first is below it.
     pub claim: Times,
-}
-
-/// The heading, rad, that counts as aligned at a latitude, rad.
-#[must_use]
-pub fn good_heading(latitude: f64) -> f64 {
-    GOOD_HEADING / latitude.cos()
+    /// What was foreseen of that.
+    pub promises: Vec<PromiseEstimates>,
 }
 
 /// When a run was aligned within `bar`, rad. An epoch at which truth does not know the heading is
@@ -96,11 +90,16 @@ pub fn worst_heading(epochs: &[EpochError]) -> Option<WorstHeading> {
 }
 
 /// The runs put together.
-pub(super) fn together(bar: f64, runs: &[Alignment]) -> AlignedEstimates {
+pub(super) fn together(
+    bar: f64,
+    runs: &[Alignment],
+    statuses: &[Vec<AlignmentStatus>],
+) -> AlignedEstimates {
     AlignedEstimates {
         bar_deg: bar / DEG,
         error: times(runs.iter().map(|run| run.error)),
         claim: times(runs.iter().map(|run| run.claim)),
+        promises: promises::together(runs, statuses),
     }
 }
 
@@ -173,17 +172,13 @@ mod tests {
         let claim = Some(1.0);
         let runs: Vec<Alignment> =
             (1..=9).map(|i| Alignment { error: Some(f64::from(i)), claim }).collect();
-        let all = together(0.1 * DEG, &[&runs[..], &[Alignment { error: None, claim }]].concat());
+        let all =
+            together(0.1 * DEG, &[&runs[..], &[Alignment { error: None, claim }]].concat(), &[]);
         assert_eq!(
             all.error,
             Times { median_s: Some(5.0), p90_s: Some(9.0), max_s: None, never: 1 }
         );
         assert_eq!(all.claim.max_s, Some(1.0));
         assert!((all.bar_deg - 0.1).abs() < 1e-12);
-    }
-
-    #[test]
-    fn the_bar_is_twice_as_wide_at_60_degrees() {
-        assert!((good_heading(60.0 * DEG) / good_heading(0.0) - 2.0).abs() < 1e-9);
     }
 }

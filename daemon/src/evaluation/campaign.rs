@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use insd_base::AlignmentStatus;
 use serde::Serialize;
 
 use super::aligned::{self, AlignedEstimates, Alignment, WorstHeading, WorstRun};
@@ -10,6 +11,7 @@ use super::drift::Drift;
 use super::errors::{EpochError, Errors};
 use super::instants::{self, Instant, InstantEstimates, Moment};
 use super::interval::Estimate;
+use super::promises;
 use super::report::{row_order, summaries};
 use super::statistics::{Summary, quantile};
 use super::table::{Align, Table, significant};
@@ -34,6 +36,8 @@ pub struct Run {
     pub moments: Vec<Option<Moment>>,
     /// When the heading was good.
     pub alignment: Alignment,
+    /// What the alignment said of itself.
+    pub statuses: Vec<AlignmentStatus>,
 }
 
 /// What the heading is held against, beside its own claims.
@@ -125,7 +129,14 @@ impl Run {
             worst_heading: aligned::worst_heading(&errors.epochs),
             moments: Vec::new(),
             alignment: Alignment::default(),
+            statuses: Vec::new(),
         }
+    }
+
+    /// The same with what the alignment said of itself.
+    #[must_use]
+    pub fn telling(self, statuses: Vec<AlignmentStatus>) -> Self {
+        Run { statuses, ..self }
     }
 
     /// The same with the heading held against a yardstick at all of its epochs, in order of time.
@@ -146,6 +157,7 @@ impl CampaignReport {
     pub fn new(scenario: &str, mut runs: Vec<Run>, yardstick: Option<&Yardstick>) -> Self {
         runs.sort_by_key(|run| run.seed);
         let alignments: Vec<Alignment> = runs.iter().map(|run| run.alignment).collect();
+        let statuses: Vec<_> = runs.iter_mut().map(|r| std::mem::take(&mut r.statuses)).collect();
         let (heard, silent): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(|r| r.epochs > 0);
         let names = row_order().into_iter();
         CampaignReport {
@@ -158,7 +170,7 @@ impl CampaignReport {
             worst_heading: worst_run(&heard),
             instants: yardstick.map_or_else(Vec::new, |yardstick| at_instants(&heard, yardstick)),
             no_limit: yardstick.and_then(|yardstick| yardstick.no_limit.clone()),
-            aligned: yardstick.map(|yardstick| aligned::together(yardstick.bar, &alignments)),
+            aligned: yardstick.map(|y| aligned::together(y.bar, &alignments, &statuses)),
         }
     }
 }
@@ -266,6 +278,10 @@ impl CampaignReport {
         if let Some(aligned) = &self.aligned {
             writeln!(f, "\nheading within {} deg", significant(aligned.bar_deg, 3))?;
             write!(f, "{}", aligned::table(aligned))?;
+            if !aligned.promises.is_empty() {
+                writeln!(f, "\nwhen the alignment said that it would be")?;
+                write!(f, "{}", promises::table(&aligned.promises))?;
+            }
         }
         Ok(())
     }
@@ -402,7 +418,7 @@ mod tests {
         let report = CampaignReport::new("x", vec![run(5), run(6)], Some(&yardstick));
         assert_eq!(report.instants.len(), 1, "there is no epoch at 99 s");
         assert!((report.instants[0].sigma_over_limit.unwrap() - 2.0).abs() < 1e-9);
-        let aligned = report.aligned.unwrap();
+        let aligned = report.aligned.as_ref().unwrap();
         assert_eq!((aligned.error.median_s, aligned.claim.max_s), (Some(5.0), Some(0.0)));
         let worst = report.worst_heading.unwrap().worst;
         assert!((worst.ratio - 3.0).abs() < 1e-9 && worst.at_s == 4.0);

@@ -4,6 +4,7 @@
 //! the tests of the house all use these.
 
 mod aligned;
+mod alignment_log;
 mod campaign;
 mod component;
 mod drift;
@@ -12,15 +13,16 @@ mod innovation;
 mod instants;
 mod interval;
 pub mod plot;
+mod promises;
 mod report;
 mod series;
 mod statistics;
 mod table;
 
 pub use aligned::{
-    AlignedEstimates, Alignment, Times, WorstHeading, WorstRun, alignment, good_heading,
-    worst_heading,
+    AlignedEstimates, Alignment, Times, WorstHeading, WorstRun, alignment, worst_heading,
 };
+pub use alignment_log::{AlignmentRow, AlignmentWriter, read_alignment};
 pub use campaign::{CampaignReport, ComponentEstimates, OutageEstimates, Run, Yardstick};
 pub use component::Component;
 pub use drift::{Drift, Outage, drifts, outages};
@@ -28,6 +30,7 @@ pub use errors::{EpochError, Errors, LeftOut, errors, normalised};
 pub use innovation::{InnovationRow, InnovationWriter, read_innovations};
 pub use instants::{Instant, InstantEstimates, Moment, moments};
 pub use interval::Estimate;
+pub use promises::PromiseEstimates;
 pub use report::Report;
 pub use statistics::{Summary, mean, quantile, summarise, summarise_horizontal};
 pub use table::{Align, Table, significant};

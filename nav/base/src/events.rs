@@ -75,6 +75,11 @@ pub enum Event {
         /// Missing time, s.
         missing: f64,
     },
+    /// A ship that was taken as moored was found to have left her berth.
+    LeftBerth {
+        /// When it was found.
+        time: Time,
+    },
     /// The position was set anew from a source that the gate had kept out for too long.
     PositionReset {
         /// When.

@@ -5,6 +5,7 @@
 //! forward, starboard, down of the hull (FRD); `e` = Earth-centred, Earth-fixed (ECEF, WGS-84);
 //! `c_eb` rotates a vector from `b` to `e`.
 
+pub mod alignment;
 pub mod attitude;
 pub mod earth;
 pub mod events;
@@ -17,6 +18,9 @@ pub mod time;
 pub mod units;
 pub mod voyage;
 
+pub use alignment::{
+    AlignmentPhase, AlignmentStatus, AttitudeSigma, Forecast, Lack, Limiting, SeaEstimate,
+};
 pub use attitude::Attitude;
 pub use events::{Counts, Event, Innovation, Rejection};
 pub use frames::{Body, Ecef, Geodetic, Ned};

@@ -9,6 +9,7 @@ use crate::aids::View;
 use crate::aids::gnss_position::{self, PositionFix};
 use crate::aids::gnss_velocity::{self, VelocityFix};
 use crate::error_state::{ATTITUDE, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, POSITION, VELOCITY};
+use crate::filter::ahead::VelocityEpoch;
 use crate::floors;
 use crate::gate::dop_limit;
 use crate::innovation::Innovation;
@@ -69,7 +70,10 @@ impl Filter {
         }
         let suspect = self.is_receiver_refused().then_some(Rejection::SourceSuspect);
         let judged = self.judge(&innovation, suspect);
-        enter(report, fix.time, source, VELOCITY_AID, &judged);
+        if enter(report, fix.time, source, VELOCITY_AID, &judged) == Outcome::Accepted {
+            let before = self.velocity_epoch;
+            self.velocity_epoch = Some(VelocityEpoch::after(before, self.time, &measured));
+        }
         Some(measured)
     }
 
@@ -96,7 +100,7 @@ impl Filter {
     }
 
     /// Lever arm from the IMU to the antenna as now known, body axes, m.
-    fn antenna_lever(&self) -> Vector3<f64> {
+    pub(super) fn antenna_lever(&self) -> Vector3<f64> {
         self.config.lever_arms.gnss.0 + self.nominal.gnss_lever
     }
 

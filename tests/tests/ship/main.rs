@@ -12,6 +12,7 @@ mod identity;
 mod junk;
 mod places;
 mod starts;
+mod telling;
 mod voyages;
 
 /// Prints a figure when asked for it: `cargo test -p insd-tests -- --nocapture`.
