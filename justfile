@@ -57,6 +57,10 @@ bench *options:
 picture:
     cargo run --release -p insd --example demo_picture -- docs/demo.svg
 
+# the pictures and tables of docs/alignment.md, the same bytes every time
+alignment-page:
+    cargo run --release -p insd-tests --example alignment_page -- docs
+
 # all that CI does
 ci:
     .ci/run

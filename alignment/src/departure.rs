@@ -11,6 +11,7 @@ pub struct Departure {
     from: Vector3<f64>,
     speed: f64,
     certain: bool,
+    fast: bool,
     start: Time,
     next: Time,
 }
@@ -38,6 +39,7 @@ impl Departure {
             from: filter.nominal().position,
             speed: 0.0,
             certain: false,
+            fast: false,
             start: filter.time(),
             next: filter.time(),
         }
@@ -61,7 +63,14 @@ impl Departure {
         let leaves = distance > WAY && self.speed > SPEED.max(SURE * velocity_std);
         let is_far = distance > FAR;
         let settled = (filter.time() - self.start).as_seconds() > SETTLING;
+        self.fast = settled && leaves;
         self.certain = settled && distance > SURE * position_std && (leaves || is_far);
+    }
+
+    /// Whether the ship is on her way at a speed that moorings do not allow, wherever she is by now.
+    #[must_use]
+    pub fn is_fast(&self) -> bool {
+        self.fast
     }
 
     /// Whether the ship has left.

@@ -21,6 +21,7 @@ pub struct Fine {
     hold: Option<Hold>,
     departure: Departure,
     sea: SeaTracker,
+    is_berth_named: bool,
     likelihood: f64,
 }
 
@@ -50,7 +51,7 @@ impl Fine {
     pub fn under_way(filter: Filter) -> Self {
         let departure = Departure::new(&filter);
         let sea = SeaTracker::new(filter.time());
-        Fine { filter, hold: None, departure, sea, likelihood: 0.0 }
+        Fine { filter, hold: None, departure, sea, is_berth_named: false, likelihood: 0.0 }
     }
 
     /// The filter.
@@ -73,7 +74,12 @@ impl Fine {
     /// Whether the estimate moves away as a moored ship does not.
     #[must_use]
     pub fn seems_to_leave(&self) -> bool {
-        self.is_moored() && self.departure.is_certain()
+        match &self.hold {
+            None => false,
+            Some(Hold::Moorings(_)) => self.departure.is_certain(),
+            // nothing bounds the position: only speed tells
+            Some(_) => self.departure.is_fast(),
+        }
     }
 
     /// The ship is no longer taken as moored.
@@ -121,25 +127,37 @@ impl Fine {
         std::mem::take(&mut self.likelihood)
     }
 
-    /// Gives the position of a reference to the moorings and leaves the rest for the filter.
+    /// Gives the position of a reference to what holds the ship and leaves the rest for the filter.
+    ///
+    /// The moorings hold her displacement from it. The other methods hold her velocity alone: to them
+    /// the berth is where the ship was when it was first named, once; after that her position is what
+    /// her velocity makes of it. Were it given to the filter again and again, it would be the
+    /// displacement that aligns her, and a bad model of it at that.
     fn take_berth(&mut self, received: &Received, report: &mut Report) -> Received {
         let mut rest = *received;
-        let (Some(Hold::Moorings(moorings)), Message::Reference(reference)) =
-            (&mut self.hold, &mut rest.message)
+        let (Some(hold), Message::Reference(reference)) = (&mut self.hold, &mut rest.message)
         else {
             return rest;
         };
-        if let Some(place) = reference.position.take() {
-            let stated = reference.position_std.filter(|std| (0.01..1e3).contains(std));
-            moorings.name_berth(&mut self.filter, &place, stated);
-            report.aids.push(AidReport {
-                time: reference.time,
-                source: received.source,
-                aid: "reference_position",
-                outcome: Outcome::Accepted,
-                innovation: [(f64::NAN, f64::NAN); 3],
-            });
+        let Some(place) = reference.position.take() else { return rest };
+        match hold {
+            Hold::Moorings(moorings) => {
+                let stated = reference.position_std.filter(|std| (0.01..1e3).contains(std));
+                moorings.name_berth(&mut self.filter, &place, stated);
+            }
+            _ if self.is_berth_named => {}
+            _ => {
+                self.is_berth_named = true;
+                return *received;
+            }
         }
+        report.aids.push(AidReport {
+            time: reference.time,
+            source: received.source,
+            aid: "reference_position",
+            outcome: Outcome::Accepted,
+            innovation: [(f64::NAN, f64::NAN); 3],
+        });
         rest
     }
 }

@@ -6,20 +6,29 @@
 //! autoregressive model separates from the sea goes to the Kalman filter as what it is: the error of
 //! the computed velocity, with the covariance of the fit. What the filter then corrects is corrected
 //! in the window too, as if it had always been so.
+//!
+//! Until the window holds two periods of the slowest swaying there is nothing to separate: the filter
+//! is held by a zero velocity that is doubted ([`WhiteNoise`]), so that it stays near enough to be
+//! linear. The first windows are short and take part of the swaying for drift; their covariance is
+//! raised to what such windows were found to be worth ([`crate::disturbance`], table).
 
 use insd_base::{Span, Time, earth};
+use insd_nav::Filter;
 use insd_nav::aids::reference_velocity;
-use insd_nav::error_state::{ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, GYRO_BIAS, GYRO_DRIFT, VELOCITY};
-use insd_nav::{Filter, Outcome};
+use insd_nav::error_state::{
+    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, ErrorState, GYRO_BIAS, GYRO_DRIFT, POSITION, VELOCITY,
+};
 use nalgebra::{Vector2, Vector3};
 
 use crate::disturbance::{Config, Model, Order, Prefilter, SlowVelocity};
+use crate::white::{self, WhiteNoise};
 
 /// Holds a filter at the berth by its prefiltered velocity.
 #[derive(Clone, Debug)]
 pub struct Prefiltered {
     prefilter: Prefilter,
     model: Option<Model>,
+    beginning: WhiteNoise,
     start: Time,
     next_sample: Time,
     next_estimate: Time,
@@ -28,27 +37,35 @@ pub struct Prefiltered {
 /// Spacing of samples, s.
 const SAMPLING: Span = Span::from_nanos(1_000_000_000);
 /// Length of the window: longer than the moorings' slowest swaying, over which a Schuler oscillation
-/// is still a parabola.
-const WINDOW: Span = Span::from_nanos(300_000_000_000);
+/// is still a parabola, s.
+const WINDOW: f64 = 300.0;
+/// Window that the first estimate is taken from: two periods of swaying, s.
+const FIRST: f64 = 150.0;
 /// Highest order that is tried.
 const HIGHEST_ORDER: usize = 8;
-/// Least spacing of estimates, s.
-const SPACING: f64 = 20.0;
-/// The spacing as share of the window so far.
+/// The spacing of estimates as share of the window, over which their errors are independent.
 const SHARE: f64 = 0.25;
+/// Factor on the variance of the zero velocity before the first estimate: the sea repeats, and the
+/// first window sees the same samples again.
+const DOUBT: f64 = 4.0;
+/// Derivatives of the correction of the velocity that are carried into the window: over 300 s the
+/// next is below a thousandth of the first.
+const DERIVATIVES: usize = 6;
 
 impl Prefiltered {
     /// From now on.
     #[must_use]
     pub fn new(filter: &Filter) -> Self {
         let order = Order::Chosen { max: HIGHEST_ORDER };
+        let window = Span::from_seconds(WINDOW);
         let now = filter.time();
         Prefiltered {
-            prefilter: Prefilter::new(&Config { interval: SAMPLING, window: WINDOW, order }),
+            prefilter: Prefilter::new(&Config { interval: SAMPLING, window, order }),
             model: None,
+            beginning: WhiteNoise::doubted(filter, DOUBT),
             start: now,
             next_sample: now,
-            next_estimate: now + Span::from_seconds(2.0 * SPACING),
+            next_estimate: now + Span::from_seconds(FIRST),
         }
     }
 
@@ -58,6 +75,12 @@ impl Prefiltered {
         self.model.as_ref()
     }
 
+    /// The window.
+    #[must_use]
+    pub fn window(&self) -> &Prefilter {
+        &self.prefilter
+    }
+
     /// Samples the filter and feeds it, if it is time to; returns the log-likelihood.
     pub fn hold(&mut self, filter: &mut Filter) -> f64 {
         let now = filter.time();
@@ -65,51 +88,78 @@ impl Prefiltered {
             return 0.0;
         }
         self.next_sample = self.next_sample + SAMPLING;
-        self.follow(filter);
-        let v_n = filter.view().v_n();
-        self.prefilter.push(now, &v_n.xy());
+        self.sample(filter);
+        if self.model.is_none() && now < self.next_estimate {
+            return self.beginning.hold(filter);
+        }
         if now < self.next_estimate {
             return 0.0;
         }
-        let filled = (now - self.start).as_seconds().min(WINDOW.as_seconds());
-        self.next_estimate = now + Span::from_seconds((SHARE * filled).max(SPACING));
+        // a window that cannot be read may be readable with the next sample
         let Ok(slow) = self.prefilter.estimate() else { return 0.0 };
+        let filled = (now - self.start).as_seconds().min(WINDOW);
+        self.next_estimate = now + Span::from_seconds(SHARE * filled);
         self.model = Some(slow.model.clone());
-        let likelihood = feed(filter, &slow);
-        self.follow(filter);
-        likelihood
+        feed(filter, &slow, (WINDOW / filled).powi(2))
     }
 
-    /// Corrects the window as the filter has corrected its estimate since the last time.
-    ///
-    /// dv(t) = dv + da (t - now) + dj (t - now)^2 / 2: an attitude corrected by phi would have felt
-    /// the specific force f elsewhere, da = phi x f - C db_a, and a gyro corrected by db_g would have
-    /// turned the attitude, dj = -(C db_g) x f; f is that of a ship that does not move, -g.
-    fn follow(&mut self, filter: &mut Filter) {
+    /// Corrects the window as the filter has corrected its estimate since the newest sample, and adds
+    /// the next.
+    fn sample(&mut self, filter: &mut Filter) {
         let error = filter.take_correction();
-        let view = filter.view();
-        let gravity = earth::normal_gravity(view.geodetic.latitude, view.geodetic.height);
-        let force = view.c_ne.transpose() * Vector3::new(0.0, 0.0, -gravity);
-        let gyro = GYRO_BIAS.of(&error) + GYRO_DRIFT.of(&error);
-        let accel = ACCEL_BIAS.of(&error) + ACCEL_DRIFT.of(&error);
-        let level = |v_e: Vector3<f64>| -> Vector2<f64> { (view.c_ne * v_e).xy() };
-        let dv = level(VELOCITY.of(&error));
-        let da = level(ATTITUDE.of(&error).cross(&force) - view.c_eb * accel);
-        let dj = level(-(view.c_eb * gyro).cross(&force));
-        self.prefilter.shift(&dv, &da, &dj);
+        self.prefilter.shift(&derivatives(filter, &error));
+        self.prefilter.push(filter.time(), &filter.view().v_n().xy());
     }
 }
 
-/// Tells the filter the error of its velocity.
-fn feed(filter: &mut Filter, slow: &SlowVelocity) -> f64 {
+/// Tells the filter the error of its velocity, its variance times `doubt`.
+///
+/// What is left of the velocity is that of the waves, in the axes of the computed heading: with k the
+/// unit vector down
+///
+/// z = -slow = dv - dphi_D k x v_waves + w,
+///
+/// which no turn about the ship changes (as in [`insd_nav::aids::berth`]).
+fn feed(filter: &mut Filter, slow: &SlowVelocity, doubt: f64) -> f64 {
+    filter.settle();
     let view = filter.view();
-    let without = view.v_n().xy() - slow.value;
-    let mut innovation = reference_velocity::innovation(&view, &without, 0.0);
-    innovation.r = slow.covariance;
-    let judged = filter.impose(&innovation);
-    if judged.outcome != Outcome::Accepted {
-        innovation.r *= 100.0;
-        filter.impose(&innovation);
-    }
-    judged.log_likelihood
+    let waves = view.v_n().xy() - slow.value;
+    let mut innovation = reference_velocity::innovation(&view, &waves, 0.0);
+    let across = Vector2::new(waves.y, -waves.x);
+    ATTITUDE.set_columns(&mut innovation.h, &(across * view.c_ne.row(2)));
+    innovation.r = slow.covariance * doubt;
+    white::impose(filter, &innovation).log_likelihood
 }
+
+/// How the velocity of the past would have been other, had an error been corrected always and not
+/// only now: the derivatives by time of the error of the velocity, north and east, from the error
+/// equations of a ship that does not move (`insd_nav::propagation`; her specific force f is -g),
+///
+/// dr' = dv,   dv' = -(g/R) dr_level - 2 omega x dv - f x phi - C db_a,   phi' = -omega x phi - C db_g.
+///
+/// The Earth's turn in phi' is what a heading is found by: left out, each correction of the heading
+/// would leave a parabola in the window to be found again.
+fn derivatives(filter: &Filter, error: &ErrorState) -> [Vector2<f64>; DERIVATIVES] {
+    let view = filter.view();
+    let down = view.c_ne.row(2).transpose();
+    let gravity = earth::normal_gravity(view.geodetic.latitude, view.geodetic.height);
+    let (force, rate) = (down * -gravity, earth::rate_e());
+    let stiffness = gravity / filter.nominal().position.norm();
+    let mut gyro = -view.c_eb * (GYRO_BIAS.of(error) + GYRO_DRIFT.of(error));
+    let mut accel = -view.c_eb * (ACCEL_BIAS.of(error) + ACCEL_DRIFT.of(error));
+    let (mut r, mut v, mut phi): (Vector3<f64>, Vector3<f64>, Vector3<f64>) =
+        (POSITION.of(error), VELOCITY.of(error), ATTITUDE.of(error));
+    std::array::from_fn(|_| {
+        let now = (view.c_ne * v).xy();
+        let level = r - down * r.dot(&down);
+        let v_rate = -level * stiffness - rate.cross(&v) * 2.0 - force.cross(&phi) + accel;
+        let phi_rate = -rate.cross(&phi) + gyro;
+        (r, v, phi) = (v, v_rate, phi_rate);
+        // a bias is constant: it drives the first derivative and through it the others
+        (gyro, accel) = (Vector3::zeros(), Vector3::zeros());
+        now
+    })
+}
+
+#[cfg(test)]
+mod tests;

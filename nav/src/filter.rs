@@ -138,8 +138,9 @@ impl Filter {
     }
 
     /// Moves estimate and covariance by an error and a covariance from outside: for alignment, which
-    /// joins hypotheses.
+    /// joins hypotheses. It counts as a correction.
     pub fn replace(&mut self, nominal: Nominal, covariance: Covariance) {
+        self.corrected += self.nominal.error_to(&nominal);
         self.nominal = nominal;
         self.covariance = covariance;
     }

@@ -176,15 +176,21 @@ impl Prefilter {
         self.window.push(time, *velocity)
     }
 
-    /// Changes the past as if a correction made at the newest sample had always been there: the
-    /// sample t seconds after it (t <= 0) gets dv + da t + dj t^2 / 2; north and east, m/s, m/s^2,
-    /// m/s^3. A correction that is not finite empties the window.
-    pub fn shift(&mut self, dv: &Vector2<f64>, da: &Vector2<f64>, dj: &Vector2<f64>) {
-        if [dv, da, dj].into_iter().flatten().all(|value| value.is_finite()) {
-            self.window.shift(dv, da, dj);
+    /// Changes the past as if a correction made at the newest sample had always been there:
+    /// `derivatives` are those of the correction at the newest sample by time, north and east, m/s,
+    /// m/s^2, m/s^3 and so on; the sample t seconds after it (t <= 0) gets their Taylor polynomial.
+    /// A correction that is not finite empties the window.
+    pub fn shift(&mut self, derivatives: &[Vector2<f64>]) {
+        if derivatives.iter().flatten().all(|value| value.is_finite()) {
+            self.window.shift(derivatives);
         } else {
             self.window.clear();
         }
+    }
+
+    /// The samples of the window, oldest first; what was lost is left out.
+    pub fn samples(&self) -> impl Iterator<Item = &Vector2<f64>> {
+        self.window.slots().flatten()
     }
 
     /// Forgets all samples.

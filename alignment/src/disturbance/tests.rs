@@ -123,7 +123,7 @@ fn a_shift_is_as_good_as_shifted_samples() {
     let (mut shifted, mut fresh) =
         (prefilter(Order::Chosen { max: 8 }), prefilter(Order::Chosen { max: 8 }));
     push_all(&mut shifted, disturbance.iter().copied());
-    shifted.shift(&dv, &da, &dj);
+    shifted.shift(&[dv, da, dj]);
     push_all(&mut fresh, (0..150).map(corrected));
     let (shifted, fresh) = (shifted.estimate().unwrap(), fresh.estimate().unwrap());
     assert_relative_eq!(shifted.value, fresh.value, epsilon = 1e-10);
@@ -137,7 +137,7 @@ fn a_shift_moves_the_estimate_by_itself() {
     push_all(&mut prefilter, sea::waves(&mut Dice::new(8), 120));
     let before = prefilter.estimate().unwrap();
     let (dv, da) = (Vector2::new(1.0, 2.0), Vector2::new(0.01, -0.02));
-    prefilter.shift(&dv, &da, &Vector2::zeros());
+    prefilter.shift(&[dv, da]);
     let after = prefilter.estimate().unwrap();
     assert_relative_eq!(after.value, before.value + dv, epsilon = 1e-9);
     assert_relative_eq!(after.acceleration, before.acceleration + da, epsilon = 1e-9);

@@ -91,12 +91,15 @@ impl Window {
         Push::Kept
     }
 
-    /// Adds the parabola with these derivatives at the newest sample: m/s, m/s^2, m/s^3.
-    pub(super) fn shift(&mut self, dv: &Vector2<f64>, da: &Vector2<f64>, dj: &Vector2<f64>) {
+    /// Adds the polynomial with these derivatives at the newest sample: m/s, m/s^2, and so on.
+    pub(super) fn shift(&mut self, derivatives: &[Vector2<f64>]) {
         for (age, slot) in self.slots.iter_mut().rev().enumerate() {
             let t = -(age as f64) * self.interval;
             if let Some(velocity) = slot {
-                *velocity += dv + da * t + dj * (0.5 * t * t);
+                // Horner's scheme of sum d_n t^n / n!
+                let highest_first = derivatives.iter().enumerate().rev();
+                *velocity += highest_first
+                    .fold(Vector2::zeros(), |sum, (n, d)| d + sum * (t / (n + 1) as f64));
             }
         }
     }

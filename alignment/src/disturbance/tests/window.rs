@@ -108,7 +108,7 @@ fn too_few_samples_are_refused_with_their_number() {
 fn a_shift_that_is_not_finite_empties_the_window() {
     let mut prefilter = prefilter(Order::Fixed(2));
     push_all(&mut prefilter, waves(&mut Dice::new(2), 120));
-    prefilter.shift(&Vector2::zeros(), &Vector2::new(f64::NAN, 0.0), &Vector2::zeros());
+    prefilter.shift(&[Vector2::zeros(), Vector2::new(f64::NAN, 0.0)]);
     assert!(matches!(prefilter.estimate(), Err(Refusal::TooFew { .. })));
 }
 
