@@ -15,10 +15,12 @@ use insd_nav::initial::sensor_covariance;
 use insd_nav::{Estimator, Filter, Increment, InitialState, NavConfig, Nominal, Report};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::config::Method;
+use crate::config::{AlignmentConfig, Method};
 use crate::fine::Fine;
 use crate::levelling::Level;
 use crate::mixture::{join, mixed};
+use crate::stored::StoredState;
+use crate::trial::{ANY, Origin, Shares, Trial, Verdict, explanations, joined_origin};
 
 /// Where and how fast the ship is when the bank starts, with 1-sigma errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,12 +46,14 @@ pub struct Kinematics {
 pub struct Bank {
     members: Vec<Member>,
     next_tidy: Time,
+    trial: Option<Trial>,
 }
 
 #[derive(Clone, Debug)]
 struct Member {
     fine: Box<Fine>,
     log_weight: f64,
+    origin: Origin,
 }
 
 /// Headings at the start.
@@ -60,6 +64,9 @@ const OVERLAP: f64 = 0.55;
 const REFUTED: f64 = -14.0;
 /// Distance of two headings in units of their joint sigma at which they are taken as one.
 const TOGETHER: f64 = 0.7;
+/// Ratio of their sigmas beyond which a stored heading and another are not one: joined, the narrow
+/// peak would be lost, and with it what the data say of it.
+const ALIKE: f64 = 1.5;
 /// Heading sigma below which one filter alone is linear enough to go on.
 const LINEAR: f64 = 5.0 * DEG;
 /// Sigma of roll and pitch after levelling, sensor bias aside.
@@ -76,7 +83,8 @@ impl Bank {
         let members = (0..HEADINGS)
             .map(|i| {
                 let heading = TAU * i as f64 / HEADINGS as f64;
-                let initial = hypothesis(config, level, kinematics, heading);
+                let spread = OVERLAP * TAU / HEADINGS as f64;
+                let initial = hypothesis(config, level, kinematics, heading, spread);
                 let mut filter = Filter::new(config, &initial);
                 filter.slow_down(COVARIANCE_INTERVAL);
                 let fine = if kinematics.moored {
@@ -84,10 +92,73 @@ impl Bank {
                 } else {
                     Fine::under_way(filter)
                 };
-                Member { fine: Box::new(fine), log_weight: 0.0 }
+                Member { fine: Box::new(fine), log_weight: 0.0, origin: Origin::Any }
             })
             .collect();
-        Bank { members, next_tidy: level.time + TIDY }
+        Bank { members, next_tidy: level.time + TIDY, trial: None }
+    }
+
+    /// The same with a stored state put on trial among all headings.
+    #[must_use]
+    pub fn with_stored(
+        config: &NavConfig,
+        level: &Level,
+        kinematics: &Kinematics,
+        choice: &AlignmentConfig,
+        stored: &StoredState,
+    ) -> Self {
+        let mut bank = Bank::new(config, level, kinematics, choice.moored);
+        let doubt = stored.doubt(&config.imu, level, kinematics);
+        bank.trial = Some(Trial::new(stored, doubt, level.time));
+        if doubt.is_some() {
+            return bank;
+        }
+        for member in &mut bank.members {
+            member.log_weight = (ANY / HEADINGS as f64).ln();
+        }
+        let heading = stored.attitude.heading;
+        for (origin, share, std) in explanations(stored.heading_std()) {
+            let mut initial = hypothesis(config, level, kinematics, heading, std);
+            if choice.same_power_up {
+                stored.carry_biases(&mut initial.nominal, &mut initial.covariance);
+            }
+            let fine = Fine::moored(Filter::new(config, &initial), choice.moored);
+            bank.members.push(Member { fine: Box::new(fine), log_weight: share.ln(), origin });
+        }
+        bank
+    }
+
+    /// What became of the stored state, if there was one; `None` while it is on trial.
+    #[must_use]
+    pub fn verdict(&self) -> Option<Verdict> {
+        self.trial.as_ref().and_then(Trial::verdict)
+    }
+
+    /// Lets the data judge the stored state; one that is dropped leaves the bank.
+    fn try_stored(&mut self, time: Time) {
+        let of = |origin: Origin| -> f64 {
+            let members = self.members.iter().filter(|member| member.origin == origin);
+            members.map(|member| member.log_weight.exp()).sum()
+        };
+        let shares = Shares {
+            any: of(Origin::Any),
+            near: of(Origin::Near),
+            confirmed: of(Origin::Confirmed),
+        };
+        let alone = self.members.len() == 1;
+        let Some(trial) = &mut self.trial else { return };
+        let before = trial.verdict();
+        trial.weigh(&shares, alone, time);
+        if before.is_none() && matches!(trial.verdict(), Some(Verdict::Dropped { .. })) {
+            self.drop_members(|origin| origin == Origin::Confirmed);
+        }
+    }
+
+    /// Takes members of some origins out, unless no other is left.
+    fn drop_members(&mut self, out: impl Fn(Origin) -> bool) {
+        if self.members.iter().any(|member| !out(member.origin)) {
+            self.members.retain(|member| !out(member.origin));
+        }
     }
 
     /// The one filter left, once it knows its heading well enough to go on alone.
@@ -128,27 +199,29 @@ impl Bank {
             member.log_weight -= best;
         }
         self.members.retain(|member| member.log_weight > REFUTED);
-        let mut headings: Vec<_> = self.members.iter().map(Member::heading).collect();
+        let mut peaks: Vec<Peak> = self.members.iter().map(Member::peak).collect();
         let mut first = 0;
         while first < self.members.len() {
             let mut second = first + 1;
             while second < self.members.len() {
-                if are_together(headings[first], headings[second]) {
+                if peaks[first].is_one_with(&peaks[second]) {
                     self.join(first, second);
-                    headings.remove(second);
-                    headings[first] = self.members[first].heading();
+                    peaks.remove(second);
+                    peaks[first] = self.members[first].peak();
                 } else {
                     second += 1;
                 }
             }
             first += 1;
         }
+        self.try_stored(self.next_tidy);
     }
 
     fn join(&mut self, first: usize, second: usize) {
         let other = self.members.remove(second);
         let member = &mut self.members[first];
         let share = 1.0 / (1.0 + (member.log_weight - other.log_weight).exp());
+        member.origin = joined_origin((member.origin, 1.0 - share), (other.origin, share));
         let mut settled = other.fine;
         settled.filter_mut().settle();
         let filter = member.fine.filter_mut();
@@ -191,6 +264,11 @@ impl Estimator for Bank {
     }
 
     fn apply(&mut self, received: &Received) -> Report {
+        let time = received.message.time();
+        if let Some(trial) = self.trial.as_mut().filter(|trial| trial.is_moved_by(received)) {
+            trial.drop_as_moved(time);
+            self.drop_members(|origin| origin != Origin::Any);
+        }
         let mut best: Option<(f64, Report)> = None;
         for member in &mut self.members {
             let report = member.fine.apply(received);
@@ -211,17 +289,32 @@ impl Estimator for Bank {
     }
 }
 
+/// A heading in question.
+struct Peak {
+    heading: f64,
+    std: f64,
+    origin: Origin,
+}
+
 impl Member {
-    /// Heading and its sigma, rad.
-    fn heading(&self) -> (f64, f64) {
+    fn peak(&self) -> Peak {
         let solution = self.fine.solution();
-        (solution.attitude.heading, solution.sigma.heading)
+        let (heading, std) = (solution.attitude.heading, solution.sigma.heading);
+        Peak { heading, std, origin: self.origin }
     }
 }
 
-/// Whether two headings with their sigmas, rad, are as good as one.
-fn are_together((a, a_std): (f64, f64), (b, b_std): (f64, f64)) -> bool {
-    wrap_pi(a - b).abs() < TOGETHER * a_std.hypot(b_std) && a_std.max(b_std) < 2.0 * LINEAR
+impl Peak {
+    /// Whether two headings are as good as one.
+    fn is_one_with(&self, other: &Peak) -> bool {
+        let (narrow, wide) = (self.std.min(other.std), self.std.max(other.std));
+        let both_any = self.origin == Origin::Any && other.origin == Origin::Any;
+        if !both_any && wide > ALIKE * narrow {
+            return false;
+        }
+        let distance = wrap_pi(self.heading - other.heading).abs();
+        distance < TOGETHER * self.std.hypot(other.std) && wide < 2.0 * LINEAR
+    }
 }
 
 fn hypothesis(
@@ -229,6 +322,7 @@ fn hypothesis(
     level: &Level,
     kinematics: &Kinematics,
     heading: f64,
+    turn: f64,
 ) -> InitialState {
     let attitude = level.attitude(heading, &kinematics.position, &kinematics.acceleration);
     let nominal = Nominal::at(&kinematics.position, &kinematics.velocity, &attitude.c_nb());
@@ -237,7 +331,6 @@ fn hypothesis(
     POSITION.renew(&mut covariance, &diagonal(kinematics.position_std));
     VELOCITY.renew(&mut covariance, &diagonal(kinematics.velocity_std));
     let tilt = LEVEL_STD.hypot(config.imu.accel.bias_std / 9.8);
-    let turn = OVERLAP * TAU / HEADINGS as f64;
     let in_ned = Matrix3::from_diagonal(&Vector3::new(tilt * tilt, tilt * tilt, turn * turn));
     let c_en = insd_base::earth::c_ne(&kinematics.position).transpose();
     ATTITUDE.renew(&mut covariance, &(c_en * in_ned * c_en.transpose()));

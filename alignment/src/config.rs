@@ -76,6 +76,10 @@ pub struct AlignmentConfig {
     /// Heading sigma on the equator that counts as aligned, rad; elsewhere
     /// [`insd_base::alignment::heading_target`].
     pub accuracy: f64,
+    /// The IMU has stayed powered since the state that is offered was stored, so that its biases are
+    /// still what they were. Otherwise they are drawn anew from the turn-on sigma of its data sheet
+    /// and nothing stored is believed of them ([`crate::stored`]).
+    pub same_power_up: bool,
 }
 
 impl Default for AlignmentConfig {
@@ -84,6 +88,7 @@ impl Default for AlignmentConfig {
             moored: Method::default(),
             in_motion: InMotion::default(),
             accuracy: insd_base::alignment::ACCURACY,
+            same_power_up: false,
         }
     }
 }

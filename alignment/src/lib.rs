@@ -19,6 +19,8 @@ pub mod mixture;
 pub mod moorings;
 pub mod prefiltered;
 pub mod sea_state;
+pub mod stored;
+pub mod trial;
 pub mod white;
 
 pub use bank::Bank;
@@ -26,3 +28,5 @@ pub use config::{AlignmentConfig, InMotion, Method};
 pub use fine::Fine;
 pub use in_motion::EightState;
 pub use levelling::{Level, Levelling};
+pub use stored::StoredState;
+pub use trial::Verdict;

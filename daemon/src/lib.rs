@@ -8,3 +8,5 @@ pub mod clock;
 pub mod commands;
 pub mod demo;
 pub mod evaluation;
+mod output_file;
+pub mod stored;

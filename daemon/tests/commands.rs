@@ -253,6 +253,39 @@ fn a_campaign_at_instants_holds_the_heading_against_the_limit() {
 }
 
 #[test]
+fn a_stored_state_is_saved_confirmed_and_dropped_after_a_turn() {
+    let desk = Desk { dir: tempfile::tempdir().unwrap() };
+    let (first, second) = (desk.name("first"), desk.name("second"));
+    let short = ["--set", "route.legs.0.duration_s=200"];
+    for (seed, out) in [("1", &first), ("2", &second)] {
+        told(&[&["simulate", "17", "--seed", seed, "--out", out][..], &short].concat(), 0);
+    }
+    let (nav, state) = (desk.name("nav.csv"), desk.name("state.toml"));
+    told(&["replay", &first, "--out", &nav, "--save-state", &state], 0);
+    let warm = ["replay", &second, "--out", &nav, "--stored-state", &state];
+    assert!(told(&warm, 0).contains("stored heading confirmed"));
+    let text = fs::read_to_string(&state).unwrap();
+    let line = text.lines().find(|line| line.starts_with("heading_deg = 11")).unwrap().to_owned();
+    fs::write(&state, text.replace(&line, "heading_deg = 208.0")).unwrap();
+    assert!(told(&warm, 0).contains("stored state dropped: turned"));
+    fs::write(&state, text.replace(&line, "heading_deg = 1180.0")).unwrap();
+    let message = told(&warm, 2);
+    assert!(message.contains("state.toml:") && message.contains("from 0 to 360"), "{message}");
+    assert!(told(&[&warm[..5], &["none.toml"]].concat(), 2).contains("none.toml"));
+    let under_way = Desk::with_voyage();
+    let summary = under_way.replay("nav.csv", &["--save-state", &under_way.name("s.toml")]);
+    assert!(summary.contains("no state stored") && !under_way.path("s.toml").exists());
+}
+
+#[test]
+fn a_campaign_can_start_from_stored_states() {
+    let short = ["--set", "route.legs.0.duration_s=150"];
+    let campaign = ["campaign", "17", "--seeds", "1..3", "--at", "100", "--stored", "90"];
+    let table = printed(&[&campaign[..], &short].concat());
+    assert!(table.contains("dropped 2 turned"), "{table}");
+}
+
+#[test]
 fn the_limit_is_told_as_a_table_and_as_json_and_refused_where_it_is_not_known() {
     let table = printed(&["limit", "7"]);
     assert!(table.contains("heading deg") && table.lines().count() == 9, "{table}");

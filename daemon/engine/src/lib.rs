@@ -12,7 +12,7 @@ mod ship;
 
 use std::collections::VecDeque;
 
-use insd_alignment::AlignmentConfig;
+use insd_alignment::{AlignmentConfig, StoredState, Verdict};
 use insd_base::{
     AlignmentStatus, Counts, Event, Geodetic, ImuSample, ImuSpec, Innovation, LeverArms, Message,
     Mode, Received, Rejection, Solution, Source, Span, StartCondition, Time, VoyageHeader,
@@ -41,6 +41,9 @@ pub struct EngineConfig {
     pub output_rate: f64,
     /// How the ship finds her attitude and heading.
     pub alignment: AlignmentConfig,
+    /// The state at the last shutdown, offered for a ship that starts at her berth. It is put on
+    /// trial ([`insd_alignment::trial`]) and told as used or dropped.
+    pub stored: Option<StoredState>,
 }
 
 impl EngineConfig {
@@ -54,6 +57,7 @@ impl EngineConfig {
             initial: header.initial,
             output_rate,
             alignment: AlignmentConfig::default(),
+            stored: None,
         }
     }
 }
@@ -139,6 +143,16 @@ impl Engine {
         &self.counts
     }
 
+    /// The state to store for the next start: `None` unless the ship is aligned and still lies at her
+    /// berth, as one that sails will lie otherwise when she is back.
+    #[must_use]
+    pub fn stored_state(&self) -> Option<StoredState> {
+        match &self.stage {
+            Stage::Levelling(_) => None,
+            Stage::Running(line) => line.estimator().stored_state(&self.config.imu),
+        }
+    }
+
     fn handle_imu(&mut self, sample: &ImuSample) {
         match self.conditioner.take(sample) {
             Conditioned::Sample(increment) => {
@@ -196,6 +210,7 @@ impl Engine {
                     self.emit(solution);
                 }
                 self.tell_alignment();
+                self.tell_of_stored();
             }
         }
     }
@@ -224,7 +239,8 @@ impl Engine {
             }
             return;
         };
-        let ship = Ship::aligning(&self.nav, &level, &kinematics, &self.config.alignment);
+        let stored = self.config.stored.as_ref();
+        let ship = Ship::aligning(&self.nav, &level, &kinematics, &self.config.alignment, stored);
         let mut line = Timeline::new(ship, level.time);
         let fresh = Coarse::new(&self.config);
         let (increments, messages) = std::mem::replace(&mut **coarse, fresh).into_data();
@@ -327,6 +343,18 @@ impl Engine {
             self.start_over();
         } else {
             self.outputs.push_back(Output::Solution(solution));
+        }
+    }
+
+    /// Tells once what became of the stored state, which is then not offered again.
+    fn tell_of_stored(&mut self) {
+        let Stage::Running(line) = &self.stage else { return };
+        let Some(verdict) = line.estimator().verdict() else { return };
+        if self.config.stored.take().is_some() {
+            self.tell(match verdict {
+                Verdict::Used { time } => Event::StoredStateUsed { time },
+                Verdict::Dropped { time, reason } => Event::StoredStateDropped { time, reason },
+            });
         }
     }
 

@@ -1,10 +1,12 @@
 //! The ship on her time line: finding her heading, then navigating.
 
 use insd_alignment::bank::Kinematics;
-use insd_alignment::{AlignmentConfig, Bank, EightState, Fine, InMotion, Level, Method};
+use insd_alignment::{
+    AlignmentConfig, Bank, EightState, Fine, InMotion, Level, Method, StoredState, Verdict,
+};
 use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::units::DEG;
-use insd_base::{Mode, Received, Solution, Time};
+use insd_base::{ImuSpec, Mode, Received, Solution, StoredDoubt, Time};
 use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
 
 /// Heading sigma below which a ship can be steered by it for the first time.
@@ -17,12 +19,12 @@ const POLAR: f64 = 88.0 * DEG;
 #[derive(Clone, Debug)]
 pub(crate) enum Ship {
     /// Several headings are possible.
-    Aligning(Bank),
+    Aligning(Box<Bank>),
     /// A receiver tells the velocity, the heading may be anything; `berth` is how the ship is held
     /// once it is found, if she is moored.
     InMotion { finder: Box<EightState>, config: Box<NavConfig>, berth: Option<Method> },
-    /// One is known, `aligned` once well enough to steer by.
-    Navigating { fine: Box<Fine>, aligned: bool },
+    /// One is known, `aligned` once well enough to steer by; `verdict` on a stored state.
+    Navigating { fine: Box<Fine>, aligned: bool, verdict: Option<Verdict> },
 }
 
 impl Ship {
@@ -31,15 +33,39 @@ impl Ship {
         level: &Level,
         kinematics: &Kinematics,
         choice: &AlignmentConfig,
+        stored: Option<&StoredState>,
     ) -> Self {
         let is_polar = kinematics.position.latitude.abs() > POLAR;
-        let is_told = !kinematics.moored || kinematics.gnss_velocity;
+        let is_told = !kinematics.moored || (kinematics.gnss_velocity && stored.is_none());
         if is_told && !is_polar && choice.in_motion == InMotion::EightState {
             let finder = Box::new(EightState::new(config, level, kinematics));
             let berth = kinematics.moored.then_some(choice.moored);
             return Ship::InMotion { finder, config: Box::new(*config), berth };
         }
-        Ship::Aligning(Bank::new(config, level, kinematics, choice.moored))
+        Ship::Aligning(Box::new(match stored {
+            Some(stored) => Bank::with_stored(config, level, kinematics, choice, stored),
+            None => Bank::new(config, level, kinematics, choice.moored),
+        }))
+    }
+
+    /// What became of the stored state that was offered.
+    pub(crate) fn verdict(&self) -> Option<Verdict> {
+        match self {
+            Ship::Aligning(bank) => bank.verdict(),
+            Ship::InMotion { finder, .. } => {
+                let (time, reason) = (finder.solution().time, StoredDoubt::NotMoored);
+                Some(Verdict::Dropped { time, reason })
+            }
+            Ship::Navigating { verdict, .. } => *verdict,
+        }
+    }
+
+    /// What is worth storing: only of a ship that is aligned and still lies at her berth.
+    pub(crate) fn stored_state(&self, imu: &ImuSpec) -> Option<StoredState> {
+        match self {
+            Ship::Navigating { fine, aligned: true, .. } => StoredState::of(fine, imu),
+            _ => None,
+        }
     }
 
     /// Whether she is taken as lying at her berth.
@@ -85,6 +111,7 @@ impl Ship {
 
     /// Makes what has found the heading the navigator, so that nothing steps.
     fn hand_over(&mut self) {
+        let verdict = self.verdict();
         let found = match self {
             Ship::Aligning(bank) => bank.winner().cloned(),
             Ship::InMotion { finder, config, berth } => finder.initial_state().map(|initial| {
@@ -98,13 +125,13 @@ impl Ship {
         };
         if let Some(mut fine) = found {
             fine.filter_mut().begin_navigation();
-            *self = Ship::Navigating { fine: Box::new(fine), aligned: false };
+            *self = Ship::Navigating { fine: Box::new(fine), aligned: false, verdict };
         }
     }
 
     fn inner(&self) -> &dyn Solver {
         match self {
-            Ship::Aligning(bank) => bank,
+            Ship::Aligning(bank) => bank.as_ref(),
             Ship::InMotion { finder, .. } => finder.as_ref(),
             Ship::Navigating { fine, .. } => fine.as_ref(),
         }
@@ -135,7 +162,7 @@ impl Estimator for Ship {
                 self.hand_over();
             }
             Ship::InMotion { finder, .. } => finder.advance(increment),
-            Ship::Navigating { fine, aligned } => {
+            Ship::Navigating { fine, aligned, .. } => {
                 fine.advance(increment);
                 if fine.seems_to_leave() {
                     fine.cast_off();

@@ -15,6 +15,9 @@ pub struct AlignmentArgs {
     #[arg(long, value_name = "METHOD", default_value = InMotion::default().as_str(),
         value_parser = in_motion_methods())]
     in_motion: InMotion,
+    /// The IMU has stayed powered since the state was stored, so that its biases hold too
+    #[arg(long)]
+    same_power_up: bool,
 }
 
 impl AlignmentArgs {
@@ -24,6 +27,7 @@ impl AlignmentArgs {
         AlignmentConfig {
             moored: self.moored,
             in_motion: self.in_motion,
+            same_power_up: self.same_power_up,
             ..AlignmentConfig::default()
         }
     }

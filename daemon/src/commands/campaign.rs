@@ -4,16 +4,18 @@ use std::ops::Range;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use insd_base::alignment::{ACCURACY, heading_target};
-use insd_base::{AlignmentStatus, Solution, Time, Voyage};
+use insd_base::{AlignmentStatus, Solution, Time, Voyage, VoyageHeader};
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_simulator::{LimitError, Override, Scenario, limit, simulate};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::alignment::AlignmentArgs;
 use super::outage::SensorOutage;
-use super::{limit as limits, scenario};
+use super::{limit as limits, scenario, stored_start};
 use crate::cli::BadInput;
-use crate::evaluation::{CampaignReport, Instant, Run, Yardstick, drifts, errors, outages};
+use crate::evaluation::{
+    CampaignReport, Instant, Run, StoredFate, Yardstick, drifts, errors, outages,
+};
 
 /// Options of `insd campaign`.
 ///
@@ -37,6 +39,11 @@ pub struct CampaignArgs {
     sets: Vec<Override>,
     #[command(flatten)]
     alignment: AlignmentArgs,
+    /// Start each voyage from the state that an earlier one from the same berth stored, the ship having
+    /// been turned by DEG since (0 if not given)
+    #[arg(long, value_name = "DEG", num_args = 0..=1, default_missing_value = "0",
+        allow_hyphen_values = true, value_parser = stored_start::turn)]
+    stored: Option<f64>,
     /// Print JSON instead of a table
     #[arg(long)]
     json: bool,
@@ -114,20 +121,42 @@ fn run_seed(
     args: &CampaignArgs,
 ) -> Run {
     let voyage = simulate(scenario, seed);
-    let (nav, statuses) = navigate(&voyage, args);
-    let found = errors(&nav, &voyage.truth, args.from.map(Time::from_seconds));
-    let run = Run::new(seed, &found, drifts(&outages(&nav), &found.epochs)).telling(statuses);
+    let sailed = navigate(scenario, &voyage, seed, args);
+    let found = errors(&sailed.solutions, &voyage.truth, args.from.map(Time::from_seconds));
+    let run = Run::new(seed, &found, drifts(&outages(&sailed.solutions), &found.epochs))
+        .telling(sailed.statuses)
+        .started_from(sailed.fate);
     match yardstick {
-        Some(yardstick) => run.measured(&errors(&nav, &voyage.truth, None).epochs, yardstick),
+        Some(yardstick) => {
+            run.measured(&errors(&sailed.solutions, &voyage.truth, None).epochs, yardstick)
+        }
         None => run,
     }
 }
 
-/// The solutions of the engine on a voyage in memory, and what it said of its alignment.
-fn navigate(voyage: &Voyage, args: &CampaignArgs) -> (Vec<Solution>, Vec<AlignmentStatus>) {
-    let mut config = EngineConfig::for_voyage(&voyage.header, args.rate);
-    config.alignment = args.alignment.config();
-    let mut engine = Engine::new(config);
+/// What came out of the engine on one voyage.
+struct Sailed {
+    solutions: Vec<Solution>,
+    /// What it said of its alignment.
+    statuses: Vec<AlignmentStatus>,
+    /// What became of its stored state, if it was to have one.
+    fate: Option<StoredFate>,
+}
+
+/// The engine on a voyage in memory.
+fn navigate(scenario: &Scenario, voyage: &Voyage, seed: u64, args: &CampaignArgs) -> Sailed {
+    let configured = |header: &VoyageHeader| {
+        let alignment = args.alignment.config();
+        EngineConfig { alignment, ..EngineConfig::for_voyage(header, args.rate) }
+    };
+    let stored = args
+        .stored
+        .and_then(|turned| stored_start::state_of_first_voyage(scenario, configured, seed, turned));
+    let mut fate = args.stored.map(|_| match stored {
+        Some(_) => StoredFate::Undecided,
+        None => StoredFate::Missing,
+    });
+    let mut engine = Engine::new(EngineConfig { stored, ..configured(&voyage.header) });
     let (mut solutions, mut statuses) = (Vec::new(), Vec::new());
     for received in voyage.received() {
         if args.outages.iter().any(|outage| outage.drops(&received)) {
@@ -138,11 +167,12 @@ fn navigate(voyage: &Voyage, args: &CampaignArgs) -> (Vec<Solution>, Vec<Alignme
             match output {
                 Output::Solution(solution) => solutions.push(solution),
                 Output::Alignment(status) => statuses.push(status),
-                Output::Innovation(_) | Output::Event(_) => {}
+                Output::Event(event) => fate = StoredFate::of(&event).or(fate),
+                Output::Innovation(_) => {}
             }
         }
     }
-    (solutions, statuses)
+    Sailed { solutions, statuses, fate }
 }
 
 /// `A..B` as a range that is not empty.

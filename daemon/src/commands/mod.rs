@@ -5,10 +5,10 @@ pub mod campaign;
 pub mod evaluate;
 pub mod limit;
 mod outage;
-mod output_file;
 pub mod replay;
 pub(crate) mod scenario;
 pub mod simulate;
+mod stored_start;
 mod summary;
 
 pub use outage::SensorOutage;

@@ -9,9 +9,10 @@ use insd_engine::{Engine, EngineConfig, Output};
 
 use super::alignment::AlignmentArgs;
 use super::outage::SensorOutage;
-use super::output_file::OutputFile;
 use super::summary;
 use crate::evaluation::{AlignmentRow, AlignmentWriter, InnovationRow, InnovationWriter};
+use crate::output_file::OutputFile;
+use crate::stored;
 
 /// Options of `insd replay`.
 #[derive(Clone, Debug, clap::Args)]
@@ -29,6 +30,12 @@ pub struct ReplayArgs {
     outages: Vec<SensorOutage>,
     #[command(flatten)]
     alignment: AlignmentArgs,
+    /// Start warm: the state stored at the last shutdown, believed once the sensors confirm it
+    #[arg(long, value_name = "FILE")]
+    stored_state: Option<PathBuf>,
+    /// Store the state at the end for the next start, if the ship is aligned and lies at her berth
+    #[arg(long, value_name = "FILE")]
+    save_state: Option<PathBuf>,
     /// Also write the innovations of all aids
     #[arg(long, value_name = "FILE.csv")]
     innovations: Option<PathBuf>,
@@ -46,6 +53,7 @@ struct Sink {
     modes: Vec<(Time, Mode)>,
     departures: Vec<Time>,
     resets: Vec<Time>,
+    stored: Option<Event>,
     solutions: u64,
 }
 
@@ -57,6 +65,7 @@ pub fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     let mut reader = VoyageReader::open(&args.dir)?;
     let mut config = EngineConfig::for_voyage(reader.header(), args.rate);
     config.alignment = args.alignment.config();
+    config.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
     let mut engine = Engine::new(config);
     let mut sink = Sink::create(args)?;
     let mut dropped = 0_u64;
@@ -78,12 +87,25 @@ pub fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         modes: &sink.modes,
         departures: &sink.departures,
         resets: &sink.resets,
+        stored: sink.stored.as_ref(),
         counts: engine.counts(),
         dropped,
         files: reader.skipped(),
     };
     eprint!("{summary}");
-    sink.finish()
+    sink.finish()?;
+    match &args.save_state {
+        Some(path) => save(path, &engine, &reader.header().start_utc),
+        None => Ok(()),
+    }
+}
+
+fn save(path: &Path, engine: &Engine, start_utc: &str) -> anyhow::Result<()> {
+    let Some(state) = engine.stored_state() else {
+        eprintln!("no state stored: the ship is not aligned, or not at her berth");
+        return Ok(());
+    };
+    stored::write(path, &state, start_utc)
 }
 
 impl Sink {
@@ -98,6 +120,7 @@ impl Sink {
             modes: Vec::new(),
             departures: Vec::new(),
             resets: Vec::new(),
+            stored: None,
             solutions: 0,
         })
     }
@@ -132,6 +155,9 @@ impl Sink {
             Event::ModeChanged { time, to } => self.modes.push((time, to)),
             Event::LeftBerth { time } => self.departures.push(time),
             Event::PositionReset { time } => self.resets.push(time),
+            Event::StoredStateUsed { .. } | Event::StoredStateDropped { .. } => {
+                self.stored = Some(*event);
+            }
             _ => {}
         }
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use insd_base::{AlignmentStatus, Counts, Forecast, Mode, Time};
+use insd_base::{AlignmentStatus, Counts, Event, Forecast, Mode, Time};
 use insd_drivers::recording::FileReport;
 
 use crate::evaluation::{Align, Table};
@@ -21,6 +21,7 @@ pub(super) struct Summary<'a> {
     pub(super) modes: &'a [(Time, Mode)],
     pub(super) departures: &'a [Time],
     pub(super) resets: &'a [Time],
+    pub(super) stored: Option<&'a Event>,
     pub(super) counts: &'a Counts,
     pub(super) dropped: u64,
     pub(super) files: Vec<&'a FileReport>,
@@ -68,7 +69,16 @@ impl Summary<'_> {
         for time in self.resets.iter().take(MODES_TOLD) {
             writeln!(f, "  {:>10.1} s  position set anew", time.as_seconds())?;
         }
-        Ok(())
+        match self.stored {
+            Some(Event::StoredStateUsed { time }) => {
+                writeln!(f, "  {:>10.1} s  stored heading confirmed", time.as_seconds())
+            }
+            Some(Event::StoredStateDropped { time, reason }) => {
+                let (time, reason) = (time.as_seconds(), reason.as_str());
+                writeln!(f, "  {time:>10.1} s  stored state dropped: {reason}")
+            }
+            _ => Ok(()),
+        }
     }
 
     /// What the alignment said after two minutes, what came of it, and the sea.
@@ -160,6 +170,7 @@ mod tests {
             modes: &[(Time::from_seconds(12.0), Mode::Aided)],
             departures: &[Time::from_seconds(77.0)],
             resets: &[],
+            stored: None,
             counts: &counts,
             dropped: 2,
             files: Vec::new(),

@@ -50,6 +50,10 @@ pub fn event(event: &Event) -> String {
         Event::ImuGap { missing, .. } => format!("IMU gap of {missing:.2} s"),
         Event::LeftBerth { .. } => "Left the berth".to_owned(),
         Event::PositionReset { .. } => "Position set anew".to_owned(),
+        Event::StoredStateUsed { .. } => "Stored heading confirmed".to_owned(),
+        Event::StoredStateDropped { reason, .. } => {
+            format!("✗ Stored heading: {}", reason.as_str().replace('_', " "))
+        }
     }
 }
 

@@ -10,6 +10,9 @@ use super::promises::{self, PromiseEstimates};
 use super::statistics::quantile;
 use super::table::{Align, Table, significant};
 
+/// Claims of this and that 1-sigma are the first that a ship can be conned and steered by, rad.
+const FIRST_CLAIMS: [f64; 2] = [2.0 * DEG, 1.0 * DEG];
+
 /// When one run was aligned, s; `None` if it never was.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Alignment {
@@ -17,6 +20,8 @@ pub struct Alignment {
     pub error: Option<f64>,
     /// When the claimed sigma first is below it.
     pub claim: Option<f64>,
+    /// When it first is below 2 and below 1 deg.
+    pub first: [Option<f64>; 2],
 }
 
 /// The largest error of the heading in terms of its claimed sigma, of one run.
@@ -62,6 +67,10 @@ pub struct AlignedEstimates {
     pub claim: Times,
     /// What was foreseen of that.
     pub promises: Vec<PromiseEstimates>,
+    /// When the claim first is below 2 deg.
+    pub claim_2_deg: Times,
+    /// When the claim first is below 1 deg.
+    pub claim_1_deg: Times,
 }
 
 /// When a run was aligned within `bar`, rad. An epoch at which truth does not know the heading is
@@ -71,10 +80,14 @@ pub fn alignment(epochs: &[EpochError], bar: f64) -> Alignment {
     let known = || epochs.iter().filter_map(|e| Some((e, e.of(Component::Heading)?.abs())));
     let last_bad = known().filter(|(_, error)| *error >= bar).map(|(e, _)| e.time).next_back();
     let good = |e: &EpochError| last_bad.is_none_or(|bad| e.time > bad);
-    let claimed = |e: &&EpochError| e.sigma_of(Component::Heading) < bar;
+    let claimed = |bar: f64| {
+        let is_below = |e: &&EpochError| e.sigma_of(Component::Heading) < bar;
+        epochs.iter().find(is_below).map(|e| e.time.as_seconds())
+    };
     Alignment {
         error: known().find(|(e, _)| good(e)).map(|(e, _)| e.time.as_seconds()),
-        claim: epochs.iter().find(claimed).map(|e| e.time.as_seconds()),
+        claim: claimed(bar),
+        first: FIRST_CLAIMS.map(claimed),
     }
 }
 
@@ -100,11 +113,13 @@ pub(super) fn together(
         error: times(runs.iter().map(|run| run.error)),
         claim: times(runs.iter().map(|run| run.claim)),
         promises: promises::together(runs, statuses),
+        claim_2_deg: times(runs.iter().map(|run| run.first[0])),
+        claim_1_deg: times(runs.iter().map(|run| run.first[1])),
     }
 }
 
 /// Quantiles of times of which some are never.
-fn times(of_runs: impl Iterator<Item = Option<f64>>) -> Times {
+pub(super) fn times(of_runs: impl Iterator<Item = Option<f64>>) -> Times {
     let mut sorted: Vec<f64> = of_runs.map(|time| time.unwrap_or(f64::INFINITY)).collect();
     sorted.sort_by(f64::total_cmp);
     let at = |p| Some(quantile(&sorted, p)).filter(|time| time.is_finite());
@@ -123,9 +138,12 @@ pub(super) fn table(aligned: &AlignedEstimates) -> Table {
     columns.extend(names.map(|name| (name, Align::Right)));
     let mut table = Table::new(&columns);
     let time = |time: Option<f64>| time.map_or("-".to_owned(), |time| significant(time, 4));
-    for (name, times) in
-        [("error stays below", &aligned.error), ("claimed σ first below", &aligned.claim)]
-    {
+    for (name, times) in [
+        ("error stays below", &aligned.error),
+        ("claimed σ first below", &aligned.claim),
+        ("claimed σ first below 2 deg", &aligned.claim_2_deg),
+        ("claimed σ first below 1 deg", &aligned.claim_1_deg),
+    ] {
         let quantiles = [times.median_s, times.p90_s, times.max_s].map(time);
         let mut row = vec![name.to_owned()];
         row.extend(quantiles);
@@ -152,7 +170,9 @@ mod tests {
     #[test]
     fn a_heading_that_passes_zero_is_not_aligned_until_it_stays_there() {
         let wild = run(|t| (if t < 50.0 { (t - 20.0) / 100.0 } else { -0.01 }, 1.0 / (t + 1.0)));
-        assert_eq!(alignment(&wild, 0.1), Alignment { error: Some(50.0), claim: Some(10.0) });
+        let first = [Some(28.0), Some(57.0)];
+        let found = Alignment { error: Some(50.0), claim: Some(10.0), first };
+        assert_eq!(alignment(&wild, 0.1), found);
         let lost = run(|t| (t / 50.0, 1.0));
         assert_eq!(alignment(&lost, 0.1), Alignment::default());
         assert_eq!(alignment(&run(|_| (0.0, 0.0)), 0.1).error, Some(0.0));
@@ -169,11 +189,11 @@ mod tests {
 
     #[test]
     fn runs_that_never_align_count_as_the_latest() {
-        let claim = Some(1.0);
+        let (claim, first) = (Some(1.0), [None, Some(2.0)]);
         let runs: Vec<Alignment> =
-            (1..=9).map(|i| Alignment { error: Some(f64::from(i)), claim }).collect();
-        let all =
-            together(0.1 * DEG, &[&runs[..], &[Alignment { error: None, claim }]].concat(), &[]);
+            (1..=9).map(|i| Alignment { error: Some(f64::from(i)), claim, first }).collect();
+        let never = Alignment { error: None, claim, first };
+        let all = together(0.1 * DEG, &[&runs[..], &[never]].concat(), &[]);
         assert_eq!(
             all.error,
             Times { median_s: Some(5.0), p90_s: Some(9.0), max_s: None, never: 1 }

@@ -14,6 +14,7 @@ use super::interval::Estimate;
 use super::promises;
 use super::report::{row_order, summaries};
 use super::statistics::{Summary, quantile};
+use super::stored::{self, StoredEstimates, StoredFate};
 use super::table::{Align, Table, significant};
 
 /// Outages of different runs that start within this of each other are the same one, s.
@@ -38,6 +39,8 @@ pub struct Run {
     pub alignment: Alignment,
     /// What the alignment said of itself.
     pub statuses: Vec<AlignmentStatus>,
+    /// What became of the stored state, if it was to start from one.
+    pub stored: Option<StoredFate>,
 }
 
 /// What the heading is held against, beside its own claims.
@@ -114,6 +117,8 @@ pub struct CampaignReport {
     pub no_limit: Option<String>,
     /// When the heading was good; null unless instants are asked for.
     pub aligned: Option<AlignedEstimates>,
+    /// What became of the stored states; null unless the voyages start from some.
+    pub stored: Option<StoredEstimates>,
 }
 
 impl Run {
@@ -130,6 +135,7 @@ impl Run {
             moments: Vec::new(),
             alignment: Alignment::default(),
             statuses: Vec::new(),
+            stored: None,
         }
     }
 
@@ -137,6 +143,12 @@ impl Run {
     #[must_use]
     pub fn telling(self, statuses: Vec<AlignmentStatus>) -> Self {
         Run { statuses, ..self }
+    }
+
+    /// The same with what became of its stored state.
+    #[must_use]
+    pub fn started_from(self, stored: Option<StoredFate>) -> Self {
+        Run { stored, ..self }
     }
 
     /// The same with the heading held against a yardstick at all of its epochs, in order of time.
@@ -158,6 +170,7 @@ impl CampaignReport {
         runs.sort_by_key(|run| run.seed);
         let alignments: Vec<Alignment> = runs.iter().map(|run| run.alignment).collect();
         let statuses: Vec<_> = runs.iter_mut().map(|r| std::mem::take(&mut r.statuses)).collect();
+        let fates: Vec<StoredFate> = runs.iter().filter_map(|run| run.stored).collect();
         let (heard, silent): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(|r| r.epochs > 0);
         let names = row_order().into_iter();
         CampaignReport {
@@ -171,6 +184,7 @@ impl CampaignReport {
             instants: yardstick.map_or_else(Vec::new, |yardstick| at_instants(&heard, yardstick)),
             no_limit: yardstick.and_then(|yardstick| yardstick.no_limit.clone()),
             aligned: yardstick.map(|y| aligned::together(y.bar, &alignments, &statuses)),
+            stored: stored::together(&fates),
         }
     }
 }
@@ -258,6 +272,9 @@ impl fmt::Display for CampaignReport {
             write!(f, "{}", outage_table(&self.outages))?;
         }
         self.write_heading(f)?;
+        if let Some(stored) = &self.stored {
+            write!(f, "\n{}", stored::table(stored))?;
+        }
         if !self.silent_seeds.is_empty() {
             writeln!(f, "\nno solution to compare with seeds {:?}", self.silent_seeds)?;
         }

@@ -17,6 +17,7 @@ mod promises;
 mod report;
 mod series;
 mod statistics;
+mod stored;
 mod table;
 
 pub use aligned::{
@@ -33,6 +34,7 @@ pub use interval::Estimate;
 pub use promises::PromiseEstimates;
 pub use report::Report;
 pub use statistics::{Summary, mean, quantile, summarise, summarise_horizontal};
+pub use stored::{StoredEstimates, StoredFate};
 pub use table::{Align, Table, significant};
 
 #[cfg(test)]

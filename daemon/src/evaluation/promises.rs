@@ -143,7 +143,8 @@ mod tests {
 
     #[test]
     fn a_promise_is_right_within_a_quarter_of_the_time_from_the_start() {
-        let runs = [200.0; 4].map(|at| Alignment { error: None, claim: Some(at) });
+        let runs =
+            [200.0; 4].map(|at| Alignment { error: None, claim: Some(at), first: [None; 2] });
         let at_120 = [named(240.0), named(260.0), Forecast::Unknown { lacks: Lack::Time }];
         let mut statuses: Vec<_> =
             at_120.map(|ready| vec![said(60.0, named(900.0)), said(121.0, ready)]).to_vec();

@@ -47,6 +47,35 @@ impl Rejection {
     }
 }
 
+/// Why a state that was stored at the last shutdown is not believed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum StoredDoubt {
+    /// The IMU is not the one that it was stored with, by its error model.
+    OtherImu,
+    /// The ship did not lie at her berth then, or does not now.
+    NotMoored,
+    /// The ship is at another place.
+    Moved,
+    /// Roll and pitch are not what they were by more than the sea can do: the mounting has changed.
+    Tilted,
+    /// The heading is not what it was: the ship has been turned.
+    Turned,
+}
+
+impl StoredDoubt {
+    /// A short name for tables: `other_imu`, `moved`, ...
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            StoredDoubt::OtherImu => "other_imu",
+            StoredDoubt::NotMoored => "not_moored",
+            StoredDoubt::Moved => "moved",
+            StoredDoubt::Tilted => "tilted",
+            StoredDoubt::Turned => "turned",
+        }
+    }
+}
+
 /// Something worth telling the operator or the log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
@@ -79,6 +108,18 @@ pub enum Event {
     LeftBerth {
         /// When it was found.
         time: Time,
+    },
+    /// The sensors have confirmed the stored heading, and the alignment goes on from it.
+    StoredStateUsed {
+        /// When.
+        time: Time,
+    },
+    /// The stored state is not believed, and plays no part any more.
+    StoredStateDropped {
+        /// When.
+        time: Time,
+        /// Why.
+        reason: StoredDoubt,
     },
     /// The position was set anew from a source that the gate had kept out for too long.
     PositionReset {

@@ -22,7 +22,7 @@ pub use alignment::{
     AlignmentPhase, AlignmentStatus, AttitudeSigma, Forecast, Lack, Limiting, SeaEstimate,
 };
 pub use attitude::Attitude;
-pub use events::{Counts, Event, Innovation, Rejection};
+pub use events::{Counts, Event, Innovation, Rejection, StoredDoubt};
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
 pub use messages::{

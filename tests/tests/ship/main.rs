@@ -12,6 +12,7 @@ mod identity;
 mod junk;
 mod places;
 mod starts;
+mod stored;
 mod telling;
 mod voyages;
 

@@ -9,7 +9,7 @@ use anyhow::Context;
 /// A file in the making beside its final place. It takes that place when it is finished; a command
 /// that fails leaves nothing behind. Pipes and devices are written directly.
 #[derive(Debug)]
-pub(super) struct OutputFile {
+pub(crate) struct OutputFile {
     place: PathBuf,
     /// The name until it is finished; `None` for pipes and devices.
     temporary: Option<PathBuf>,
@@ -17,7 +17,7 @@ pub(super) struct OutputFile {
 }
 
 impl OutputFile {
-    pub(super) fn create(place: &Path) -> anyhow::Result<Self> {
+    pub(crate) fn create(place: &Path) -> anyhow::Result<Self> {
         let is_special = fs::metadata(place).is_ok_and(|about| !about.is_file());
         let temporary = (!is_special).then(|| {
             let mut name = place.as_os_str().to_owned();
@@ -32,7 +32,7 @@ impl OutputFile {
     }
 
     /// Moves the file to its place.
-    pub(super) fn finish(mut self) -> anyhow::Result<()> {
+    pub(crate) fn finish(mut self) -> anyhow::Result<()> {
         let written = match self.file.take() {
             Some(file) => file.into_inner().map(drop).map_err(IntoInnerError::into_error),
             None => Ok(()),
