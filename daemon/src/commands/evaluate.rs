@@ -7,7 +7,7 @@ use insd_drivers::recording::{read_nav_rows, read_truth_rows};
 
 use crate::cli::BadInput;
 use crate::evaluation::plot::Picture;
-use crate::evaluation::{Report, drifts, errors, outages, read_innovations};
+use crate::evaluation::{Report, drifts, errors, outages, read_rows};
 
 /// Options of `insd evaluate`.
 ///
@@ -60,7 +60,7 @@ pub fn run(args: &EvaluateArgs) -> anyhow::Result<()> {
         print!("{report}");
     }
     let Some(file) = &args.plot else { return Ok(()) };
-    let innovations = args.innovations.as_deref().map(read_innovations).transpose()?;
+    let innovations = args.innovations.as_deref().map(read_rows).transpose()?;
     let name = args.nav.file_name().unwrap_or(args.nav.as_os_str()).to_string_lossy();
     Picture {
         title: &format!("{name}: errors with claimed ±3σ bands"),

@@ -10,7 +10,7 @@ use insd_engine::{Engine, EngineConfig, Output};
 use super::alignment::AlignmentArgs;
 use super::outage::SensorOutage;
 use super::summary;
-use crate::evaluation::{AlignmentRow, AlignmentWriter, InnovationRow, InnovationWriter};
+use crate::evaluation::{AlignmentRow, InnovationRow, RowWriter};
 use crate::output_file::OutputFile;
 use crate::stored;
 
@@ -47,8 +47,8 @@ pub struct ReplayArgs {
 /// Where the outputs of the engine go.
 struct Sink {
     nav: NavWriter<OutputFile>,
-    innovations: Option<InnovationWriter<OutputFile>>,
-    alignment_log: Option<AlignmentWriter<OutputFile>>,
+    innovations: Option<RowWriter<InnovationRow, OutputFile>>,
+    alignment_log: Option<RowWriter<AlignmentRow, OutputFile>>,
     alignment: Vec<AlignmentStatus>,
     modes: Vec<(Time, Mode)>,
     departures: Vec<Time>,
@@ -110,8 +110,8 @@ fn save(path: &Path, engine: &Engine, start_utc: &str) -> anyhow::Result<()> {
 
 impl Sink {
     fn create(args: &ReplayArgs) -> anyhow::Result<Self> {
-        let innovations = |path: &PathBuf| OutputFile::create(path).map(InnovationWriter::new);
-        let log = |path: &PathBuf| OutputFile::create(path).map(AlignmentWriter::new);
+        let innovations = |path: &PathBuf| OutputFile::create(path).map(RowWriter::new);
+        let log = |path: &PathBuf| OutputFile::create(path).map(RowWriter::new);
         Ok(Sink {
             nav: open_nav(&args.out)?,
             innovations: args.innovations.as_ref().map(innovations).transpose()?,

@@ -1,10 +1,6 @@
 //! What the alignment says of itself as a file, one row for each status; a field that is not known is
 //! empty.
 
-use std::io::{self, Write};
-use std::path::Path;
-
-use anyhow::Context;
 use insd_base::units::DEG;
 use insd_base::{AlignmentStatus, Forecast};
 use serde::{Deserialize, Serialize};
@@ -82,48 +78,10 @@ impl From<&AlignmentStatus> for AlignmentRow {
     }
 }
 
-/// Writes statuses.
-#[derive(Debug)]
-pub struct AlignmentWriter<W: Write> {
-    target: csv::Writer<W>,
-}
-
-impl<W: Write> AlignmentWriter<W> {
-    /// A writer that begins with the header line.
-    pub fn new(target: W) -> Self {
-        AlignmentWriter { target: csv::Writer::from_writer(target) }
-    }
-
-    /// Appends a row.
-    ///
-    /// # Errors
-    /// The target cannot be written.
-    pub fn write(&mut self, row: &AlignmentRow) -> io::Result<()> {
-        self.target.serialize(row).map_err(io::Error::other)
-    }
-
-    /// Flushes and gives the target back.
-    ///
-    /// # Errors
-    /// The target cannot be written.
-    pub fn finish(self) -> io::Result<W> {
-        self.target.into_inner().map_err(csv::IntoInnerError::into_error)
-    }
-}
-
-/// Reads what [`AlignmentWriter`] wrote.
-///
-/// # Errors
-/// The file is missing or a row is not as written, with its line.
-pub fn read_alignment(path: &Path) -> anyhow::Result<Vec<AlignmentRow>> {
-    let file = || path.display().to_string();
-    let mut reader = csv::Reader::from_path(path).with_context(file)?;
-    reader.deserialize().collect::<Result<_, _>>().with_context(file)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evaluation::{RowWriter, read_rows};
     use insd_base::{AlignmentPhase, Lack, Limiting, Time};
 
     #[test]
@@ -146,10 +104,10 @@ mod tests {
         status.ready = Forecast::Unreachable { best: 2.0 * DEG, limiting: Limiting::GyroBias };
         let second = AlignmentRow::from(&status);
         assert!((second.best_deg.unwrap() - 2.0).abs() < 1e-12);
-        let mut writer = AlignmentWriter::new(std::fs::File::create(&path).unwrap());
+        let mut writer = RowWriter::new(std::fs::File::create(&path).unwrap());
         writer.write(&first).unwrap();
         writer.write(&second).unwrap();
         writer.finish().unwrap();
-        assert_eq!(read_alignment(&path).unwrap(), [first, second]);
+        assert_eq!(read_rows::<AlignmentRow>(&path).unwrap(), [first, second]);
     }
 }

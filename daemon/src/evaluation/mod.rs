@@ -15,6 +15,7 @@ mod interval;
 pub mod plot;
 mod promises;
 mod report;
+mod rows;
 mod series;
 mod statistics;
 mod stored;
@@ -23,16 +24,17 @@ mod table;
 pub use aligned::{
     AlignedEstimates, Alignment, Times, WorstHeading, WorstRun, alignment, worst_heading,
 };
-pub use alignment_log::{AlignmentRow, AlignmentWriter, read_alignment};
+pub use alignment_log::AlignmentRow;
 pub use campaign::{CampaignReport, ComponentEstimates, OutageEstimates, Run, Yardstick};
 pub use component::Component;
 pub use drift::{Drift, Outage, drifts, outages};
 pub use errors::{EpochError, Errors, LeftOut, errors, normalised};
-pub use innovation::{InnovationRow, InnovationWriter, read_innovations};
+pub use innovation::InnovationRow;
 pub use instants::{Instant, InstantEstimates, Moment, moments};
 pub use interval::Estimate;
 pub use promises::PromiseEstimates;
 pub use report::Report;
+pub use rows::{RowWriter, read_rows};
 pub use statistics::{Summary, mean, quantile, summarise, summarise_horizontal};
 pub use stored::{StoredEstimates, StoredFate};
 pub use table::{Align, Table, significant};
