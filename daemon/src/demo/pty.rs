@@ -133,12 +133,20 @@ mod tests {
     }
 
     fn read_all(reader: &mut std::fs::File) -> String {
+        // the kernel hands bytes over when it gets to it, on a busy machine some time later
+        const PATIENCE: u32 = 10;
         let mut text = String::new();
         let mut bytes = [0; 4096];
-        settle();
-        while let Ok(count @ 1..) = reader.read(&mut bytes) {
-            text.push_str(std::str::from_utf8(&bytes[..count]).unwrap());
+        let mut waited = 0;
+        while waited < PATIENCE {
             settle();
+            match reader.read(&mut bytes) {
+                Ok(count @ 1..) => {
+                    text.push_str(std::str::from_utf8(&bytes[..count]).unwrap());
+                    waited = 0;
+                }
+                _ => waited += 1,
+            }
         }
         text
     }
