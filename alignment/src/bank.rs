@@ -85,14 +85,8 @@ impl Bank {
                 let heading = TAU * i as f64 / HEADINGS as f64;
                 let spread = OVERLAP * TAU / HEADINGS as f64;
                 let initial = hypothesis(config, level, kinematics, heading, spread);
-                let mut filter = Filter::new(config, &initial);
-                filter.slow_down(COVARIANCE_INTERVAL);
-                let fine = if kinematics.moored {
-                    Fine::moored(filter, method)
-                } else {
-                    Fine::under_way(filter)
-                };
-                Member { fine: Box::new(fine), log_weight: 0.0, origin: Origin::Any }
+                let moored = kinematics.moored.then_some(method);
+                Member::new(config, &initial, moored, 0.0, Origin::Any)
             })
             .collect();
         Bank { members, next_tidy: level.time + TIDY, trial: None }
@@ -122,8 +116,8 @@ impl Bank {
             if choice.same_power_up {
                 stored.carry_biases(&mut initial.nominal, &mut initial.covariance);
             }
-            let fine = Fine::moored(Filter::new(config, &initial), choice.moored);
-            bank.members.push(Member { fine: Box::new(fine), log_weight: share.ln(), origin });
+            let member = Member::new(config, &initial, Some(choice.moored), share.ln(), origin);
+            bank.members.push(member);
         }
         bank
     }
@@ -165,7 +159,10 @@ impl Bank {
     #[must_use]
     pub fn winner(&self) -> Option<&Fine> {
         match self.members.as_slice() {
-            [only] if only.fine.filter().heading_std() < LINEAR => Some(&only.fine),
+            // the sigma of the heading is a matter of the covariance: no need to ask between
+            [only] if only.fine.filter().is_settled() => {
+                Some(only.fine.as_ref()).filter(|fine| fine.filter().heading_std() < LINEAR)
+            }
             _ => None,
         }
     }
@@ -297,6 +294,19 @@ struct Peak {
 }
 
 impl Member {
+    /// A hypothesis; `moored` is how the ship is held if she lies at her berth.
+    fn new(
+        config: &NavConfig,
+        initial: &InitialState,
+        moored: Option<Method>,
+        log_weight: f64,
+        origin: Origin,
+    ) -> Self {
+        let mut filter = Filter::new(config, initial);
+        filter.slow_down(COVARIANCE_INTERVAL);
+        Member { fine: Box::new(Fine::held(filter, moored)), log_weight, origin }
+    }
+
     fn peak(&self) -> Peak {
         let solution = self.fine.solution();
         let (heading, std) = (solution.attitude.heading, solution.sigma.heading);

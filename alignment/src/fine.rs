@@ -34,6 +34,15 @@ enum Hold {
 }
 
 impl Fine {
+    /// A filter of a ship at her berth, held by a method, or under way.
+    #[must_use]
+    pub fn held(filter: Filter, moored: Option<Method>) -> Self {
+        match moored {
+            Some(method) => Fine::moored(filter, method),
+            None => Fine::under_way(filter),
+        }
+    }
+
     /// A filter of a ship at her berth.
     #[must_use]
     pub fn moored(filter: Filter, method: Method) -> Self {

@@ -11,7 +11,7 @@
 
 use insd_base::{Geodetic, Span, Time};
 use insd_nav::aids::berth;
-use insd_nav::error_state::{BERTH_OFFSET, POSITION, SWAY};
+use insd_nav::error_state::SWAY;
 use insd_nav::innovation::Innovation;
 use insd_nav::{Filter, Oscillator, Outcome, Sway};
 use nalgebra::Vector2;
@@ -205,13 +205,5 @@ impl Moorings {
                 SPACING / self.learning_time * (square.fixed_rows::<2>(seen).mean() - *learnt);
         }
         filter.set_sway(self.sway());
-    }
-
-    /// Sigma of the ship's position and of her mean place, each component, m.
-    #[must_use]
-    pub fn position_std(filter: &Filter) -> (f64, f64) {
-        let position = POSITION.covariance(filter.covariance()).trace() / 3.0;
-        let offset = BERTH_OFFSET.covariance(filter.covariance()).trace() / 2.0;
-        (position.sqrt(), offset.sqrt())
     }
 }

@@ -145,9 +145,15 @@ impl Filter {
         self.covariance = covariance;
     }
 
+    /// Whether the covariance is that of the time of the estimate.
+    #[must_use]
+    pub fn is_settled(&self) -> bool {
+        self.stretch.duration <= 0.0
+    }
+
     /// Brings the covariance up to the time of the estimate.
     pub fn settle(&mut self) {
-        if self.stretch.duration <= 0.0 {
+        if self.is_settled() {
             return;
         }
         let regime = Regime { rtk: self.is_rtk() };

@@ -57,7 +57,6 @@ use vertical::Vertical;
 pub struct EightState {
     config: NavConfig,
     gate: ChiSquareGate,
-    goal: f64,
     time: Time,
     motion: Motion,
     local: Local,
@@ -75,7 +74,7 @@ pub struct EightState {
     centred: bool,
 }
 
-/// Heading sigma at which the phase ends unless stated otherwise, rad.
+/// Heading sigma at which the phase ends, rad.
 pub const GOAL: f64 = 5.0 * DEG;
 /// Sigma of the tilt after levelling, sensor bias aside, rad.
 const LEVEL_STD: f64 = 1.0 * DEG;
@@ -113,7 +112,6 @@ impl EightState {
         let mut filter = EightState {
             config: *config,
             gate: ChiSquareGate::new(config.gate.probability),
-            goal: GOAL,
             time: level.time,
             motion,
             local,
@@ -136,13 +134,6 @@ impl EightState {
         };
         filter.renew(start.position_std, start.velocity_std);
         filter
-    }
-
-    /// With another heading sigma, rad, at which the phase ends.
-    #[must_use]
-    pub fn with_goal(mut self, goal: f64) -> Self {
-        self.goal = goal;
-        self
     }
 
     /// Nothing known of the heading, the rest as stated, m and m/s.
@@ -188,7 +179,7 @@ impl EightState {
     /// Whether the heading is known well enough for the full filter.
     #[must_use]
     pub fn finished(&self) -> bool {
-        self.heading.1 < self.goal
+        self.heading.1 < GOAL
     }
 
     fn assumed_heading(&self) -> f64 {

@@ -349,13 +349,15 @@ impl Engine {
     /// Tells once what became of the stored state, which is then not offered again.
     fn tell_of_stored(&mut self) {
         let Stage::Running(line) = &self.stage else { return };
-        let Some(verdict) = line.estimator().verdict() else { return };
-        if self.config.stored.take().is_some() {
-            self.tell(match verdict {
-                Verdict::Used { time } => Event::StoredStateUsed { time },
-                Verdict::Dropped { time, reason } => Event::StoredStateDropped { time, reason },
-            });
+        if self.config.stored.is_none() {
+            return;
         }
+        let Some(verdict) = line.estimator().verdict() else { return };
+        self.config.stored = None;
+        self.tell(match verdict {
+            Verdict::Used { time } => Event::StoredStateUsed { time },
+            Verdict::Dropped { time, reason } => Event::StoredStateDropped { time, reason },
+        });
     }
 
     fn tell(&mut self, event: Event) {

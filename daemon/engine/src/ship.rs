@@ -53,7 +53,7 @@ impl Ship {
         match self {
             Ship::Aligning(bank) => bank.verdict(),
             Ship::InMotion { finder, .. } => {
-                let (time, reason) = (finder.solution().time, StoredDoubt::NotMoored);
+                let (time, reason) = (finder.time(), StoredDoubt::NotMoored);
                 Some(Verdict::Dropped { time, reason })
             }
             Ship::Navigating { verdict, .. } => *verdict,
@@ -114,13 +114,9 @@ impl Ship {
         let verdict = self.verdict();
         let found = match self {
             Ship::Aligning(bank) => bank.winner().cloned(),
-            Ship::InMotion { finder, config, berth } => finder.initial_state().map(|initial| {
-                let filter = Filter::new(config, &initial);
-                match berth {
-                    Some(method) => Fine::moored(filter, *method),
-                    None => Fine::under_way(filter),
-                }
-            }),
+            Ship::InMotion { finder, config, berth } => finder
+                .initial_state()
+                .map(|initial| Fine::held(Filter::new(config, &initial), *berth)),
             Ship::Navigating { .. } => None,
         };
         if let Some(mut fine) = found {
@@ -136,6 +132,12 @@ impl Ship {
             Ship::Navigating { fine, .. } => fine.as_ref(),
         }
     }
+}
+
+/// Whether the heading is found to be good enough to steer by. Its sigma is a matter of the covariance:
+/// it is only asked for when that is new.
+fn is_steerable(fine: &Fine) -> bool {
+    fine.filter().is_settled() && fine.filter().heading_std() < STEERABLE
 }
 
 /// The part of an [`Estimator`] that only reads.
@@ -167,7 +169,7 @@ impl Estimator for Ship {
                 if fine.seems_to_leave() {
                     fine.cast_off();
                 }
-                *aligned = *aligned || fine.filter().heading_std() < STEERABLE;
+                *aligned = *aligned || is_steerable(fine);
             }
         }
     }
@@ -180,7 +182,11 @@ impl Estimator for Ship {
                 self.hand_over();
                 report
             }
-            Ship::Navigating { fine, .. } => fine.apply(received),
+            Ship::Navigating { fine, aligned, .. } => {
+                let report = fine.apply(received);
+                *aligned = *aligned || is_steerable(fine);
+                report
+            }
         }
     }
 
