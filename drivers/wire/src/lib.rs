@@ -5,4 +5,9 @@
 //! refuse they refuse with a reason. SI units and radians in every struct; degrees and knots live
 //! between the commas only.
 
+pub mod binary;
+pub mod gnss;
+pub mod imu;
+pub mod log;
 pub mod nmea;
+pub mod stream;

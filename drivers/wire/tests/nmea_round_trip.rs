@@ -5,9 +5,10 @@
 use insd_base::FixQuality;
 use insd_base::units::{KNOT, wrap_pi};
 use insd_wire::nmea::{
-    CivilTime, Date, Framer, Gga, Hdt, HeadingMode, Line, MAX_LEN, Position, PositionMode, Rot,
-    Sentence, Talker, Ths, TimeOfDay, Vtg, Zda, Zone,
+    CivilTime, Date, Gga, Hdt, HeadingMode, Line, MAX_LEN, Position, PositionMode, Rot, Sentence,
+    Talker, Ths, TimeOfDay, Vtg, Zda, Zone,
 };
+use insd_wire::stream::{Cutter, Protocol};
 use proptest::prelude::*;
 
 /// Reads a line back after checking that it keeps the standard's length.
@@ -166,11 +167,10 @@ proptest! {
     #[test]
     fn arbitrary_bytes_never_panic_the_reader(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
         let _ = Sentence::read(&bytes);
-        let mut framer = Framer::new();
-        for byte in bytes {
-            if let Some(line) = framer.push(byte) {
-                let _ = Sentence::read(line);
-            }
+        let mut cutter = Cutter::new(&[Protocol::Nmea]);
+        cutter.push(&bytes);
+        while let Some(cut) = cutter.cut() {
+            let _ = Sentence::read(cut.bytes);
         }
     }
 

@@ -16,6 +16,7 @@ pub mod sensor;
 pub mod solution;
 pub mod time;
 pub mod units;
+pub mod utc;
 pub mod voyage;
 
 pub use alignment::{
@@ -31,4 +32,5 @@ pub use messages::{
 pub use sensor::{ImuSpec, LeverArms, Triad};
 pub use solution::{Mode, Solution, SolutionSigma};
 pub use time::{Span, Time};
+pub use utc::{GpsTime, UtcTime};
 pub use voyage::{Stamped, StartCondition, Truth, Voyage, VoyageHeader};

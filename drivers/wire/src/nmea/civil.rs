@@ -1,5 +1,7 @@
 //! Date and time of day as they stand in sentences: UTC, Gregorian calendar.
 
+use insd_base::UtcTime;
+
 use super::decimal::parse_digits;
 
 /// A time of day, UTC. Second 60 is a leap second.
@@ -35,7 +37,46 @@ pub struct CivilTime {
     pub time: TimeOfDay,
 }
 
+impl CivilTime {
+    /// The instant; second 60 is the first of the next minute. `None` if the calendar lacks the day.
+    #[must_use]
+    pub fn to_utc(self) -> Option<UtcTime> {
+        let Date { year, month, day } = self.date;
+        let TimeOfDay { hour, minute, second, nanosecond } = self.time;
+        UtcTime::from_civil((year.into(), month, day), (hour, minute, second), nanosecond)
+    }
+
+    /// Date and time of day of an instant of the years 0 to 9999.
+    #[must_use]
+    pub fn from_utc(utc: UtcTime) -> Option<Self> {
+        let ((year, month, day), nanos) = utc.to_civil();
+        let date =
+            Date { year: u16::try_from(year).ok().filter(|year| *year <= 9999)?, month, day };
+        Some(CivilTime { date, time: TimeOfDay::from_nanos(nanos)? })
+    }
+}
+
 impl TimeOfDay {
+    /// Nanoseconds since midnight; the leap second counts like the first second of the next day.
+    #[must_use]
+    pub fn as_nanos(self) -> i64 {
+        let minutes = i64::from(self.hour) * 60 + i64::from(self.minute);
+        (minutes * 60 + i64::from(self.second)) * 1_000_000_000 + i64::from(self.nanosecond)
+    }
+
+    /// The time so many nanoseconds after midnight; `None` outside the day.
+    #[must_use]
+    pub fn from_nanos(nanos: i64) -> Option<Self> {
+        let second = 1_000_000_000;
+        let part = |value: i64| u8::try_from(value).ok();
+        Some(TimeOfDay {
+            hour: part(nanos.div_euclid(3600 * second)).filter(|hour| *hour < 24)?,
+            minute: part(nanos.div_euclid(60 * second) % 60)?,
+            second: part(nanos.div_euclid(second) % 60)?,
+            nanosecond: u32::try_from(nanos.rem_euclid(second)).ok()?,
+        })
+    }
+
     /// Digits `hhmmss` for the writer.
     pub(crate) fn groups(self) -> [(u32, u8); 3] {
         [(self.hour.into(), 2), (self.minute.into(), 2), (self.second.into(), 2)]

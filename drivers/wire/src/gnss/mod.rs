@@ -1,0 +1,56 @@
+//! GNSS receivers: what one message says of one epoch, whatever its format.
+//!
+//! A receiver spreads an epoch over several messages (GGA and VTG; NAV-PVT and NAV-COV; PVTGeodetic
+//! and its covariances). Each becomes a [`GnssPart`]; whoever puts an epoch together knows by
+//! [`GnssPart::epoch`] which belong to each other.
+
+use insd_base::{FixQuality, Geodetic, GpsTime, UtcTime};
+
+use crate::nmea::TimeOfDay;
+
+/// The instant of an epoch as far as a message tells it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EpochTime {
+    /// Date and time of day.
+    Utc(UtcTime),
+    /// Time of day without a date: GGA, GST.
+    TimeOfDay(TimeOfDay),
+    /// Week and time of week.
+    Gps(GpsTime),
+    /// Time of the GPS week, ns, without the week: NAV-DOP, NAV-COV.
+    TimeOfWeek(i64),
+}
+
+/// What one message says of one epoch; whatever it does not say is `None`.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct GnssPart {
+    /// Name of the message: `GGA`, `NAV-PVT`.
+    pub kind: &'static str,
+    /// When the epoch was; `None` if the message tells no time (VTG) and belongs to the epoch of the
+    /// message before.
+    pub epoch: Option<EpochTime>,
+    /// Leap seconds (GPS - UTC) as the receiver says.
+    pub leap_seconds: Option<i8>,
+    /// Accuracy that the receiver claims for its time, s.
+    pub time_std: Option<f64>,
+    /// Position of the antenna, height above the ellipsoid.
+    pub position: Option<Geodetic>,
+    /// 1-sigma of north, east, down position, m; a component may be unknown.
+    pub position_std: [Option<f64>; 3],
+    /// North, east, down velocity of the antenna, m/s; a component may be unknown.
+    pub velocity: [Option<f64>; 3],
+    /// 1-sigma of north, east, down velocity, m/s.
+    pub velocity_std: [Option<f64>; 3],
+    /// True heading of the receiver's own baseline or platform, rad.
+    pub heading: Option<f64>,
+    /// 1-sigma of the heading, rad.
+    pub heading_std: Option<f64>,
+    /// Horizontal dilution of precision.
+    pub hdop: Option<f64>,
+    /// Satellites used.
+    pub satellites: Option<u16>,
+    /// What the receiver says of its fix.
+    pub quality: Option<FixQuality>,
+    /// The message says that the epoch must not be used, whatever the others say (RMC or GLL with V).
+    pub invalid: bool,
+}
