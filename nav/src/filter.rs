@@ -383,8 +383,8 @@ impl Estimator for Filter {
         let step = strapdown::integrate(&mut self.nominal, &self.gravity, increment);
         self.stretch.add(&step);
         self.stretch.add_noise(increment);
-        if increment.bridged {
-            self.stretch.add_gap(step.duration);
+        if let Some(whole) = increment.bridged {
+            self.stretch.add_gap(step.duration, whole);
         }
         self.rate = increment.end_rate;
         self.time = increment.to;

@@ -36,15 +36,33 @@ pub fn scalar(stated: Option<f64>, range: &Believable) -> Floored<f64> {
     }
 }
 
-/// Sigma of each component of a vector.
+/// Sigma of a component that a receiver does not tell: so large that even a day of epochs weighs nothing.
+pub const UNTOLD: f64 = 1e6;
+
+/// Sigma of each component of a vector; [`UNTOLD`] for those with an infinite one.
 #[must_use]
 pub fn vector(stated: Option<Ned>, range: &[Believable; 3]) -> Floored<Vector3<f64>> {
-    let each: [Floored<f64>; 3] =
-        std::array::from_fn(|i| scalar(stated.map(|s| s.0[i]), &range[i]));
+    let each: [Floored<f64>; 3] = std::array::from_fn(|i| match stated.map(|std| std.0[i]) {
+        Some(f64::INFINITY) => Floored { value: UNTOLD, replaced: false },
+        std => scalar(std, &range[i]),
+    });
     Floored {
         value: Vector3::from_fn(|i, _| each[i].value),
         replaced: each.iter().any(|f| f.replaced),
     }
+}
+
+/// The slowly varying part of a sigma, of the variance of which a share is slow. There is none in a
+/// component that is not told: its filter state must not learn from it.
+#[must_use]
+pub fn slow_part(std: &Vector3<f64>, share: f64) -> Vector3<f64> {
+    std.map(|std| if std < UNTOLD { std * share.sqrt() } else { 0.0 })
+}
+
+/// The greatest sigma of those components that are told.
+#[must_use]
+pub fn greatest_told(std: &Vector3<f64>) -> f64 {
+    std.iter().copied().filter(|std| *std < 0.1 * UNTOLD).fold(0.0, f64::max)
 }
 
 /// Believable sigmas of a GNSS position by fix quality, NED, m.
@@ -80,5 +98,14 @@ mod tests {
         assert_eq!(scalar(Some(0.01), &range), Floored { value: 0.1, replaced: true });
         assert_eq!(scalar(Some(1e9), &range), Floored { value: 10.0, replaced: true });
         assert_eq!(scalar(Some(2.5), &range), Floored { value: 2.5, replaced: false });
+    }
+
+    #[test]
+    fn a_component_that_is_not_told_weighs_nothing() {
+        let stated = Ned::new(0.1, 0.2, f64::INFINITY);
+        let std = vector(Some(stated), &gnss_velocity());
+        assert_eq!(std, Floored { value: Vector3::new(0.1, 0.2, UNTOLD), replaced: false });
+        assert_eq!(slow_part(&std.value, 0.25), Vector3::new(0.05, 0.1, 0.0));
+        assert_eq!(greatest_told(&std.value), 0.2);
     }
 }

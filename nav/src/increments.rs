@@ -25,8 +25,8 @@ pub struct Increment {
     pub rate_noise: Vector3<f64>,
     /// Noise density of the force beyond the stated random walk, body axes, m^2/s^3.
     pub force_noise: Vector3<f64>,
-    /// Whether it was interpolated over missing samples.
-    pub bridged: bool,
+    /// Length of the gap that it is a part of, s, if it was interpolated over missing samples.
+    pub bridged: Option<f64>,
 }
 
 impl Increment {
@@ -200,7 +200,7 @@ impl Conditioner {
             angular_acceleration: Vector3::zeros(),
             rate_noise: square(&next.rate),
             force_noise: square(&next.force),
-            bridged: true,
+            bridged: Some(missing),
         }
     }
 
@@ -266,7 +266,7 @@ fn compensated(before: &Mean, this: &Mean, from: Time, to: Time) -> Increment {
         angular_acceleration: rate_slope,
         rate_noise: Vector3::zeros(),
         force_noise: Vector3::zeros(),
-        bridged: false,
+        bridged: None,
     }
 }
 

@@ -84,17 +84,19 @@ impl Stretch {
         self.force_noise += increment.force_noise * duration;
     }
 
-    /// Adds the uncertainty of a step that was interpolated over a gap of `missing` seconds.
+    /// Adds the uncertainty of a step that was interpolated: `part`, s, of a gap of `whole` seconds. Each
+    /// part has its share of what the gap adds, however often measurements and outputs cut it.
     ///
     /// Within a gap the ship's rate and force go on nearly linearly for a time much shorter than a
     /// wave and are anyone's guess beyond it.
-    pub fn add_gap(&mut self, missing: f64) {
+    pub fn add_gap(&mut self, part: f64, whole: f64) {
         const WAVE: f64 = 2.0;
         const RATE: f64 = 0.05;
         const FORCE: f64 = 0.5;
-        let guess = missing * (missing / WAVE).powi(2).min(1.0);
-        self.gap_attitude += (RATE * guess).powi(2);
-        self.gap_velocity += (FORCE * guess).powi(2);
+        let guess = whole * (whole / WAVE).powi(2).min(1.0);
+        let share = (part / whole).min(1.0);
+        self.gap_attitude += (RATE * guess).powi(2) * share;
+        self.gap_velocity += (FORCE * guess).powi(2) * share;
     }
 }
 

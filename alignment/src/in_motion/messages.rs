@@ -39,8 +39,10 @@ impl EightState {
             let innovation =
                 aids::gnss_velocity(&scene, &split, &lever, &moving.xy(), &self.belief);
             passed.push(self.judge(&innovation, fix.time, source, GNSS_VELOCITY, &mut report));
-            let (white, slow) = shares(std.value.z, share);
-            self.vertical.measure_down(velocity.0.z - swing.z, white, slow);
+            if std.value.z < floors::UNTOLD {
+                let (white, slow) = shares(std.value.z, share);
+                self.vertical.measure_down(velocity.0.z - swing.z, white, slow);
+            }
         }
         if let Some(position) = fix.position {
             let std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality));
@@ -51,10 +53,12 @@ impl EightState {
             let split = split(position, &std.value, share);
             let innovation = aids::gnss_position(&self.scene(), &split, &lever);
             passed.push(self.judge(&innovation, fix.time, source, GNSS_POSITION, &mut report));
-            let above = (self.motion.c_pb() * lever).z;
-            let (white, slow) = shares(std.value.z, share);
-            self.vertical.measure_height(position.height + above, white, slow);
-            self.heard_height = self.time;
+            if std.value.z < floors::UNTOLD {
+                let above = (self.motion.c_pb() * lever).z;
+                let (white, slow) = shares(std.value.z, share);
+                self.vertical.measure_height(position.height + above, white, slow);
+                self.heard_height = self.time;
+            }
         }
         self.consider_restart(fix, &passed, &mut report);
         report

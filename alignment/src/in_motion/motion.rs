@@ -206,9 +206,9 @@ impl Stretch {
         self.turn += step.turn;
         self.rate_noise += increment.rate_noise.max() * h;
         self.force_noise += increment.force_noise.max() * h;
-        if increment.bridged {
+        if let Some(whole) = increment.bridged {
             let mut gap = insd_nav::propagation::Stretch::new();
-            gap.add_gap(h);
+            gap.add_gap(h, whole);
             self.gap_attitude += gap.gap_attitude;
             self.gap_velocity += gap.gap_velocity;
         }

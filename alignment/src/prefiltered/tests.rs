@@ -66,7 +66,7 @@ fn increment(step: usize) -> Increment {
         angular_acceleration: Vector3::zeros(),
         rate_noise: Vector3::zeros(),
         force_noise: Vector3::zeros(),
-        bridged: false,
+        bridged: None,
     }
 }
 

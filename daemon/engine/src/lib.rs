@@ -44,6 +44,8 @@ pub struct EngineConfig {
     /// The state at the last shutdown, offered for a ship that starts at her berth. It is put on
     /// trial ([`insd_alignment::trial`]) and told as used or dropped.
     pub stored: Option<StoredState>,
+    /// How well GNSS epochs and IMU samples agree in time, 1-sigma, s; `None`: by the grade of the IMU.
+    pub time_std: Option<f64>,
 }
 
 impl EngineConfig {
@@ -58,6 +60,7 @@ impl EngineConfig {
             output_rate,
             alignment: AlignmentConfig::default(),
             stored: None,
+            time_std: None,
         }
     }
 }
@@ -108,7 +111,8 @@ impl Engine {
     /// An engine that knows nothing yet.
     #[must_use]
     pub fn new(config: EngineConfig) -> Self {
-        let nav = NavConfig::new(config.imu, config.lever_arms);
+        let mut nav = NavConfig::new(config.imu, config.lever_arms);
+        nav.gnss.delay_std = config.time_std.unwrap_or(nav.gnss.delay_std);
         Engine {
             conditioner: Conditioner::new(&config.imu),
             stage: Stage::Levelling(Box::new(Coarse::new(&config))),

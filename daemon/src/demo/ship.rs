@@ -99,7 +99,7 @@ impl Ship {
             Output::Solution(solution) => {
                 let utc = self.calendar.and_then(|calendar| calendar.utc(solution.time));
                 if let Some(utc) = utc {
-                    let sentences = self.port.sentences(&solution, utc);
+                    let sentences = self.port.sentences(&solution, Some(utc));
                     if !sentences.is_empty() {
                         wire(sentences);
                     }

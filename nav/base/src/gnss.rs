@@ -67,9 +67,11 @@ pub struct GnssFix {
     pub position: Option<Geodetic>,
     /// Velocity of the antenna over the Earth, m/s.
     pub velocity: Option<Ned>,
-    /// 1-sigma of the position, m, as claimed by the receiver.
+    /// 1-sigma of the position, m, as claimed by the receiver; infinite for a component that it does
+    /// not tell (the height, in RMC).
     pub position_std: Option<Ned>,
-    /// 1-sigma of the velocity, m/s, as claimed by the receiver.
+    /// 1-sigma of the velocity, m/s, as claimed by the receiver; infinite for a component that it does
+    /// not tell (down, in VTG).
     pub velocity_std: Option<Ned>,
     /// Horizontal dilution of precision.
     pub hdop: Option<f64>,

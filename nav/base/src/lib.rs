@@ -11,6 +11,7 @@ pub mod earth;
 pub mod events;
 pub mod frames;
 pub mod gnss;
+pub mod input;
 pub mod messages;
 pub mod sensor;
 pub mod solution;
@@ -26,6 +27,7 @@ pub use attitude::Attitude;
 pub use events::{Counts, Event, Innovation, Rejection, StoredDoubt};
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
+pub use input::{Arrival, Input, PortId, PortState, Pulse, Stamp};
 pub use messages::{
     ExternalReference, ImuSample, LogReference, LogVelocity, Message, Received, Source,
 };

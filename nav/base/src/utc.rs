@@ -79,7 +79,7 @@ impl UtcTime {
     #[must_use]
     pub fn to_gps(self) -> GpsTime {
         let leaps = LEAPS.partition_point(|leap| leap * SECOND <= self.0) as i64;
-        GpsTime(self.0 - GPS_EPOCH * SECOND + leaps * SECOND)
+        GpsTime(self.0.saturating_sub((GPS_EPOCH - leaps) * SECOND))
     }
 
     /// This instant later by a span.
@@ -108,10 +108,10 @@ impl GpsTime {
         self.0
     }
 
-    /// Instant from a full week number and nanoseconds of the week.
+    /// Instant from a full week number and nanoseconds of the week; weeks after 2272 saturate.
     #[must_use]
     pub fn from_week(week: u16, tow_nanos: i64) -> Self {
-        GpsTime((i64::from(week) * WEEK * SECOND).saturating_add(tow_nanos))
+        GpsTime((i64::from(week) * WEEK).saturating_mul(SECOND).saturating_add(tow_nanos))
     }
 
     /// Full week number and nanoseconds of the week.
@@ -134,14 +134,15 @@ impl GpsTime {
     }
 
     fn nearest(self, nanos: i64, cycle: i64) -> Self {
-        let ahead = (nanos - self.0).rem_euclid(cycle);
-        GpsTime(self.0 + if ahead > cycle / 2 { ahead - cycle } else { ahead })
+        // apart, as their difference may be more than 64 bits hold
+        let ahead = (nanos.rem_euclid(cycle) - self.0.rem_euclid(cycle)).rem_euclid(cycle);
+        GpsTime(self.0.saturating_add(if ahead > cycle / 2 { ahead - cycle } else { ahead }))
     }
 
     /// The same instant in UTC, with GPS - UTC as the receiver says, or by the table of this version.
     #[must_use]
     pub fn to_utc(self, leap_seconds: Option<i8>) -> UtcTime {
-        let posix = self.0 + GPS_EPOCH * SECOND;
+        let posix = self.0.saturating_add(GPS_EPOCH * SECOND);
         let table = || {
             let passed = LEAPS.iter().zip(1..);
             let mut counted = 0;
@@ -152,7 +153,7 @@ impl GpsTime {
             }
             counted
         };
-        UtcTime(posix - leap_seconds.map_or_else(table, i64::from) * SECOND)
+        UtcTime(posix.saturating_sub(leap_seconds.map_or_else(table, i64::from) * SECOND))
     }
 }
 
@@ -223,6 +224,9 @@ mod tests {
         let near = GpsTime::from_week(2445, 0);
         let told = GpsTime::from_week(2446 - 2048, 5 * SECOND);
         assert_eq!(told.nearest_rollover(near), GpsTime::from_week(2446, 5 * SECOND));
+        let far = GpsTime::from_nanos(i64::MIN).nearest_rollover(near);
+        let cycle = i128::from(1024 * WEEK * SECOND);
+        assert_eq!((i128::from(far.as_nanos()) - i128::from(i64::MIN)) % cycle, 0);
         let late = near.nearest_with_tow(604_799 * SECOND);
         assert_eq!(late, GpsTime::from_week(2444, 604_799 * SECOND));
     }

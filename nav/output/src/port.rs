@@ -25,8 +25,9 @@ impl Port {
     }
 
     /// The sentences that are due with this solution, in the order of the configuration; `utc` is
-    /// the solution's time of validity. Empty if none is due.
-    pub fn sentences(&mut self, solution: &Solution, utc: CivilTime) -> &[u8] {
+    /// the solution's time of validity, if it is known: without it times of day stay empty. Empty if
+    /// none is due.
+    pub fn sentences(&mut self, solution: &Solution, utc: Option<CivilTime>) -> &[u8] {
         self.bytes.clear();
         for (kind, schedule) in &mut self.schedules {
             if schedule.is_due(solution.time)

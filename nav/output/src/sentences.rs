@@ -12,7 +12,7 @@ pub(crate) fn sentence(
     kind: SentenceKind,
     config: &PortConfig,
     solution: &Solution,
-    utc: CivilTime,
+    utc: Option<CivilTime>,
 ) -> Option<Line> {
     let silent = config.simulated && !config.unmarked_when_simulated;
     match kind {
@@ -23,7 +23,7 @@ pub(crate) fn sentence(
         SentenceKind::Rot => Some(rot(solution)),
         SentenceKind::Gga => Some(gga(config, solution, utc)),
         SentenceKind::Vtg => Some(vtg(config, solution)),
-        SentenceKind::Zda => Some(Zda { utc: Some(utc), zone: None }.write(Talker::IN)),
+        SentenceKind::Zda => Some(Zda { utc, zone: None }.write(Talker::IN)),
     }
 }
 
@@ -51,7 +51,7 @@ fn rot(solution: &Solution) -> Line {
     Rot { rate: valid.then(|| solution.rate_of_turn()), valid }.write(Talker::TI)
 }
 
-fn gga(config: &PortConfig, solution: &Solution, utc: CivilTime) -> Line {
+fn gga(config: &PortConfig, solution: &Solution, utc: Option<CivilTime>) -> Line {
     let place = &solution.position;
     let finite = place.latitude.is_finite() && place.longitude.is_finite();
     let quality = match config.policy.quality(solution) {
@@ -64,7 +64,7 @@ fn gga(config: &PortConfig, solution: &Solution, utc: CivilTime) -> Line {
     let position = Position { latitude: place.latitude, longitude: place.longitude };
     let geoid = config.geoid_separation.filter(|_| valid);
     Gga {
-        time: Some(utc.time),
+        time: utc.map(|utc| utc.time),
         position: valid.then_some(position),
         quality,
         altitude: geoid.map(|geoid| place.height - geoid),

@@ -32,7 +32,7 @@ fn solution() -> Solution {
 
 fn said(config: &PortConfig, solution: &Solution) -> Vec<String> {
     let mut port = Port::new(config.clone());
-    let bytes = port.sentences(solution, UTC).to_vec();
+    let bytes = port.sentences(solution, Some(UTC)).to_vec();
     String::from_utf8(bytes).unwrap().split_terminator("\r\n").map(str::to_owned).collect()
 }
 
@@ -157,7 +157,7 @@ fn one_second_of_solutions_gives_ten_headings_and_one_position() {
     let mut lines = Vec::new();
     for step in 0..10 {
         let time = Time::from_nanos(step * 100_000_000);
-        let bytes = port.sentences(&Solution { time, ..solution() }, UTC);
+        let bytes = port.sentences(&Solution { time, ..solution() }, Some(UTC));
         let text = String::from_utf8(bytes.to_vec()).unwrap();
         lines.extend(text.split_terminator("\r\n").map(|line| line[3..6].to_owned()));
     }

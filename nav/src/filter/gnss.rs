@@ -93,7 +93,7 @@ impl Filter {
         Some(VelocityFix {
             velocity: view.c_ne * c_ne.transpose() * velocity.0,
             white: std.value.map(|s| (s * s * (1.0 - share) * factor + by_north).sqrt()),
-            slow: std.value * share.sqrt(),
+            slow: floors::slow_part(&std.value, share),
             acceleration: view.c_ne
                 * self.antenna.acceleration(self.time, &self.antenna_velocity()),
         })
@@ -145,7 +145,7 @@ impl Filter {
         Some(PositionFix {
             position,
             white: std.value * ((1.0 - share) * factor).sqrt(),
-            slow: std.value * share.sqrt(),
+            slow: floors::slow_part(&std.value, share),
             velocity: view.c_ne * self.antenna_velocity(),
         })
     }
@@ -199,12 +199,12 @@ impl Filter {
         let lever = self.antenna_lever();
         let view = self.view();
         let place = imu_position(&view, &measured.position, &lever);
-        let variance = (measured.white + measured.slow).map(|s| s * s).max();
+        let variance = floors::greatest_told(&(measured.white + measured.slow)).powi(2);
         POSITION.renew(&mut self.covariance, &Matrix3::from_diagonal_element(variance));
         self.nominal.position = place.0;
         if let Some(velocity) = velocity {
             let swing = view.c_eb * view.rate.cross(&lever);
-            let variance = (velocity.white + velocity.slow).map(|s| s * s).max();
+            let variance = floors::greatest_told(&(velocity.white + velocity.slow)).powi(2);
             VELOCITY.renew(&mut self.covariance, &Matrix3::from_diagonal_element(variance));
             self.nominal.velocity = view.c_ne.transpose() * velocity.velocity - swing;
         }

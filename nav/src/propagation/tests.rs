@@ -24,7 +24,7 @@ fn increment(step: i64) -> Increment {
         angular_acceleration: Vector3::zeros(),
         rate_noise: Vector3::zeros(),
         force_noise: Vector3::zeros(),
-        bridged: false,
+        bridged: None,
     }
 }
 

@@ -57,7 +57,7 @@ fn increment(to: f64) -> Increment {
         angular_acceleration: Vector3::zeros(),
         rate_noise: Vector3::zeros(),
         force_noise: Vector3::zeros(),
-        bridged: false,
+        bridged: None,
     }
 }
 

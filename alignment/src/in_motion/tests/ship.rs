@@ -75,7 +75,7 @@ impl Ship {
             angular_acceleration: Vector3::zeros(),
             rate_noise: Vector3::zeros(),
             force_noise: Vector3::zeros(),
-            bridged: false,
+            bridged: None,
         };
         place.latitude += v.x * h / (meridian + place.height);
         place.longitude += v.y * h / ((prime + place.height) * place.latitude.cos());

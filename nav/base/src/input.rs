@@ -1,0 +1,101 @@
+//! What reaches the computer: bytes, pulses and the state of its ports, each with the time of receipt.
+//!
+//! These are what a raw recording holds: whoever takes the same arrivals in the same order does the
+//! same with them.
+
+use std::fmt;
+
+use crate::time::{Span, Time};
+use crate::utc::UtcTime;
+
+/// A port by its place in the list of the configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PortId(pub u16);
+
+/// The computer's two clocks, read together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stamp {
+    /// Never steps: time since the process started.
+    pub monotonic: Time,
+    /// UTC as the computer believes; it may be wrong, and it may step.
+    pub system: UtcTime,
+}
+
+/// What became of a port. Each change is told with its reason.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PortState {
+    /// It is open, and bytes may come.
+    Open {
+        /// What was opened: device and baud rate, address, file.
+        what: String,
+    },
+    /// It could not be opened; it is tried again and again.
+    Absent {
+        /// What the system said.
+        reason: String,
+    },
+    /// It was open and is gone: unplugged, closed by the peer, an error.
+    Lost {
+        /// What the system said.
+        reason: String,
+    },
+    /// It is open, and nothing has come for longer than its configured patience.
+    Silent {
+        /// For how long.
+        span: Span,
+    },
+    /// Bytes come again after a silence.
+    Speaking,
+    /// More came than could be taken; the oldest waiting bytes were dropped.
+    Overrun {
+        /// Bytes dropped since the last such report.
+        bytes: u64,
+    },
+    /// A file or recording has been read to its end.
+    Ended,
+}
+
+/// A pulse per second.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pulse {
+    /// When the kernel saw its edge, on the monotonic clock.
+    pub time: Time,
+    /// The kernel's count of edges.
+    pub sequence: u32,
+}
+
+/// What can arrive.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// Bytes of a stream as one read gave them, or one datagram.
+    Bytes(Vec<u8>),
+    /// An edge of a pulse line.
+    Pulse(Pulse),
+    /// Another state of the port.
+    State(PortState),
+}
+
+/// Something that reached the computer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Arrival {
+    /// When: for bytes, when the read that gave them returned.
+    pub stamp: Stamp,
+    /// Where.
+    pub port: PortId,
+    /// What.
+    pub input: Input,
+}
+
+impl fmt::Display for PortState {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PortState::Open { what } => write!(f, "open: {what}"),
+            PortState::Absent { reason } => write!(f, "absent: {reason}"),
+            PortState::Lost { reason } => write!(f, "lost: {reason}"),
+            PortState::Silent { span } => write!(f, "silent for {:.1} s", span.as_seconds()),
+            PortState::Speaking => f.write_str("speaking again"),
+            PortState::Overrun { bytes } => write!(f, "overrun: {bytes} bytes dropped"),
+            PortState::Ended => f.write_str("ended"),
+        }
+    }
+}
