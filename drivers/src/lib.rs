@@ -1,3 +1,6 @@
-//! Where bytes enter and leave: recordings of voyages.
+//! Where bytes enter and leave: the ports of the computer, raw recordings of all that arrives at them,
+//! and voyage directories.
 
+pub mod ports;
+pub mod raw;
 pub mod recording;

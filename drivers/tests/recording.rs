@@ -402,7 +402,7 @@ proptest! {
         let path = dir.path().join(["imu.csv", "gnss.csv", "log.csv", "reference.csv"][which]);
         let mut bytes = fs::read(&path).unwrap();
         for (at, length, insert) in cuts {
-            let start = at.index(bytes.len());
+            let start = at.index(bytes.len() + 1);
             let end = (start + length).min(bytes.len());
             bytes.splice(start..end, insert.bytes());
         }

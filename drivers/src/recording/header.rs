@@ -5,7 +5,6 @@ use std::io::Read;
 use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 
-use insd_base::units::{DEG_PER_HOUR, DEG_PER_SQRT_HOUR, MICRO_G, MPS_PER_SQRT_HOUR, PPM};
 use insd_base::{Body, Geodetic, ImuSpec, LeverArms, StartCondition, Triad, VoyageHeader};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -133,20 +132,20 @@ fn imu(section: &Section<'_, '_>, faults: &mut Vec<String>) -> Option<ImuSpec> {
     let accel_scale = number("accel_scale_factor_std_ppm", SIGMA);
     Some(ImuSpec {
         rate: rate?,
-        gyro: Triad {
-            bias_std: gyro_bias? * DEG_PER_HOUR,
-            instability_std: gyro_instability? * DEG_PER_HOUR,
-            instability_time: gyro_time?,
-            random_walk: angle_random_walk? * DEG_PER_SQRT_HOUR,
-            scale_std: gyro_scale? * PPM,
-        },
-        accel: Triad {
-            bias_std: accel_bias? * MICRO_G,
-            instability_std: accel_instability? * MICRO_G,
-            instability_time: accel_time?,
-            random_walk: velocity_random_walk? * MPS_PER_SQRT_HOUR,
-            scale_std: accel_scale? * PPM,
-        },
+        gyro: Triad::of_gyros([
+            gyro_bias?,
+            gyro_instability?,
+            gyro_time?,
+            angle_random_walk?,
+            gyro_scale?,
+        ]),
+        accel: Triad::of_accelerometers([
+            accel_bias?,
+            accel_instability?,
+            accel_time?,
+            velocity_random_walk?,
+            accel_scale?,
+        ]),
     })
 }
 
@@ -257,6 +256,7 @@ fn as_number(value: &DeValue<'_>) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::recording::header_text::header_text;
+    use insd_base::units::DEG_PER_HOUR;
     use proptest::prelude::*;
 
     const CAR: &str = r#"# Recorded on a car

@@ -9,11 +9,6 @@ use super::fields::Fields;
 use super::report::{BadRow, RowFault};
 use super::table::Row;
 
-/// 1-sigma given to the down component of a fix without height, m, so that a filter does not use it.
-const NO_HEIGHT_STD: f64 = 1e4;
-/// 1-sigma given to the down component of a velocity without one, m/s.
-const NO_DOWN_VELOCITY_STD: f64 = 100.0;
-
 /// Takes `t_s` and the optional `arrival_s`, the first and the last column of every sensor's row.
 /// An arrival before the time of validity, by a clock's jitter, counts as prompt.
 macro_rules! stamped_row {
@@ -105,7 +100,7 @@ fn imu_sample(time: Time, fields: &Fields<'_>) -> Result<ImuSample, BadRow> {
 }
 
 /// A fix. A single missing standard deviation becomes 0, which the filter floors and counts. A
-/// missing height or down velocity becomes 0 with a standard deviation that says nothing.
+/// missing height or down velocity becomes 0 with an infinite one.
 fn gnss_fix(time: Time, fields: &Fields<'_>) -> Result<GnssFix, BadRow> {
     let (height, down) = (fields.number(3)?, fields.number(6)?);
     let horizontal = fields.latitude_longitude(1)?;
@@ -114,11 +109,11 @@ fn gnss_fix(time: Time, fields: &Fields<'_>) -> Result<GnssFix, BadRow> {
     let velocity = velocity.map(|(vn, ve)| Ned::new(vn, ve, down.unwrap_or(0.0)));
     let mut position_std = partial_std(fields, 7)?;
     if position.is_some() && height.is_none() {
-        position_std.get_or_insert_default().0.z = NO_HEIGHT_STD;
+        position_std.get_or_insert_default().0.z = f64::INFINITY;
     }
     let mut velocity_std = partial_std(fields, 10)?;
     if velocity.is_some() && down.is_none() {
-        velocity_std.get_or_insert_default().0.z = NO_DOWN_VELOCITY_STD;
+        velocity_std.get_or_insert_default().0.z = f64::INFINITY;
     }
     let has_data = position.is_some() || velocity.is_some();
     Ok(GnssFix {

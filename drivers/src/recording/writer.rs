@@ -186,13 +186,19 @@ fn push_gnss(line: &mut Line<'_>, fix: &GnssFix) {
     line.time(fix.time);
     line.optional(fix.position.map(|p| p.latitude.to_degrees()), DEGREES);
     line.optional(fix.position.map(|p| p.longitude.to_degrees()), DEGREES);
-    line.optional(fix.position.map(|p| p.height), METRES);
-    line.vector(fix.velocity, METRES);
+    line.optional(fix.position.map(|p| told(p.height, fix.position_std)), METRES);
+    let velocity = fix.velocity.map(|v| Ned::new(v.0.x, v.0.y, told(v.0.z, fix.velocity_std)));
+    line.vector(velocity, METRES);
     line.vector(fix.position_std, METRES);
     line.vector(fix.velocity_std, METRES);
     line.optional(fix.hdop, METRES);
     line.optional(fix.satellites.map(f64::from), 0);
     line.number(f64::from(fix.quality.as_gga()), 0);
+}
+
+/// A vertical component; not a number, which is written as an empty field, if its sigma is infinite.
+fn told(value: f64, std: Option<Ned>) -> f64 {
+    if std.is_some_and(|std| std.0.z.is_infinite()) { f64::NAN } else { value }
 }
 
 fn push_log(line: &mut Line<'_>, velocity: &LogVelocity) {

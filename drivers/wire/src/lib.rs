@@ -6,6 +6,7 @@
 //! between the commas only.
 
 pub mod binary;
+pub mod describe;
 pub mod gnss;
 pub mod imu;
 pub mod log;

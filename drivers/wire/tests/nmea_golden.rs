@@ -2,8 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
 
+use insd_base::units::KNOT;
 use insd_wire::nmea::{
-    Fault, Frame, Gga, HeadingMode, PositionMode, Rot, Sentence, Talker, Ths, Vtg, Zda,
+    Fault, Frame, Gga, HeadingMode, PositionMode, Psxn, Rot, Sentence, Talker, Ths, Vtg, Zda,
 };
 
 const GOOD: [&str; 15] = [
@@ -122,4 +123,133 @@ fn a_line_cut_between_fields_names_the_missing_one() {
     let sum = insd_wire::nmea::checksum(b"HEHDT,36.0");
     let framed = format!("$HEHDT,36.0*{sum:02X}");
     assert_eq!(Sentence::read(framed.as_bytes()), Err(Fault::Missing { field: 2 }));
+}
+
+/// Frames a sentence with its checksum and reads it.
+fn framed(text: &str) -> Result<Sentence, Fault> {
+    let sum = insd_wire::nmea::checksum(&text.as_bytes()[1..]);
+    Sentence::read(format!("{text}*{sum:02X}").as_bytes()).map(|(_, sentence)| sentence)
+}
+
+#[test]
+fn short_and_blank_forms_of_vbw_are_read() {
+    let Sentence::Vbw(short) = read("$GPVBW,0.312,0.910,A,0.410,0.950,A*55") else { panic!() };
+    assert!((short.ground.transverse.unwrap() - 0.95 * KNOT).abs() < 1e-12);
+    assert!(short.water.valid && short.ground.valid && !short.stern_water.valid);
+    let Sentence::Vbw(blank) = read("$VDVBW,-0.08,,A,,,V,,V,,V*7D") else { panic!() };
+    assert!((blank.water.longitudinal.unwrap() + 0.08 * KNOT).abs() < 1e-12);
+    assert_eq!((blank.water.transverse, blank.ground.longitudinal), (None, None));
+    assert!(blank.water.valid && !blank.ground.valid);
+}
+
+#[test]
+fn distances_of_both_editions_of_vlw_are_read() {
+    let Sentence::Vlw(new) = read("$SDVLW,,N,545.6,N,1109.4,N,393.6,N*44") else { panic!() };
+    assert!((new.water_trip.unwrap() - 545.6 * 1852.0).abs() < 1e-6);
+    assert!((new.ground_trip.unwrap() - 393.6 * 1852.0).abs() < 1e-6);
+    assert_eq!(new.water, None);
+    let Ok(Sentence::Vlw(old)) = framed("$VMVLW,10.0,N,2.0,N") else { panic!() };
+    assert_eq!((old.water, old.ground), (Some(18_520.0), None));
+}
+
+#[test]
+fn the_published_psxn_sentences_are_read_and_written() {
+    let Sentence::Psxn(Psxn::Motion { roll, heave, .. }) =
+        read("$PSXN,23,1.28,1.93,104.68,-0.24*18")
+    else {
+        panic!()
+    };
+    assert!((roll.unwrap() - 1.28_f64.to_radians()).abs() < 1e-12);
+    assert_eq!(heave, Some(-0.24));
+    for line in ["$PSXN,20,0,0,0,0*3B", "$PSXN,23,1.28,1.93,104.68,-0.24*18"] {
+        assert_eq!(read(line).write(Talker::IN).as_str(), line);
+    }
+    assert_eq!(framed("$PSXN,26,0,44.5000,0.7800,-0.9000,NRP"), Err(Fault::OtherSentence));
+}
+
+#[test]
+fn the_examples_of_nortek_bottom_tracks_are_read() {
+    // examples of pynmea2, whose checksums of PNORBT0, 7 and 9 are good
+    let Sentence::NortekBottomTrack(track) = read(
+        "$PNORBT9,1452244916.7508,1.234,-1.234,0.1234,0.1234,0.1234,12.34,23.45,23.45,23.45,23.45,\
+         23.4,1567.8,1.2,12.3,0x000FFFFF*1E",
+    ) else {
+        panic!()
+    };
+    assert_eq!(track.time.unwrap().as_nanos(), 1_452_244_916_750_800_000);
+    assert_eq!((track.velocity[2], track.distances[3]), (Some(0.1234), Some(23.45)));
+    assert_eq!(track.sensors.unwrap().status, Some(0xF_FFFF));
+    let Sentence::NortekBeam(beam) =
+        read("$PNORBT0,1,040721,131335.3341,23.961,-48.122,-32.76800,10.00000,0.00,0x00000000*48")
+    else {
+        panic!()
+    };
+    assert_eq!((beam.velocity, beam.figure_of_merit, beam.distance), (None, None, None));
+    let tagged = "$PNORBT6,TIME=1452244916.7508,DT1=1.234,DT2=-1.234,VX=-32.768,VY=0.1,VZ=0.1,\
+                  FOM=10.0,D1=0.00,D2=23.45,D3=23.45,D4=23.45";
+    let Ok(Sentence::NortekBottomTrack(tagged)) = framed(tagged) else { panic!() };
+    assert_eq!((tagged.velocity[0], tagged.figure_of_merit), (None, None));
+    assert_eq!(tagged.distances[..2], [None, Some(23.45)]);
+    assert_eq!(framed("$PNORBT6,TIME=1.0,DT2=1.0"), Err(Fault::Malformed { field: 2 }));
+}
+
+#[test]
+fn a_line_cut_short_that_passes_its_checksum_is_refused_or_loses_age_and_station_alone() {
+    let whole = "$GPGGA,083723.00,5155.55442,N,00434.65873,E,1,06,2.51,-4.0,M,46.0,M,7.0,0138";
+    let Ok(Sentence::Gga(all)) = framed(whole) else { panic!() };
+    for end in 7..whole.len() {
+        match framed(&whole[..end]) {
+            Ok(Sentence::Gga(cut)) => {
+                assert_eq!(Gga { age: all.age, station: all.station, ..cut }, all);
+            }
+            Ok(_) => panic!(),
+            Err(_) => assert!(end < whole.len() - 3),
+        }
+    }
+    let rmc = "$GPRMC,043539.00,A,4333.190206,N,00127.618380,E,0.0,12.5,040925,1.7,W";
+    assert!((7..rmc.len()).all(|end| framed(&rmc[..end]).is_err()));
+}
+
+#[test]
+fn what_is_no_position_is_unknown_in_a_void_sentence_and_a_fault_in_any_other() {
+    let Sentence::Gga(gga) =
+        read("$GPGGA,071733.929,8960.0000,N,00000.0000,E,0,0,,137.0,M,13.0,M,,*40")
+    else {
+        panic!()
+    };
+    assert_eq!(gga.position, None);
+    let Sentence::Rmc(rmc) =
+        read("$GPRMC,000416.984,V,36000.0000,N,72000.0000,E,0.000000,,260120,,*3B")
+    else {
+        panic!()
+    };
+    assert!(rmc.position.is_none() && !rmc.valid);
+    assert_eq!(
+        framed("$GPGGA,071733,8960.0000,N,00000.0000,E,1,4,,137.0,M,13.0,M,,"),
+        Err(Fault::Malformed { field: 2 })
+    );
+    assert_eq!(
+        framed("$GPRMC,000231.099,A,4829.0005,N,00022.0015,E,0.15,212.28,2208-1,,,A"),
+        Err(Fault::Malformed { field: 9 })
+    );
+}
+
+#[test]
+fn real_forms_that_stray_from_the_standard_are_read() {
+    for line in [
+        // Motorola: the mode stands in the place of the variation's sign
+        "$GPRMC,212618.000,A,4839.9411,N,00214.9065,E,0.00,,181207,0,A*69",
+        // Saab R4: no station, and a datum without offsets
+        "$GPGGA,130711,5012.790800,N,00806.879600,W,2,,,,,,,*6A",
+        "$GPDTM,W84,C*52",
+        // SiRF-III: 24 satellites
+        "$GPGSA,A,3,23,13,07,25,,,,,,,,,,,,,,,,,,,,,09.2,07.2,05.7*0D",
+        // BeiDou satellites above 200; a signal at the end
+        "$GBGSV,3,3,11,209,36,317,,214,36,147,,205,11,257,*67",
+        "$GBGSV,4,4,14,44,59,199,40,46,03,052,,1*7C",
+        "$GNGNS,043539.00,4333.190206,N,00127.618380,E,AAAAN,14,1.3,250.8,50.0,,,V*62",
+        "$GPZDA,120213.000,31,07,2022,+00,00*79",
+    ] {
+        read(line);
+    }
 }

@@ -17,19 +17,30 @@ const FILE_LIMIT: usize = 500;
 const FUNCTION_LIMIT: usize = 60;
 
 /// Crates without I/O, clock, thread, log or randomness.
-const PURE: [&str; 7] = [
+const PURE: [&str; 8] = [
     "insd-base",
     "insd-nav",
     "insd-output",
     "insd-alignment",
     "insd-wire",
+    "insd-intake",
     "insd-simulator",
     "insd-engine",
 ];
 
 /// What a pure crate may depend on beside the house's own crates: all of it without side effects.
-const PURE_DEPENDENCIES: [&str; 6] =
-    ["fast-float2", "nalgebra", "serde", "statrs", "thiserror", "toml"];
+const PURE_DEPENDENCIES: [&str; 10] = [
+    "crc",
+    "fast-float2",
+    "kinavis-kernel",
+    "kinavis-wmm",
+    "nalgebra",
+    "nmea",
+    "serde",
+    "statrs",
+    "thiserror",
+    "toml",
+];
 
 /// Seeded generators, for the simulator alone.
 const SEEDED: [&str; 3] = ["rand", "rand_distr", "rand_pcg"];
@@ -54,12 +65,13 @@ const IMPURE: [&str; 15] = [
 ];
 
 /// Which crates of the house a crate may use. The daemon sees all; tests may see all.
-const ARROWS: [(&str, &[&str]); 8] = [
+const ARROWS: [(&str, &[&str]); 9] = [
     ("insd-base", &[]),
     ("insd-nav", &["insd-base"]),
     ("insd-wire", &["insd-base"]),
     ("insd-output", &["insd-base", "insd-wire"]),
     ("insd-alignment", &["insd-base", "insd-nav"]),
+    ("insd-intake", &["insd-base", "insd-wire"]),
     ("insd-simulator", &["insd-base"]),
     ("insd-drivers", &["insd-base", "insd-wire", "insd-simulator"]),
     ("insd-engine", &["insd-base", "insd-nav", "insd-alignment"]),

@@ -2,7 +2,6 @@
 
 use serde::Deserialize;
 
-use insd_base::units::{DEG_PER_HOUR, DEG_PER_SQRT_HOUR, MICRO_G, MPS_PER_SQRT_HOUR, PPM};
 use insd_base::{ImuSpec, Triad};
 
 use super::fault::Faults;
@@ -77,20 +76,20 @@ impl ImuErrors {
     pub(crate) fn spec(&self, rate: f64) -> ImuSpec {
         ImuSpec {
             rate,
-            gyro: Triad {
-                bias_std: self.gyro_bias_std_deg_h * DEG_PER_HOUR,
-                instability_std: self.gyro_bias_instability_deg_h * DEG_PER_HOUR,
-                instability_time: self.gyro_bias_time_constant_s,
-                random_walk: self.angle_random_walk_deg_sqrt_h * DEG_PER_SQRT_HOUR,
-                scale_std: self.gyro_scale_factor_std_ppm * PPM,
-            },
-            accel: Triad {
-                bias_std: self.accel_bias_std_ug * MICRO_G,
-                instability_std: self.accel_bias_instability_ug * MICRO_G,
-                instability_time: self.accel_bias_time_constant_s,
-                random_walk: self.velocity_random_walk_mps_sqrt_h * MPS_PER_SQRT_HOUR,
-                scale_std: self.accel_scale_factor_std_ppm * PPM,
-            },
+            gyro: Triad::of_gyros([
+                self.gyro_bias_std_deg_h,
+                self.gyro_bias_instability_deg_h,
+                self.gyro_bias_time_constant_s,
+                self.angle_random_walk_deg_sqrt_h,
+                self.gyro_scale_factor_std_ppm,
+            ]),
+            accel: Triad::of_accelerometers([
+                self.accel_bias_std_ug,
+                self.accel_bias_instability_ug,
+                self.accel_bias_time_constant_s,
+                self.velocity_random_walk_mps_sqrt_h,
+                self.accel_scale_factor_std_ppm,
+            ]),
         }
     }
 

@@ -4,9 +4,21 @@
 //! and its covariances). Each becomes a [`GnssPart`]; whoever puts an epoch together knows by
 //! [`GnssPart::epoch`] which belong to each other.
 
+pub mod rtcm;
+pub mod sbf;
+pub mod ubx;
+
+mod epoch;
+mod pulse;
+
+pub use epoch::Epoch;
+pub use pulse::{PulseOrder, PulseTime};
+
 use insd_base::{FixQuality, Geodetic, GpsTime, UtcTime};
 
-use crate::nmea::TimeOfDay;
+use crate::nmea::{Position, TimeOfDay};
+
+pub mod nmea;
 
 /// The instant of an epoch as far as a message tells it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,8 +45,12 @@ pub struct GnssPart {
     pub leap_seconds: Option<i8>,
     /// Accuracy that the receiver claims for its time, s.
     pub time_std: Option<f64>,
-    /// Position of the antenna, height above the ellipsoid.
+    /// Position of the antenna, height above the ellipsoid; `None` if the message does not tell all
+    /// three.
     pub position: Option<Geodetic>,
+    /// Latitude and longitude of the antenna, of messages of NMEA 0183; also where the height above
+    /// the ellipsoid is not known and [`GnssPart::position`] is `None`.
+    pub horizontal: Option<Position>,
     /// 1-sigma of north, east, down position, m; a component may be unknown.
     pub position_std: [Option<f64>; 3],
     /// North, east, down velocity of the antenna, m/s; a component may be unknown.
@@ -53,4 +69,13 @@ pub struct GnssPart {
     pub quality: Option<FixQuality>,
     /// The message says that the epoch must not be used, whatever the others say (RMC or GLL with V).
     pub invalid: bool,
+}
+
+/// Last week that is taken, in the year 2171: what is beyond is no time, and nanoseconds since 1980
+/// have no room for it.
+const LAST_WEEK: u16 = 9999;
+
+/// The instant of a full week and nanoseconds of the week, if it is a sane one.
+fn gps_time(week: u16, time_of_week: i64) -> Option<GpsTime> {
+    (week <= LAST_WEEK).then(|| GpsTime::from_week(week, time_of_week))
 }

@@ -3,6 +3,14 @@
 //! Each format is a file or folder of its own with its messages, reader and writer, and turns into an
 //! [`ImuReading`]. Axes are the device's own; the mounting is dealt with where the ship is known.
 
+pub mod kvh;
+pub mod mip;
+pub mod rotation;
+pub mod sbg;
+pub mod stdbin;
+pub mod stim;
+pub mod xbus;
+
 use insd_base::UtcTime;
 
 /// What an IMU measured, in its own axes.
@@ -22,6 +30,16 @@ pub enum Motion {
         /// Integral of specific force, m/s.
         delta_velocity: [f64; 3],
     },
+}
+
+impl Motion {
+    /// Whether every component is a number: formats with floats carry NaN and infinities too.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        let (Motion::Rates { gyro: turn, accel: push }
+        | Motion::Increments { delta_theta: turn, delta_velocity: push }) = self;
+        turn.iter().chain(push).all(|component| component.is_finite())
+    }
 }
 
 /// A count that starts again after its last value: a device's clock or sample number.

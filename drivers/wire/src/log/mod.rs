@@ -1,5 +1,8 @@
 //! Doppler and electromagnetic logs with formats of their own (those that speak NMEA are there).
 
+pub mod pd0;
+pub mod pd6;
+
 use insd_base::{LogReference, UtcTime};
 
 /// Axes of a log's velocity.
@@ -19,6 +22,7 @@ pub enum LogFrame {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogReading {
     /// Components in the order of the frame, m/s; invalid ones `None`. Three frames leave the last empty.
+    /// Of the ship with respect to the reference; along beams, of the reference towards the transducer.
     pub velocity: [Option<f64>; 4],
     /// Axes.
     pub frame: LogFrame,

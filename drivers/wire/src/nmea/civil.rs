@@ -118,6 +118,11 @@ impl Date {
         [(self.day.into(), 2), (self.month.into(), 2), (self.year.into(), 4)]
     }
 
+    /// Digits of day, month and year of the century for the writer.
+    pub(crate) fn short_groups(self) -> [(u32, u8); 3] {
+        [(self.day.into(), 2), (self.month.into(), 2), (u32::from(self.year % 100), 2)]
+    }
+
     /// Whether the calendar has this day.
     #[must_use]
     pub fn is_valid(self) -> bool {
@@ -133,7 +138,7 @@ impl Date {
     }
 }
 
-fn nanoseconds(fraction: &str) -> Option<u32> {
+pub(crate) fn nanoseconds(fraction: &str) -> Option<u32> {
     let mut digits = fraction.bytes();
     let mut nanos = 0;
     for _ in 0..9 {

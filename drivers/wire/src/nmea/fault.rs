@@ -5,13 +5,15 @@ use std::fmt;
 /// Why a reader refused a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// The line does not begin with `$`.
+    /// The line does not begin with `$` or `!`.
     NoStart,
     /// A byte that is not printable ASCII, at this offset.
     IllegalByte {
         /// Offset in the line.
         at: usize,
     },
+    /// A TAG block before the sentence that is not closed, or whose checksum is missing or wrong.
+    TagBlock,
     /// No `*hh` at the end.
     NoChecksum,
     /// The checksum is not that of the bytes.
@@ -40,8 +42,9 @@ pub enum Fault {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Fault::NoStart => f.write_str("no $ at the start"),
+            Fault::NoStart => f.write_str("no $ or ! at the start"),
             Fault::IllegalByte { at } => write!(f, "byte {at} is not printable ASCII"),
+            Fault::TagBlock => f.write_str("the TAG block is damaged"),
             Fault::NoChecksum => f.write_str("no checksum"),
             Fault::WrongChecksum { stated, computed } => {
                 write!(f, "checksum {stated:02X} stated, {computed:02X} computed")

@@ -1,5 +1,7 @@
 //! The reader's cursor over the fields of a frame.
 
+use std::ops::RangeInclusive;
+
 use insd_base::units::wrap_two_pi;
 
 use super::civil::TimeOfDay;
@@ -106,17 +108,62 @@ impl<'a> Fields<'a> {
         self.convert(TimeOfDay::parse)
     }
 
-    /// Latitude, hemisphere, longitude, hemisphere; all four empty or none.
+    /// How many fields are left, empty ones included.
+    #[must_use]
+    pub fn remaining(&self) -> usize {
+        self.rest.map_or(0, |rest| rest.split(',').count())
+    }
+
+    /// A decimal number within bounds.
+    ///
+    /// # Errors
+    /// As [`Fields::convert`].
+    pub fn number_in(&mut self, range: RangeInclusive<f64>) -> Result<Option<f64>, Fault> {
+        self.convert(|text| parse(text).filter(|value| range.contains(value)))
+    }
+
+    /// A magnitude and the letter of its sign, the positive one first: `1.3,W` is -1.3.
+    ///
+    /// # Errors
+    /// As [`Fields::convert`]; a magnitude without its letter is malformed.
+    pub fn signed(&mut self, max: f64, letters: [&str; 2]) -> Result<Option<f64>, Fault> {
+        let magnitude = self.number_in(0.0..=max)?;
+        let sign = self.convert(|text| sign_of(text, letters))?;
+        match (magnitude, sign) {
+            (Some(magnitude), Some(sign)) => Ok(Some(sign * magnitude)),
+            (None, _) => Ok(None),
+            (Some(_), None) => Err(self.malformed()),
+        }
+    }
+
+    /// A status: A valid, V not valid.
+    ///
+    /// # Errors
+    /// As [`Fields::convert`]; an empty status is malformed.
+    pub fn status(&mut self) -> Result<bool, Fault> {
+        match self.text()? {
+            "A" => Ok(true),
+            "V" => Ok(false),
+            _ => Err(self.malformed()),
+        }
+    }
+
+    /// Latitude, hemisphere, longitude, hemisphere; all four empty or none. The four fields are
+    /// behind the cursor afterwards, whatever they held.
     ///
     /// # Errors
     /// As [`Fields::convert`].
     pub fn position(&mut self) -> Result<Option<Position>, Fault> {
-        let latitude = self.angle(2, 90.0, ["N", "S"])?;
-        let longitude = self.angle(3, 180.0, ["E", "W"])?;
-        match (latitude, longitude) {
+        let start = self.taken;
+        let fault = |number: u8| Fault::Malformed { field: start.saturating_add(number) };
+        let texts = [self.text()?, self.text()?, self.text()?, self.text()?];
+        let latitude = angle([texts[0], texts[1]], 2, 90.0, ["N", "S"]);
+        let latitude = latitude.map_err(fault)?;
+        let longitude = angle([texts[2], texts[3]], 3, 180.0, ["E", "W"]);
+        match (latitude, longitude.map_err(|number| fault(number + 2))?) {
             (Some(latitude), Some(longitude)) => Ok(Some(Position { latitude, longitude })),
             (None, None) => Ok(None),
-            _ => Err(self.malformed()),
+            _ => Err(fault(4)),
         }
     }
 
@@ -125,25 +172,34 @@ impl<'a> Fields<'a> {
     pub fn malformed(&self) -> Fault {
         Fault::Malformed { field: self.taken }
     }
+}
 
-    fn angle(
-        &mut self,
-        width: usize,
-        limit: f64,
-        hemispheres: [&str; 2],
-    ) -> Result<Option<f64>, Fault> {
-        let degrees = self.convert(|text| {
-            Position::parse_angle(text, width).filter(|degrees| *degrees <= limit)
-        })?;
-        let sign = self.convert(|text| match text {
-            _ if text == hemispheres[0] => Some(1.0),
-            _ if text == hemispheres[1] => Some(-1.0),
-            _ => None,
-        })?;
-        match (degrees, sign) {
-            (Some(degrees), Some(sign)) => Ok(Some((sign * degrees).to_radians())),
-            (None, _) => Ok(None),
-            (Some(_), None) => Err(self.malformed()),
-        }
+/// The angle of a magnitude and its hemisphere, rad; the number of the field that is malformed.
+fn angle(
+    [magnitude, hemisphere]: [&str; 2],
+    width: usize,
+    limit: f64,
+    hemispheres: [&str; 2],
+) -> Result<Option<f64>, u8> {
+    let degrees = match magnitude {
+        "" => None,
+        text => Some(Position::parse_angle(text, width).filter(|deg| *deg <= limit).ok_or(1)?),
+    };
+    let sign = match hemisphere {
+        "" => None,
+        text => Some(sign_of(text, hemispheres).ok_or(2)?),
+    };
+    match (degrees, sign) {
+        (Some(degrees), Some(sign)) => Ok(Some((sign * degrees).to_radians())),
+        (None, _) => Ok(None),
+        (Some(_), None) => Err(2),
+    }
+}
+
+fn sign_of(text: &str, [positive, negative]: [&str; 2]) -> Option<f64> {
+    match text {
+        _ if text == positive => Some(1.0),
+        _ if text == negative => Some(-1.0),
+        _ => None,
     }
 }

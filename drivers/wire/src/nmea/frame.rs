@@ -3,14 +3,27 @@
 use super::fault::Fault;
 use super::fields::Fields;
 use super::line::Talker;
+use super::tag::TagBlock;
 
 /// A line whose frame and checksum are good; its fields are still text.
 ///
 /// Lines longer than 82 bytes are taken: several makers exceed the standard in their own sentences.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame<'a> {
+    tag: Option<&'a str>,
+    encapsulated: bool,
     address: &'a str,
     body: Option<&'a str>,
+}
+
+/// What becomes of a line without a checksum. A wrong one is always refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub enum ChecksumPolicy {
+    /// It is refused.
+    #[default]
+    Required,
+    /// It is taken: there are ships' devices that send none.
+    Optional,
 }
 
 /// Exclusive or of all bytes, as between `$` and `*`.
@@ -20,28 +33,44 @@ pub fn checksum(bytes: &[u8]) -> u8 {
 }
 
 impl<'a> Frame<'a> {
-    /// Reads `$address,field,...*hh` with or without the closing CR LF.
+    /// Reads `$address,field,...*hh` with or without a TAG block before it and CR LF behind it. A
+    /// line of AIS, which begins with `!`, is framed too, but it is no approved sentence here.
     ///
     /// # Errors
     /// The first [`Fault`] of the frame; fields are not looked at.
     pub fn parse(line: &'a [u8]) -> Result<Self, Fault> {
+        Frame::parse_with(line, ChecksumPolicy::Required)
+    }
+
+    /// As [`Frame::parse`], but the policy decides about a line without a checksum.
+    ///
+    /// # Errors
+    /// The first [`Fault`] of the frame; fields are not looked at.
+    pub fn parse_with(line: &'a [u8], policy: ChecksumPolicy) -> Result<Self, Fault> {
         let line = line.strip_suffix(b"\n").unwrap_or(line);
         let line = line.strip_suffix(b"\r").unwrap_or(line);
-        let content = line.strip_prefix(b"$").ok_or(Fault::NoStart)?;
+        let (tag, sentence) = split_tag(line)?;
+        let (encapsulated, content) = match sentence {
+            [b'$', content @ ..] => (false, content),
+            [b'!', content @ ..] => (true, content),
+            _ => return Err(Fault::NoStart),
+        };
         if let Some(at) = line.iter().position(|byte| !(b' '..=b'~').contains(byte)) {
             return Err(Fault::IllegalByte { at });
         }
-        let (text, stated) = split_checksum(content)?;
-        let computed = checksum(text);
-        if stated != computed {
-            return Err(Fault::WrongChecksum { stated, computed });
-        }
+        let text = checked(content, policy)?;
         let text = std::str::from_utf8(text).map_err(|_| Fault::Address)?;
         let (address, body) = match text.split_once(',') {
             Some((address, body)) => (address, Some(body)),
             None => (text, None),
         };
-        Ok(Frame { address, body })
+        Ok(Frame { tag, encapsulated, address, body })
+    }
+
+    /// The TAG block that stood before the sentence.
+    #[must_use]
+    pub fn tag(&self) -> Option<TagBlock<'a>> {
+        self.tag.map(TagBlock::read)
     }
 
     /// All before the first comma: `HETHS`, `PSXN`.
@@ -57,12 +86,19 @@ impl<'a> Frame<'a> {
     pub fn approved(&self) -> Result<(Talker, &'a str), Fault> {
         let form = self.address.len() == 5
             && self.address.bytes().all(|b| b.is_ascii_uppercase() || b.is_ascii_digit())
-            && !self.address.starts_with('P');
+            && !self.address.starts_with('P')
+            && !self.encapsulated;
         if !form {
             return Err(Fault::Address);
         }
         let (talker, formatter) = self.address.split_at(2);
         Talker::new(talker).map(|talker| (talker, formatter)).ok_or(Fault::Address)
+    }
+
+    /// Who sent an approved sentence; `None` for makers' own.
+    #[must_use]
+    pub fn talker(&self) -> Option<Talker> {
+        self.approved().ok().map(|(talker, _)| talker)
     }
 
     /// The fields, from the first after the address.
@@ -79,17 +115,48 @@ impl<'a> Frame<'a> {
         let (_, own) = self.approved()?;
         if own == formatter { Ok(self.fields()) } else { Err(Fault::OtherSentence) }
     }
+
+    /// The fields of a maker's own sentence of this address.
+    ///
+    /// # Errors
+    /// [`Fault::OtherSentence`].
+    pub fn fields_of_own(&self, address: &str) -> Result<Fields<'a>, Fault> {
+        if self.address == address && !self.encapsulated {
+            Ok(self.fields())
+        } else {
+            Err(Fault::OtherSentence)
+        }
+    }
 }
 
-fn split_checksum(content: &[u8]) -> Result<(&[u8], u8), Fault> {
-    let star = content.len().checked_sub(3).ok_or(Fault::NoChecksum)?;
-    let (text, tail) = content.split_at(star);
-    match tail {
-        [b'*', high, low] => match (hex(*high), hex(*low)) {
-            (Some(high), Some(low)) => Ok((text, high << 4 | low)),
-            _ => Err(Fault::NoChecksum),
-        },
-        _ => Err(Fault::NoChecksum),
+/// The inside of a TAG block whose checksum is good, and the sentence behind it.
+fn split_tag(line: &[u8]) -> Result<(Option<&str>, &[u8]), Fault> {
+    let Some(rest) = line.strip_prefix(b"\\") else {
+        return Ok((None, line));
+    };
+    let end = rest.iter().position(|byte| *byte == b'\\').ok_or(Fault::TagBlock)?;
+    let (inside, sentence) = rest.split_at(end);
+    let content = TagBlock::check(inside).ok_or(Fault::TagBlock)?;
+    Ok((Some(content), sentence.get(1..).unwrap_or_default()))
+}
+
+/// The text before the checksum, which is good or, if the policy allows it, missing.
+fn checked(content: &[u8], policy: ChecksumPolicy) -> Result<&[u8], Fault> {
+    let star = content.iter().rposition(|byte| *byte == b'*');
+    let (text, tail) = content.split_at(star.unwrap_or(content.len()));
+    if tail.is_empty() && policy == ChecksumPolicy::Optional {
+        return Ok(text);
+    }
+    let stated = tail.get(1..).and_then(stated_checksum).ok_or(Fault::NoChecksum)?;
+    let computed = checksum(text);
+    if stated == computed { Ok(text) } else { Err(Fault::WrongChecksum { stated, computed }) }
+}
+
+/// The checksum that two hexadecimal digits state.
+pub(crate) fn stated_checksum(digits: &[u8]) -> Option<u8> {
+    match digits {
+        [high, low] => Some(hex(*high)? << 4 | hex(*low)?),
+        _ => None,
     }
 }
 
@@ -123,6 +190,19 @@ mod tests {
             fault(b"$HETHS,316.71,E*1A"),
             Fault::WrongChecksum { stated: 0x1A, computed: 0x1B }
         );
+    }
+
+    #[test]
+    fn a_missing_checksum_is_for_the_port_to_judge_and_a_wrong_one_is_not() {
+        let optional = |line: &'static [u8]| Frame::parse_with(line, ChecksumPolicy::Optional);
+        assert_eq!(optional(b"$HETHS,316.70,E\r\n").map(|frame| frame.address()), Ok("HETHS"));
+        assert!(matches!(optional(b"$HETHS,316.70,E*1B"), Err(Fault::WrongChecksum { .. })));
+        assert_eq!(optional(b"$HETHS,316.70,E*1"), Err(Fault::NoChecksum));
+    }
+
+    #[test]
+    fn zero_is_a_checksum_like_any_other() {
+        assert_eq!(Frame::parse(b"$AA,,*00").map(|frame| frame.address()), Ok("AA"));
     }
 
     #[test]

@@ -13,11 +13,15 @@
 //! 9, 10 antenna height above mean sea level (the geoid), m
 //! 11,12 geoid separation: geoid above the WGS-84 ellipsoid, m
 //! 13    age of the differential correction, s
-//! 14    differential station, 0000 to 1023
+//! 14    differential station, 0000 to 1023 (RTCM 2) or 4095 (RTCM 3)
 //! ```
 //! The position is that of whoever talks: of the antenna for a receiver, of the IMU for us.
 //! Field 9 is not the ellipsoidal height: without a geoid model it stays empty. Fields 13 and 14
 //! are the first to go when the line would exceed 82 bytes.
+//!
+//! Where the quality is 0, what is no position is unknown (a receiver without a fix sends 8960.0000
+//! for a latitude); elsewhere it is a fault. A Saab R4 leaves field 14 out; that is read if field 13
+//! is empty, so that a line cut short inside field 13 is not taken for a shorter one.
 
 use insd_base::FixQuality;
 
@@ -28,10 +32,10 @@ use super::frame::Frame;
 use super::line::{Line, Talker};
 use super::position::Position;
 
-const HDOP: Form = Form { decimals: 1, width: 1, limit: 999.9 };
-const HEIGHT: Form = Form { decimals: 2, width: 1, limit: 99_999.9 };
-const AGE: Form = Form { decimals: 1, width: 1, limit: 9999.9 };
-const STATION_MAX: u32 = 1023;
+pub(crate) const HDOP: Form = Form { decimals: 1, width: 1, limit: 999.9 };
+pub(crate) const HEIGHT: Form = Form { decimals: 2, width: 1, limit: 99_999.9 };
+pub(crate) const AGE: Form = Form { decimals: 1, width: 1, limit: 9999.9 };
+pub(crate) const STATION_MAX: u32 = 4095;
 
 /// A position fix.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -52,7 +56,7 @@ pub struct Gga {
     pub geoid_separation: Option<f64>,
     /// Age of the differential correction, s.
     pub age: Option<f64>,
-    /// Differential station, at most 1023.
+    /// Differential station, at most 4095.
     pub station: Option<u16>,
 }
 
@@ -68,11 +72,11 @@ impl Gga {
             line.position(self.position, 5);
             line.letter(b'0' + self.quality.as_gga());
             line.whole(self.satellites.map(u32::from), 2, 99);
-            line.number(self.hdop, HDOP);
+            line.magnitude(self.hdop, HDOP);
             line.measured(self.altitude, HEIGHT, b'M');
             line.measured(self.geoid_separation, HEIGHT, b'M');
             line.optional(2, |line| {
-                line.number(self.age, AGE);
+                line.magnitude(self.age, AGE);
                 line.whole(self.station.map(u32::from), 4, STATION_MAX);
             });
         })
@@ -85,17 +89,25 @@ impl Gga {
     pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let time = fields.time_of_day()?;
-        let position = fields.position()?;
+        let position = fields.position();
         let digit = fields.letter()?.and_then(|letter| letter.checked_sub(b'0'));
         let quality = digit.and_then(FixQuality::from_gga).ok_or_else(|| fields.malformed())?;
         let satellites = fields.whole(99)?.and_then(|count| u8::try_from(count).ok());
-        let hdop = fields.number()?;
-        let altitude = fields.number()?;
+        let hdop = fields.number_in(0.0..=HDOP.limit)?;
+        let altitude = fields.number_in(-HEIGHT.limit..=HEIGHT.limit)?;
         fields.fixed("M")?;
-        let geoid_separation = fields.number()?;
+        let geoid_separation = fields.number_in(-HEIGHT.limit..=HEIGHT.limit)?;
         fields.fixed("M")?;
-        let age = fields.number()?;
-        let station = fields.whole(STATION_MAX)?.and_then(|id| u16::try_from(id).ok());
+        let age = fields.number_in(0.0..=AGE.limit)?;
+        let station = if fields.has_more() || age.is_some() {
+            fields.whole(STATION_MAX)?.and_then(|id| u16::try_from(id).ok())
+        } else {
+            None
+        };
+        let position = match quality {
+            FixQuality::Invalid => position.ok().flatten(),
+            _ => position?,
+        };
         Ok(Gga {
             time,
             position,

@@ -1,4 +1,4 @@
-//! The writer: fields into a line of at most 82 bytes.
+//! The writer: fields into a line, of at most 82 bytes if the sentence is approved.
 
 use std::fmt;
 
@@ -9,6 +9,12 @@ use super::position::Position;
 
 /// Longest sentence of the standard, bytes from `$` to line feed (IEC 61162-1).
 pub const MAX_LEN: usize = 82;
+
+/// Longest sentence that is written under a maker's own address, bytes from `$` to line feed. The
+/// makers set no limit; the tagged sentence of a Nortek log has some 230.
+pub const MAX_LEN_OWN: usize = 256;
+
+const HEX: &[u8; 16] = b"0123456789ABCDEF";
 
 /// Bytes of `*hh` CR LF.
 const TAIL: usize = 5;
@@ -26,6 +32,10 @@ impl Talker {
     pub const TI: Talker = Talker(*b"TI");
     /// GPS receiver.
     pub const GP: Talker = Talker(*b"GP");
+    /// Receiver of several satellite systems.
+    pub const GN: Talker = Talker(*b"GN");
+    /// Doppler log.
+    pub const VD: Talker = Talker(*b"VD");
 
     /// A talker of two upper-case letters or digits that is not the `P` of makers.
     #[must_use]
@@ -56,7 +66,7 @@ impl fmt::Debug for Talker {
 /// A finished sentence, `$` to line feed.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Line {
-    bytes: [u8; MAX_LEN],
+    bytes: [u8; MAX_LEN_OWN],
     len: usize,
 }
 
@@ -77,17 +87,26 @@ impl Line {
     /// as they do not fit: first without the optional fields, then with fewer and fewer decimals.
     /// If nothing fits, which no writer of this crate can bring about, the bare address remains.
     pub(crate) fn compose(talker: Talker, formatter: &str, fill: impl Fn(&mut Composer)) -> Line {
+        Line::shortened([talker.as_str(), formatter], MAX_LEN, fill)
+    }
+
+    /// As [`Line::compose`], for a sentence under a maker's own address (`PSXN`).
+    pub(crate) fn compose_own(address: &str, fill: impl Fn(&mut Composer)) -> Line {
+        Line::shortened([address, ""], MAX_LEN_OWN, fill)
+    }
+
+    fn shortened(address: [&str; 2], limit: usize, fill: impl Fn(&mut Composer)) -> Line {
         let shortenings = std::iter::once((true, u8::MAX))
             .chain(std::iter::once((false, u8::MAX)))
             .chain((0..=8).rev().map(|decimals| (false, decimals)));
         for (optional, max_decimals) in shortenings {
-            let mut composer = Composer::new(talker, formatter, optional, max_decimals);
+            let mut composer = Composer::new(address, limit, optional, max_decimals);
             fill(&mut composer);
             if !composer.overflow {
                 return composer.finish();
             }
         }
-        Composer::new(talker, formatter, false, 0).finish()
+        Composer::new(address, limit, false, 0).finish()
     }
 }
 
@@ -100,20 +119,27 @@ impl fmt::Debug for Line {
 /// A sentence in the making.
 #[derive(Debug)]
 pub(crate) struct Composer {
-    bytes: [u8; MAX_LEN],
+    bytes: [u8; MAX_LEN_OWN],
     len: usize,
+    /// Bytes that the line may have before its tail.
+    room: usize,
     overflow: bool,
     optional: bool,
     max_decimals: u8,
 }
 
 impl Composer {
-    fn new(talker: Talker, formatter: &str, optional: bool, max_decimals: u8) -> Self {
-        let mut composer =
-            Composer { bytes: [0; MAX_LEN], len: 0, overflow: false, optional, max_decimals };
+    fn new(address: [&str; 2], limit: usize, optional: bool, max_decimals: u8) -> Self {
+        let mut composer = Composer {
+            bytes: [0; MAX_LEN_OWN],
+            len: 0,
+            room: limit.min(MAX_LEN_OWN) - TAIL,
+            overflow: false,
+            optional,
+            max_decimals,
+        };
         composer.push(b'$');
-        composer.push_all(&talker.0);
-        composer.push_all(formatter.as_bytes());
+        address.iter().for_each(|part| composer.push_all(part.as_bytes()));
         composer
     }
 
@@ -131,9 +157,42 @@ impl Composer {
     /// A number, empty if unknown or outside its form's limit.
     pub(crate) fn number(&mut self, value: Option<f64>, form: Form) {
         self.push(b',');
+        self.number_here(value, form);
+    }
+
+    /// A number with a key before it if it has one: `VX=1.234`.
+    pub(crate) fn tagged(&mut self, key: Option<&str>, value: Option<f64>, form: Form) {
+        self.key(key);
+        self.number_here(value, form);
+    }
+
+    /// A comma and a key if there is one; the value follows.
+    pub(crate) fn key(&mut self, key: Option<&str>) {
+        self.push(b',');
+        if let Some(key) = key {
+            self.push_all(key.as_bytes());
+            self.push(b'=');
+        }
+    }
+
+    fn number_here(&mut self, value: Option<f64>, form: Form) {
         let decimals = form.decimals.min(self.max_decimals);
         if let Some(scaled) = value.and_then(|value| scaled(value, decimals, form.limit)) {
             self.push_scaled(scaled, decimals, form.width);
+        }
+    }
+
+    /// A magnitude and the letter of its sign, both empty if unknown: `1.3,W` is -1.3.
+    pub(crate) fn signed(&mut self, value: Option<f64>, form: Form, letters: [u8; 2]) {
+        let letter = letters[usize::from(value.is_some_and(|value| value < 0.0))];
+        self.measured(value.map(f64::abs), form, letter);
+    }
+
+    /// A known text as one field; empty if a byte of it would break the line.
+    pub(crate) fn text(&mut self, text: &str) {
+        self.push(b',');
+        if text.bytes().all(|byte| byte.is_ascii_graphic() && !b",*$!\\^~".contains(&byte)) {
+            self.push_all(text.as_bytes());
         }
     }
 
@@ -161,6 +220,13 @@ impl Composer {
         self.number(value.map(f64::from), form);
     }
 
+    /// One hexadecimal digit; no field at all if unknown, as older editions end before it.
+    pub(crate) fn hexadecimal(&mut self, value: Option<u8>) {
+        if let Some(digit) = value.filter(|value| *value < 16) {
+            self.letter(HEX[usize::from(digit)]);
+        }
+    }
+
     /// Latitude, hemisphere, longitude, hemisphere: four fields, all empty if unknown.
     pub(crate) fn position(&mut self, position: Option<Position>, decimals: u8) {
         let decimals = decimals.min(self.max_decimals);
@@ -182,12 +248,34 @@ impl Composer {
         }
     }
 
+    /// A number that cannot be negative; one that is, is unknown.
+    pub(crate) fn magnitude(&mut self, value: Option<f64>, form: Form) {
+        self.number(value.filter(|value| *value >= 0.0), form);
+    }
+
+    /// A number with its sign always shown.
+    pub(crate) fn with_sign(&mut self, value: Option<f64>, form: Form) {
+        self.push(b',');
+        let decimals = form.decimals.min(self.max_decimals);
+        if let Some(scaled) = value.and_then(|value| scaled(value, decimals, form.limit)) {
+            if scaled >= 0 {
+                self.push(b'+');
+            }
+            self.push_scaled(scaled, decimals, form.width);
+        }
+    }
+
     /// A time of day `hhmmss.ss`, truncated, so that it never runs into the next day.
     pub(crate) fn time_of_day(&mut self, time: Option<TimeOfDay>) {
+        self.time_of_day_to(time, 2);
+    }
+
+    /// A time of day with so many decimals, truncated.
+    pub(crate) fn time_of_day_to(&mut self, time: Option<TimeOfDay>, decimals: u8) {
         match time.filter(|time| time.is_valid()) {
             Some(time) => {
                 self.digits(&time.groups());
-                self.fraction(time.nanosecond, 2);
+                self.fraction(time.nanosecond, decimals);
             }
             None => self.empty(),
         }
@@ -244,12 +332,12 @@ impl Composer {
         self.push_all(&digits[20 - used..]);
     }
 
-    fn push_all(&mut self, bytes: &[u8]) {
+    pub(crate) fn push_all(&mut self, bytes: &[u8]) {
         bytes.iter().for_each(|byte| self.push(*byte));
     }
 
     fn push(&mut self, byte: u8) {
-        if self.len < MAX_LEN - TAIL {
+        if self.len < self.room {
             self.bytes[self.len] = byte;
             self.len += 1;
         } else {
@@ -258,7 +346,6 @@ impl Composer {
     }
 
     fn finish(mut self) -> Line {
-        const HEX: &[u8; 16] = b"0123456789ABCDEF";
         let sum = checksum(&self.bytes[1..self.len]);
         let tail = [b'*', HEX[usize::from(sum >> 4)], HEX[usize::from(sum & 15)], b'\r', b'\n'];
         self.bytes[self.len..self.len + TAIL].copy_from_slice(&tail);

@@ -1,5 +1,7 @@
 //! The letters by which a sentence says how far it may be trusted.
 
+use insd_base::FixQuality;
+
 /// Mode of THS. Consumers take A fully, E and M with a warning, S and V not at all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum HeadingMode {
@@ -15,7 +17,7 @@ pub enum HeadingMode {
     NotValid,
 }
 
-/// Positioning-system mode of VTG.
+/// Positioning-system mode of GLL, GNS, RMC and VTG.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PositionMode {
     /// A.
@@ -38,58 +40,67 @@ pub enum PositionMode {
     Simulator,
 }
 
-impl HeadingMode {
-    const LETTERS: [(HeadingMode, u8); 5] = [
-        (HeadingMode::Autonomous, b'A'),
-        (HeadingMode::Estimated, b'E'),
-        (HeadingMode::Manual, b'M'),
-        (HeadingMode::Simulator, b'S'),
-        (HeadingMode::NotValid, b'V'),
-    ];
+/// What a talker says of the safety of its position for navigation (GNS, RMC since NMEA 4.1).
+///
+/// Nearly all receivers send V without a word on safety meant, so it says little of the fix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum NavStatus {
+    /// S: within the selected accuracy, integrity checked.
+    Safe,
+    /// C: integrity not available.
+    Caution,
+    /// U: beyond the selected accuracy.
+    Unsafe,
+    /// V: no such status is provided.
+    NotProvided,
+}
 
-    /// Its letter.
-    #[must_use]
-    pub fn letter(self) -> u8 {
-        letter_of(&Self::LETTERS, self, b'V')
+/// Letters both ways.
+macro_rules! letters {
+    ($($mode:ident { $($variant:ident $letter:literal),* })*) => {$(
+        impl $mode {
+            /// Its letter.
+            #[must_use]
+            pub fn letter(self) -> u8 {
+                match self { $($mode::$variant => $letter),* }
+            }
+
+            /// What a letter stands for.
+            #[must_use]
+            pub fn from_letter(letter: u8) -> Option<Self> {
+                match letter { $($letter => Some($mode::$variant),)* _ => None }
+            }
+        }
+    )*};
+}
+
+letters! {
+    HeadingMode {
+        Autonomous b'A', Estimated b'E', Manual b'M', Simulator b'S', NotValid b'V'
     }
-
-    /// The mode of a letter.
-    #[must_use]
-    pub fn from_letter(letter: u8) -> Option<Self> {
-        of_letter(&Self::LETTERS, letter)
+    PositionMode {
+        Autonomous b'A', Differential b'D', Estimated b'E', RtkFloat b'F', Manual b'M',
+        NotValid b'N', Precise b'P', RtkFixed b'R', Simulator b'S'
+    }
+    NavStatus {
+        Safe b'S', Caution b'C', Unsafe b'U', NotProvided b'V'
     }
 }
 
 impl PositionMode {
-    const LETTERS: [(PositionMode, u8); 9] = [
-        (PositionMode::Autonomous, b'A'),
-        (PositionMode::Differential, b'D'),
-        (PositionMode::Estimated, b'E'),
-        (PositionMode::RtkFloat, b'F'),
-        (PositionMode::Manual, b'M'),
-        (PositionMode::NotValid, b'N'),
-        (PositionMode::Precise, b'P'),
-        (PositionMode::RtkFixed, b'R'),
-        (PositionMode::Simulator, b'S'),
-    ];
-
-    /// Its letter.
+    /// The quality of fix that the mode stands for.
     #[must_use]
-    pub fn letter(self) -> u8 {
-        letter_of(&Self::LETTERS, self, b'N')
+    pub fn quality(self) -> FixQuality {
+        match self {
+            PositionMode::Autonomous => FixQuality::Autonomous,
+            PositionMode::Differential => FixQuality::Differential,
+            PositionMode::Estimated => FixQuality::Estimated,
+            PositionMode::RtkFloat => FixQuality::RtkFloat,
+            PositionMode::Manual => FixQuality::Manual,
+            PositionMode::NotValid => FixQuality::Invalid,
+            PositionMode::Precise => FixQuality::Precise,
+            PositionMode::RtkFixed => FixQuality::RtkFixed,
+            PositionMode::Simulator => FixQuality::Simulated,
+        }
     }
-
-    /// The mode of a letter.
-    #[must_use]
-    pub fn from_letter(letter: u8) -> Option<Self> {
-        of_letter(&Self::LETTERS, letter)
-    }
-}
-
-fn letter_of<M: Copy + PartialEq>(letters: &[(M, u8)], mode: M, otherwise: u8) -> u8 {
-    letters.iter().find(|(own, _)| *own == mode).map_or(otherwise, |(_, letter)| *letter)
-}
-
-fn of_letter<M: Copy>(letters: &[(M, u8)], letter: u8) -> Option<M> {
-    letters.iter().find(|(_, own)| *own == letter).map(|(mode, _)| *mode)
 }

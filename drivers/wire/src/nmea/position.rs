@@ -22,6 +22,11 @@ impl Position {
         Some((latitude, scaled(longitude, decimals, 180.0 * 60.0 + 1e-9)?))
     }
 
+    /// Whether a writer can write it.
+    pub(crate) fn is_writable(self) -> bool {
+        self.to_minutes(5).is_some()
+    }
+
     /// Degrees of `dd..mm.mm` with `width` digits of degrees.
     pub(crate) fn parse_angle(text: &str, width: usize) -> Option<f64> {
         let (degrees, minutes) = text.split_at_checked(width)?;

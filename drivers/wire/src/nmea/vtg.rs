@@ -21,7 +21,7 @@ use super::line::{Line, Talker};
 use super::mode::PositionMode;
 
 /// Metres per second in one kilometre per hour.
-const KMH: f64 = 1.0 / 3.6;
+pub(crate) const KMH: f64 = 1.0 / 3.6;
 
 const SPEED: Form = Form { decimals: 2, width: 1, limit: 9999.9 };
 
@@ -51,9 +51,9 @@ impl Vtg {
             line.letter(b'T');
             line.degrees(self.course_magnetic, 2);
             line.letter(b'M');
-            line.number(self.speed.map(|speed| speed / KNOT), SPEED);
+            line.magnitude(self.speed.map(|speed| speed / KNOT), SPEED);
             line.letter(b'N');
-            line.number(self.speed.map(|speed| speed / KMH), SPEED);
+            line.magnitude(self.speed.map(|speed| speed / KMH), SPEED);
             line.letter(b'K');
             line.letter(mode.letter());
         })
@@ -69,9 +69,9 @@ impl Vtg {
         fields.fixed("T")?;
         let course_magnetic = fields.degrees()?;
         fields.fixed("M")?;
-        let knots = fields.number()?;
+        let knots = fields.number_in(0.0..=SPEED.limit)?;
         fields.fixed("N")?;
-        let kmh = fields.number()?;
+        let kmh = fields.number_in(0.0..=2.0 * SPEED.limit)?;
         fields.fixed("K")?;
         let mode = if fields.has_more() {
             let mode = fields.letter()?.and_then(PositionMode::from_letter);

@@ -97,6 +97,12 @@ impl Cutter {
         self.waiting() > 0
     }
 
+    /// Bytes of the stream that are dealt with: in a frame that was handed over, or skipped.
+    #[must_use]
+    pub fn position(&self) -> u64 {
+        self.position
+    }
+
     /// Bytes that belonged to no frame.
     #[must_use]
     pub fn skipped(&self) -> u64 {
@@ -181,8 +187,8 @@ mod tests {
 
     #[test]
     fn frames_are_found_between_rubbish_and_the_rubbish_is_counted() {
-        let (found, skipped) = frames(&[b"\xFF\x00x\r\n$A*00\r\n\r\n$B,cut$C*00\r\n"]);
-        assert_eq!(found, [(b"$A*00".to_vec(), 10), (b"$C*00".to_vec(), 25)]);
+        let (found, skipped) = frames(&[b"\xFF\x00x\r\n$A*41\r\n\r\n$B,cut$C*43\r\n"]);
+        assert_eq!(found, [(b"$A*41".to_vec(), 10), (b"$C*43".to_vec(), 25)]);
         assert_eq!(skipped, 3 + 6);
     }
 

@@ -1,6 +1,9 @@
 //! The protocols that a port can speak.
 
 use super::Look;
+use crate::gnss::{rtcm, sbf, ubx};
+use crate::imu::{kvh, mip, sbg, stdbin, stim, xbus};
+use crate::log::{pd0, pd6};
 use crate::nmea;
 
 /// A way of framing bytes.
@@ -8,17 +11,63 @@ use crate::nmea;
 pub enum Protocol {
     /// NMEA 0183 lines, bare or in IEC 61162-450 datagrams.
     Nmea,
+    /// sbgECom frames of SBG Systems.
+    Sbg,
+    /// MIP packets of MicroStrain.
+    Mip,
+    /// Xbus messages of Xsens.
+    Xbus,
+    /// UBX of u-blox receivers.
+    Ubx,
+    /// SBF of Septentrio receivers.
+    Sbf,
+    /// RTCM 10403 corrections.
+    Rtcm,
+    /// Telegrams of Exail (iXblue) inertial systems.
+    StdBin,
+    /// Messages of KVH 1725, 1750 and 1775.
+    Kvh,
+    /// Datagrams of Sensonor STIM300 and STIM318.
+    Stim,
+    /// Binary ensembles of Teledyne RDI.
+    Pd0,
+    /// Text lines of Teledyne RDI.
+    Pd6,
 }
 
 impl Protocol {
     /// All of them, in the order in which they are asked.
-    pub const ALL: [Protocol; 1] = [Protocol::Nmea];
+    pub const ALL: [Protocol; 12] = [
+        Protocol::Nmea,
+        Protocol::Ubx,
+        Protocol::Sbf,
+        Protocol::Rtcm,
+        Protocol::Sbg,
+        Protocol::StdBin,
+        Protocol::Mip,
+        Protocol::Xbus,
+        Protocol::Kvh,
+        Protocol::Stim,
+        Protocol::Pd0,
+        Protocol::Pd6,
+    ];
 
     /// Its short name, as in configurations and tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Protocol::Nmea => "nmea",
+            Protocol::Sbg => "sbg",
+            Protocol::Mip => "mip",
+            Protocol::Xbus => "xbus",
+            Protocol::Ubx => "ubx",
+            Protocol::Sbf => "sbf",
+            Protocol::Rtcm => "rtcm",
+            Protocol::StdBin => "stdbin",
+            Protocol::Kvh => "kvh",
+            Protocol::Stim => "stim",
+            Protocol::Pd0 => "pd0",
+            Protocol::Pd6 => "pd6",
         }
     }
 
@@ -27,6 +76,17 @@ impl Protocol {
     pub fn look(self, bytes: &[u8]) -> Look {
         match self {
             Protocol::Nmea => nmea::look(bytes),
+            Protocol::Sbg => sbg::look(bytes),
+            Protocol::Mip => mip::look(bytes),
+            Protocol::Xbus => xbus::look(bytes),
+            Protocol::Ubx => ubx::look(bytes),
+            Protocol::Sbf => sbf::look(bytes),
+            Protocol::Rtcm => rtcm::look(bytes),
+            Protocol::StdBin => stdbin::look(bytes),
+            Protocol::Kvh => kvh::look(bytes),
+            Protocol::Stim => stim::look(bytes),
+            Protocol::Pd0 => pd0::look(bytes),
+            Protocol::Pd6 => pd6::look(bytes),
         }
     }
 

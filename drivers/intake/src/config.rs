@@ -1,0 +1,360 @@
+//! What is plugged in: ports by their link, sensors by their format and place.
+
+use insd_wire::imu::kvh::{KvhFormat, KvhLinear, KvhRotation, KvhTemperature};
+use insd_wire::imu::stim::{StimFormat, StimKind, StimRange};
+pub use insd_wire::nmea::PashrDialect as Dialect;
+use insd_wire::stream::Protocol;
+use serde::{Deserialize, Serialize};
+
+use crate::mounting::Mounting;
+use crate::port::Link;
+use crate::sensor::TimeBase;
+
+/// The format of a sensor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// SBG sbgECom: IMU.
+    Sbg,
+    /// iXblue StdBin: raw rotation and acceleration.
+    Stdbin,
+    /// MicroStrain MIP: IMU.
+    Mip,
+    /// Xsens Xbus MTData2: IMU.
+    Xbus,
+    /// KVH 1750 and 1775: IMU.
+    Kvh,
+    /// Sensonor STIM300 and 318: IMU.
+    Stim,
+    /// A GNSS receiver that speaks NMEA 0183.
+    NmeaGnss,
+    /// A u-blox receiver.
+    Ubx,
+    /// A Septentrio receiver.
+    Sbf,
+    /// A log that speaks NMEA 0183: VBW, VHW.
+    NmeaLog,
+    /// A log that speaks RDI PD0.
+    Pd0,
+    /// A log that speaks RDI PD6.
+    Pd6,
+    /// A Nortek log: PNORBT6 to 9.
+    Nortek,
+    /// A compass: HDT, THS; HDG and HDM if `magnetic` is set.
+    Compass,
+    /// Heading from PSXN,23 with its quality from PSXN,20.
+    Psxn,
+    /// Heading from PASHR in a stated dialect.
+    Pashr,
+    /// A position from elsewhere than the ship's receivers, in NMEA 0183.
+    NmeaPosition,
+    /// Positions and headings typed in by an operator (PINSD).
+    Manual,
+}
+
+/// What a sensor measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Rotation and specific force.
+    Imu,
+    /// Position and velocity by satellites.
+    Gnss,
+    /// Velocity over ground or through the water.
+    Log,
+    /// Heading.
+    Heading,
+    /// Position.
+    Position,
+}
+
+/// What a KVH unit was told to send.
+#[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct KvhSettings {
+    /// Rates (`true`) or differences (`false`) of rotation.
+    pub rates: bool,
+    /// Rotation in degrees, else radians.
+    pub degrees: bool,
+    /// Velocity differences in m/s instead of accelerations in g.
+    pub delta_velocity: bool,
+    /// Temperature in hundredths of a degree.
+    pub centidegrees: bool,
+}
+
+/// What a STIM unit was told to send; it need not be said if the unit sends its configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct StimSettings {
+    /// Gyros send increments instead of rates.
+    pub gyro_increments: bool,
+    /// Accelerometers send increments instead of accelerations.
+    pub accel_increments: bool,
+    /// Range of the accelerometers, g: 2, 5, 10, 30 or 80.
+    pub range_g: u8,
+}
+
+/// One sensor as the installer describes it.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct SensorConfig {
+    /// Its name in tables and events.
+    pub name: String,
+    /// Name of its port.
+    pub port: String,
+    /// Its format.
+    pub kind: Kind,
+    /// Which of several is used: lower is better.
+    #[serde(default = "one")]
+    pub priority: u8,
+    /// Silence or invalidity after which another takes over, and which is told, s.
+    #[serde(default = "patience")]
+    pub patience_s: f64,
+    /// Time from the measurement to the first byte on the wire, beyond what the device tells, s.
+    #[serde(default)]
+    pub latency_s: f64,
+    /// Samples per second of an IMU.
+    #[serde(default = "hundred")]
+    pub rate_hz: f64,
+    /// Whose time of an IMU's samples is believed.
+    #[serde(default)]
+    pub time: TimeBase,
+    /// How an IMU or log sits.
+    #[serde(default)]
+    pub mounting: Mounting,
+    /// Talkers that are heard, on a port that carries several; all if none is named.
+    #[serde(default)]
+    pub talkers: Vec<String>,
+    /// 1-sigma of a heading that states none, deg.
+    #[serde(default = "one_degree")]
+    pub heading_std_deg: f64,
+    /// 1-sigma of a velocity that states none, m/s.
+    #[serde(default = "tenth")]
+    pub velocity_std_mps: f64,
+    /// 1-sigma of a position that states none, m.
+    #[serde(default = "ten")]
+    pub position_std_m: f64,
+    /// Offset that is added to a heading, deg: how the compass or the baseline of antennas sits.
+    #[serde(default)]
+    pub heading_offset_deg: f64,
+    /// Whether a receiver's own heading (two antennas) is used.
+    #[serde(default)]
+    pub heading: bool,
+    /// Whether magnetic headings are used, with the variation of the sentence or of the world magnetic
+    /// model.
+    #[serde(default)]
+    pub magnetic: bool,
+    /// Whether lines without a checksum are taken.
+    #[serde(default)]
+    pub no_checksum: bool,
+    /// Dialect of PASHR; it is never guessed.
+    #[serde(default)]
+    pub dialect: Option<Dialect>,
+    /// What a KVH unit was told to send.
+    #[serde(default)]
+    pub kvh: KvhSettings,
+    /// What a STIM unit was told to send.
+    #[serde(default)]
+    pub stim: StimSettings,
+}
+
+/// A port as far as its bytes are concerned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PortSpec {
+    /// Its name.
+    pub name: String,
+    /// What carries its bytes.
+    pub link: Link,
+}
+
+/// Everything that is plugged in.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct IntakeConfig {
+    /// Ports, in the order of their [`insd_base::PortId`].
+    pub ports: Vec<PortSpec>,
+    /// Sensors.
+    pub sensors: Vec<SensorConfig>,
+}
+
+/// A fault of a sensor's description.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ConfigFault {
+    /// Name of the sensor.
+    pub sensor: String,
+    /// Key.
+    pub key: &'static str,
+    /// What was expected.
+    pub expected: String,
+}
+
+fn one() -> u8 {
+    1
+}
+fn patience() -> f64 {
+    3.0
+}
+fn hundred() -> f64 {
+    100.0
+}
+fn one_degree() -> f64 {
+    1.0
+}
+fn tenth() -> f64 {
+    0.1
+}
+fn ten() -> f64 {
+    10.0
+}
+
+impl Default for StimSettings {
+    fn default() -> Self {
+        StimSettings { gyro_increments: false, accel_increments: false, range_g: 10 }
+    }
+}
+
+impl Kind {
+    /// What it measures.
+    #[must_use]
+    pub fn role(self) -> Role {
+        match self {
+            Kind::Sbg | Kind::Stdbin | Kind::Mip | Kind::Xbus | Kind::Kvh | Kind::Stim => Role::Imu,
+            Kind::NmeaGnss | Kind::Ubx | Kind::Sbf => Role::Gnss,
+            Kind::NmeaLog | Kind::Pd0 | Kind::Pd6 | Kind::Nortek => Role::Log,
+            Kind::Compass | Kind::Psxn | Kind::Pashr => Role::Heading,
+            Kind::NmeaPosition | Kind::Manual => Role::Position,
+        }
+    }
+
+    /// How it is framed.
+    #[must_use]
+    pub fn protocol(self) -> Protocol {
+        match self {
+            Kind::Sbg => Protocol::Sbg,
+            Kind::Stdbin => Protocol::StdBin,
+            Kind::Mip => Protocol::Mip,
+            Kind::Xbus => Protocol::Xbus,
+            Kind::Kvh => Protocol::Kvh,
+            Kind::Stim => Protocol::Stim,
+            Kind::Ubx => Protocol::Ubx,
+            Kind::Sbf => Protocol::Sbf,
+            Kind::Pd0 => Protocol::Pd0,
+            Kind::Pd6 => Protocol::Pd6,
+            Kind::NmeaGnss
+            | Kind::NmeaLog
+            | Kind::Nortek
+            | Kind::Compass
+            | Kind::Psxn
+            | Kind::Pashr
+            | Kind::NmeaPosition
+            | Kind::Manual => Protocol::Nmea,
+        }
+    }
+}
+
+impl KvhSettings {
+    /// The decoder's form, for messages at this interval, s.
+    #[must_use]
+    pub fn format(&self, interval: f64) -> KvhFormat {
+        KvhFormat {
+            rotation: if self.rates { KvhRotation::Rate } else { KvhRotation::Delta },
+            degrees: self.degrees,
+            linear: if self.delta_velocity {
+                KvhLinear::DeltaMetres
+            } else {
+                KvhLinear::Acceleration
+            },
+            temperature: if self.centidegrees {
+                KvhTemperature::CentiCelsius
+            } else {
+                KvhTemperature::Celsius
+            },
+            interval,
+        }
+    }
+}
+
+impl StimSettings {
+    /// The decoder's form, for datagrams at this interval, s; `None` for a range that no unit has.
+    #[must_use]
+    pub fn format(&self, interval: f64) -> Option<StimFormat> {
+        let kind = |increments| if increments { StimKind::Increment } else { StimKind::Rate };
+        let range = match self.range_g {
+            2 => StimRange::G2,
+            5 => StimRange::G5,
+            10 => StimRange::G10,
+            30 => StimRange::G30,
+            80 => StimRange::G80,
+            _ => return None,
+        };
+        Some(StimFormat {
+            gyro: kind(self.gyro_increments),
+            accel: kind(self.accel_increments),
+            range,
+            interval: Some(interval),
+        })
+    }
+}
+
+impl IntakeConfig {
+    /// All faults of the description, each with its sensor and key.
+    #[must_use]
+    pub fn faults(&self) -> Vec<ConfigFault> {
+        let mut faults = Vec::new();
+        for sensor in &self.sensors {
+            sensor.look(self, &mut faults);
+        }
+        if !self.sensors.iter().any(|sensor| sensor.kind.role() == Role::Imu) {
+            faults.push(ConfigFault {
+                sensor: String::new(),
+                key: "kind",
+                expected: "at least one sensor that is an IMU".to_owned(),
+            });
+        }
+        faults
+    }
+
+    /// The protocols that are spoken on a port.
+    #[must_use]
+    pub fn protocols(&self, port: &str) -> Vec<Protocol> {
+        let mut protocols = Vec::new();
+        for sensor in self.sensors.iter().filter(|sensor| sensor.port == port) {
+            let own = sensor.kind.protocol();
+            if !protocols.contains(&own) {
+                protocols.push(own);
+            }
+        }
+        protocols
+    }
+}
+
+impl SensorConfig {
+    fn look(&self, config: &IntakeConfig, faults: &mut Vec<ConfigFault>) {
+        let mut expect = |good: bool, key, expected: &str| {
+            if !good {
+                let (sensor, expected) = (self.name.clone(), expected.to_owned());
+                faults.push(ConfigFault { sensor, key, expected });
+            }
+        };
+        let namesakes = config.sensors.iter().filter(|other| other.name == self.name);
+        expect(namesakes.count() == 1, "name", "a name that no other sensor has");
+        let known = config.ports.iter().any(|port| port.name == self.port);
+        expect(known, "port", "the name of a port");
+        expect((0.1..=600.0).contains(&self.patience_s), "patience_s", "0.1 to 600 s");
+        expect((0.0..=2.0).contains(&self.latency_s), "latency_s", "0 to 2 s");
+        expect((1.0..=10_000.0).contains(&self.rate_hz), "rate_hz", "1 to 10000");
+        let mounted = self.mounting.c_bd().is_some();
+        expect(mounted, "mounting", "three directions that make a right-handed set, finite angles");
+        let positive = |sigma: f64| sigma.is_finite() && sigma > 0.0;
+        expect(positive(self.heading_std_deg), "heading_std_deg", "a number above 0");
+        expect(positive(self.velocity_std_mps), "velocity_std_mps", "a number above 0");
+        expect(positive(self.position_std_m), "position_std_m", "a number above 0");
+        let offset = self.heading_offset_deg.abs() <= 360.0;
+        expect(offset, "heading_offset_deg", "-360 to 360");
+        let stated = self.kind != Kind::Pashr || self.dialect.is_some();
+        expect(
+            stated,
+            "dialect",
+            "the dialect of PASHR: sbg, sbg_wassp, ixblue, novatel, trimble, applanix",
+        );
+        expect(self.stim.format(1.0).is_some(), "stim.range_g", "2, 5, 10, 30 or 80");
+    }
+}

@@ -1,0 +1,103 @@
+//! Headings from compasses and other attitude sensors.
+
+use insd_base::units::wrap_two_pi;
+use insd_wire::nmea::{HeadingMode, Pashr, PashrStatus, Psxn, PsxnQuality, Sentence};
+
+use super::Reading;
+use crate::config::SensorConfig;
+use crate::event::Refusal;
+
+/// A heading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeadingReading {
+    /// Clockwise from north, rad.
+    pub heading: f64,
+    /// 1-sigma as the sensor claims, rad.
+    pub std: Option<f64>,
+    /// Which north.
+    pub north: North,
+    /// Whether the sensor stands behind it.
+    pub valid: bool,
+}
+
+/// Which north a heading counts from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum North {
+    /// Geographic north.
+    True,
+    /// Geographic north, by a magnetic compass and a stated variation.
+    Corrected,
+    /// Magnetic north; the variation must come from elsewhere.
+    Magnetic,
+}
+
+/// What a sensor said before that bears on what it says now.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct HeadingState {
+    /// Quality of the heading by the last PSXN,20.
+    psxn: Option<PsxnQuality>,
+}
+
+impl HeadingState {
+    pub(super) fn sentence(
+        &mut self,
+        sentence: &Sentence,
+        config: &SensorConfig,
+    ) -> Result<Vec<Reading>, Refusal> {
+        let reading = match sentence {
+            Sentence::Hdt(hdt) => told(hdt.heading, North::True, true),
+            Sentence::Ths(ths) => told(ths.heading, North::True, is_measured(ths.mode)),
+            Sentence::Hdg(hdg) => match hdg.true_heading() {
+                Some(heading) => told(Some(heading), North::Corrected, true),
+                None => {
+                    let reading = hdg.reading.map(|own| own + hdg.deviation.unwrap_or(0.0));
+                    told(reading, North::Magnetic, true)
+                }
+            },
+            Sentence::Hdm(hdm) => told(hdm.heading, North::Magnetic, true),
+            Sentence::Psxn(psxn) => self.psxn(psxn),
+            Sentence::Pashr(pashr) => of_pashr(pashr, config),
+            _ => None,
+        };
+        let Some(reading) = reading else { return Ok(vec![Reading::Idle]) };
+        if reading.north != North::True && !config.magnetic {
+            return Err(Refusal::Magnetic);
+        }
+        let heading = wrap_two_pi(reading.heading + config.heading_offset_deg.to_radians());
+        Ok(vec![Reading::Heading(HeadingReading { heading, ..reading })])
+    }
+
+    fn psxn(&mut self, psxn: &Psxn) -> Option<HeadingReading> {
+        match psxn {
+            Psxn::Quality { heading, .. } => {
+                self.psxn = *heading;
+                None
+            }
+            Psxn::Motion { heading, .. } => {
+                told(*heading, North::True, self.psxn != Some(PsxnQuality::Invalid))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// A sensor that says nothing of a heading says that it has none.
+fn told(heading: Option<f64>, north: North, valid: bool) -> Option<HeadingReading> {
+    let valid = valid && heading.is_some();
+    Some(HeadingReading { heading: heading.unwrap_or(0.0), std: None, north, valid })
+}
+
+/// Autonomous and estimated headings are measured ones; typed-in, simulated and invalid ones are not.
+fn is_measured(mode: HeadingMode) -> bool {
+    matches!(mode, HeadingMode::Autonomous | HeadingMode::Estimated | HeadingMode::Simulator)
+}
+
+fn of_pashr(pashr: &Pashr, config: &SensorConfig) -> Option<HeadingReading> {
+    let status = config.dialect.and_then(|dialect| pashr.status(dialect));
+    let good = !matches!(
+        status,
+        Some(PashrStatus::Error | PashrStatus::GnssOnly | PashrStatus::Levelling)
+    );
+    let reading = told(pashr.heading, North::True, good)?;
+    Some(HeadingReading { std: pashr.heading_std.filter(|std| *std > 0.0), ..reading })
+}

@@ -1,0 +1,134 @@
+//! Frames into readings: one decoder for each sensor.
+
+mod gnss;
+mod heading;
+mod imu;
+mod log;
+
+use insd_wire::gnss::{GnssPart, PulseTime};
+use insd_wire::imu::ImuReading;
+use insd_wire::nmea::{ChecksumPolicy, Frame as NmeaFrame, Pinsd, Position, Sentence};
+
+use crate::config::{Kind, SensorConfig};
+use crate::event::Refusal;
+
+pub use heading::{HeadingReading, North};
+pub use log::ShipVelocity;
+
+/// What a frame says.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reading {
+    /// A sample of an IMU.
+    Imu(ImuReading),
+    /// A part of a receiver's epoch.
+    Gnss(GnssPart),
+    /// The time of a pulse.
+    Pulse(PulseTime),
+    /// A velocity in the ship's axes.
+    Velocity(ShipVelocity),
+    /// A heading.
+    Heading(HeadingReading),
+    /// A position that holds at its receipt, and its 1-sigma if one was given, m.
+    Fix(Position, Option<f64>),
+    /// A good frame that says nothing which is used.
+    Idle,
+}
+
+/// Reads the frames of one sensor.
+#[derive(Clone, Debug)]
+pub struct Decoder {
+    config: SensorConfig,
+    imu: imu::ImuState,
+    log: log::LogState,
+    heading: heading::HeadingState,
+}
+
+impl Decoder {
+    /// A decoder for a sensor as described.
+    #[must_use]
+    pub fn new(config: &SensorConfig) -> Self {
+        Decoder {
+            config: config.clone(),
+            imu: imu::ImuState::new(config),
+            log: log::LogState::new(&config.mounting, config.velocity_std_mps),
+            heading: heading::HeadingState::default(),
+        }
+    }
+
+    /// The readings of a frame of the sensor's own protocol; none if it is not from this sensor.
+    ///
+    /// # Errors
+    /// Why the frame is refused.
+    pub fn read(&mut self, bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {
+        match self.config.kind {
+            Kind::Sbg | Kind::Stdbin | Kind::Mip | Kind::Xbus | Kind::Kvh | Kind::Stim => {
+                self.imu.read(self.config.kind, bytes).map(|reading| vec![reading])
+            }
+            Kind::Ubx => gnss::ubx(bytes),
+            Kind::Sbf => gnss::sbf(bytes),
+            Kind::Pd0 => self.log.pd0(bytes),
+            Kind::Pd6 => self.log.pd6(bytes),
+            _ => self.read_sentence(bytes),
+        }
+    }
+
+    fn read_sentence(&mut self, bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {
+        let policy = if self.config.no_checksum {
+            ChecksumPolicy::Optional
+        } else {
+            ChecksumPolicy::Required
+        };
+        let frame = NmeaFrame::parse_with(bytes, policy).map_err(|_| Refusal::Malformed)?;
+        if !self.hears(&frame) || !self.wants(&frame) {
+            return Ok(Vec::new());
+        }
+        let sentence = Sentence::read_frame(&frame).map_err(|_| Refusal::Malformed)?;
+        match self.config.kind {
+            Kind::NmeaGnss | Kind::NmeaPosition => Ok(gnss::nmea(&sentence)),
+            Kind::NmeaLog | Kind::Nortek => self.log.sentence(&sentence),
+            Kind::Manual => Ok(vec![manual(&sentence)]),
+            _ => self.heading.sentence(&sentence, &self.config),
+        }
+    }
+
+    /// Whether the sentence's talker is one of the sensor's; makers' own sentences have none.
+    fn hears(&self, frame: &NmeaFrame<'_>) -> bool {
+        let talkers = &self.config.talkers;
+        talkers.is_empty()
+            || frame.talker().is_none_or(|talker| talkers.iter().any(|own| own == talker.as_str()))
+    }
+
+    /// Whether the sentence is of those that the sensor's kind consists of.
+    fn wants(&self, frame: &NmeaFrame<'_>) -> bool {
+        let address = frame.address();
+        let name = if frame.talker().is_some() { address.get(2..).unwrap_or("") } else { address };
+        let own: &[&str] = match self.config.kind {
+            Kind::NmeaGnss => {
+                &["GGA", "GNS", "GLL", "RMC", "VTG", "ZDA", "GST", "GSA", "HDT", "THS"]
+            }
+            Kind::NmeaPosition => &["GGA", "GNS", "GLL", "RMC"],
+            Kind::NmeaLog => &["VBW", "VHW"],
+            Kind::Nortek => &["PNORBT6", "PNORBT7", "PNORBT8", "PNORBT9"],
+            Kind::Compass => &["HDT", "THS", "HDG", "HDM"],
+            Kind::Psxn => &["PSXN"],
+            Kind::Pashr => &["PASHR"],
+            Kind::Manual => &["PINSD"],
+            _ => &[],
+        };
+        own.contains(&name)
+    }
+}
+
+/// What an operator says; half a statement says nothing.
+fn manual(sentence: &Sentence) -> Reading {
+    match sentence {
+        Sentence::Pinsd(Pinsd::Fix { position: Some(position), std }) => {
+            Reading::Fix(*position, *std)
+        }
+        Sentence::Pinsd(Pinsd::Heading { heading: Some(heading), std }) => {
+            let (heading, std) = (*heading, *std);
+            Reading::Heading(HeadingReading { heading, std, north: North::True, valid: true })
+        }
+        _ => Reading::Idle,
+    }
+}

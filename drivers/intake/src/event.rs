@@ -1,0 +1,105 @@
+//! What happened at the border, worth telling the operator.
+
+use insd_base::{PortId, PortState, Span, Time};
+
+use crate::choice::Chosen;
+use crate::clock::TimeChange;
+
+/// Why a reading of a sensor was not passed on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Refusal {
+    /// The frame's contents are not what its format says.
+    Malformed,
+    /// The device's own status says that it is not valid.
+    Invalid,
+    /// Its time does not fit what is known, or it comes so soon after the one before that it must have
+    /// waited, or have been told already.
+    TimeDoubted,
+    /// UTC is not known, and nothing else tells when it was.
+    NoTime,
+    /// Another source of the same quantity is in use.
+    NotChosen,
+    /// It is magnetic, and no model of the Earth's field was asked for or fits the day.
+    Magnetic,
+    /// Its axes cannot be turned into the ship's.
+    Frame,
+}
+
+impl Refusal {
+    /// A short name for tables: `malformed`, `not_chosen`, ...
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Refusal::Malformed => "malformed",
+            Refusal::Invalid => "invalid",
+            Refusal::TimeDoubted => "time_doubted",
+            Refusal::NoTime => "no_time",
+            Refusal::NotChosen => "not_chosen",
+            Refusal::Magnetic => "magnetic",
+            Refusal::Frame => "frame",
+        }
+    }
+}
+
+/// What happened.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Happening {
+    /// A port is in another state.
+    Port {
+        /// Which.
+        port: PortId,
+        /// Its state.
+        state: PortState,
+    },
+    /// A sensor speaks for the first time, or again.
+    SensorSpeaks {
+        /// Index of the sensor.
+        sensor: usize,
+    },
+    /// A sensor has been silent for longer than its patience.
+    SensorSilent {
+        /// Index of the sensor.
+        sensor: usize,
+    },
+    /// A sensor's own status turned invalid, or valid again.
+    SensorValid {
+        /// Index of the sensor.
+        sensor: usize,
+        /// Valid from now on.
+        valid: bool,
+        /// Its status word, if its format has one.
+        status: u32,
+    },
+    /// A device's counter says that samples are missing.
+    SamplesLost {
+        /// Index of the sensor.
+        sensor: usize,
+        /// How many.
+        count: u64,
+    },
+    /// A device's clock stepped (a restart, for instance) and was tied anew.
+    DeviceClockStepped {
+        /// Index of the sensor.
+        sensor: usize,
+        /// By how much against the computer's clock, s.
+        by: f64,
+    },
+    /// Another source is used for a quantity.
+    Chosen(Chosen),
+    /// Something about UTC.
+    Time(TimeChange),
+    /// The system clock stepped; the time line did not.
+    SystemClockStepped {
+        /// By how much.
+        by: Span,
+    },
+}
+
+/// Something that happened, and when.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IntakeEvent {
+    /// When it was noticed, on the computer's monotonic clock.
+    pub time: Time,
+    /// What.
+    pub what: Happening,
+}

@@ -1,0 +1,154 @@
+//! From what reaches the computer to what was measured when.
+//!
+//! [`Intake::handle`] takes what arrives at the ports in the order of arrival; then
+//! [`Intake::poll_output`] is drained: measurements for the engine, on the ship's time line, and what
+//! is worth telling. The daemon and the replay of a raw recording run this very same code.
+//!
+//! Pure: no I/O, no clock, no thread, no log.
+
+pub mod choice;
+pub mod clock;
+pub mod config;
+pub mod decode;
+pub mod event;
+pub mod mounting;
+pub mod port;
+pub mod sensor;
+pub mod status;
+
+mod core;
+mod magnetic;
+
+pub use magnetic::variation;
+
+use insd_base::{Arrival, Input, PortState, Received, Stamp, Time, UtcTime};
+
+use crate::config::IntakeConfig;
+use crate::core::Core;
+use crate::event::{Happening, IntakeEvent};
+use crate::port::PortIntake;
+use crate::status::{IntakeStatus, PortStatus, TimeStatus};
+
+/// Time between looks for silences, s.
+const TICK: f64 = 0.1;
+
+/// What leaves the intake.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Intaken {
+    /// A measurement, for the engine.
+    Measured(Received),
+    /// Something worth telling.
+    Event(IntakeEvent),
+}
+
+/// All ports and sensors of a ship.
+#[derive(Clone, Debug)]
+pub struct Intake {
+    ports: Vec<Port>,
+    core: Core,
+    ticked: Option<Time>,
+}
+
+#[derive(Clone, Debug)]
+struct Port {
+    name: String,
+    intake: PortIntake,
+    state: Option<PortState>,
+    heard: Option<Time>,
+}
+
+impl Intake {
+    /// An intake for what is plugged in. Descriptions with faults are taken as far as they go; look at
+    /// [`IntakeConfig::faults`] first.
+    #[must_use]
+    pub fn new(config: &IntakeConfig) -> Self {
+        let ports = config.ports.iter().map(|port| Port {
+            name: port.name.clone(),
+            intake: PortIntake::new(port.link, &config.protocols(&port.name)),
+            state: None,
+            heard: None,
+        });
+        Intake { ports: ports.collect(), core: Core::new(config), ticked: None }
+    }
+
+    /// Takes what arrived, in order of arrival. A port that is not in the configuration is ignored.
+    pub fn handle(&mut self, arrival: &Arrival) {
+        let index = usize::from(arrival.port.0);
+        let stamp = &arrival.stamp;
+        if let Some(port) = self.ports.get_mut(index) {
+            let core = &mut self.core;
+            match &arrival.input {
+                Input::Bytes(bytes) => {
+                    port.heard = Some(stamp.monotonic);
+                    port.intake.take(stamp, bytes, |frame| core.frame(index, stamp, frame));
+                }
+                Input::Pulse(pulse) => core.utc.pulse(*pulse),
+                Input::State(state) => {
+                    if matches!(state, PortState::Lost { .. } | PortState::Ended) {
+                        port.intake.interrupt(stamp, |frame| core.frame(index, stamp, frame));
+                    }
+                    port.state = Some(state.clone());
+                    let (port, state) = (arrival.port, state.clone());
+                    core.tell(stamp.monotonic, Happening::Port { port, state });
+                }
+            }
+        }
+        self.tick(stamp);
+    }
+
+    /// The next measurement or event, until there is none.
+    pub fn poll_output(&mut self) -> Option<Intaken> {
+        self.core.outputs.pop_front()
+    }
+
+    /// UTC at an instant of the ship's time line, if it is known.
+    #[must_use]
+    pub fn utc_at(&self, time: Time) -> Option<UtcTime> {
+        self.core.utc.utc_at(time)
+    }
+
+    /// Name of a port; empty if there is none of this number.
+    #[must_use]
+    pub fn port_name(&self, port: insd_base::PortId) -> &str {
+        self.ports.get(usize::from(port.0)).map_or("", |port| &port.name)
+    }
+
+    /// Name of a sensor by its index in events.
+    #[must_use]
+    pub fn sensor_name(&self, sensor: usize) -> &str {
+        self.core.sensors.get(sensor).map_or("", |sensor| &sensor.config.name)
+    }
+
+    /// Everything there is to know of ports, sensors, choices and time.
+    #[must_use]
+    pub fn status(&self) -> IntakeStatus {
+        let ports = self.ports.iter().map(|port| PortStatus {
+            name: port.name.clone(),
+            state: port.state.clone(),
+            counts: port.intake.counts(),
+            heard: port.heard,
+        });
+        let sensors = self.core.sensors.iter().map(|sensor| sensor.status.clone());
+        let choices = self.core.choices.iter();
+        let now = self.ticked;
+        IntakeStatus {
+            ports: ports.collect(),
+            sensors: sensors.collect(),
+            choices: choices.map(|choice| (choice.quantity(), choice.current())).collect(),
+            time: TimeStatus {
+                utc: now.and_then(|now| self.utc_at(now)),
+                quality: self.core.utc.quality(),
+                sigma: self.core.utc.sigma(),
+            },
+        }
+    }
+
+    fn tick(&mut self, stamp: &Stamp) {
+        let now = stamp.monotonic;
+        let due = self.ticked.is_none_or(|last| (now - last).as_seconds() >= TICK);
+        if due {
+            self.ticked = Some(now);
+            self.core.tick(stamp);
+        }
+    }
+}

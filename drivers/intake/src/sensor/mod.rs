@@ -1,0 +1,9 @@
+//! What becomes of the readings of each family of sensors.
+
+mod gnss;
+mod imu;
+mod pace;
+
+pub use gnss::{Epoch, EpochBuilder};
+pub use imu::{ImuChange, ImuIntake, ImuSettings, TimeBase};
+pub use pace::Pace;

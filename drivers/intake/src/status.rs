@@ -1,0 +1,70 @@
+//! What there is to know of ports, sensors, choices and time.
+
+use std::collections::BTreeMap;
+
+use insd_base::{PortState, Time, UtcTime};
+
+use crate::choice::Quantity;
+use crate::clock::TimeQuality;
+use crate::event::Refusal;
+use crate::port::PortCounts;
+
+/// One port.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PortStatus {
+    /// Its name.
+    pub name: String,
+    /// Its last state, if it told one.
+    pub state: Option<PortState>,
+    /// Its counters.
+    pub counts: PortCounts,
+    /// When bytes came last.
+    pub heard: Option<Time>,
+}
+
+/// One sensor.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct SensorStatus {
+    /// Its name.
+    pub name: String,
+    /// When it spoke last.
+    pub heard: Option<Time>,
+    /// Whether it has been silent for longer than its patience.
+    pub silent: bool,
+    /// Whether it stands behind what it says; `None` before it has said anything.
+    pub valid: Option<bool>,
+    /// Its status word, if its format has one.
+    pub status: u32,
+    /// Temperature, deg C, if it tells.
+    pub temperature: Option<f64>,
+    /// Measurements passed on.
+    pub passed: u64,
+    /// Measurements and frames not passed on, by reason.
+    pub refused: BTreeMap<Refusal, u64>,
+    /// Samples missing by its counter.
+    pub lost: u64,
+}
+
+/// Time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeStatus {
+    /// UTC now, if it is known.
+    pub utc: Option<UtcTime>,
+    /// How it is known.
+    pub quality: TimeQuality,
+    /// 1-sigma, s, apart from the least delay of messages.
+    pub sigma: Option<f64>,
+}
+
+/// Everything at once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IntakeStatus {
+    /// Ports, in their order.
+    pub ports: Vec<PortStatus>,
+    /// Sensors, in their order.
+    pub sensors: Vec<SensorStatus>,
+    /// Which sensor is used for what; `None` where there is none.
+    pub choices: Vec<(Quantity, Option<usize>)>,
+    /// Time.
+    pub time: TimeStatus,
+}

@@ -1,0 +1,224 @@
+//! What must hold for whatever arrives at a ship's ports. The replay of seeds and the fuzz target share
+//! it.
+//!
+//! The first byte chooses the link and what the devices were told to send. Then come arrivals, each of
+//! three bytes and what the third says:
+//!
+//! ```text
+//! 1   modulo 17: 0 to 11 contents of a good frame of a protocol, 12 raw bytes, 13 a pulse,
+//!     14 the port is lost, 15 the system clock is set, 16 bytes at a port that is not there
+//! 2   time since the arrival before: 0 to 63 ms, tens of ms, s, or a power of two of seconds
+//! 3   bytes of the contents
+//! ```
+
+#![allow(clippy::unwrap_used, clippy::panic, dead_code)] // helpers of tests are not seen as tests
+
+#[path = "../../../wire/tests/checks/good.rs"]
+mod good;
+
+use insd_base::{
+    Arrival, GnssFix, Input, Message, PortId, PortState, Pulse, Span, Stamp, Time, UtcTime,
+};
+use insd_intake::config::{
+    Dialect, IntakeConfig, Kind, KvhSettings, PortSpec, SensorConfig, StimSettings,
+};
+use insd_intake::mounting::{Direction, Mounting};
+use insd_intake::port::Link;
+use insd_intake::sensor::TimeBase;
+use insd_intake::{Intake, Intaken};
+use insd_wire::stream::Protocol;
+
+/// All kinds of sensors.
+const KINDS: [Kind; 17] = [
+    Kind::Sbg,
+    Kind::Stdbin,
+    Kind::Mip,
+    Kind::Xbus,
+    Kind::Kvh,
+    Kind::Stim,
+    Kind::NmeaGnss,
+    Kind::Ubx,
+    Kind::Sbf,
+    Kind::NmeaLog,
+    Kind::Pd0,
+    Kind::Pd6,
+    Kind::Nortek,
+    Kind::Compass,
+    Kind::Psxn,
+    Kind::Pashr,
+    Kind::NmeaPosition,
+];
+
+const DIALECTS: [Dialect; 6] = [
+    Dialect::Sbg,
+    Dialect::SbgWassp,
+    Dialect::Ixblue,
+    Dialect::Novatel,
+    Dialect::Trimble,
+    Dialect::Applanix,
+];
+
+/// The ship's time ends here, s: a century is far beyond any voyage.
+const END: f64 = 3.2e9;
+
+/// What passed, by the kind of message: IMU, GNSS, log, reference.
+pub(crate) type Passed = [usize; 4];
+
+/// Lets everything arrive that the bytes say, and looks at what is passed on.
+pub(crate) fn everything(bytes: &[u8]) -> Passed {
+    let Some((choice, mut bytes)) = bytes.split_first() else { return Passed::default() };
+    let mut config = IntakeConfig::default();
+    let port = "port".to_owned();
+    config.ports = vec![PortSpec { name: port.clone(), link: link(*choice) }];
+    config.sensors = KINDS.iter().map(|kind| sensor(*kind, &port, *choice)).collect();
+    assert_eq!(config.faults(), []);
+    let mut intake = Intake::new(&config);
+    let mut passed = Passed::default();
+    let mut stamp = Stamp { monotonic: Time::START, system: UtcTime::from_nanos(START) };
+    while let [what, step, length, rest @ ..] = bytes {
+        let (own, rest) = rest.split_at(rest.len().min(usize::from(*length)));
+        bytes = rest;
+        go_on(&mut stamp, *step);
+        arrive(&mut intake, *what, &mut stamp, own);
+        while let Some(out) = intake.poll_output() {
+            if let Intaken::Measured(received) = out {
+                passed[is_sane(&received.message)] += 1;
+            }
+        }
+        drop(intake.status());
+    }
+    passed
+}
+
+/// The system clock at the start: March 2026.
+const START: i64 = 1_772_668_800_000_000_000;
+
+fn go_on(stamp: &mut Stamp, step: u8) {
+    let count = f64::from(step & 63);
+    let seconds = match step >> 6 {
+        0 => count * 1e-3,
+        1 => count * 1e-2,
+        2 => count,
+        _ => f64::from(step & 31).exp2(),
+    };
+    let left = END - stamp.monotonic.as_seconds();
+    let span = Span::from_seconds(seconds.min(left));
+    stamp.monotonic = stamp.monotonic + span;
+    stamp.system = stamp.system.plus(span);
+}
+
+fn arrive(intake: &mut Intake, what: u8, stamp: &mut Stamp, own: &[u8]) {
+    let mut port = PortId(0);
+    let number = own.iter().rev().take(8).fold(0_i64, |sum, byte| sum << 8 | i64::from(*byte));
+    let input = match what % 17 {
+        12 => Input::Bytes(own.to_vec()),
+        13 => {
+            // the kernel saw the edge up to a second before it was told
+            let late = Span::from_nanos(number.rem_euclid(1_000_000_000));
+            Input::Pulse(Pulse { time: stamp.monotonic - late, sequence: 0 })
+        }
+        14 => Input::State(PortState::Lost { reason: String::new() }),
+        15 => {
+            // years 1970 to 2106
+            let seconds = number.rem_euclid(1 << 32);
+            stamp.system = UtcTime::from_nanos(seconds * 1_000_000_000);
+            Input::State(PortState::Speaking)
+        }
+        16 => {
+            port = PortId(1);
+            Input::Bytes(own.to_vec())
+        }
+        number => {
+            let protocol = Protocol::ALL[usize::from(number)];
+            Input::Bytes(good::frames(protocol, own).concat())
+        }
+    };
+    intake.handle(&Arrival { stamp: *stamp, port, input });
+}
+
+fn link(choice: u8) -> Link {
+    match choice % 3 {
+        0 => Link::Stream,
+        1 => Link::Datagrams,
+        _ => Link::Serial { byte_time: 1e-4 },
+    }
+}
+
+fn sensor(kind: Kind, port: &str, choice: u8) -> SensorConfig {
+    let bit = |bit: u8| choice >> bit & 1 == 1;
+    let by_utc = bit(2) && matches!(kind, Kind::Sbg | Kind::Mip | Kind::Xbus | Kind::Stdbin);
+    SensorConfig {
+        name: format!("{kind:?}"),
+        port: port.to_owned(),
+        kind,
+        // of the sensors of one role the choice makes one the best
+        priority: (kind as u8).wrapping_add(choice >> 3) % 5,
+        patience_s: 3.0,
+        latency_s: 0.01,
+        rate_hz: 100.0,
+        time: if by_utc { TimeBase::Utc } else { TimeBase::Device },
+        mounting: Mounting {
+            axes: [Direction::Forward, Direction::Port, Direction::Up],
+            rotation_deg: [0.5, -0.25, 2.0],
+        },
+        talkers: Vec::new(),
+        heading_std_deg: 1.0,
+        velocity_std_mps: 0.1,
+        position_std_m: 10.0,
+        heading_offset_deg: 90.0,
+        heading: true,
+        magnetic: bit(3),
+        no_checksum: bit(4),
+        dialect: Some(DIALECTS[usize::from(choice) % DIALECTS.len()]),
+        kvh: KvhSettings {
+            rates: bit(3),
+            degrees: bit(4),
+            delta_velocity: bit(5),
+            centidegrees: bit(6),
+        },
+        stim: StimSettings {
+            gyro_increments: bit(3),
+            accel_increments: bit(4),
+            range_g: [2, 5, 10, 30, 80][usize::from(choice) % 5],
+        },
+    }
+}
+
+/// Whether all that a measurement tells is a number, and its place on Earth. Gives the kind of message.
+fn is_sane(message: &Message) -> usize {
+    let finite = |numbers: &[Option<f64>]| {
+        assert!(numbers.iter().flatten().all(|number| number.is_finite()), "{message:?}");
+    };
+    match message {
+        Message::Imu(sample) => {
+            let components = sample.delta_theta.0.iter().chain(sample.delta_velocity.0.iter());
+            assert!(components.copied().all(f64::is_finite), "{message:?}");
+            0
+        }
+        Message::Gnss(fix) => {
+            is_sane_fix(fix);
+            1
+        }
+        Message::Log(log) => {
+            finite(&[log.u, log.v, log.w, log.std]);
+            2
+        }
+        Message::Reference(reference) => {
+            let place = reference.position;
+            finite(&[place.map(|own| own.latitude), place.map(|own| own.longitude)]);
+            finite(&[reference.position_std, reference.heading, reference.heading_std]);
+            3
+        }
+    }
+}
+
+fn is_sane_fix(fix: &GnssFix) {
+    let place = fix.position.map(|place| [place.latitude, place.longitude, place.height]);
+    assert!(place.iter().flatten().all(|number| number.is_finite()), "{fix:?}");
+    let velocity = fix.velocity.map(|velocity| velocity.0);
+    assert!(velocity.iter().flatten().all(|number| number.is_finite()), "{fix:?}");
+    // a component that the receiver does not tell has no sigma, or an infinite one
+    let sigmas = [fix.position_std, fix.velocity_std].map(|std| std.map(|std| std.0));
+    let negative = |sigma: &f64| *sigma < 0.0;
+    assert!(!sigmas.iter().flatten().flatten().any(negative), "{fix:?}");
+}

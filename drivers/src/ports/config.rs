@@ -1,0 +1,382 @@
+//! What a port is: plain types, readable from a configuration file. Unknown keys are refused; what a
+//! type cannot refuse is found by [`PortConfig::faults`] and [`OutputConfig::faults`].
+
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::path::PathBuf;
+
+use serde::Deserialize;
+
+/// A port that is listened to.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PortConfig {
+    /// What is opened.
+    pub transport: Transport,
+    /// Silence after which it is told, seconds.
+    #[serde(default = "default_patience")]
+    pub patience_s: f64,
+    /// Whether messages may be written to it, too: to a serial port, and to the peers of a TCP port.
+    /// Without this not one byte is ever written.
+    #[serde(default)]
+    pub write: bool,
+}
+
+/// What a port listens to.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Transport {
+    /// A serial line.
+    Serial(Serial),
+    /// UDP datagrams, each of them one arrival.
+    Udp(Udp),
+    /// A TCP server that is called.
+    TcpClient(TcpClient),
+    /// A TCP server that others call. The bytes of all clients arrive at this one port, each read as
+    /// one arrival: two clients that speak at once mix their messages.
+    TcpServer(TcpServer),
+    /// A file, read once to its end at the pace of the consumer.
+    File(File),
+    /// A named pipe (FIFO), opened again when its writer has gone.
+    Pipe(File),
+    /// Pulses per second from a kernel device.
+    Pps(Pps),
+}
+
+/// A serial line.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Serial {
+    /// Path of the device, best a stable one below `/dev/serial/by-id`.
+    pub device: PathBuf,
+    /// Symbols per second.
+    pub baud: u32,
+    /// Bits of a character: 5, 6, 7 or 8.
+    #[serde(default = "default_data_bits")]
+    pub data_bits: u8,
+    /// Parity bit.
+    #[serde(default)]
+    pub parity: Parity,
+    /// Stop bits: 1 or 2.
+    #[serde(default = "default_stop_bits")]
+    pub stop_bits: u8,
+    /// Who holds back whom, and how.
+    #[serde(default)]
+    pub flow_control: FlowControl,
+    /// Electrical standard: for the record, it is not set.
+    #[serde(default)]
+    pub mode: SerialMode,
+    /// Ask the driver to hand over bytes at once. A driver that cannot is used as it is.
+    #[serde(default)]
+    pub low_latency: bool,
+    /// Rates to listen at until one fits. Empty for a fixed rate.
+    #[serde(default)]
+    pub probe_bauds: Vec<u32>,
+    /// For how long to listen at each of them, seconds.
+    #[serde(default = "default_probe")]
+    pub probe_s: f64,
+}
+
+/// The parity bit of a character.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Parity {
+    /// There is none.
+    #[default]
+    None,
+    /// An odd number of ones.
+    Odd,
+    /// An even number of ones.
+    Even,
+}
+
+/// Flow control of a serial line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FlowControl {
+    /// There is none.
+    #[default]
+    None,
+    /// XON and XOFF.
+    Software,
+    /// RTS and CTS.
+    Hardware,
+}
+
+/// Electrical standard of a serial line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SerialMode {
+    /// RS-232.
+    #[default]
+    Rs232,
+    /// RS-422, of which IEC 61162-1 and -2 are kinds.
+    Rs422,
+    /// RS-485.
+    Rs485,
+}
+
+/// UDP datagrams to listen to.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Udp {
+    /// Local address and port.
+    pub bind: SocketAddr,
+    /// Group to join.
+    #[serde(default)]
+    pub multicast: Option<Ipv4Addr>,
+    /// Address of the interface on which to join it; the system's choice if left out.
+    #[serde(default)]
+    pub interface: Option<Ipv4Addr>,
+    /// The only sender whose datagrams count.
+    #[serde(default)]
+    pub from: Option<IpAddr>,
+}
+
+/// A TCP server to call.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TcpClient {
+    /// Host and port, for example `192.168.1.20:10110`.
+    pub address: String,
+}
+
+/// A TCP server to be.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TcpServer {
+    /// Local address and port.
+    pub bind: SocketAddr,
+    /// Clients at one time; more are turned away.
+    #[serde(default = "default_clients")]
+    pub max_clients: usize,
+}
+
+/// A file or named pipe.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct File {
+    /// Where it is.
+    pub path: PathBuf,
+}
+
+/// A pulse per second.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Pps {
+    /// The kernel's device, for example `/dev/pps0`.
+    pub device: PathBuf,
+    /// The edge that counts.
+    #[serde(default)]
+    pub edge: Edge,
+}
+
+/// An edge of a pulse, as the kernel names them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Edge {
+    /// The line becomes active.
+    #[default]
+    Assert,
+    /// The line becomes inactive.
+    Clear,
+}
+
+/// A port that is only written to.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OutputConfig {
+    /// Where messages go.
+    pub destination: Destination,
+    /// Bytes that may wait to be written. If left out: two seconds' worth on a serial line, 64 KiB
+    /// elsewhere.
+    #[serde(default)]
+    pub waiting_bytes: Option<usize>,
+}
+
+/// Where messages are written.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Destination {
+    /// A serial line.
+    Serial(Serial),
+    /// UDP, each message one datagram.
+    Udp(UdpOutput),
+    /// Clients that call.
+    TcpServer(TcpServer),
+    /// A file, at its end.
+    File(File),
+    /// A pseudo terminal that is made, with a symbolic link to it at this path: programs read from
+    /// it as from a serial port.
+    Pty(File),
+}
+
+/// Where datagrams are sent.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct UdpOutput {
+    /// Address and port of a host, a group, or a network's broadcast.
+    pub to: SocketAddr,
+    /// Routers that a datagram to a group may pass, and one.
+    #[serde(default = "default_ttl")]
+    pub ttl: u32,
+    /// Address of the interface by which to leave to a group; the system's choice if left out.
+    #[serde(default)]
+    pub interface: Option<Ipv4Addr>,
+}
+
+impl PortConfig {
+    /// A port as it is if nothing else is said: told silent after 3 s, never written to.
+    #[must_use]
+    pub fn new(transport: Transport) -> Self {
+        PortConfig { transport, patience_s: default_patience(), write: false }
+    }
+
+    /// All that is wrong with it, in words.
+    #[must_use]
+    pub fn faults(&self) -> Vec<String> {
+        let mut faults = Vec::new();
+        if !(self.patience_s > 0.0 && self.patience_s <= MAX_SECONDS) {
+            faults.push(format!("patience_s must be above 0 and at most {MAX_SECONDS}"));
+        }
+        match &self.transport {
+            Transport::Serial(serial) => faults.extend(serial.faults()),
+            Transport::TcpServer(server) => faults.extend(server.faults()),
+            Transport::Udp(udp) => faults.extend(udp.faults()),
+            _ => {}
+        }
+        let writable = matches!(
+            self.transport,
+            Transport::Serial(_) | Transport::TcpClient(_) | Transport::TcpServer(_)
+        );
+        if self.write && !writable {
+            faults.push("only a serial or TCP port can be written to".to_owned());
+        }
+        faults
+    }
+}
+
+impl OutputConfig {
+    /// An output with the usual room for what waits.
+    #[must_use]
+    pub fn new(destination: Destination) -> Self {
+        OutputConfig { destination, waiting_bytes: None }
+    }
+
+    /// All that is wrong with it, in words.
+    #[must_use]
+    pub fn faults(&self) -> Vec<String> {
+        let mut faults = match &self.destination {
+            Destination::Serial(serial) => serial.faults(),
+            Destination::TcpServer(server) => server.faults().into_iter().collect(),
+            _ => Vec::new(),
+        };
+        if self.waiting_bytes == Some(0) {
+            faults.push("waiting_bytes must not be 0".to_owned());
+        }
+        faults
+    }
+}
+
+impl Serial {
+    /// A line with 8 data bits, no parity, 1 stop bit and no flow control.
+    #[must_use]
+    pub fn new(device: PathBuf, baud: u32) -> Self {
+        Serial {
+            device,
+            baud,
+            data_bits: default_data_bits(),
+            parity: Parity::None,
+            stop_bits: default_stop_bits(),
+            flow_control: FlowControl::None,
+            mode: SerialMode::Rs232,
+            low_latency: false,
+            probe_bauds: Vec::new(),
+            probe_s: default_probe(),
+        }
+    }
+
+    /// Symbols of a character with start, parity and stop bits.
+    #[must_use]
+    pub fn symbols(&self) -> u32 {
+        let parity = u32::from(self.parity != Parity::None);
+        1 + u32::from(self.data_bits) + parity + u32::from(self.stop_bits)
+    }
+
+    fn faults(&self) -> Vec<String> {
+        let checks = [
+            ((5..=8).contains(&self.data_bits), "data_bits must be 5, 6, 7 or 8"),
+            ((1..=2).contains(&self.stop_bits), "stop_bits must be 1 or 2"),
+            (self.baud > 0 && !self.probe_bauds.contains(&0), "a baud rate must not be 0"),
+            (self.probe_s >= 0.1 && self.probe_s <= 60.0, "probe_s must be from 0.1 to 60"),
+        ];
+        checks.iter().filter(|(good, _)| !good).map(|(_, fault)| (*fault).to_owned()).collect()
+    }
+}
+
+impl TcpServer {
+    fn faults(&self) -> Option<String> {
+        (self.max_clients == 0).then(|| "max_clients must not be 0".to_owned())
+    }
+}
+
+impl Udp {
+    fn faults(&self) -> Option<String> {
+        let group = self.multicast?;
+        let fits = group.is_multicast() && self.bind.is_ipv4();
+        (!fits).then(|| format!("{group} is no multicast group for {}", self.bind))
+    }
+}
+
+/// Longest patience, seconds: a day.
+const MAX_SECONDS: f64 = 86_400.0;
+
+fn default_patience() -> f64 {
+    3.0
+}
+
+fn default_data_bits() -> u8 {
+    8
+}
+
+fn default_stop_bits() -> u8 {
+    1
+}
+
+fn default_probe() -> f64 {
+    3.0
+}
+
+fn default_clients() -> usize {
+    8
+}
+
+fn default_ttl() -> u32 {
+    1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_port_is_read_from_toml_with_its_defaults() {
+        let text = "transport = { kind = \"serial\", device = \"/dev/ttyS0\", baud = 4800 }";
+        let config: PortConfig = toml::from_str(text).unwrap();
+        let serial = Serial::new(PathBuf::from("/dev/ttyS0"), 4800);
+        assert_eq!(config, PortConfig::new(Transport::Serial(serial)));
+        assert_eq!(config.faults(), Vec::<String>::new());
+    }
+
+    #[test]
+    fn an_unknown_key_is_refused() {
+        let text = "transport = { kind = \"tcp-client\", address = \"a:1\", adress = \"b:1\" }";
+        assert!(toml::from_str::<PortConfig>(text).unwrap_err().to_string().contains("adress"));
+    }
+
+    #[test]
+    fn all_faults_are_told_together() {
+        let text = "patience_s = 0.0\n[transport]\nkind = \"serial\"\ndevice = \"x\"\n\
+                    baud = 0\ndata_bits = 9\nstop_bits = 3\nprobe_s = 0.0";
+        assert_eq!(toml::from_str::<PortConfig>(text).unwrap().faults().len(), 5);
+    }
+}

@@ -1,0 +1,46 @@
+//! The ports of the computer: serial lines, UDP and TCP, files, named pipes and pulses.
+//!
+//! [`spawn`] starts a port with a task of its own, which reads into a bounded [`queue()`] that all ports
+//! share and one consumer empties. What a port does about trouble:
+//!
+//! | trouble | what is told | what is done |
+//! |---|---|---|
+//! | absent at the start, or refused | `Absent`, once for each reason | tried again after 0.2 s, doubling to 5 s |
+//! | unplugged, closed, an error | `Lost` | closed at once, then as above |
+//! | nothing comes | `Silent` once, then `Speaking` | the group of a silent multicast is joined again |
+//! | more than the consumer takes | `Overrun`, once a second at most | the oldest bytes of that port go, see [`Queue`] |
+//! | a wrong baud rate | `Absent`, with the rates | if rates to probe are given, listens on at each |
+//!
+//! Nothing is ever written to a port that is not configured for writing; no baud rate is searched by
+//! writing. [`spawn_output`] starts a port that is only written to.
+//!
+//! The time of receipt is that of the return of a read, by the given [`Clock`].
+
+mod chrony;
+mod clock;
+mod config;
+mod file;
+mod found;
+mod low_latency;
+mod outbox;
+mod pps;
+mod probe;
+mod pty;
+mod queue;
+mod run;
+mod serial;
+mod stream;
+mod tcp;
+mod teller;
+mod udp;
+
+pub use chrony::{ChronySock, Leap, SAMPLE_LENGTH, Sample};
+pub use clock::Clock;
+pub use config::{
+    Destination, Edge, File, FlowControl, OutputConfig, Parity, PortConfig, Pps, Serial,
+    SerialMode, TcpClient, TcpServer, Transport, Udp, UdpOutput,
+};
+pub use found::{FoundKind, FoundPort, list};
+pub use probe::{Judge, Judgement};
+pub use queue::{Queue, Receiver, WAITING_LIMIT, queue};
+pub use run::{OutputPort, PortHandle, Surroundings, spawn, spawn_output};

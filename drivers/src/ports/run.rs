@@ -1,0 +1,286 @@
+//! The task of a port: open, listen, lose, wait, open again, for ever.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Duration;
+
+use insd_base::{PortId, Span};
+use tokio::task::AbortHandle;
+use tokio::time::sleep;
+
+use super::clock::Clock;
+use super::config::{Destination, OutputConfig, PortConfig, Serial, Transport};
+use super::outbox::Outbox;
+use super::probe::Judge;
+use super::queue::Queue;
+use super::teller::Teller;
+use super::{file, pps, pty, serial, tcp, udp};
+
+/// First and longest pause before a port is opened again; each is twice the one before.
+const FIRST_PAUSE: Duration = Duration::from_millis(200);
+const LONGEST_PAUSE: Duration = Duration::from_secs(5);
+
+/// A port that was open for so long starts with the first pause again; one that comes and goes more
+/// quickly is waited for longer and longer.
+const LASTING: Span = Span::from_nanos(5_000_000_000);
+
+/// Bytes that may wait to be written where nothing else is said.
+const OUTBOX_LIMIT: usize = 64 * 1024;
+
+/// Seconds' worth of bytes that may wait for a serial line.
+const SERIAL_SECONDS: u32 = 2;
+
+/// What every port is given.
+#[derive(Clone)]
+pub struct Surroundings {
+    /// Tells the time of receipt.
+    pub clock: Arc<dyn Clock>,
+    /// Takes what arrives, and each change of state.
+    pub queue: Queue,
+    /// Judges the bytes of a serial line whose baud rate is searched. Without a judge the rate is the
+    /// configured one.
+    pub judge: Option<Judge>,
+}
+
+/// A port at work. It stops when this is dropped.
+#[must_use = "the port stops when its handle is dropped"]
+#[derive(Debug)]
+pub struct PortHandle {
+    work: Work,
+    outbox: Option<Outbox>,
+    attempts: Arc<AtomicU64>,
+}
+
+/// A port that is only written to, at work. It stops when this is dropped.
+#[must_use = "the port stops when its handle is dropped"]
+#[derive(Debug)]
+pub struct OutputPort(PortHandle);
+
+#[derive(Debug)]
+enum Work {
+    Task(AbortHandle),
+    Thread(Arc<AtomicBool>),
+}
+
+/// How an attempt ended.
+pub(super) enum Outcome {
+    /// It could not be opened.
+    Absent(String),
+    /// It was open and was lost.
+    Lost(String),
+    /// There is no more to come.
+    Ended,
+}
+
+enum Link {
+    Input(Transport, Option<Judge>),
+    Output(Destination),
+}
+
+/// Starts the port. To be called inside a tokio runtime that can do I/O and timers.
+///
+/// Whatever happens to the device, the port goes on by itself: it tells each change of state once with
+/// its reason, and opens the device again by its configured name after a pause of 0.2 s, which doubles
+/// up to 5 s. Only a file ends.
+pub fn spawn(port: PortId, config: PortConfig, surroundings: Surroundings) -> PortHandle {
+    let Surroundings { clock, queue, judge } = surroundings;
+    let patience = Some(Span::from_seconds(config.patience_s));
+    let teller = Teller::new(port, clock, queue, patience);
+    let outbox = config.write.then(|| Outbox::new(limit_of_input(&config.transport)));
+    let attempts = Arc::<AtomicU64>::default();
+    let work = match config.transport {
+        Transport::Pps(pps) => Work::Thread(pps::spawn(pps, teller, Arc::clone(&attempts))),
+        transport => {
+            Work::task(Link::Input(transport, judge), teller, outbox.clone(), Arc::clone(&attempts))
+        }
+    };
+    PortHandle { work, outbox, attempts }
+}
+
+/// Starts an output. To be called inside a tokio runtime that can do I/O and timers. Its states are
+/// told in the same way; what the far end says is read and forgotten.
+///
+/// What waited while a device was away is dropped when it is there again, because it is old by then;
+/// for a file it is kept.
+pub fn spawn_output(port: PortId, config: OutputConfig, surroundings: Surroundings) -> OutputPort {
+    let teller = Teller::new(port, surroundings.clock, surroundings.queue, None);
+    let usual = match &config.destination {
+        Destination::Serial(serial) => serial_limit(serial),
+        _ => OUTBOX_LIMIT,
+    };
+    let outbox = Outbox::new(config.waiting_bytes.unwrap_or(usual));
+    let attempts = Arc::<AtomicU64>::default();
+    let link = Link::Output(config.destination);
+    let work = Work::task(link, teller, Some(outbox.clone()), Arc::clone(&attempts));
+    OutputPort(PortHandle { work, outbox: Some(outbox), attempts })
+}
+
+impl PortHandle {
+    /// Puts a whole message into the queue of what is to be written, and never waits. Gives whether the
+    /// port is one that is written to.
+    pub fn send(&self, message: Vec<u8>) -> bool {
+        self.outbox.as_ref().map(|outbox| outbox.send(message)).is_some()
+    }
+
+    /// Whole messages that were dropped since the start, the oldest first, because they could not be
+    /// written soon enough. Of a TCP server: counted for each client.
+    #[must_use]
+    pub fn dropped(&self) -> u64 {
+        self.outbox.as_ref().map_or(0, Outbox::dropped)
+    }
+
+    /// How often it was tried to open the port.
+    #[must_use]
+    pub fn attempts(&self) -> u64 {
+        self.attempts.load(Ordering::Relaxed)
+    }
+}
+
+impl Drop for PortHandle {
+    fn drop(&mut self) {
+        match &self.work {
+            Work::Task(task) => task.abort(),
+            Work::Thread(stop) => stop.store(true, Ordering::Relaxed),
+        }
+    }
+}
+
+impl OutputPort {
+    /// Puts a whole message into the queue of what is to be written, and never waits.
+    pub fn send(&self, message: Vec<u8>) {
+        self.0.send(message);
+    }
+
+    /// See [`PortHandle::dropped`].
+    #[must_use]
+    pub fn dropped(&self) -> u64 {
+        self.0.dropped()
+    }
+
+    /// See [`PortHandle::attempts`].
+    #[must_use]
+    pub fn attempts(&self) -> u64 {
+        self.0.attempts()
+    }
+}
+
+impl Work {
+    fn task(link: Link, teller: Teller, outbox: Option<Outbox>, attempts: Arc<AtomicU64>) -> Self {
+        Work::Task(tokio::spawn(run(link, teller, outbox, attempts)).abort_handle())
+    }
+}
+
+async fn run(link: Link, mut teller: Teller, outbox: Option<Outbox>, attempts: Arc<AtomicU64>) {
+    let mut pause = Pause::default();
+    let mut last_baud = None;
+    loop {
+        attempts.fetch_add(1, Ordering::Relaxed);
+        teller.begin();
+        let outcome = attempt(&link, &mut last_baud, &mut teller, outbox.as_ref()).await;
+        if !tell(outcome, &mut teller) {
+            return;
+        }
+        sleep(pause.after(teller.open_for())).await;
+    }
+}
+
+/// Tells how an attempt ended. Gives whether there is to be another.
+pub(super) fn tell(outcome: Outcome, teller: &mut Teller) -> bool {
+    match outcome {
+        Outcome::Absent(reason) => teller.absent(reason),
+        Outcome::Lost(reason) => teller.lost(reason),
+        Outcome::Ended => {
+            teller.ended();
+            return false;
+        }
+    }
+    true
+}
+
+async fn attempt(
+    link: &Link,
+    last_baud: &mut Option<u32>,
+    teller: &mut Teller,
+    outbox: Option<&Outbox>,
+) -> Outcome {
+    match (link, outbox) {
+        (Link::Input(Transport::Serial(config), judge), _) => {
+            serial::attempt(config, judge.as_ref(), last_baud, teller, outbox).await
+        }
+        (Link::Input(Transport::Udp(config), _), _) => udp::listen(config, teller).await,
+        (Link::Input(Transport::TcpClient(config), _), _) => {
+            tcp::call(config, teller, outbox).await
+        }
+        (Link::Input(Transport::TcpServer(config), _), _) => {
+            tcp::serve(config, teller, outbox).await
+        }
+        (Link::Input(Transport::File(config), _), _) => file::read_whole(config, teller).await,
+        (Link::Input(Transport::Pipe(config), _), _) => file::listen(config, teller).await,
+        (Link::Output(Destination::Serial(config)), _) => {
+            serial::attempt(config, None, last_baud, teller, outbox).await
+        }
+        (Link::Output(Destination::TcpServer(config)), _) => {
+            tcp::serve(config, teller, outbox).await
+        }
+        (Link::Output(Destination::Udp(config)), Some(outbox)) => {
+            udp::talk(config, teller, outbox).await
+        }
+        (Link::Output(Destination::File(config)), Some(outbox)) => {
+            file::append(config, teller, outbox).await
+        }
+        (Link::Output(Destination::Pty(config)), Some(outbox)) => {
+            pty::talk(config, teller, outbox).await
+        }
+        // pulses have a thread of their own, and an output has an outbox
+        (Link::Input(Transport::Pps(_), _) | Link::Output(_), _) => Outcome::Ended,
+    }
+}
+
+fn limit_of_input(transport: &Transport) -> usize {
+    match transport {
+        Transport::Serial(serial) => serial_limit(serial),
+        _ => OUTBOX_LIMIT,
+    }
+}
+
+/// So many bytes that the oldest is not older than a few seconds when it leaves, and a long sentence
+/// in any case.
+fn serial_limit(serial: &Serial) -> usize {
+    let a_second = serial.baud / serial.symbols();
+    usize::try_from(a_second.saturating_mul(SERIAL_SECONDS)).unwrap_or(OUTBOX_LIMIT).max(1024)
+}
+
+/// The pauses between attempts.
+pub(super) struct Pause(Duration);
+
+impl Default for Pause {
+    fn default() -> Self {
+        Pause(FIRST_PAUSE)
+    }
+}
+
+impl Pause {
+    /// The next pause, after a port that was open for so long.
+    pub(super) fn after(&mut self, open_for: Span) -> Duration {
+        if open_for >= LASTING {
+            self.0 = FIRST_PAUSE;
+        }
+        let pause = self.0;
+        self.0 = (pause * 2).min(LONGEST_PAUSE);
+        pause
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pauses_double_up_to_five_seconds_and_start_again_after_a_lasting_opening() {
+        let mut pause = Pause::default();
+        let brief = Span::from_seconds(1.0);
+        let millis: Vec<u128> = (0..7).map(|_| pause.after(brief).as_millis()).collect();
+        assert_eq!(millis, [200, 400, 800, 1600, 3200, 5000, 5000]);
+        assert_eq!(pause.after(LASTING), FIRST_PAUSE);
+    }
+}

@@ -1,0 +1,133 @@
+//! Serial lines. Opening one raises DTR and RTS, as the system does for every program; beyond that
+//! a line that is only listened to is left alone.
+
+use std::path::Path;
+use std::time::Duration;
+
+use insd_base::Span;
+use rustix::fs::{Mode, OFlags};
+use tokio_serial::{ClearBuffer, SerialPort, SerialPortBuilder, SerialStream};
+
+use super::config::{FlowControl, Parity, Serial};
+use super::low_latency;
+use super::outbox::Outbox;
+use super::probe::{Doubt, Judge, probe};
+use super::run::Outcome;
+use super::stream::{Pace, converse};
+use super::teller::Teller;
+
+/// An open line.
+struct Line {
+    stream: SerialStream,
+    written: bool,
+}
+
+impl Drop for Line {
+    /// The system would hold up the last close, and with it all tasks, until a device that stalls has
+    /// taken the last bytes.
+    fn drop(&mut self) {
+        if self.written {
+            let _ = self.stream.clear(ClearBuffer::Output);
+        }
+    }
+}
+
+/// Opens the line, listens and talks until it is lost. `last` is the rate that fitted last time.
+pub(super) async fn attempt(
+    config: &Serial,
+    judge: Option<&Judge>,
+    last: &mut Option<u32>,
+    teller: &mut Teller,
+    outbox: Option<&Outbox>,
+) -> Outcome {
+    let device = config.device.display();
+    let mut line = match open(config) {
+        Ok(stream) => Line { stream, written: outbox.is_some() },
+        Err(reason) => return Outcome::Absent(format!("{device}: {reason}")),
+    };
+    let judge = judge.filter(|_| !config.probe_bauds.is_empty());
+    let mut baud = config.baud;
+    if let Some(judge) = judge {
+        match find(&mut line.stream, config, judge, *last).await {
+            Ok(found) => baud = found,
+            Err(reason) => return Outcome::Absent(format!("{device}: {reason}")),
+        }
+        *last = Some(baud);
+    }
+    if let Some(outbox) = outbox {
+        outbox.clear();
+    }
+    teller.open(format!("{device} at {baud} baud"));
+    let per_byte = Span::from_seconds(f64::from(config.symbols()) / f64::from(baud.max(1)));
+    let pace = Pace::new(teller.clock(), per_byte);
+    let doubt = judge.map(|judge| Doubt::new(judge.clone(), teller.now().monotonic));
+    Outcome::Lost(converse(&mut line.stream, teller, outbox, Some(pace), doubt).await)
+}
+
+/// Listens at each rate, first at the one that fitted last time, until one fits.
+async fn find(
+    stream: &mut SerialStream,
+    config: &Serial,
+    judge: &Judge,
+    last: Option<u32>,
+) -> Result<u32, String> {
+    let span = Duration::try_from_secs_f64(config.probe_s).unwrap_or(Duration::from_secs(3));
+    let others = config.probe_bauds.iter().copied().filter(|baud| last != Some(*baud));
+    let rates = last.into_iter().chain(others);
+    for baud in rates {
+        // a rate that the device cannot do is not its rate
+        if stream.set_baud_rate(baud).is_err() {
+            continue;
+        }
+        // what came at another rate says nothing; a terminal that cannot forget is listened to anyway
+        let _ = stream.clear(ClearBuffer::Input);
+        if probe(stream, judge, span).await? {
+            return Ok(baud);
+        }
+    }
+    let list: Vec<String> = config.probe_bauds.iter().map(u32::to_string).collect();
+    Err(format!("nothing readable at {} baud", list.join(", ")))
+}
+
+fn open(config: &Serial) -> Result<SerialStream, String> {
+    let builder = builder(config)?;
+    // held until the line is open, as some drivers forget the setting at the last close
+    let _held = config.low_latency.then(|| ask_low_latency(&config.device));
+    SerialStream::open(&builder).map_err(|error| error.to_string())
+}
+
+fn builder(config: &Serial) -> Result<SerialPortBuilder, String> {
+    let path = config.device.to_str().ok_or("the path is not text")?;
+    let data_bits = match config.data_bits {
+        5 => tokio_serial::DataBits::Five,
+        6 => tokio_serial::DataBits::Six,
+        7 => tokio_serial::DataBits::Seven,
+        _ => tokio_serial::DataBits::Eight,
+    };
+    let parity = match config.parity {
+        Parity::None => tokio_serial::Parity::None,
+        Parity::Odd => tokio_serial::Parity::Odd,
+        Parity::Even => tokio_serial::Parity::Even,
+    };
+    let stop_bits = match config.stop_bits {
+        2 => tokio_serial::StopBits::Two,
+        _ => tokio_serial::StopBits::One,
+    };
+    let flow_control = match config.flow_control {
+        FlowControl::None => tokio_serial::FlowControl::None,
+        FlowControl::Software => tokio_serial::FlowControl::Software,
+        FlowControl::Hardware => tokio_serial::FlowControl::Hardware,
+    };
+    let builder = tokio_serial::new(path, config.baud).data_bits(data_bits).parity(parity);
+    Ok(builder.stop_bits(stop_bits).flow_control(flow_control))
+}
+
+/// Asks for low latency by both ways. A driver that refuses is used as it is: a latency of some
+/// milliseconds is no reason to go without the sensor.
+fn ask_low_latency(device: &Path) -> Option<std::os::fd::OwnedFd> {
+    let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::NONBLOCK | OFlags::CLOEXEC;
+    let port = rustix::fs::open(device, flags, Mode::empty()).ok()?;
+    let _ = low_latency::set(&port);
+    low_latency::set_ftdi_timer(Path::new("/"), device);
+    Some(port)
+}

@@ -1,0 +1,197 @@
+//! Tells what becomes of a port: bytes with their stamp, and each change of state once.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use insd_base::input::{Arrival, Input, PortId, PortState, Pulse, Stamp};
+use insd_base::{Span, Time};
+
+use super::clock::Clock;
+use super::queue::Queue;
+
+/// Least time between two reports of an overrun.
+const OVERRUN_PERIOD: Span = Span::from_nanos(1_000_000_000);
+
+/// How long a port sleeps when nothing is due.
+const REST: Duration = Duration::from_secs(60);
+
+/// The voice of one port.
+#[derive(Clone)]
+pub(super) struct Teller {
+    port: PortId,
+    clock: Arc<dyn Clock>,
+    queue: Queue,
+    /// The silence that is told; `None` for a port that is not expected to speak.
+    patience: Option<Span>,
+    /// The last of open, absent and lost that was told.
+    told: Option<PortState>,
+    /// When it was opened, if it was since the last [`Teller::begin`].
+    opened: Option<Time>,
+    /// When it was last heard, or opened; `None` while it is not open or silent.
+    heard: Option<Time>,
+    silent: bool,
+    /// Bytes dropped and not told.
+    untold: u64,
+    overrun_told: Option<Time>,
+}
+
+impl Teller {
+    /// The voice of a port whose silence is told after the patience. Without patience it is one that
+    /// is only written to: what it says is nobody's business.
+    pub(super) fn new(
+        port: PortId,
+        clock: Arc<dyn Clock>,
+        queue: Queue,
+        patience: Option<Span>,
+    ) -> Self {
+        Teller {
+            port,
+            clock,
+            queue,
+            patience,
+            told: None,
+            opened: None,
+            heard: None,
+            silent: false,
+            untold: 0,
+            overrun_told: None,
+        }
+    }
+
+    /// Both clocks, now.
+    pub(super) fn now(&self) -> Stamp {
+        self.clock.now()
+    }
+
+    /// The clock, for a task of its own.
+    pub(super) fn clock(&self) -> Arc<dyn Clock> {
+        Arc::clone(&self.clock)
+    }
+
+    /// An attempt to open begins.
+    pub(super) fn begin(&mut self) {
+        self.opened = None;
+    }
+
+    /// It is open. Told once for the same words.
+    pub(super) fn open(&mut self, what: String) {
+        let now = self.now();
+        if self.opened.is_none() {
+            self.opened = Some(now.monotonic);
+            self.heard = self.patience.map(|_| now.monotonic);
+            self.silent = false;
+        }
+        self.change(now, PortState::Open { what });
+    }
+
+    /// It could not be opened. Told once for the same reason.
+    pub(super) fn absent(&mut self, reason: String) {
+        self.heard = None;
+        self.change(self.now(), PortState::Absent { reason });
+    }
+
+    /// It was open and is gone.
+    pub(super) fn lost(&mut self, reason: String) {
+        self.heard = None;
+        self.change(self.now(), PortState::Lost { reason });
+    }
+
+    /// It has been read to its end.
+    pub(super) fn ended(&mut self) {
+        self.heard = None;
+        self.state(self.now(), PortState::Ended);
+    }
+
+    /// For how long it has been open since the last beginning.
+    pub(super) fn open_for(&self) -> Span {
+        self.opened.map_or(Span::ZERO, |opened| self.now().monotonic - opened)
+    }
+
+    /// Whether its silence has been told.
+    pub(super) fn is_silent(&self) -> bool {
+        self.silent
+    }
+
+    /// Bytes came.
+    pub(super) fn bytes(&mut self, stamp: Stamp, bytes: &[u8]) {
+        if self.patience.is_some() && !bytes.is_empty() {
+            self.speaks(stamp);
+            self.push(stamp, Input::Bytes(bytes.to_vec()));
+        }
+        self.overrun(stamp);
+    }
+
+    /// An edge came.
+    pub(super) fn pulse(&mut self, stamp: Stamp, pulse: Pulse) {
+        self.speaks(stamp);
+        self.push(stamp, Input::Pulse(pulse));
+    }
+
+    /// Waits until the consumer has room for more of this port.
+    pub(super) async fn room(&self) {
+        self.queue.room(self.port).await;
+    }
+
+    /// How long nothing can be due. To be followed by a [`Teller::tick`].
+    pub(super) fn rest(&self) -> Duration {
+        let now = self.now().monotonic;
+        let until = |due: Time| Duration::from_nanos((due - now).as_nanos().max(0).unsigned_abs());
+        let silence = self.heard.zip(self.patience).map(|(heard, patience)| heard + patience);
+        let overrun = self.overrun_told.filter(|_| self.untold > 0);
+        let overrun = overrun.map(|told| told + OVERRUN_PERIOD);
+        let next = silence.into_iter().chain(overrun).map(until).min();
+        // a millisecond more, so that it is due when the sleeper wakes
+        next.map_or(REST, |wait| wait.min(REST) + Duration::from_millis(1))
+    }
+
+    /// Tells the silence and the overrun that are due.
+    pub(super) fn tick(&mut self) {
+        let now = self.now();
+        self.overrun(now);
+        let span = self.heard.map_or(Span::ZERO, |heard| now.monotonic - heard);
+        if self.patience.is_some_and(|patience| span >= patience) {
+            self.heard = None;
+            self.silent = true;
+            self.state(now, PortState::Silent { span });
+        }
+    }
+
+    fn speaks(&mut self, stamp: Stamp) {
+        if std::mem::take(&mut self.silent) {
+            self.state(stamp, PortState::Speaking);
+        }
+        self.heard = Some(stamp.monotonic);
+    }
+
+    fn change(&mut self, stamp: Stamp, state: PortState) {
+        if self.told.as_ref() != Some(&state) {
+            self.told = Some(state.clone());
+            self.state(stamp, state);
+        }
+    }
+
+    fn overrun(&mut self, stamp: Stamp) {
+        let due = |told: Time| stamp.monotonic - told >= OVERRUN_PERIOD;
+        if self.untold > 0 && self.overrun_told.is_none_or(due) {
+            self.overrun_told = Some(stamp.monotonic);
+            let bytes = std::mem::take(&mut self.untold);
+            self.state(stamp, PortState::Overrun { bytes });
+        }
+    }
+
+    fn state(&mut self, stamp: Stamp, state: PortState) {
+        self.push(stamp, Input::State(state));
+    }
+
+    fn push(&mut self, stamp: Stamp, input: Input) {
+        self.untold += self.queue.push(Arrival { stamp, port: self.port, input });
+    }
+}
+
+/// What was dropped last is told even if the port is stopped.
+impl Drop for Teller {
+    fn drop(&mut self) {
+        self.overrun_told = None;
+        self.overrun(self.now());
+    }
+}

@@ -1,0 +1,169 @@
+//! One arrival as a record of a block.
+
+use insd_base::{Arrival, Input, PortId, PortState, Pulse, Span, Stamp, Time, UtcTime};
+
+use super::varint::{put, put_signed, take, take_signed};
+
+/// Set in the first byte of a record that tells a new difference of the two clocks.
+const CLOCK: u8 = 0x10;
+
+/// The kinds of records, the low four bits of the first byte.
+mod kind {
+    pub(super) const BYTES: u8 = 0;
+    pub(super) const PULSE: u8 = 1;
+    pub(super) const OPEN: u8 = 2;
+    pub(super) const ABSENT: u8 = 3;
+    pub(super) const LOST: u8 = 4;
+    pub(super) const SILENT: u8 = 5;
+    pub(super) const SPEAKING: u8 = 6;
+    pub(super) const OVERRUN: u8 = 7;
+    pub(super) const ENDED: u8 = 8;
+    pub(super) const GAP: u8 = 15;
+}
+
+/// What a block holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Record {
+    /// Something arrived.
+    Arrival(Arrival),
+    /// So many arrivals were not recorded here.
+    Gap(u64),
+}
+
+/// The clocks as the record before left them. Each block begins anew, at zero, so that it can be read
+/// without any other.
+#[derive(Clone, Copy, Debug, Default)]
+struct Clocks {
+    /// Monotonic clock, ns.
+    monotonic: i64,
+    /// System clock minus monotonic clock, ns. All differences wrap, so that every pair is exact.
+    offset: i64,
+}
+
+/// Encodes the records of a block.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Encoder {
+    clocks: Clocks,
+}
+
+impl Encoder {
+    /// Appends a gap.
+    pub(crate) fn gap(bytes: &mut Vec<u8>, dropped: u64) {
+        bytes.push(kind::GAP);
+        put(bytes, dropped);
+    }
+
+    /// Appends an arrival.
+    pub(crate) fn arrival(&mut self, bytes: &mut Vec<u8>, arrival: &Arrival) {
+        let monotonic = arrival.stamp.monotonic.as_nanos();
+        let offset = arrival.stamp.system.as_nanos().wrapping_sub(monotonic);
+        let clock = if offset == self.clocks.offset { 0 } else { CLOCK };
+        bytes.push(kind_of(&arrival.input) | clock);
+        put(bytes, u64::from(arrival.port.0));
+        put_signed(bytes, monotonic.wrapping_sub(self.clocks.monotonic));
+        if clock != 0 {
+            put_signed(bytes, offset.wrapping_sub(self.clocks.offset));
+        }
+        self.clocks = Clocks { monotonic, offset };
+        match &arrival.input {
+            Input::Bytes(payload) => put_bytes(bytes, payload),
+            Input::Pulse(pulse) => {
+                put_signed(bytes, pulse.time.as_nanos().wrapping_sub(monotonic));
+                put(bytes, u64::from(pulse.sequence));
+            }
+            Input::State(state) => put_state(bytes, state),
+        }
+    }
+}
+
+fn kind_of(input: &Input) -> u8 {
+    match input {
+        Input::Bytes(_) => kind::BYTES,
+        Input::Pulse(_) => kind::PULSE,
+        Input::State(state) => match state {
+            PortState::Open { .. } => kind::OPEN,
+            PortState::Absent { .. } => kind::ABSENT,
+            PortState::Lost { .. } => kind::LOST,
+            PortState::Silent { .. } => kind::SILENT,
+            PortState::Speaking => kind::SPEAKING,
+            PortState::Overrun { .. } => kind::OVERRUN,
+            PortState::Ended => kind::ENDED,
+        },
+    }
+}
+
+fn put_state(bytes: &mut Vec<u8>, state: &PortState) {
+    match state {
+        PortState::Open { what: text }
+        | PortState::Absent { reason: text }
+        | PortState::Lost { reason: text } => put_bytes(bytes, text.as_bytes()),
+        PortState::Silent { span } => put_signed(bytes, span.as_nanos()),
+        PortState::Overrun { bytes: dropped } => put(bytes, *dropped),
+        PortState::Speaking | PortState::Ended => {}
+    }
+}
+
+fn put_bytes(bytes: &mut Vec<u8>, payload: &[u8]) {
+    put(bytes, payload.len() as u64);
+    bytes.extend_from_slice(payload);
+}
+
+/// The records of a block, all `count` of them; `None` if the bytes are anything else.
+pub(crate) fn decode(mut bytes: &[u8], count: u32) -> Option<Vec<Record>> {
+    // no record is shorter than two bytes: a false count reserves nothing
+    let count = usize::try_from(count).ok().filter(|count| *count <= bytes.len() / 2)?;
+    let mut records = Vec::with_capacity(count);
+    let mut clocks = Clocks::default();
+    for _ in 0..count {
+        records.push(record(&mut bytes, &mut clocks)?);
+    }
+    bytes.is_empty().then_some(records)
+}
+
+fn record(bytes: &mut &[u8], clocks: &mut Clocks) -> Option<Record> {
+    let (first, rest) = bytes.split_first()?;
+    *bytes = rest;
+    if *first == kind::GAP {
+        return take(bytes).map(Record::Gap);
+    }
+    let port = PortId(u16::try_from(take(bytes)?).ok()?);
+    clocks.monotonic = clocks.monotonic.wrapping_add(take_signed(bytes)?);
+    if first & CLOCK != 0 {
+        clocks.offset = clocks.offset.wrapping_add(take_signed(bytes)?);
+    }
+    let monotonic = Time::from_nanos(clocks.monotonic);
+    let system = UtcTime::from_nanos(clocks.monotonic.wrapping_add(clocks.offset));
+    let input = input(first & !CLOCK, bytes, clocks.monotonic)?;
+    Some(Record::Arrival(Arrival { stamp: Stamp { monotonic, system }, port, input }))
+}
+
+fn input(kind: u8, bytes: &mut &[u8], monotonic: i64) -> Option<Input> {
+    let state = match kind {
+        kind::BYTES => return take_bytes(bytes).map(|taken| Input::Bytes(taken.to_vec())),
+        kind::PULSE => {
+            let time = Time::from_nanos(monotonic.wrapping_add(take_signed(bytes)?));
+            let sequence = u32::try_from(take(bytes)?).ok()?;
+            return Some(Input::Pulse(Pulse { time, sequence }));
+        }
+        kind::OPEN => PortState::Open { what: take_text(bytes)? },
+        kind::ABSENT => PortState::Absent { reason: take_text(bytes)? },
+        kind::LOST => PortState::Lost { reason: take_text(bytes)? },
+        kind::SILENT => PortState::Silent { span: Span::from_nanos(take_signed(bytes)?) },
+        kind::SPEAKING => PortState::Speaking,
+        kind::OVERRUN => PortState::Overrun { bytes: take(bytes)? },
+        kind::ENDED => PortState::Ended,
+        _ => return None,
+    };
+    Some(Input::State(state))
+}
+
+fn take_bytes<'a>(bytes: &mut &'a [u8]) -> Option<&'a [u8]> {
+    let length = usize::try_from(take(bytes)?).ok()?;
+    let (taken, rest) = bytes.split_at_checked(length)?;
+    *bytes = rest;
+    Some(taken)
+}
+
+fn take_text(bytes: &mut &[u8]) -> Option<String> {
+    String::from_utf8(take_bytes(bytes)?.to_vec()).ok()
+}

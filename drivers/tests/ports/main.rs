@@ -1,0 +1,10 @@
+//! Ports that are unplugged, flooded, silent and absent: on real pseudo terminals and sockets.
+
+// helpers of tests are not seen as tests
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod files;
+mod host;
+mod network;
+mod output;
+mod serial;

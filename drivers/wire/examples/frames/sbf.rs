@@ -1,0 +1,93 @@
+//! SBF blocks as JSON.
+
+use insd_wire::gnss::sbf::{
+    AttCovEuler, AttEuler, Covariance, Message, Mode, PvtGeodetic, ReceiverTime, Stamp, XppsOffset,
+};
+use serde_json::{Value, json};
+
+/// Name and fields of a block; no fields if it is not read, `refused` and why if it can not be.
+pub(crate) fn describe(block: &[u8]) -> (String, Value) {
+    let message = match Message::read(block) {
+        Ok(message) => message,
+        Err(fault) => return ("refused".to_owned(), json!(fault.to_string())),
+    };
+    let (name, fields) = match &message {
+        Message::PvtGeodetic(block) => ("PVTGeodetic", pvt(block)),
+        Message::PosCovGeodetic(block) => ("PosCovGeodetic", cov(&block.0)),
+        Message::VelCovGeodetic(block) => ("VelCovGeodetic", cov(&block.0)),
+        Message::AttEuler(block) => ("AttEuler", attitude(block)),
+        Message::AttCovEuler(block) => ("AttCovEuler", attitude_cov(block)),
+        Message::ReceiverTime(block) => ("ReceiverTime", time(block)),
+        Message::XppsOffset(block) => ("xPPSOffset", pulse(block)),
+        Message::Other { id, revision } => return (format!("{id}-{revision}"), Value::Null),
+    };
+    (name.to_owned(), fields)
+}
+
+fn with(stamp: Stamp, mode: Option<Mode>, mut fields: Value) -> Value {
+    fields["TOW"] = json!(stamp.time_of_week);
+    fields["WNc"] = json!(stamp.week);
+    if let Some(mode) = mode {
+        fields["Type"] = json!(mode.solution.raw());
+        fields["AutoSet"] = json!(mode.determining);
+        fields["2D"] = json!(mode.two_dimensional);
+        fields["Error"] = json!(mode.error);
+    }
+    fields
+}
+
+fn pvt(block: &PvtGeodetic) -> Value {
+    let (position, extra) = (block.position, block.extra);
+    let fields = json!({
+        "Latitude": position.map(|position| position.latitude),
+        "Longitude": position.map(|position| position.longitude),
+        "Height": position.map(|position| position.height), "Undulation": block.undulation,
+        "Vn": block.velocity[0], "Ve": block.velocity[1], "Vd": block.velocity[2],
+        "COG": block.course, "RxClkBias": block.clock_bias, "RxClkDrift": block.clock_drift,
+        "TimeSystem": block.time_system, "Datum": block.datum, "NrSV": block.satellites,
+        "ReferenceID": block.reference, "MeanCorrAge": block.correction_age,
+        "SignalInfo": block.signals, "NrBases": extra.map(|extra| extra.bases),
+        "Latency": extra.and_then(|extra| extra.latency),
+        "HAccuracy": extra.and_then(|extra| extra.horizontal),
+        "VAccuracy": extra.and_then(|extra| extra.vertical),
+    });
+    with(block.stamp, Some(block.mode), fields)
+}
+
+fn cov(block: &Covariance) -> Value {
+    let fields = json!({ "variances": block.variances, "covariances": block.covariances });
+    with(block.stamp, Some(block.mode), fields)
+}
+
+fn attitude(block: &AttEuler) -> Value {
+    let fields = json!({
+        "NrSV": block.satellites, "Error": block.error, "Mode": block.mode,
+        "Heading": block.heading, "Pitch": block.pitch, "Roll": block.roll,
+        "PitchDot": block.rates[0], "RollDot": block.rates[1], "HeadingDot": block.rates[2],
+    });
+    with(block.stamp, None, fields)
+}
+
+fn attitude_cov(block: &AttCovEuler) -> Value {
+    let fields = json!({
+        "Error": block.error, "variances": block.variances, "covariances": block.covariances,
+    });
+    with(block.stamp, None, fields)
+}
+
+fn time(block: &ReceiverTime) -> Value {
+    let utc = block.utc.and_then(insd_wire::nmea::CivilTime::to_utc);
+    let fields = json!({
+        "utc": utc.map(insd_base::UtcTime::as_nanos), "DeltaLS": block.leap_seconds,
+        "SyncLevel": block.sync,
+    });
+    with(block.stamp, None, fields)
+}
+
+fn pulse(block: &XppsOffset) -> Value {
+    let fields = json!({
+        "SyncAge": block.age, "TimeScale": block.scale, "Offset": block.offset,
+        "pulse": block.pulse().as_ref().map(crate::ubx::instant),
+    });
+    with(block.stamp, None, fields)
+}

@@ -1,0 +1,144 @@
+//! UBX messages as JSON.
+
+use insd_wire::gnss::ubx::{
+    Covariance, Message, NavCov, NavDop, NavHpPosLlh, NavPvt, NavTimeGps, NavTimeLs, RxmRawx,
+    RxmSfrbx, TimTp,
+};
+use insd_wire::gnss::{EpochTime, PulseTime};
+use serde_json::{Value, json};
+
+/// Name and fields of a frame; no fields if it is not read, `refused` and why if it can not be.
+pub(crate) fn describe(frame: &[u8]) -> (String, Value) {
+    let message = match Message::read(frame) {
+        Ok(message) => message,
+        Err(fault) => return ("refused".to_owned(), json!(fault.to_string())),
+    };
+    let (name, fields) = match &message {
+        Message::NavPvt(message) => ("NAV-PVT", pvt(message)),
+        Message::NavDop(message) => ("NAV-DOP", dop(message)),
+        Message::NavCov(message) => ("NAV-COV", cov(message)),
+        Message::NavHpPosLlh(message) => ("NAV-HPPOSLLH", hpposllh(message)),
+        Message::NavTimeGps(message) => ("NAV-TIMEGPS", time_gps(message)),
+        Message::NavTimeLs(message) => ("NAV-TIMELS", time_ls(message)),
+        Message::TimTp(message) => ("TIM-TP", tim_tp(message)),
+        Message::RxmRawx(message) => ("RXM-RAWX", rawx(message)),
+        Message::RxmSfrbx(message) => ("RXM-SFRBX", sfrbx(message)),
+        Message::Other { class, id } => return (format!("{class:02X}-{id:02X}"), Value::Null),
+    };
+    (name.to_owned(), fields)
+}
+
+fn pvt(message: &NavPvt) -> Value {
+    let time = message.time;
+    let utc = time.utc().map(insd_base::UtcTime::as_nanos);
+    let position = message.position;
+    json!({
+        "iTOW": message.time_of_week, "year": time.date.year, "month": time.date.month,
+        "day": time.date.day, "hour": time.clock.0, "min": time.clock.1, "second": time.clock.2,
+        "validDate": time.date_valid, "validTime": time.clock_valid,
+        "fullyResolved": time.resolved, "tAcc": time.accuracy, "nano": time.nanosecond,
+        "utc": utc, "fixType": message.fix.raw(), "gnssFixOk": message.fix_ok,
+        "diffSoln": message.differential, "carrSoln": message.carrier.raw(),
+        "numSV": message.satellites, "lat": position.map(|position| position.latitude),
+        "lon": position.map(|position| position.longitude),
+        "height": position.map(|position| position.height), "hMSL": message.height_msl,
+        "hAcc": message.horizontal_accuracy, "vAcc": message.vertical_accuracy,
+        "velN": message.velocity[0], "velE": message.velocity[1], "velD": message.velocity[2],
+        "gSpeed": message.ground_speed, "headMot": message.course,
+        "sAcc": message.speed_accuracy, "headAcc": message.heading_accuracy,
+        "pDOP": message.pdop, "headVeh": message.heading,
+        "magDec": message.declination.map(|one| one.0),
+        "magAcc": message.declination.map(|one| one.1),
+    })
+}
+
+fn dop(message: &NavDop) -> Value {
+    json!({
+        "iTOW": message.time_of_week, "gDOP": message.geometric, "pDOP": message.position,
+        "tDOP": message.time, "vDOP": message.vertical, "hDOP": message.horizontal,
+        "nDOP": message.north, "eDOP": message.east,
+    })
+}
+
+fn cov(message: &NavCov) -> Value {
+    let all = |of: Option<Covariance>| of.map(|of| json!([of.north, of.east, of.down]));
+    json!({
+        "iTOW": message.time_of_week, "posCov": all(message.position),
+        "velCov": all(message.velocity),
+    })
+}
+
+fn hpposllh(message: &NavHpPosLlh) -> Value {
+    let position = message.position;
+    json!({
+        "iTOW": message.time_of_week, "lat": position.map(|position| position.latitude),
+        "lon": position.map(|position| position.longitude),
+        "height": position.map(|position| position.height), "hMSL": message.height_msl,
+        "hAcc": message.horizontal_accuracy, "vAcc": message.vertical_accuracy,
+    })
+}
+
+fn time_gps(message: &NavTimeGps) -> Value {
+    json!({
+        "iTOW": message.time_of_week, "fTOW": message.fraction, "week": message.week,
+        "leapS": message.leap_seconds, "towValid": message.time_of_week_valid,
+        "weekValid": message.week_valid, "tAcc": message.accuracy,
+        "gps": message.gps().map(insd_base::GpsTime::as_nanos),
+    })
+}
+
+fn time_ls(message: &NavTimeLs) -> Value {
+    let event = message.event;
+    json!({
+        "iTOW": message.time_of_week, "srcOfCurrLs": message.source,
+        "currLs": message.leap_seconds, "srcOfLsChange": event.map(|event| event.source),
+        "lsChange": event.map(|event| event.change),
+        "timeToLsEvent": event.map(|event| event.wait),
+        "dateOfLsGpsWn": event.map(|event| event.week),
+        "dateOfLsGpsDn": event.map(|event| event.day),
+    })
+}
+
+fn tim_tp(message: &TimTp) -> Value {
+    json!({
+        "towMS": message.time_of_week, "towSubMS": message.fraction,
+        "qErr": message.quantization, "week": message.week, "timeBase": message.utc_base,
+        "utc": message.utc_available, "raim": message.raim, "timeRefGnss": message.system,
+        "utcStandard": message.utc_standard, "pulse": message.pulse().as_ref().map(instant),
+    })
+}
+
+fn rawx(message: &RxmRawx) -> Value {
+    let measurement = |one: &insd_wire::gnss::ubx::RawMeasurement| {
+        json!({
+            "prMes": one.pseudorange, "cpMes": one.carrier_phase, "doMes": one.doppler,
+            "gnssId": one.signal.system, "svId": one.signal.satellite, "sigId": one.signal.signal,
+            "freqId": one.signal.slot, "locktime": one.lock_time, "cno": one.carrier_to_noise,
+            "prStd": one.pseudorange_exponent, "cpStd": one.carrier_phase_std,
+            "doStd": one.doppler_exponent,
+        })
+    };
+    json!({
+        "rcvTow": message.time_of_week, "week": message.week, "leapS": message.leap_seconds,
+        "leapSec": message.leap_seconds_valid, "clkReset": message.clock_reset,
+        "measurements": message.measurements.iter().map(measurement).collect::<Vec<_>>(),
+    })
+}
+
+fn sfrbx(message: &RxmSfrbx) -> Value {
+    json!({
+        "gnssId": message.signal.system, "svId": message.signal.satellite,
+        "sigId": message.signal.signal, "freqId": message.signal.slot, "chn": message.channel,
+        "version": message.version, "dwrd": message.words,
+    })
+}
+
+/// Time scale and nanoseconds of a pulse.
+pub(crate) fn instant(pulse: &PulseTime) -> Value {
+    match pulse.instant {
+        EpochTime::Utc(utc) => json!({ "utc": utc.as_nanos() }),
+        EpochTime::Gps(gps) => json!({ "gps": gps.as_nanos() }),
+        EpochTime::TimeOfWeek(nanos) => json!({ "tow": nanos }),
+        EpochTime::TimeOfDay(time) => json!({ "day": time.as_nanos() }),
+    }
+}

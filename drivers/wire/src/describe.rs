@@ -1,0 +1,163 @@
+//! What a frame is called, for whoever looks at a port.
+
+use crate::gnss::{rtcm, sbf, ubx};
+use crate::imu::{kvh, mip, sbg, stdbin, stim, xbus};
+use crate::log::{pd0, pd6};
+use crate::nmea::others::{self, Understood};
+use crate::stream::Protocol;
+
+/// A frame's name and what became of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Described {
+    /// The message: `HETHS`, `NAV-PVT`, `SBF 4007`, `IMU_SHORT`.
+    pub name: String,
+    /// What the readers of this crate say of it.
+    pub read: Reading,
+}
+
+/// What the readers of this crate say of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Reading {
+    /// It is read, and its contents are used.
+    Used,
+    /// It is a good frame of a message that is not used.
+    Other,
+    /// Its contents are not what its format says.
+    Refused,
+}
+
+/// Reads a frame of a protocol with its reader.
+#[must_use]
+pub fn describe(protocol: Protocol, frame: &[u8]) -> Described {
+    match protocol {
+        Protocol::Nmea => nmea(frame),
+        Protocol::Ubx => ubx(frame),
+        Protocol::Sbf => sbf(frame),
+        Protocol::Rtcm => {
+            let number = rtcm::Frame::open(frame).ok().and_then(|frame| frame.number());
+            let name = number.map_or("RTCM".to_owned(), |number| format!("RTCM {number}"));
+            Described { name, read: Reading::Other }
+        }
+        Protocol::Sbg => sbg(frame),
+        Protocol::StdBin => plain("StdBin", &stdbin::Telegram::read(frame)),
+        Protocol::Mip => mip(frame),
+        Protocol::Xbus => xbus(frame),
+        Protocol::Kvh => plain("KVH", &kvh::KvhMessage::read(frame)),
+        Protocol::Stim => stim(frame),
+        Protocol::Pd0 => plain("PD0", &pd0::Ensemble::read(frame)),
+        Protocol::Pd6 => pd6(frame),
+    }
+}
+
+fn described(name: impl Into<String>, read: Reading) -> Described {
+    Described { name: name.into(), read }
+}
+
+fn plain<T, E>(name: &str, read: &Result<T, E>) -> Described {
+    described(name, if read.is_ok() { Reading::Used } else { Reading::Refused })
+}
+
+fn nmea(frame: &[u8]) -> Described {
+    match others::kind(frame) {
+        Ok(kind) => {
+            let read = match kind.understood {
+                Understood::Read => Reading::Used,
+                Understood::Refused(_) | Understood::Odd => Reading::Refused,
+                Understood::Recognised | Understood::Unknown => Reading::Other,
+            };
+            described(kind.name, read)
+        }
+        Err(_) => described("NMEA", Reading::Refused),
+    }
+}
+
+fn ubx(frame: &[u8]) -> Described {
+    use ubx::Message;
+    let used = |name| described(name, Reading::Used);
+    match Message::read(frame) {
+        Ok(Message::NavPvt(_)) => used("NAV-PVT"),
+        Ok(Message::NavDop(_)) => used("NAV-DOP"),
+        Ok(Message::NavCov(_)) => used("NAV-COV"),
+        Ok(Message::NavHpPosLlh(_)) => used("NAV-HPPOSLLH"),
+        Ok(Message::NavTimeGps(_)) => used("NAV-TIMEGPS"),
+        Ok(Message::NavTimeLs(_)) => used("NAV-TIMELS"),
+        Ok(Message::TimTp(_)) => used("TIM-TP"),
+        Ok(Message::RxmRawx(_)) => described("RXM-RAWX", Reading::Other),
+        Ok(Message::RxmSfrbx(_)) => described("RXM-SFRBX", Reading::Other),
+        Ok(Message::Other { class, id }) => {
+            described(format!("UBX {class:02X}-{id:02X}"), Reading::Other)
+        }
+        Err(_) => described("UBX", Reading::Refused),
+    }
+}
+
+fn sbf(frame: &[u8]) -> Described {
+    let name = match sbf::Frame::open(frame) {
+        Ok(open) => format!("SBF {}", open.id),
+        Err(_) => "SBF".to_owned(),
+    };
+    match sbf::Message::read(frame) {
+        Ok(sbf::Message::Other { .. }) => described(name, Reading::Other),
+        Ok(_) => described(name, Reading::Used),
+        Err(_) => described(name, Reading::Refused),
+    }
+}
+
+fn sbg(frame: &[u8]) -> Described {
+    use sbg::Message;
+    match Message::read(frame) {
+        Ok(Message::ImuShort(_)) => described("IMU_SHORT", Reading::Used),
+        Ok(Message::ImuData(_)) => described("IMU_DATA", Reading::Used),
+        Ok(Message::Time(_)) => described("UTC_TIME", Reading::Used),
+        Ok(Message::Euler(_)) => described("EKF_EULER", Reading::Other),
+        Ok(Message::Other { class, id }) => {
+            described(format!("SBG {class:02X}-{id:02X}"), Reading::Other)
+        }
+        Err(_) => described("SBG", Reading::Refused),
+    }
+}
+
+fn mip(frame: &[u8]) -> Described {
+    let set = frame.get(2).copied().unwrap_or_default();
+    match mip::Packet::read(frame) {
+        Ok(_) => described("MIP 80", Reading::Used),
+        Err(crate::binary::Fault::OtherMessage) => {
+            described(format!("MIP {set:02X}"), Reading::Other)
+        }
+        Err(_) => described(format!("MIP {set:02X}"), Reading::Refused),
+    }
+}
+
+fn xbus(frame: &[u8]) -> Described {
+    let id = frame.get(2).copied().unwrap_or_default();
+    match xbus::MtData2::read(frame) {
+        Ok(_) => described("MTData2", Reading::Used),
+        Err(crate::binary::Fault::OtherMessage) => {
+            described(format!("Xbus {id:02X}"), Reading::Other)
+        }
+        Err(_) => described(format!("Xbus {id:02X}"), Reading::Refused),
+    }
+}
+
+fn stim(frame: &[u8]) -> Described {
+    if stim::StimConfiguration::read(frame).is_ok() {
+        return described("STIM configuration", Reading::Used);
+    }
+    let id = frame.first().copied().unwrap_or_default();
+    match stim::StimDatagram::read(frame) {
+        Ok(_) => described(format!("STIM {id:02X}"), Reading::Used),
+        Err(crate::binary::Fault::OtherMessage) => {
+            described(format!("STIM {id:02X}"), Reading::Other)
+        }
+        Err(_) => described(format!("STIM {id:02X}"), Reading::Refused),
+    }
+}
+
+fn pd6(frame: &[u8]) -> Described {
+    let name = frame.get(1..3).and_then(|name| std::str::from_utf8(name).ok()).unwrap_or("");
+    match pd6::Pd6::read(frame) {
+        Ok(pd6::Pd6::Other(_)) => described(format!("PD6 :{name}"), Reading::Other),
+        Ok(_) => described(format!("PD6 :{name}"), Reading::Used),
+        Err(_) => described(format!("PD6 :{name}"), Reading::Refused),
+    }
+}

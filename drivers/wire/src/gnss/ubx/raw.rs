@@ -1,0 +1,187 @@
+//! RXM-RAWX and RXM-SFRBX: what the receiver measured and what the satellites sent, to be passed on.
+//!
+//! Layouts: u-blox ZED-F9P Interface Description (UBX-18010854). No log of a device with RXM-RAWX was
+//! at hand.
+
+use super::field::bit;
+use super::frame::{Frame, framed};
+use crate::binary::{Fault, Reader, Writer};
+
+/// Class and id of RXM-RAWX.
+pub(super) const RAWX: (u8, u8) = (0x02, 0x15);
+
+/// Class and id of RXM-SFRBX.
+pub(super) const SFRBX: (u8, u8) = (0x02, 0x13);
+
+/// A signal of a satellite in u-blox's numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub struct Signal {
+    /// `gnssId`: 0 GPS, 1 SBAS, 2 Galileo, 3 `BeiDou`, 5 QZSS, 6 GLONASS, 7 NavIC.
+    pub system: u8,
+    /// `svId`.
+    pub satellite: u8,
+    /// `sigId`; zero on receivers older than generation 9.
+    pub signal: u8,
+    /// `freqId`: GLONASS frequency slot + 7.
+    pub slot: u8,
+}
+
+/// One measurement of RXM-RAWX.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RawMeasurement {
+    /// `prMes`: pseudorange, m; `None` unless `prValid`.
+    pub pseudorange: Option<f64>,
+    /// `cpMes`: carrier phase, cycles; `None` unless `cpValid`.
+    pub carrier_phase: Option<f64>,
+    /// `doMes`: Doppler shift, Hz, positive when the satellite approaches.
+    pub doppler: f32,
+    /// Of which signal.
+    pub signal: Signal,
+    /// `locktime`: how long the carrier is locked, s, at most 64.5.
+    pub lock_time: f64,
+    /// `cno`: carrier to noise density, dB-Hz.
+    pub carrier_to_noise: u8,
+    /// `prStdev`: its exponent n, 0 to 15; 1-sigma is 0.01 m * 2^n.
+    pub pseudorange_exponent: u8,
+    /// `cpStdev`: 1-sigma of the carrier phase, cycles, steps of 0.004, at most 0.056.
+    pub carrier_phase_std: Option<f64>,
+    /// `doStdev`: its exponent n, 0 to 15; 1-sigma is 0.002 Hz * 2^n.
+    pub doppler_exponent: u8,
+    /// `halfCyc`: the half cycle is resolved.
+    pub half_cycle_valid: bool,
+    /// `subHalfCyc`: a half cycle was subtracted.
+    pub half_cycle_subtracted: bool,
+}
+
+/// RXM-RAWX.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RxmRawx {
+    /// `rcvTow`: time of the week by the receiver's clock, s.
+    pub time_of_week: f64,
+    /// `week`: GPS week, without rollover.
+    pub week: u16,
+    /// `leapS`: GPS - UTC, s, at best knowledge.
+    pub leap_seconds: i8,
+    /// `leapSec`: that they are certain.
+    pub leap_seconds_valid: bool,
+    /// `clkReset`: the receiver's clock was reset.
+    pub clock_reset: bool,
+    /// At most 255.
+    pub measurements: Vec<RawMeasurement>,
+}
+
+impl RawMeasurement {
+    fn read(reader: &mut Reader<'_>) -> Result<Self, Fault> {
+        let (pseudorange, carrier_phase) = (reader.le_f64()?, reader.le_f64()?);
+        let doppler = reader.le_f32()?;
+        let [system, satellite, signal, slot] = reader.array()?;
+        let lock_time = f64::from(reader.le_u16()?) * 1e-3;
+        let [carrier_to_noise, range_std, phase_std, doppler_std, status, _] = reader.array()?;
+        let phase_std = phase_std & 15;
+        Ok(RawMeasurement {
+            pseudorange: bit(status, 0).then_some(pseudorange),
+            carrier_phase: bit(status, 1).then_some(carrier_phase),
+            doppler,
+            signal: Signal { system, satellite, signal, slot },
+            lock_time,
+            carrier_to_noise,
+            pseudorange_exponent: range_std & 15,
+            carrier_phase_std: (phase_std != 15).then(|| f64::from(phase_std) * 0.004),
+            doppler_exponent: doppler_std & 15,
+            half_cycle_valid: bit(status, 2),
+            half_cycle_subtracted: bit(status, 3),
+        })
+    }
+
+    fn write(&self, writer: &mut Writer) {
+        let status = u8::from(self.pseudorange.is_some())
+            | u8::from(self.carrier_phase.is_some()) << 1
+            | u8::from(self.half_cycle_valid) << 2
+            | u8::from(self.half_cycle_subtracted) << 3;
+        let Signal { system, satellite, signal, slot } = self.signal;
+        let phase_std =
+            self.carrier_phase_std.map_or(15, |std| ((std / 0.004).round() as u8).min(14));
+        writer.le_f64(self.pseudorange.unwrap_or_default());
+        writer.le_f64(self.carrier_phase.unwrap_or_default()).le_f32(self.doppler);
+        writer.put(&[system, satellite, signal, slot]);
+        writer.le_u16((self.lock_time / 1e-3).round() as u16);
+        writer.u8(self.carrier_to_noise).u8(self.pseudorange_exponent & 15).u8(phase_std);
+        writer.put(&[self.doppler_exponent & 15, status, 0]);
+    }
+}
+
+impl RxmRawx {
+    /// Reads a frame. Version 0 and 1 differ in nothing else.
+    ///
+    /// # Errors
+    /// What is wrong with the bytes.
+    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+        let mut reader = Reader::new(Frame::payload_of(frame, RAWX)?);
+        let (time_of_week, week) = (reader.le_f64()?, reader.le_u16()?);
+        let leap_seconds = reader.i8()?;
+        let [count, status, _, _, _] = reader.array()?;
+        let measurements = (0..count).map(|_| RawMeasurement::read(&mut reader));
+        Ok(RxmRawx {
+            time_of_week,
+            week,
+            leap_seconds,
+            leap_seconds_valid: bit(status, 0),
+            clock_reset: bit(status, 1),
+            measurements: measurements.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// The frame, version 1. Measurements beyond the 255th are left out.
+    #[must_use]
+    pub fn write(&self) -> Vec<u8> {
+        let measurements = self.measurements.get(..255).unwrap_or(&self.measurements);
+        let status = u8::from(self.leap_seconds_valid) | u8::from(self.clock_reset) << 1;
+        let mut writer = Writer::new();
+        writer.le_f64(self.time_of_week).le_u16(self.week).put(&self.leap_seconds.to_le_bytes());
+        writer.put(&[measurements.len() as u8, status, 1, 0, 0]);
+        for measurement in measurements {
+            measurement.write(&mut writer);
+        }
+        framed(RAWX, &writer)
+    }
+}
+
+/// RXM-SFRBX: words of a navigation message.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RxmSfrbx {
+    /// Of which signal.
+    pub signal: Signal,
+    /// `chn`: the receiver's channel.
+    pub channel: u8,
+    /// `version` of the message.
+    pub version: u8,
+    /// `dwrd`: at most 255 words, as the satellite's document numbers their bits.
+    pub words: Vec<u32>,
+}
+
+impl RxmSfrbx {
+    /// Reads a frame.
+    ///
+    /// # Errors
+    /// What is wrong with the bytes.
+    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+        let mut reader = Reader::new(Frame::payload_of(frame, SFRBX)?);
+        let [system, satellite, signal, slot, count, channel, version, _] = reader.array()?;
+        let words = (0..count).map(|_| reader.le_u32()).collect::<Result<_, _>>()?;
+        Ok(RxmSfrbx { signal: Signal { system, satellite, signal, slot }, channel, version, words })
+    }
+
+    /// The frame. Words beyond the 255th are left out.
+    #[must_use]
+    pub fn write(&self) -> Vec<u8> {
+        let words = self.words.get(..255).unwrap_or(&self.words);
+        let Signal { system, satellite, signal, slot } = self.signal;
+        let mut writer = Writer::new();
+        writer.put(&[system, satellite, signal, slot, words.len() as u8, self.channel]);
+        writer.put(&[self.version, 0]);
+        for word in words {
+            writer.le_u32(*word);
+        }
+        framed(SFRBX, &writer)
+    }
+}

@@ -1,0 +1,69 @@
+//! GLL: geographic position.
+//!
+//! ```text
+//! $GPGLL,ddmm.mmmmm,a,dddmm.mmmmm,a,hhmmss.ss,A,a*hh
+//!        1          2 3           4 5         6 7
+//! 1, 2 latitude, N or S
+//! 3, 4 longitude, E or W
+//! 5    UTC of the position
+//! 6    A valid, V not valid
+//! 7    mode: A D E F M N P R S; absent before NMEA 2.3
+//! ```
+//! The form of the Loran age, which ends after field 4, is refused.
+
+use super::civil::TimeOfDay;
+use super::fault::Fault;
+use super::frame::Frame;
+use super::gns::letter_of;
+use super::line::{Line, Talker};
+use super::mode::PositionMode;
+use super::position::Position;
+
+/// A position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gll {
+    /// Latitude and longitude; `None` if the sentence is not valid and they are no position.
+    pub position: Option<Position>,
+    /// UTC of the position.
+    pub time: Option<TimeOfDay>,
+    /// Whether the position may be used. A sentence without a position is written as not valid.
+    pub valid: bool,
+    /// How it was found; an unknown mode is written as autonomous or not valid.
+    pub mode: Option<PositionMode>,
+}
+
+impl Gll {
+    /// The three letters after the talker.
+    pub const FORMATTER: &'static str = "GLL";
+
+    /// Writes the sentence: time truncated to 0.01 s, position to 0.00001 minutes (2 cm).
+    #[must_use]
+    pub fn write(&self, talker: Talker) -> Line {
+        let valid = self.valid && self.position.is_some_and(Position::is_writable);
+        let otherwise = if valid { PositionMode::Autonomous } else { PositionMode::NotValid };
+        Line::compose(talker, Self::FORMATTER, |line| {
+            line.position(self.position, 5);
+            line.time_of_day(self.time);
+            line.letter(if valid { b'A' } else { b'V' });
+            line.letter(self.mode.unwrap_or(otherwise).letter());
+        })
+    }
+
+    /// Reads the sentence.
+    ///
+    /// # Errors
+    /// The first [`Fault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+        let mut fields = frame.fields_of(Self::FORMATTER)?;
+        let position = fields.position();
+        let time = fields.time_of_day()?;
+        let valid = fields.status()?;
+        let mode = if fields.has_more() {
+            fields.convert(|text| letter_of(text).and_then(PositionMode::from_letter))?
+        } else {
+            None
+        };
+        let position = if valid { position? } else { position.ok().flatten() };
+        Ok(Gll { position, time, valid, mode })
+    }
+}

@@ -1,0 +1,79 @@
+//! GST: what the receiver thinks of its own errors.
+//!
+//! ```text
+//! $GPGST,hhmmss.ss,x.x,x.x,x.x,x.x,x.x,x.x,x.x*hh
+//!        1         2   3   4   5   6   7   8
+//! 1    UTC of the position
+//! 2    root mean square of the range residuals, m
+//! 3, 4 1-sigma along the semi-major and the semi-minor axis of the error ellipse, m
+//! 5    orientation of the semi-major axis, deg true
+//! 6..8 1-sigma of latitude, longitude and altitude, m
+//! ```
+
+use super::civil::TimeOfDay;
+use super::decimal::Form;
+use super::fault::Fault;
+use super::frame::Frame;
+use super::line::{Line, Talker};
+
+const SIGMA: Form = Form { decimals: 3, width: 1, limit: 999_999.0 };
+
+/// Error statistics of a position.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Gst {
+    /// UTC of the position.
+    pub time: Option<TimeOfDay>,
+    /// Root mean square of the range residuals, m.
+    pub range_rms: Option<f64>,
+    /// 1-sigma along the semi-major axis, m.
+    pub major_std: Option<f64>,
+    /// 1-sigma along the semi-minor axis, m.
+    pub minor_std: Option<f64>,
+    /// Orientation of the semi-major axis, rad, clockwise from true north.
+    pub orientation: Option<f64>,
+    /// 1-sigma of the latitude, m.
+    pub latitude_std: Option<f64>,
+    /// 1-sigma of the longitude, m.
+    pub longitude_std: Option<f64>,
+    /// 1-sigma of the altitude, m.
+    pub altitude_std: Option<f64>,
+}
+
+impl Gst {
+    /// The three letters after the talker.
+    pub const FORMATTER: &'static str = "GST";
+
+    /// Writes the sentence: time truncated to 0.01 s, sigmas to 1 mm, orientation to 0.1 deg.
+    #[must_use]
+    pub fn write(&self, talker: Talker) -> Line {
+        Line::compose(talker, Self::FORMATTER, |line| {
+            line.time_of_day(self.time);
+            for sigma in [self.range_rms, self.major_std, self.minor_std] {
+                line.magnitude(sigma, SIGMA);
+            }
+            line.degrees(self.orientation, 1);
+            for sigma in [self.latitude_std, self.longitude_std, self.altitude_std] {
+                line.magnitude(sigma, SIGMA);
+            }
+        })
+    }
+
+    /// Reads the sentence.
+    ///
+    /// # Errors
+    /// The first [`Fault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+        let mut fields = frame.fields_of(Self::FORMATTER)?;
+        let range = 0.0..=SIGMA.limit;
+        Ok(Gst {
+            time: fields.time_of_day()?,
+            range_rms: fields.number_in(range.clone())?,
+            major_std: fields.number_in(range.clone())?,
+            minor_std: fields.number_in(range.clone())?,
+            orientation: fields.degrees()?,
+            latitude_std: fields.number_in(range.clone())?,
+            longitude_std: fields.number_in(range.clone())?,
+            altitude_std: fields.number_in(range)?,
+        })
+    }
+}

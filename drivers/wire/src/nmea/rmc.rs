@@ -1,0 +1,145 @@
+//! RMC: the recommended minimum: position, course, speed, date.
+//!
+//! ```text
+//! $GPRMC,hhmmss.ss,A,ddmm.mmmmm,a,dddmm.mmmmm,a,x.x,x.x,ddmmyy,x.x,a,a,a*hh
+//!        1         2 3          4 5           6 7   8   9      10  11 12 13
+//! 1     UTC of the position
+//! 2     A valid, V not valid
+//! 3, 4  latitude, N or S
+//! 5, 6  longitude, E or W
+//! 7     speed over ground, knots
+//! 8     course over ground, deg true
+//! 9     day, month, year of the century: 80 to 99 are 1980 to 1999
+//! 10,11 magnetic variation, deg, E or W
+//! 12    mode: A D E F M N P R S; absent before NMEA 2.3
+//! 13    navigational status: S C U V; absent before NMEA 4.1
+//! ```
+//! What is no position, course or date in a sentence that says V is unknown; in one that says A it
+//! is a fault. A Motorola receiver leaves field 11 out and puts the mode there: its variation, which
+//! then has no sign, is unknown.
+
+use insd_base::units::KNOT;
+
+use super::civil::{Date, TimeOfDay};
+use super::decimal::{Form, parse, parse_digits};
+use super::fault::Fault;
+use super::fields::Fields;
+use super::frame::Frame;
+use super::gns::letter_of;
+use super::line::{Line, Talker};
+use super::mode::{NavStatus, PositionMode};
+use super::position::Position;
+
+const SPEED: Form = Form { decimals: 2, width: 1, limit: 9999.9 };
+const VARIATION: Form = Form { decimals: 1, width: 1, limit: 180.0 };
+
+/// Position, course, speed and date.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Rmc {
+    /// UTC of the position.
+    pub time: Option<TimeOfDay>,
+    /// Whether the data may be used. A sentence without a position is written as not valid.
+    pub valid: bool,
+    /// Latitude and longitude.
+    pub position: Option<Position>,
+    /// Speed over ground, m/s.
+    pub speed: Option<f64>,
+    /// Course over ground, rad, clockwise from true north.
+    pub course: Option<f64>,
+    /// Date, 1980 to 2079.
+    pub date: Option<Date>,
+    /// Magnetic variation, rad, magnetic north east of true north positive.
+    pub variation: Option<f64>,
+    /// How the position was found; an unknown mode is written as autonomous or not valid.
+    pub mode: Option<PositionMode>,
+    /// Navigational status; not provided is written if it is unknown.
+    pub nav_status: Option<NavStatus>,
+}
+
+impl Rmc {
+    /// The three letters after the talker.
+    pub const FORMATTER: &'static str = "RMC";
+
+    /// Writes the sentence: time truncated to 0.01 s, position to 0.00001 minutes (2 cm), course to
+    /// 0.01 deg, speed to 0.01 kn, variation to 0.1 deg.
+    #[must_use]
+    pub fn write(&self, talker: Talker) -> Line {
+        let valid = self.valid && self.position.is_some_and(Position::is_writable);
+        let otherwise = if valid { PositionMode::Autonomous } else { PositionMode::NotValid };
+        let date = self.date.filter(|date| date.is_valid() && (1980..2080).contains(&date.year));
+        Line::compose(talker, Self::FORMATTER, |line| {
+            line.time_of_day(self.time);
+            line.letter(if valid { b'A' } else { b'V' });
+            line.position(self.position, 5);
+            line.magnitude(self.speed.map(|speed| speed / KNOT), SPEED);
+            line.degrees(self.course, 2);
+            match date {
+                Some(date) => line.digits(&date.short_groups()),
+                None => line.empty(),
+            }
+            line.signed(self.variation.map(f64::to_degrees), VARIATION, [b'E', b'W']);
+            line.letter(self.mode.unwrap_or(otherwise).letter());
+            line.letter(self.nav_status.unwrap_or(NavStatus::NotProvided).letter());
+        })
+    }
+
+    /// Reads the sentence.
+    ///
+    /// # Errors
+    /// The first [`Fault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+        let mut fields = frame.fields_of(Self::FORMATTER)?;
+        let time = fields.time_of_day()?;
+        let valid = fields.status()?;
+        let position = fields.position();
+        let speed = fields.number_in(0.0..=SPEED.limit)?.map(|knots| knots * KNOT);
+        let course = fields.degrees();
+        let date = fields.convert(short_date);
+        if let Err(Fault::Missing { .. }) = date {
+            return Err(Fault::Missing { field: 9 });
+        }
+        let (variation, mode) = variation_and_mode(&mut fields)?;
+        let nav_status = if fields.has_more() {
+            fields.convert(|text| letter_of(text).and_then(NavStatus::from_letter))?
+        } else {
+            None
+        };
+        let mut rmc = Rmc { time, valid, speed, variation, mode, nav_status, ..Rmc::default() };
+        rmc.position = if valid { position? } else { position.ok().flatten() };
+        rmc.course = if valid { course? } else { course.ok().flatten() };
+        rmc.date = if valid { date? } else { date.ok().flatten() };
+        Ok(rmc)
+    }
+}
+
+/// Fields 10 to 12, of which the oldest editions end after 11.
+fn variation_and_mode(
+    fields: &mut Fields<'_>,
+) -> Result<(Option<f64>, Option<PositionMode>), Fault> {
+    let degrees = fields.convert(|text| parse(text).filter(|v| (0.0..=180.0).contains(v)))?;
+    let side = fields.text()?;
+    let mode_in_its_place = letter_of(side).and_then(PositionMode::from_letter);
+    match (side, mode_in_its_place) {
+        ("E" | "W" | "", _) => {}
+        (_, Some(mode)) if !fields.has_more() => return Ok((None, Some(mode))),
+        _ => return Err(fields.malformed()),
+    }
+    if degrees.is_some() && side.is_empty() {
+        return Err(fields.malformed());
+    }
+    let sign = if side == "W" { -1.0 } else { 1.0 };
+    let variation = degrees.map(|degrees| sign * degrees.to_radians());
+    if !fields.has_more() {
+        return Ok((variation, None));
+    }
+    let mode = fields.convert(|text| letter_of(text).and_then(PositionMode::from_letter))?;
+    Ok((variation, mode))
+}
+
+fn short_date(text: &str) -> Option<Date> {
+    let part = |from: usize| text.get(from..from + 2).and_then(parse_digits);
+    let year = part(4).filter(|_| text.len() == 6)?;
+    let century = if year >= 80 { 1900 } else { 2000 };
+    let date = Date::from_parts(century + year, part(2)?, part(0)?);
+    date.filter(|date| date.is_valid())
+}

@@ -1,0 +1,276 @@
+//! What lies behind a reader: readings, parts of epochs, pulses, and the writer.
+
+use std::f64::consts::FRAC_PI_2;
+use std::hint::black_box;
+
+use insd_base::LogReference;
+use insd_wire::gnss::{GnssPart, nmea as gnss_nmea, rtcm, sbf, ubx};
+use insd_wire::imu::kvh::{KvhFormat, KvhLinear, KvhMessage, KvhRotation, KvhTemperature};
+use insd_wire::imu::stim::{StimConfiguration, StimDatagram, StimFormat, StimKind, StimRange};
+use insd_wire::imu::{ImuReading, mip, sbg, stdbin, xbus};
+use insd_wire::log::{LogReading, pd0, pd6};
+use insd_wire::nmea::{ChecksumPolicy, Frame, PashrDialect, Sentence, TagBlock, Talker};
+use insd_wire::stream::Protocol;
+
+use super::again::Keeps::{AfterOnce, Everything};
+use super::again::again;
+
+/// Makes everything of a frame that can be made of it.
+pub(crate) fn look(protocol: Protocol, frame: &[u8]) {
+    match protocol {
+        Protocol::Nmea => nmea(frame),
+        Protocol::Ubx => ubx(frame),
+        Protocol::Sbf => sbf(frame),
+        Protocol::Rtcm => rtcm(frame),
+        Protocol::Sbg => sbg(frame),
+        Protocol::StdBin => stdbin(frame),
+        Protocol::Mip => mip(frame),
+        Protocol::Xbus => xbus(frame),
+        Protocol::Kvh => kvh(frame),
+        Protocol::Stim => stim(frame),
+        Protocol::Pd0 => pd0(frame),
+        Protocol::Pd6 => pd6(frame),
+    }
+}
+
+/// Something whose making must not panic; what it says is not looked at.
+fn make<T>(made: T) {
+    black_box(made);
+}
+
+/// A number that is told is a number.
+fn is_finite(numbers: impl IntoIterator<Item = Option<f64>>) -> bool {
+    numbers.into_iter().flatten().all(f64::is_finite)
+}
+
+fn is_sane_part(part: &GnssPart) {
+    let place = part.position.map(|place| [place.latitude, place.longitude, place.height]);
+    let horizontal = part.horizontal.map(|place| [place.latitude, place.longitude]);
+    let numbers = [part.time_std, part.heading, part.heading_std, part.hdop].into_iter();
+    let numbers = numbers.chain(part.position_std).chain(part.velocity).chain(part.velocity_std);
+    assert!(is_finite(numbers), "{part:?}");
+    assert!(place.iter().flatten().all(|number| number.is_finite()), "{part:?}");
+    let latitudes =
+        [place.map(|[latitude, ..]| latitude), horizontal.map(|[latitude, _]| latitude)];
+    let on_earth = |latitude: &f64| latitude.abs() <= FRAC_PI_2 + 1e-9;
+    assert!(latitudes.iter().flatten().all(on_earth), "{part:?}");
+    let sigmas = part.position_std.iter().chain(&part.velocity_std).chain([&part.heading_std]);
+    assert!(sigmas.flatten().all(|sigma| *sigma >= 0.0), "{part:?}");
+}
+
+fn is_sane_sample(reading: &ImuReading) {
+    assert!(!reading.valid || reading.motion.is_finite(), "{reading:?}");
+    assert!(is_finite([reading.temperature, reading.latency]), "{reading:?}");
+}
+
+fn is_sane_log(reading: &LogReading) {
+    assert!(is_finite(reading.velocity.into_iter().chain([reading.std, reading.age])));
+}
+
+fn nmea(line: &[u8]) {
+    if let Ok(frame) = Frame::parse_with(line, ChecksumPolicy::Optional) {
+        make(Sentence::read_frame(&frame));
+        if let Some(tag) = frame.tag() {
+            tag_block(&tag);
+        }
+    }
+    let write = |(talker, sentence): &(Option<Talker>, Sentence)| {
+        sentence.write(talker.unwrap_or(Talker::IN)).as_bytes().to_vec()
+    };
+    let Some((_, sentence)) = again(line, AfterOnce, Sentence::read, write) else { return };
+    gnss_nmea::part(&sentence).iter().for_each(is_sane_part);
+    if let Sentence::Pashr(own) = &sentence {
+        for dialect in DIALECTS {
+            make((own.quality(dialect), own.status(dialect)));
+            let heave = own.heave_down(dialect);
+            let mut other = *own;
+            other.set_heave_down(heave, dialect);
+            assert_eq!(other.heave_down(dialect), heave, "{dialect:?}");
+        }
+    }
+}
+
+/// All dialects of PASHR.
+const DIALECTS: [PashrDialect; 6] = [
+    PashrDialect::Sbg,
+    PashrDialect::SbgWassp,
+    PashrDialect::Ixblue,
+    PashrDialect::Novatel,
+    PashrDialect::Trimble,
+    PashrDialect::Applanix,
+];
+
+fn tag_block(tag: &TagBlock<'_>) {
+    let written = tag.write();
+    let inside = std::str::from_utf8(&written).unwrap().trim_matches('\\');
+    let content = inside.rsplit_once('*').map_or("", |(content, _)| content);
+    assert_eq!(TagBlock::read(content), *tag);
+}
+
+fn ubx(frame: &[u8]) {
+    use ubx::Message;
+    let Ok(open) = ubx::Frame::open(frame) else { return };
+    assert_eq!(open.write(), frame);
+    let read = Message::read;
+    let write = |message: &Message| match message {
+        Message::NavPvt(message) => message.write(),
+        Message::NavDop(message) => message.write(),
+        Message::NavCov(message) => message.write(),
+        Message::NavHpPosLlh(message) => message.write(),
+        Message::NavTimeGps(message) => message.write(),
+        Message::NavTimeLs(message) => message.write(),
+        Message::TimTp(message) => message.write(),
+        Message::RxmRawx(message) => message.write(),
+        Message::RxmSfrbx(message) => message.write(),
+        Message::Other { .. } => frame.to_vec(),
+    };
+    let Some(message) = again(frame, Everything, read, write) else { return };
+    message.part().iter().for_each(is_sane_part);
+    make(message.pulse());
+}
+
+fn sbf(frame: &[u8]) {
+    use sbf::Message;
+    let Ok(open) = sbf::Frame::open(frame) else { return };
+    assert_eq!(open.write(), frame);
+    let read = Message::read;
+    let write = |message: &Message| match message {
+        Message::PvtGeodetic(block) => block.write(),
+        Message::PosCovGeodetic(block) => block.write(),
+        Message::VelCovGeodetic(block) => block.write(),
+        Message::AttEuler(block) => block.write(),
+        Message::AttCovEuler(block) => block.write(),
+        Message::ReceiverTime(block) => block.write(),
+        Message::XppsOffset(block) => block.write(),
+        Message::Other { .. } => frame.to_vec(),
+    };
+    let Some(message) = again(frame, Everything, read, write) else { return };
+    message.part().iter().for_each(is_sane_part);
+    make(message.pulse());
+}
+
+fn rtcm(frame: &[u8]) {
+    if let Ok(open) = rtcm::Frame::open(frame) {
+        assert_eq!(open.write(), frame);
+        make(open.number());
+    }
+}
+
+fn sbg(frame: &[u8]) {
+    use sbg::Message;
+    let write = |message: &Message| match message {
+        Message::ImuShort(log) => log.write(),
+        Message::ImuData(log) => log.write(),
+        Message::Time(log) => log.write(),
+        Message::Euler(log) => log.write(),
+        Message::Other { .. } => frame.to_vec(),
+    };
+    let Some(message) = again(frame, AfterOnce, Message::read, write) else { return };
+    message.reading().iter().for_each(is_sane_sample);
+    match message {
+        Message::Time(log) => make((log.utc(), log.device_time())),
+        Message::Euler(log) => make((log.device_time(), log.is_heading_valid())),
+        _ => {}
+    }
+}
+
+fn stdbin(frame: &[u8]) {
+    use stdbin::Telegram;
+    let Some(telegram) = again(frame, Everything, Telegram::read, Telegram::write) else { return };
+    telegram.reading().iter().for_each(is_sane_sample);
+    telegram.log_readings().iter().for_each(is_sane_log);
+}
+
+fn mip(frame: &[u8]) {
+    use mip::Packet;
+    let Some(packet) = again(frame, Everything, Packet::read, Packet::write) else { return };
+    packet.reading().iter().for_each(is_sane_sample);
+    make(packet.gps.map(|stamp| stamp.utc()));
+}
+
+fn xbus(frame: &[u8]) {
+    use xbus::{FINE_DAY, MtData2, Precision};
+    for precision in Precision::ALL {
+        let write = |message: &MtData2| message.write(precision);
+        let Some(message) = again(frame, AfterOnce, MtData2::read, write) else { return };
+        message.reading().iter().for_each(is_sane_sample);
+        message.reading_wrapping(FINE_DAY).iter().for_each(is_sane_sample);
+        make(message.utc.map(|utc| utc.utc()));
+    }
+}
+
+fn kvh(frame: &[u8]) {
+    let Some(message) = again(frame, Everything, KvhMessage::read, KvhMessage::write) else {
+        return;
+    };
+    for format in kvh_formats() {
+        let reading = message.reading(&format);
+        is_sane_sample(&reading);
+        make(format.numbers(&reading.motion));
+    }
+}
+
+fn kvh_formats() -> Vec<KvhFormat> {
+    use KvhTemperature::{Celsius, CentiCelsius, CentiFahrenheit, Fahrenheit};
+    let mut formats = Vec::new();
+    for rotation in [KvhRotation::Delta, KvhRotation::Rate] {
+        for linear in [KvhLinear::Acceleration, KvhLinear::DeltaMetres, KvhLinear::DeltaFeet] {
+            for temperature in [Celsius, CentiCelsius, Fahrenheit, CentiFahrenheit] {
+                let degrees = temperature == Fahrenheit;
+                formats.push(KvhFormat { rotation, degrees, linear, temperature, interval: 1e-3 });
+            }
+        }
+    }
+    formats
+}
+
+fn stim(frame: &[u8]) {
+    let read = StimConfiguration::read;
+    if let Some(told) = again(frame, Everything, read, StimConfiguration::write) {
+        make(told.format);
+    }
+    let Some(datagram) = again(frame, Everything, StimDatagram::read, StimDatagram::write) else {
+        return;
+    };
+    for format in stim_formats() {
+        if let Some(reading) = datagram.reading(&format) {
+            is_sane_sample(&reading);
+            make(format.counts(&reading.motion));
+        }
+    }
+}
+
+fn stim_formats() -> Vec<StimFormat> {
+    let kinds = [StimKind::Rate, StimKind::Increment, StimKind::Integrated];
+    let ranges = [StimRange::G2, StimRange::G5, StimRange::G10, StimRange::G30, StimRange::G80];
+    let mut formats = Vec::new();
+    for (gyro, accel) in kinds.into_iter().flat_map(|gyro| kinds.map(|accel| (gyro, accel))) {
+        for (range, interval) in ranges.into_iter().zip([None, Some(5e-4)].into_iter().cycle()) {
+            formats.push(StimFormat { gyro, accel, range, interval });
+        }
+    }
+    formats
+}
+
+fn pd0(frame: &[u8]) {
+    use pd0::Ensemble;
+    let Some(ensemble) = again(frame, AfterOnce, Ensemble::read, Ensemble::write) else { return };
+    for reference in [LogReference::Bottom, LogReference::Water] {
+        let Some(reading) = ensemble.reading(reference) else { continue };
+        is_sane_log(&reading);
+        if let Some(geometry) = ensemble.fixed.geometry {
+            geometry.instrument_reading(&reading).iter().for_each(is_sane_log);
+        }
+    }
+    if let Some((geometry, bottom)) = ensemble.fixed.geometry.zip(ensemble.bottom) {
+        let janus = geometry.instrument(bottom.velocity);
+        let finite = janus.is_none_or(|own| is_finite([Some(own.x), Some(own.z), own.error]));
+        assert!(finite, "{janus:?}");
+    }
+}
+
+fn pd6(frame: &[u8]) {
+    use pd6::Pd6;
+    let Some(line) = again(frame, AfterOnce, Pd6::read, Pd6::write) else { return };
+    line.reading().iter().for_each(is_sane_log);
+}
