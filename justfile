@@ -14,6 +14,12 @@ demo *options:
 test *options:
     cargo test --workspace {{options}}
 
+# tests that need a kernel of their own, see tests/vm/README.md
+vm *options:
+    tests/vm/prepare
+    CARGO_TARGET_X86_64_UNKNOWN_LINUX_GNU_RUNNER="{{justfile_directory()}}/tests/vm/runner" \
+        cargo test -p insd-drivers --test vm_pps -- --ignored {{options}}
+
 # what CI refuses: unformatted code and any warning
 lint:
     cargo fmt --all --check
@@ -52,6 +58,19 @@ noise-free:
 # instruction counts; needs valgrind and `cargo install gungraun-runner --version 0.20.0`
 bench *options:
     cargo bench --workspace {{options}}
+
+# a fuzz target for a while; needs nightly and `cargo install cargo-fuzz --version 0.13.2`
+fuzz target="nmea" seconds="60":
+    cargo +nightly fuzz run --sanitizer none {{target}} -- -max_total_time={{seconds}} -max_len=2048 -timeout=20
+
+# all fuzz targets in turn, each for so many seconds; ends at the first finding
+fuzz-all seconds="60":
+    #!/usr/bin/env bash
+    set -euo pipefail
+    for target in $(cargo +nightly fuzz list); do
+        echo "== $target"
+        just fuzz "$target" {{seconds}}
+    done
 
 # the README's picture of the demo, the same bytes every time
 picture:

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use insd_drivers::recording::RecordingError;
 
-use crate::commands::{campaign, evaluate, limit, replay, simulate};
+use crate::commands::{campaign, convert, evaluate, limit, ports, replay, run, simulate, sniff};
 use crate::demo;
 
 /// Exit status when the input is to blame.
@@ -23,18 +23,26 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Navigate: read the ship's sensors, feed her equipment
+    Run(run::RunArgs),
     /// Show a simulated ship navigating in real time, with NMEA on a pseudo terminal
     Demo(demo::DemoArgs),
     /// Make a voyage directory with truth from a scenario
     Simulate(simulate::SimulateArgs),
     /// Run a recorded voyage through the navigator
     Replay(replay::ReplayArgs),
+    /// Make a voyage directory of a raw recording
+    Convert(convert::ConvertArgs),
     /// Compare a solution with truth
     Evaluate(evaluate::EvaluateArgs),
     /// Run a scenario with many seeds and score errors and claims
     Campaign(campaign::CampaignArgs),
     /// How well the optimal filter could do in a scenario
     Limit(limit::LimitArgs),
+    /// List the ports of this computer, with the names to use in a configuration
+    Ports(ports::PortsArgs),
+    /// Listen to ports and tell what comes: formats, rates, damage, what may be wrong
+    Sniff(sniff::SniffArgs),
 }
 
 /// The input is to blame, not the machine: ends with exit status 2.
@@ -43,18 +51,29 @@ enum Command {
 pub struct BadInput(pub String);
 
 impl Cli {
+    /// What is logged where the environment (`RUST_LOG`) says nothing: the daemon tells what happens,
+    /// the other commands only what is wrong.
+    #[must_use]
+    pub fn log_level(&self) -> &'static str {
+        if matches!(self.command, Command::Run(_)) { "info" } else { "warn" }
+    }
+
     /// Runs the command.
     ///
     /// # Errors
     /// Whatever the command meets; [`exit_code`] tells bad input from other failures.
     pub fn run(self) -> anyhow::Result<()> {
         match self.command {
+            Command::Run(args) => run::run(&args),
+            Command::Convert(args) => convert::run(&args),
             Command::Demo(args) => demo::run(args),
             Command::Simulate(args) => simulate::run(&args),
             Command::Replay(args) => replay::run(&args),
             Command::Evaluate(args) => evaluate::run(&args),
             Command::Campaign(args) => campaign::run(&args),
             Command::Limit(args) => limit::run(&args),
+            Command::Ports(args) => ports::run(&args),
+            Command::Sniff(args) => sniff::run(&args),
         }
     }
 }

@@ -6,7 +6,12 @@
 pub mod cli;
 pub mod clock;
 pub mod commands;
+pub mod config;
 pub mod demo;
 pub mod evaluation;
 mod output_file;
+pub mod pipeline;
+pub mod raw_run;
+pub mod run;
+pub mod sniff;
 pub mod stored;

@@ -3,9 +3,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
 
+pub mod feed;
 pub mod noise_free;
 pub mod sailing;
 pub mod scores;
+pub mod wire;
 
 use insd_simulator::{Scenario, shipped};
 

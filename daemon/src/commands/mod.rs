@@ -2,12 +2,16 @@
 
 pub mod alignment;
 pub mod campaign;
+pub mod convert;
 pub mod evaluate;
 pub mod limit;
 mod outage;
+pub mod ports;
 pub mod replay;
+pub mod run;
 pub(crate) mod scenario;
 pub mod simulate;
+pub mod sniff;
 mod stored_start;
 mod summary;
 

@@ -1,0 +1,30 @@
+//! `insd run`: the daemon.
+
+use std::path::PathBuf;
+
+use crate::config::Config;
+use crate::run::{self, RunOptions};
+
+/// Options of `insd run`.
+#[derive(Clone, Debug, clap::Args)]
+pub struct RunArgs {
+    /// Configuration file
+    #[arg(long, value_name = "FILE", default_value = "/etc/insd/insd.toml")]
+    config: PathBuf,
+    /// Also write the solutions to a file, as a replay would
+    #[arg(long, value_name = "NAV.csv")]
+    nav: Option<PathBuf>,
+    /// Stop after so many seconds
+    #[arg(long, value_name = "S")]
+    seconds: Option<f64>,
+}
+
+/// Runs the command until it is told to stop.
+///
+/// # Errors
+/// The configuration has faults, or something that is needed at the start cannot be had.
+pub fn run(args: &RunArgs) -> anyhow::Result<()> {
+    let (config, text) = Config::load(&args.config)?;
+    let options = RunOptions { nav: args.nav.clone(), seconds: args.seconds };
+    run::run(&config, &text, &options)
+}

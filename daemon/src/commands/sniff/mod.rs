@@ -1,0 +1,116 @@
+//! `insd sniff`: what comes in at a port. It listens and never writes a byte.
+
+mod address;
+mod frames;
+mod live;
+mod recorded;
+mod screen;
+
+use std::io::{self, IsTerminal, Write};
+
+use anyhow::Context;
+use insd_drivers::ports::PortConfig;
+use insd_wire::stream::Protocol;
+
+use crate::sniff::{Plan, Report, text};
+
+pub use address::{Address, Source, parse};
+
+/// Options of `insd sniff`.
+#[derive(Clone, Debug, clap::Args)]
+#[command(after_help = PORTS)]
+pub struct SniffArgs {
+    /// What to listen to: see below
+    #[arg(value_name = "PORT", required = true, value_parser = parse)]
+    pub ports: Vec<Address>,
+
+    /// Listen for so long, once the ports are open; 0 until Ctrl-C
+    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = seconds)]
+    pub seconds: f64,
+
+    /// Only one report at the end, in a terminal too
+    #[arg(long)]
+    pub once: bool,
+
+    /// The report as JSON
+    #[arg(long)]
+    pub json: bool,
+
+    /// Look for this protocol only; may be given several times
+    #[arg(long, value_name = "NAME", value_parser = protocol)]
+    pub protocol: Vec<Protocol>,
+
+    /// Also print each frame as it comes, with its time of receipt
+    #[arg(long, conflicts_with = "json")]
+    pub raw: bool,
+}
+
+const PORTS: &str = "\
+PORT is one of
+  /dev/ttyUSB0,115200          a serial line and its baud rate (8 bits, no parity)
+  /dev/ttyUSB0                 the baud rate is found by listening at the usual ones
+  udp://[IFACE@]ADDRESS:PORT   datagrams; a multicast group is joined on the interface
+  tcp://HOST:PORT              a server that is called
+  tcp-listen://[ADDRESS]:PORT  a server to be
+  pps:///dev/pps0              a pulse per second
+  capture.log                  a named pipe or a file with what a device has said
+  voyage.insdraw               a raw recording, or a folder with one";
+
+/// Listens and reports.
+///
+/// # Errors
+/// A recording that cannot be read, or an output that fails. A port that cannot be opened is part of
+/// the report.
+pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
+    let protocols = if args.protocol.is_empty() { &Protocol::ALL[..] } else { &args.protocol[..] };
+    let mut ports = Vec::new();
+    let mut report = Report { ports: Vec::new() };
+    for address in &args.ports {
+        match &address.source {
+            Source::Port(config) => ports.push(live::Opening {
+                plan: address.plan.clone(),
+                config: PortConfig::clone(config),
+                search_s: address.search_s(),
+            }),
+            Source::Recording(path) => {
+                let read = recorded::read(path, &address.plan.name, protocols, args.raw)?;
+                report.ports.extend(read.ports);
+            }
+        }
+    }
+    if !ports.is_empty() {
+        let is_live = !(args.once || args.json || args.raw) && io::stdout().is_terminal();
+        let style = live::Style { seconds: args.seconds, redraw: is_live, frames: args.raw };
+        report.ports.extend(live::listen(ports, protocols, style)?.ports);
+    }
+    let text = if args.json {
+        serde_json::to_string_pretty(&report)? + "\n"
+    } else if args.raw {
+        format!("\n{}", text::report(&report))
+    } else {
+        text::report(&report)
+    };
+    print(&text)
+}
+
+/// Prints, and takes no offence at a reader that has seen enough.
+fn print(text: &str) -> anyhow::Result<()> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(error).context("cannot print")
+        }
+        _ => Ok(()),
+    }
+}
+
+fn protocol(text: &str) -> Result<Protocol, String> {
+    let found = Protocol::ALL.into_iter().find(|protocol| protocol.name() == text);
+    let names = || Protocol::ALL.map(Protocol::name).join(", ");
+    found.ok_or_else(|| format!("expected one of {}", names()))
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok().filter(|seconds| (0.0..=86_400.0).contains(seconds));
+    seconds.ok_or_else(|| "expected a number of seconds from 0 to 86400".to_owned())
+}

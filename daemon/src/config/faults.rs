@@ -1,0 +1,86 @@
+//! Everything that types alone cannot refuse.
+
+use super::Config;
+
+/// Names, ranges and references: each fault with its place and what was expected.
+pub(super) fn of(config: &Config) -> Vec<String> {
+    let mut faults = Vec::new();
+    ship(config, &mut faults);
+    imu(config, &mut faults);
+    ports(config, &mut faults);
+    for fault in config.intake().faults() {
+        let place = if fault.sensor.is_empty() {
+            "[[sensor]]".to_owned()
+        } else {
+            format!("[[sensor]] \"{}\"", fault.sensor)
+        };
+        faults.push(format!("{place}: {}: expected {}", fault.key, fault.expected));
+    }
+    outputs(config, &mut faults);
+    faults
+}
+
+fn ship(config: &Config, faults: &mut Vec<String>) {
+    let ship = &config.ship;
+    let mut expect = |good: bool, key: &str, expected: &str| {
+        if !good {
+            faults.push(format!("[ship]: {key}: expected {expected}"));
+        }
+    };
+    let within = |value: Option<f64>, limit: f64| value.is_none_or(|value| value.abs() <= limit);
+    expect(within(ship.lat_deg, 90.0), "lat_deg", "-90 to 90");
+    expect(within(ship.lon_deg, 180.0), "lon_deg", "-180 to 180");
+    let both = ship.lat_deg.is_some() == ship.lon_deg.is_some();
+    expect(both, "lat_deg, lon_deg", "both or neither");
+    expect(within(Some(ship.height_m), 12_000.0), "height_m", "-12000 to 12000");
+    expect((0.1..=1000.0).contains(&ship.rate_hz), "rate_hz", "0.1 to 1000");
+    for (key, arm) in [("gnss_lever_m", ship.gnss_lever_m), ("log_lever_m", ship.log_lever_m)] {
+        let sound = arm.iter().all(|length| length.abs() <= 1000.0);
+        expect(sound, key, "[forward, starboard, down] in m, each within +-1000");
+    }
+    let sigma = ship.time_std_s.is_none_or(|sigma| (1e-9..=1.0).contains(&sigma));
+    expect(sigma, "time_std_s", "1e-9 to 1");
+}
+
+fn imu(config: &Config, faults: &mut Vec<String>) {
+    for (key, value, is_time) in config.imu.values() {
+        let good =
+            if is_time { (1e-3..=1e9).contains(&value) } else { (0.0..=1e9).contains(&value) };
+        if !good {
+            let least = if is_time { "0.001" } else { "0" };
+            faults.push(format!("[imu]: {key}: expected {least} to 1e9"));
+        }
+    }
+}
+
+fn ports(config: &Config, faults: &mut Vec<String>) {
+    for (port, carrier) in config.ports.iter().zip(config.port_configs()) {
+        let place = format!("[[port]] \"{}\"", port.name);
+        if config.ports.iter().filter(|other| other.name == port.name).count() > 1 {
+            faults.push(format!("{place}: name: expected a name that no other port has"));
+        }
+        faults.extend(carrier.faults().into_iter().map(|fault| format!("{place}: {fault}")));
+    }
+}
+
+fn outputs(config: &Config, faults: &mut Vec<String>) {
+    for output in &config.outputs {
+        let place = format!("[[output]] \"{}\"", output.name);
+        let carrier = output.carrier().faults();
+        faults.extend(carrier.into_iter().map(|fault| format!("{place}: {fault}")));
+        for (kind, rate) in output.sentences.iter().flat_map(super::Sentences::rates) {
+            if !(0.001..=1000.0).contains(&rate) {
+                faults
+                    .push(format!("{place}: sentences: {kind:?}: expected 0.001 to 1000 a second"));
+            }
+        }
+        if output.geoid_m.is_some_and(|geoid| geoid.abs() > 120.0 || !geoid.is_finite()) {
+            faults.push(format!("{place}: geoid_m: expected -120 to 120"));
+        }
+    }
+    if let Some(recording) = &config.recording
+        && !(1.0..=1e7).contains(&recording.rotate_s)
+    {
+        faults.push("[recording]: rotate_s: expected 1 to 1e7".to_owned());
+    }
+}

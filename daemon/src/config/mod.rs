@@ -1,0 +1,260 @@
+//! The configuration file: TOML with environment overrides, typed, checked, all faults at once.
+//!
+//! The text is read twice: first strictly by `toml`, whose errors show line and caret and which bends no
+//! type into another; then by `config`, which lays `INSD__SECTION__KEY` of the environment over it.
+
+mod faults;
+mod imu;
+mod output;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use insd_base::{Geodetic, LeverArms, StartCondition};
+use insd_drivers::ports::{PortConfig, Transport};
+use insd_engine::EngineConfig;
+use insd_intake::config::{IntakeConfig, PortSpec, Role, SensorConfig};
+use insd_intake::port::Link;
+use insd_intake::sensor::TimeBase;
+use serde::Deserialize;
+
+use crate::cli::BadInput;
+
+pub use imu::ImuModel;
+pub use output::{OutputSection, Sentences};
+
+/// How well receiver and IMU agree in time where neither a pulse nor the IMU's own UTC ties them, s.
+const TIME_STD: f64 = 0.02;
+/// Name of the environment variables that override keys.
+const PREFIX: &str = "INSD";
+
+/// Everything that the daemon is told.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Config {
+    /// Ship and start.
+    pub ship: Ship,
+    /// Error model of the IMU.
+    pub imu: ImuModel,
+    /// Ports that are listened to.
+    #[serde(default, rename = "port")]
+    pub ports: Vec<PortSection>,
+    /// Sensors on them.
+    #[serde(default, rename = "sensor")]
+    pub sensors: Vec<SensorConfig>,
+    /// Ports that are written to.
+    #[serde(default, rename = "output")]
+    pub outputs: Vec<OutputSection>,
+    /// Recording of all that arrives.
+    pub recording: Option<Recording>,
+    /// Where chronyd listens for time.
+    pub chrony: Option<Chrony>,
+}
+
+/// Ship and start.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ship {
+    /// What is known of her motion at the start: at the berth, or under way.
+    #[serde(default)]
+    pub start: Start,
+    /// Latitude of the berth, or of the start, deg.
+    pub lat_deg: Option<f64>,
+    /// Longitude, deg.
+    pub lon_deg: Option<f64>,
+    /// Height of the IMU above the ellipsoid, m.
+    #[serde(default)]
+    pub height_m: f64,
+    /// Antenna from the IMU: forward, starboard, down, m.
+    #[serde(default)]
+    pub gnss_lever_m: [f64; 3],
+    /// Log from the IMU: forward, starboard, down, m.
+    #[serde(default)]
+    pub log_lever_m: [f64; 3],
+    /// Solutions per second.
+    #[serde(default = "ten")]
+    pub rate_hz: f64,
+    /// How well receiver and IMU agree in time, 1-sigma, s. Left out: by what ties them.
+    pub time_std_s: Option<f64>,
+}
+
+/// What is known of the ship's motion at the start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Start {
+    /// At the berth.
+    Moored,
+    /// Under way, or unknown.
+    #[default]
+    Underway,
+}
+
+/// One port that is listened to.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PortSection {
+    /// Its name.
+    pub name: String,
+    /// What is opened.
+    pub transport: Transport,
+    /// Silence after which it is told, s.
+    #[serde(default = "three")]
+    pub patience_s: f64,
+}
+
+/// Recording of all that arrives.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Recording {
+    /// Where the files go.
+    pub folder: PathBuf,
+    /// Their name.
+    #[serde(default = "insd")]
+    pub name: String,
+    /// A file holds at most so many megabytes.
+    #[serde(default = "hundred")]
+    pub rotate_mb: u64,
+    /// A file holds at most so many seconds.
+    #[serde(default = "hour")]
+    pub rotate_s: f64,
+    /// All files together hold at most so many megabytes.
+    pub quota_mb: Option<u64>,
+}
+
+/// Where chronyd listens for time.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Chrony {
+    /// The socket of its `refclock SOCK`.
+    pub socket: PathBuf,
+}
+
+fn ten() -> f64 {
+    10.0
+}
+fn three() -> f64 {
+    3.0
+}
+fn hundred() -> u64 {
+    100
+}
+fn hour() -> f64 {
+    3600.0
+}
+fn insd() -> String {
+    "insd".to_owned()
+}
+
+impl Config {
+    /// Reads and checks a file, with the environment's overrides; gives its text, too.
+    ///
+    /// # Errors
+    /// [`BadInput`] with all faults and their places.
+    pub fn load(path: &Path) -> anyhow::Result<(Self, String)> {
+        let text = std::fs::read_to_string(path)
+            .with_context(|| format!("{}: cannot be read", path.display()))?;
+        let config = Self::parse(&text, environment())
+            .map_err(|fault| BadInput(format!("{}: {fault}", path.display())))?;
+        Ok((config, text))
+    }
+
+    /// The configuration of a text alone, as a recording holds it.
+    ///
+    /// # Errors
+    /// All faults as one text.
+    pub fn of_text(text: &str) -> Result<Self, String> {
+        Self::parse(text, environment().source(Some(config::Map::new())))
+    }
+
+    fn parse(text: &str, environment: config::Environment) -> Result<Self, String> {
+        toml::from_str::<Config>(text).map_err(|fault| fault.to_string())?;
+        let layered = config::Config::builder()
+            .add_source(config::File::from_str(text, config::FileFormat::Toml))
+            .add_source(environment)
+            .build()
+            .and_then(config::Config::try_deserialize::<Config>)
+            .map_err(|fault| format!("with the environment laid over it: {fault}"))?;
+        let faults = faults::of(&layered);
+        if faults.is_empty() {
+            Ok(layered)
+        } else {
+            Err(format!("{} faults\n  {}", faults.len(), faults.join("\n  ")))
+        }
+    }
+
+    /// What the intake is told.
+    #[must_use]
+    pub fn intake(&self) -> IntakeConfig {
+        let ports = self
+            .ports
+            .iter()
+            .map(|port| PortSpec { name: port.name.clone(), link: link(&port.transport) });
+        IntakeConfig { ports: ports.collect(), sensors: self.sensors.clone() }
+    }
+
+    /// What the engine is told.
+    #[must_use]
+    pub fn engine(&self) -> EngineConfig {
+        let ship = &self.ship;
+        let [gnss, log] = [ship.gnss_lever_m, ship.log_lever_m]
+            .map(|[forward, starboard, down]| insd_base::Body::new(forward, starboard, down));
+        let imus = self.sensors.iter().filter(|sensor| sensor.kind.role() == Role::Imu);
+        let rate = imus.min_by_key(|sensor| sensor.priority).map_or(100.0, |sensor| sensor.rate_hz);
+        let start = match ship.start {
+            Start::Moored => StartCondition::Moored,
+            Start::Underway => StartCondition::Underway,
+        };
+        let place = ship.lat_deg.zip(ship.lon_deg);
+        EngineConfig {
+            imu: self.imu.spec(rate),
+            lever_arms: LeverArms { gnss, log },
+            start,
+            initial: place.map(|(lat, lon)| Geodetic::from_degrees(lat, lon, ship.height_m)),
+            output_rate: ship.rate_hz,
+            alignment: insd_alignment::AlignmentConfig::default(),
+            stored: None,
+            time_std: ship.time_std_s.or_else(|| self.time_std()),
+        }
+    }
+
+    /// What each port is opened as.
+    #[must_use]
+    pub fn port_configs(&self) -> Vec<PortConfig> {
+        let config = |port: &PortSection| PortConfig {
+            patience_s: port.patience_s,
+            ..PortConfig::new(port.transport.clone())
+        };
+        self.ports.iter().map(config).collect()
+    }
+
+    /// `None` where a pulse or the IMU's own UTC ties receiver and IMU.
+    fn time_std(&self) -> Option<f64> {
+        let pulse = self.ports.iter().any(|port| matches!(port.transport, Transport::Pps(_)));
+        let synchronised = self
+            .sensors
+            .iter()
+            .any(|sensor| sensor.kind.role() == Role::Imu && sensor.time == TimeBase::Utc);
+        (!pulse && !synchronised).then_some(TIME_STD)
+    }
+}
+
+fn environment() -> config::Environment {
+    config::Environment::with_prefix(PREFIX)
+        .prefix_separator("__")
+        .separator("__")
+        .try_parsing(true)
+}
+
+fn link(transport: &Transport) -> Link {
+    match transport {
+        Transport::Serial(serial) => {
+            let byte_time = f64::from(serial.symbols()) / f64::from(serial.baud.max(1));
+            Link::Serial { byte_time }
+        }
+        Transport::Udp(_) => Link::Datagrams,
+        _ => Link::Stream,
+    }
+}
+
+#[cfg(test)]
+mod tests;

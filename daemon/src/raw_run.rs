@@ -1,0 +1,85 @@
+//! One run of the daemon out of a raw recording.
+
+use std::path::Path;
+
+use insd_base::Arrival;
+use insd_drivers::raw::{RawFault, RawReader};
+
+use crate::cli::BadInput;
+use crate::config::Config;
+
+/// Extension of raw recordings.
+const EXTENSION: &str = "insdraw";
+
+/// The arrivals of one run, and the configuration that it had.
+pub struct RawRun {
+    /// The configuration.
+    pub config: Config,
+    reader: RawReader,
+    run: u32,
+}
+
+/// Whether a path is a raw recording, or a folder that holds one.
+#[must_use]
+pub fn is_recording(path: &Path) -> bool {
+    let is_own = |path: &Path| path.extension().is_some_and(|extension| extension == EXTENSION);
+    if path.is_dir() {
+        let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
+        return entries.into_iter().any(|entry| is_own(&entry.path()));
+    }
+    is_own(path)
+}
+
+impl RawRun {
+    /// Opens a recording for its run of this number, from 1. `config` replaces the recorded
+    /// configuration.
+    ///
+    /// # Errors
+    /// It is no recording, or there is no configuration that could be read.
+    pub fn open(path: &Path, config: Option<&Path>, run: u32) -> anyhow::Result<Self> {
+        let reader = RawReader::open(path).map_err(|fault| BadInput(fault.to_string()))?;
+        let config = match config {
+            Some(file) => Config::load(file)?.0,
+            None => {
+                let header = reader.header().ok_or_else(|| {
+                    let hint = "its configuration is not known: give one with --config";
+                    BadInput(format!("{}: {hint}", path.display()))
+                })?;
+                Config::of_text(&header.config).map_err(|fault| {
+                    BadInput(format!("{}: recorded configuration: {fault}", path.display()))
+                })?
+            }
+        };
+        Ok(RawRun { config, reader, run })
+    }
+
+    /// Hands over the arrivals in their order. What is wrong with the recording is told on standard
+    /// error, and reading goes on behind it.
+    ///
+    /// # Errors
+    /// The first that `each` returns; or there is no such run.
+    pub fn for_each(
+        &mut self,
+        mut each: impl FnMut(&Arrival) -> anyhow::Result<()>,
+    ) -> anyhow::Result<()> {
+        let mut run = 1;
+        for item in &mut self.reader {
+            match item {
+                Ok(arrival) if run == self.run => each(&arrival)?,
+                Ok(_) => {}
+                Err(fault @ RawFault::NewRun { .. }) => {
+                    eprintln!("{fault}");
+                    run += 1;
+                }
+                Err(fault) => eprintln!("{fault}"),
+            }
+        }
+        if run < self.run {
+            return Err(BadInput(format!("there are {run} runs in this recording")).into());
+        }
+        if run > 1 {
+            eprintln!("run {} of {run} was read; choose another with --run", self.run);
+        }
+        Ok(())
+    }
+}

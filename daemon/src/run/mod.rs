@@ -1,0 +1,197 @@
+//! The daemon at work: ports, one engine thread, outputs, recording.
+
+mod outputs;
+mod time_out;
+mod told;
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::RecvTimeoutError;
+use std::time::Duration;
+
+use anyhow::Context;
+use insd_base::{PortId, Stamp, Time};
+use insd_drivers::ports::{self, Receiver, Surroundings};
+use insd_drivers::raw::{RawHeader, RawWriter, Recorder, RecordingConfig};
+use insd_drivers::recording::NavWriter;
+use insd_engine::Output;
+
+use crate::clock::HostClock;
+use crate::config::{Config, Recording};
+use crate::output_file::OutputFile;
+use crate::pipeline::{Pipeline, Product};
+
+use outputs::Outputs;
+use time_out::TimeOut;
+pub use told::tell;
+
+/// Bytes that may wait for the engine at one port.
+const WAITING: usize = 256 * 1024;
+/// Longest wait for an arrival: time passes even when nothing comes.
+const TURN: Duration = Duration::from_millis(100);
+
+/// Time between the things that are done once a second, s.
+const SECOND: f64 = 1.0;
+
+/// What the command line adds to the configuration.
+#[derive(Clone, Debug, Default)]
+pub struct RunOptions {
+    /// Also write the solutions as `nav.csv`.
+    pub nav: Option<std::path::PathBuf>,
+    /// Stop after so many seconds.
+    pub seconds: Option<f64>,
+}
+
+/// Runs until it is told to stop.
+///
+/// # Errors
+/// Something that is needed at the start cannot be had. Ports that are absent are no error.
+pub fn run(config: &Config, text: &str, options: &RunOptions) -> anyhow::Result<()> {
+    let clock = HostClock::start();
+    let runtime = tokio::runtime::Builder::new_multi_thread()
+        .worker_threads(2)
+        .enable_all()
+        .build()
+        .context("cannot start the runtime")?;
+    let (queue, receiver) = ports::queue(WAITING);
+    let surroundings =
+        Surroundings { clock: Arc::new(clock), queue: queue.clone(), judge: Some(told::judge()) };
+    let _guard = runtime.enter();
+    let inputs = config.port_configs().into_iter().zip(0..);
+    let handles: Vec<_> = inputs
+        .map(|(port, index)| ports::spawn(PortId(index), port, surroundings.clone()))
+        .collect();
+    let first_output = u16::try_from(handles.len()).unwrap_or(u16::MAX);
+    let outputs = Outputs::open(config, first_output, &surroundings);
+    let after_outputs = first_output.saturating_add(outputs.count());
+    let time_out = TimeOut::open(config, after_outputs, &surroundings);
+    let recorder = config.recording.as_ref().map(|own| start_recorder(own, text)).transpose()?;
+    let stop = Arc::new(AtomicBool::new(false));
+    let worker = Worker {
+        pipeline: Pipeline::new(&config.intake(), config.engine()),
+        outputs,
+        time_out,
+        recorder,
+        nav: options.nav.as_deref().map(open_nav).transpose()?,
+        clock,
+        inputs: first_output,
+    };
+    let thread = std::thread::Builder::new().name("engine".to_owned()).spawn({
+        let stop = Arc::clone(&stop);
+        move || worker.run(receiver, &stop)
+    })?;
+    runtime.block_on(until_stopped(options.seconds));
+    stop.store(true, Ordering::Relaxed);
+    let finished = thread.join().map_err(|_| anyhow::anyhow!("the engine thread panicked"))?;
+    drop((handles, queue));
+    runtime.shutdown_timeout(Duration::from_secs(1));
+    finished
+}
+
+async fn until_stopped(seconds: Option<f64>) {
+    use tokio::signal::unix::{SignalKind, signal};
+    let limit = Duration::from_secs_f64(seconds.unwrap_or(1e9).clamp(0.0, 1e9));
+    let (Ok(mut interrupt), Ok(mut terminate)) =
+        (signal(SignalKind::interrupt()), signal(SignalKind::terminate()))
+    else {
+        tokio::time::sleep(limit).await;
+        return;
+    };
+    tokio::select! {
+        _ = interrupt.recv() => tracing::info!("interrupted"),
+        _ = terminate.recv() => tracing::info!("told to stop"),
+        () = tokio::time::sleep(limit) => tracing::info!("time is up"),
+    }
+}
+
+fn start_recorder(config: &Recording, text: &str) -> anyhow::Result<Recorder> {
+    let megabyte = 1024 * 1024;
+    let recording = RecordingConfig {
+        name: config.name.clone(),
+        rotate_bytes: config.rotate_mb.saturating_mul(megabyte),
+        rotate_span: insd_base::Span::from_seconds(config.rotate_s),
+        quota_bytes: config.quota_mb.map(|quota| quota.saturating_mul(megabyte)),
+    };
+    let program = format!("insd {}", env!("CARGO_PKG_VERSION"));
+    let header = RawHeader { program, config: text.to_owned() };
+    let writer = RawWriter::create(&config.folder, recording, header)?;
+    Recorder::start(writer).context("cannot start the recorder")
+}
+
+fn open_nav(path: &Path) -> anyhow::Result<NavWriter<OutputFile>> {
+    NavWriter::new(OutputFile::create(path)?).context("cannot write the solution")
+}
+
+/// What runs on the engine's thread.
+struct Worker {
+    pipeline: Pipeline,
+    outputs: Outputs,
+    time_out: TimeOut,
+    recorder: Option<Recorder>,
+    nav: Option<NavWriter<OutputFile>>,
+    clock: HostClock,
+    /// Ports from this number on are written to, and nothing of the navigation hangs on them.
+    inputs: u16,
+}
+
+impl Worker {
+    fn run(mut self, mut receiver: Receiver, stop: &AtomicBool) -> anyhow::Result<()> {
+        let mut ticked = Time::START;
+        while !stop.load(Ordering::Relaxed) {
+            match receiver.recv_timeout(TURN) {
+                Ok(arrival) => self.take(&arrival)?,
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => break,
+            }
+            let now = self.clock.now();
+            if (now.monotonic - ticked).as_seconds() >= SECOND {
+                ticked = now.monotonic;
+                self.tick(&now);
+            }
+        }
+        self.finish()
+    }
+
+    /// What is done once a second.
+    fn tick(&mut self, now: &Stamp) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.tick(now.monotonic);
+        }
+        self.time_out.send(now, self.pipeline.utc_at(now.monotonic));
+    }
+
+    fn take(&mut self, arrival: &insd_base::Arrival) -> anyhow::Result<()> {
+        if arrival.port.0 >= self.inputs {
+            self.outputs.note(arrival);
+            return Ok(());
+        }
+        if let Some(recorder) = &mut self.recorder {
+            recorder.record(arrival);
+        }
+        let (outputs, nav) = (&mut self.outputs, &mut self.nav);
+        let mut written = Ok(());
+        self.pipeline.handle(arrival, |intake, product| {
+            tell(intake, &product);
+            if let Product::Engine(Output::Solution(solution)) = &product {
+                outputs.send(solution, intake.utc_at(solution.time));
+                if let Some(nav) = nav.as_mut() {
+                    let wrote = nav.write(solution);
+                    written = std::mem::replace(&mut written, Ok(())).and(wrote);
+                }
+            }
+        });
+        written.context("cannot write the solution")
+    }
+
+    fn finish(self) -> anyhow::Result<()> {
+        if let Some(recorder) = self.recorder {
+            let state = recorder.finish();
+            tracing::info!(?state, "recording ended");
+        }
+        match self.nav {
+            Some(nav) => nav.finish().context("cannot write the solution")?.finish(),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! Events in words, for the journal.
+
+use insd_drivers::ports::{Judge, Judgement};
+use insd_engine::Output;
+use insd_intake::Intake;
+use insd_intake::event::{Happening, IntakeEvent};
+use insd_wire::stream::{Cutter, Protocol};
+
+use crate::pipeline::Product;
+
+/// Good frames at which a baud rate is taken as right.
+const CONVINCED: usize = 3;
+
+/// Tells what is worth telling of a product.
+pub fn tell(intake: &Intake, product: &Product) {
+    match product {
+        Product::Intake(event) => tell_event(intake, event),
+        Product::Engine(Output::Event(event)) => tracing::debug!(?event, "engine"),
+        Product::Engine(Output::Alignment(status)) => tracing::debug!(?status, "alignment"),
+        Product::Engine(_) | Product::Measured(_) => {}
+    }
+}
+
+fn tell_event(intake: &Intake, event: &IntakeEvent) {
+    let at = event.time.as_seconds();
+    let name = |sensor: &usize| intake.sensor_name(*sensor).to_owned();
+    match &event.what {
+        Happening::Port { port, state } => {
+            tracing::info!(at, port = intake.port_name(*port), "{state}");
+        }
+        Happening::SensorSpeaks { sensor } => tracing::info!(at, sensor = name(sensor), "speaks"),
+        Happening::SensorSilent { sensor } => tracing::warn!(at, sensor = name(sensor), "silent"),
+        Happening::SensorValid { sensor, valid, status } => {
+            tracing::warn!(at, sensor = name(sensor), valid, status, "validity");
+        }
+        Happening::SamplesLost { sensor, count } => {
+            tracing::warn!(at, sensor = name(sensor), count, "samples lost");
+        }
+        Happening::DeviceClockStepped { sensor, by } => {
+            tracing::warn!(at, sensor = name(sensor), by, "device clock stepped");
+        }
+        Happening::Chosen(chosen) => {
+            let (from, to) = (chosen.from.as_ref().map(name), chosen.to.as_ref().map(name));
+            tracing::info!(at, quantity = ?chosen.quantity, ?from, ?to, why = ?chosen.why, "source");
+        }
+        Happening::Time(change) => tracing::info!(at, ?change, "time"),
+        Happening::SystemClockStepped { by } => {
+            tracing::warn!(at, by = by.as_seconds(), "system clock stepped");
+        }
+    }
+}
+
+/// Judges the bytes heard at a baud rate: right if they hold a few good frames of any protocol.
+pub(super) fn judge() -> Judge {
+    Judge::new(|bytes| {
+        let mut cutter = Cutter::new(&Protocol::ALL);
+        cutter.push(bytes);
+        let mut frames = 0;
+        while cutter.cut().is_some() {
+            frames += 1;
+        }
+        if frames >= CONVINCED { Judgement::Fits } else { Judgement::Wrong }
+    })
+}

@@ -1,0 +1,123 @@
+//! What a frame is called on the wire, who sent it, and why it is refused.
+
+use insd_wire::describe::{Reading, describe};
+use insd_wire::gnss::{sbf, ubx};
+use insd_wire::imu::{kvh, mip, sbg, stdbin, stim, xbus};
+use insd_wire::log::{pd0, pd6};
+use insd_wire::nmea::others::{self, Understood};
+use insd_wire::nmea::{ChecksumPolicy, Frame, Talker};
+use insd_wire::stream::Protocol;
+
+/// Longest name of a message that is kept, bytes.
+const LONGEST: usize = 24;
+
+/// Name of lines that have neither a checksum nor a known form.
+pub(super) const UNNAMED: &str = "NMEA";
+
+/// What is known of a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Named<'a> {
+    pub(super) name: String,
+    pub(super) read: Reading,
+    /// Why it is refused.
+    pub(super) reason: Option<String>,
+    pub(super) talker: Option<Talker>,
+    /// Whom a TAG block names.
+    pub(super) source: Option<&'a str>,
+}
+
+/// Names a frame.
+pub(super) fn named(protocol: Protocol, frame: &[u8]) -> Named<'_> {
+    if protocol == Protocol::Nmea {
+        return sentence(frame);
+    }
+    let described = describe(protocol, frame);
+    let reason = (described.read == Reading::Refused)
+        .then(|| fault(protocol, frame).unwrap_or_else(|| "not what its format says".to_owned()));
+    Named { name: described.name, read: described.read, reason, talker: None, source: None }
+}
+
+/// Whether a frame proves that its protocol is spoken. A line without a checksum does not: there is
+/// one in any noise.
+pub(crate) fn is_proof(protocol: Protocol, frame: &[u8]) -> bool {
+    match protocol {
+        Protocol::Nmea => Frame::parse(frame).is_ok(),
+        _ => describe(protocol, frame).read != Reading::Refused,
+    }
+}
+
+/// A sentence goes by its whole address, as two receivers on one line differ in the talker only.
+fn sentence(line: &[u8]) -> Named<'_> {
+    let (read, reason) = match others::kind(line) {
+        Ok(kind) => match kind.understood {
+            Understood::Read => (Reading::Used, None),
+            Understood::Refused(fault) => (Reading::Refused, Some(fault.to_string())),
+            // of a sentence that nobody needs an odd form harms nobody
+            Understood::Odd | Understood::Recognised | Understood::Unknown => {
+                (Reading::Other, None)
+            }
+        },
+        Err(fault) => (Reading::Refused, Some(fault.to_string())),
+    };
+    let frame = Frame::parse_with(line, ChecksumPolicy::Optional).ok();
+    let talker = frame.and_then(|frame| frame.talker());
+    // what has neither a checksum nor a known form may be anything
+    let is_sound = talker.is_some() || read != Reading::Refused;
+    let address = frame.filter(|_| is_sound).map_or(UNNAMED, |frame| frame.address());
+    Named {
+        name: address.chars().take(LONGEST).collect(),
+        read,
+        reason,
+        talker,
+        source: frame.and_then(|frame| frame.tag()).and_then(|tag| tag.source),
+    }
+}
+
+/// What its reader says of a frame that it refuses.
+fn fault(protocol: Protocol, frame: &[u8]) -> Option<String> {
+    fn told<T, E: std::fmt::Display>(read: Result<T, E>) -> Option<String> {
+        read.err().map(|fault| fault.to_string())
+    }
+    match protocol {
+        Protocol::Nmea | Protocol::Rtcm => None,
+        Protocol::Ubx => told(ubx::Message::read(frame)),
+        Protocol::Sbf => told(sbf::Message::read(frame)),
+        Protocol::Sbg => told(sbg::Message::read(frame)),
+        Protocol::StdBin => told(stdbin::Telegram::read(frame)),
+        Protocol::Mip => told(mip::Packet::read(frame)),
+        Protocol::Xbus => told(xbus::MtData2::read(frame)),
+        Protocol::Kvh => told(kvh::KvhMessage::read(frame)),
+        Protocol::Stim => told(stim::StimDatagram::read(frame)),
+        Protocol::Pd0 => told(pd0::Ensemble::read(frame)),
+        Protocol::Pd6 => told(pd6::Pd6::read(frame)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sentence_goes_by_its_whole_address_and_tells_talker_and_source() {
+        let named = named(Protocol::Nmea, b"\\s:IN0001*4F\\$HETHS,316.70,E*1A");
+        assert_eq!((named.name.as_str(), named.read), ("HETHS", Reading::Used));
+        assert_eq!((named.talker, named.source), (Some(Talker::HE), Some("IN0001")));
+    }
+
+    #[test]
+    fn a_refused_sentence_has_its_reason() {
+        let without = named(Protocol::Nmea, b"$HETHS,316.70,E");
+        assert_eq!((without.name.as_str(), without.read), ("HETHS", Reading::Refused));
+        assert_eq!(without.reason.as_deref(), Some("no checksum"));
+        let odd = named(Protocol::Nmea, b"$junk without end");
+        assert_eq!(odd.name, "NMEA");
+    }
+
+    #[test]
+    fn a_refused_binary_frame_has_its_reason() {
+        let short = [0xB5, 0x62, 0x01, 0x07, 4, 0, 0, 0, 0, 0, 0x0C, 0x51];
+        let named = named(Protocol::Ubx, &short);
+        assert_eq!(named.read, Reading::Refused);
+        assert!(named.reason.unwrap().contains("bytes expected"));
+    }
+}
