@@ -1,5 +1,6 @@
 //! Events in words, for the journal.
 
+use insd_base::Event;
 use insd_drivers::ports::{Judge, Judgement};
 use insd_engine::Output;
 use insd_intake::Intake;
@@ -15,9 +16,23 @@ const CONVINCED: usize = 3;
 pub fn tell(intake: &Intake, product: &Product) {
     match product {
         Product::Intake(event) => tell_event(intake, event),
-        Product::Engine(Output::Event(event)) => tracing::debug!(?event, "engine"),
+        Product::Engine(Output::Event(event)) => tell_engine(event),
         Product::Engine(Output::Alignment(status)) => tracing::debug!(?status, "alignment"),
         Product::Engine(_) | Product::Measured(_) => {}
+    }
+}
+
+/// Changes of what the ship does or knows are worth a line each; refused measurements are counted.
+fn tell_engine(event: &Event) {
+    match event {
+        Event::Rejected { .. } => tracing::debug!(?event, "engine"),
+        Event::ModeChanged { time, to } => {
+            tracing::info!(at = time.as_seconds(), mode = to.as_str(), "mode");
+        }
+        Event::ImuGap { time, missing } => {
+            tracing::warn!(at = time.as_seconds(), missing, "gap in the IMU data bridged");
+        }
+        _ => tracing::info!(?event, "engine"),
     }
 }
 

@@ -58,6 +58,7 @@ pub struct Choice {
     hold: Span,
     candidates: Vec<Candidate>,
     current: Option<usize>,
+    why: Option<Why>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -74,7 +75,7 @@ impl Choice {
     /// A choice without candidates. A better source must have been valid for `hold` to be taken back.
     #[must_use]
     pub fn new(quantity: Quantity, hold: Span) -> Self {
-        Choice { quantity, hold, candidates: Vec::new(), current: None }
+        Choice { quantity, hold, candidates: Vec::new(), current: None, why: None }
     }
 
     /// Adds a source; a lower priority is better, and of equals the first. It is left after it has
@@ -128,6 +129,7 @@ impl Choice {
             _ => return None,
         };
         self.current = to;
+        self.why = Some(why);
         Some(Chosen { quantity: self.quantity, from: before, to, why })
     }
 
@@ -141,6 +143,12 @@ impl Choice {
     #[must_use]
     pub fn current(&self) -> Option<usize> {
         self.current
+    }
+
+    /// Why that one; `None` before any has been valid.
+    #[must_use]
+    pub fn why(&self) -> Option<Why> {
+        self.why
     }
 
     /// Of what.

@@ -27,7 +27,7 @@ use crate::config::IntakeConfig;
 use crate::core::Core;
 use crate::event::{Happening, IntakeEvent};
 use crate::port::PortIntake;
-use crate::status::{IntakeStatus, PortStatus, TimeStatus};
+use crate::status::{ChoiceStatus, IntakeStatus, PortStatus, TimeStatus};
 
 /// Time between looks for silences, s.
 const TICK: f64 = 0.1;
@@ -134,7 +134,13 @@ impl Intake {
         IntakeStatus {
             ports: ports.collect(),
             sensors: sensors.collect(),
-            choices: choices.map(|choice| (choice.quantity(), choice.current())).collect(),
+            choices: choices
+                .map(|choice| ChoiceStatus {
+                    quantity: choice.quantity(),
+                    sensor: choice.current(),
+                    why: choice.why(),
+                })
+                .collect(),
             time: TimeStatus {
                 utc: now.and_then(|now| self.utc_at(now)),
                 quality: self.core.utc.quality(),

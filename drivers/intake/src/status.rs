@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use insd_base::{PortState, Time, UtcTime};
 
-use crate::choice::Quantity;
+use crate::choice::{Quantity, Why};
 use crate::clock::TimeQuality;
 use crate::event::Refusal;
 use crate::port::PortCounts;
@@ -45,6 +45,17 @@ pub struct SensorStatus {
     pub lost: u64,
 }
 
+/// The source of one quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ChoiceStatus {
+    /// Of what.
+    pub quantity: Quantity,
+    /// Index of the sensor in use; `None` where there is none.
+    pub sensor: Option<usize>,
+    /// Why that one; `None` before any has been valid.
+    pub why: Option<Why>,
+}
+
 /// Time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimeStatus {
@@ -63,8 +74,8 @@ pub struct IntakeStatus {
     pub ports: Vec<PortStatus>,
     /// Sensors, in their order.
     pub sensors: Vec<SensorStatus>,
-    /// Which sensor is used for what; `None` where there is none.
-    pub choices: Vec<(Quantity, Option<usize>)>,
+    /// Which sensor is used for what, and why.
+    pub choices: Vec<ChoiceStatus>,
     /// Time.
     pub time: TimeStatus,
 }
