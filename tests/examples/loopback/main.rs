@@ -16,6 +16,8 @@ use std::time::Duration;
 use insd::clock::Clock;
 use insd_base::{Span, Time, Voyage};
 use insd_drivers::recording::{Compression, write_voyage};
+use insd_intake::config::Role;
+use insd_intake::sensor::TimeBase;
 use insd_simulator::simulate;
 use insd_tests::feed::{Encoding, FeedConfig, Sending, feed};
 use insd_tests::wire::Wire;
@@ -33,6 +35,8 @@ struct Options {
     scenario: usize,
     seconds: f64,
     from: f64,
+    /// The IMU's samples are dated by the UTC that it states.
+    utc: bool,
 }
 
 fn main() {
@@ -40,6 +44,11 @@ fn main() {
     fs::create_dir_all(&options.dir).unwrap();
     let mut voyage = simulate(&insd_tests::scenario(options.scenario), 1);
     cut(&mut voyage, Time::from_seconds(options.seconds));
+    // what is not fed must not be in the voyage that is compared; headings are made from the truth
+    voyage.reference.clear();
+    if !options.encodings.iter().any(|encoding| encoding.kind().role() == Role::Log) {
+        voyage.log.clear();
+    }
     let directory = options.dir.join("voyage");
     write_voyage(&directory, &voyage, Compression::None).unwrap();
     let feeds = FeedConfig::new(&voyage, &options.encodings);
@@ -102,6 +111,7 @@ fn options() -> Options {
         scenario: given("--scenario", "2").parse().unwrap(),
         seconds: given("--seconds", "600").parse().unwrap(),
         from: given("--from", "30").parse().unwrap(),
+        utc: arguments.iter().any(|argument| argument == "--utc"),
     }
 }
 
@@ -165,12 +175,13 @@ fn configuration(options: &Options, voyage: &Voyage, feeds: &FeedConfig) -> Stri
     ship.insert("log_lever_m".into(), table["lever_arms_m"]["log"].clone());
     // the simulated receiver and IMU keep the same time
     ship.insert("time_std_s".into(), toml::Value::Float(1e-6));
-    let sensors: Vec<toml::Value> = feeds
-        .intake(voyage)
-        .sensors
-        .iter()
-        .map(|sensor| toml::Value::try_from(sensor).unwrap())
-        .collect();
+    let mut sensors = feeds.intake(voyage).sensors;
+    for sensor in sensors.iter_mut().filter(|sensor| options.utc && sensor.kind.role() == Role::Imu)
+    {
+        sensor.time = TimeBase::Utc;
+    }
+    let sensors: Vec<toml::Value> =
+        sensors.iter().map(|sensor| toml::Value::try_from(sensor).unwrap()).collect();
     let folder = fs::canonicalize(&options.dir).unwrap();
     let ports = feeds.sensors.iter().enumerate().map(|(port, sensor)| {
         let device = folder.join(format!("tty{port}"));
