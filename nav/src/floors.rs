@@ -39,12 +39,16 @@ pub fn scalar(stated: Option<f64>, range: &Believable) -> Floored<f64> {
 /// Sigma of a component that a receiver does not tell: so large that even a day of epochs weighs nothing.
 pub const UNTOLD: f64 = 1e6;
 
-/// Sigma of each component of a vector; [`UNTOLD`] for those with an infinite one.
+/// Sigma of each component of a vector; [`UNTOLD`] for a down component whose sigma alone is infinite.
 #[must_use]
 pub fn vector(stated: Option<Ned>, range: &[Believable; 3]) -> Floored<Vector3<f64>> {
-    let each: [Floored<f64>; 3] = std::array::from_fn(|i| match stated.map(|std| std.0[i]) {
-        Some(f64::INFINITY) => Floored { value: UNTOLD, replaced: false },
-        std => scalar(std, &range[i]),
+    let untold =
+        stated.is_some_and(|std| std.0.z == f64::INFINITY && std.0.xy().amax() != f64::INFINITY);
+    let each: [Floored<f64>; 3] = std::array::from_fn(|i| {
+        if untold && i == 2 {
+            return Floored { value: UNTOLD, replaced: false };
+        }
+        scalar(stated.map(|std| std.0[i]), &range[i])
     });
     Floored {
         value: Vector3::from_fn(|i, _| each[i].value),
@@ -107,5 +111,7 @@ mod tests {
         assert_eq!(std, Floored { value: Vector3::new(0.1, 0.2, UNTOLD), replaced: false });
         assert_eq!(slow_part(&std.value, 0.25), Vector3::new(0.05, 0.1, 0.0));
         assert_eq!(greatest_told(&std.value), 0.2);
+        let absurd = vector(Some(Ned::new(f64::INFINITY, 0.2, f64::INFINITY)), &gnss_velocity());
+        assert!(absurd.replaced && absurd.value.max() < 1.0);
     }
 }

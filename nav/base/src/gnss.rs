@@ -67,11 +67,11 @@ pub struct GnssFix {
     pub position: Option<Geodetic>,
     /// Velocity of the antenna over the Earth, m/s.
     pub velocity: Option<Ned>,
-    /// 1-sigma of the position, m, as claimed by the receiver; infinite for a component that it does
-    /// not tell (the height, in RMC).
+    /// 1-sigma of the position, m, as claimed by the receiver; infinite for the down component alone
+    /// where it tells no height (RMC).
     pub position_std: Option<Ned>,
-    /// 1-sigma of the velocity, m/s, as claimed by the receiver; infinite for a component that it does
-    /// not tell (down, in VTG).
+    /// 1-sigma of the velocity, m/s, as claimed by the receiver; infinite for the down component alone
+    /// where it does not tell it (VTG).
     pub velocity_std: Option<Ned>,
     /// Horizontal dilution of precision.
     pub hdop: Option<f64>,
