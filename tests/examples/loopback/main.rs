@@ -28,6 +28,9 @@ use compare::compare;
 /// Time between the start of the daemon and the first byte, s.
 const HEAD_START: f64 = 1.0;
 
+/// Time for a byte on a fast line, s.
+const FAST: f64 = 10.0 / 921_600.0;
+
 struct Options {
     insd: PathBuf,
     dir: PathBuf,
@@ -37,6 +40,9 @@ struct Options {
     from: f64,
     /// The IMU's samples are dated by the UTC that it states.
     utc: bool,
+    /// Sensors send at once and on fast lines: then no solution is told before a measurement that the
+    /// voyage itself has by that time.
+    prompt: bool,
 }
 
 fn main() {
@@ -51,7 +57,13 @@ fn main() {
     }
     let directory = options.dir.join("voyage");
     write_voyage(&directory, &voyage, Compression::None).unwrap();
-    let feeds = FeedConfig::new(&voyage, &options.encodings);
+    let mut feeds = FeedConfig::new(&voyage, &options.encodings);
+    if options.prompt {
+        feeds.sensors.iter_mut().for_each(|sensor| {
+            sensor.latency = 0.0;
+            sensor.byte_time = FAST;
+        });
+    }
     let config = options.dir.join("insd.toml");
     fs::write(&config, configuration(&options, &voyage, &feeds)).unwrap();
     let live = options.dir.join("live.csv");
@@ -112,6 +124,7 @@ fn options() -> Options {
         seconds: given("--seconds", "600").parse().unwrap(),
         from: given("--from", "30").parse().unwrap(),
         utc: arguments.iter().any(|argument| argument == "--utc"),
+        prompt: arguments.iter().any(|argument| argument == "--prompt"),
     }
 }
 
