@@ -11,8 +11,6 @@ use insd_intake::{Intake, Intaken};
 /// What an arrival led to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Product {
-    /// A measurement, as it goes to the engine.
-    Measured(insd_base::Received),
     /// Something from the engine.
     Engine(Output),
     /// Something from the border.
@@ -40,7 +38,6 @@ impl Pipeline {
             match taken {
                 Intaken::Event(event) => product(&self.intake, Product::Intake(event)),
                 Intaken::Measured(received) => {
-                    product(&self.intake, Product::Measured(received));
                     self.engine.handle(&received);
                     while let Some(output) = self.engine.poll_output() {
                         product(&self.intake, Product::Engine(output));

@@ -3,13 +3,10 @@
 use std::path::Path;
 
 use insd_base::Arrival;
-use insd_drivers::raw::{RawFault, RawReader};
+use insd_drivers::raw::{EXTENSION, RawFault, RawReader};
 
 use crate::cli::BadInput;
 use crate::config::Config;
-
-/// Extension of raw recordings.
-const EXTENSION: &str = "insdraw";
 
 /// The arrivals of one run, and the configuration that it had.
 pub struct RawRun {

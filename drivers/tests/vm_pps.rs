@@ -7,12 +7,14 @@
 // helpers of tests are not seen as tests
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod clocks;
+
 use std::fs::{self, File};
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::sleep;
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use std::time::Duration;
 
 use insd_base::{Arrival, Input, PortId, PortState, Pulse, Span, Stamp, Time, UtcTime};
 use insd_drivers::ports::{
@@ -21,6 +23,8 @@ use insd_drivers::ports::{
 };
 use insd_intake::clock::{ShipUtc, TimeQuality};
 use rustix::time::{ClockId, Timespec, clock_gettime, clock_settime};
+
+use clocks::Clocks;
 
 /// Present in the guest only. Nothing below is to be done to a computer that is used.
 const GUEST: &str = "/run/insd-vm";
@@ -42,17 +46,6 @@ const LATE: Span = Span::from_nanos(1_000_000);
 
 const SECOND: Duration = Duration::from_secs(1);
 const HOUR: i64 = 3600;
-
-struct Clocks(Instant);
-
-impl Clock for Clocks {
-    #[expect(clippy::disallowed_methods, reason = "tests run on the real clocks")]
-    fn now(&self) -> Stamp {
-        let monotonic = Time::from_nanos(self.0.elapsed().as_nanos() as i64);
-        let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap();
-        Stamp { monotonic, system: UtcTime::from_nanos(since.as_nanos() as i64) }
-    }
-}
 
 /// The parallel port. There is one: tests take turns.
 struct Line {
@@ -123,10 +116,9 @@ impl Bench {
         bench
     }
 
-    #[expect(clippy::disallowed_methods, reason = "tests run on the real clocks")]
     fn listen(line: Line, edge: Edge) -> Self {
         let (queue, receiver) = queue(WAITING_LIMIT);
-        let clock = Arc::new(Clocks(Instant::now()));
+        let clock = Arc::new(Clocks::start());
         let surroundings = Surroundings { clock: clock.clone(), queue, judge: None };
         let config = PortConfig::new(Transport::Pps(Pps { device: PathBuf::from(DEVICE), edge }));
         assert_eq!(config.faults(), Vec::<String>::new());

@@ -1,47 +1,35 @@
 //! From voyage time to the calendar.
 
-use insd_base::{Span, Time};
-use insd_output::{CivilTime, Date, TimeOfDay};
+use insd_base::{Time, UtcTime};
+use insd_output::CivilTime;
 
 /// The calendar of one voyage: UTC of its start.
 #[derive(Clone, Copy, Debug)]
 pub struct Calendar {
-    start: jiff::Timestamp,
+    start: UtcTime,
 }
 
 impl Calendar {
-    /// The calendar of a voyage that starts at this RFC 3339 instant; `None` if it is none.
+    /// The calendar of a voyage that starts at this RFC 3339 instant; `None` if it is none, or outside
+    /// the years that [`UtcTime`] holds.
     #[must_use]
     pub fn new(start_utc: &str) -> Option<Self> {
-        start_utc.parse().ok().map(|start| Calendar { start })
+        let start: jiff::Timestamp = start_utc.parse().ok()?;
+        let nanos = i64::try_from(start.as_nanosecond()).ok()?;
+        Some(Calendar { start: UtcTime::from_nanos(nanos) })
     }
 
-    /// UTC of an instant; `None` outside the years 0 to 9999.
+    /// UTC of an instant.
     #[must_use]
     pub fn utc(&self, time: Time) -> Option<CivilTime> {
-        let since_start: Span = time - Time::START;
-        let span = jiff::SignedDuration::from_nanos(since_start.as_nanos());
-        let instant = self.start.checked_add(span).ok()?;
-        let civil = jiff::tz::Offset::UTC.to_datetime(instant);
-        Some(CivilTime {
-            date: Date {
-                year: civil.year().try_into().ok()?,
-                month: civil.month().try_into().ok()?,
-                day: civil.day().try_into().ok()?,
-            },
-            time: TimeOfDay {
-                hour: civil.hour().try_into().ok()?,
-                minute: civil.minute().try_into().ok()?,
-                second: civil.second().try_into().ok()?,
-                nanosecond: civil.subsec_nanosecond().try_into().ok()?,
-            },
-        })
+        CivilTime::from_utc(self.start.plus(time - Time::START))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use insd_output::Date;
 
     #[test]
     fn a_voyage_sails_across_a_leap_day_into_march() {

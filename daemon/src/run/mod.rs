@@ -175,9 +175,8 @@ impl Worker {
             tell(intake, &product);
             if let Product::Engine(Output::Solution(solution)) = &product {
                 outputs.send(solution, intake.utc_at(solution.time));
-                if let Some(nav) = nav.as_mut() {
-                    let wrote = nav.write(solution);
-                    written = std::mem::replace(&mut written, Ok(())).and(wrote);
+                if let (Some(nav), true) = (nav.as_mut(), written.is_ok()) {
+                    written = nav.write(solution);
                 }
             }
         });

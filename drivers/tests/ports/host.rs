@@ -6,12 +6,11 @@ use std::io::{Read, Write};
 use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use std::time::Duration;
 
-use insd_base::utc::UtcTime;
-use insd_base::{Arrival, Input, PortId, PortState, Stamp, Time};
+use insd_base::{Arrival, Input, PortId, PortState};
 use insd_drivers::ports::{
-    Clock, OutputConfig, OutputPort, PortConfig, PortHandle, Receiver, Surroundings, Transport,
+    OutputConfig, OutputPort, PortConfig, PortHandle, Receiver, Surroundings, Transport,
     WAITING_LIMIT, queue, spawn, spawn_output,
 };
 use rustix::fs::{Mode, OFlags, fcntl_getfl, fcntl_setfl, open};
@@ -19,19 +18,10 @@ use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 use tokio::time::timeout;
 
+use crate::clocks::Clocks;
+
 /// Long enough for a busy machine; nothing waits for it unless it fails.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(60);
-
-struct Clocks(Instant);
-
-impl Clock for Clocks {
-    #[expect(clippy::disallowed_methods, reason = "tests run on the real clocks")]
-    fn now(&self) -> Stamp {
-        let monotonic = Time::from_nanos(self.0.elapsed().as_nanos() as i64);
-        let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap();
-        Stamp { monotonic, system: UtcTime::from_nanos(since.as_nanos() as i64) }
-    }
-}
 
 /// The computer: ports are started on it, and what arrives is looked at.
 pub(crate) struct Host {
@@ -42,10 +32,9 @@ pub(crate) struct Host {
 }
 
 impl Host {
-    #[expect(clippy::disallowed_methods, reason = "tests run on the real clocks")]
     pub(crate) fn new() -> Self {
         let (queue, receiver) = queue(WAITING_LIMIT);
-        let clock = Arc::new(Clocks(Instant::now()));
+        let clock = Arc::new(Clocks::start());
         let surroundings = Surroundings { clock, queue, judge: None };
         Host { surroundings, receiver, seen: Vec::new() }
     }

@@ -3,6 +3,8 @@
 // helpers of tests are not seen as tests
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "../clocks/mod.rs"]
+mod clocks;
 mod files;
 mod host;
 mod network;

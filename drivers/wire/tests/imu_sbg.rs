@@ -2,9 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
 
-mod framing;
+mod frames;
 
-use framing::{assert_frame_is_guarded, assert_splitting_does_not_matter, cut, hex, stream};
+use frames::{
+    assert_frame_is_guarded, assert_splitting_does_not_matter, bytes_of_hex as hex, cut_all, stream,
+};
 use insd_base::UtcTime;
 use insd_wire::binary::Fault;
 use insd_wire::imu::Motion;
@@ -289,7 +291,7 @@ proptest! {
         noise in prop::collection::vec(prop::num::u8::ANY, 1..200),
     ) {
         let _ = Message::read(&noise);
-        let _ = cut(Protocol::Sbg, [&noise[..]]);
+        let _ = cut_all(Protocol::Sbg, &noise[..]);
         let whole = frame(0, id, &data);
         prop_assert_eq!(look(&whole), Look::Frame(whole.len()));
         if let Ok(message) = Message::read(&whole) {

@@ -2,9 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
 
-mod framing;
+mod frames;
 
-use framing::{assert_frame_is_guarded, assert_splitting_does_not_matter, cut, hex, stream};
+use frames::{
+    assert_frame_is_guarded, assert_splitting_does_not_matter, bytes_of_hex as hex, cut_all, stream,
+};
 use insd_base::UtcTime;
 use insd_wire::binary::Fault;
 use insd_wire::imu::Motion;
@@ -319,7 +321,7 @@ proptest! {
         noise in prop::collection::vec(prop::num::u8::ANY, 1..200),
     ) {
         let _ = MtData2::read(&noise);
-        let _ = cut(Protocol::Xbus, [&noise[..]]);
+        let _ = cut_all(Protocol::Xbus, &noise[..]);
         let item = |(high, low, data): (u8, u8, Vec<u8>)| {
             [&[high, low, u8::try_from(data.len()).unwrap()], &data[..]].concat()
         };

@@ -22,9 +22,8 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         let mut written = Ok(());
         pipeline.handle(arrival, |intake, product| {
             tell(intake, &product);
-            if let Product::Engine(output) = &product {
-                let wrote = sink.take(output);
-                written = std::mem::replace(&mut written, Ok(())).and(wrote);
+            if let (Product::Engine(output), true) = (&product, written.is_ok()) {
+                written = sink.take(output);
             }
         });
         written.context("cannot write the solution")

@@ -283,7 +283,8 @@ impl ShipUtc {
         self.map().is_some() || self.dated.is_some() || in_vain
     }
 
-    /// GPS time by what is known: by the tie, by the last message with a date, or by the system clock if that is not before this version was made.
+    /// GPS time by what is known: by the tie, by the last message with a date, or by the system clock if
+    /// that is not before this version was made.
     fn expected(&self, stamp: &Stamp) -> GpsTime {
         if let Some(gps) = self.map().and_then(|map| inverse(map, stamp.monotonic)) {
             return gps;

@@ -151,8 +151,6 @@ fn merge(into: &mut GnssPart, part: &GnssPart) {
             each(own, new);
         }
     };
-    keep(&mut into.leap_seconds, part.leap_seconds);
-    keep(&mut into.time_std, part.time_std);
     keep(&mut into.position, part.position);
     keep(&mut into.horizontal, part.horizontal);
     sigmas(&mut into.position_std, &part.position_std);

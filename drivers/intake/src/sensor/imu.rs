@@ -116,12 +116,6 @@ impl ImuIntake {
         [lost, stepped]
     }
 
-    /// 1-sigma of the tie of the device's clock to the computer's, s.
-    #[must_use]
-    pub fn sigma(&self) -> Option<f64> {
-        self.map.sigma()
-    }
-
     /// Counts samples. Where some are missing, the time between receipts tells how often a short counter
     /// went on over its end meanwhile.
     fn count(&mut self, reading: &ImuReading, begun: Time) -> Option<ImuChange> {
