@@ -107,6 +107,7 @@ impl Port {
     pub(super) fn take(&mut self, stamp: &Stamp, input: &Input, show: &mut impl FnMut(&Seen<'_>)) {
         match input {
             Input::Bytes(bytes) => self.bytes(stamp, bytes, show),
+            Input::Can(_) | Input::Bus(_) => {}
             Input::Pulse(pulse) => {
                 self.speaks(stamp);
                 self.pulses = Some(Pulses::with(self.pulses.take(), stamp, pulse));

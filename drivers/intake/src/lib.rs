@@ -82,6 +82,7 @@ impl Intake {
                     port.heard = Some(stamp.monotonic);
                     port.intake.take(stamp, bytes, |frame| core.frame(index, stamp, frame));
                 }
+                Input::Can(_) | Input::Bus(_) => {}
                 Input::Pulse(pulse) => core.utc.pulse(*pulse),
                 Input::State(state) => {
                     if matches!(state, PortState::Lost { .. } | PortState::Ended) {

@@ -215,7 +215,7 @@ impl Lane {
 fn length(arrival: &Arrival) -> usize {
     match &arrival.input {
         Input::Bytes(bytes) => bytes.len(),
-        Input::Pulse(_) | Input::State(_) => 0,
+        Input::Can(_) | Input::Bus(_) | Input::Pulse(_) | Input::State(_) => 0,
     }
 }
 

@@ -1,6 +1,8 @@
 //! One arrival as a record of a block.
 
-use insd_base::{Arrival, Input, PortId, PortState, Pulse, Span, Stamp, Time, UtcTime};
+use insd_base::{
+    Arrival, BusEvent, CanFrame, CanId, Input, PortId, PortState, Pulse, Span, Stamp, Time, UtcTime,
+};
 
 use super::varint::{put, put_signed, take, take_signed};
 
@@ -18,6 +20,8 @@ mod kind {
     pub(super) const SPEAKING: u8 = 6;
     pub(super) const OVERRUN: u8 = 7;
     pub(super) const ENDED: u8 = 8;
+    pub(super) const CAN: u8 = 9;
+    pub(super) const BUS: u8 = 10;
     pub(super) const GAP: u8 = 15;
 }
 
@@ -67,6 +71,8 @@ impl Encoder {
         self.clocks = Clocks { monotonic, offset };
         match &arrival.input {
             Input::Bytes(payload) => put_bytes(bytes, payload),
+            Input::Can(frame) => put_frame(bytes, frame),
+            Input::Bus(event) => put_event(bytes, *event),
             Input::Pulse(pulse) => {
                 put_signed(bytes, pulse.time.as_nanos().wrapping_sub(monotonic));
                 put(bytes, u64::from(pulse.sequence));
@@ -79,6 +85,8 @@ impl Encoder {
 fn kind_of(input: &Input) -> u8 {
     match input {
         Input::Bytes(_) => kind::BYTES,
+        Input::Can(_) => kind::CAN,
+        Input::Bus(_) => kind::BUS,
         Input::Pulse(_) => kind::PULSE,
         Input::State(state) => match state {
             PortState::Open { .. } => kind::OPEN,
@@ -101,6 +109,31 @@ fn put_state(bytes: &mut Vec<u8>, state: &PortState) {
         PortState::Overrun { bytes: dropped } => put(bytes, *dropped),
         PortState::Speaking | PortState::Ended => {}
     }
+}
+
+/// The identifier with its kind in the lowest bit, then the data.
+fn put_frame(bytes: &mut Vec<u8>, frame: &CanFrame) {
+    let id = match frame.id() {
+        CanId::Standard(id) => u64::from(id) << 1,
+        CanId::Extended(id) => u64::from(id) << 1 | 1,
+    };
+    put(bytes, id);
+    put_bytes(bytes, frame.data());
+}
+
+/// The kind of the event, then its number, if it has one.
+fn put_event(bytes: &mut Vec<u8>, event: BusEvent) {
+    let (kind, number) = match event {
+        BusEvent::Active => (0, 0),
+        BusEvent::Warning => (1, 0),
+        BusEvent::Passive => (2, 0),
+        BusEvent::BusOff => (3, 0),
+        BusEvent::Restarted => (4, 0),
+        BusEvent::Error { class } => (5, class),
+        BusEvent::Dropped { frames } => (6, frames),
+    };
+    put(bytes, kind);
+    put(bytes, u64::from(number));
 }
 
 fn put_bytes(bytes: &mut Vec<u8>, payload: &[u8]) {
@@ -140,6 +173,8 @@ fn record(bytes: &mut &[u8], clocks: &mut Clocks) -> Option<Record> {
 fn input(kind: u8, bytes: &mut &[u8], monotonic: i64) -> Option<Input> {
     let state = match kind {
         kind::BYTES => return take_bytes(bytes).map(|taken| Input::Bytes(taken.to_vec())),
+        kind::CAN => return take_frame(bytes).map(Input::Can),
+        kind::BUS => return take_event(bytes).map(Input::Bus),
         kind::PULSE => {
             let time = Time::from_nanos(monotonic.wrapping_add(take_signed(bytes)?));
             let sequence = u32::try_from(take(bytes)?).ok()?;
@@ -155,6 +190,31 @@ fn input(kind: u8, bytes: &mut &[u8], monotonic: i64) -> Option<Input> {
         _ => return None,
     };
     Some(Input::State(state))
+}
+
+fn take_frame(bytes: &mut &[u8]) -> Option<CanFrame> {
+    let number = take(bytes)?;
+    let id = if number & 1 == 0 {
+        CanId::Standard(u16::try_from(number >> 1).ok()?)
+    } else {
+        CanId::Extended(u32::try_from(number >> 1).ok()?)
+    };
+    CanFrame::new(id, take_bytes(bytes)?)
+}
+
+fn take_event(bytes: &mut &[u8]) -> Option<BusEvent> {
+    let kind = take(bytes)?;
+    let number = u32::try_from(take(bytes)?).ok()?;
+    Some(match kind {
+        0 => BusEvent::Active,
+        1 => BusEvent::Warning,
+        2 => BusEvent::Passive,
+        3 => BusEvent::BusOff,
+        4 => BusEvent::Restarted,
+        5 => BusEvent::Error { class: number },
+        6 => BusEvent::Dropped { frames: number },
+        _ => return None,
+    })
 }
 
 fn take_bytes<'a>(bytes: &mut &'a [u8]) -> Option<&'a [u8]> {

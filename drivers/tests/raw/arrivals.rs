@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use insd_base::{Arrival, Input, PortId, PortState, Pulse, Span, Stamp, Time, UtcTime};
+use insd_base::{
+    Arrival, BusEvent, CanFrame, CanId, Input, PortId, PortState, Pulse, Span, Stamp, Time, UtcTime,
+};
 use insd_drivers::raw::{RawFault, RawHeader, RawReader, RawWriter, RecordingConfig};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -29,12 +31,37 @@ fn stamp() -> impl Strategy<Value = Stamp> {
 fn input() -> impl Strategy<Value = Input> {
     prop_oneof![
         4 => vec(any::<u8>(), 0..60).prop_map(Input::Bytes),
+        2 => (any::<bool>(), any::<u32>(), vec(any::<u8>(), 0..9)).prop_map(frame),
+        1 => (0_usize..7, any::<u32>()).prop_map(event),
         1 => vec(0_u8..2, 0..3000).prop_map(Input::Bytes),
         1 => any::<(i64, u32)>().prop_map(|(time, sequence)| {
             Input::Pulse(Pulse { time: Time::from_nanos(time), sequence })
         }),
         1 => state().prop_map(Input::State),
     ]
+}
+
+fn frame((standard, number, data): (bool, u32, Vec<u8>)) -> Input {
+    let id = if standard {
+        CanId::Standard(number as u16 & CanId::MAX_STANDARD)
+    } else {
+        CanId::Extended(number & CanId::MAX_EXTENDED)
+    };
+    Input::Can(CanFrame::new(id, &data).unwrap())
+}
+
+fn event((kind, number): (usize, u32)) -> Input {
+    Input::Bus(
+        [
+            BusEvent::Active,
+            BusEvent::Warning,
+            BusEvent::Passive,
+            BusEvent::BusOff,
+            BusEvent::Restarted,
+            BusEvent::Error { class: number },
+            BusEvent::Dropped { frames: number },
+        ][kind],
+    )
 }
 
 fn state() -> impl Strategy<Value = PortState> {

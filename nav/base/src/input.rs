@@ -1,10 +1,11 @@
-//! What reaches the computer: bytes, pulses and the state of its ports, each with the time of receipt.
+//! What reaches the computer: bytes, frames, pulses and the state of its ports, each with the time of receipt.
 //!
 //! These are what a raw recording holds: whoever takes the same arrivals in the same order does the
 //! same with them.
 
 use std::fmt;
 
+use crate::can::{BusEvent, CanFrame};
 use crate::time::{Span, Time};
 use crate::utc::UtcTime;
 
@@ -69,6 +70,10 @@ pub struct Pulse {
 pub enum Input {
     /// Bytes of a stream as one read gave them, or one datagram.
     Bytes(Vec<u8>),
+    /// A frame of a CAN bus.
+    Can(CanFrame),
+    /// What the controller says of its CAN bus.
+    Bus(BusEvent),
     /// An edge of a pulse line.
     Pulse(Pulse),
     /// Another state of the port.
@@ -78,7 +83,7 @@ pub enum Input {
 /// Something that reached the computer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Arrival {
-    /// When: for bytes, when the read that gave them returned.
+    /// When: for bytes, when the read that gave them returned; for a frame, when the kernel had it.
     pub stamp: Stamp,
     /// Where.
     pub port: PortId,

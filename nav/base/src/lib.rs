@@ -7,6 +7,7 @@
 
 pub mod alignment;
 pub mod attitude;
+pub mod can;
 pub mod earth;
 pub mod events;
 pub mod frames;
@@ -24,6 +25,7 @@ pub use alignment::{
     AlignmentPhase, AlignmentStatus, AttitudeSigma, Forecast, Lack, Limiting, SeaEstimate,
 };
 pub use attitude::Attitude;
+pub use can::{BusEvent, CanFrame, CanId};
 pub use events::{Counts, Event, Innovation, Rejection, StoredDoubt};
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
