@@ -6,6 +6,7 @@
 
 mod id;
 mod message;
+pub mod node;
 pub mod pgn;
 
 pub use id::{BROADCAST, N2kId, NULL_ADDRESS};
