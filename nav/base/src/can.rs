@@ -68,6 +68,62 @@ impl CanFrame {
     }
 }
 
+impl CanFrame {
+    /// Bits that the frame takes on the wire, with its stuffing and the gap of three after it (ISO
+    /// 11898-1, 10.4 and 10.5).
+    #[must_use]
+    pub fn wire_bits(&self) -> u32 {
+        let mut stuffed = Stuffed::default();
+        stuffed.push(0, 1);
+        match self.id {
+            // identifier, no remote request, identifier format, reserved
+            CanId::Standard(id) => stuffed.push(u32::from(id) << 3, 14),
+            // base identifier, two recessive bits, the rest, no remote request, two reserved
+            CanId::Extended(id) => {
+                stuffed.push(id >> 18, 11);
+                stuffed.push(0b11, 2);
+                stuffed.push(id & 0x3_FFFF, 18);
+                stuffed.push(0, 3);
+            }
+        }
+        stuffed.push(u32::from(self.length), 4);
+        for byte in self.data() {
+            stuffed.push(u32::from(*byte), 8);
+        }
+        stuffed.push(u32::from(stuffed.checksum), 15);
+        // delimiter of the checksum, acknowledgement and its delimiter, end of frame, gap
+        stuffed.count + 1 + 2 + 7 + 3
+    }
+}
+
+/// Counts bits with those that are stuffed in: one of the other kind after five that are equal.
+#[derive(Clone, Copy, Debug, Default)]
+struct Stuffed {
+    count: u32,
+    checksum: u16,
+    last: Option<bool>,
+    equal: u32,
+}
+
+impl Stuffed {
+    /// Takes the lowest `width` bits of a number, the highest first.
+    fn push(&mut self, bits: u32, width: u32) {
+        for at in (0..width).rev() {
+            let bit = bits >> at & 1 == 1;
+            let feedback = bit != (self.checksum >> 14 & 1 == 1);
+            self.checksum = self.checksum << 1 & 0x7FFF ^ if feedback { 0x4599 } else { 0 };
+            self.equal = if self.last == Some(bit) { self.equal + 1 } else { 1 };
+            self.count += 1;
+            self.last = Some(bit);
+            if self.equal == 5 {
+                self.count += 1;
+                self.last = Some(!bit);
+                self.equal = 1;
+            }
+        }
+    }
+}
+
 /// What a controller says of its bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BusEvent {
@@ -118,5 +174,19 @@ mod tests {
         assert_eq!(CanFrame::new(CanId::Standard(0x800), &[]), None);
         assert_eq!(CanFrame::new(CanId::Extended(1 << 29), &[]), None);
         assert_eq!(CanFrame::new(CanId::Standard(1), &[0; 9]), None);
+    }
+
+    #[test]
+    fn a_frame_takes_its_bits_and_those_stuffed_in() {
+        // without stuffing 47 + 8 n bits with an identifier of 11 bits, 67 + 8 n with one of 29
+        let bits = |id, data: &[u8]| CanFrame::new(id, data).unwrap().wire_bits();
+        let plain = bits(CanId::Extended(0x0AAA_AAAA), &[0x55; 8]);
+        assert!((131..=137).contains(&plain), "{plain}");
+        // 34 zeros, and a one after each five of them
+        assert_eq!(bits(CanId::Standard(0), &[]), 47 + 6);
+        for data in [[0; 8], [0xFF; 8]] {
+            let most = bits(CanId::Extended(0), &data);
+            assert!((140..=160).contains(&most), "{most}");
+        }
     }
 }

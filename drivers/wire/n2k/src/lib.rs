@@ -4,10 +4,23 @@
 //! Readers never panic, whatever the bytes. SI units and radians in every struct; "not available" is
 //! `None`.
 
+mod assembler;
+mod bytes;
+mod codes;
+pub mod fast_packet;
+pub mod groups;
 mod id;
 mod message;
+mod name;
 pub mod node;
 pub mod pgn;
+mod roster;
+pub mod text;
+mod transport;
 
+pub use assembler::{Assembled, Assembler, AssemblerCounts};
+pub use codes::{class_name, function_name, manufacturer_name};
 pub use id::{BROADCAST, N2kId, NULL_ADDRESS};
 pub use message::Message;
+pub use name::{Name, NameParts, NoName};
+pub use roster::{ADDRESS_CLAIM, LAST_ADDRESS, Roster, RosterChange};

@@ -1,10 +1,17 @@
 //! Parameter groups of navigation, one struct each: its reader and its writer.
 //!
 //! Facts of layout: canboat.json 8 (Apache-2.0) and the field table of NMEA in canboat's
-//! `nmea_1300.json`.
+//! `nmea_1300.json` (version 1.300 of 2009; it has all groups but 127252). A bit's number in the tables
+//! counts from the least significant bit of the first byte.
+//!
+//! A number outside of the range that the standard gives its field (an angle of more than a turn, a
+//! latitude beyond a pole, a time past the end of the day) is read as unknown, like "not available".
 
 mod attitude;
+mod bits;
 mod gnss;
+mod known;
+mod names;
 mod position;
 mod speed;
 mod time;
@@ -15,9 +22,11 @@ pub use attitude::{
 pub use gnss::{
     Dops, FixMethod, FixMode, GnssPosition, GnssSystem, Integrity, PseudorangeNoise, Station,
 };
+pub use known::Known;
+pub use names::name;
 pub use position::{CourseSpeed, PositionRapid};
 pub use speed::{Direction, DistanceLog, SetDrift, Speed, SpeedComponents, SpeedKind};
-pub use time::{SystemTime, TimeDate, TimeSource};
+pub use time::{SystemTime, TimeDate, TimeSource, days_and_seconds, utc};
 
 use insd_base::Span;
 
@@ -54,4 +63,9 @@ pub struct Short {
     pub length: usize,
     /// Bytes there must be.
     pub least: usize,
+}
+
+/// An interval of so many milliseconds.
+const fn millis(milliseconds: i64) -> Option<Span> {
+    Some(Span::from_nanos(milliseconds * 1_000_000))
 }
