@@ -6,6 +6,8 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
+use crate::can::{CanConfig, CanFilter, Candump, GatewayTcp, GatewayUdp, Slcan, Socketcan};
+
 /// A port that is listened to.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -17,8 +19,12 @@ pub struct PortConfig {
     pub patience_s: f64,
     /// Whether messages may be written to it, too: to a serial port, and to the peers of a TCP port.
     /// Without this not one byte is ever written.
+    /// For CAN: without this an adapter at a serial line is not even told to open its channel.
     #[serde(default)]
     pub write: bool,
+    /// Of a CAN port: which frames count; all if there is none.
+    #[serde(default)]
+    pub filters: Vec<CanFilter>,
 }
 
 /// What a port listens to.
@@ -40,6 +46,16 @@ pub enum Transport {
     Pipe(File),
     /// Pulses per second from a kernel device.
     Pps(Pps),
+    /// CAN: an interface of the kernel.
+    Socketcan(Socketcan),
+    /// CAN: an adapter at a serial line that speaks LAWICEL's language.
+    Slcan(Slcan),
+    /// CAN: a gateway that is called.
+    GatewayTcp(GatewayTcp),
+    /// CAN: a gateway that sends datagrams.
+    GatewayUdp(GatewayUdp),
+    /// CAN: a log of candump, read once to its end at the pace of the consumer.
+    Candump(Candump),
 }
 
 /// A serial line.
@@ -228,7 +244,7 @@ impl PortConfig {
     /// A port as it is if nothing else is said: told silent after 3 s, never written to.
     #[must_use]
     pub fn new(transport: Transport) -> Self {
-        PortConfig { transport, patience_s: default_patience(), write: false }
+        PortConfig { transport, patience_s: default_patience(), write: false, filters: Vec::new() }
     }
 
     /// All that is wrong with it, in words.
@@ -244,9 +260,19 @@ impl PortConfig {
             Transport::Udp(udp) => faults.extend(udp.faults()),
             _ => {}
         }
+        match CanConfig::of(self) {
+            Some(can) => faults.extend(can.faults()),
+            None if !self.filters.is_empty() => {
+                faults.push("only a CAN port has filters".to_owned());
+            }
+            None => {}
+        }
         let writable = matches!(
             self.transport,
-            Transport::Serial(_) | Transport::TcpClient(_) | Transport::TcpServer(_)
+            Transport::Serial(_)
+                | Transport::TcpClient(_)
+                | Transport::TcpServer(_)
+                | Transport::Slcan(_)
         );
         if self.write && !writable {
             faults.push("only a serial or TCP port can be written to".to_owned());

@@ -1,4 +1,4 @@
-//! The ports of the computer: serial lines, UDP and TCP, files, named pipes and pulses.
+//! The ports of the computer: serial lines, UDP and TCP, files, named pipes, pulses and CAN.
 //!
 //! [`spawn`] starts a port with a task of its own, which reads into a bounded [`queue()`] that all ports
 //! share and one consumer empties. What a port does about trouble:
@@ -11,10 +11,13 @@
 //! | more than the consumer takes | `Overrun`, once a second at most | the oldest bytes of that port go, see [`Queue`] |
 //! | a wrong baud rate | `Absent`, with the rates | if rates to probe are given, listens on at each |
 //!
+//! A CAN port does the same in its own way, see [`crate::can`].
+//!
 //! Nothing is ever written to a port that is not configured for writing; no baud rate is searched by
 //! writing. [`spawn_output`] starts a port that is only written to.
 //!
-//! The time of receipt is that of the return of a read, by the given [`Clock`].
+//! The time of receipt is that of the return of a read, by the given [`Clock`]; of pulses and of frames of
+//! the kernel's CAN interfaces it is the kernel's.
 
 mod chrony;
 mod clock;
@@ -42,5 +45,11 @@ pub use config::{
 };
 pub use found::{FoundKind, FoundPort, list};
 pub use probe::{Judge, Judgement};
-pub use queue::{Queue, Receiver, WAITING_LIMIT, queue};
+pub use queue::{FRAME, Queue, Receiver, WAITING_LIMIT, queue};
 pub use run::{OutputPort, PortHandle, Surroundings, spawn, spawn_output};
+
+pub(crate) use clock::{both_clocks, monotonic_at};
+pub(crate) use run::{FIRST_PAUSE, LONGEST_PAUSE, Outcome, Pause, tell};
+pub(crate) use serial::{Line, open_line};
+pub(crate) use tcp::{CALLING, keep_alive};
+pub(crate) use teller::Teller;

@@ -10,10 +10,11 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use insd_base::{Pulse, Span, Stamp, Time, UtcTime};
+use insd_base::{Pulse, Span, UtcTime};
 use pps_time::PpsDevice;
 use pps_time::pps::{pps_fdata, pps_ktime};
 
+use super::clock::{both_clocks, monotonic_at};
 use super::config::{Edge, Pps};
 use super::run::{Outcome, Pause, tell};
 use super::teller::Teller;
@@ -117,36 +118,19 @@ fn utc(time: pps_ktime) -> UtcTime {
 /// Tells the edge if it is a new one. Gives its number. An edge during which the clock stepped is left
 /// out: the gap in the numbers tells so.
 fn take((edge, sequence): (UtcTime, u32), last: Option<u32>, teller: &mut Teller) -> u32 {
-    let stamp = both_clocks(teller);
-    let time = pulse_time(stamp, edge).filter(|_| last != Some(sequence));
+    let stamp = both_clocks(&*teller.clock());
+    let time = monotonic_at(stamp, edge, READING).filter(|_| last != Some(sequence));
     if let Some(time) = time {
         teller.pulse(stamp, Pulse { time, sequence });
     }
     sequence
 }
 
-/// Both clocks, now. A thread that is interrupted between reading one and the other would put the edge
-/// where it was not: of three readings the one with the middle difference is taken.
-fn both_clocks(teller: &Teller) -> Stamp {
-    let mut readings = [teller.now(), teller.now(), teller.now()];
-    readings
-        .sort_by_key(|stamp| stamp.system.as_nanos().saturating_sub(stamp.monotonic.as_nanos()));
-    let [_, middle, _] = readings;
-    middle
-}
-
-/// The time of an edge on the monotonic clock, from its time on the realtime clock and both clocks
-/// shortly after: t_mono = now_mono - (now_utc - t_utc). `None` if the edge is not shortly before.
-fn pulse_time(after: Stamp, edge: UtcTime) -> Option<Time> {
-    let age = Span::from_nanos(after.system.as_nanos().checked_sub(edge.as_nanos())?);
-    (age >= Span::ZERO && age <= READING).then(|| after.monotonic - age)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::ports::{Clock, Receiver, WAITING_LIMIT, queue};
-    use insd_base::{Input, PortId};
+    use insd_base::{Input, PortId, Stamp, Time};
 
     fn stamp(system: i64) -> Stamp {
         let system = UtcTime::from_nanos(system);
@@ -182,7 +166,11 @@ mod tests {
     #[test]
     fn an_edge_is_dated_on_the_monotonic_clock_wherever_the_other_stands() {
         for step in [0, -3_600_000_000_000, 77_000_000_000] {
-            let time = pulse_time(stamp(EDGE + step + 40_000), UtcTime::from_nanos(EDGE + step));
+            let time = monotonic_at(
+                stamp(EDGE + step + 40_000),
+                UtcTime::from_nanos(EDGE + step),
+                READING,
+            );
             assert_eq!(time, Some(Time::from_nanos(4_999_960_000)));
         }
     }
@@ -191,7 +179,7 @@ mod tests {
     fn an_edge_during_which_the_clock_stepped_is_left_out() {
         for step in [-1_000_000, 2_000_000_000, i64::MIN] {
             let after = stamp(EDGE.saturating_add(step));
-            assert_eq!(pulse_time(after, UtcTime::from_nanos(EDGE)), None);
+            assert_eq!(monotonic_at(after, UtcTime::from_nanos(EDGE), READING), None);
         }
     }
 

@@ -19,6 +19,10 @@ use tokio::sync::Notify;
 /// Bytes that may wait for the consumer, for each port, unless another limit is wanted.
 pub const WAITING_LIMIT: usize = 256 * 1024;
 
+/// Bytes as which a frame of a CAN bus counts, and what the controller says of its bus: those of the
+/// kernel's structure.
+pub const FRAME: usize = 16;
+
 /// What an arrival costs beside its bytes.
 const COST: usize = size_of::<(u64, Arrival)>();
 
@@ -215,7 +219,8 @@ impl Lane {
 fn length(arrival: &Arrival) -> usize {
     match &arrival.input {
         Input::Bytes(bytes) => bytes.len(),
-        Input::Can(_) | Input::Bus(_) | Input::Pulse(_) | Input::State(_) => 0,
+        Input::Can(_) | Input::Bus(_) => FRAME,
+        Input::Pulse(_) | Input::State(_) => 0,
     }
 }
 

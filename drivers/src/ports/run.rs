@@ -15,10 +15,11 @@ use super::probe::Judge;
 use super::queue::Queue;
 use super::teller::Teller;
 use super::{file, pps, pty, serial, tcp, udp};
+use crate::can::{self, CanConfig};
 
 /// First and longest pause before a port is opened again; each is twice the one before.
-const FIRST_PAUSE: Duration = Duration::from_millis(200);
-const LONGEST_PAUSE: Duration = Duration::from_secs(5);
+pub(crate) const FIRST_PAUSE: Duration = Duration::from_millis(200);
+pub(crate) const LONGEST_PAUSE: Duration = Duration::from_secs(5);
 
 /// A port that was open for so long starts with the first pause again; one that comes and goes more
 /// quickly is waited for longer and longer.
@@ -63,7 +64,7 @@ enum Work {
 }
 
 /// How an attempt ended.
-pub(super) enum Outcome {
+pub(crate) enum Outcome {
     /// It could not be opened.
     Absent(String),
     /// It was open and was lost.
@@ -81,8 +82,12 @@ enum Link {
 ///
 /// Whatever happens to the device, the port goes on by itself: it tells each change of state once with
 /// its reason, and opens the device again by its configured name after a pause of 0.2 s, which doubles
-/// up to 5 s. Only a file ends.
+/// up to 5 s. Only a file ends. A CAN port is listened to, see [`can::spawn`].
 pub fn spawn(port: PortId, config: PortConfig, surroundings: Surroundings) -> PortHandle {
+    if let Some(config) = CanConfig::of(&config) {
+        let (task, attempts) = can::start(port, config, surroundings, None);
+        return PortHandle { work: Work::Task(task), outbox: None, attempts };
+    }
     let Surroundings { clock, queue, judge } = surroundings;
     let patience = Some(Span::from_seconds(config.patience_s));
     let teller = Teller::new(port, clock, queue, patience);
@@ -185,7 +190,7 @@ async fn run(link: Link, mut teller: Teller, outbox: Option<Outbox>, attempts: A
 }
 
 /// Tells how an attempt ended. Gives whether there is to be another.
-pub(super) fn tell(outcome: Outcome, teller: &mut Teller) -> bool {
+pub(crate) fn tell(outcome: Outcome, teller: &mut Teller) -> bool {
     match outcome {
         Outcome::Absent(reason) => teller.absent(reason),
         Outcome::Lost(reason) => teller.lost(reason),
@@ -231,8 +236,8 @@ async fn attempt(
         (Link::Output(Destination::Pty(config)), Some(outbox)) => {
             pty::talk(config, teller, outbox).await
         }
-        // pulses have a thread of their own, and an output has an outbox
-        (Link::Input(Transport::Pps(_), _) | Link::Output(_), _) => Outcome::Ended,
+        // pulses have a thread of their own, CAN a task of another kind, and an output an outbox
+        (Link::Input(..) | Link::Output(_), _) => Outcome::Ended,
     }
 }
 
@@ -251,22 +256,30 @@ fn serial_limit(serial: &Serial) -> usize {
 }
 
 /// The pauses between attempts.
-pub(super) struct Pause(Duration);
+pub(crate) struct Pause {
+    next: Duration,
+    longest: Duration,
+}
 
 impl Default for Pause {
     fn default() -> Self {
-        Pause(FIRST_PAUSE)
+        Pause { next: FIRST_PAUSE, longest: LONGEST_PAUSE }
     }
 }
 
 impl Pause {
+    /// Pauses that grow up to this one.
+    pub(crate) fn up_to(longest: Duration) -> Self {
+        Pause { next: FIRST_PAUSE, longest }
+    }
+
     /// The next pause, after a port that was open for so long.
-    pub(super) fn after(&mut self, open_for: Span) -> Duration {
+    pub(crate) fn after(&mut self, open_for: Span) -> Duration {
         if open_for >= LASTING {
-            self.0 = FIRST_PAUSE;
+            self.next = FIRST_PAUSE;
         }
-        let pause = self.0;
-        self.0 = (pause * 2).min(LONGEST_PAUSE);
+        let pause = self.next;
+        self.next = (pause * 2).min(self.longest);
         pause
     }
 }

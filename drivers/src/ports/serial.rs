@@ -1,11 +1,15 @@
 //! Serial lines. Opening one raises DTR and RTS, as the system does for every program; beyond that
 //! a line that is only listened to is left alone.
 
+use std::io;
 use std::path::Path;
+use std::pin::Pin;
+use std::task::{Context, Poll};
 use std::time::Duration;
 
 use insd_base::Span;
 use rustix::fs::{Mode, OFlags};
+use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio_serial::{ClearBuffer, SerialPort, SerialPortBuilder, SerialStream};
 
 use super::config::{FlowControl, Parity, Serial};
@@ -17,9 +21,39 @@ use super::stream::{Pace, converse};
 use super::teller::Teller;
 
 /// An open line.
-struct Line {
-    stream: SerialStream,
-    written: bool,
+pub(crate) struct Line {
+    pub(crate) stream: SerialStream,
+    /// Whether something was written to it.
+    pub(crate) written: bool,
+}
+
+impl AsyncRead for Line {
+    fn poll_read(
+        mut self: Pin<&mut Self>,
+        cx: &mut Context<'_>,
+        bytes: &mut ReadBuf<'_>,
+    ) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.stream).poll_read(cx, bytes)
+    }
+}
+
+impl AsyncWrite for Line {
+    fn poll_write(
+        mut self: Pin<&mut Self>,
+        cx: &mut Context<'_>,
+        bytes: &[u8],
+    ) -> Poll<io::Result<usize>> {
+        Pin::new(&mut self.stream).poll_write(cx, bytes)
+    }
+
+    /// Never waits for the wire: that would hold up all other tasks.
+    fn poll_flush(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Poll::Ready(Ok(()))
+    }
+
+    fn poll_shutdown(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Poll::Ready(Ok(()))
+    }
 }
 
 impl Drop for Line {
@@ -41,8 +75,8 @@ pub(super) async fn attempt(
     outbox: Option<&Outbox>,
 ) -> Outcome {
     let device = config.device.display();
-    let mut line = match open(config) {
-        Ok(stream) => Line { stream, written: outbox.is_some() },
+    let mut line = match open_line(config, outbox.is_some()) {
+        Ok(line) => line,
         Err(reason) => return Outcome::Absent(format!("{device}: {reason}")),
     };
     let judge = judge.filter(|_| !config.probe_bauds.is_empty());
@@ -89,11 +123,13 @@ async fn find(
     Err(format!("nothing readable at {} baud", list.join(", ")))
 }
 
-fn open(config: &Serial) -> Result<SerialStream, String> {
+/// Opens a line, which may be written to or not.
+pub(crate) fn open_line(config: &Serial, written: bool) -> Result<Line, String> {
     let builder = builder(config)?;
     // held until the line is open, as some drivers forget the setting at the last close
     let _held = config.low_latency.then(|| ask_low_latency(&config.device));
-    SerialStream::open(&builder).map_err(|error| error.to_string())
+    let stream = SerialStream::open(&builder).map_err(|error| error.to_string())?;
+    Ok(Line { stream, written })
 }
 
 fn builder(config: &Serial) -> Result<SerialPortBuilder, String> {

@@ -19,7 +19,7 @@ use super::stream::{converse, read, talk};
 use super::teller::Teller;
 
 /// How long a call may take.
-const CALLING: Duration = Duration::from_secs(5);
+pub(crate) const CALLING: Duration = Duration::from_secs(5);
 
 /// A peer that has vanished without a word is given up after about twice this.
 const KEEPALIVE: Duration = Duration::from_secs(10);
@@ -152,7 +152,7 @@ async fn converse_with_client(
 
 /// Finds out when the peer has vanished without closing, and sends small messages at once. What the
 /// system refuses here is no reason to go without the peer.
-fn keep_alive(stream: &TcpStream) {
+pub(crate) fn keep_alive(stream: &TcpStream) {
     let keepalive = TcpKeepalive::new().with_time(KEEPALIVE).with_interval(KEEPALIVE / 4);
     let socket = SockRef::from(stream);
     let set = || -> io::Result<()> {

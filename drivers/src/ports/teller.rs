@@ -1,10 +1,10 @@
-//! Tells what becomes of a port: bytes with their stamp, and each change of state once.
+//! Tells what becomes of a port: bytes and frames with their stamp, and each change of state once.
 
 use std::sync::Arc;
 use std::time::Duration;
 
 use insd_base::input::{Arrival, Input, PortId, PortState, Pulse, Stamp};
-use insd_base::{Span, Time};
+use insd_base::{BusEvent, CanFrame, Span, Time};
 
 use super::clock::Clock;
 use super::queue::Queue;
@@ -17,7 +17,7 @@ const REST: Duration = Duration::from_secs(60);
 
 /// The voice of one port.
 #[derive(Clone)]
-pub(super) struct Teller {
+pub(crate) struct Teller {
     port: PortId,
     clock: Arc<dyn Clock>,
     queue: Queue,
@@ -38,7 +38,7 @@ pub(super) struct Teller {
 impl Teller {
     /// The voice of a port whose silence is told after the patience. Without patience it is one that
     /// is only written to: what it says is nobody's business.
-    pub(super) fn new(
+    pub(crate) fn new(
         port: PortId,
         clock: Arc<dyn Clock>,
         queue: Queue,
@@ -59,22 +59,22 @@ impl Teller {
     }
 
     /// Both clocks, now.
-    pub(super) fn now(&self) -> Stamp {
+    pub(crate) fn now(&self) -> Stamp {
         self.clock.now()
     }
 
     /// The clock, for a task of its own.
-    pub(super) fn clock(&self) -> Arc<dyn Clock> {
+    pub(crate) fn clock(&self) -> Arc<dyn Clock> {
         Arc::clone(&self.clock)
     }
 
     /// An attempt to open begins.
-    pub(super) fn begin(&mut self) {
+    pub(crate) fn begin(&mut self) {
         self.opened = None;
     }
 
     /// It is open. Told once for the same words.
-    pub(super) fn open(&mut self, what: String) {
+    pub(crate) fn open(&mut self, what: String) {
         let now = self.now();
         if self.opened.is_none() {
             self.opened = Some(now.monotonic);
@@ -85,35 +85,35 @@ impl Teller {
     }
 
     /// It could not be opened. Told once for the same reason.
-    pub(super) fn absent(&mut self, reason: String) {
+    pub(crate) fn absent(&mut self, reason: String) {
         self.heard = None;
         self.change(self.now(), PortState::Absent { reason });
     }
 
     /// It was open and is gone.
-    pub(super) fn lost(&mut self, reason: String) {
+    pub(crate) fn lost(&mut self, reason: String) {
         self.heard = None;
         self.change(self.now(), PortState::Lost { reason });
     }
 
     /// It has been read to its end.
-    pub(super) fn ended(&mut self) {
+    pub(crate) fn ended(&mut self) {
         self.heard = None;
         self.state(self.now(), PortState::Ended);
     }
 
     /// For how long it has been open since the last beginning.
-    pub(super) fn open_for(&self) -> Span {
+    pub(crate) fn open_for(&self) -> Span {
         self.opened.map_or(Span::ZERO, |opened| self.now().monotonic - opened)
     }
 
     /// Whether its silence has been told.
-    pub(super) fn is_silent(&self) -> bool {
+    pub(crate) fn is_silent(&self) -> bool {
         self.silent
     }
 
     /// Bytes came.
-    pub(super) fn bytes(&mut self, stamp: Stamp, bytes: &[u8]) {
+    pub(crate) fn bytes(&mut self, stamp: Stamp, bytes: &[u8]) {
         if self.patience.is_some() && !bytes.is_empty() {
             self.speaks(stamp);
             self.push(stamp, Input::Bytes(bytes.to_vec()));
@@ -121,19 +121,32 @@ impl Teller {
         self.overrun(stamp);
     }
 
+    /// A frame came.
+    pub(crate) fn frame(&mut self, stamp: Stamp, frame: CanFrame) {
+        self.speaks(stamp);
+        self.push(stamp, Input::Can(frame));
+        self.overrun(stamp);
+    }
+
+    /// The controller of a CAN bus says something. That is no speaking: nobody may be on the bus.
+    pub(crate) fn bus_event(&mut self, stamp: Stamp, event: BusEvent) {
+        self.push(stamp, Input::Bus(event));
+        self.overrun(stamp);
+    }
+
     /// An edge came.
-    pub(super) fn pulse(&mut self, stamp: Stamp, pulse: Pulse) {
+    pub(crate) fn pulse(&mut self, stamp: Stamp, pulse: Pulse) {
         self.speaks(stamp);
         self.push(stamp, Input::Pulse(pulse));
     }
 
     /// Waits until the consumer has room for more of this port.
-    pub(super) async fn room(&self) {
+    pub(crate) async fn room(&self) {
         self.queue.room(self.port).await;
     }
 
     /// How long nothing can be due. To be followed by a [`Teller::tick`].
-    pub(super) fn rest(&self) -> Duration {
+    pub(crate) fn rest(&self) -> Duration {
         let now = self.now().monotonic;
         let until = |due: Time| Duration::from_nanos((due - now).as_nanos().max(0).unsigned_abs());
         let silence = self.heard.zip(self.patience).map(|(heard, patience)| heard + patience);
@@ -145,7 +158,7 @@ impl Teller {
     }
 
     /// Tells the silence and the overrun that are due.
-    pub(super) fn tick(&mut self) {
+    pub(crate) fn tick(&mut self) {
         let now = self.now();
         self.overrun(now);
         let span = self.heard.map_or(Span::ZERO, |heard| now.monotonic - heard);

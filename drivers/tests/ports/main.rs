@@ -3,10 +3,12 @@
 // helpers of tests are not seen as tests
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod can;
 #[path = "../clocks/mod.rs"]
 mod clocks;
 mod files;
 mod host;
 mod network;
+mod node;
 mod output;
 mod serial;
