@@ -39,6 +39,9 @@ pub struct Policy {
     pub heading_autonomous: f64,
     /// Heading for THS E, rad; beyond it THS V, and HDT stops. Default 2.5 deg.
     pub heading_estimated: f64,
+    /// Roll and pitch, each, rad; beyond it they are not available. They need no heading, so they are
+    /// told before the system navigates. Default 0.5 deg, as for the heading.
+    pub level: f64,
     /// Horizontal velocity (root sum square of north and east), m/s; beyond it VTG N. Default
     /// 1 m/s.
     pub velocity: f64,
@@ -68,6 +71,7 @@ impl Default for Policy {
             estimated_without_gnss: true,
             heading_autonomous: 0.5 * DEG,
             heading_estimated: 2.5 * DEG,
+            level: 0.5 * DEG,
             velocity: 1.0,
             course: 5.0 * DEG,
             least_speed: 0.1,
@@ -115,6 +119,13 @@ impl Policy {
         }
     }
 
+    /// Whether roll and pitch are good enough to be told.
+    #[must_use]
+    pub fn is_level(&self, solution: &Solution) -> bool {
+        let sigma = &solution.sigma;
+        solution.mode != Mode::Fault && sigma.roll <= self.level && sigma.pitch <= self.level
+    }
+
     /// Mode of course and speed: that of the position, and none if the velocity is too uncertain.
     #[must_use]
     pub fn velocity(&self, solution: &Solution) -> PositionMode {
@@ -139,6 +150,7 @@ impl Policy {
     }
 }
 
-fn uses_gnss(mode: Mode) -> bool {
+/// Whether the position rests on satellites.
+pub(crate) fn uses_gnss(mode: Mode) -> bool {
     matches!(mode, Mode::Aided | Mode::InMotionAlignment)
 }
