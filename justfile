@@ -17,8 +17,9 @@ test *options:
 # tests that need a kernel of their own, see tests/vm/README.md
 vm *options:
     tests/vm/prepare
-    CARGO_TARGET_X86_64_UNKNOWN_LINUX_GNU_RUNNER="{{justfile_directory()}}/tests/vm/runner" \
-        cargo test -p insd-drivers --test vm_pps -- --ignored {{options}}
+    cargo build -p insd
+    CARGO_TARGET_X86_64_UNKNOWN_LINUX_GNU_RUNNER="{{justfile_directory()}}/tests/vm/runner" VM_TIMEOUT=400 \
+        cargo test --workspace --test vm_pps --test vm_can --test vm_bus -- --ignored {{options}}
 
 # what CI refuses: unformatted code and any warning
 lint:

@@ -89,7 +89,7 @@ fn send(dir: &Path, sendings: &[Sending]) {
             continue;
         }
         let wire = wires[sending.port].get_or_insert_with(|| open(sending.port));
-        wire.send(&sending.bytes).unwrap();
+        wire.send(sending.bytes()).unwrap();
     }
 }
 

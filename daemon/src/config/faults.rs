@@ -1,5 +1,7 @@
 //! Everything that types alone cannot refuse.
 
+use insd_drivers::can::CanConfig;
+
 use super::Config;
 
 /// Names, ranges and references: each fault with its place and what was expected.
@@ -17,6 +19,7 @@ pub(super) fn of(config: &Config) -> Vec<String> {
         faults.push(format!("{place}: {}: expected {}", fault.key, fault.expected));
     }
     outputs(config, &mut faults);
+    nodes(config, &mut faults);
     faults
 }
 
@@ -60,6 +63,23 @@ fn ports(config: &Config, faults: &mut Vec<String>) {
             faults.push(format!("{place}: name: expected a name that no other port has"));
         }
         faults.extend(carrier.faults().into_iter().map(|fault| format!("{place}: {fault}")));
+    }
+}
+
+fn nodes(config: &Config, faults: &mut Vec<String>) {
+    for node in &config.nodes {
+        let place = format!("[[node]] on \"{}\"", node.port);
+        let of_port = |other: &&super::NodeSection| other.port == node.port;
+        if config.nodes.iter().filter(of_port).count() > 1 {
+            faults.push(format!("{place}: port: expected one node for each port"));
+        }
+        let mut ports = config.ports.iter().zip(config.port_configs());
+        let is_bus =
+            ports.any(|(port, opened)| port.name == node.port && CanConfig::of(&opened).is_some());
+        if !is_bus {
+            faults.push(format!("{place}: port: expected the name of a CAN port"));
+        }
+        faults.extend(node.faults().into_iter().map(|fault| format!("{place}: {fault}")));
     }
 }
 

@@ -4,13 +4,16 @@
 //! type into another; then by `config`, which lays `INSD__SECTION__KEY` of the environment over it.
 
 mod faults;
+mod filters;
 mod imu;
+mod node;
 mod output;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use insd_base::{Geodetic, LeverArms, StartCondition};
+use insd_drivers::can::{CanConfig, CanFilter, CanTransport};
 use insd_drivers::ports::{PortConfig, Transport};
 use insd_engine::EngineConfig;
 use insd_intake::config::{IntakeConfig, PortSpec, Role, SensorConfig};
@@ -21,10 +24,13 @@ use serde::Deserialize;
 use crate::cli::BadInput;
 
 pub use imu::ImuModel;
+pub use node::{NodeMemory, NodeSection};
 pub use output::{OutputSection, Sentences};
 
 /// How well receiver and IMU agree in time where neither a pulse nor the IMU's own UTC ties them, s.
 const TIME_STD: f64 = 0.02;
+/// Bits per second of a CAN bus of which nothing else is known: that of NMEA 2000.
+const BITRATE: u32 = 250_000;
 /// Name of the environment variables that override keys.
 const PREFIX: &str = "INSD";
 
@@ -45,6 +51,9 @@ pub struct Config {
     /// Ports that are written to.
     #[serde(default, rename = "output")]
     pub outputs: Vec<OutputSection>,
+    /// Nodes of NMEA 2000 on CAN ports.
+    #[serde(default, rename = "node")]
+    pub nodes: Vec<NodeSection>,
     /// Recording of all that arrives.
     pub recording: Option<Recording>,
     /// Where chronyd listens for time.
@@ -100,6 +109,13 @@ pub struct PortSection {
     /// Silence after which it is told, s.
     #[serde(default = "three")]
     pub patience_s: f64,
+    /// Whether an adapter (slcan) may be told to open its channel: the only thing that is written
+    /// without a node.
+    #[serde(default)]
+    pub write: bool,
+    /// Of a CAN port: which frames count. Left out: those that its sensors and its node need, on an
+    /// interface of the kernel.
+    pub filters: Option<Vec<CanFilter>>,
 }
 
 /// Recording of all that arrives.
@@ -220,9 +236,15 @@ impl Config {
     /// What each port is opened as.
     #[must_use]
     pub fn port_configs(&self) -> Vec<PortConfig> {
-        let config = |port: &PortSection| PortConfig {
-            patience_s: port.patience_s,
-            ..PortConfig::new(port.transport.clone())
+        let config = |port: &PortSection| {
+            let opened = PortConfig {
+                patience_s: port.patience_s,
+                write: port.write,
+                ..PortConfig::new(port.transport.clone())
+            };
+            let filters = port.filters.clone();
+            let filters = filters.unwrap_or_else(|| filters::of(self, &port.name, &opened));
+            PortConfig { filters, ..opened }
         };
         self.ports.iter().map(config).collect()
     }
@@ -246,7 +268,15 @@ fn environment() -> config::Environment {
 }
 
 fn link(transport: &Transport) -> Link {
+    let bus = CanConfig::of(&PortConfig::new(transport.clone())).map(|bus| bus.transport);
     match transport {
+        _ if bus.is_some() => {
+            let bitrate = match bus {
+                Some(CanTransport::Slcan(adapter)) => adapter.bitrate,
+                _ => BITRATE,
+            };
+            Link::Can { bit_time: 1.0 / f64::from(bitrate.max(1)) }
+        }
         Transport::Serial(serial) => {
             let byte_time = f64::from(serial.symbols()) / f64::from(serial.baud.max(1));
             Link::Serial { byte_time }

@@ -1,5 +1,6 @@
 //! The daemon at work: ports, one engine thread, outputs, recording.
 
+mod bus;
 mod outputs;
 mod time_out;
 mod told;
@@ -12,7 +13,8 @@ use std::time::Duration;
 
 use anyhow::Context;
 use insd_base::{PortId, Stamp, Time};
-use insd_drivers::ports::{self, Receiver, Surroundings};
+use insd_drivers::can::{self, CanConfig, CanHandle};
+use insd_drivers::ports::{self, PortHandle, Receiver, Surroundings};
 use insd_drivers::raw::{RawHeader, RawWriter, Recorder, RecordingConfig};
 use insd_drivers::recording::NavWriter;
 use insd_engine::Output;
@@ -22,6 +24,7 @@ use crate::config::{Config, Recording};
 use crate::output_file::OutputFile;
 use crate::pipeline::{Pipeline, Product};
 
+use bus::{Buses, NodeOfPort};
 use outputs::Outputs;
 use time_out::TimeOut;
 pub use told::tell;
@@ -29,7 +32,7 @@ pub use told::tell;
 /// Bytes that may wait for the engine at one port.
 const WAITING: usize = 256 * 1024;
 /// Longest wait for an arrival: time passes even when nothing comes.
-const TURN: Duration = Duration::from_millis(100);
+const TURN: Duration = Duration::from_millis(25);
 
 /// Time between the things that are done once a second, s.
 const SECOND: f64 = 1.0;
@@ -58,11 +61,9 @@ pub fn run(config: &Config, text: &str, options: &RunOptions) -> anyhow::Result<
     let surroundings =
         Surroundings { clock: Arc::new(clock), queue: queue.clone(), judge: Some(told::judge()) };
     let _guard = runtime.enter();
-    let inputs = config.port_configs().into_iter().zip(0..);
-    let handles: Vec<_> = inputs
-        .map(|(port, index)| ports::spawn(PortId(index), port, surroundings.clone()))
-        .collect();
-    let first_output = u16::try_from(handles.len()).unwrap_or(u16::MAX);
+    let (buses, nodes) = Buses::new(config);
+    let handles = open_inputs(config, &nodes, &surroundings);
+    let first_output = u16::try_from(config.ports.len()).unwrap_or(u16::MAX);
     let outputs = Outputs::open(config, first_output, &surroundings);
     let after_outputs = first_output.saturating_add(outputs.count());
     let time_out = TimeOut::open(config, after_outputs, &surroundings);
@@ -71,6 +72,7 @@ pub fn run(config: &Config, text: &str, options: &RunOptions) -> anyhow::Result<
     let worker = Worker {
         pipeline: Pipeline::new(&config.intake(), config.engine()),
         outputs,
+        buses,
         time_out,
         recorder,
         nav: options.nav.as_deref().map(open_nav).transpose()?,
@@ -87,6 +89,32 @@ pub fn run(config: &Config, text: &str, options: &RunOptions) -> anyhow::Result<
     drop((handles, queue));
     runtime.shutdown_timeout(Duration::from_secs(1));
     finished
+}
+
+/// The ports at work.
+struct Inputs {
+    _ports: Vec<PortHandle>,
+    _buses: Vec<CanHandle>,
+}
+
+/// Opens what is listened to. CAN ports with a node are given it.
+fn open_inputs(config: &Config, nodes: &[NodeOfPort], surroundings: &Surroundings) -> Inputs {
+    let mut inputs = Inputs { _ports: Vec::new(), _buses: Vec::new() };
+    let ports = config.ports.iter().zip(config.port_configs()).zip((0..).map(PortId));
+    for ((section, port), id) in ports {
+        let surroundings = surroundings.clone();
+        let node = nodes.iter().find(|node| node.port == section.name);
+        match (CanConfig::of(&port), node) {
+            (Some(bus), Some(node)) => {
+                let state = node.state.clone();
+                tokio::spawn(bus::watch(node.port.clone(), node.node.clone(), state));
+                let speaker = Some(node.node.for_port());
+                inputs._buses.push(can::spawn(id, bus, surroundings, speaker));
+            }
+            _ => inputs._ports.push(ports::spawn(id, port, surroundings)),
+        }
+    }
+    inputs
 }
 
 async fn until_stopped(seconds: Option<f64>) {
@@ -127,6 +155,7 @@ fn open_nav(path: &Path) -> anyhow::Result<NavWriter<OutputFile>> {
 struct Worker {
     pipeline: Pipeline,
     outputs: Outputs,
+    buses: Buses,
     time_out: TimeOut,
     recorder: Option<Recorder>,
     nav: Option<NavWriter<OutputFile>>,
@@ -145,6 +174,7 @@ impl Worker {
                 Err(RecvTimeoutError::Disconnected) => break,
             }
             let now = self.clock.now();
+            self.buses.idle(now.monotonic, || self.pipeline.utc_at(now.monotonic));
             if (now.monotonic - ticked).as_seconds() >= SECOND {
                 ticked = now.monotonic;
                 self.tick(&now);
@@ -169,12 +199,14 @@ impl Worker {
         if let Some(recorder) = &mut self.recorder {
             recorder.record(arrival);
         }
-        let (outputs, nav) = (&mut self.outputs, &mut self.nav);
+        let (outputs, buses, nav) = (&mut self.outputs, &mut self.buses, &mut self.nav);
+        let clock = &self.clock;
         let mut written = Ok(());
         self.pipeline.handle(arrival, |intake, product| {
             tell(intake, &product);
             if let Product::Engine(Output::Solution(solution)) = &product {
                 outputs.send(solution, intake.utc_at(solution.time));
+                buses.send(solution, clock.now().monotonic, intake);
                 if let (Some(nav), true) = (nav.as_mut(), written.is_ok()) {
                     written = nav.write(solution);
                 }

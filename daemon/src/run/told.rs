@@ -43,6 +43,13 @@ fn tell_event(intake: &Intake, event: &IntakeEvent) {
         Happening::Port { port, state } => {
             tracing::info!(at, port = intake.port_name(*port), "{state}");
         }
+        Happening::Bus { port, event } => {
+            tracing::warn!(at, port = intake.port_name(*port), "bus: {event}");
+        }
+        Happening::Device { sensor, device } => {
+            let (address, known) = (device.address, device.name.map(|name| name.to_string()));
+            tracing::info!(at, sensor = name(sensor), address, name = ?known, "device");
+        }
         Happening::SensorSpeaks { sensor } => tracing::info!(at, sensor = name(sensor), "speaks"),
         Happening::SensorSilent { sensor } => tracing::warn!(at, sensor = name(sensor), "silent"),
         Happening::SensorValid { sensor, valid, status } => {

@@ -2,6 +2,7 @@
 
 use insd_wire::stream::{Cutter, Protocol};
 
+use super::bus::report::BusReport;
 use super::message::excerpt;
 use super::named::{UNNAMED, is_proof};
 use super::report::{MessageReport, PortReport, Refusal, State};
@@ -26,6 +27,9 @@ const SAMPLE: usize = 20;
 const NEARLY_FULL: f64 = 0.9;
 const TOO_FULL: f64 = 1.05;
 
+/// Share of what a CAN bus can carry from which it is told.
+const BUSY: f64 = 0.6;
+
 /// All that is worth telling of a port. `tail` are the bytes that came last, `unreadable` the number
 /// of bytes heard while no baud rate fitted.
 pub(super) fn hints(
@@ -37,7 +41,7 @@ pub(super) fn hints(
     let mut hints = Vec::new();
     match &port.state {
         State::Absent { reason } => hints.extend(absent(reason, unreadable)),
-        State::Silent { .. } if port.bytes == 0 && port.pulses.is_none() => {
+        State::Silent { .. } if port.is_mute() => {
             hints.push(nothing(port));
         }
         State::Silent { .. } => {
@@ -48,6 +52,7 @@ pub(super) fn hints(
     hints.extend(stray(port, tail, protocols));
     hints.extend(checksums(port));
     hints.extend(load(port));
+    hints.extend(port.bus.as_ref().map(bus).into_iter().flatten());
     if port.losses > 0 {
         let times =
             if port.losses == 1 { "once".to_owned() } else { format!("{} times", port.losses) };
@@ -99,6 +104,10 @@ fn nothing(port: &PortReport) -> String {
             .to_owned()
     } else if what.starts_with("tcp server") {
         "nobody has called and spoken".to_owned()
+    } else if what.starts_with("can ") {
+        "not one frame: is the backbone powered and terminated, has the interface its bitrate \
+         (`ip -details link show`: 250000 for NMEA 2000), are CAN-H and CAN-L the right way round?"
+            .to_owned()
     } else if what.contains("/pps") {
         "no pulse: has the receiver a fix, and is its pulse switched on?".to_owned()
     } else if port.baud.is_some() {
@@ -209,6 +218,28 @@ fn checksums(port: &PortReport) -> Vec<String> {
         hints.push(
             "nothing of this is used by insd: choose other messages in the device".to_owned(),
         );
+    }
+    hints
+}
+
+/// What may be wrong on a CAN bus.
+fn bus(bus: &BusReport) -> Vec<String> {
+    let mut hints = Vec::new();
+    if !bus.events.is_empty() {
+        hints.push(
+            "errors on the bus: two terminators of 120 ohms, one bitrate for all, sound plugs?"
+                .to_owned(),
+        );
+    }
+    if bus.load.is_some_and(|load| load > BUSY) {
+        hints.push("the bus is busy: what has low priority comes late".to_owned());
+    }
+    let nameless = bus.devices.iter().filter(|device| device.name.is_none()).count();
+    if nameless > 0 {
+        hints.push(format!(
+            "{nameless} devices have not told their NAMEs: most do only when they are asked, see \
+             `--ask`"
+        ));
     }
     hints
 }

@@ -5,6 +5,7 @@
 //! the rest is counted together.
 
 mod advice;
+pub mod bus;
 mod message;
 mod named;
 mod port;
@@ -18,7 +19,7 @@ pub mod text;
 
 use std::collections::BTreeMap;
 
-use insd_base::{Arrival, PortId, PortState, Stamp, Time};
+use insd_base::{Arrival, BusEvent, CanFrame, PortId, PortState, Stamp, Time};
 use insd_wire::describe::Reading;
 use insd_wire::stream::Protocol;
 
@@ -72,6 +73,10 @@ pub enum SeenWhat<'a> {
         /// All bytes of the read.
         bytes: &'a [u8],
     },
+    /// A frame of a CAN bus.
+    Can(CanFrame),
+    /// What a controller says of its bus.
+    Bus(BusEvent),
     /// The edge of a pulse with its number.
     Pulse {
         /// The kernel's count of edges.

@@ -5,6 +5,7 @@ use insd_intake::port::{Frame, Link, PortCounts, PortIntake};
 use insd_wire::stream::Protocol;
 
 use super::advice;
+use super::bus::Bus;
 use super::message::Message;
 use super::named::{Named, named};
 use super::pulses::Pulses;
@@ -49,6 +50,7 @@ pub(super) struct Port {
     losses: u32,
     kinds: Kinds,
     pulses: Option<Pulses>,
+    bus: Bus,
     tail: Vec<u8>,
     stray_told: u64,
 }
@@ -91,6 +93,7 @@ impl Port {
             losses: 0,
             kinds: Kinds::default(),
             pulses: None,
+            bus: Bus::default(),
             tail: Vec::new(),
             stray_told: 0,
         }
@@ -107,7 +110,15 @@ impl Port {
     pub(super) fn take(&mut self, stamp: &Stamp, input: &Input, show: &mut impl FnMut(&Seen<'_>)) {
         match input {
             Input::Bytes(bytes) => self.bytes(stamp, bytes, show),
-            Input::Can(_) | Input::Bus(_) => {}
+            Input::Can(frame) => {
+                self.speaks(stamp);
+                self.bus.frame(stamp, frame);
+                show(&Seen { port: &self.plan.name, stamp: *stamp, what: SeenWhat::Can(*frame) });
+            }
+            Input::Bus(event) => {
+                self.bus.event(*event);
+                show(&Seen { port: &self.plan.name, stamp: *stamp, what: SeenWhat::Bus(*event) });
+            }
             Input::Pulse(pulse) => {
                 self.speaks(stamp);
                 self.pulses = Some(Pulses::with(self.pulses.take(), stamp, pulse));
@@ -225,6 +236,7 @@ impl Port {
             talkers: self.kinds.talkers.sorted(),
             sources: self.kinds.sources.sorted(),
             pulses: self.pulses.as_ref().map(|pulses| pulses.report(now)),
+            bus: self.bus.report(timed, seconds.filter(|s| *s >= LEAST)),
             hints: Vec::new(),
             suggestions: Vec::new(),
         };

@@ -3,6 +3,8 @@
 use insd_wire::stream::Protocol;
 use serde::{Serialize, Serializer};
 
+use super::bus::report::BusReport;
+
 /// What was found at all ports.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
@@ -51,6 +53,8 @@ pub struct PortReport {
     pub sources: Vec<Counted>,
     /// Pulses.
     pub pulses: Option<PulseReport>,
+    /// A CAN bus.
+    pub bus: Option<BusReport>,
     /// What may be wrong, and what to do about it.
     pub hints: Vec<String>,
     /// Sections for the configuration, TOML.
@@ -145,6 +149,12 @@ pub struct Counted {
 }
 
 impl PortReport {
+    /// Whether nothing at all came.
+    #[must_use]
+    pub fn is_mute(&self) -> bool {
+        self.bytes == 0 && self.pulses.is_none() && self.bus.is_none()
+    }
+
     /// Share of the bytes that belong to no frame, 0 to 1.
     #[must_use]
     pub fn stray_share(&self) -> f64 {

@@ -3,6 +3,7 @@
 use insd_wire::stream::Protocol;
 
 use super::Transport;
+use super::bus;
 use super::report::{MessageReport, PortReport};
 
 /// Rates that devices can be set to, Hz.
@@ -33,13 +34,14 @@ struct Sensor {
 
 /// The port's section, if what it opens is known, and one for each sensor on it, as TOML.
 pub(super) fn sections(port: &PortReport, transport: Option<&Transport>) -> Vec<String> {
-    let sensors = sensors(port);
-    if sensors.is_empty() {
-        return Vec::new();
-    }
     let name = plain(&port.name);
-    let opened = transport.map(|transport| port_section(&name, transport, port.baud));
-    opened.into_iter().chain(sensors.iter().map(|sensor| sensor.section(&name))).collect()
+    let mut sections: Vec<String> =
+        sensors(port).iter().map(|sensor| sensor.section(&name)).collect();
+    sections.extend(port.bus.iter().flat_map(|bus| bus::suggestion::sections(bus, &name)));
+    if let Some(transport) = transport.filter(|_| !sections.is_empty()) {
+        sections.insert(0, port_section(&name, transport, port.baud));
+    }
+    sections
 }
 
 fn port_section(name: &str, transport: &Transport, baud: Option<u32>) -> String {
@@ -263,7 +265,7 @@ fn compasses(port: &PortReport) -> Vec<Sensor> {
 }
 
 /// The rate to which a device was probably set, Hz.
-fn round(rate: f64) -> f64 {
+pub(super) fn round(rate: f64) -> f64 {
     let near = |nominal: &&f64| (rate / **nominal - 1.0).abs() < NEAR;
     RATES.iter().find(near).copied().unwrap_or((rate * 100.0).round() / 100.0)
 }

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use crate::evaluation::{Align, Table, significant};
 
+use super::bus;
 use super::report::{Counted, MessageReport, PortReport, PulseReport, Report, State};
 
 /// Columns of the terminal that hints are folded to.
@@ -43,6 +44,10 @@ pub fn port(port: &PortReport) -> String {
     if let Some(pulses) = &port.pulses {
         text.push_str(&folded("  ", &told_pulses(pulses)));
     }
+    if let Some(own) = &port.bus {
+        text.push_str(&folded("  ", &bus::text::amount(own, port.seconds)));
+        text.push_str(&bus::text::devices(own));
+    }
     for (what, names) in [("talkers", &port.talkers), ("TAG sources", &port.sources)] {
         if !names.is_empty() {
             text.push_str(&folded(&format!("  {what}  "), &counted(names)));
@@ -72,7 +77,7 @@ fn state(port: &PortReport) -> String {
     match &port.state {
         State::Opening => "nothing known of it yet".to_owned(),
         State::Open => format!("open{opened}"),
-        State::Silent { silent_s } if port.bytes == 0 && port.pulses.is_none() => {
+        State::Silent { silent_s } if port.is_mute() => {
             format!("open{opened}, and silent for {silent_s:.0} s")
         }
         State::Silent { silent_s } => format!("open{opened}, silent for the last {silent_s:.0} s"),

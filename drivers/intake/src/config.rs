@@ -1,11 +1,13 @@
 //! What is plugged in: ports by their link, sensors by their format and place.
 
+use insd_wire::imu::can::LayoutChoice;
 use insd_wire::imu::kvh::{KvhFormat, KvhLinear, KvhRotation, KvhTemperature};
 use insd_wire::imu::stim::{StimFormat, StimKind, StimRange};
 pub use insd_wire::nmea::PashrDialect as Dialect;
 use insd_wire::stream::Protocol;
 use serde::{Deserialize, Serialize};
 
+use crate::device::DeviceFilter;
 use crate::mounting::Mounting;
 use crate::port::Link;
 use crate::sensor::TimeBase;
@@ -50,6 +52,16 @@ pub enum Kind {
     NmeaPosition,
     /// Positions and headings typed in by an operator (PINSD).
     Manual,
+    /// A GNSS receiver of NMEA 2000: 129029, 129026, 129539, 129542, 126992, 129033.
+    N2kGnss,
+    /// A compass of NMEA 2000: 127250; 127257 if `yaw` is set.
+    N2kHeading,
+    /// A log of NMEA 2000: 130578, else 128259.
+    N2kLog,
+    /// A position of NMEA 2000 from elsewhere than the ship's receivers: 129025.
+    N2kPosition,
+    /// An IMU that sends plain CAN frames, by its `layout`.
+    CanImu,
 }
 
 /// What a sensor measures.
@@ -149,6 +161,18 @@ pub struct SensorConfig {
     /// Dialect of PASHR; it is never guessed.
     #[serde(default)]
     pub dialect: Option<Dialect>,
+    /// Which device of NMEA 2000; any one that sends what the sensor's kind consists of if left out.
+    #[serde(default)]
+    pub device: Option<DeviceFilter>,
+    /// Whether the yaw of an attitude (127257) is the heading of a device that sends none (127250).
+    #[serde(default)]
+    pub yaw: bool,
+    /// Whether a receiver of NMEA 2000 sends the altitude above the geoid instead of the ellipsoid.
+    #[serde(default)]
+    pub altitude_above_geoid: bool,
+    /// The frames of a plain CAN IMU: the name of a table, or a table.
+    #[serde(default)]
+    pub layout: Option<LayoutChoice>,
     /// What a KVH unit was told to send.
     #[serde(default)]
     pub kvh: KvhSettings,
@@ -216,18 +240,24 @@ impl Kind {
     #[must_use]
     pub fn role(self) -> Role {
         match self {
-            Kind::Sbg | Kind::Stdbin | Kind::Mip | Kind::Xbus | Kind::Kvh | Kind::Stim => Role::Imu,
-            Kind::NmeaGnss | Kind::Ubx | Kind::Sbf => Role::Gnss,
-            Kind::NmeaLog | Kind::Pd0 | Kind::Pd6 | Kind::Nortek => Role::Log,
-            Kind::Compass | Kind::Psxn | Kind::Pashr => Role::Heading,
-            Kind::NmeaPosition | Kind::Manual => Role::Position,
+            Kind::Sbg
+            | Kind::Stdbin
+            | Kind::Mip
+            | Kind::Xbus
+            | Kind::Kvh
+            | Kind::Stim
+            | Kind::CanImu => Role::Imu,
+            Kind::NmeaGnss | Kind::Ubx | Kind::Sbf | Kind::N2kGnss => Role::Gnss,
+            Kind::NmeaLog | Kind::Pd0 | Kind::Pd6 | Kind::Nortek | Kind::N2kLog => Role::Log,
+            Kind::Compass | Kind::Psxn | Kind::Pashr | Kind::N2kHeading => Role::Heading,
+            Kind::NmeaPosition | Kind::Manual | Kind::N2kPosition => Role::Position,
         }
     }
 
-    /// How it is framed.
+    /// How its bytes are framed; `None` if it sends CAN frames.
     #[must_use]
-    pub fn protocol(self) -> Protocol {
-        match self {
+    pub fn protocol(self) -> Option<Protocol> {
+        Some(match self {
             Kind::Sbg => Protocol::Sbg,
             Kind::Stdbin => Protocol::StdBin,
             Kind::Mip => Protocol::Mip,
@@ -246,7 +276,16 @@ impl Kind {
             | Kind::Pashr
             | Kind::NmeaPosition
             | Kind::Manual => Protocol::Nmea,
-        }
+            Kind::N2kGnss | Kind::N2kHeading | Kind::N2kLog | Kind::N2kPosition | Kind::CanImu => {
+                return None;
+            }
+        })
+    }
+
+    /// Whether it is a device of NMEA 2000.
+    #[must_use]
+    pub fn is_n2k(self) -> bool {
+        matches!(self, Kind::N2kGnss | Kind::N2kHeading | Kind::N2kLog | Kind::N2kPosition)
     }
 }
 
@@ -317,16 +356,51 @@ impl IntakeConfig {
     pub fn protocols(&self, port: &str) -> Vec<Protocol> {
         let mut protocols = Vec::new();
         for sensor in self.sensors.iter().filter(|sensor| sensor.port == port) {
-            let own = sensor.kind.protocol();
-            if !protocols.contains(&own) {
-                protocols.push(own);
-            }
+            let own = sensor.kind.protocol().filter(|own| !protocols.contains(own));
+            protocols.extend(own);
         }
         protocols
+    }
+
+    /// Whether a sensor on a port is a device of NMEA 2000.
+    #[must_use]
+    pub fn speaks_n2k(&self, port: &str) -> bool {
+        self.sensors.iter().any(|sensor| sensor.port == port && sensor.kind.is_n2k())
     }
 }
 
 impl SensorConfig {
+    /// A sensor of which nothing is said but what must be.
+    #[must_use]
+    pub fn new(name: &str, port: &str, kind: Kind) -> Self {
+        SensorConfig {
+            name: name.to_owned(),
+            port: port.to_owned(),
+            kind,
+            priority: one(),
+            patience_s: patience(),
+            latency_s: 0.0,
+            rate_hz: hundred(),
+            time: TimeBase::default(),
+            mounting: Mounting::default(),
+            talkers: Vec::new(),
+            heading_std_deg: one_degree(),
+            velocity_std_mps: tenth(),
+            position_std_m: ten(),
+            heading_offset_deg: 0.0,
+            heading: false,
+            magnetic: false,
+            no_checksum: false,
+            dialect: None,
+            device: None,
+            yaw: false,
+            altitude_above_geoid: false,
+            layout: None,
+            kvh: KvhSettings::default(),
+            stim: StimSettings::default(),
+        }
+    }
+
     fn look(&self, config: &IntakeConfig, faults: &mut Vec<ConfigFault>) {
         let mut expect = |good: bool, key, expected: &str| {
             if !good {
@@ -338,6 +412,11 @@ impl SensorConfig {
         expect(namesakes.count() == 1, "name", "a name that no other sensor has");
         let known = config.ports.iter().any(|port| port.name == self.port);
         expect(known, "port", "the name of a port");
+        let carries = config.ports.iter().filter(|port| port.name == self.port);
+        let frames = |link: &Link| matches!(link, Link::Can { .. });
+        let fits =
+            carries.map(|port| frames(&port.link)).all(|own| own == self.kind.protocol().is_none());
+        expect(fits, "kind", "a kind of sensor that the port can carry: CAN frames, or bytes");
         expect((0.1..=600.0).contains(&self.patience_s), "patience_s", "0.1 to 600 s");
         expect((0.0..=2.0).contains(&self.latency_s), "latency_s", "0 to 2 s");
         expect((1.0..=10_000.0).contains(&self.rate_hz), "rate_hz", "1 to 10000");
@@ -356,5 +435,12 @@ impl SensorConfig {
             "the dialect of PASHR: sbg, sbg_wassp, ixblue, novatel, trimble, applanix",
         );
         expect(self.stim.format(1.0).is_some(), "stim.range_g", "2, 5, 10, 30 or 80");
+        let filtered = self.device.is_none() || self.kind.is_n2k();
+        expect(filtered, "device", "a sensor of NMEA 2000, for only those have a NAME");
+        let laid_out = self.layout.is_some() == (self.kind == Kind::CanImu);
+        expect(laid_out, "layout", "the table of frames of a can_imu, and of no other sensor");
+        for fault in self.layout.iter().flat_map(|layout| layout.layout().faults()) {
+            expect(false, "layout", &fault);
+        }
     }
 }

@@ -1,9 +1,11 @@
 //! What happened at the border, worth telling the operator.
 
+use insd_base::can::BusEvent;
 use insd_base::{PortId, PortState, Span, Time};
 
 use crate::choice::Chosen;
 use crate::clock::TimeChange;
+use crate::device::Device;
 
 /// Why a reading of a sensor was not passed on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -23,6 +25,10 @@ pub enum Refusal {
     Magnetic,
     /// Its axes cannot be turned into the ship's.
     Frame,
+    /// A frame of the sample is missing.
+    Incomplete,
+    /// It is from another device of the bus than the one that is listened to.
+    OtherDevice,
 }
 
 impl Refusal {
@@ -37,6 +43,8 @@ impl Refusal {
             Refusal::NotChosen => "not_chosen",
             Refusal::Magnetic => "magnetic",
             Refusal::Frame => "frame",
+            Refusal::Incomplete => "incomplete",
+            Refusal::OtherDevice => "other_device",
         }
     }
 }
@@ -50,6 +58,20 @@ pub enum Happening {
         port: PortId,
         /// Its state.
         state: PortState,
+    },
+    /// The controller of a port says something of its CAN bus.
+    Bus {
+        /// Which.
+        port: PortId,
+        /// What it says.
+        event: BusEvent,
+    },
+    /// A sensor listens to a device of the bus from now on.
+    Device {
+        /// Index of the sensor.
+        sensor: usize,
+        /// The device.
+        device: Device,
     },
     /// A sensor speaks for the first time, or again.
     SensorSpeaks {

@@ -6,10 +6,12 @@
 //!
 //! Pure: no I/O, no clock, no thread, no log.
 
+pub mod can;
 pub mod choice;
 pub mod clock;
 pub mod config;
 pub mod decode;
+pub mod device;
 pub mod event;
 pub mod mounting;
 pub mod port;
@@ -23,6 +25,7 @@ pub use magnetic::variation;
 
 use insd_base::{Arrival, Input, PortState, Received, Stamp, Time, UtcTime};
 
+use crate::can::CanIntake;
 use crate::config::IntakeConfig;
 use crate::core::Core;
 use crate::event::{Happening, IntakeEvent};
@@ -53,6 +56,7 @@ pub struct Intake {
 struct Port {
     name: String,
     intake: PortIntake,
+    can: CanIntake,
     state: Option<PortState>,
     heard: Option<Time>,
 }
@@ -65,6 +69,7 @@ impl Intake {
         let ports = config.ports.iter().map(|port| Port {
             name: port.name.clone(),
             intake: PortIntake::new(port.link, &config.protocols(&port.name)),
+            can: CanIntake::new(port.link, config.speaks_n2k(&port.name)),
             state: None,
             heard: None,
         });
@@ -82,7 +87,14 @@ impl Intake {
                     port.heard = Some(stamp.monotonic);
                     port.intake.take(stamp, bytes, |frame| core.frame(index, stamp, frame));
                 }
-                Input::Can(_) | Input::Bus(_) => {}
+                Input::Can(frame) => {
+                    port.heard = Some(stamp.monotonic);
+                    port.can.take(index, stamp, frame, core);
+                }
+                Input::Bus(event) => {
+                    port.can.hear(*event);
+                    core.bus(arrival.port, stamp.monotonic, *event);
+                }
                 Input::Pulse(pulse) => core.utc.pulse(*pulse),
                 Input::State(state) => {
                     if matches!(state, PortState::Lost { .. } | PortState::Ended) {
@@ -126,8 +138,10 @@ impl Intake {
         let ports = self.ports.iter().map(|port| PortStatus {
             name: port.name.clone(),
             state: port.state.clone(),
-            counts: port.intake.counts(),
+            counts: port.can.counts(port.intake.counts()),
             heard: port.heard,
+            bus: port.can.bus(),
+            nodes: port.can.nodes(),
         });
         let sensors = self.core.sensors.iter().map(|sensor| sensor.status.clone());
         let choices = self.core.choices.iter();

@@ -25,6 +25,11 @@ pub enum Link {
     Stream,
     /// Datagrams: no frame goes over the end of one.
     Datagrams,
+    /// A CAN bus: frames instead of bytes.
+    Can {
+        /// Time for a bit, s: 4e-6 on NMEA 2000.
+        bit_time: f64,
+    },
 }
 
 /// A frame and when it came.
@@ -101,7 +106,7 @@ impl PortIntake {
     fn release(&mut self, now: Time, each: &mut impl FnMut(&Frame<'_>)) {
         let longest = match self.link {
             Link::Serial { byte_time } => IDLE + LONGEST * byte_time,
-            Link::Stream | Link::Datagrams => SLOW,
+            _ => SLOW,
         };
         while self.reads.front().is_some_and(|(_, read)| (now - *read).as_seconds() > longest) {
             self.cutter.give_up();
@@ -135,7 +140,7 @@ impl PortIntake {
     fn cut(&mut self, now: Time, each: &mut impl FnMut(&Frame<'_>)) {
         let byte_time = match self.link {
             Link::Serial { byte_time } => byte_time,
-            Link::Stream | Link::Datagrams => 0.0,
+            _ => 0.0,
         };
         while let Some(cut) = self.cutter.cut() {
             self.frames += 1;

@@ -3,9 +3,12 @@
 use std::collections::BTreeMap;
 
 use insd_base::{PortState, Time, UtcTime};
+use insd_n2k::Name;
 
+use crate::can::BusCounts;
 use crate::choice::{Quantity, Why};
 use crate::clock::TimeQuality;
+use crate::device::Device;
 use crate::event::Refusal;
 use crate::port::PortCounts;
 
@@ -18,8 +21,12 @@ pub struct PortStatus {
     pub state: Option<PortState>,
     /// Its counters.
     pub counts: PortCounts,
-    /// When bytes came last.
+    /// When bytes or frames came last.
     pub heard: Option<Time>,
+    /// What its controller told of its CAN bus.
+    pub bus: BusCounts,
+    /// Devices of NMEA 2000 that are known by a claim: addresses and NAMEs.
+    pub nodes: Vec<(u8, Name)>,
 }
 
 /// One sensor.
@@ -43,6 +50,57 @@ pub struct SensorStatus {
     pub refused: BTreeMap<Refusal, u64>,
     /// Samples missing by its counter.
     pub lost: u64,
+    /// Which device of a bus it is.
+    pub device: Option<Device>,
+    /// What it tells and the navigator has no use for.
+    pub shown: Shown,
+}
+
+/// What is shown and not used: the last that was told.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Shown {
+    /// Rate of turn, rad/s, bow to starboard positive.
+    pub rate_of_turn: Option<f64>,
+    /// Roll, rad, starboard side down positive.
+    pub roll: Option<f64>,
+    /// Pitch, rad, bow up positive.
+    pub pitch: Option<f64>,
+    /// Distance in all, m.
+    pub distance: Option<f64>,
+    /// Distance since the last reset, m.
+    pub trip: Option<f64>,
+}
+
+impl Shown {
+    /// Enters what one message tells.
+    pub(crate) fn enter(&mut self, part: ShownPart) {
+        match part {
+            ShownPart::RateOfTurn(rate) => self.rate_of_turn = rate,
+            ShownPart::Tilt { roll, pitch } => (self.roll, self.pitch) = (roll, pitch),
+            ShownPart::Distance { log, trip } => (self.distance, self.trip) = (log, trip),
+        }
+    }
+}
+
+/// What one message tells of it; what is not available is `None`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ShownPart {
+    /// Rate of turn, rad/s.
+    RateOfTurn(Option<f64>),
+    /// Roll and pitch, rad.
+    Tilt {
+        /// Roll.
+        roll: Option<f64>,
+        /// Pitch.
+        pitch: Option<f64>,
+    },
+    /// Distances, m.
+    Distance {
+        /// In all.
+        log: Option<f64>,
+        /// Since the last reset.
+        trip: Option<f64>,
+    },
 }
 
 /// The source of one quantity.

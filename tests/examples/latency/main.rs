@@ -71,7 +71,7 @@ fn main() {
         }
         wait_until(&clock, begun + due);
         let is_imu = sending.port == 0;
-        wires[sending.port].send(&sending.bytes).unwrap();
+        wires[sending.port].send(sending.bytes()).unwrap();
         if is_imu && due > SETTLE {
             frames.push(clock.elapsed().as_secs_f64());
             wait_until(&clock, begun + due + 0.4 / RATE);

@@ -225,7 +225,7 @@ fn send(wires: &mut [Wire], sendings: &[Sending]) -> f64 {
             std::thread::sleep(Duration::from_secs_f64(wait));
         }
         latest = latest.max(clock.elapsed().as_secs_f64() - due);
-        wires[sending.port].send(&sending.bytes).unwrap();
+        wires[sending.port].send(sending.bytes()).unwrap();
     }
     latest
 }

@@ -1,6 +1,6 @@
 //! What the computer sees of the bytes on the wire, and when.
 
-use insd_base::{Arrival, Input, PortId, Span, Stamp, Time, UtcTime};
+use insd_base::{Arrival, PortId, Span, Stamp, Time, UtcTime};
 
 use super::Sending;
 
@@ -37,8 +37,9 @@ impl Reception {
 /// seed, its port and its number, so that a fault on one port leaves the others as they were.
 #[must_use]
 pub fn arrivals(sendings: &[Sending], reception: &Reception) -> Vec<Arrival> {
-    let mut counts =
-        vec![0_u64; sendings.iter().map(|sending| sending.port + 1).max().unwrap_or(0)];
+    let ports = sendings.iter().map(|sending| sending.port + 1).max().unwrap_or(0);
+    let mut counts = vec![0_u64; ports];
+    let mut reads = vec![Time::START; ports];
     let mut all = Vec::with_capacity(sendings.len());
     for sending in sendings {
         let count = &mut counts[sending.port];
@@ -46,10 +47,13 @@ pub fn arrivals(sendings: &[Sending], reception: &Reception) -> Vec<Arrival> {
         let key = reception.seed << 40 | (sending.port as u64) << 32 | *count;
         let (least, greatest) = reception.jitter;
         let late = least + (greatest - least) * share(key).powi(4);
+        // what comes from one port keeps its order
+        let read = (sending.at + Span::from_seconds(late)).max(reads[sending.port]);
+        reads[sending.port] = read;
         all.push(Arrival {
-            stamp: reception.stamp(sending.at + Span::from_seconds(late)),
+            stamp: reception.stamp(read),
             port: PortId(sending.port as u16),
-            input: Input::Bytes(sending.bytes.clone()),
+            input: sending.input.clone(),
         });
     }
     all.sort_by_key(|arrival| arrival.stamp.monotonic);

@@ -6,13 +6,14 @@ use insd_intake::config::{
 };
 use insd_intake::mounting::{Direction, Mounting};
 use insd_intake::port::Link;
-use insd_intake::sensor::TimeBase;
+use insd_wire::imu::can::{Field, FrameLayout, Layout, LayoutChoice, Order, Shipped, What};
 use insd_wire::log::LogFrame;
 
-use super::{Calendar, DeviceClock, Encoding, FeedConfig, SensorFeed, heading};
+use super::{Calendar, DeviceClock, Encoding, FeedConfig, SensorFeed, heading, n2k};
 
-/// Bits of a byte with its start and stop bits.
+/// Bits of a byte with its start and stop bits, and of one in a frame of a bus.
 const BITS: f64 = 10.0;
+const FRAME_BITS: f64 = 8.0;
 
 impl Encoding {
     /// The intake's word for it.
@@ -35,6 +36,10 @@ impl Encoding {
             Encoding::Hdt | Encoding::Ths => Kind::Compass,
             Encoding::Psxn => Kind::Psxn,
             Encoding::Pashr => Kind::Pashr,
+            Encoding::CanImu(_) => Kind::CanImu,
+            Encoding::N2kGnss => Kind::N2kGnss,
+            Encoding::N2kLog => Kind::N2kLog,
+            Encoding::N2kHeading => Kind::N2kHeading,
         }
     }
 }
@@ -45,7 +50,9 @@ impl Encoding {
 pub(super) fn mounting(encoding: Encoding) -> Mounting {
     use Direction::{Forward, Port, Starboard, Up};
     let axes = match encoding {
-        Encoding::Stdbin | Encoding::Xbus(_) => [Forward, Port, Up],
+        Encoding::Stdbin
+        | Encoding::Xbus(_)
+        | Encoding::CanImu(Some(Shipped::Xsens | Shipped::XsensIncrements)) => [Forward, Port, Up],
         Encoding::Pd0(LogFrame::Beam | LogFrame::Instrument)
         | Encoding::Pd6(LogFrame::Instrument) => [Starboard, Forward, Up],
         _ => return Mounting::default(),
@@ -63,6 +70,36 @@ pub(super) fn stim() -> StimSettings {
     StimSettings { gyro_increments: true, accel_increments: true, range_g: 10 }
 }
 
+/// The table of a plain CAN IMU.
+pub(super) fn layout(encoding: Encoding) -> Option<LayoutChoice> {
+    match encoding {
+        Encoding::CanImu(Some(shipped)) => Some(LayoutChoice::Shipped(shipped)),
+        Encoding::CanImu(None) => Some(LayoutChoice::Own(fine())),
+        _ => None,
+    }
+}
+
+/// A table whose steps are far below any noise: three frames of two numbers, and one of time and number.
+fn fine() -> Layout {
+    let field = |what, start, scale| Field {
+        signed: true,
+        order: Order::Big,
+        scale,
+        ..Field::new(what, start, 32)
+    };
+    let frame = |id, fields| FrameLayout { id, extended: true, optional: false, fields };
+    let pair = |id, first, second| frame(id, vec![field(first, 0, 1e-9), field(second, 32, 1e-9)]);
+    let time = Field { scale: 1e-6, ..Field::new(What::Time, 0, 32) };
+    Layout {
+        frames: vec![
+            frame(0x1CFF_0040, vec![time, Field::new(What::Counter, 32, 16)]),
+            pair(0x1CFF_0140, What::AngleX, What::VelocityX),
+            pair(0x1CFF_0240, What::AngleY, What::VelocityY),
+            pair(0x1CFF_0340, What::AngleZ, What::VelocityZ),
+        ],
+    }
+}
+
 impl SensorFeed {
     /// A sensor that is right, on a line of 921600 baud for an IMU and 115200 for the others.
     #[must_use]
@@ -74,36 +111,31 @@ impl SensorFeed {
             _ => (115_200.0, 0.02),
         };
         let (clock, calendar) = (DeviceClock::default(), calendar.clone());
-        SensorFeed { encoding, clock, calendar, latency, byte_time: BITS / baud }
+        let byte_time = match encoding {
+            Encoding::CanImu(_) => FRAME_BITS / 1e6,
+            own if own.is_n2k() => FRAME_BITS / 250e3,
+            _ => BITS / baud,
+        };
+        SensorFeed { encoding, clock, calendar, latency, byte_time }
     }
 
     /// The sensor as an installer would describe it.
     #[must_use]
-    pub fn config(&self, name: String, voyage: &Voyage) -> SensorConfig {
+    pub fn config(&self, name: &str, voyage: &Voyage) -> SensorConfig {
         let heading = heading::headings(voyage).first().map(|told| told.std);
         // this log tells itself how old its message is
         let told = self.encoding == Encoding::Nortek;
         SensorConfig {
-            port: name.clone(),
-            name,
-            kind: self.encoding.kind(),
-            priority: 1,
-            patience_s: 3.0,
             latency_s: if told { 0.0 } else { self.latency },
             rate_hz: voyage.header.imu.rate,
-            time: TimeBase::Device,
             mounting: mounting(self.encoding),
-            talkers: Vec::new(),
             heading_std_deg: heading.unwrap_or(DEG) / DEG,
             velocity_std_mps: voyage.log.iter().find_map(|log| log.message.std).unwrap_or(0.1),
-            position_std_m: 10.0,
-            heading_offset_deg: 0.0,
-            heading: false,
-            magnetic: false,
-            no_checksum: false,
             dialect: (self.encoding == Encoding::Pashr).then_some(Dialect::Sbg),
+            layout: layout(self.encoding),
             kvh: kvh(),
             stim: stim(),
+            ..SensorConfig::new(name, name, self.encoding.kind())
         }
     }
 }
@@ -117,20 +149,38 @@ impl FeedConfig {
         FeedConfig { sensors: sensors.collect() }
     }
 
-    /// The intake's configuration: sensor and port have the same name and index.
+    /// Index of the port of a sensor.
+    #[must_use]
+    pub fn port_of(&self, sensor: usize) -> usize {
+        let n2k = |own: &SensorFeed| own.encoding.is_n2k();
+        let shared = self.sensors.get(sensor).filter(|own| n2k(own));
+        shared.and_then(|_| self.sensors.iter().position(n2k)).unwrap_or(sensor)
+    }
+
+    /// The intake's configuration: sensor and port have the same name and index, but for devices on a
+    /// bus that they share.
     #[must_use]
     pub fn intake(&self, voyage: &Voyage) -> IntakeConfig {
         let name = |index: usize| format!("sensor {index}");
         let sensors = self.sensors.iter().enumerate();
+        let link = |sensor: &SensorFeed| {
+            if sensor.encoding.is_can() {
+                Link::Can { bit_time: sensor.byte_time / FRAME_BITS }
+            } else {
+                Link::Serial { byte_time: sensor.byte_time }
+            }
+        };
+        let config = |(index, sensor): (usize, &SensorFeed)| SensorConfig {
+            port: name(self.port_of(index)),
+            device: sensor.encoding.is_n2k().then(|| n2k::filter(index)),
+            ..sensor.config(&name(index), voyage)
+        };
         IntakeConfig {
             ports: sensors
                 .clone()
-                .map(|(index, sensor)| PortSpec {
-                    name: name(index),
-                    link: Link::Serial { byte_time: sensor.byte_time },
-                })
+                .map(|(index, sensor)| PortSpec { name: name(index), link: link(sensor) })
                 .collect(),
-            sensors: sensors.map(|(index, sensor)| sensor.config(name(index), voyage)).collect(),
+            sensors: sensors.map(config).collect(),
         }
     }
 }

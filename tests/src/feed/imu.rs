@@ -1,7 +1,8 @@
 //! Inertial measurement units.
 
+use insd_base::can::CanFrame;
 use insd_base::{Body, GpsTime, ImuSample, Time, Voyage};
-use insd_wire::imu::Motion;
+use insd_wire::imu::can::Shipped;
 use insd_wire::imu::kvh::{KvhMessage, KvhRest};
 use insd_wire::imu::mip;
 use insd_wire::imu::rotation::quaternion_of;
@@ -9,8 +10,9 @@ use insd_wire::imu::sbg::{ClockState, ImuShort, TimeReference, UtcStatus};
 use insd_wire::imu::stdbin::{Navigation, Telegram};
 use insd_wire::imu::stim::{Group, StimDatagram};
 use insd_wire::imu::xbus::{MtData2, Precision};
+use insd_wire::imu::{DeviceTime, ImuReading, Motion, Wrapping};
 
-use super::config::mounting;
+use super::config::{layout, mounting};
 use super::{Encoding, Line, SensorFeed};
 
 /// All is well, of an SBG unit.
@@ -37,6 +39,11 @@ pub(super) fn encode(voyage: &Voyage, sensor: &SensorFeed, line: &mut Line) {
         let sample = in_device_axes(&stamped.message, sensor, rate);
         let latency = stim_latency(sensor.encoding, sample.count);
         let sent = Time::from_nanos(sample.time.as_nanos() + latency as i64 * 1000);
+        if let Encoding::CanImu(table) = sensor.encoding {
+            let frames = can(&sample, sensor, table);
+            frames.iter().for_each(|frame| line.send_frame(sent, frame));
+            continue;
+        }
         line.send(sent, &bytes(&sample, sensor));
         let whole_second = sample.time.as_nanos() % 1_000_000_000 == 0;
         if sensor.encoding == Encoding::Sbg && whole_second {
@@ -78,6 +85,28 @@ fn sbg(sample: &Sample, sensor: &SensorFeed) -> Vec<u8> {
         temperature: 31.5,
     }
     .write()
+}
+
+fn can(sample: &Sample, sensor: &SensorFeed, table: Option<Shipped>) -> Vec<CanFrame> {
+    let layout = layout(sensor.encoding).unwrap().layout();
+    let nanos = sensor.clock.nanos(sample.time);
+    let (tick, status) = match table {
+        Some(Shipped::Xsens | Shipped::XsensIncrements) => (100_000, 0),
+        _ => (1000, SBG_GOOD),
+    };
+    let wrapping = |value: u64, bits: u32| {
+        let modulus = 1 << bits;
+        Wrapping { value: value % modulus, modulus }
+    };
+    let ticks = wrapping(nanos / tick, 32);
+    let reading = ImuReading {
+        device_time: Some(DeviceTime { ticks, tick: tick as f64 * 1e-9 }),
+        counter: Some(wrapping(sample.count, 16)),
+        temperature: Some(31.5),
+        status: status.into(),
+        ..ImuReading::bare(increments(sample))
+    };
+    layout.write(&reading, sample.period)
 }
 
 fn sbg_time(time: Time, sensor: &SensorFeed) -> Vec<u8> {

@@ -12,8 +12,11 @@ mod gnss;
 mod heading;
 mod imu;
 mod log;
+pub mod n2k;
 
-use insd_base::{Span, Time, Voyage};
+use insd_base::can::CanFrame;
+use insd_base::{Input, Span, Time, Voyage};
+use insd_wire::imu::can::Shipped;
 use insd_wire::imu::xbus::Precision;
 use insd_wire::log::LogFrame;
 
@@ -26,10 +29,18 @@ pub use damage::{at_wrong_baud, noise};
 pub struct Sending {
     /// Time of the voyage at which its last byte is on the wire.
     pub at: Time,
-    /// Index of the port, which is that of the sensor.
+    /// Index of the port, which is that of the sensor, or of the first of NMEA 2000.
     pub port: usize,
-    /// All its bytes.
-    pub bytes: Vec<u8>,
+    /// All its bytes, or a frame.
+    pub input: Input,
+}
+
+impl Sending {
+    /// Its bytes; none of a frame.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        if let Input::Bytes(bytes) = &self.input { bytes } else { &[] }
+    }
 }
 
 /// How a sensor's measurements are put into bytes.
@@ -72,6 +83,26 @@ pub enum Encoding {
     Psxn,
     /// PASHR as SBG Systems sends it.
     Pashr,
+    /// Plain CAN frames by a maker's table, or by one whose steps are fine.
+    CanImu(Option<Shipped>),
+    /// 129029, 129026 and 129542, of a device that claims an address.
+    N2kGnss,
+    /// 130578.
+    N2kLog,
+    /// 127250.
+    N2kHeading,
+}
+
+impl Encoding {
+    /// Whether it is a device of NMEA 2000; all of them share the port of the first.
+    #[must_use]
+    pub fn is_n2k(self) -> bool {
+        matches!(self, Encoding::N2kGnss | Encoding::N2kLog | Encoding::N2kHeading)
+    }
+
+    fn is_can(self) -> bool {
+        self.is_n2k() || matches!(self, Encoding::CanImu(_))
+    }
 }
 
 /// A device's own clock and its number of the first sample.
@@ -96,7 +127,7 @@ pub struct SensorFeed {
     pub calendar: Calendar,
     /// Time from a measurement to the first byte of its message, s.
     pub latency: f64,
-    /// Time for a byte on the wire, s.
+    /// Time for a byte on the wire, s; on a CAN bus for eight bits.
     pub byte_time: f64,
 }
 
@@ -112,14 +143,15 @@ pub struct FeedConfig {
 pub fn feed(voyage: &Voyage, config: &FeedConfig) -> Vec<Sending> {
     let mut all = Vec::new();
     for (port, sensor) in config.sensors.iter().enumerate() {
-        let mut line = Line::new(port, sensor);
+        let mut line = Line::new(config.port_of(port), sensor);
         match sensor.encoding {
             Encoding::Sbg
             | Encoding::Stdbin
             | Encoding::Mip
             | Encoding::Xbus(_)
             | Encoding::Kvh { .. }
-            | Encoding::Stim => imu::encode(voyage, sensor, &mut line),
+            | Encoding::Stim
+            | Encoding::CanImu(_) => imu::encode(voyage, sensor, &mut line),
             Encoding::Ubx | Encoding::Sbf | Encoding::NmeaGnss => {
                 gnss::encode(voyage, sensor, &mut line);
             }
@@ -128,6 +160,9 @@ pub fn feed(voyage: &Voyage, config: &FeedConfig) -> Vec<Sending> {
             }
             Encoding::Hdt | Encoding::Ths | Encoding::Psxn | Encoding::Pashr => {
                 heading::encode(voyage, sensor, &mut line);
+            }
+            Encoding::N2kGnss | Encoding::N2kLog | Encoding::N2kHeading => {
+                n2k::encode(voyage, sensor, port, &mut line);
             }
         }
         all.append(&mut line.sent);
@@ -164,9 +199,18 @@ impl Line {
 
     /// Sends a message of a measurement as soon as the device has it and the line is free.
     fn send(&mut self, measured: Time, bytes: &[u8]) {
+        self.put(measured, bytes.len() as f64, Input::Bytes(bytes.to_vec()));
+    }
+
+    /// Sends a frame of a measurement as soon as the device has it and the bus is free.
+    fn send_frame(&mut self, measured: Time, frame: &CanFrame) {
+        self.put(measured, f64::from(frame.wire_bits()) / 8.0, Input::Can(*frame));
+    }
+
+    fn put(&mut self, measured: Time, bytes: f64, input: Input) {
         let begun = (measured + self.latency).max(self.free);
-        let at = begun + Span::from_seconds(bytes.len() as f64 * self.byte_time);
+        let at = begun + Span::from_seconds(bytes * self.byte_time);
         self.free = at;
-        self.sent.push(Sending { at, port: self.port, bytes: bytes.to_vec() });
+        self.sent.push(Sending { at, port: self.port, input });
     }
 }

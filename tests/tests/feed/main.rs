@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
 
+mod bus;
 mod clocks;
 mod imus;
 mod lines;

@@ -7,6 +7,7 @@ use insd_base::{
     Arrival, Input, Message, PortId, Solution, Source, Span, Stamp, Time, Voyage, earth,
 };
 use insd_engine::{Engine, EngineConfig, Output};
+use insd_intake::config::IntakeConfig;
 use insd_intake::event::Happening;
 use insd_intake::{Intake, Intaken};
 use insd_tests::feed::{Encoding, FeedConfig, Reception, arrivals, feed};
@@ -117,13 +118,21 @@ impl Ship {
 
     /// Sails her.
     pub(crate) fn sail(&self) -> Passage {
+        self.sail_with(|_| {})
+    }
+
+    /// Sails her with another description of her sensors.
+    pub(crate) fn sail_with(&self, change: impl Fn(&mut IntakeConfig)) -> Passage {
+        let mut intake = self.feed.intake(&self.voyage);
+        change(&mut intake);
+        assert_eq!(intake.faults(), []);
         let config = EngineConfig::for_voyage(&self.voyage.header, RATE);
         let mut engine = Engine::new(config);
         let mut passage = Passage {
             solutions: Vec::new(),
             events: Vec::new(),
             counts: [0; 4],
-            intake: Intake::new(&self.feed.intake(&self.voyage)),
+            intake: Intake::new(&intake),
             noted: insd_base::Counts::default(),
         };
         for arrival in &self.arrivals {

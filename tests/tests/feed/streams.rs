@@ -15,6 +15,7 @@ use insd_intake::sensor::TimeBase;
 use insd_tests::feed::{
     DeviceClock, Encoding, FeedConfig, Reception, SensorFeed, arrivals, feed, noise,
 };
+use insd_wire::imu::can::Shipped;
 use insd_wire::imu::xbus::Precision;
 use insd_wire::log::LogFrame;
 
@@ -86,6 +87,7 @@ fn only_the_expected_events(all: &[Intaken], sensors: usize) {
         match event {
             Happening::SensorSpeaks { .. } => spoke += 1,
             Happening::Chosen(choice) if choice.why == Why::First => chosen += 1,
+            Happening::Device { .. } => {}
             Happening::Time(TimeChange::Quality(TimeQuality::Messages)) => qualities += 1,
             other => assert_eq!(None, Some(other), "not expected"),
         }
@@ -113,6 +115,11 @@ fn imu_steps(encoding: Encoding) -> (f64, f64) {
         Encoding::Stim => (DEG / 4_194_304.0, 0.5 / 8.0 / 524_288.0),
         Encoding::Xbus(Precision::Fp1632) => (2.4e-10, 1.2e-10),
         Encoding::Xbus(_) => (1e-15, 1e-15),
+        Encoding::CanImu(Some(Shipped::Sbg)) => (0.5e-5, 0.5e-4),
+        Encoding::CanImu(Some(Shipped::Xsens)) => (0.005 / 512.0, 0.005 / 256.0),
+        // a step of the quaternion's vector part is two of the angle; the velocity is below 0.125 m/s
+        Encoding::CanImu(Some(Shipped::XsensIncrements)) => (1.0 / 32_767.0, 0.5 / 262_144.0),
+        Encoding::CanImu(None) => (0.5e-9, 0.5e-9),
         // single precision of angles below 0.008 rad, of velocities below 0.13 m/s
         _ => (2.4e-10, 7.5e-9),
     }
@@ -142,6 +149,8 @@ fn gnss_steps(encoding: Encoding) -> (f64, f64, bool) {
         // 1e-7 deg and 1 mm; 1 mm/s
         Encoding::Ubx => (0.0056, 0.5e-3, true),
         Encoding::Sbf => (1e-6, 1e-6, true),
+        // 0.01 m/s and 1e-4 rad at less than 2 m/s
+        Encoding::N2kGnss => (1e-6, 0.005 + 0.5e-4 * 2.0, false),
         // 1e-5 minutes and 1 cm; 0.01 kn and 0.01 deg at less than 2 m/s
         _ => (0.0094, 0.005 * KNOT + 0.005 * DEG * 2.0, false),
     }
@@ -171,7 +180,8 @@ fn the_receiver_comes_through(encoding: Encoding) {
 fn sigmas_come_through(encoding: Encoding, found: &GnssFix, sent: &GnssFix, all: bool) {
     let (own, other) = (found.position_std.unwrap().0, sent.position_std.unwrap().0);
     for axis in 0..3 {
-        near(encoding, "sigma", own[axis], other[axis], 0.51e-3);
+        let step = if encoding == Encoding::N2kGnss { 5.1e-3 } else { 0.51e-3 };
+        near(encoding, "sigma", own[axis], other[axis], step);
     }
     let (own, other) = (found.velocity_std.unwrap().0, sent.velocity_std.unwrap().0);
     if all {
@@ -201,7 +211,7 @@ fn the_log_comes_through(encoding: Encoding) {
         near(encoding, "to starboard", found.v.unwrap(), sent.v.unwrap(), 1.01 * step);
         match found.w {
             Some(w) => near(encoding, "down", w, sent.w.unwrap(), 1.01 * step),
-            None => assert_eq!(encoding, Encoding::Vbw),
+            None => assert!(matches!(encoding, Encoding::Vbw | Encoding::N2kLog)),
         }
         assert_eq!((found.std, found.reference), (sent.std, sent.reference));
     }
@@ -232,6 +242,10 @@ fn every_imu_comes_through_within_the_steps_of_its_format() {
         Encoding::Kvh { stamped: false },
         Encoding::Kvh { stamped: true },
         Encoding::Stim,
+        Encoding::CanImu(Some(Shipped::Sbg)),
+        Encoding::CanImu(Some(Shipped::Xsens)),
+        Encoding::CanImu(Some(Shipped::XsensIncrements)),
+        Encoding::CanImu(None),
     ] {
         the_imu_comes_through(encoding);
     }
@@ -239,7 +253,7 @@ fn every_imu_comes_through_within_the_steps_of_its_format() {
 
 #[test]
 fn every_receiver_comes_through_within_the_steps_of_its_format() {
-    for encoding in [Encoding::Ubx, Encoding::Sbf, Encoding::NmeaGnss] {
+    for encoding in [Encoding::Ubx, Encoding::Sbf, Encoding::NmeaGnss, Encoding::N2kGnss] {
         the_receiver_comes_through(encoding);
     }
 }
@@ -255,6 +269,7 @@ fn every_log_comes_through_within_the_steps_of_its_format() {
         Encoding::Pd6(LogFrame::Instrument),
         Encoding::Pd6(LogFrame::Ship),
         Encoding::Nortek,
+        Encoding::N2kLog,
     ] {
         the_log_comes_through(encoding);
     }
@@ -262,7 +277,9 @@ fn every_log_comes_through_within_the_steps_of_its_format() {
 
 #[test]
 fn every_compass_comes_through_within_the_steps_of_its_format() {
-    for encoding in [Encoding::Hdt, Encoding::Ths, Encoding::Psxn, Encoding::Pashr] {
+    for encoding in
+        [Encoding::Hdt, Encoding::Ths, Encoding::Psxn, Encoding::Pashr, Encoding::N2kHeading]
+    {
         the_compass_comes_through(encoding);
     }
 }
@@ -283,7 +300,13 @@ fn with_noise(voyage: &Voyage, encodings: &[Encoding]) -> (IntakeConfig, Vec<Arr
 fn the_same_arrivals_give_the_same_bits() {
     let voyage = moored();
     let other = [Encoding::Stim, Encoding::NmeaGnss, Encoding::Nortek, Encoding::Pashr];
-    for encodings in [USUAL, other] {
+    let bus = [
+        Encoding::CanImu(Some(Shipped::Xsens)),
+        Encoding::N2kGnss,
+        Encoding::N2kLog,
+        Encoding::N2kHeading,
+    ];
+    for encodings in [USUAL, other, bus] {
         let (config, arrivals) = with_noise(&voyage, &encodings);
         let bits = |all: &[Intaken]| all.iter().map(|own| format!("{own:?}")).collect::<Vec<_>>();
         assert_eq!(bits(&taken(&config, &arrivals)), bits(&taken(&config, &arrivals)));

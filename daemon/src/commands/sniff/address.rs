@@ -10,6 +10,7 @@ use insd_drivers::ports::{
 };
 use insd_drivers::raw;
 
+use super::can;
 use crate::sniff::{Plan, Transport as Suggested};
 
 /// Rates at which a serial line is listened to when none is given, the most common first.
@@ -66,16 +67,22 @@ pub fn parse(text: &str) -> Result<Address, String> {
         Some(("tcp", rest)) => tcp(rest)?,
         Some(("tcp-listen", rest)) => tcp_listen(rest)?,
         Some(("pps", rest)) => pps(rest)?,
+        Some(("can", rest)) => can::interface(rest)?,
+        Some(("can+tcp", rest)) => can::tcp(rest)?,
+        Some(("can+udp", rest)) => can::udp(rest)?,
         Some((scheme, _)) => {
-            return Err(format!("`{scheme}://` is none of udp, tcp, tcp-listen and pps"));
+            return Err(format!(
+                "`{scheme}://` is none of udp, tcp, tcp-listen, pps, can, can+tcp and can+udp"
+            ));
         }
+        None if can::is_interface(text) => can::interface(text)?,
         None => return path(text),
     };
     let plan = Plan { name: text.to_owned(), timed, transport: suggested };
     Ok(Address { plan, source: Source::Port(Box::new(PortConfig::new(transport))) })
 }
 
-type Opened = (Transport, bool, Option<Suggested>);
+pub(super) type Opened = (Transport, bool, Option<Suggested>);
 
 fn udp(rest: &str) -> Result<Opened, String> {
     let (interface, address) = match rest.split_once('@') {
@@ -167,6 +174,7 @@ fn path(text: &str) -> Result<Address, String> {
     let (transport, timed, suggested) = match kind {
         Some((true, _)) => return recording(text, path, rate),
         Some((_, kind)) if kind.is_file() && is_recording => return recording(text, path, rate),
+        Some((_, kind)) if kind.is_file() && can::is_log(path) => can::log(path),
         Some((_, kind)) if kind.is_file() => {
             (Transport::File(File { path: path.to_owned() }), false, None)
         }
@@ -278,7 +286,9 @@ mod tests {
             ("tcp://somewhere", "HOST:PORT"),
             ("tcp://:0", "HOST:PORT"),
             ("pps://dev/pps0", "three slashes"),
-            ("can://can0", "none of udp"),
+            ("can://", "the name of an interface"),
+            ("can+tcp://gateway:1", "FORMAT@"),
+            ("usb://can0", "none of udp"),
             ("/,4800", "has no baud rate"),
             ("", "expected a device"),
         ] {

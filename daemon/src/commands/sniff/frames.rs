@@ -69,6 +69,16 @@ fn lines(seen: &Seen<'_>) -> String {
                 text.push('\n');
             }
         }
+        SeenWhat::Can(frame) => {
+            let _ = write!(text, "{} [{}]", frame.id(), frame.data().len());
+            for byte in frame.data() {
+                let _ = write!(text, " {byte:02X}");
+            }
+            text.push('\n');
+        }
+        SeenWhat::Bus(event) => {
+            let _ = writeln!(text, "- {event}");
+        }
         SeenWhat::Pulse { sequence } => {
             let _ = writeln!(text, "pulse {sequence}");
         }

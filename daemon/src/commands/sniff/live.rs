@@ -6,12 +6,14 @@ use std::time::Duration;
 
 use anyhow::Context;
 use insd_base::{PortId, Time};
+use insd_drivers::can::{self, CanConfig, CanHandle, SharedSpeaker};
 use insd_drivers::ports::{
     self, Judge, Judgement, PortConfig, PortHandle, Receiver, Surroundings, WAITING_LIMIT,
 };
 use insd_wire::stream::{Cutter, Protocol};
 use tokio::time::{MissedTickBehavior, interval};
 
+use super::asker::Asker;
 use super::{Plan, frames, screen};
 use crate::clock::HostClock;
 use crate::demo::screen::Farewell;
@@ -45,6 +47,8 @@ pub(super) struct Style {
     pub(super) redraw: bool,
     /// Each frame is printed.
     pub(super) frames: bool,
+    /// Devices of CAN buses are asked who they are.
+    pub(super) ask: bool,
 }
 
 /// Listens until the time is over, everything has been read or the user has seen enough.
@@ -78,6 +82,7 @@ struct Bench {
     /// Names of the ports that are listened to for a while.
     names: Vec<String>,
     _ports: Vec<PortHandle>,
+    _buses: Vec<CanHandle>,
 }
 
 impl Bench {
@@ -92,6 +97,7 @@ impl Bench {
             search_s: 0.0,
             names: Vec::new(),
             _ports: Vec::new(),
+            _buses: Vec::new(),
         };
         for (id, port) in (0..).map(PortId).zip(ports) {
             let heard = Arc::<AtomicU64>::default();
@@ -106,7 +112,13 @@ impl Bench {
                 bench.searched.push((id, heard));
                 bench.search_s = bench.search_s.max(port.search_s);
             }
-            bench._ports.push(ports::spawn(id, port.config, surroundings));
+            match CanConfig::of(&port.config).filter(|_| style.ask) {
+                Some(bus) => {
+                    let asker = SharedSpeaker::new(Asker::default()).for_port();
+                    bench._buses.push(can::spawn(id, bus, surroundings, Some(asker)));
+                }
+                None => bench._ports.push(ports::spawn(id, port.config, surroundings)),
+            }
         }
         (bench, receiver)
     }

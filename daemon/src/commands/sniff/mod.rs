@@ -1,6 +1,9 @@
-//! `insd sniff`: what comes in at a port. It listens and never writes a byte.
+//! `insd sniff`: what comes in at a port. It listens, and writes nothing unless told to ask
+//! the devices of a CAN bus who they are.
 
 mod address;
+mod asker;
+mod can;
 mod frames;
 mod live;
 mod recorded;
@@ -40,6 +43,10 @@ pub struct SniffArgs {
     #[arg(long, value_name = "NAME", value_parser = protocol)]
     pub protocol: Vec<Protocol>,
 
+    /// Of a CAN bus: ask all devices who they are. This is the only way in which sniff ever writes
+    #[arg(long)]
+    pub ask: bool,
+
     /// Also print each frame as it comes, with its time of receipt
     #[arg(long, conflicts_with = "json")]
     pub raw: bool,
@@ -53,7 +60,10 @@ PORT is one of
   tcp://HOST:PORT              a server that is called
   tcp-listen://[ADDRESS]:PORT  a server to be
   pps:///dev/pps0              a pulse per second
-  capture.log                  a named pipe or a file with what a device has said
+  can0                         a CAN bus: devices by NAME, product and messages
+  can+tcp://FORMAT@HOST:PORT   a CAN gateway that speaks text: candump, ydwg, actisense,
+  can+udp://FORMAT@ADDR:PORT   canboat-plain
+  capture.log                  a named pipe, or a file: what a device has said, a log of candump
   voyage.insdraw               a raw recording, or a folder with one";
 
 /// Listens and reports.
@@ -80,7 +90,8 @@ pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
     }
     if !ports.is_empty() {
         let is_live = !(args.once || args.json || args.raw) && io::stdout().is_terminal();
-        let style = live::Style { seconds: args.seconds, redraw: is_live, frames: args.raw };
+        let style =
+            live::Style { seconds: args.seconds, redraw: is_live, frames: args.raw, ask: args.ask };
         report.ports.extend(live::listen(ports, protocols, style)?.ports);
     }
     let text = if args.json {

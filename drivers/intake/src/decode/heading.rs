@@ -45,26 +45,21 @@ impl HeadingState {
         config: &SensorConfig,
     ) -> Result<Vec<Reading>, Refusal> {
         let reading = match sentence {
-            Sentence::Hdt(hdt) => told(hdt.heading, North::True, true),
-            Sentence::Ths(ths) => told(ths.heading, North::True, is_measured(ths.mode)),
-            Sentence::Hdg(hdg) => match hdg.true_heading() {
+            Sentence::Hdt(hdt) => Some(told(hdt.heading, North::True, true)),
+            Sentence::Ths(ths) => Some(told(ths.heading, North::True, is_measured(ths.mode))),
+            Sentence::Hdg(hdg) => Some(match hdg.true_heading() {
                 Some(heading) => told(Some(heading), North::Corrected, true),
                 None => {
                     let reading = hdg.reading.map(|own| own + hdg.deviation.unwrap_or(0.0));
                     told(reading, North::Magnetic, true)
                 }
-            },
-            Sentence::Hdm(hdm) => told(hdm.heading, North::Magnetic, true),
+            }),
+            Sentence::Hdm(hdm) => Some(told(hdm.heading, North::Magnetic, true)),
             Sentence::Psxn(psxn) => self.psxn(psxn),
-            Sentence::Pashr(pashr) => of_pashr(pashr, config),
+            Sentence::Pashr(pashr) => Some(of_pashr(pashr, config)),
             _ => None,
         };
-        let Some(reading) = reading else { return Ok(vec![Reading::Idle]) };
-        if reading.north != North::True && !config.magnetic {
-            return Err(Refusal::Magnetic);
-        }
-        let heading = wrap_two_pi(reading.heading + config.heading_offset_deg.to_radians());
-        Ok(vec![Reading::Heading(HeadingReading { heading, ..reading })])
+        reading.map_or_else(|| Ok(vec![Reading::Idle]), |reading| finished(reading, config))
     }
 
     fn psxn(&mut self, psxn: &Psxn) -> Option<HeadingReading> {
@@ -74,17 +69,29 @@ impl HeadingState {
                 None
             }
             Psxn::Motion { heading, .. } => {
-                told(*heading, North::True, self.psxn != Some(PsxnQuality::Invalid))
+                Some(told(*heading, North::True, self.psxn != Some(PsxnQuality::Invalid)))
             }
             _ => None,
         }
     }
 }
 
+/// A heading with the sensor's offset, if it is one that may be used.
+pub(super) fn finished(
+    reading: HeadingReading,
+    config: &SensorConfig,
+) -> Result<Vec<Reading>, Refusal> {
+    if reading.north != North::True && !config.magnetic {
+        return Err(Refusal::Magnetic);
+    }
+    let heading = wrap_two_pi(reading.heading + config.heading_offset_deg.to_radians());
+    Ok(vec![Reading::Heading(HeadingReading { heading, ..reading })])
+}
+
 /// A sensor that says nothing of a heading says that it has none.
-fn told(heading: Option<f64>, north: North, valid: bool) -> Option<HeadingReading> {
+pub(super) fn told(heading: Option<f64>, north: North, valid: bool) -> HeadingReading {
     let valid = valid && heading.is_some();
-    Some(HeadingReading { heading: heading.unwrap_or(0.0), std: None, north, valid })
+    HeadingReading { heading: heading.unwrap_or(0.0), std: None, north, valid }
 }
 
 /// Autonomous and estimated headings are measured ones; typed-in, simulated and invalid ones are not.
@@ -92,12 +99,12 @@ fn is_measured(mode: HeadingMode) -> bool {
     matches!(mode, HeadingMode::Autonomous | HeadingMode::Estimated | HeadingMode::Simulator)
 }
 
-fn of_pashr(pashr: &Pashr, config: &SensorConfig) -> Option<HeadingReading> {
+fn of_pashr(pashr: &Pashr, config: &SensorConfig) -> HeadingReading {
     let status = config.dialect.and_then(|dialect| pashr.status(dialect));
     let good = !matches!(
         status,
         Some(PashrStatus::Error | PashrStatus::GnssOnly | PashrStatus::Levelling)
     );
-    let reading = told(pashr.heading, North::True, good)?;
-    Some(HeadingReading { std: pashr.heading_std.filter(|std| *std > 0.0), ..reading })
+    let reading = told(pashr.heading, North::True, good);
+    HeadingReading { std: pashr.heading_std.filter(|std| *std > 0.0), ..reading }
 }

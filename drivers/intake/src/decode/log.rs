@@ -88,7 +88,7 @@ impl LogState {
             let velocity = [own.longitudinal, own.transverse, None];
             let told = velocity.iter().any(Option::is_some);
             let turned = self.turned(velocity).unwrap_or(velocity);
-            told.then(|| self.velocity(turned, reference, own.valid))
+            told.then(|| self.ship_velocity(turned, reference, own.valid))
         };
         let ground = one(&vbw.ground, LogReference::Bottom);
         let water = one(&vbw.water, LogReference::Water);
@@ -98,7 +98,7 @@ impl LogState {
 
     fn vhw(&self, vhw: &Vhw) -> Reading {
         match vhw.speed {
-            Some(speed) => self.velocity([Some(speed), None, None], LogReference::Water, true),
+            Some(speed) => self.ship_velocity([Some(speed), None, None], LogReference::Water, true),
             None => Reading::Idle,
         }
     }
@@ -119,7 +119,18 @@ impl LogState {
         self.reading(&reading, None)
     }
 
-    fn velocity(
+    /// A velocity along the ship's axes, or along those of a log that may be turned about the vertical.
+    pub(super) fn turned_velocity(
+        &self,
+        velocity: [Option<f64>; 3],
+        reference: LogReference,
+    ) -> Reading {
+        let turned = self.turned(velocity).unwrap_or(velocity);
+        self.ship_velocity(turned, reference, true)
+    }
+
+    /// A velocity in the ship's axes.
+    pub(super) fn ship_velocity(
         &self,
         velocity: [Option<f64>; 3],
         reference: LogReference,
@@ -174,7 +185,8 @@ impl LogState {
     }
 }
 
-fn invalid(reference: LogReference) -> Reading {
+/// A log that has no velocity.
+pub(super) fn invalid(reference: LogReference) -> Reading {
     let (velocity, std) = ([None; 3], f64::INFINITY);
     Reading::Velocity(ShipVelocity { velocity, reference, std, gps: None, age: 0.0, valid: false })
 }

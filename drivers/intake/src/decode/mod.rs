@@ -4,13 +4,19 @@ mod gnss;
 mod heading;
 mod imu;
 mod log;
+mod n2k;
 
-use insd_wire::gnss::{GnssPart, PulseTime};
+use insd_base::Time;
+use insd_base::can::CanFrame;
+use insd_n2k::Message;
+use insd_wire::gnss::{EpochTime, GnssPart, PulseTime};
 use insd_wire::imu::ImuReading;
+use insd_wire::imu::can::{CanImu, CanPart};
 use insd_wire::nmea::{ChecksumPolicy, Frame as NmeaFrame, Pinsd, Position, Sentence};
 
 use crate::config::{Kind, SensorConfig};
 use crate::event::Refusal;
+use crate::status::ShownPart;
 
 pub use heading::{HeadingReading, North};
 pub use log::ShipVelocity;
@@ -30,8 +36,25 @@ pub enum Reading {
     Heading(HeadingReading),
     /// A position that holds at its receipt, and its 1-sigma if one was given, m.
     Fix(Position, Option<f64>),
+    /// A position, or that there is none, that is timed by its receipt.
+    Place(Option<Position>),
+    /// UTC beside the fixes of a receiver.
+    Clock(EpochTime),
+    /// Something that is shown and not used.
+    Shown(ShownPart),
     /// A good frame that says nothing which is used.
     Idle,
+}
+
+/// What a message of a bus is to a sensor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// It tells what the sensor is for.
+    Says,
+    /// It would, but what it tells is not available.
+    SaysNothing,
+    /// It tells something beside.
+    Beside,
 }
 
 /// Reads the frames of one sensor.
@@ -41,6 +64,8 @@ pub struct Decoder {
     imu: imu::ImuState,
     log: log::LogState,
     heading: heading::HeadingState,
+    n2k: n2k::N2kState,
+    can: Option<CanImu>,
 }
 
 impl Decoder {
@@ -52,6 +77,12 @@ impl Decoder {
             imu: imu::ImuState::new(config),
             log: log::LogState::new(&config.mounting, config.velocity_std_mps),
             heading: heading::HeadingState::default(),
+            n2k: n2k::N2kState::default(),
+            can: config
+                .layout
+                .as_ref()
+                .filter(|_| config.kind == Kind::CanImu)
+                .map(|layout| CanImu::new(&layout.layout(), 1.0 / config.rate_hz)),
         }
     }
 
@@ -70,6 +101,45 @@ impl Decoder {
             Kind::Pd6 => self.log.pd6(bytes),
             _ => self.read_sentence(bytes),
         }
+    }
+
+    /// The reading of a CAN frame that began to come at an instant, and when its sample began to come.
+    pub(crate) fn can_frame(
+        &mut self,
+        frame: &CanFrame,
+        begun: Time,
+    ) -> (Time, Result<Vec<Reading>, Refusal>) {
+        let Some(imu) = &mut self.can else { return (begun, Ok(Vec::new())) };
+        match imu.take(frame, begun) {
+            Ok(CanPart::Sample { reading, begun }) => (begun, Ok(vec![Reading::Imu(reading)])),
+            Ok(CanPart::Part | CanPart::Other) => (begun, Ok(Vec::new())),
+            Err(_) => (begun, Err(Refusal::Malformed)),
+        }
+    }
+
+    /// Samples so far of which a frame was missing.
+    pub(crate) fn incomplete(&self) -> u64 {
+        self.can.as_ref().map_or(0, CanImu::incomplete)
+    }
+
+    /// What a message of NMEA 2000 is to the sensor; `None` if it is nothing to it.
+    pub(crate) fn role(&self, message: &Message) -> Option<Role> {
+        n2k::role(message, &self.config)
+    }
+
+    /// The readings of a message of the sensor's own device, which began to come at an instant, and
+    /// when the first message of their epoch came.
+    pub(crate) fn message(
+        &mut self,
+        message: &Message,
+        begun: Time,
+    ) -> (Time, Result<Vec<Reading>, Refusal>) {
+        self.n2k.message(message, begun, &self.config, &self.log)
+    }
+
+    /// From now on another device is the sensor.
+    pub(crate) fn forget_device(&mut self) {
+        self.n2k = n2k::N2kState::default();
     }
 
     fn read_sentence(&mut self, bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {

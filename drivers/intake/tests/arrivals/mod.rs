@@ -148,23 +148,14 @@ fn sensor(kind: Kind, port: &str, choice: u8) -> SensorConfig {
     let bit = |bit: u8| choice >> bit & 1 == 1;
     let by_utc = bit(2) && matches!(kind, Kind::Sbg | Kind::Mip | Kind::Xbus | Kind::Stdbin);
     SensorConfig {
-        name: format!("{kind:?}"),
-        port: port.to_owned(),
-        kind,
         // of the sensors of one role the choice makes one the best
         priority: (kind as u8).wrapping_add(choice >> 3) % 5,
-        patience_s: 3.0,
         latency_s: 0.01,
-        rate_hz: 100.0,
         time: if by_utc { TimeBase::Utc } else { TimeBase::Device },
         mounting: Mounting {
             axes: [Direction::Forward, Direction::Port, Direction::Up],
             rotation_deg: [0.5, -0.25, 2.0],
         },
-        talkers: Vec::new(),
-        heading_std_deg: 1.0,
-        velocity_std_mps: 0.1,
-        position_std_m: 10.0,
         heading_offset_deg: 90.0,
         heading: true,
         magnetic: bit(3),
@@ -181,6 +172,7 @@ fn sensor(kind: Kind, port: &str, choice: u8) -> SensorConfig {
             accel_increments: bit(4),
             range_g: [2, 5, 10, 30, 80][usize::from(choice) % 5],
         },
+        ..SensorConfig::new(&format!("{kind:?}"), port, kind)
     }
 }
 

@@ -3,6 +3,7 @@
 //! Each format is a file or folder of its own with its messages, reader and writer, and turns into an
 //! [`ImuReading`]. Axes are the device's own; the mounting is dealt with where the ship is known.
 
+pub mod can;
 pub mod kvh;
 pub mod mip;
 pub mod rotation;

@@ -1,0 +1,179 @@
+//! Nodes of NMEA 2000: the engine's thread hands in what is to be said; the ports' tasks send it.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use insd_base::{Solution, Span, Time, UtcTime};
+use insd_drivers::can::SharedSpeaker;
+use insd_intake::Intake;
+use insd_n2k::node::{Node, NodeEvent};
+use insd_n2k::pgn::TimeSource;
+use insd_output::n2k::{Epoch, Variation, Voice};
+
+use crate::config::{Config, NodeMemory, NodeSection};
+
+/// Time without a solution after which nothing is known any more.
+const SILENCE: Span = Span::from_nanos(500_000_000);
+/// Time between two epochs of which nothing is known.
+const BLANK: Span = Span::from_nanos(100_000_000);
+/// Time between two looks at what became of a node.
+const LOOK: Duration = Duration::from_millis(200);
+/// The year of the World Magnetic Model in use.
+const MODEL: u16 = 2025;
+
+/// What is said on one bus.
+struct Bus {
+    voice: Voice,
+    node: SharedSpeaker<Node>,
+    geoid: Option<f64>,
+}
+
+/// A node and the port it is on.
+pub(super) struct NodeOfPort {
+    pub(super) port: String,
+    pub(super) node: SharedSpeaker<Node>,
+    pub(super) state: Option<PathBuf>,
+}
+
+/// All buses with a node.
+pub(super) struct Buses {
+    buses: Vec<Bus>,
+    told: Time,
+}
+
+impl Buses {
+    /// The nodes of a configuration, not yet on their buses.
+    pub(super) fn new(config: &Config) -> (Self, Vec<NodeOfPort>) {
+        let computer = computer();
+        let mut named = Vec::new();
+        let buses = config.nodes.iter().map(|section| {
+            let node = make(section, computer);
+            let (port, state) = (section.port.clone(), section.state.clone());
+            named.push(NodeOfPort { port, node: node.clone(), state });
+            Bus { voice: Voice::new(section.voice()), node, geoid: section.geoid_m }
+        });
+        let buses = Buses { buses: buses.collect(), told: Time::START };
+        (buses, named)
+    }
+
+    /// Says what the solution says.
+    pub(super) fn send(&mut self, solution: &Solution, now: Time, intake: &Intake) {
+        if self.buses.is_empty() {
+            return;
+        }
+        let utc = intake.utc_at(solution.time);
+        let epoch = Epoch {
+            solution: Some(*solution),
+            utc,
+            time_source: utc.map(|_| TimeSource::Gps),
+            variation: utc.and_then(|utc| variation(solution, utc)),
+            ..Epoch::unknown(solution.time)
+        };
+        self.told = now;
+        self.say(&epoch, now);
+    }
+
+    /// Says that nothing is known, if there has been no solution for a while.
+    pub(super) fn idle(&mut self, now: Time, utc: impl Fn() -> Option<UtcTime>) {
+        if !self.buses.is_empty() && now - self.told >= SILENCE {
+            self.told = now - SILENCE + BLANK;
+            let utc = utc();
+            let time_source = utc.map(|_| TimeSource::Gps);
+            self.say(&Epoch { utc, time_source, ..Epoch::unknown(now) }, now);
+        }
+    }
+
+    fn say(&mut self, epoch: &Epoch, now: Time) {
+        for bus in &mut self.buses {
+            let (voice, geoid) = (&mut bus.voice, bus.geoid);
+            bus.node.with(|node| {
+                let epoch = Epoch { geoid, ..*epoch };
+                for (pgn, data) in voice.messages(&epoch, node.transmit()) {
+                    node.send(pgn, &data, now);
+                }
+            });
+        }
+    }
+}
+
+fn make(section: &NodeSection, computer: u64) -> SharedSpeaker<Node> {
+    let memory = section.state.as_deref().and_then(remembered).unwrap_or_default();
+    let config = section.node(computer, &memory);
+    let seed = config.name.bits() ^ u64::from(std::process::id());
+    SharedSpeaker::new(Node::new(config, seed))
+}
+
+fn variation(solution: &Solution, utc: UtcTime) -> Option<Variation> {
+    let value = insd_intake::variation(&solution.position, utc)?;
+    let days = utc.as_nanos().div_euclid(86_400 * 1_000_000_000);
+    Some(Variation { value, model: MODEL, day: u16::try_from(days).ok() })
+}
+
+/// Tells what becomes of a node, and remembers what is worth it, for ever.
+pub(super) async fn watch(port: String, node: SharedSpeaker<Node>, state: Option<PathBuf>) {
+    let mut kept = NodeMemory::default();
+    loop {
+        tokio::time::sleep(LOOK).await;
+        let (events, memory) = node.with(|node| {
+            let events: Vec<NodeEvent> = std::iter::from_fn(|| node.poll_event()).collect();
+            (events, memory(node))
+        });
+        for event in events {
+            tell(&port, &event);
+        }
+        if let Some(path) = state.clone()
+            && memory.address.is_some()
+            && memory != kept
+        {
+            kept = memory.clone();
+            let outcome = tokio::task::spawn_blocking(move || remember(&path, &memory)).await;
+            if let Ok(Err(error)) = outcome {
+                tracing::warn!(port, %error, "what the node remembers could not be kept");
+            }
+        }
+    }
+}
+
+fn tell(port: &str, event: &NodeEvent) {
+    match event {
+        NodeEvent::Claimed { address } => tracing::info!(port, address, "node: has an address"),
+        NodeEvent::SameName { .. } | NodeEvent::NoneFree | NodeEvent::AddressUsed { .. } => {
+            tracing::warn!(port, ?event, "node");
+        }
+        _ => tracing::info!(port, ?event, "node"),
+    }
+}
+
+fn memory(node: &Node) -> NodeMemory {
+    let config = node.config();
+    NodeMemory {
+        address: node.address(),
+        name: Some(config.name),
+        installation: Some(config.installation.clone()),
+    }
+}
+
+/// What is in the file; `None` if there is nothing that could be it.
+fn remembered(path: &Path) -> Option<NodeMemory> {
+    serde_json::from_str(&fs::read_to_string(path).ok()?).ok()
+}
+
+/// Puts it into its file, whole or not at all.
+fn remember(path: &Path, memory: &NodeMemory) -> std::io::Result<()> {
+    let fresh = path.with_extension("new");
+    let mut file = fs::File::create(&fresh)?;
+    serde_json::to_writer(&file, memory)?;
+    writeln!(file)?;
+    file.sync_all()?;
+    fs::rename(&fresh, path)
+}
+
+/// A number that no other computer has: of the identity that the system was given when it was installed.
+fn computer() -> u64 {
+    let id = fs::read_to_string("/etc/machine-id").unwrap_or_default();
+    // FNV-1a: a few lines that will never change, as the NAME must not
+    let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3);
+    id.trim().bytes().fold(0xCBF2_9CE4_8422_2325, step)
+}

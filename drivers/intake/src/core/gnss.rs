@@ -1,0 +1,123 @@
+//! Epochs of receivers, and what else they say of time.
+
+use insd_base::{ExternalReference, GpsTime, Message, Source, Span, Stamp, Time};
+use insd_wire::gnss::{EpochTime, GnssPart, PulseOrder, PulseTime};
+
+use super::{Came, Core, WAITING};
+use crate::choice::Quantity;
+use crate::config::Role;
+use crate::event::Refusal;
+use crate::sensor::Epoch;
+
+impl Core {
+    /// Parts of epochs that came before any date was known wait for it.
+    pub(super) fn gnss(&mut self, index: usize, stamp: &Stamp, came: Came, part: &GnssPart) {
+        let gps = part.epoch.and_then(|epoch| self.utc.resolve(&epoch, stamp));
+        let times = (came.begun, came.ended);
+        let undated = &mut self.sensors[index].undated;
+        if gps.is_none() && (part.epoch.is_some() || !undated.is_empty()) {
+            if undated.len() < WAITING {
+                undated.push((*part, times));
+            } else {
+                self.refuse(index, Refusal::NoTime);
+            }
+            return;
+        }
+        for (early, times) in std::mem::take(undated) {
+            let gps = early.epoch.and_then(|epoch| self.utc.resolve(&epoch, stamp));
+            self.part(index, stamp, times, &early, gps);
+        }
+        self.part(index, stamp, times, part, gps);
+    }
+
+    pub(super) fn part(
+        &mut self,
+        index: usize,
+        stamp: &Stamp,
+        (first, ended): (Time, Time),
+        part: &GnssPart,
+        gps: Option<GpsTime>,
+    ) {
+        let config = &self.sensors[index].config;
+        let latency = Span::from_seconds(config.latency_s);
+        let (begun, priority) = (first - latency, config.priority);
+        if let Some(gps) = gps
+            && !part.invalid
+            && !self.utc.message((priority, index), gps, first, latency)
+        {
+            self.refuse(index, Refusal::TimeDoubted);
+            return;
+        }
+        let sensor = &mut self.sensors[index];
+        if let Some(epoch) = sensor.epochs.take(part, gps, begun, ended) {
+            if sensor.waiting.len() == WAITING {
+                sensor.waiting.pop_front();
+            }
+            sensor.waiting.push_back(epoch);
+        }
+        while let Some(epoch) = self.sensors[index].waiting.pop_front() {
+            let Some(time) = self.utc.time_of(epoch.gps) else {
+                self.sensors[index].waiting.push_front(epoch);
+                break;
+            };
+            self.epoch(index, stamp.monotonic, time, &epoch);
+        }
+    }
+
+    pub(super) fn epoch(&mut self, index: usize, now: Time, time: Time, epoch: &Epoch) {
+        let sensor = &self.sensors[index];
+        let (number, role, uses_heading) =
+            (sensor.number, sensor.config.kind.role(), sensor.config.heading);
+        let (std, offset) = (sensor.config.heading_std_deg, sensor.config.heading_offset_deg);
+        let default_std = sensor.config.position_std_m;
+        let fix = epoch.fix(time);
+        self.validity(index, now, epoch.is_valid(), 0);
+        if let Some(position) = fix.position.filter(|_| epoch.is_valid()) {
+            self.variation.here(position, self.utc.utc_at(time));
+        }
+        if role == Role::Position {
+            let std = fix.position_std.map(|std| std.0.xy().norm());
+            let reference = ExternalReference {
+                time,
+                position: fix.position,
+                position_std: std.filter(|std| std.is_finite()).or(Some(default_std)),
+                ..ExternalReference::default()
+            };
+            self.reference(Quantity::Position, index, now, epoch.is_valid(), reference);
+            return;
+        }
+        if uses_heading && let Some(heading) = epoch.part.heading {
+            let heading = insd_base::units::wrap_two_pi(heading + offset.to_radians());
+            let reference = ExternalReference {
+                time,
+                heading: Some(heading),
+                heading_std: epoch.part.heading_std.or(Some(std.to_radians())),
+                ..ExternalReference::default()
+            };
+            self.reference(Quantity::Heading, index, now, epoch.is_valid(), reference);
+        }
+        if self.choose(Quantity::Gnss, index, epoch.is_valid(), now) {
+            self.pass(index, now, Source::Gnss(number), Message::Gnss(fix));
+        } else {
+            self.refuse(index, Refusal::NotChosen);
+        }
+    }
+
+    /// UTC that a receiver tells beside its fixes.
+    pub(super) fn clock(&mut self, index: usize, stamp: &Stamp, came: Came, epoch: &EpochTime) {
+        let config = &self.sensors[index].config;
+        let (priority, latency) = (config.priority, Span::from_seconds(config.latency_s));
+        if let Some(gps) = self.utc.resolve(epoch, stamp)
+            && !self.utc.message((priority, index), gps, came.begun, latency)
+        {
+            self.refuse(index, Refusal::TimeDoubted);
+        }
+    }
+
+    pub(super) fn pulse_time(&mut self, stamp: &Stamp, pulse: &PulseTime) {
+        let gps = self.utc.resolve(&pulse.instant, stamp);
+        if let Some(gps) = gps.filter(|_| pulse.order == PulseOrder::Next) {
+            self.utc.announce(gps);
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Samples of IMUs.
+
+use insd_base::{Message, Source, Span, Stamp, Time};
+use insd_wire::gnss::EpochTime;
+use insd_wire::imu::ImuReading;
+
+use super::{Came, Core};
+use crate::choice::Quantity;
+use crate::event::{Happening, Refusal};
+use crate::sensor::{ImuChange, TimeBase};
+
+impl Core {
+    pub(super) fn imu(&mut self, index: usize, stamp: &Stamp, came: Came, sample: &ImuReading) {
+        let now = stamp.monotonic;
+        self.validity(index, now, sample.valid, sample.status);
+        let sensor = &mut self.sensors[index];
+        sensor.status.temperature = sample.temperature.or(sensor.status.temperature);
+        let Some(imu) = &mut sensor.imu else { return };
+        let mut ready = Vec::new();
+        let changes = imu.take(sample, came.begun, &self.utc, &mut ready);
+        if let (Some(utc), None) = (sample.utc, changes[1]) {
+            let priority = sensor.config.priority.saturating_add(100);
+            let latency = Span::from_seconds(sensor.config.latency_s);
+            if let Some(gps) = self.utc.resolve(&EpochTime::Utc(utc), stamp) {
+                self.utc.message((priority, index), gps, came.begun, latency);
+            }
+        }
+        for change in changes.into_iter().flatten() {
+            self.tell_imu(index, now, change);
+        }
+        if !sample.valid {
+            self.refuse(index, Refusal::Invalid);
+        }
+        if self.sensors[index].config.time == TimeBase::Utc && sample.utc.is_none() {
+            self.refuse(index, Refusal::NoTime);
+        }
+        let used = self.choose(Quantity::Inertial, index, sample.valid, now);
+        let number = self.sensors[index].number;
+        for sample in ready {
+            if used {
+                self.pass(index, now, Source::Imu(number), Message::Imu(sample));
+            } else {
+                self.refuse(index, Refusal::NotChosen);
+            }
+        }
+    }
+
+    pub(super) fn tell_imu(&mut self, index: usize, now: Time, change: ImuChange) {
+        let what = match change {
+            ImuChange::Lost(count) => {
+                self.sensors[index].status.lost += count;
+                Happening::SamplesLost { sensor: index, count }
+            }
+            ImuChange::ClockStepped(by) => Happening::DeviceClockStepped { sensor: index, by },
+        };
+        self.tell(now, what);
+    }
+}

@@ -1,0 +1,74 @@
+//! One sensor at work.
+
+use std::collections::VecDeque;
+
+use insd_base::Time;
+use insd_wire::gnss::GnssPart;
+
+use super::QUANTITIES;
+use crate::choice::Quantity;
+use crate::config::{IntakeConfig, Kind, Role, SensorConfig};
+use crate::decode::Decoder;
+use crate::device::DeviceChoice;
+use crate::sensor::{Epoch, EpochBuilder, ImuIntake, ImuSettings, Pace};
+use crate::status::SensorStatus;
+
+/// One sensor at work.
+#[derive(Clone, Debug)]
+pub(crate) struct Sensor {
+    pub(crate) config: SensorConfig,
+    pub(crate) port: usize,
+    pub(crate) status: SensorStatus,
+    pub(super) decoder: Decoder,
+    /// Which of the devices of a bus it is.
+    pub(super) device: DeviceChoice,
+    pub(super) imu: Option<ImuIntake>,
+    pub(super) epochs: EpochBuilder,
+    pub(super) waiting: VecDeque<Epoch>,
+    /// Parts of epochs, with the times of their first and last bytes, before a date was known.
+    pub(super) undated: Vec<(GnssPart, (Time, Time))>,
+    /// How often it gives each quantity that is timed by its receipt.
+    pub(super) paces: [Pace; QUANTITIES.len()],
+    /// Its number among the sensors of its role.
+    pub(super) number: u8,
+}
+
+impl Sensor {
+    pub(super) fn new(config: &SensorConfig, intake: &IntakeConfig, number: u8) -> Self {
+        let port = intake.ports.iter().position(|port| port.name == config.port);
+        let settings = config.mounting.c_bd().map(|c_bd| ImuSettings {
+            period: 1.0 / config.rate_hz,
+            latency: config.latency_s,
+            time_base: config.time,
+            c_bd,
+        });
+        let is_imu = config.kind.role() == Role::Imu;
+        Sensor {
+            config: config.clone(),
+            port: port.unwrap_or(usize::MAX),
+            status: SensorStatus { name: config.name.clone(), ..SensorStatus::default() },
+            decoder: Decoder::new(config),
+            device: DeviceChoice::new(config.device, config.patience_s),
+            imu: settings.filter(|_| is_imu).map(ImuIntake::new),
+            epochs: EpochBuilder::default(),
+            waiting: VecDeque::new(),
+            undated: Vec::new(),
+            paces: [Pace::default(); QUANTITIES.len()],
+            number,
+        }
+    }
+
+    pub(super) fn quantities(&self) -> &'static [Quantity] {
+        match self.config.kind.role() {
+            Role::Imu => &[Quantity::Inertial],
+            Role::Gnss if self.config.heading => &[Quantity::Gnss, Quantity::Heading],
+            Role::Gnss => &[Quantity::Gnss],
+            Role::Log => &[Quantity::BottomVelocity, Quantity::WaterVelocity],
+            Role::Heading => &[Quantity::Heading],
+            Role::Position if self.config.kind == Kind::Manual => {
+                &[Quantity::Position, Quantity::Heading]
+            }
+            Role::Position => &[Quantity::Position],
+        }
+    }
+}
