@@ -60,6 +60,11 @@ noise-free:
 bench *options:
     cargo bench --workspace {{options}}
 
+# what an NMEA 2000 bus costs the daemon, and what its node puts on the bus
+can-cost seconds="60" background="400":
+    cargo build --release
+    cargo run --release -p insd-tests --example can_cost -- --seconds {{seconds}} --background {{background}}
+
 # a fuzz target for a while; needs nightly and `cargo install cargo-fuzz --version 0.13.2`
 fuzz target="nmea" seconds="60":
     cargo +nightly fuzz run --sanitizer none {{target}} -- -max_total_time={{seconds}} -max_len=2048 -timeout=20

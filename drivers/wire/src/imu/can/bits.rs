@@ -13,9 +13,9 @@ pub(super) fn get(data: &[u8], field: &Field) -> Option<u64> {
     Some(value)
 }
 
-/// Enters the lowest bits of a number at a field; bits beyond the frame are left out.
+/// Enters the lowest bits of a number at a field; bits beyond the frame or the number are left out.
 pub(super) fn put(data: &mut [u8], field: &Field, value: u64) {
-    for index in 0..field.width {
+    for index in 0..field.width.min(64) {
         let (byte, bit) = place(field, index);
         if let Some(own) = data.get_mut(byte) {
             *own = *own & !(1 << bit) | ((value >> index & 1) as u8) << bit;
