@@ -335,7 +335,7 @@ fn what_the_controller_says_is_told_and_nothing_is_sent_while_it_is_off() {
         assert_eq!(bench.next().input, Input::Bus(event));
     }
     bench.say(0..1);
-    sleep(SECOND / 2);
+    sleep(SECOND / 4);
     other.say(ERROR | 0x100, &[0; 8]);
     let restarted = bench.now();
     assert_eq!(bench.next().input, Input::Bus(BusEvent::Restarted));

@@ -10,7 +10,7 @@
 //! | the interface is not there, or down | `Absent`, once for each reason | tried again every 0.2 s |
 //! | it goes down, or away; it is another under the same name | `Lost` | closed, then as above |
 //! | adapter or gateway not there, or gone | `Absent`, `Lost` | as with all ports: 0.2 s, doubling to 5 s |
-//! | the controller leaves the bus | bus off | nothing is sent until it is back, a frame is heard, or 1 s has passed; then the speaker is told |
+//! | the controller leaves the bus | bus off | nothing is sent until it is back, a frame is heard, or 0.5 s has passed; then the speaker is told |
 //! | the kernel's queue is full | nothing | the speaker keeps its frame, and is asked again soon |
 //! | the kernel dropped frames that came | frames dropped | |
 //! | more than the consumer takes | `Overrun`, each frame as [`crate::ports::FRAME`] bytes | the oldest frames of that port go |

@@ -15,7 +15,7 @@ pub trait Speaker: Send {
     /// The bus is lost.
     fn down(&mut self, now: Time);
     /// The controller says something. [`BusEvent::Restarted`] also comes when the controller was off and
-    /// frames are heard again, or a second has passed.
+    /// frames are heard again, or half a second has passed.
     fn bus_event(&mut self, event: BusEvent, now: Time);
     /// A frame of another node was heard.
     fn hear(&mut self, frame: &CanFrame, now: Time);

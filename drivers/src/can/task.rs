@@ -20,7 +20,7 @@ use crate::ports::{Outcome, Pause, Surroundings, Teller, tell};
 const BURST: usize = 16;
 
 /// How long nothing is sent after the controller has left the bus, if nothing tells that it is back.
-const OFF: Span = Span::from_nanos(1_000_000_000);
+const OFF: Span = Span::from_nanos(500_000_000);
 
 /// Shortest sleep: whoever wants to be woken at once again and again does not keep others from running.
 const NAP: Duration = Duration::from_millis(1);
