@@ -16,11 +16,9 @@ use std::thread::sleep;
 use std::time::Duration;
 
 use insd_base::{Arrival, BusEvent, CanFrame, CanId, Input, PortId, PortState, Span, Stamp, Time};
-use insd_drivers::can::{
-    CanConfig, CanFilter, CanHandle, SharedSpeaker, Socketcan, Speaker, spawn,
-};
+use insd_drivers::can::{CanConfig, CanFilter, SharedSpeaker, Socketcan, Speaker, spawn};
 use insd_drivers::ports::{
-    Clock, PortConfig, Receiver, Surroundings, Transport, WAITING_LIMIT, queue,
+    Clock, PortConfig, PortHandle, Receiver, Surroundings, Transport, WAITING_LIMIT, queue,
 };
 use rustix::time::{ClockId, Timespec, clock_gettime, clock_settime};
 use socketcan::{CanSocket, Socket};
@@ -146,7 +144,7 @@ struct Bench {
     clock: Arc<Clocks>,
     node: SharedSpeaker<Sayer>,
     receiver: Receiver,
-    port: CanHandle,
+    port: PortHandle,
     runtime: Runtime,
     _turn: MutexGuard<'static, ()>,
 }

@@ -1,10 +1,10 @@
 //! Which frames of a CAN port count, so that the kernel keeps back all others.
 
 use insd_base::CanId;
-use insd_drivers::can::{CanConfig, CanFilter, CanTransport};
-use insd_drivers::ports::PortConfig;
+use insd_drivers::can::CanFilter;
+use insd_drivers::ports::{PortConfig, Transport};
 use insd_intake::config::SensorConfig;
-use insd_n2k::N2kId;
+use insd_n2k::is_addressed;
 use insd_n2k::pgn::Known;
 use insd_wire::imu::can::LayoutChoice;
 
@@ -20,9 +20,7 @@ const ADDRESSED_GROUP: u32 = 0x03FF_0000;
 
 /// The filters of a port that states none; none where everything must be heard anyway.
 pub(super) fn of(config: &Config, port: &str, opened: &PortConfig) -> Vec<CanFilter> {
-    let is_interface = CanConfig::of(opened)
-        .is_some_and(|bus| matches!(bus.transport, CanTransport::Socketcan(_)));
-    if !is_interface {
+    if !matches!(opened.transport, Transport::Socketcan(_)) {
         return Vec::new();
     }
     let sensors = || config.sensors.iter().filter(|sensor| sensor.port == port);
@@ -36,13 +34,8 @@ pub(super) fn of(config: &Config, port: &str, opened: &PortConfig) -> Vec<CanFil
 }
 
 fn group(pgn: u32) -> CanFilter {
-    let id = N2kId { priority: 0, pgn, source: 0, destination: 0 };
-    let CanId::Extended(bits) = id.compose() else {
-        return CanFilter { id: 0, mask: 0, standard: false };
-    };
-    let is_addressed = pgn >> 8 & 0xFF < 240;
-    let mask = if is_addressed { ADDRESSED_GROUP } else { BROADCAST_GROUP };
-    CanFilter { id: bits & mask, mask, standard: false }
+    let mask = if is_addressed(pgn) { ADDRESSED_GROUP } else { BROADCAST_GROUP };
+    CanFilter { id: pgn << 8 & mask, mask, standard: false }
 }
 
 /// Those of a plain CAN IMU.

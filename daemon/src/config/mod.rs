@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use insd_base::{Geodetic, LeverArms, StartCondition};
-use insd_drivers::can::{CanConfig, CanFilter, CanTransport};
+use insd_drivers::can::CanFilter;
 use insd_drivers::ports::{PortConfig, Transport};
 use insd_engine::EngineConfig;
 use insd_intake::config::{IntakeConfig, PortSpec, Role, SensorConfig};
@@ -268,20 +268,18 @@ fn environment() -> config::Environment {
 }
 
 fn link(transport: &Transport) -> Link {
-    let bus = CanConfig::of(&PortConfig::new(transport.clone())).map(|bus| bus.transport);
+    let bus = |bitrate: u32| Link::Can { bit_time: 1.0 / f64::from(bitrate.max(1)) };
     match transport {
-        _ if bus.is_some() => {
-            let bitrate = match bus {
-                Some(CanTransport::Slcan(adapter)) => adapter.bitrate,
-                _ => BITRATE,
-            };
-            Link::Can { bit_time: 1.0 / f64::from(bitrate.max(1)) }
-        }
         Transport::Serial(serial) => {
             let byte_time = f64::from(serial.symbols()) / f64::from(serial.baud.max(1));
             Link::Serial { byte_time }
         }
         Transport::Udp(_) => Link::Datagrams,
+        Transport::Slcan(adapter) => bus(adapter.bitrate),
+        Transport::Socketcan(_)
+        | Transport::GatewayTcp(_)
+        | Transport::GatewayUdp(_)
+        | Transport::Candump(_) => bus(BITRATE),
         _ => Link::Stream,
     }
 }

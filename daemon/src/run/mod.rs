@@ -13,14 +13,14 @@ use std::time::Duration;
 
 use anyhow::Context;
 use insd_base::{PortId, Stamp, Time};
-use insd_drivers::can::{self, CanConfig, CanHandle};
-use insd_drivers::ports::{self, PortHandle, Receiver, Surroundings};
+use insd_drivers::can::{self, CanConfig};
+use insd_drivers::ports::{self, PortConfig, PortHandle, Receiver, Surroundings};
 use insd_drivers::raw::{RawHeader, RawWriter, Recorder, RecordingConfig};
 use insd_drivers::recording::NavWriter;
 use insd_engine::Output;
 
 use crate::clock::HostClock;
-use crate::config::{Config, Recording};
+use crate::config::{Config, PortSection, Recording};
 use crate::output_file::OutputFile;
 use crate::pipeline::{Pipeline, Product};
 
@@ -91,30 +91,24 @@ pub fn run(config: &Config, text: &str, options: &RunOptions) -> anyhow::Result<
     finished
 }
 
-/// The ports at work.
-struct Inputs {
-    _ports: Vec<PortHandle>,
-    _buses: Vec<CanHandle>,
-}
-
 /// Opens what is listened to. CAN ports with a node are given it.
-fn open_inputs(config: &Config, nodes: &[NodeOfPort], surroundings: &Surroundings) -> Inputs {
-    let mut inputs = Inputs { _ports: Vec::new(), _buses: Vec::new() };
+fn open_inputs(
+    config: &Config,
+    nodes: &[NodeOfPort],
+    surroundings: &Surroundings,
+) -> Vec<PortHandle> {
     let ports = config.ports.iter().zip(config.port_configs()).zip((0..).map(PortId));
-    for ((section, port), id) in ports {
+    let open = |((section, port), id): ((&PortSection, PortConfig), PortId)| {
         let surroundings = surroundings.clone();
         let node = nodes.iter().find(|node| node.port == section.name);
-        match (CanConfig::of(&port), node) {
-            (Some(bus), Some(node)) => {
-                let state = node.state.clone();
-                tokio::spawn(bus::watch(node.port.clone(), node.node.clone(), state));
-                let speaker = Some(node.node.for_port());
-                inputs._buses.push(can::spawn(id, bus, surroundings, speaker));
-            }
-            _ => inputs._ports.push(ports::spawn(id, port, surroundings)),
-        }
-    }
-    inputs
+        let Some((bus, node)) = CanConfig::of(&port).zip(node) else {
+            return ports::spawn(id, port, surroundings);
+        };
+        let state = node.state.clone();
+        tokio::spawn(bus::watch(node.port.clone(), node.node.clone(), state));
+        can::spawn(id, bus, surroundings, Some(node.node.for_port()))
+    };
+    ports.map(open).collect()
 }
 
 async fn until_stopped(seconds: Option<f64>) {

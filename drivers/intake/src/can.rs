@@ -82,11 +82,10 @@ impl CanIntake {
     /// Counters of the port, with those of its bytes: damaged are messages that were given up.
     pub(crate) fn counts(&self, bytes: PortCounts) -> PortCounts {
         let own = self.assembler.as_ref().map(Assembler::counts).unwrap_or_default();
-        let given_up = [own.gaps, own.superseded, own.stale, own.crowded, own.bad_length];
         PortCounts {
             bytes: bytes.bytes + self.bytes,
             frames: bytes.frames + self.frames,
-            damaged: bytes.damaged + given_up.iter().sum::<u64>() + own.aborted,
+            damaged: bytes.damaged + own.incomplete() + own.bad_length + own.aborted,
             ..bytes
         }
     }

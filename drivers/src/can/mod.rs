@@ -45,9 +45,7 @@ pub use config::{
     Socketcan,
 };
 pub use speaker::{SharedSpeaker, Speaker};
-pub use task::{CanHandle, spawn, spawn_on};
-
-pub(crate) use task::start;
+pub use task::{spawn, spawn_on};
 
 /// An open bus.
 pub trait CanBus: Send {

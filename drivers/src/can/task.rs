@@ -5,7 +5,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use insd_base::{BusEvent, CanFrame, PortId, Span, Stamp, Time};
-use tokio::task::AbortHandle;
 use tokio::time::sleep;
 
 use super::config::{CanConfig, CanFilter, CanTransport};
@@ -14,7 +13,7 @@ use super::socket::Interface;
 use super::speaker::{SharedSpeaker, Speaker};
 use super::stream::{Adapter, Log};
 use super::{CanBus, Heard, Opener, Sending};
-use crate::ports::{Outcome, Pause, Surroundings, Teller, tell};
+use crate::ports::{Outcome, Pause, PortHandle, Surroundings, Teller, tell};
 
 /// Frames that are sent before the bus is looked at again.
 const BURST: usize = 16;
@@ -25,14 +24,6 @@ const OFF: Span = Span::from_nanos(500_000_000);
 /// Shortest sleep: whoever wants to be woken at once again and again does not keep others from running.
 const NAP: Duration = Duration::from_millis(1);
 
-/// A CAN port at work. It stops when this is dropped.
-#[must_use = "the port stops when its handle is dropped"]
-#[derive(Debug)]
-pub struct CanHandle {
-    task: AbortHandle,
-    attempts: Arc<AtomicU64>,
-}
-
 /// Starts a CAN port. To be called inside a tokio runtime that can do I/O and timers.
 ///
 /// Whatever happens to the bus, the port goes on by itself. The speaker, if there is one, is told when
@@ -42,31 +33,7 @@ pub fn spawn(
     config: CanConfig,
     surroundings: Surroundings,
     node: Option<SharedSpeaker>,
-) -> CanHandle {
-    let (task, attempts) = start(port, config, surroundings, node);
-    CanHandle { task, attempts }
-}
-
-/// The same for a bus that is opened in another way, for example one in memory.
-pub fn spawn_on<O: Opener>(
-    port: PortId,
-    opener: O,
-    patience: Span,
-    surroundings: Surroundings,
-    node: Option<SharedSpeaker>,
-) -> CanHandle {
-    let port = Port::new(port, patience, Vec::new(), surroundings, node);
-    let attempts = Arc::clone(&port.attempts);
-    CanHandle { task: tokio::spawn(port.run(opener)).abort_handle(), attempts }
-}
-
-/// Starts a CAN port. Gives its task and how often it was tried to open it.
-pub(crate) fn start(
-    port: PortId,
-    config: CanConfig,
-    surroundings: Surroundings,
-    node: Option<SharedSpeaker>,
-) -> (AbortHandle, Arc<AtomicU64>) {
+) -> PortHandle {
     let CanConfig { transport, patience_s, write, filters } = config;
     let clock = Arc::clone(&surroundings.clock);
     let commands = write || node.is_some();
@@ -84,21 +51,20 @@ pub(crate) fn start(
         CanTransport::GatewayUdp(config) => tokio::spawn(port.run(Datagrams::new(config, clock))),
         CanTransport::Candump(config) => tokio::spawn(port.run(Log::new(config, clock))),
     };
-    (task.abort_handle(), attempts)
+    PortHandle::of_task(task.abort_handle(), attempts)
 }
 
-impl CanHandle {
-    /// How often it was tried to open the bus.
-    #[must_use]
-    pub fn attempts(&self) -> u64 {
-        self.attempts.load(Ordering::Relaxed)
-    }
-}
-
-impl Drop for CanHandle {
-    fn drop(&mut self) {
-        self.task.abort();
-    }
+/// The same for a bus that is opened in another way, for example one in memory.
+pub fn spawn_on<O: Opener>(
+    port: PortId,
+    opener: O,
+    patience: Span,
+    surroundings: Surroundings,
+    node: Option<SharedSpeaker>,
+) -> PortHandle {
+    let port = Port::new(port, patience, Vec::new(), surroundings, node);
+    let attempts = Arc::clone(&port.attempts);
+    PortHandle::of_task(tokio::spawn(port.run(opener)).abort_handle(), attempts)
 }
 
 struct Port {

@@ -8,8 +8,8 @@ use insd_base::{BusEvent, CanFrame, CanId, Input, PortId, PortState, Span, Stamp
 use tokio::time::sleep;
 
 use super::memory::{MemoryBus, MemoryEnd};
-use super::{CanBus, CanHandle, Heard, Sending, SharedSpeaker, Speaker, spawn_on};
-use crate::ports::{Clock, Receiver, Surroundings, WAITING_LIMIT, queue};
+use super::{CanBus, Heard, Sending, SharedSpeaker, Speaker, spawn_on};
+use crate::ports::{Clock, PortHandle, Receiver, Surroundings, WAITING_LIMIT, queue};
 
 /// Tokio's time, which tests can stop.
 struct TokioTime(tokio::time::Instant);
@@ -98,7 +98,7 @@ struct Bench {
     clock: Arc<dyn Clock>,
     node: SharedSpeaker<Script>,
     receiver: Receiver,
-    _port: CanHandle,
+    _port: PortHandle,
 }
 
 impl Bench {

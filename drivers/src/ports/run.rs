@@ -85,8 +85,7 @@ enum Link {
 /// up to 5 s. Only a file ends. A CAN port is listened to, see [`can::spawn`].
 pub fn spawn(port: PortId, config: PortConfig, surroundings: Surroundings) -> PortHandle {
     if let Some(config) = CanConfig::of(&config) {
-        let (task, attempts) = can::start(port, config, surroundings, None);
-        return PortHandle { work: Work::Task(task), outbox: None, attempts };
+        return can::spawn(port, config, surroundings, None);
     }
     let Surroundings { clock, queue, judge } = surroundings;
     let patience = Some(Span::from_seconds(config.patience_s));
@@ -121,6 +120,11 @@ pub fn spawn_output(port: PortId, config: OutputConfig, surroundings: Surroundin
 }
 
 impl PortHandle {
+    /// A port that a task of its own listens to.
+    pub(crate) fn of_task(task: AbortHandle, attempts: Arc<AtomicU64>) -> Self {
+        PortHandle { work: Work::Task(task), outbox: None, attempts }
+    }
+
     /// Puts a whole message into the queue of what is to be written, and never waits. Gives whether the
     /// port is one that is written to.
     pub fn send(&self, message: Vec<u8>) -> bool {

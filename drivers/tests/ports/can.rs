@@ -4,10 +4,10 @@ use std::time::Duration;
 
 use insd_base::{BusEvent, CanFrame, CanId, Input, PortId, PortState, Time};
 use insd_drivers::can::{
-    CanConfig, CanFilter, CanHandle, Candump, GatewayFormat, GatewayTcp, GatewayUdp, SharedSpeaker,
-    Slcan, Speaker, spawn,
+    CanConfig, CanFilter, Candump, GatewayFormat, GatewayTcp, GatewayUdp, SharedSpeaker, Slcan,
+    Speaker, spawn,
 };
-use insd_drivers::ports::{PortConfig, Transport};
+use insd_drivers::ports::{PortConfig, PortHandle, Transport};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::{TcpListener, UdpSocket};
 use tokio::time::sleep;
@@ -45,7 +45,7 @@ fn saying(frame: CanFrame) -> SharedSpeaker {
     SharedSpeaker::new(Sayer([frame].into())).for_port()
 }
 
-fn can_port(host: &Host, transport: Transport, node: Option<SharedSpeaker>) -> CanHandle {
+fn can_port(host: &Host, transport: Transport, node: Option<SharedSpeaker>) -> PortHandle {
     let config = PortConfig::new(transport);
     assert_eq!(config.faults(), Vec::<String>::new());
     let config = CanConfig::of(&config).unwrap();

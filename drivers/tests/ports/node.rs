@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use insd_base::{BusEvent, CanFrame, PortId, Span, Stamp, Time, UtcTime};
 use insd_drivers::can::memory::{MemoryBus, MemoryEnd};
-use insd_drivers::can::{CanBus, CanHandle, Heard, Sending, SharedSpeaker, spawn_on};
-use insd_drivers::ports::{Clock, Receiver, Surroundings, WAITING_LIMIT, queue};
+use insd_drivers::can::{CanBus, Heard, Sending, SharedSpeaker, spawn_on};
+use insd_drivers::ports::{Clock, PortHandle, Receiver, Surroundings, WAITING_LIMIT, queue};
 use insd_n2k::node::{Node, NodeConfig, ProductInfo, Transmit};
 use insd_n2k::{ADDRESS_CLAIM, Assembler, BROADCAST, N2kId, NameParts};
 use tokio::time::{sleep, timeout};
@@ -71,7 +71,7 @@ struct Ship {
     clock: Arc<dyn Clock>,
     nodes: Vec<SharedSpeaker<Node>>,
     listener: MemoryEnd,
-    _ports: Vec<CanHandle>,
+    _ports: Vec<PortHandle>,
     _receiver: Receiver,
 }
 

@@ -9,8 +9,10 @@ use std::time::Duration;
 use insd::clock::HostClock;
 use insd::config::{NodeMemory, NodeSection};
 use insd_base::{BusEvent, Input, PortId};
-use insd_drivers::can::{CanConfig, CanHandle, SharedSpeaker, Socketcan, spawn};
-use insd_drivers::ports::{PortConfig, Receiver, Surroundings, Transport, WAITING_LIMIT, queue};
+use insd_drivers::can::{CanConfig, SharedSpeaker, Socketcan, spawn};
+use insd_drivers::ports::{
+    PortConfig, PortHandle, Receiver, Surroundings, Transport, WAITING_LIMIT, queue,
+};
 use insd_n2k::Name;
 use insd_n2k::node::{Node, NodeCounts, NodeEvent};
 use insd_output::n2k::{Epoch, Voice};
@@ -39,7 +41,7 @@ pub(crate) struct Unit {
     got: Arc<Mutex<Got>>,
     stop: Arc<AtomicBool>,
     threads: Vec<JoinHandle<()>>,
-    port: Option<CanHandle>,
+    port: Option<PortHandle>,
     runtime: Option<Runtime>,
 }
 

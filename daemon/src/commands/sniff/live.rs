@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use anyhow::Context;
 use insd_base::{PortId, Time};
-use insd_drivers::can::{self, CanConfig, CanHandle, SharedSpeaker};
+use insd_drivers::can::{self, CanConfig, SharedSpeaker};
 use insd_drivers::ports::{
     self, Judge, Judgement, PortConfig, PortHandle, Receiver, Surroundings, WAITING_LIMIT,
 };
@@ -82,7 +82,6 @@ struct Bench {
     /// Names of the ports that are listened to for a while.
     names: Vec<String>,
     _ports: Vec<PortHandle>,
-    _buses: Vec<CanHandle>,
 }
 
 impl Bench {
@@ -97,7 +96,6 @@ impl Bench {
             search_s: 0.0,
             names: Vec::new(),
             _ports: Vec::new(),
-            _buses: Vec::new(),
         };
         for (id, port) in (0..).map(PortId).zip(ports) {
             let heard = Arc::<AtomicU64>::default();
@@ -112,13 +110,14 @@ impl Bench {
                 bench.searched.push((id, heard));
                 bench.search_s = bench.search_s.max(port.search_s);
             }
-            match CanConfig::of(&port.config).filter(|_| style.ask) {
+            let handle = match CanConfig::of(&port.config).filter(|_| style.ask) {
                 Some(bus) => {
                     let asker = SharedSpeaker::new(Asker::default()).for_port();
-                    bench._buses.push(can::spawn(id, bus, surroundings, Some(asker)));
+                    can::spawn(id, bus, surroundings, Some(asker))
                 }
-                None => bench._ports.push(ports::spawn(id, port.config, surroundings)),
-            }
+                None => ports::spawn(id, port.config, surroundings),
+            };
+            bench._ports.push(handle);
         }
         (bench, receiver)
     }

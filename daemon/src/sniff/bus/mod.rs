@@ -90,7 +90,6 @@ impl Bus {
     /// What is known at this time, or without time; `None` if not one frame came. `seconds` is how
     /// long it was listened to.
     pub(super) fn report(&self, now: Option<Time>, seconds: Option<f64>) -> Option<BusReport> {
-        let counts = self.assembler.counts();
         let per_second = |amount: f64| seconds.map(|seconds| amount / seconds);
         let devices = self.devices.iter().map(|(address, device)| device.report(*address, now));
         let others = self.others.values().map(|own| own.report(now.is_some()));
@@ -98,7 +97,7 @@ impl Bus {
             frames: self.frames,
             frames_per_s: per_second(self.frames as f64),
             load: per_second(self.bits as f64 / BITS_PER_SECOND),
-            broken: counts.gaps + counts.superseded + counts.stale + counts.crowded,
+            broken: self.assembler.counts().incomplete(),
             events: self.events.sorted(),
             devices: devices.collect(),
             others: others.collect(),

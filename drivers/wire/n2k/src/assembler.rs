@@ -52,6 +52,14 @@ pub struct AssemblerCounts {
     pub aborted: u64,
 }
 
+impl AssemblerCounts {
+    /// Messages of which not every frame came.
+    #[must_use]
+    pub fn incomplete(&self) -> u64 {
+        self.gaps + self.superseded + self.stale + self.crowded
+    }
+}
+
 /// A fast packet under way.
 #[derive(Clone, Debug)]
 struct Open {

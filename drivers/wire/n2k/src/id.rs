@@ -32,8 +32,7 @@ impl N2kId {
         let priority = top >> 2 & 7;
         let page = u32::from(top & 3) << 16;
         let format_bits = u32::from(format) << 8;
-        let addressed = u32::from(format) < FIRST_BROADCAST_FORMAT;
-        let (pgn, destination) = if addressed {
+        let (pgn, destination) = if is_addressed(format_bits) {
             (page | format_bits, specific)
         } else {
             (page | format_bits | u32::from(specific), BROADCAST)
@@ -54,7 +53,7 @@ impl N2kId {
 
 /// Whether messages of the group have one receiver (which may be everybody).
 #[must_use]
-pub(crate) fn is_addressed(pgn: u32) -> bool {
+pub fn is_addressed(pgn: u32) -> bool {
     (pgn >> 8 & 0xFF) < FIRST_BROADCAST_FORMAT
 }
 
