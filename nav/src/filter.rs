@@ -30,6 +30,7 @@ use ahead::VelocityEpoch;
 
 pub mod ahead;
 mod gnss;
+mod motion;
 mod others;
 
 /// An estimate, its covariance and what is needed to carry both on.
@@ -50,6 +51,7 @@ pub struct Filter {
     navigating: bool,
     antenna: AntennaMotion,
     last_relative: Option<Time>,
+    last_water: Option<Time>,
     turned: Vector3<f64>,
     corrected: ErrorState,
     interval: f64,
@@ -97,6 +99,7 @@ impl Filter {
             navigating: false,
             antenna: AntennaMotion::default(),
             last_relative: None,
+            last_water: None,
             turned: Vector3::zeros(),
             corrected: ErrorState::zeros(),
             interval: config.covariance_interval,

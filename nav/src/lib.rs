@@ -12,6 +12,7 @@ pub mod error_state;
 pub mod filter;
 pub mod floors;
 pub mod gate;
+pub mod heave;
 pub mod increments;
 pub mod initial;
 pub mod innovation;
@@ -30,6 +31,7 @@ pub mod trust;
 
 pub use config::NavConfig;
 pub use filter::Filter;
+pub use heave::{HeaveFilter, VerticalStep};
 pub use increments::{Conditioned, Conditioner, Increment};
 pub use initial::InitialState;
 pub use nominal::Nominal;

@@ -86,6 +86,21 @@ pub fn integrate(nominal: &mut Nominal, gravity: &LocalGravity, increment: &Incr
     Step { duration: h, c_eb, rotation, velocity }
 }
 
+/// Mean acceleration over the Earth, ECEF axes, m/s^2, during an increment at whose end the estimate is.
+#[must_use]
+pub fn acceleration(
+    nominal: &Nominal,
+    gravity: &LocalGravity,
+    increment: &Increment,
+) -> Vector3<f64> {
+    let h = increment.duration();
+    let rotation = corrected(&increment.rotation, h, &nominal.gyro_error());
+    let velocity = corrected(&increment.velocity, h, &nominal.accel_error());
+    let middle = nominal.attitude * UnitQuaternion::new(-0.5 * rotation);
+    let coriolis = 2.0 * earth::rate_e().cross(&nominal.velocity);
+    middle * (velocity / h) + gravity.at(&nominal.position) - coriolis
+}
+
 /// Error of a triad: bias (turn-on plus in-run) and scale factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriadError {

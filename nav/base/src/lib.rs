@@ -12,13 +12,16 @@ pub mod earth;
 pub mod events;
 pub mod frames;
 pub mod gnss;
+pub mod heave;
 pub mod input;
 pub mod messages;
+pub mod motion;
 pub mod sensor;
 pub mod solution;
 pub mod time;
 pub mod units;
 pub mod utc;
+pub mod utm;
 pub mod voyage;
 
 pub use alignment::{
@@ -29,12 +32,15 @@ pub use can::{BusEvent, CanFrame, CanId};
 pub use events::{Counts, Event, Innovation, Rejection, StoredDoubt};
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
+pub use heave::{DelayedHeave, Heave, HeaveQuality};
 pub use input::{Arrival, Input, PortId, PortState, Pulse, Stamp};
 pub use messages::{
     ExternalReference, ImuSample, LogReference, LogVelocity, Message, Received, Source,
 };
+pub use motion::{Current, Motion};
 pub use sensor::{ImuSpec, LeverArms, Triad};
 pub use solution::{Mode, Solution, SolutionSigma};
 pub use time::{Span, Time};
 pub use utc::{GpsTime, UtcTime};
+pub use utm::Utm;
 pub use voyage::{Stamped, StartCondition, Truth, Voyage, VoyageHeader};

@@ -21,7 +21,7 @@ impl Filter {
         let prediction = log_velocity::predict(&self.view(), log.reference, &lever);
         if let Some(measured) = log_velocity::all_components(log) {
             let judged = self.judge(&log_velocity::complete(&prediction, &measured, std), None);
-            self.note(enter(report, log.time, source, aid, &judged));
+            self.note_log(log, enter(report, log.time, source, aid, &judged));
             return;
         }
         for (axis, measured) in [log.u, log.v, log.w].into_iter().enumerate() {
@@ -29,7 +29,7 @@ impl Filter {
             let prediction = log_velocity::predict(&self.view(), log.reference, &lever);
             let judged =
                 self.judge(&log_velocity::component(&prediction, axis, measured, std), None);
-            self.note(enter(report, log.time, source, aid, &judged));
+            self.note_log(log, enter(report, log.time, source, aid, &judged));
         }
     }
 
@@ -63,6 +63,13 @@ impl Filter {
                 self.judge(&reference_heading::innovation(&self.view(), heading, std), None);
             self.note(enter(report, reference.time, source, "reference_heading", &judged));
         }
+    }
+
+    fn note_log(&mut self, log: &LogVelocity, outcome: Outcome) {
+        if outcome == Outcome::Accepted && log.reference == LogReference::Water {
+            self.last_water = Some(self.time);
+        }
+        self.note(outcome);
     }
 
     pub(super) fn note(&mut self, outcome: Outcome) {
