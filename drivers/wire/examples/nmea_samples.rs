@@ -133,7 +133,7 @@ fn vbw(s: &mut Spread) -> Vbw {
     };
     let (water, ground) = (velocity(), velocity());
     let mut stern = || VbwStern { transverse: s.perhaps(-3.0, 3.0), valid: s.yes() };
-    Vbw { water, ground, stern_water: stern(), stern_ground: stern() }
+    Vbw { water, ground, stern_water: stern(), stern_ground: stern(), without_stern: false }
 }
 
 fn own(s: &mut Spread) -> Vec<Sentence> {

@@ -10,5 +10,6 @@ pub mod describe;
 pub mod gnss;
 pub mod imu;
 pub mod log;
+pub mod motion;
 pub mod nmea;
 pub mod stream;

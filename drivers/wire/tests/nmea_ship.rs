@@ -54,7 +54,7 @@ proptest! {
     fn speeds_over_ground_and_through_the_water_come_back(
         water in velocity(), ground in velocity(), stern_water in stern(), stern_ground in stern(),
     ) {
-        let vbw = Vbw { water, ground, stern_water, stern_ground };
+        let vbw = Vbw { water, ground, stern_water, stern_ground, without_stern: false };
         let Sentence::Vbw(back) = read(&vbw.write(Talker::VD)) else { panic!() };
         for (written, back) in [(water, back.water), (ground, back.ground)] {
             prop_assert!(close(written.longitudinal, back.longitudinal, 0.000_5 * KNOT));
@@ -66,6 +66,10 @@ proptest! {
             prop_assert!(close(written.transverse, back.transverse, 0.000_5 * KNOT));
             prop_assert_eq!(back.valid, written.valid && written.transverse.is_some());
         }
+        let short = Vbw { without_stern: true, ..vbw };
+        let Sentence::Vbw(short) = read(&short.write(Talker::VD)) else { panic!() };
+        let none = VbwStern::default();
+        prop_assert_eq!(short, Vbw { without_stern: true, stern_water: none, stern_ground: none, ..back });
     }
 
     #[test]
@@ -219,8 +223,11 @@ proptest! {
             heading_std: x, quality_digit: Some(digit), status_digit: Some(digit),
         };
         for line in [
-            Vbw { water: velocity, ground: velocity, stern_water: stern, stern_ground: stern }
-                .write(Talker::VD),
+            Vbw {
+                water: velocity, ground: velocity, stern_water: stern, stern_ground: stern,
+                without_stern: false,
+            }
+            .write(Talker::VD),
             Hdg { reading: x, deviation: y, variation: z }.write(Talker::HE),
             Vhw { heading: x, heading_magnetic: y, speed: z }.write(Talker::VD),
             Vlw { water: x, ..Vlw::default() }.write(Talker::VD),

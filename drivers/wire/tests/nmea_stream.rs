@@ -5,8 +5,8 @@
 use insd_base::UtcTime;
 use insd_wire::gnss;
 use insd_wire::nmea::{
-    ChecksumPolicy, Frame, HeadingMode, Line, Sentence, TagBlock, TagGroup, Talker, Ths, datagram,
-    others,
+    ChecksumPolicy, DATAGRAM_HEADER, Frame, HeadingMode, Line, MAX_DATAGRAM, Sentence, TagBlock,
+    TagGroup, Talker, Ths, datagram, datagrams, others,
 };
 use insd_wire::stream::{Cutter, Protocol};
 use proptest::prelude::*;
@@ -82,7 +82,61 @@ fn a_datagram_that_is_too_long_is_not_written() {
     assert_eq!(datagram(&vec![(block, &ths); 60]), None);
 }
 
+/// Blocks of lines in groups of so many; none is no group.
+fn blocks(groups: &[u16]) -> Vec<TagBlock<'static>> {
+    let of_group = |(id, lines): (u32, &u16)| {
+        let lines = *lines;
+        (1..=lines.max(1)).map(move |line| TagBlock {
+            source: Some("IN0001"),
+            group: (lines > 0).then_some(TagGroup { line, lines, id }),
+            ..TagBlock::default()
+        })
+    };
+    (1..).zip(groups).flat_map(of_group).collect()
+}
+
+#[test]
+fn a_group_that_no_datagram_can_hold_is_not_written() {
+    let ths = Ths { heading: None, mode: HeadingMode::NotValid }.write(Talker::HE);
+    let lines =
+        |groups: &[u16]| blocks(groups).into_iter().map(|block| (block, &ths)).collect::<Vec<_>>();
+    assert_eq!(datagrams(&lines(&[60])), None);
+    assert_eq!(datagrams(&[]), Some(Vec::new()));
+    let two = datagrams(&lines(&[30, 30])).unwrap();
+    assert_eq!(two.len(), 2);
+    assert!(two.iter().all(|bytes| bytes.windows(3).filter(|three| three == b"THS").count() == 30));
+}
+
 proptest! {
+    #[test]
+    fn lines_are_packed_into_few_datagrams_and_no_group_is_split(
+        groups in prop::collection::vec(prop_oneof![Just(0_u16), 2..=9_u16], 0..60),
+    ) {
+        let ths = Ths { heading: Some(1.0), mode: HeadingMode::Autonomous }.write(Talker::HE);
+        let blocks = blocks(&groups);
+        let lines: Vec<_> = blocks.iter().map(|block| (*block, &ths)).collect();
+        let packed = datagrams(&lines).unwrap();
+        let mut told = Vec::new();
+        for bytes in &packed {
+            prop_assert!(bytes.len() <= MAX_DATAGRAM && bytes.starts_with(DATAGRAM_HEADER));
+            let (found, skipped, damaged) = cut(&[bytes]);
+            prop_assert_eq!((skipped, damaged), (0, 0));
+            let tags: Vec<_> =
+                found.iter().map(|line| Frame::parse(line).unwrap().tag().unwrap().group).collect();
+            let first = tags.first().copied().flatten().map_or(1, |group| group.line);
+            let last = tags.last().copied().flatten().map_or((1, 1), |group| (group.line, group.lines));
+            prop_assert_eq!((first, last.0), (1, last.1));
+            told.extend(tags);
+        }
+        prop_assert_eq!(told, blocks.iter().map(|block| block.group).collect::<Vec<_>>());
+        let longest_group = 9 * (lines.first().map_or(0, |(block, line)| {
+            block.write().len() + 9 + line.as_bytes().len()
+        }));
+        for pair in packed.windows(2) {
+            prop_assert!(pair[0].len() + longest_group > MAX_DATAGRAM, "a datagram is half empty");
+        }
+    }
+
     #[test]
     fn tag_blocks_and_sentences_come_back_from_a_datagram(
         source in prop::option::of("[A-Z]{2}[0-9]{4}"), line in prop::option::of(1..=999_u16),

@@ -65,6 +65,9 @@ impl Dtm {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "DTM";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 49;
+
     /// Writes the sentence, offsets to 0.0001 minutes and 0.01 m.
     #[must_use]
     pub fn write(&self, talker: Talker) -> Line {

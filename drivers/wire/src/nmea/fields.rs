@@ -42,6 +42,15 @@ impl<'a> Fields<'a> {
         Ok(field)
     }
 
+    /// All fields that are left, with the commas between them.
+    ///
+    /// # Errors
+    /// [`Fault::Missing`] past the last field.
+    pub fn remainder(&mut self) -> Result<&'a str, Fault> {
+        self.taken = self.taken.saturating_add(1);
+        self.rest.take().ok_or(Fault::Missing { field: self.taken })
+    }
+
     /// The next field through a conversion that refuses with `None`; empty stays `None`.
     ///
     /// # Errors
@@ -165,6 +174,17 @@ impl<'a> Fields<'a> {
             (None, None) => Ok(None),
             _ => Err(fault(4)),
         }
+    }
+
+    /// Latitude and hemisphere, rad; both empty or none.
+    ///
+    /// # Errors
+    /// As [`Fields::convert`].
+    pub fn latitude(&mut self) -> Result<Option<f64>, Fault> {
+        let start = self.taken;
+        let texts = [self.text()?, self.text()?];
+        let fault = |number: u8| Fault::Malformed { field: start.saturating_add(number) };
+        angle(texts, 2, 90.0, ["N", "S"]).map_err(fault)
     }
 
     /// The fault of the field that was taken last.

@@ -64,6 +64,9 @@ impl Gga {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "GGA";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 82;
+
     /// Writes the sentence: time truncated to 0.01 s, position to 0.00001 minutes (2 cm).
     #[must_use]
     pub fn write(&self, talker: Talker) -> Line {

@@ -76,6 +76,9 @@ impl Gns {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "GNS";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 82;
+
     /// The best mode of all systems as the quality of the fix.
     #[must_use]
     pub fn quality(&self) -> FixQuality {

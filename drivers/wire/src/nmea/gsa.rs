@@ -62,6 +62,9 @@ impl Gsa {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "GSA";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 82;
+
     /// Writes the sentence, dilutions to 0.01.
     #[must_use]
     pub fn write(&self, talker: Talker) -> Line {

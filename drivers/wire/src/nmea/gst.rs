@@ -9,6 +9,7 @@
 //! 5    orientation of the semi-major axis, deg true
 //! 6..8 1-sigma of latitude, longitude and altitude, m
 //! ```
+//! An inertial system has no residuals: its field 2 is empty (sbgECom).
 
 use super::civil::TimeOfDay;
 use super::decimal::Form;
@@ -17,6 +18,7 @@ use super::frame::Frame;
 use super::line::{Line, Talker};
 
 const SIGMA: Form = Form { decimals: 3, width: 1, limit: 999_999.0 };
+const RESIDUAL: Form = Form { decimals: 2, ..SIGMA };
 
 /// Error statistics of a position.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -43,15 +45,19 @@ impl Gst {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "GST";
 
-    /// Writes the sentence: time truncated to 0.01 s, sigmas to 1 mm, orientation to 0.1 deg.
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 75;
+
+    /// Writes the sentence: time truncated to 0.01 s, sigmas to 1 mm, the residuals to 1 cm, the
+    /// orientation to 0.01 deg without zeros at its end.
     #[must_use]
     pub fn write(&self, talker: Talker) -> Line {
         Line::compose(talker, Self::FORMATTER, |line| {
             line.time_of_day(self.time);
-            for sigma in [self.range_rms, self.major_std, self.minor_std] {
-                line.magnitude(sigma, SIGMA);
-            }
-            line.degrees(self.orientation, 1);
+            line.magnitude(self.range_rms, RESIDUAL);
+            line.magnitude(self.major_std, SIGMA);
+            line.magnitude(self.minor_std, SIGMA);
+            line.degrees(self.orientation, self.orientation.map_or(0, decimals_of));
             for sigma in [self.latitude_std, self.longitude_std, self.altitude_std] {
                 line.magnitude(sigma, SIGMA);
             }
@@ -75,5 +81,15 @@ impl Gst {
             longitude_std: fields.number_in(range.clone())?,
             altitude_std: fields.number_in(range)?,
         })
+    }
+}
+
+/// Decimals of degrees, at most 2, that an angle needs to be written to 0.01 deg.
+fn decimals_of(angle: f64) -> u8 {
+    let hundredths = (angle.to_degrees() * 100.0).round();
+    match (hundredths % 100.0 == 0.0, hundredths % 10.0 == 0.0) {
+        (true, _) => 0,
+        (_, true) => 1,
+        _ => 2,
     }
 }

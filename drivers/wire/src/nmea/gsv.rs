@@ -53,6 +53,9 @@ impl Gsv {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "GSV";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 76;
+
     /// Writes the sentence, with as many satellites as there are before the first `None`; angles to
     /// 1 deg.
     #[must_use]

@@ -34,6 +34,9 @@ impl Hdg {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "HDG";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 34;
+
     /// Heading, rad, clockwise from true north, if the variation is known. A deviation that is not
     /// told is taken as corrected by the compass.
     #[must_use]

@@ -23,6 +23,9 @@ impl Hdt {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "HDT";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 20;
+
     /// Writes the sentence, heading to 0.01 deg.
     #[must_use]
     pub fn write(&self, talker: Talker) -> Line {

@@ -83,19 +83,44 @@ impl Line {
         std::str::from_utf8(self.as_bytes()).unwrap_or_default().trim_end()
     }
 
+    /// The same sentence as old devices want it: without `*hh`.
+    #[must_use]
+    pub fn without_checksum(mut self) -> Line {
+        let end = self.len.saturating_sub(TAIL);
+        self.bytes[end..end + 2].copy_from_slice(b"\r\n");
+        self.len = end + 2;
+        self
+    }
+
     /// Composes a sentence. `fill` writes the fields; it runs again with shorter forms for as long
     /// as they do not fit: first without the optional fields, then with fewer and fewer decimals.
     /// If nothing fits, which no writer of this crate can bring about, the bare address remains.
     pub(crate) fn compose(talker: Talker, formatter: &str, fill: impl Fn(&mut Composer)) -> Line {
+        Line::try_compose(talker, formatter, fill)
+            .unwrap_or_else(|| Line::bare([talker.as_str(), formatter]))
+    }
+
+    /// As [`Line::compose`], but nothing if nothing fits: for sentences of as many parts as there is
+    /// room for.
+    pub(crate) fn try_compose(
+        talker: Talker,
+        formatter: &str,
+        fill: impl Fn(&mut Composer),
+    ) -> Option<Line> {
         Line::shortened([talker.as_str(), formatter], MAX_LEN, fill)
     }
 
     /// As [`Line::compose`], for a sentence under a maker's own address (`PSXN`).
     pub(crate) fn compose_own(address: &str, fill: impl Fn(&mut Composer)) -> Line {
         Line::shortened([address, ""], MAX_LEN_OWN, fill)
+            .unwrap_or_else(|| Line::bare([address, ""]))
     }
 
-    fn shortened(address: [&str; 2], limit: usize, fill: impl Fn(&mut Composer)) -> Line {
+    fn bare(address: [&str; 2]) -> Line {
+        Composer::new(address, MAX_LEN, false, 0).finish()
+    }
+
+    fn shortened(address: [&str; 2], limit: usize, fill: impl Fn(&mut Composer)) -> Option<Line> {
         let shortenings = std::iter::once((true, u8::MAX))
             .chain(std::iter::once((false, u8::MAX)))
             .chain((0..=8).rev().map(|decimals| (false, decimals)));
@@ -103,10 +128,10 @@ impl Line {
             let mut composer = Composer::new(address, limit, optional, max_decimals);
             fill(&mut composer);
             if !composer.overflow {
-                return composer.finish();
+                return Some(composer.finish());
             }
         }
-        Composer::new(address, limit, false, 0).finish()
+        None
     }
 }
 
@@ -152,6 +177,12 @@ impl Composer {
     pub(crate) fn letter(&mut self, letter: u8) {
         self.push(b',');
         self.push(letter);
+    }
+
+    /// A field of one letter, empty if unknown.
+    pub(crate) fn optional_letter(&mut self, letter: Option<u8>) {
+        self.empty();
+        letter.iter().for_each(|letter| self.push(*letter));
     }
 
     /// A number, empty if unknown or outside its form's limit.
@@ -237,6 +268,22 @@ impl Composer {
             }
             None => (0..4).for_each(|_| self.empty()),
         }
+    }
+
+    /// A latitude and its hemisphere, both empty if unknown.
+    pub(crate) fn latitude(&mut self, latitude: Option<f64>, decimals: u8) {
+        let position = latitude.map(|latitude| Position { latitude, longitude: 0.0 });
+        match position.and_then(|position| position.to_minutes(decimals)) {
+            Some((latitude, _)) => self.minutes(latitude, decimals, 2, [b'N', b'S']),
+            None => (0..2).for_each(|_| self.empty()),
+        }
+    }
+
+    /// Whether the field that `write` writes has anything in it.
+    pub(crate) fn filled(&mut self, write: impl FnOnce(&mut Composer)) -> bool {
+        let start = self.len;
+        write(self);
+        self.len > start + 1
     }
 
     /// Fields that go first when the line is too long: `fill` if there is room, else `count` empty.
@@ -332,6 +379,11 @@ impl Composer {
         self.push_all(&digits[20 - used..]);
     }
 
+    /// Bytes that still fit before the checksum.
+    pub(crate) fn room(&self) -> usize {
+        self.room - self.len
+    }
+
     pub(crate) fn push_all(&mut self, bytes: &[u8]) {
         bytes.iter().for_each(|byte| self.push(*byte));
     }
@@ -388,6 +440,12 @@ mod tests {
             c.degrees(Some(-0.001_f64.to_radians()), 2);
         });
         assert!(line.as_str().starts_with("$HEXXX,0.00,0.00*"), "{line:?}");
+    }
+
+    #[test]
+    fn a_line_without_checksum_has_the_same_fields_and_an_end() {
+        let line = Line::compose(Talker::HE, "XXX", |c| c.letter(b'A'));
+        assert_eq!(line.without_checksum().as_bytes(), b"$HEXXX,A\r\n");
     }
 
     #[test]

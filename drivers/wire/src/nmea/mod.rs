@@ -11,8 +11,15 @@
 //! - the checksum is weak (a line cut short passes one time in 256), so a reader also checks that all
 //!   fields are there, their letters and their ranges.
 //!
+//! The `LONGEST` of a sentence is for whoever plans what goes through a line. A ship's values are:
+//! speeds below 99.9 knots, heights, sigmas and errors below 1000 m, a geoid as on Earth, heave below
+//! 100 m, rates of turn below 100 deg/s, other rates below 100 deg/s, dilutions of precision below 100,
+//! ages and intervals below 1000 s, distances below a million miles, numbers of satellites below 1000,
+//! counts below 100.
+//!
 //! Sources: gpsd `www/NMEA.adoc` for the layouts; manuals of receivers where a file names them.
 
+mod bits;
 mod civil;
 mod decimal;
 mod fault;
@@ -21,65 +28,112 @@ mod frame;
 mod line;
 mod look;
 mod mode;
+mod network;
 pub mod others;
+mod parts;
 mod position;
 mod tag;
+mod text;
 
+mod acn;
+mod alc;
+mod alert;
+mod alf;
+mod arc;
 mod dtm;
+mod gbs;
 mod gga;
 mod gll;
 mod gns;
 mod gsa;
 mod gst;
 mod gsv;
+mod hbt;
+mod hcr;
 mod hdg;
 mod hdm;
 mod hdt;
 mod pashr;
+mod pashr_meaning;
+mod pfec;
+mod phcmp;
+mod phinf;
+mod phlin;
+mod phoct;
+mod phtro;
 mod pinsd;
+mod pixse;
 mod pnorbt;
+mod prdid;
 mod psxn;
 mod rmc;
 mod rot;
 mod sentence;
 mod ths;
+mod txt;
 mod vbw;
 mod vdr;
 mod vhw;
 mod vlw;
 mod vtg;
+mod xdr;
 mod zda;
 
+pub use acn::Acn;
+pub use alc::{Alc, MAX_ENTRIES};
+pub use alert::{
+    AlertCategory, AlertCommand, AlertEntry, AlertId, AlertPriority, AlertState, Manufacturer,
+};
+pub use alf::Alf;
+pub use arc::Arc;
 pub use civil::{CivilTime, Date, TimeOfDay};
 pub use dtm::{Datum, Dtm};
 pub use fault::Fault;
 pub use fields::Fields;
 pub use frame::{ChecksumPolicy, Frame, checksum};
+pub use gbs::Gbs;
 pub use gga::Gga;
 pub use gll::Gll;
 pub use gns::{Gns, MAX_SYSTEMS};
 pub use gsa::{FixDimension, Gsa, MAX_USED};
 pub use gst::Gst;
 pub use gsv::{Gsv, SatelliteInView};
+pub use hbt::Hbt;
+pub use hcr::{Hcr, HeadingCorrections};
 pub use hdg::Hdg;
 pub use hdm::Hdm;
 pub use hdt::Hdt;
 pub use line::{Line, MAX_LEN, MAX_LEN_OWN, Talker};
 pub use look::look;
 pub use mode::{HeadingMode, NavStatus, PositionMode};
+pub use network::{Sfi, TransmissionGroup};
 pub use pashr::{Pashr, PashrDialect, PashrStatus};
-pub use pinsd::Pinsd;
+pub use pfec::PfecAttitude;
+pub use phcmp::Phcmp;
+pub use phinf::{InsUserStatus, OctansStatus, Phinf};
+pub use phlin::{Phlin, Phspd};
+pub use phoct::{Marked, Phoct, PhoctState, WaveMotion};
+pub use phtro::Phtro;
+pub use pinsd::{
+    Pinsd, PinsdAlignment, PinsdMode, PinsdPhase, PinsdProtection, PinsdSigma, PinsdStatus,
+    PinsdTime, ProtectionState,
+};
+pub use pixse::{Pixse, PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus};
 pub use pnorbt::{NortekBeam, NortekBottomTrack, NortekGroundSpeed, NortekSensors};
 pub use position::Position;
+pub use prdid::{Prdid, PrdidForm};
 pub use psxn::{Psxn, PsxnQuality};
 pub use rmc::Rmc;
 pub use rot::Rot;
 pub use sentence::Sentence;
-pub use tag::{DATAGRAM_HEADER, MAX_DATAGRAM, TagBlock, TagGroup, datagram};
+pub use tag::{DATAGRAM_HEADER, MAX_DATAGRAM, TagBlock, TagGroup, Tagged, datagram, datagrams};
+pub use text::Text;
 pub use ths::Ths;
+pub use txt::Txt;
 pub use vbw::{Vbw, VbwStern, VbwVelocity};
 pub use vdr::Vdr;
 pub use vhw::Vhw;
 pub use vlw::Vlw;
 pub use vtg::Vtg;
+pub use xdr::{MAX_MEASUREMENTS, Xdr, XdrMeasurement};
 pub use zda::{Zda, Zone};

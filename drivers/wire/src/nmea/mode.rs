@@ -57,7 +57,7 @@ pub enum NavStatus {
 
 /// Letters both ways.
 macro_rules! letters {
-    ($($mode:ident { $($variant:ident $letter:literal),* })*) => {$(
+    ($($mode:ident { $($variant:ident $letter:literal),* $(,)? })*) => {$(
         impl $mode {
             /// Its letter.
             #[must_use]
@@ -73,6 +73,8 @@ macro_rules! letters {
         }
     )*};
 }
+
+pub(crate) use letters;
 
 letters! {
     HeadingMode {

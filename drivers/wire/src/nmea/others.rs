@@ -1,4 +1,4 @@
-//! Sentences that the navigator does not need (TXT, MWV, DPT, MTW ...): is there such a sentence,
+//! Sentences that the navigator does not need (MWV, DPT, MTW ...): is there such a sentence,
 //! and does the `nmea` crate understand it? For people who want to know what comes in at a port;
 //! its values go nowhere.
 //!
@@ -70,7 +70,6 @@ fn ask(line: &[u8], name: &str) -> Understood {
         Err(Error::Unsupported(_) | Error::Unknown(_) | Error::DisabledSentence) => {
             Understood::Unknown
         }
-        Err(_) if name == "GBS" => Understood::Unknown,
         Err(_) => Understood::Odd,
     }
 }
@@ -90,13 +89,12 @@ mod tests {
         assert_eq!(understood("HEHDT,1.0,M"), Understood::Refused(Fault::Malformed { field: 2 }));
         assert_eq!(understood("WIMWV,41.1,R,1.0,N,A"), Understood::Recognised);
         assert_eq!(understood("WIMWV,x,R"), Understood::Odd);
-        assert_eq!(understood("GNGBS,181141.00,4.7,1.9,5.3,87,,-5.0,57.5"), Understood::Unknown);
-        assert_eq!(understood("IIXDR,A,-0.3,D,PTCH"), Understood::Unknown);
+        assert_eq!(understood("IIRSA,1.0,A,,V"), Understood::Unknown);
         assert_eq!(understood("IIQQQ,1"), Understood::Unknown);
         let ais = "!AIVDM,1,1,,B,177KQJ5000G?tO`K>RA1wUbN0TKH,0*5C";
         assert_eq!(kind(ais.as_bytes()).map(|kind| kind.name), Ok("AIVDM"));
         assert_eq!(understood("PGRME,15.0,M,45.0,M,25.0,M"), Understood::Unknown);
-        let long = format!("GPTXT,01,01,02,{}", "x".repeat(200));
+        let long = format!("WIMWV,41.1,R,1.0,N,A,{}", "x".repeat(200));
         assert_eq!(understood(&long), Understood::Odd);
         assert_eq!(
             kind(b"$WIMWV,41.1,R,1.0,N,A*00"),

@@ -18,7 +18,10 @@
 //! Ashtech receivers send sentences of their own under the same address (`$PASHR,POS,...`): their
 //! first field begins with a letter, and they are refused as other sentences.
 //!
-//! From the makers' manuals; the dialects are not verified against devices.
+//! The dialects differ in their digits too: see [`Pashr::write_as`].
+//!
+//! From the makers' manuals (the published examples of SBG Systems and `NovAtel` are written by tests,
+//! to the byte); not verified against devices.
 
 use insd_base::FixQuality;
 
@@ -31,7 +34,7 @@ use super::fields::Fields;
 use super::frame::Frame;
 use super::line::Line;
 
-const ANGLE: Form = Form { decimals: 2, width: 3, limit: 360.0 };
+const ANGLE_LIMIT: f64 = 360.0;
 const HEAVE: Form = Form { decimals: 2, width: 3, limit: 999.9 };
 const SIGMA: Form = Form { decimals: 3, width: 1, limit: 360.0 };
 
@@ -101,9 +104,23 @@ pub struct Pashr {
     pub status_digit: Option<u8>,
 }
 
+/// How many digits a dialect has.
+#[derive(Clone, Copy)]
+struct Digits {
+    /// Of the time, behind the point.
+    time: u8,
+    /// Of angles and heave, before the point, at least.
+    whole: u8,
+    /// Of the heave, behind the point.
+    heave: u8,
+}
+
 impl Pashr {
     /// All before the first comma.
     pub const ADDRESS: &'static str = "PASHR";
+
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 83;
 
     /// Heave, m, **down** positive, if the dialect states a direction.
     #[must_use]
@@ -153,19 +170,40 @@ impl Pashr {
         }
     }
 
-    /// Writes the sentence: time truncated to 1 ms, angles to 0.01 deg, heave to 1 cm, sigmas to
-    /// 0.001 deg. An unknown status is left out with its comma.
+    /// Writes the sentence: time truncated to 1 ms, angles to 0.01 deg, heave to 1 cm, three digits
+    /// before the point, sigmas to 0.001 deg. An unknown status is left out with its comma.
     #[must_use]
     pub fn write(&self) -> Line {
+        self.write_in(Digits { time: 3, whole: 3, heave: 2 })
+    }
+
+    /// Writes the sentence with the digits of a dialect: SBG Systems have 2 decimals of the time, and
+    /// for WASSP sounders 3 of the heave; `NovAtel` has no zeros before a number. Of the other dialects
+    /// no real sentence was seen; they are written as by [`Pashr::write`].
+    #[must_use]
+    pub fn write_as(&self, dialect: PashrDialect) -> Line {
+        self.write_in(match dialect {
+            PashrDialect::Sbg => Digits { time: 2, whole: 3, heave: 2 },
+            PashrDialect::SbgWassp => Digits { time: 2, whole: 3, heave: 3 },
+            PashrDialect::Novatel => Digits { time: 3, whole: 1, heave: 2 },
+            PashrDialect::Ixblue | PashrDialect::Trimble | PashrDialect::Applanix => {
+                return self.write();
+            }
+        })
+    }
+
+    fn write_in(&self, digits: Digits) -> Line {
         let heading = self.heading.map(|heading| heading.to_degrees().rem_euclid(360.0));
         let heading = heading.map(|degrees| if degrees >= 359.995 { 0.0 } else { degrees });
+        let angle = Form { decimals: 2, width: digits.whole, limit: ANGLE_LIMIT };
+        let heave = Form { decimals: digits.heave, width: digits.whole, ..HEAVE };
         Line::compose_own(Self::ADDRESS, |line| {
-            line.time_of_day_to(self.time, 3);
-            line.number(heading, ANGLE);
+            line.time_of_day_to(self.time, digits.time);
+            line.number(heading, angle);
             line.letter(b'T');
-            line.with_sign(self.roll.map(f64::to_degrees), ANGLE);
-            line.with_sign(self.pitch.map(f64::to_degrees), ANGLE);
-            line.with_sign(self.heave_as_sent, HEAVE);
+            line.with_sign(self.roll.map(f64::to_degrees), angle);
+            line.with_sign(self.pitch.map(f64::to_degrees), angle);
+            line.with_sign(self.heave_as_sent, heave);
             for sigma in [self.roll_std, self.pitch_std, self.heading_std] {
                 line.magnitude(sigma.map(f64::to_degrees), SIGMA);
             }
@@ -231,7 +269,18 @@ mod tests {
     }
 
     #[test]
-    fn the_published_sentence_is_written_with_its_signs() {
+    fn a_published_sentence_is_written_byte_for_byte_in_its_dialect() {
+        let wassp = b"$PASHR,002258.15,320.99,T,+032.46,-008.15,-012.239,0.454,0.095,1.070,1,0*39";
+        let novatel = b"$PASHR,163029.000,158.09,T,-0.30,+0.31,+0.01,0.029,0.029,0.059,1,1*3B";
+        for (bytes, dialect) in [
+            (PUBLISHED, PashrDialect::Sbg),
+            (b"$PASHR,,,T,,,,,,,0,1*21", PashrDialect::Sbg),
+            (wassp, PashrDialect::SbgWassp),
+            (novatel, PashrDialect::Novatel),
+        ] {
+            let pashr = Pashr::read(&Frame::parse(bytes).unwrap()).unwrap();
+            assert_eq!(pashr.write_as(dialect).as_str().as_bytes(), bytes);
+        }
         let pashr = Pashr::read(&Frame::parse(PUBLISHED).unwrap()).unwrap();
         let text = "$PASHR,123816.800,312.95,T,-000.83,-000.42,-000.01,0.234,0.224,0.298,1,0*";
         assert!(pashr.write().as_str().starts_with(text), "{:?}", pashr.write());

@@ -88,6 +88,9 @@ impl Psxn {
     /// All before the first comma.
     pub const ADDRESS: &'static str = "PSXN";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 42;
+
     /// Writes the sentence, to 0.01 of its units.
     #[must_use]
     pub fn write(&self) -> Line {

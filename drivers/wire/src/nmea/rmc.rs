@@ -60,6 +60,9 @@ impl Rmc {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "RMC";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 82;
+
     /// Writes the sentence: time truncated to 0.01 s, position to 0.00001 minutes (2 cm), course to
     /// 0.01 deg, speed to 0.01 kn, variation to 0.1 deg.
     #[must_use]

@@ -34,6 +34,9 @@ impl Rot {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "ROT";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 21;
+
     /// Writes the sentence, rate to 0.1 deg/min.
     #[must_use]
     pub fn write(&self, talker: Talker) -> Line {

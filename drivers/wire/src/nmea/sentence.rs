@@ -4,9 +4,11 @@ use super::fault::Fault;
 use super::frame::Frame;
 use super::line::{Line, Talker};
 use super::{
-    Dtm, Gga, Gll, Gns, Gsa, Gst, Gsv, Hdg, Hdm, Hdt, NortekBeam, NortekBottomTrack,
-    NortekGroundSpeed, Pashr, Pinsd, Psxn, Rmc, Rot, Ths, Vbw, Vdr, Vhw, Vlw, Vtg, Zda,
+    Acn, Alc, Alf, Arc, Dtm, Gbs, Gga, Gll, Gns, Gsa, Gst, Gsv, Hbt, Hcr, Hdg, Hdm, Hdt,
+    NortekBeam, NortekBottomTrack, NortekGroundSpeed, Pashr, Pinsd, Psxn, Rmc, Rot, Ths, Txt, Vbw,
+    Vdr, Vhw, Vlw, Vtg, Xdr, Zda,
 };
+use super::{PfecAttitude, Phcmp, Phinf, Phlin, Phoct, Phspd, Phtro, Pixse, Prdid};
 
 /// The enum, and the match of a formatter to its reader and of a sentence to its writer.
 macro_rules! sentences {
@@ -25,6 +27,11 @@ macro_rules! sentences {
             /// Formatters of the approved sentences, and addresses of makers' own, that are read.
             pub const NAMES: &[&str] =
                 &[$($approved::FORMATTER,)* $($($address,)+)*];
+
+            /// Formatters of the approved sentences, and the greatest number of bytes, CR LF
+            /// included, that each has with a ship's values ([`super`] says which these are).
+            pub const LONGEST: &[(&str, usize)] =
+                &[$(($approved::FORMATTER, $approved::LONGEST),)*];
 
             fn read_approved(frame: &Frame<'_>, formatter: &str) -> Result<Self, Fault> {
                 match formatter {
@@ -54,8 +61,18 @@ macro_rules! sentences {
 
 sentences! {
     approved {
+        /// Command about an alert.
+        Acn,
+        /// List of alerts.
+        Alc,
+        /// Alert.
+        Alf,
+        /// Refusal of a command about an alert.
+        Arc,
         /// Datum of positions.
         Dtm,
+        /// Integrity of a position.
+        Gbs,
         /// Position fix.
         Gga,
         /// Geographic position.
@@ -68,6 +85,10 @@ sentences! {
         Gst,
         /// Satellites in view.
         Gsv,
+        /// Sign of life.
+        Hbt,
+        /// Heading and its corrections.
+        Hcr,
         /// Heading of a magnetic compass.
         Hdg,
         /// Magnetic heading.
@@ -80,6 +101,8 @@ sentences! {
         Rot,
         /// Heading and status.
         Ths,
+        /// Text.
+        Txt,
         /// Speed over ground and through the water.
         Vbw,
         /// Set and drift.
@@ -90,6 +113,8 @@ sentences! {
         Vlw,
         /// Course and speed over ground.
         Vtg,
+        /// Measurements of transducers.
+        Xdr,
         /// Date and time.
         Zda,
     }
@@ -102,8 +127,26 @@ sentences! {
         NortekBottomTrack("PNORBT6" | "PNORBT7" | "PNORBT8" | "PNORBT9"),
         /// Attitude in a dialect.
         Pashr("PASHR"),
-        /// What an operator tells insd.
+        /// Attitude of Furuno and JRC satellite compasses.
+        PfecAttitude("PFEC"),
+        /// Latitude and speed that an Octans corrects its heading with.
+        Phcmp("PHCMP"),
+        /// Status of an Octans or a Phins.
+        Phinf("PHINF"),
+        /// Surge, sway and heave of an Octans.
+        Phlin("PHLIN"),
+        /// Attitude and motion of an Octans with time.
+        Phoct("PHOCT"),
+        /// Rates of surge, sway and heave of an Octans.
+        Phspd("PHSPD"),
+        /// Pitch and roll of an Octans.
+        Phtro("PHTRO"),
+        /// insd's own: what an operator tells it, and what it tells of itself.
         Pinsd("PINSD"),
+        /// The set of a Phins.
+        Pixse("PIXSE"),
+        /// Attitude for current profilers.
+        Prdid("PRDID"),
         /// Attitude, rates, quality of Seatex and Kongsberg units.
         Psxn("PSXN"),
     }

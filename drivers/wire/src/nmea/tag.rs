@@ -94,6 +94,12 @@ impl<'a> TagBlock<'a> {
         format!("\\{content}*{:02X}\\", checksum(content.as_bytes())).into_bytes()
     }
 
+    /// Whether the next line belongs to the same group.
+    fn is_continued_by(&self, next: &TagBlock<'_>) -> bool {
+        let groups = self.group.zip(next.group);
+        groups.is_some_and(|(own, next)| own.id == next.id && own.line < next.line)
+    }
+
     /// The text of a block's inside whose checksum is good.
     pub(crate) fn check(inside: &[u8]) -> Option<&str> {
         let (content, stated) = std::str::from_utf8(inside).ok()?.rsplit_once('*')?;
@@ -117,15 +123,35 @@ impl TagGroup {
     }
 }
 
+/// A line with the TAG block that goes before it.
+pub type Tagged<'a> = (TagBlock<'a>, &'a Line);
+
 /// One datagram of lines with their TAG blocks; `None` if it would exceed [`MAX_DATAGRAM`].
 #[must_use]
-pub fn datagram(lines: &[(TagBlock<'_>, &Line)]) -> Option<Vec<u8>> {
-    let mut bytes = DATAGRAM_HEADER.to_vec();
-    for (block, line) in lines {
-        bytes.extend(block.write());
-        bytes.extend_from_slice(line.as_bytes());
-    }
+pub fn datagram(lines: &[Tagged<'_>]) -> Option<Vec<u8>> {
+    let bytes = [DATAGRAM_HEADER.as_slice(), &bytes_of(lines)].concat();
     (bytes.len() <= MAX_DATAGRAM).then_some(bytes)
+}
+
+/// As few datagrams as the lines need in their order, each of at most [`MAX_DATAGRAM`] bytes. Lines of
+/// one group that stand one after the other stay together; `None` if such a group is too long for a
+/// datagram.
+#[must_use]
+pub fn datagrams(lines: &[Tagged<'_>]) -> Option<Vec<Vec<u8>>> {
+    let mut datagrams: Vec<Vec<u8>> = Vec::new();
+    for group in lines.chunk_by(|(one, _), (next, _)| one.is_continued_by(next)) {
+        let bytes = bytes_of(group);
+        match datagrams.last_mut().filter(|last| last.len() + bytes.len() <= MAX_DATAGRAM) {
+            Some(last) => last.extend(bytes),
+            None => datagrams.push(datagram(group)?),
+        }
+    }
+    Some(datagrams)
+}
+
+fn bytes_of(lines: &[Tagged<'_>]) -> Vec<u8> {
+    let pieces = lines.iter().flat_map(|(block, line)| [block.write(), line.as_bytes().to_vec()]);
+    pieces.flatten().collect()
 }
 
 fn name(text: &str) -> Option<&str> {

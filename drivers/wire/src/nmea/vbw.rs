@@ -9,7 +9,8 @@
 //! 7, 8  speed of the stern athwart through the water, and its status
 //! 9, 10 speed of the stern athwart over ground, and its status
 //! ```
-//! The sentence of older editions ends after field 6. An empty status is read as not valid.
+//! The sentence of older editions ends after field 6, and units of SBG Systems still send it so. An
+//! empty status is read as not valid.
 
 use insd_base::units::KNOT;
 
@@ -52,20 +53,26 @@ pub struct Vbw {
     pub stern_water: VbwStern,
     /// Of the stern over ground.
     pub stern_ground: VbwStern,
+    /// Whether the sentence ends before the stern, as in older editions.
+    pub without_stern: bool,
 }
 
 impl Vbw {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "VBW";
 
-    /// Writes the sentence with all its ten fields, speeds to 0.001 kn.
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 67;
+
+    /// Writes the sentence, speeds to 0.001 kn: ten fields, or six without the stern.
     #[must_use]
     pub fn write(&self, talker: Talker) -> Line {
         Line::compose(talker, Self::FORMATTER, |line| {
             for velocity in [self.water, self.ground] {
                 speeds(line, &[velocity.longitudinal, velocity.transverse], velocity.valid);
             }
-            for stern in [self.stern_water, self.stern_ground] {
+            let sterns = [self.stern_water, self.stern_ground];
+            for stern in sterns.iter().filter(|_| !self.without_stern) {
                 speeds(line, &[stern.transverse], stern.valid);
             }
         })
@@ -82,7 +89,8 @@ impl Vbw {
             ground: VbwVelocity::read(&mut fields)?,
             ..Vbw::default()
         };
-        if fields.has_more() {
+        vbw.without_stern = !fields.has_more();
+        if !vbw.without_stern {
             vbw.stern_water = VbwStern::read(&mut fields)?;
             vbw.stern_ground = VbwStern::read(&mut fields)?;
         }

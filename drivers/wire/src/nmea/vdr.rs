@@ -32,6 +32,9 @@ impl Vdr {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "VDR";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 37;
+
     /// Writes the sentence: directions to 0.01 deg, speed to 0.01 kn.
     #[must_use]
     pub fn write(&self, talker: Talker) -> Line {

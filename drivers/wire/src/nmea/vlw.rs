@@ -37,6 +37,9 @@ impl Vlw {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "VLW";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 63;
+
     /// Writes the sentence with all its four distances, to 0.001 nautical miles.
     #[must_use]
     pub fn write(&self, talker: Talker) -> Line {

@@ -42,6 +42,9 @@ impl Vtg {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "VTG";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 48;
+
     /// Writes the sentence: courses to 0.01 deg, speeds to 0.01 kn and 0.01 km/h.
     #[must_use]
     pub fn write(&self, talker: Talker) -> Line {

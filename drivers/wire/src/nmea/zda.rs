@@ -40,6 +40,9 @@ impl Zda {
     /// The three letters after the talker.
     pub const FORMATTER: &'static str = "ZDA";
 
+    /// Bytes of the longest sentence with a ship's values, CR LF included.
+    pub const LONGEST: usize = 40;
+
     /// Writes the sentence, time truncated to 0.01 s.
     #[must_use]
     pub fn write(&self, talker: Talker) -> Line {

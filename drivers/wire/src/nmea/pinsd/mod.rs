@@ -1,0 +1,197 @@
+//! PINSD: insd's own sentences.
+//!
+//! What an operator tells insd; both hold at the moment of receipt:
+//! ```text
+//! $PINSD,FIX,ddmm.mmmmm,N,dddmm.mmmmm,E,x.x*hh   a position and its 1-sigma, m
+//! $PINSD,HDG,x.xx,x.xx*hh                        a true heading and its 1-sigma, deg
+//! ```
+//! What insd tells others, in their files:
+//! ```text
+//! $PINSD,STA,...   what it does and how good that is    [PinsdStatus]
+//! $PINSD,SIG,...   1-sigma of the solution              [PinsdSigma]
+//! $PINSD,ALI,...   how the alignment gets on            [PinsdAlignment]
+//! $PINSD,PRO,...   protection levels                    [PinsdProtection]
+//! ```
+//! None is longer than the 82 bytes of the standard. A field that is unknown is empty. Later versions may
+//! append fields, and readers ignore what they do not know. `docs/pinsd.md` says the same to people.
+
+mod alignment;
+mod protection;
+mod sigma;
+mod status;
+
+pub use alignment::{PinsdAlignment, PinsdPhase};
+pub use protection::{PinsdProtection, ProtectionState};
+pub use sigma::PinsdSigma;
+pub use status::{PinsdMode, PinsdStatus, PinsdTime};
+
+use super::decimal::Form;
+use super::fault::Fault;
+use super::fields::Fields;
+use super::frame::Frame;
+use super::line::{Composer, Line};
+use super::position::Position;
+
+/// Decimals of minutes: 0.02 m.
+const MINUTES: u8 = 5;
+const METRES: Form = Form { decimals: 1, width: 1, limit: 99_999.9 };
+const DEGREES: Form = Form { decimals: 2, width: 1, limit: 180.0 };
+
+/// One of the PINSD sentences.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pinsd {
+    /// FIX: where the ship is, as the operator says.
+    Fix {
+        /// Latitude and longitude of the IMU.
+        position: Option<Position>,
+        /// 1-sigma of each horizontal component, m.
+        std: Option<f64>,
+    },
+    /// HDG: which way she points, as the operator says.
+    Heading {
+        /// Heading, rad, clockwise from true north.
+        heading: Option<f64>,
+        /// 1-sigma, rad.
+        std: Option<f64>,
+    },
+    /// STA.
+    Status(PinsdStatus),
+    /// SIG.
+    Sigma(PinsdSigma),
+    /// ALI.
+    Alignment(PinsdAlignment),
+    /// PRO.
+    Protection(PinsdProtection),
+}
+
+impl Pinsd {
+    /// All before the first comma.
+    pub const ADDRESS: &'static str = "PINSD";
+
+    /// Greatest length of any of them, bytes with CR LF.
+    pub const LONGEST: usize = 81;
+
+    /// Writes the sentence; minutes to 0.00001, sigmas of the operator to 0.1 m and 0.01 deg.
+    #[must_use]
+    pub fn write(&self) -> Line {
+        Line::compose_own(Self::ADDRESS, |line| match self {
+            Pinsd::Fix { position, std } => {
+                line.text("FIX");
+                line.position(*position, MINUTES);
+                line.number(*std, METRES);
+            }
+            Pinsd::Heading { heading, std } => {
+                line.text("HDG");
+                line.degrees(*heading, 2);
+                line.number(std.map(f64::to_degrees), DEGREES);
+            }
+            Pinsd::Status(status) => status.write_fields(line),
+            Pinsd::Sigma(sigma) => sigma.write_fields(line),
+            Pinsd::Alignment(alignment) => alignment.write_fields(line),
+            Pinsd::Protection(protection) => protection.write_fields(line),
+        })
+    }
+
+    /// Reads the sentence.
+    ///
+    /// # Errors
+    /// The first [`Fault`] of its fields; [`Fault::OtherSentence`] for a word that is not in the list.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+        let mut fields = frame.fields_of_own(Self::ADDRESS)?;
+        Ok(match fields.text()? {
+            "FIX" => Pinsd::Fix {
+                position: fields.position()?,
+                std: fields.number_in(0.0..=METRES.limit)?,
+            },
+            "HDG" => Pinsd::Heading {
+                heading: fields.degrees()?,
+                std: fields.number_in(0.0..=DEGREES.limit)?.map(f64::to_radians),
+            },
+            PinsdStatus::NAME => Pinsd::Status(PinsdStatus::read_fields(&mut fields)?),
+            PinsdSigma::NAME => Pinsd::Sigma(PinsdSigma::read_fields(&mut fields)?),
+            PinsdAlignment::NAME => Pinsd::Alignment(PinsdAlignment::read_fields(&mut fields)?),
+            PinsdProtection::NAME => Pinsd::Protection(PinsdProtection::read_fields(&mut fields)?),
+            _ => return Err(Fault::OtherSentence),
+        })
+    }
+}
+
+/// Writes what cannot be negative with three significant digits, at most `decimals` of them after the
+/// point, which makes five characters up to 99999. Beyond `limit` it is unknown.
+fn significant(line: &mut Composer, value: Option<f64>, decimals: u8, limit: f64) {
+    let fitting = match value {
+        Some(value) if value < 0.9995 => 3,
+        Some(value) if value < 9.995 => 2,
+        Some(value) if value < 99.95 => 1,
+        _ => 0,
+    };
+    line.magnitude(value, Form { decimals: decimals.min(fitting), width: 1, limit });
+}
+
+/// Writes yes or no as 1 or 0.
+fn flag(line: &mut Composer, flag: bool) {
+    line.letter(if flag { b'1' } else { b'0' });
+}
+
+/// Reads what cannot be negative.
+fn read_magnitude(fields: &mut Fields<'_>, limit: f64) -> Result<Option<f64>, Fault> {
+    fields.number_in(0.0..=limit)
+}
+
+/// Reads 1 or 0.
+fn read_flag(fields: &mut Fields<'_>) -> Result<bool, Fault> {
+    match fields.text()? {
+        "1" => Ok(true),
+        "0" => Ok(false),
+        _ => Err(fields.malformed()),
+    }
+}
+
+/// Reads a letter that must be there and stand for something.
+fn read_letter<T>(fields: &mut Fields<'_>, of: impl FnOnce(u8) -> Option<T>) -> Result<T, Fault> {
+    let read = fields.letter()?.and_then(of);
+    read.ok_or_else(|| fields.malformed())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::nmea::Sentence;
+
+    #[test]
+    fn what_the_operator_says_is_read_back() {
+        let position = Position { latitude: 0.6, longitude: -2.4 };
+        let fix = Pinsd::Fix { position: Some(position), std: Some(12.5) };
+        let line = fix.write();
+        let Ok((None, Sentence::Pinsd(Pinsd::Fix { position: Some(read), std }))) =
+            Sentence::read(line.as_bytes())
+        else {
+            panic!("{line:?}");
+        };
+        assert!((read.latitude - 0.6).abs() < 4e-9 && (read.longitude + 2.4).abs() < 4e-9);
+        assert_eq!(std, Some(12.5));
+        let line = Pinsd::Heading { heading: Some(1.0), std: None }.write();
+        assert!(line.as_str().starts_with("$PINSD,HDG,57.30,*"), "{line:?}");
+    }
+
+    #[test]
+    fn three_digits_are_kept_and_never_more_than_five_characters_written() {
+        let text = |value: f64| {
+            let line = Line::compose_own("PX", |line| significant(line, Some(value), 3, 99_999.0));
+            line.as_str().split([',', '*']).nth(1).unwrap().to_owned()
+        };
+        for (value, written) in [
+            (0.0, "0.000"),
+            (0.9994, "0.999"),
+            (0.9996, "1.00"),
+            (9.996, "10.0"),
+            (99.94, "99.9"),
+            (99.96, "100"),
+            (12_345.6, "12346"),
+            (-1.0, ""),
+            (1e6, ""),
+        ] {
+            assert_eq!(text(value), written, "{value}");
+        }
+    }
+}
