@@ -3,15 +3,18 @@
 //! The engine and all below it are pure. Here are the files, the terminal, the threads and the one
 //! clock ([`clock`]).
 
+mod calendar;
 pub mod cli;
 pub mod clock;
 pub mod commands;
 pub mod config;
 pub mod demo;
+mod ears;
 pub mod evaluation;
 mod output_file;
 pub mod pipeline;
 pub mod raw_run;
 pub mod run;
 pub mod sniff;
+pub mod speaker;
 pub mod stored;

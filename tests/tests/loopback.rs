@@ -11,6 +11,7 @@ use insd::clock::Clock;
 use insd::config::Config;
 use insd::pipeline::{Pipeline, Product};
 use insd::run::{RunOptions, run};
+use insd::speaker::Spoken;
 use insd_drivers::raw::RawReader;
 use insd_drivers::recording::NavWriter;
 use insd_engine::Output;
@@ -41,10 +42,15 @@ fn a_run_over_real_lines_replays_to_the_same_bytes() {
     send(dir, &sendings);
     daemon.join().unwrap().unwrap();
 
-    let (replayed, states) = replay(dir, &config);
+    let (replayed, sent, states) = replay(dir, &config);
     let live = fs::read(&nav).unwrap();
     assert!(live.len() > 10_000, "{} bytes of solutions", live.len());
     assert!(live == replayed, "the recording does not replay to the same bytes");
+    let written = fs::read(dir.join("sent")).unwrap();
+    assert!(written.len() > 20_000, "{} bytes sent", written.len());
+    // the last of them may not have left before the end
+    assert!(sent.starts_with(&written), "the recording does not replay to what was sent");
+    assert!(sent.len() - written.len() < 2_000, "{} bytes never left", sent.len() - written.len());
     let seen = |word: &str| states.iter().any(|state| state.contains(word));
     assert!(seen("lost") && seen("absent") && seen("open"), "{states:?}");
 }
@@ -65,6 +71,13 @@ fn configuration(dir: &Path, feeds: &FeedConfig, voyage: &insd_base::Voyage) -> 
         let wrapped = toml::Table::from_iter([("sensor".to_owned(), vec![table].into())]);
         text.push_str(&wrapped.to_string());
     }
+    text.push_str(&format!(
+        "[[point]]\nname = \"bow\"\nlever_m = [60.0, 0.0, -5.0]\n\
+         [[output]]\nname = \"bridge\"\npoint = \"bow\"\nprofile = \"bridge\"\n\
+         messages = {{ HDT = 20, ROT = 20, RMC = 5, \"PSXN.23\" = 20 }}\n\
+         destination = {{ kind = \"file\", path = {:?} }}\n",
+        dir.join("sent")
+    ));
     text
 }
 
@@ -93,21 +106,23 @@ fn send(dir: &Path, sendings: &[Sending]) {
     }
 }
 
-/// The solutions of the recording as `nav.csv`, and the states of ports in it.
-fn replay(dir: &Path, config: &Config) -> (Vec<u8>, Vec<String>) {
-    let mut pipeline = Pipeline::new(&config.intake(), config.engine());
+/// The solutions of the recording as `nav.csv`, what the port was sent, and the states of ports in it.
+fn replay(dir: &Path, config: &Config) -> (Vec<u8>, Vec<u8>, Vec<String>) {
+    let mut pipeline = Pipeline::new(&config.intake(), config.engine(), config.speaker());
     let mut nav = NavWriter::new(Vec::new()).unwrap();
-    let mut states = Vec::new();
+    let (mut sent, mut states) = (Vec::new(), Vec::new());
     for arrival in RawReader::open(&dir.join("recording")).unwrap() {
         let arrival = arrival.unwrap();
         if let insd_base::Input::State(state) = &arrival.input {
             states.push(state.to_string());
         }
-        pipeline.handle(&arrival, |_, product| {
-            if let Product::Engine(Output::Solution(solution)) = product {
-                nav.write(&solution).unwrap();
+        pipeline.handle(&arrival, |_, product| match product {
+            Product::Engine(Output::Solution(solution)) => nav.write(&solution).unwrap(),
+            Product::Spoken(Spoken::Messages(_, messages)) => {
+                sent.extend(messages.iter().flat_map(|message| message.content.to_bytes()));
             }
+            _ => {}
         });
     }
-    (nav.finish().unwrap(), states)
+    (nav.finish().unwrap(), sent, states)
 }

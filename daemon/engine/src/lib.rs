@@ -12,13 +12,15 @@ mod ship;
 
 use std::collections::VecDeque;
 
-use insd_alignment::{AlignmentConfig, StoredState, Verdict};
+use insd_alignment::{AlignmentConfig, Fine, StoredState, Verdict};
 use insd_base::{
-    AlignmentStatus, Counts, Event, Geodetic, ImuSample, ImuSpec, Innovation, LeverArms, Message,
-    Mode, Received, Rejection, Solution, Source, Span, StartCondition, Time, VoyageHeader,
+    AlignmentStatus, Body, Counts, Event, Geodetic, Heave, ImuSample, ImuSpec, Innovation,
+    LeverArms, Message, Mode, Motion, Received, Rejection, Solution, Source, Span, StartCondition,
+    Time, VoyageHeader,
 };
 use insd_nav::{
-    Conditioned, Conditioner, Estimator, Increment, NavConfig, Outcome, Report, Timeline,
+    Conditioned, Conditioner, Estimator, Filter, HeaveFilter, Increment, NavConfig, Outcome,
+    Report, Timeline,
 };
 
 use coarse::Coarse;
@@ -46,6 +48,9 @@ pub struct EngineConfig {
     pub stored: Option<StoredState>,
     /// How well GNSS epochs and IMU samples agree in time, 1-sigma, s; `None`: by the grade of the IMU.
     pub time_std: Option<f64>,
+    /// Monitoring points of which the heave is wanted, from the IMU, body axes, m. The first is the IMU
+    /// itself. Without any there is no heave.
+    pub points: Vec<Body>,
 }
 
 impl EngineConfig {
@@ -61,6 +66,7 @@ impl EngineConfig {
             alignment: AlignmentConfig::default(),
             stored: None,
             time_std: None,
+            points: Vec::new(),
         }
     }
 }
@@ -99,6 +105,9 @@ pub struct Engine {
     recent: Recent,
     period: Span,
     next_epoch: Option<i64>,
+    last: Option<Increment>,
+    /// Heave of the monitoring points, if there are any.
+    heave: Option<HeaveFilter>,
     mode: Option<Mode>,
     counts: Counts,
     outputs: VecDeque<Output>,
@@ -120,6 +129,9 @@ impl Engine {
             period: Span::from_seconds(1.0 / config.output_rate),
             recent: Recent::default(),
             next_epoch: None,
+            last: None,
+            heave: (!config.points.is_empty())
+                .then(|| HeaveFilter::new(&config.imu, config.points.get(1..).unwrap_or_default())),
             mode: None,
             counts: Counts::default(),
             outputs: VecDeque::new(),
@@ -145,6 +157,29 @@ impl Engine {
     #[must_use]
     pub fn counts(&self) -> &Counts {
         &self.counts
+    }
+
+    /// How the ship moves at the last IMU sample, for outputs between the epochs of the solutions; `None`
+    /// while nothing is known that could be shown to anyone.
+    #[must_use]
+    pub fn motion(&self) -> Option<Motion> {
+        let Stage::Running(line) = &self.stage else { return None };
+        let ship = line.estimator();
+        let solution = Some(ship.solution()).filter(checks::is_sound)?;
+        let filter = ship.likeliest().map(Fine::filter);
+        let acceleration = filter.zip(self.last.as_ref());
+        Some(Motion {
+            solution,
+            acceleration: acceleration.map(|(filter, last)| filter.acceleration(last)),
+            covariance_north_east: filter.map(Filter::covariance_north_east),
+            current: filter.and_then(Filter::current),
+        })
+    }
+
+    /// Heave of each monitoring point at the last IMU sample.
+    #[must_use]
+    pub fn heaves(&self) -> Vec<Option<Heave>> {
+        (0..self.config.points.len()).map(|point| self.heave.as_ref()?.heave(point)).collect()
     }
 
     /// The state to store for the next start: `None` unless the ship is aligned and still lies at her
@@ -173,6 +208,7 @@ impl Engine {
                 } else {
                     self.advance(&bridge);
                 }
+                self.heave.iter_mut().for_each(|heave| heave.interrupt(missing));
                 self.advance(&increment);
             }
             Conditioned::Rejected(reason) => self.count_imu(reason),
@@ -194,6 +230,7 @@ impl Engine {
     }
 
     fn advance(&mut self, increment: &Increment) {
+        self.last = Some(*increment);
         match &mut self.stage {
             Stage::Levelling(coarse) => {
                 coarse.advance(increment);
@@ -206,6 +243,9 @@ impl Engine {
                 let reports = line.advance(increment);
                 if let Some(time) = due_at(self.period, &mut self.next_epoch, increment.to) {
                     solutions.push(Solution { time, ..line.estimator().solution() });
+                }
+                if let (Some(heave), Some(fine)) = (&mut self.heave, line.estimator().likeliest()) {
+                    heave.advance(&fine.filter().vertical_step(increment));
                 }
                 for report in &reports {
                     self.note(report);

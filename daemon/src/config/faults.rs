@@ -41,6 +41,7 @@ fn ship(config: &Config, faults: &mut Vec<String>) {
         let sound = arm.iter().all(|length| length.abs() <= 1000.0);
         expect(sound, key, "[forward, starboard, down] in m, each within +-1000");
     }
+    expect(ship.priority.is_none_or(|priority| priority <= 99), "priority", "0 to 99");
     let sigma = ship.time_std_s.is_none_or(|sigma| (1e-9..=1.0).contains(&sigma));
     expect(sigma, "time_std_s", "1e-9 to 1");
 }
@@ -84,19 +85,20 @@ fn nodes(config: &Config, faults: &mut Vec<String>) {
 }
 
 fn outputs(config: &Config, faults: &mut Vec<String>) {
+    for point in &config.points {
+        let place = format!("[[point]] \"{}\"", point.name);
+        if config.points.iter().filter(|other| other.name == point.name).count() > 1 {
+            faults.push(format!("{place}: name: expected a name that no other point has"));
+        }
+        if !point.lever_m.iter().all(|length| length.abs() <= 1000.0) {
+            faults.push(format!(
+                "{place}: lever_m: expected [forward, starboard, down] in m, each within +-1000"
+            ));
+        }
+    }
     for output in &config.outputs {
         let place = format!("[[output]] \"{}\"", output.name);
-        let carrier = output.carrier().faults();
-        faults.extend(carrier.into_iter().map(|fault| format!("{place}: {fault}")));
-        for (kind, rate) in output.sentences.iter().flat_map(super::Sentences::rates) {
-            if !(0.001..=1000.0).contains(&rate) {
-                faults
-                    .push(format!("{place}: sentences: {kind:?}: expected 0.001 to 1000 a second"));
-            }
-        }
-        if output.geoid_m.is_some_and(|geoid| geoid.abs() > 120.0 || !geoid.is_finite()) {
-            faults.push(format!("{place}: geoid_m: expected -120 to 120"));
-        }
+        faults.extend(output.faults(config).into_iter().map(|fault| format!("{place}: {fault}")));
     }
     if let Some(recording) = &config.recording
         && !(1.0..=1e7).contains(&recording.rotate_s)

@@ -6,31 +6,39 @@
 mod faults;
 mod filters;
 mod imu;
+mod lan;
 mod node;
 mod output;
+mod policy;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use insd_base::{Geodetic, LeverArms, StartCondition};
+use insd_base::{Body, Geodetic, LeverArms, PortId, StartCondition};
 use insd_drivers::can::CanFilter;
 use insd_drivers::ports::{PortConfig, Transport};
 use insd_engine::EngineConfig;
 use insd_intake::config::{IntakeConfig, PortSpec, Role, SensorConfig};
 use insd_intake::port::Link;
 use insd_intake::sensor::TimeBase;
+use insd_output::{Rate, Station};
 use serde::Deserialize;
 
 use crate::cli::BadInput;
+use crate::speaker::Speaker;
 
 pub use imu::ImuModel;
+pub use lan::LanSection;
 pub use node::{NodeMemory, NodeSection};
-pub use output::{OutputSection, Sentences};
+pub use output::{OutputSection, Overfull, PointSection};
+pub use policy::PolicySection;
 
 /// How well receiver and IMU agree in time where neither a pulse nor the IMU's own UTC ties them, s.
 const TIME_STD: f64 = 0.02;
 /// Bits per second of a CAN bus of which nothing else is known: that of NMEA 2000.
 const BITRATE: u32 = 250_000;
+/// How often the groups of NMEA 2000 are looked at, Hz: their shortest interval.
+const GROUPS_RATE: f64 = 100.0;
 /// Name of the environment variables that override keys.
 const PREFIX: &str = "INSD";
 
@@ -48,6 +56,9 @@ pub struct Config {
     /// Sensors on them.
     #[serde(default, rename = "sensor")]
     pub sensors: Vec<SensorConfig>,
+    /// Points of the ship that outputs speak of.
+    #[serde(default, rename = "point")]
+    pub points: Vec<PointSection>,
     /// Ports that are written to.
     #[serde(default, rename = "output")]
     pub outputs: Vec<OutputSection>,
@@ -85,6 +96,9 @@ pub struct Ship {
     pub rate_hz: f64,
     /// How well receiver and IMU agree in time, 1-sigma, s. Left out: by what ties them.
     pub time_std_s: Option<f64>,
+    /// Real-time priority of the engine's thread, 1 to 99; that of the ports is one less. 0 for none.
+    #[serde(default = "twenty")]
+    pub priority: Option<u8>,
 }
 
 /// What is known of the ship's motion at the start.
@@ -113,6 +127,10 @@ pub struct PortSection {
     /// without a node.
     #[serde(default)]
     pub write: bool,
+    /// Whether commands about our alerts (ACN) are obeyed that come from here: the bridge's alert
+    /// management.
+    #[serde(default)]
+    pub alerts: bool,
     /// Of a CAN port: which frames count. Left out: those that its sensors and its node need, on an
     /// interface of the kernel.
     pub filters: Option<Vec<CanFilter>>,
@@ -147,6 +165,9 @@ pub struct Chrony {
 
 fn ten() -> f64 {
     10.0
+}
+fn twenty() -> Option<u8> {
+    Some(20)
 }
 fn three() -> f64 {
     3.0
@@ -224,6 +245,7 @@ impl Config {
         EngineConfig {
             imu: self.imu.spec(rate),
             lever_arms: LeverArms { gnss, log },
+            points: self.levers(),
             start,
             initial: place.map(|(lat, lon)| Geodetic::from_degrees(lat, lon, ship.height_m)),
             output_rate: ship.rate_hz,
@@ -231,6 +253,35 @@ impl Config {
             stored: None,
             time_std: ship.time_std_s.or_else(|| self.time_std()),
         }
+    }
+
+    /// The monitoring points: the IMU, then those that have a name.
+    #[must_use]
+    pub fn levers(&self) -> Vec<Body> {
+        let named = self.points.iter().map(PointSection::lever);
+        std::iter::once(Body::default()).chain(named).collect()
+    }
+
+    /// Index of a monitoring point; that of the IMU without a name.
+    #[must_use]
+    pub fn point(&self, name: Option<&str>) -> usize {
+        let is_it = |point: &PointSection| Some(point.name.as_str()) == name;
+        self.points.iter().position(is_it).map_or(0, |index| index + 1)
+    }
+
+    fn has_point(&self, name: &str) -> bool {
+        self.points.iter().any(|point| point.name == name)
+    }
+
+    /// What speaks to the ports.
+    #[must_use]
+    pub fn speaker(&self) -> Speaker {
+        let ports =
+            self.outputs.iter().map(|output| output.port(self.point(output.point.as_deref())));
+        let groups = (!self.nodes.is_empty()).then(|| Rate::from_hertz(GROUPS_RATE));
+        let numbered = self.ports.iter().zip((0..).map(PortId));
+        let obeyed = numbered.filter(|(port, _)| port.alerts).map(|(_, number)| number);
+        Speaker::new(Station::new(ports, self.levers(), groups)).obeying(obeyed)
     }
 
     /// What each port is opened as.

@@ -6,7 +6,8 @@ use insd_n2k::groups::ProductInfo;
 use insd_n2k::node::NodeConfig;
 use insd_n2k::pgn::Known;
 use insd_n2k::{LAST_ADDRESS, Name, NameParts};
-use insd_output::n2k::{N2kGroups, VoiceConfig};
+use insd_output::Manner;
+use insd_output::n2k::N2kGroups;
 use serde::{Deserialize, Serialize};
 
 /// What a node keeps from one run to the next: what others on the bus have decided.
@@ -62,6 +63,8 @@ pub struct NodeSection {
     pub installation: [String; 2],
     /// The file in which it remembers its address and what it was told by others on the bus.
     pub state: Option<PathBuf>,
+    /// Name of the monitoring point that it speaks of; the IMU if left out.
+    pub point: Option<String>,
     /// Height of the geoid above the ellipsoid where the ship sails, m.
     pub geoid_m: Option<f64>,
     /// Whether the data come from a simulator, and must say so.
@@ -128,8 +131,8 @@ impl NodeSection {
 
     /// How it speaks.
     #[must_use]
-    pub fn voice(&self) -> VoiceConfig {
-        VoiceConfig { simulated: self.simulated, ..VoiceConfig::default() }
+    pub fn voice(&self) -> Manner {
+        Manner { simulated: self.simulated, ..Manner::default() }
     }
 
     fn name(&self, computer: u64) -> Name {

@@ -15,7 +15,7 @@ pub mod sensors;
 pub mod ship;
 pub mod trail;
 pub mod truth;
-pub mod utc;
+
 pub mod view;
 pub mod words;
 

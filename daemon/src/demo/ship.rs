@@ -1,15 +1,17 @@
 //! The simulated ship and the engine that navigates her. Free of clocks: it sails to the time that
 //! it is told, so that a picture of it can be made again bit by bit.
 
-use insd_base::{Event, Geodetic, Message, Mode, Received, Solution, Time, Voyage};
+use insd_base::{Body, Event, Geodetic, Message, Mode, Received, Solution, Time, Voyage};
 use insd_engine::{Engine, EngineConfig, Output};
-use insd_output::{Port, PortConfig};
+use insd_output::{Manner, PortConfig, Profile, Station};
+
+use crate::speaker::{Speaker, Spoken};
 
 use super::board::{Board, Phase};
 use super::rejections;
 use super::sensors::Sensors;
 use super::truth::{TrueTrack, east_north};
-use super::utc::Calendar;
+use crate::calendar::Calendar;
 
 /// Solutions per second.
 const OUTPUT_RATE: f64 = 10.0;
@@ -22,13 +24,21 @@ const TRACK_INTERVAL: i64 = 2_000_000_000;
 pub struct Ship {
     messages: std::vec::IntoIter<Received>,
     engine: Engine,
-    port: Port,
+    speaker: Speaker,
     calendar: Option<Calendar>,
     truth: TrueTrack,
     origin: Option<Geodetic>,
     sensors: Sensors,
     tracked: Time,
     board: Board,
+}
+
+/// The port of the demo: everything, marked as simulated where a sentence can be. No ship's equipment
+/// listens to it.
+fn bridge() -> PortConfig {
+    let manner = Manner { simulated: true, unmarked_when_simulated: true, ..Manner::default() };
+    let bridge = Profile::named("bridge").map(Profile::port).unwrap_or_default();
+    PortConfig { manner, ..bridge }
 }
 
 impl Ship {
@@ -39,7 +49,7 @@ impl Ship {
         Ship {
             messages: voyage.received().into_iter(),
             engine: Engine::new(EngineConfig::for_voyage(&voyage.header, OUTPUT_RATE)),
-            port: Port::new(PortConfig::demo()),
+            speaker: Speaker::new(Station::new([bridge()], vec![Body::default()], None)),
             calendar: Calendar::new(&voyage.header.start_utc),
             origin,
             sensors: Sensors::of(&voyage),
@@ -60,8 +70,10 @@ impl Ship {
             self.hear(&received);
             self.engine.handle(&received);
             while let Some(output) = self.engine.poll_output() {
-                self.take(output, wire);
+                self.speaker.note(&output);
+                self.take(output);
             }
+            self.speak(received.receipt, wire);
         }
         if self.messages.as_slice().is_empty() {
             self.board.phase = Phase::Arrived;
@@ -85,6 +97,7 @@ impl Ship {
     fn hear(&mut self, received: &Received) {
         self.board.now = received.receipt;
         self.sensors.hear(received);
+        self.speaker.hear(received);
         if let (Message::Gnss(fix), Some(origin)) = (&received.message, &self.origin)
             && let Some(position) = fix.position
         {
@@ -92,18 +105,20 @@ impl Ship {
         }
     }
 
-    fn take(&mut self, output: Output, wire: &mut dyn FnMut(&[u8])) {
+    fn speak(&mut self, now: Time, wire: &mut dyn FnMut(&[u8])) {
+        let utc = self.calendar.map(|calendar| calendar.utc(now));
+        self.speaker.speak(&self.engine, now, utc, |spoken| {
+            if let Spoken::Messages(_, messages) = spoken {
+                messages.iter().for_each(|message| wire(&message.content.to_bytes()));
+            }
+        });
+    }
+
+    fn take(&mut self, output: Output) {
         match output {
             Output::Event(event) => self.note(&event),
             Output::Innovation(_) | Output::Alignment(_) => {}
             Output::Solution(solution) => {
-                let utc = self.calendar.and_then(|calendar| calendar.utc(solution.time));
-                if let Some(utc) = utc {
-                    let sentences = self.port.sentences(&solution, Some(utc));
-                    if !sentences.is_empty() {
-                        wire(sentences);
-                    }
-                }
                 self.track(&solution);
                 if self.board.solution.is_none_or(|last| last.mode != solution.mode) {
                     self.board.mode_since = solution.time;
@@ -137,7 +152,7 @@ impl Ship {
 
     /// Brings the parts of the board up to date that need no message.
     fn settle(&mut self) {
-        self.board.utc = self.calendar.and_then(|calendar| calendar.utc(self.board.now));
+        self.board.utc = self.calendar.and_then(|calendar| calendar.civil(self.board.now));
         self.board.sensors = self.sensors.status(self.board.now, self.engine.counts());
         self.board.counts.clone_from(self.engine.counts());
         let solution = self.board.solution.as_ref();

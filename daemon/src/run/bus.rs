@@ -5,29 +5,24 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use insd_base::{Solution, Span, Time, UtcTime};
+use insd_base::Time;
 use insd_drivers::can::SharedSpeaker;
-use insd_intake::Intake;
 use insd_n2k::node::{Node, NodeEvent};
-use insd_n2k::pgn::TimeSource;
-use insd_output::n2k::{Epoch, Variation, Voice};
+use insd_output::Epoch;
+use insd_output::n2k::Voice;
 
 use crate::config::{Config, NodeMemory, NodeSection};
 
-/// Time without a solution after which nothing is known any more.
-const SILENCE: Span = Span::from_nanos(500_000_000);
-/// Time between two epochs of which nothing is known.
-const BLANK: Span = Span::from_nanos(100_000_000);
 /// Time between two looks at what became of a node.
 const LOOK: Duration = Duration::from_millis(200);
-/// The year of the World Magnetic Model in use.
-const MODEL: u16 = 2025;
 
 /// What is said on one bus.
 struct Bus {
     voice: Voice,
     node: SharedSpeaker<Node>,
     geoid: Option<f64>,
+    /// Index of its monitoring point.
+    point: usize,
 }
 
 /// A node and the port it is on.
@@ -40,7 +35,6 @@ pub(super) struct NodeOfPort {
 /// All buses with a node.
 pub(super) struct Buses {
     buses: Vec<Bus>,
-    told: Time,
 }
 
 impl Buses {
@@ -52,41 +46,17 @@ impl Buses {
             let node = make(section, computer);
             let (port, state) = (section.port.clone(), section.state.clone());
             named.push(NodeOfPort { port, node: node.clone(), state });
-            Bus { voice: Voice::new(section.voice()), node, geoid: section.geoid_m }
+            let point = config.point(section.point.as_deref());
+            Bus { voice: Voice::new(section.voice()), node, geoid: section.geoid_m, point }
         });
-        let buses = Buses { buses: buses.collect(), told: Time::START };
+        let buses = Buses { buses: buses.collect() };
         (buses, named)
     }
 
-    /// Says what the solution says.
-    pub(super) fn send(&mut self, solution: &Solution, now: Time, intake: &Intake) {
-        if self.buses.is_empty() {
-            return;
-        }
-        let utc = intake.utc_at(solution.time);
-        let epoch = Epoch {
-            solution: Some(*solution),
-            utc,
-            time_source: utc.map(|_| TimeSource::Gps),
-            variation: utc.and_then(|utc| variation(solution, utc)),
-            ..Epoch::unknown(solution.time)
-        };
-        self.told = now;
-        self.say(&epoch, now);
-    }
-
-    /// Says that nothing is known, if there has been no solution for a while.
-    pub(super) fn idle(&mut self, now: Time, utc: impl Fn() -> Option<UtcTime>) {
-        if !self.buses.is_empty() && now - self.told >= SILENCE {
-            self.told = now - SILENCE + BLANK;
-            let utc = utc();
-            let time_source = utc.map(|_| TimeSource::Gps);
-            self.say(&Epoch { utc, time_source, ..Epoch::unknown(now) }, now);
-        }
-    }
-
-    fn say(&mut self, epoch: &Epoch, now: Time) {
+    /// Says what is known of the monitoring points at an instant.
+    pub(super) fn send(&mut self, epochs: &[Epoch], now: Time) {
         for bus in &mut self.buses {
+            let Some(epoch) = epochs.get(bus.point) else { continue };
             let (voice, geoid) = (&mut bus.voice, bus.geoid);
             bus.node.with(|node| {
                 let epoch = Epoch { geoid, ..*epoch };
@@ -103,12 +73,6 @@ fn make(section: &NodeSection, computer: u64) -> SharedSpeaker<Node> {
     let config = section.node(computer, &memory);
     let seed = config.name.bits() ^ u64::from(std::process::id());
     SharedSpeaker::new(Node::new(config, seed))
-}
-
-fn variation(solution: &Solution, utc: UtcTime) -> Option<Variation> {
-    let value = insd_intake::variation(&solution.position, utc)?;
-    let days = utc.as_nanos().div_euclid(86_400 * 1_000_000_000);
-    Some(Variation { value, model: MODEL, day: u16::try_from(days).ok() })
 }
 
 /// Tells what becomes of a node, and remembers what is worth it, for ever.

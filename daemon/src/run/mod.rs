@@ -2,6 +2,7 @@
 
 mod bus;
 mod outputs;
+mod priority;
 mod time_out;
 mod told;
 
@@ -12,7 +13,7 @@ use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
 
 use anyhow::Context;
-use insd_base::{PortId, Stamp, Time};
+use insd_base::{Arrival, Input, PortId, Span, Stamp, Time};
 use insd_drivers::can::{self, CanConfig};
 use insd_drivers::ports::{self, PortConfig, PortHandle, Receiver, Surroundings};
 use insd_drivers::raw::{RawHeader, RawWriter, Recorder, RecordingConfig};
@@ -23,6 +24,7 @@ use crate::clock::HostClock;
 use crate::config::{Config, PortSection, Recording};
 use crate::output_file::OutputFile;
 use crate::pipeline::{Pipeline, Product};
+use crate::speaker::Spoken;
 
 use bus::{Buses, NodeOfPort};
 use outputs::Outputs;
@@ -34,8 +36,15 @@ const WAITING: usize = 256 * 1024;
 /// Longest wait for an arrival: time passes even when nothing comes.
 const TURN: Duration = Duration::from_millis(25);
 
+/// The port of what comes from our own clock: none of the configuration.
+const NOWHERE: PortId = PortId(u16::MAX);
+
 /// Time between the things that are done once a second, s.
 const SECOND: f64 = 1.0;
+/// An epoch that begins later than this is late.
+const PUNCTUAL: Span = Span::from_nanos(1_000_000);
+/// Time between two accounts of what was sent, s.
+const ACCOUNT: f64 = 3600.0;
 
 /// What the command line adds to the configuration.
 #[derive(Clone, Debug, Default)]
@@ -52,8 +61,10 @@ pub struct RunOptions {
 /// Something that is needed at the start cannot be had. Ports that are absent are no error.
 pub fn run(config: &Config, text: &str, options: &RunOptions) -> anyhow::Result<()> {
     let clock = HostClock::start();
+    let priority = config.ship.priority.filter(|priority| *priority > 0);
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(2)
+        .on_thread_start(move || hasten(priority.map(|priority| priority.saturating_sub(1).max(1))))
         .enable_all()
         .build()
         .context("cannot start the runtime")?;
@@ -64,24 +75,31 @@ pub fn run(config: &Config, text: &str, options: &RunOptions) -> anyhow::Result<
     let (buses, nodes) = Buses::new(config);
     let handles = open_inputs(config, &nodes, &surroundings);
     let first_output = u16::try_from(config.ports.len()).unwrap_or(u16::MAX);
-    let outputs = Outputs::open(config, first_output, &surroundings);
+    let pipeline = Pipeline::new(&config.intake(), config.engine(), config.speaker());
+    let made = pipeline.speaker().station().ports();
+    let outputs = Outputs::open(config, made, first_output, &surroundings);
     let after_outputs = first_output.saturating_add(outputs.count());
     let time_out = TimeOut::open(config, after_outputs, &surroundings);
     let recorder = config.recording.as_ref().map(|own| start_recorder(own, text)).transpose()?;
     let stop = Arc::new(AtomicBool::new(false));
     let worker = Worker {
-        pipeline: Pipeline::new(&config.intake(), config.engine()),
+        pipeline,
         outputs,
         buses,
         time_out,
         recorder,
         nav: options.nav.as_deref().map(open_nav).transpose()?,
         clock,
+        accounted: Time::START,
+        epochs: (0, 0),
         inputs: first_output,
     };
     let thread = std::thread::Builder::new().name("engine".to_owned()).spawn({
         let stop = Arc::clone(&stop);
-        move || worker.run(receiver, &stop)
+        move || {
+            hasten(priority);
+            worker.run(receiver, &stop)
+        }
     })?;
     runtime.block_on(until_stopped(options.seconds));
     stop.store(true, Ordering::Relaxed);
@@ -89,6 +107,13 @@ pub fn run(config: &Config, text: &str, options: &RunOptions) -> anyhow::Result<
     drop((handles, queue));
     runtime.shutdown_timeout(Duration::from_secs(1));
     finished
+}
+
+/// A thread that may not go before others still does its work, only later on a busy computer.
+fn hasten(priority: Option<u8>) {
+    if let Some(Err(fault)) = priority.map(priority::raise) {
+        tracing::info!(fault, "no real-time priority: what is sent may be late on a busy computer");
+    }
 }
 
 /// Opens what is listened to. CAN ports with a node are given it.
@@ -132,7 +157,7 @@ fn start_recorder(config: &Recording, text: &str) -> anyhow::Result<Recorder> {
     let recording = RecordingConfig {
         name: config.name.clone(),
         rotate_bytes: config.rotate_mb.saturating_mul(megabyte),
-        rotate_span: insd_base::Span::from_seconds(config.rotate_s),
+        rotate_span: Span::from_seconds(config.rotate_s),
         quota_bytes: config.quota_mb.map(|quota| quota.saturating_mul(megabyte)),
     };
     let program = format!("insd {}", env!("CARGO_PKG_VERSION"));
@@ -154,6 +179,10 @@ struct Worker {
     recorder: Option<Recorder>,
     nav: Option<NavWriter<OutputFile>>,
     clock: HostClock,
+    /// When it was told last what was sent.
+    accounted: Time,
+    /// Epochs of the outputs, and how many of them began more than a millisecond late.
+    epochs: (u64, u64),
     /// Ports from this number on are written to, and nothing of the navigation hangs on them.
     inputs: u16,
 }
@@ -162,13 +191,18 @@ impl Worker {
     fn run(mut self, mut receiver: Receiver, stop: &AtomicBool) -> anyhow::Result<()> {
         let mut ticked = Time::START;
         while !stop.load(Ordering::Relaxed) {
-            match receiver.recv_timeout(TURN) {
+            match receiver.recv_timeout(self.patience()) {
                 Ok(arrival) => self.take(&arrival)?,
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => break,
             }
             let now = self.clock.now();
-            self.buses.idle(now.monotonic, || self.pipeline.utc_at(now.monotonic));
+            let due = self.pipeline.next_tick(now.monotonic);
+            if let Some(due) = due.filter(|due| *due <= now.monotonic) {
+                self.epochs.0 += 1;
+                self.epochs.1 += u64::from(now.monotonic - due > PUNCTUAL);
+                self.take(&Arrival { stamp: now, port: NOWHERE, input: Input::Tick })?;
+            }
             if (now.monotonic - ticked).as_seconds() >= SECOND {
                 ticked = now.monotonic;
                 self.tick(&now);
@@ -177,16 +211,27 @@ impl Worker {
         self.finish()
     }
 
+    /// How long to wait for an arrival: until something is due.
+    fn patience(&self) -> Duration {
+        let now = self.clock.now().monotonic;
+        let wait = |due: Time| Duration::from_nanos((due - now).as_nanos().max(0).unsigned_abs());
+        self.pipeline.next_tick(now).map_or(TURN, wait).min(TURN)
+    }
+
     /// What is done once a second.
     fn tick(&mut self, now: &Stamp) {
         if let Some(recorder) = &mut self.recorder {
             recorder.tick(now.monotonic);
         }
         self.time_out.send(now, self.pipeline.utc_at(now.monotonic));
+        if (now.monotonic - self.accounted).as_seconds() >= ACCOUNT {
+            self.accounted = now.monotonic;
+            self.outputs.tell();
+        }
     }
 
     fn take(&mut self, arrival: &insd_base::Arrival) -> anyhow::Result<()> {
-        if arrival.port.0 >= self.inputs {
+        if arrival.port.0 >= self.inputs && arrival.port != NOWHERE {
             self.outputs.note(arrival);
             return Ok(());
         }
@@ -198,18 +243,29 @@ impl Worker {
         let mut written = Ok(());
         self.pipeline.handle(arrival, |intake, product| {
             tell(intake, &product);
-            if let Product::Engine(Output::Solution(solution)) = &product {
-                outputs.send(solution, intake.utc_at(solution.time));
-                buses.send(solution, clock.now().monotonic, intake);
-                if let (Some(nav), true) = (nav.as_mut(), written.is_ok()) {
-                    written = nav.write(solution);
+            match product {
+                Product::Engine(Output::Solution(solution)) => {
+                    if let (Some(nav), true) = (nav.as_mut(), written.is_ok()) {
+                        written = nav.write(&solution);
+                    }
                 }
+                Product::Spoken(Spoken::Messages(port, messages)) => {
+                    outputs.send(port, &messages);
+                }
+                Product::Spoken(Spoken::Epochs(epochs)) => {
+                    buses.send(&epochs, clock.now().monotonic);
+                }
+                _ => {}
             }
         });
         written.context("cannot write the solution")
     }
 
     fn finish(self) -> anyhow::Result<()> {
+        self.outputs.tell();
+        let skipped = self.pipeline.speaker().station().skipped();
+        let (epochs, late) = self.epochs;
+        tracing::info!(epochs, late, skipped, "epochs, and those begun more than 1 ms late");
         if let Some(recorder) = self.recorder {
             let state = recorder.finish();
             tracing::info!(?state, "recording ended");

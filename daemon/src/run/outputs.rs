@@ -1,47 +1,103 @@
 //! The ports that are written to.
 
-use insd_base::{Arrival, Input, PortId, Solution, UtcTime};
-use insd_drivers::ports::{self, OutputPort, Surroundings};
-use insd_output::{CivilTime, Port};
+use insd_base::{Arrival, Input, PortId, Span};
+use insd_drivers::ports::{
+    self, Destination, Outgoing, OutputConfig, OutputPort, Surroundings, UdpOutput,
+};
+use insd_output::{Lan, Message, MessageKind, Port};
+use insd_wire::nmea::TransmissionGroup;
 
-use crate::config::Config;
+use crate::config::{Config, LanSection, OutputSection};
 
 /// All ports that are written to.
 pub(super) struct Outputs {
     first: u16,
+    /// Names of the carriers, by their numbers from `first` on.
+    names: Vec<String>,
     ports: Vec<Output>,
 }
 
 struct Output {
     name: String,
-    maker: Port,
-    carrier: OutputPort,
+    kinds: Vec<MessageKind>,
+    link: Link,
+}
+
+/// What a port's messages go over.
+enum Link {
+    /// One destination; each message by itself.
+    One(OutputPort),
+    /// The ship's network: a destination for each transmission group.
+    Lan(Box<Lan>, Vec<(TransmissionGroup, OutputPort)>),
 }
 
 impl Outputs {
     /// Opens them; they are numbered from `first`. To be called inside the runtime.
-    pub(super) fn open(config: &Config, first: u16, surroundings: &Surroundings) -> Self {
-        let numbered = config.outputs.iter().zip(first..);
-        let ports = numbered.map(|(output, number)| Output {
-            name: output.name.clone(),
-            maker: Port::new(output.port()),
-            carrier: ports::spawn_output(PortId(number), output.carrier(), surroundings.clone()),
-        });
-        Outputs { first, ports: ports.collect() }
+    pub(super) fn open(
+        config: &Config,
+        made: &[Port],
+        first: u16,
+        surroundings: &Surroundings,
+    ) -> Self {
+        let mut outputs = Outputs { first, names: Vec::new(), ports: Vec::new() };
+        for (section, port) in config.outputs.iter().zip(made) {
+            if let Some(share) = section.overload() {
+                let percent = (share * 100.0).round();
+                tracing::warn!(
+                    output = section.name,
+                    percent,
+                    "asked for more than its line carries"
+                );
+            }
+            if let Some(link) = outputs.link(section, port, surroundings) {
+                let (name, kinds) = (section.name.clone(), port.kinds().collect());
+                outputs.ports.push(Output { name, kinds, link });
+            }
+        }
+        outputs
     }
 
-    /// How many there are.
+    /// How many carriers there are.
     pub(super) fn count(&self) -> u16 {
-        u16::try_from(self.ports.len()).unwrap_or(u16::MAX)
+        u16::try_from(self.names.len()).unwrap_or(u16::MAX)
     }
 
-    /// Sends the sentences of a solution that are due; never waits.
-    pub(super) fn send(&mut self, solution: &Solution, utc: Option<UtcTime>) {
-        let civil = utc.and_then(CivilTime::from_utc);
-        for output in &mut self.ports {
-            let sentences = output.maker.sentences(solution, civil);
-            if !sentences.is_empty() {
-                output.carrier.send(sentences.to_vec());
+    /// Hands the messages of an epoch over to the port of this index; never waits.
+    pub(super) fn send(&mut self, port: usize, messages: &[Message]) {
+        match self.ports.get_mut(port).map(|output| &mut output.link) {
+            Some(Link::One(carrier)) => {
+                for Message { slot, content, valid, period, .. } in messages {
+                    let (slot, bytes) = (*slot, content.to_bytes());
+                    carrier.send(Outgoing { slot, bytes, valid: *valid, period: *period });
+                }
+            }
+            Some(Link::Lan(lan, carriers)) => {
+                let utc = messages.first().and_then(|first| first.utc);
+                for datagram in lan.datagrams(messages, utc) {
+                    let carrier = carriers.iter().find(|(group, _)| *group == datagram.group);
+                    let Some((_, carrier)) = carrier else { continue };
+                    carrier.send(Outgoing {
+                        slot: datagram.slot,
+                        bytes: datagram.bytes,
+                        valid: datagram.valid,
+                        period: datagram.period,
+                    });
+                }
+            }
+            None => {}
+        }
+    }
+
+    /// Tells what each port has sent, and how old it was by then.
+    pub(super) fn tell(&self) {
+        for output in &self.ports {
+            match &output.link {
+                Link::One(carrier) => output.tell(carrier, None),
+                Link::Lan(_, carriers) => {
+                    for (group, carrier) in carriers {
+                        output.tell(carrier, Some(*group));
+                    }
+                }
             }
         }
     }
@@ -49,8 +105,59 @@ impl Outputs {
     /// Takes note of what became of one of them.
     pub(super) fn note(&self, arrival: &Arrival) {
         let index = usize::from(arrival.port.0.saturating_sub(self.first));
-        if let (Some(output), Input::State(state)) = (self.ports.get(index), &arrival.input) {
-            tracing::info!(output = output.name, dropped = output.carrier.dropped(), "{state}");
+        if let (Some(name), Input::State(state)) = (self.names.get(index), &arrival.input) {
+            tracing::info!(output = name, "{state}");
         }
     }
+
+    fn link(
+        &mut self,
+        section: &OutputSection,
+        port: &Port,
+        surroundings: &Surroundings,
+    ) -> Option<Link> {
+        if let Some(carrier) = section.carrier() {
+            return Some(Link::One(self.carrier(section.name.clone(), carrier, surroundings)));
+        }
+        let lan = section.lan.as_ref()?;
+        let sender = Lan::new(lan.config()?);
+        let open = |group: TransmissionGroup| {
+            let name = format!("{} {}", section.name, group.name());
+            (group, self.carrier(name, OutputConfig::new(to(lan, group)), surroundings))
+        };
+        let carriers = sender.groups(port).into_iter().map(open).collect();
+        Some(Link::Lan(Box::new(sender), carriers))
+    }
+
+    fn carrier(
+        &mut self,
+        name: String,
+        config: OutputConfig,
+        surroundings: &Surroundings,
+    ) -> OutputPort {
+        let number = self.first.saturating_add(self.count());
+        self.names.push(name);
+        ports::spawn_output(PortId(number), config, surroundings.clone())
+    }
+}
+
+impl Output {
+    fn tell(&self, carrier: &OutputPort, group: Option<TransmissionGroup>) {
+        let status = carrier.status();
+        let (name, group) = (&self.name, group.map(TransmissionGroup::name));
+        for slot in &status.slots {
+            // on the network a slot is a datagram, which may hold several kinds
+            let kind = self.kinds.get(usize::from(slot.slot)).filter(|_| group.is_none());
+            let ms = |age: Span| (age.as_seconds() * 1e5).round() / 1e2;
+            let age = slot.age.map(|age| (ms(age.p50), ms(age.p99), ms(age.max)));
+            let (message, sent, dropped) = (kind.map(|kind| kind.name()), slot.sent, slot.dropped);
+            tracing::info!(output = name, group, message, sent, dropped, age_ms = ?age, "sent");
+        }
+    }
+}
+
+/// Where a transmission group is.
+fn to(lan: &LanSection, group: TransmissionGroup) -> Destination {
+    let destination = UdpOutput::new((group.address(), group.port()).into());
+    Destination::Udp(UdpOutput { ttl: lan.ttl, interface: lan.interface, ..destination })
 }

@@ -18,7 +18,7 @@ pub fn tell(intake: &Intake, product: &Product) {
         Product::Intake(event) => tell_event(intake, event),
         Product::Engine(Output::Event(event)) => tell_engine(event),
         Product::Engine(Output::Alignment(status)) => tracing::debug!(?status, "alignment"),
-        Product::Engine(_) => {}
+        Product::Engine(_) | Product::Spoken(_) => {}
     }
 }
 

@@ -19,7 +19,7 @@ pub mod text;
 
 use std::collections::BTreeMap;
 
-use insd_base::{Arrival, BusEvent, CanFrame, PortId, PortState, Stamp, Time};
+use insd_base::{Arrival, BusEvent, CanFrame, Input, PortId, PortState, Stamp, Time};
 use insd_wire::describe::Reading;
 use insd_wire::stream::Protocol;
 
@@ -133,6 +133,9 @@ impl Sniffed {
     /// Takes one arrival, and shows what it brings.
     pub fn take_and_show(&mut self, arrival: &Arrival, mut show: impl FnMut(&Seen<'_>)) {
         self.now = self.now.max(Some(arrival.stamp.monotonic));
+        if arrival.input == Input::Tick {
+            return; // it came to no port
+        }
         if !self.ports.contains_key(&arrival.port) {
             let name = format!("port {}", arrival.port.0);
             self.announce(arrival.port, Plan { name, timed: true, transport: None });

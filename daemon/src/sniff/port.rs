@@ -130,6 +130,7 @@ impl Port {
                 let what = SeenWhat::State(state);
                 show(&Seen { port: &self.plan.name, stamp: *stamp, what });
             }
+            Input::Tick => {}
         }
     }
 

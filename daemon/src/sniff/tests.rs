@@ -156,6 +156,13 @@ fn bytes_heard_at_no_rate_are_told_from_none() {
 }
 
 #[test]
+fn what_comes_from_our_own_clock_came_to_no_port() {
+    let mut sniffed = sniffed(true);
+    sniffed.take(&Arrival { port: PortId(u16::MAX), ..at(1.0, Input::Tick) });
+    assert_eq!(sniffed.report(Time::from_seconds(10.0)).ports.len(), 1);
+}
+
+#[test]
 fn pulses_are_counted() {
     let pulse =
         |n: u32| Input::Pulse(Pulse { time: Time::from_seconds(f64::from(n)), sequence: n });

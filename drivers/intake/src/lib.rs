@@ -96,6 +96,7 @@ impl Intake {
                     core.bus(arrival.port, stamp.monotonic, *event);
                 }
                 Input::Pulse(pulse) => core.utc.pulse(*pulse),
+                Input::Tick => {}
                 Input::State(state) => {
                     if matches!(state, PortState::Lost { .. } | PortState::Ended) {
                         port.intake.interrupt(stamp, |frame| core.frame(index, stamp, frame));

@@ -203,8 +203,8 @@ pub enum Edge {
 pub struct OutputConfig {
     /// Where messages go.
     pub destination: Destination,
-    /// Bytes that may wait to be written. If left out: two seconds' worth on a serial line, 64 KiB
-    /// elsewhere.
+    /// Bytes that may wait to be written, of a TCP server for each client; the oldest go when there are
+    /// more. If left out: 1 MiB for a file, 64 KiB elsewhere, where only the newest of each slot waits.
     #[serde(default)]
     pub waiting_bytes: Option<usize>,
 }
@@ -221,9 +221,20 @@ pub enum Destination {
     TcpServer(TcpServer),
     /// A file, at its end.
     File(File),
-    /// A pseudo terminal that is made, with a symbolic link to it at this path: programs read from
-    /// it as from a serial port.
-    Pty(File),
+    /// A pseudo terminal that is made: programs read from it as from a serial port.
+    Pty(Pty),
+}
+
+/// A pseudo terminal to make.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Pty {
+    /// Path of the symbolic link to it.
+    pub path: PathBuf,
+    /// Symbols per second of a serial line with 8 data bits, no parity and 1 stop bit, no faster than
+    /// which it is written to; as fast as it is read if left out.
+    #[serde(default)]
+    pub baud: Option<u32>,
 }
 
 /// Where datagrams are sent.
@@ -238,6 +249,9 @@ pub struct UdpOutput {
     /// Address of the interface by which to leave to a group; the system's choice if left out.
     #[serde(default)]
     pub interface: Option<Ipv4Addr>,
+    /// Whether programs on this computer hear what is sent to a group.
+    #[serde(default = "default_loopback")]
+    pub loopback: bool,
 }
 
 impl PortConfig {
@@ -294,12 +308,46 @@ impl OutputConfig {
         let mut faults = match &self.destination {
             Destination::Serial(serial) => serial.faults(),
             Destination::TcpServer(server) => server.faults().into_iter().collect(),
-            _ => Vec::new(),
+            Destination::Pty(Pty { baud: Some(0), .. }) => {
+                vec!["a baud rate must not be 0".to_owned()]
+            }
+            Destination::Udp(_) | Destination::File(_) | Destination::Pty(_) => Vec::new(),
         };
         if self.waiting_bytes == Some(0) {
             faults.push("waiting_bytes must not be 0".to_owned());
         }
         faults
+    }
+
+    /// Bytes per second that the destination can carry; `None` if it has no pace of its own.
+    #[must_use]
+    pub fn capacity(&self) -> Option<f64> {
+        let (baud, symbols) = match &self.destination {
+            Destination::Serial(serial) => (serial.baud, serial.symbols()),
+            Destination::Pty(pty) => (pty.baud?, Pty::SYMBOLS),
+            Destination::Udp(_) | Destination::TcpServer(_) | Destination::File(_) => return None,
+        };
+        Some(f64::from(baud) / f64::from(symbols))
+    }
+}
+
+impl Pty {
+    /// Symbols of a character: start bit, 8 data bits, stop bit.
+    pub(super) const SYMBOLS: u32 = 10;
+
+    /// A terminal that is written to as fast as it is read.
+    #[must_use]
+    pub fn new(path: PathBuf) -> Self {
+        Pty { path, baud: None }
+    }
+}
+
+impl UdpOutput {
+    /// Datagrams to this address; to a group they pass no router, leave by the interface of the system's
+    /// choice, and are heard on this computer.
+    #[must_use]
+    pub fn new(to: SocketAddr) -> Self {
+        UdpOutput { to, ttl: default_ttl(), interface: None, loopback: default_loopback() }
     }
 }
 
@@ -380,6 +428,10 @@ fn default_ttl() -> u32 {
     1
 }
 
+fn default_loopback() -> bool {
+    true
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -404,5 +456,28 @@ mod tests {
         let text = "patience_s = 0.0\n[transport]\nkind = \"serial\"\ndevice = \"x\"\n\
                     baud = 0\ndata_bits = 9\nstop_bits = 3\nprobe_s = 0.0";
         assert_eq!(toml::from_str::<PortConfig>(text).unwrap().faults().len(), 5);
+    }
+
+    #[test]
+    fn an_output_carries_what_its_line_can() {
+        let capacity = |text: &str| {
+            let text = format!("destination = {{ {text} }}");
+            toml::from_str::<OutputConfig>(&text).unwrap().capacity()
+        };
+        let line = "kind = \"serial\", device = \"x\", baud = 4800";
+        assert_eq!(capacity(line), Some(480.0));
+        assert_eq!(capacity(&format!("{line}, parity = \"even\", stop_bits = 2")), Some(400.0));
+        assert_eq!(capacity("kind = \"pty\", path = \"x\""), None);
+        assert_eq!(capacity("kind = \"pty\", path = \"x\", baud = 38400"), Some(3840.0));
+        assert_eq!(capacity("kind = \"udp\", to = \"239.192.0.4:60004\""), None);
+    }
+
+    #[test]
+    fn a_group_is_heard_on_this_computer_unless_it_is_said_otherwise() {
+        let text = "destination = { kind = \"udp\", to = \"239.192.0.4:60004\" }";
+        let to = SocketAddr::from((Ipv4Addr::new(239, 192, 0, 4), 60_004));
+        let config: OutputConfig = toml::from_str(text).unwrap();
+        assert_eq!(config, OutputConfig::new(Destination::Udp(UdpOutput::new(to))));
+        assert!(UdpOutput::new(to).loopback);
     }
 }

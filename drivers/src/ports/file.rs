@@ -56,10 +56,10 @@ pub(super) async fn append(config: &File, teller: &mut Teller, outbox: &Outbox) 
     teller.open(path.to_string());
     loop {
         let message = outbox.next().await;
-        let written = file.write_all(&message.bytes).await;
+        let written = file.write_all(message.bytes()).await;
         // the file is written by another thread, which tells here what became of it
         match written.and(file.flush().await) {
-            Ok(()) => message.written(),
+            Ok(()) => message.written(outbox.now()),
             Err(error) => return Outcome::Lost(error.to_string()),
         }
     }

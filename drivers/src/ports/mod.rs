@@ -14,7 +14,20 @@
 //! A CAN port does the same in its own way, see [`crate::can`].
 //!
 //! Nothing is ever written to a port that is not configured for writing; no baud rate is searched by
-//! writing. [`spawn_output`] starts a port that is only written to.
+//! writing.
+//!
+//! [`spawn_output`] starts a port that is only written to. What it is handed is data that grow old:
+//!
+//! | trouble | what is done |
+//! |---|---|
+//! | a device or client takes less than it is handed | the newest message of each [slot](Outgoing) waits, older ones are dropped and counted |
+//! | a message waits for longer than its period | it is not started any more |
+//! | a list is longer than a serial line can carry | every slot has its turn, see [`spawn_output`] |
+//! | the system would take more than the line carries | it is given a message when the line is nearly free, by reckoning and by what the driver holds |
+//! | nobody reads a made terminal | what is a second old is forgotten |
+//! | a client does not read | the system is let hold little for it; after some 20 s it is let go |
+//!
+//! [`OutputPort::status`] tells what left and how old it was.
 //!
 //! The time of receipt is that of the return of a read, by the given [`Clock`]; of pulses and of frames of
 //! the kernel's CAN interfaces it is the kernel's.
@@ -24,8 +37,11 @@ mod clock;
 mod config;
 mod file;
 mod found;
+mod histogram;
 mod low_latency;
 mod outbox;
+mod outgoing;
+mod pace;
 mod pps;
 mod probe;
 mod pty;
@@ -33,17 +49,20 @@ mod queue;
 mod run;
 mod serial;
 mod stream;
+mod tally;
 mod tcp;
 mod teller;
 mod udp;
+mod waiting;
 
 pub use chrony::{ChronySock, Leap, SAMPLE_LENGTH, Sample};
 pub use clock::Clock;
 pub use config::{
-    Destination, Edge, File, FlowControl, OutputConfig, Parity, PortConfig, Pps, Serial,
+    Destination, Edge, File, FlowControl, OutputConfig, Parity, PortConfig, Pps, Pty, Serial,
     SerialMode, TcpClient, TcpServer, Transport, Udp, UdpOutput,
 };
 pub use found::{FoundKind, FoundPort, list};
+pub use outgoing::{AgeStatus, Outgoing, OutputStatus, SlotStatus};
 pub use probe::{Judge, Judgement};
 pub use queue::{FRAME, Queue, Receiver, WAITING_LIMIT, queue};
 pub use run::{OutputPort, PortHandle, Surroundings, spawn, spawn_output};

@@ -220,7 +220,7 @@ fn length(arrival: &Arrival) -> usize {
     match &arrival.input {
         Input::Bytes(bytes) => bytes.len(),
         Input::Can(_) | Input::Bus(_) => FRAME,
-        Input::Pulse(_) | Input::State(_) => 0,
+        Input::Pulse(_) | Input::State(_) | Input::Tick => 0,
     }
 }
 

@@ -1,7 +1,7 @@
 //! The task of a port: open, listen, lose, wait, open again, for ever.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
 use insd_base::{PortId, Span};
@@ -10,10 +10,11 @@ use tokio::time::sleep;
 
 use super::clock::Clock;
 use super::config::{Destination, OutputConfig, PortConfig, Serial, Transport};
-use super::outbox::Outbox;
+use super::outbox::{Keeping, Outbox, Outlet};
+use super::outgoing::{Outgoing, OutputStatus};
 use super::probe::Judge;
 use super::queue::Queue;
-use super::teller::Teller;
+use super::teller::{Shown, Teller};
 use super::{file, pps, pty, serial, tcp, udp};
 use crate::can::{self, CanConfig};
 
@@ -28,7 +29,10 @@ const LASTING: Span = Span::from_nanos(5_000_000_000);
 /// Bytes that may wait to be written where nothing else is said.
 const OUTBOX_LIMIT: usize = 64 * 1024;
 
-/// Seconds' worth of bytes that may wait for a serial line.
+/// Bytes that may wait to be written to a file: some seconds in which a disk is busy.
+const FILE_LIMIT: usize = 1024 * 1024;
+
+/// Seconds' worth of bytes that may wait for a serial line where all is kept in order.
 const SERIAL_SECONDS: u32 = 2;
 
 /// What every port is given.
@@ -48,14 +52,18 @@ pub struct Surroundings {
 #[derive(Debug)]
 pub struct PortHandle {
     work: Work,
-    outbox: Option<Outbox>,
+    outlet: Option<Outlet>,
     attempts: Arc<AtomicU64>,
 }
 
 /// A port that is only written to, at work. It stops when this is dropped.
 #[must_use = "the port stops when its handle is dropped"]
 #[derive(Debug)]
-pub struct OutputPort(PortHandle);
+pub struct OutputPort {
+    handle: PortHandle,
+    outlet: Outlet,
+    shown: Shown,
+}
 
 #[derive(Debug)]
 enum Work {
@@ -71,6 +79,14 @@ pub(crate) enum Outcome {
     Lost(String),
     /// There is no more to come.
     Ended,
+}
+
+/// What is to be written, for those that write.
+struct Written {
+    /// For a port that has one peer.
+    outbox: Option<Outbox>,
+    /// For a port that has many.
+    outlet: Option<Outlet>,
 }
 
 enum Link {
@@ -89,53 +105,65 @@ pub fn spawn(port: PortId, config: PortConfig, surroundings: Surroundings) -> Po
     }
     let Surroundings { clock, queue, judge } = surroundings;
     let patience = Some(Span::from_seconds(config.patience_s));
+    let outlet = config
+        .write
+        .then(|| Outlet::new(Keeping::All, limit_of_input(&config.transport), Arc::clone(&clock)));
     let teller = Teller::new(port, clock, queue, patience);
-    let outbox = config.write.then(|| Outbox::new(limit_of_input(&config.transport)));
     let attempts = Arc::<AtomicU64>::default();
     let work = match config.transport {
         Transport::Pps(pps) => Work::Thread(pps::spawn(pps, teller, Arc::clone(&attempts))),
         transport => {
-            Work::task(Link::Input(transport, judge), teller, outbox.clone(), Arc::clone(&attempts))
+            Work::task(Link::Input(transport, judge), teller, outlet.clone(), Arc::clone(&attempts))
         }
     };
-    PortHandle { work, outbox, attempts }
+    PortHandle { work, outlet, attempts }
 }
 
 /// Starts an output. To be called inside a tokio runtime that can do I/O and timers. Its states are
 /// told in the same way; what the far end says is read and forgotten.
 ///
-/// What waited while a device was away is dropped when it is there again, because it is old by then;
-/// for a file it is kept.
+/// Of each slot one message waits at most, the newest, and none is started when it is older than its
+/// period; what waited while a device was away is dropped when it is there again. A line that is behind
+/// does each slot justice: what is due first leaves first, and what was passed over comes nearer to its
+/// turn. In a file all is kept, in order.
+///
+/// A message that is handed over when it is already as old as its period, or nearly so, may still wait
+/// for half a period and at most 10 ms.
 pub fn spawn_output(port: PortId, config: OutputConfig, surroundings: Surroundings) -> OutputPort {
-    let teller = Teller::new(port, surroundings.clock, surroundings.queue, None);
-    let usual = match &config.destination {
-        Destination::Serial(serial) => serial_limit(serial),
-        _ => OUTBOX_LIMIT,
+    let (keeping, usual) = match &config.destination {
+        Destination::File(_) => (Keeping::All, FILE_LIMIT),
+        _ => (Keeping::Newest, OUTBOX_LIMIT),
     };
-    let outbox = Outbox::new(config.waiting_bytes.unwrap_or(usual));
+    let limit = config.waiting_bytes.unwrap_or(usual);
+    let outlet = Outlet::new(keeping, limit, Arc::clone(&surroundings.clock));
+    let teller = Teller::new(port, surroundings.clock, surroundings.queue, None);
+    let shown = teller.shown();
     let attempts = Arc::<AtomicU64>::default();
     let link = Link::Output(config.destination);
-    let work = Work::task(link, teller, Some(outbox.clone()), Arc::clone(&attempts));
-    OutputPort(PortHandle { work, outbox: Some(outbox), attempts })
+    let work = Work::task(link, teller, Some(outlet.clone()), Arc::clone(&attempts));
+    OutputPort { handle: PortHandle { work, outlet: None, attempts }, outlet, shown }
 }
 
 impl PortHandle {
     /// A port that a task of its own listens to.
     pub(crate) fn of_task(task: AbortHandle, attempts: Arc<AtomicU64>) -> Self {
-        PortHandle { work: Work::Task(task), outbox: None, attempts }
+        PortHandle { work: Work::Task(task), outlet: None, attempts }
     }
 
-    /// Puts a whole message into the queue of what is to be written, and never waits. Gives whether the
-    /// port is one that is written to.
+    /// Puts a whole message behind what is still to be written, and never waits: a command, for example.
+    /// Gives whether the port is one that is written to. When too many bytes wait the oldest go.
     pub fn send(&self, message: Vec<u8>) -> bool {
-        self.outbox.as_ref().map(|outbox| outbox.send(message)).is_some()
+        let Some(outlet) = &self.outlet else { return false };
+        let (valid, period) = (outlet.now(), Span::ZERO);
+        outlet.send(Outgoing { slot: 0, bytes: message, valid, period });
+        true
     }
 
     /// Whole messages that were dropped since the start, the oldest first, because they could not be
     /// written soon enough. Of a TCP server: counted for each client.
     #[must_use]
     pub fn dropped(&self) -> u64 {
-        self.outbox.as_ref().map_or(0, Outbox::dropped)
+        self.outlet.as_ref().map_or(0, |outlet| outlet.tally().all_dropped())
     }
 
     /// How often it was tried to open the port.
@@ -155,37 +183,64 @@ impl Drop for PortHandle {
 }
 
 impl OutputPort {
-    /// Puts a whole message into the queue of what is to be written, and never waits.
-    pub fn send(&self, message: Vec<u8>) {
-        self.0.send(message);
+    /// Hands a message over, and never waits.
+    pub fn send(&self, message: Outgoing) {
+        self.outlet.send(message);
     }
 
-    /// See [`PortHandle::dropped`].
+    /// What it has done since its start.
+    #[must_use]
+    pub fn status(&self) -> OutputStatus {
+        let slots = self.outlet.tally().status();
+        OutputStatus {
+            state: self.shown.lock().unwrap_or_else(PoisonError::into_inner).clone(),
+            attempts: self.handle.attempts(),
+            sent: slots.iter().map(|slot| slot.sent).sum(),
+            dropped: slots.iter().map(|slot| slot.dropped).sum(),
+            waiting: slots.iter().map(|slot| slot.waiting).sum(),
+            bytes: slots.iter().map(|slot| slot.bytes).sum(),
+            slots,
+        }
+    }
+
+    /// Messages of all slots that will never leave, see [`OutputStatus::dropped`].
     #[must_use]
     pub fn dropped(&self) -> u64 {
-        self.0.dropped()
+        self.outlet.tally().all_dropped()
     }
 
     /// See [`PortHandle::attempts`].
     #[must_use]
     pub fn attempts(&self) -> u64 {
-        self.0.attempts()
+        self.handle.attempts()
     }
 }
 
 impl Work {
-    fn task(link: Link, teller: Teller, outbox: Option<Outbox>, attempts: Arc<AtomicU64>) -> Self {
-        Work::Task(tokio::spawn(run(link, teller, outbox, attempts)).abort_handle())
+    fn task(link: Link, teller: Teller, outlet: Option<Outlet>, attempts: Arc<AtomicU64>) -> Self {
+        // made before the task starts, so that nothing that is handed over meanwhile is missed
+        let outbox = outlet.as_ref().filter(|_| !link.has_clients()).map(Outlet::outbox);
+        let written = Written { outbox, outlet };
+        Work::Task(tokio::spawn(run(link, teller, written, attempts)).abort_handle())
     }
 }
 
-async fn run(link: Link, mut teller: Teller, outbox: Option<Outbox>, attempts: Arc<AtomicU64>) {
+impl Link {
+    fn has_clients(&self) -> bool {
+        matches!(
+            self,
+            Link::Input(Transport::TcpServer(_), _) | Link::Output(Destination::TcpServer(_))
+        )
+    }
+}
+
+async fn run(link: Link, mut teller: Teller, written: Written, attempts: Arc<AtomicU64>) {
     let mut pause = Pause::default();
     let mut last_baud = None;
     loop {
         attempts.fetch_add(1, Ordering::Relaxed);
         teller.begin();
-        let outcome = attempt(&link, &mut last_baud, &mut teller, outbox.as_ref()).await;
+        let outcome = attempt(&link, &mut last_baud, &mut teller, &written).await;
         if !tell(outcome, &mut teller) {
             return;
         }
@@ -210,8 +265,9 @@ async fn attempt(
     link: &Link,
     last_baud: &mut Option<u32>,
     teller: &mut Teller,
-    outbox: Option<&Outbox>,
+    written: &Written,
 ) -> Outcome {
+    let (outbox, outlet) = (written.outbox.as_ref(), written.outlet.as_ref());
     match (link, outbox) {
         (Link::Input(Transport::Serial(config), judge), _) => {
             serial::attempt(config, judge.as_ref(), last_baud, teller, outbox).await
@@ -221,7 +277,7 @@ async fn attempt(
             tcp::call(config, teller, outbox).await
         }
         (Link::Input(Transport::TcpServer(config), _), _) => {
-            tcp::serve(config, teller, outbox).await
+            tcp::serve(config, teller, outlet).await
         }
         (Link::Input(Transport::File(config), _), _) => file::read_whole(config, teller).await,
         (Link::Input(Transport::Pipe(config), _), _) => file::listen(config, teller).await,
@@ -229,7 +285,7 @@ async fn attempt(
             serial::attempt(config, None, last_baud, teller, outbox).await
         }
         (Link::Output(Destination::TcpServer(config)), _) => {
-            tcp::serve(config, teller, outbox).await
+            tcp::serve(config, teller, outlet).await
         }
         (Link::Output(Destination::Udp(config)), Some(outbox)) => {
             udp::talk(config, teller, outbox).await

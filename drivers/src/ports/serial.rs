@@ -4,10 +4,10 @@
 use std::io;
 use std::path::Path;
 use std::pin::Pin;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::task::{Context, Poll};
 use std::time::Duration;
 
-use insd_base::Span;
 use rustix::fs::{Mode, OFlags};
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio_serial::{ClearBuffer, SerialPort, SerialPortBuilder, SerialStream};
@@ -15,9 +15,10 @@ use tokio_serial::{ClearBuffer, SerialPort, SerialPortBuilder, SerialStream};
 use super::config::{FlowControl, Parity, Serial};
 use super::low_latency;
 use super::outbox::Outbox;
+use super::pace::Pace;
 use super::probe::{Doubt, Judge, probe};
 use super::run::Outcome;
-use super::stream::{Pace, converse};
+use super::stream::converse;
 use super::teller::Teller;
 
 /// An open line.
@@ -92,10 +93,50 @@ pub(super) async fn attempt(
         outbox.clear();
     }
     teller.open(format!("{device} at {baud} baud"));
-    let per_byte = Span::from_seconds(f64::from(config.symbols()) / f64::from(baud.max(1)));
-    let pace = Pace::new(teller.clock(), per_byte);
     let doubt = judge.map(|judge| Doubt::new(judge.clone(), teller.now().monotonic));
-    Outcome::Lost(converse(&mut line.stream, teller, outbox, Some(pace), doubt).await)
+    let clock = teller.clock();
+    let shared = Mutex::new(&mut line.stream);
+    let pace = Pace::new(clock, config.symbols(), baud);
+    let pace = pace.asking(|| Half(&shared).lock().bytes_to_write().ok());
+    let halves = (Half(&shared), Half(&shared));
+    Outcome::Lost(converse(halves, teller, outbox, Some(pace), doubt).await)
+}
+
+/// One half of a line that is read and written by one task, and asked what the driver still holds.
+struct Half<'a>(&'a Mutex<&'a mut SerialStream>);
+
+impl<'a> Half<'a> {
+    fn lock(&self) -> MutexGuard<'a, &'a mut SerialStream> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl AsyncRead for Half<'_> {
+    fn poll_read(
+        self: Pin<&mut Self>,
+        cx: &mut Context<'_>,
+        bytes: &mut ReadBuf<'_>,
+    ) -> Poll<io::Result<()>> {
+        Pin::new(&mut **self.lock()).poll_read(cx, bytes)
+    }
+}
+
+impl AsyncWrite for Half<'_> {
+    fn poll_write(
+        self: Pin<&mut Self>,
+        cx: &mut Context<'_>,
+        bytes: &[u8],
+    ) -> Poll<io::Result<usize>> {
+        Pin::new(&mut **self.lock()).poll_write(cx, bytes)
+    }
+
+    fn poll_flush(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Poll::Ready(Ok(()))
+    }
+
+    fn poll_shutdown(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Poll::Ready(Ok(()))
+    }
 }
 
 /// Listens at each rate, first at the one that fitted last time, until one fits.

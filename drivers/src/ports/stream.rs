@@ -1,64 +1,29 @@
 //! Listening and talking on anything that is a stream of bytes.
 
-use std::sync::Arc;
-use std::time::Duration;
+use std::io;
+use std::pin::Pin;
 
-use insd_base::{Span, Time};
 use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt};
-use tokio::time::{sleep, timeout};
+use tokio::time::timeout;
 
-use super::clock::Clock;
-use super::outbox::{Outbox, next_of};
+use super::outbox::Outbox;
+use super::pace::Pace;
 use super::probe::Doubt;
 use super::teller::Teller;
-
-/// How long what was written may take on a line before more is written: as much as a sleep may be
-/// longer than it was meant to be, so that the line never waits for us.
-const LEAD: Span = Span::from_nanos(20_000_000);
 
 /// Most bytes of one read.
 pub(super) const READ: usize = 16 * 1024;
 
-/// The pace of a line. Writing no faster keeps the system's own buffer nearly empty, where messages
-/// would grow old unseen.
-pub(super) struct Pace {
-    clock: Arc<dyn Clock>,
-    per_byte: Span,
-    /// When the line has carried all that was written.
-    idle: Time,
-}
-
-impl Pace {
-    /// The pace of a line on which a byte takes so long.
-    pub(super) fn new(clock: Arc<dyn Clock>, per_byte: Span) -> Self {
-        Pace { clock, per_byte, idle: Time::START }
-    }
-
-    /// Waits until the line has nearly carried what was written before and these bytes.
-    async fn carry(&mut self, bytes: usize) {
-        let now = self.clock.now().monotonic;
-        let bytes = i64::try_from(bytes).unwrap_or(i64::MAX);
-        let span = Span::from_nanos(self.per_byte.as_nanos().saturating_mul(bytes));
-        self.idle = self.idle.max(now) + span;
-        let ahead = self.idle - now;
-        if ahead > LEAD {
-            let nanos = ahead.as_nanos() - LEAD.as_nanos();
-            sleep(Duration::from_nanos(nanos.unsigned_abs())).await;
-        }
-    }
-}
-
-/// Listens to a stream, and writes to it what waits if there is an outbox. Returns with the reason
-/// for which it is lost: a read of nothing or an error ends it at once, as an unplugged device goes
-/// on saying the same for ever.
-pub(super) async fn converse<S: AsyncRead + AsyncWrite>(
-    stream: S,
+/// Listens to one half of a stream, and writes to the other what waits if there is an outbox. Returns
+/// with the reason for which it is lost: a read of nothing or an error ends it at once, as an unplugged
+/// device goes on saying the same for ever.
+pub(super) async fn converse<R: AsyncRead + Unpin, W: AsyncWrite + Unpin>(
+    (reader, writer): (R, W),
     teller: &mut Teller,
     outbox: Option<&Outbox>,
-    pace: Option<Pace>,
+    pace: Option<Pace<'_>>,
     doubt: Option<Doubt>,
 ) -> String {
-    let (reader, writer) = tokio::io::split(stream);
     tokio::select! {
         reason = listen(reader, teller, doubt) => reason,
         reason = talk(writer, outbox, pace) => reason,
@@ -107,17 +72,30 @@ pub(super) async fn read<R: AsyncRead + Unpin>(
 pub(super) async fn talk<W: AsyncWrite + Unpin>(
     mut writer: W,
     outbox: Option<&Outbox>,
-    mut pace: Option<Pace>,
+    mut pace: Option<Pace<'_>>,
 ) -> String {
+    let Some(outbox) = outbox else { return std::future::pending().await };
     loop {
-        let message = next_of(outbox).await;
-        if let Err(error) = writer.write_all(&message.bytes).await {
+        if let Err(error) = write_next(&mut writer, outbox, pace.as_mut()).await {
             return error.to_string();
         }
-        let length = message.bytes.len();
-        message.written();
-        if let Some(pace) = &mut pace {
-            pace.carry(length).await;
-        }
     }
+}
+
+async fn write_next<W: AsyncWrite + Unpin>(
+    writer: &mut W,
+    outbox: &Outbox,
+    mut pace: Option<&mut Pace<'_>>,
+) -> io::Result<()> {
+    if let Some(pace) = &mut pace {
+        pace.room().await;
+    }
+    let offered =
+        outbox.offer(pace.as_deref(), |cx, bytes| Pin::new(&mut *writer).poll_write(cx, bytes));
+    let (message, taken) = offered.await;
+    let rest = message.bytes().get(taken?..).unwrap_or_default();
+    writer.write_all(rest).await?;
+    let (now, length) = (outbox.now(), message.bytes().len());
+    message.written(pace.map_or(now, |pace| pace.carry(now, length)));
+    Ok(())
 }

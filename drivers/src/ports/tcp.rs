@@ -8,12 +8,12 @@ use insd_base::Stamp;
 use socket2::{SockRef, TcpKeepalive};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::mpsc;
-use tokio::task::JoinSet;
+use tokio::task::{AbortHandle, JoinSet};
 use tokio::time::{sleep, timeout};
 
 use super::clock::Clock;
 use super::config::{TcpClient, TcpServer};
-use super::outbox::{Outbox, next_of};
+use super::outbox::{Outbox, Outlet};
 use super::run::Outcome;
 use super::stream::{converse, read, talk};
 use super::teller::Teller;
@@ -23,6 +23,9 @@ pub(crate) const CALLING: Duration = Duration::from_secs(5);
 
 /// A peer that has vanished without a word is given up after about twice this.
 const KEEPALIVE: Duration = Duration::from_secs(10);
+
+/// Bytes that the system may hold for a client, sent and unsent; it doubles this for its own needs.
+const HELD: usize = 16 * 1024;
 
 /// Pause after a client could not be accepted, and between telling how many there are.
 const ACCEPTING: Duration = Duration::from_millis(200);
@@ -48,14 +51,15 @@ pub(super) async fn call(
         outbox.clear();
     }
     teller.open(format!("tcp {address}"));
-    Outcome::Lost(converse(stream, teller, outbox, None, None).await)
+    Outcome::Lost(converse(tokio::io::split(stream), teller, outbox, None, None).await)
 }
 
-/// Takes calls, listens and talks to all who call. It is lost only when the address cannot be had.
+/// Takes calls, listens and talks to all who call: each client has an outbox of its own, from the moment
+/// at which it is let in. The server is lost only when the address cannot be had.
 pub(super) async fn serve(
     config: &TcpServer,
     teller: &mut Teller,
-    outbox: Option<&Outbox>,
+    outlet: Option<&Outlet>,
 ) -> Outcome {
     let listener = match TcpListener::bind(config.bind).await {
         Ok(listener) => listener,
@@ -68,16 +72,12 @@ pub(super) async fn serve(
     loop {
         tokio::select! {
             accepted = listener.accept() => match accepted {
-                Ok((stream, _)) => clients.add(stream, teller.clock(), &speaking, outbox),
+                Ok((stream, _)) => clients.add(stream, teller.clock(), &speaking, outlet),
                 Err(_) => sleep(ACCEPTING).await,
             },
             Some((stamp, bytes)) = heard.recv() => {
                 let bytes: Vec<u8> = bytes;
                 teller.bytes(stamp, &bytes);
-            }
-            message = next_of(outbox) => {
-                clients.send(&message.bytes);
-                message.written();
             }
             _ = clients.tasks.join_next_with_id(), if !clients.tasks.is_empty() => {
                 clients.forget_gone();
@@ -94,7 +94,7 @@ pub(super) async fn serve(
 struct Clients {
     limit: usize,
     tasks: JoinSet<()>,
-    open: Vec<(tokio::task::AbortHandle, Option<Outbox>)>,
+    open: Vec<AbortHandle>,
 }
 
 type Heard = (Stamp, Vec<u8>);
@@ -106,26 +106,21 @@ impl Clients {
         stream: TcpStream,
         clock: Arc<dyn Clock>,
         speaking: &mpsc::Sender<Heard>,
-        outbox: Option<&Outbox>,
+        outlet: Option<&Outlet>,
     ) {
         self.forget_gone();
         if self.open.len() >= self.limit {
             return;
         }
         keep_alive(&stream);
-        let outbox = outbox.map(Outbox::for_client);
-        let client = converse_with_client(stream, clock, speaking.clone(), outbox.clone());
-        self.open.push((self.tasks.spawn(client), outbox));
-    }
-
-    fn send(&self, message: &[u8]) {
-        for outbox in self.open.iter().filter_map(|(_, outbox)| outbox.as_ref()) {
-            outbox.send(message.to_vec());
-        }
+        hold_little(&stream);
+        let client =
+            converse_with_client(stream, clock, speaking.clone(), outlet.map(Outlet::outbox));
+        self.open.push(self.tasks.spawn(client));
     }
 
     fn forget_gone(&mut self) {
-        self.open.retain(|(task, _)| !task.is_finished());
+        self.open.retain(|task| !task.is_finished());
     }
 }
 
@@ -148,6 +143,14 @@ async fn converse_with_client(
         () = listen => {}
         _ = talk(writer, outbox.as_ref(), None) => {}
     }
+}
+
+/// Lets the system hold little for a client that does not read, and take nothing more from us while it
+/// holds something that could not be sent yet: what waits with us can still be replaced by newer data.
+fn hold_little(stream: &TcpStream) {
+    let socket = SockRef::from(stream);
+    let _ = socket.set_send_buffer_size(HELD);
+    let _ = socket.set_tcp_notsent_lowat(1);
 }
 
 /// Finds out when the peer has vanished without closing, and sends small messages at once. What the

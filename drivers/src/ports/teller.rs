@@ -1,6 +1,6 @@
 //! Tells what becomes of a port: bytes and frames with their stamp, and each change of state once.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use insd_base::input::{Arrival, Input, PortId, PortState, Pulse, Stamp};
@@ -15,6 +15,9 @@ const OVERRUN_PERIOD: Span = Span::from_nanos(1_000_000_000);
 /// How long a port sleeps when nothing is due.
 const REST: Duration = Duration::from_secs(60);
 
+/// The last state of a port that was told.
+pub(crate) type Shown = Arc<Mutex<Option<PortState>>>;
+
 /// The voice of one port.
 #[derive(Clone)]
 pub(crate) struct Teller {
@@ -25,6 +28,8 @@ pub(crate) struct Teller {
     patience: Option<Span>,
     /// The last of open, absent and lost that was told.
     told: Option<PortState>,
+    /// The last state that was told, for others to look at.
+    shown: Shown,
     /// When it was opened, if it was since the last [`Teller::begin`].
     opened: Option<Time>,
     /// When it was last heard, or opened; `None` while it is not open or silent.
@@ -50,6 +55,7 @@ impl Teller {
             queue,
             patience,
             told: None,
+            shown: Shown::default(),
             opened: None,
             heard: None,
             silent: false,
@@ -66,6 +72,11 @@ impl Teller {
     /// The clock, for a task of its own.
     pub(crate) fn clock(&self) -> Arc<dyn Clock> {
         Arc::clone(&self.clock)
+    }
+
+    /// The last state that was told, for others to look at.
+    pub(crate) fn shown(&self) -> Shown {
+        Arc::clone(&self.shown)
     }
 
     /// An attempt to open begins.
@@ -193,6 +204,7 @@ impl Teller {
     }
 
     fn state(&mut self, stamp: Stamp, state: PortState) {
+        *self.shown.lock().unwrap_or_else(PoisonError::into_inner) = Some(state.clone());
         self.push(stamp, Input::State(state));
     }
 

@@ -83,17 +83,19 @@ pub(super) async fn talk(config: &UdpOutput, teller: &mut Teller, outbox: &Outbo
     outbox.clear();
     teller.open(format!("udp to {}", config.to));
     loop {
-        let message = outbox.next().await;
-        match socket.send_to(&message.bytes, config.to).await {
-            Ok(_) => message.written(),
-            // longer than a datagram can be: it alone is lost
-            Err(error) if error.raw_os_error() == Some(TOO_LONG) => {}
+        let (message, taken) =
+            outbox.offer(None, |cx, bytes| socket.poll_send_to(cx, bytes, config.to)).await;
+        match taken {
+            Ok(_) => message.written(outbox.now()),
+            Err(error) if error.raw_os_error().is_some_and(|error| ALONE.contains(&error)) => {}
             Err(error) => return Outcome::Lost(error.to_string()),
         }
     }
 }
 
-const TOO_LONG: i32 = rustix::io::Errno::MSGSIZE.raw_os_error();
+/// Errors that cost one message alone: it is longer than a datagram can be, or the interface is full.
+const ALONE: [i32; 2] =
+    [rustix::io::Errno::MSGSIZE.raw_os_error(), rustix::io::Errno::NOBUFS.raw_os_error()];
 
 fn open_output(config: &UdpOutput) -> io::Result<UdpSocket> {
     let any: IpAddr = match config.to {
@@ -106,8 +108,10 @@ fn open_output(config: &UdpOutput) -> io::Result<UdpSocket> {
         socket.set_broadcast(true)?;
         socket.set_multicast_ttl_v4(config.ttl)?;
         socket.set_multicast_if_v4(&interface(config.interface))?;
+        socket.set_multicast_loop_v4(config.loopback)?;
     } else {
         socket.set_multicast_hops_v6(config.ttl)?;
+        socket.set_multicast_loop_v6(config.loopback)?;
     }
     socket.bind(&any.into())?;
     UdpSocket::from_std(socket.into())
@@ -126,4 +130,23 @@ fn interface(configured: Option<Ipv4Addr>) -> Ipv4Addr {
 /// The sender, in IPv4 if it is one in the disguise of IPv6.
 fn plain(from: SocketAddr) -> IpAddr {
     from.ip().to_canonical()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[tokio::test]
+    async fn a_socket_for_a_group_has_the_options_asked_for() {
+        for (ttl, loopback) in [(1, true), (7, false)] {
+            let to = SocketAddr::from((Ipv4Addr::new(239, 192, 0, 4), 60_004));
+            let interface = Some(Ipv4Addr::LOCALHOST);
+            let config = UdpOutput { ttl, interface, loopback, ..UdpOutput::new(to) };
+            let socket = open_output(&config).unwrap();
+            let socket = socket2::SockRef::from(&socket);
+            assert_eq!(socket.multicast_ttl_v4().unwrap(), ttl);
+            assert_eq!(socket.multicast_loop_v4().unwrap(), loopback);
+            assert_eq!(socket.multicast_if_v4().unwrap(), Ipv4Addr::LOCALHOST);
+        }
+    }
 }

@@ -22,6 +22,7 @@ mod kind {
     pub(super) const ENDED: u8 = 8;
     pub(super) const CAN: u8 = 9;
     pub(super) const BUS: u8 = 10;
+    pub(super) const TICK: u8 = 11;
     pub(super) const GAP: u8 = 15;
 }
 
@@ -78,6 +79,7 @@ impl Encoder {
                 put(bytes, u64::from(pulse.sequence));
             }
             Input::State(state) => put_state(bytes, state),
+            Input::Tick => {}
         }
     }
 }
@@ -88,6 +90,7 @@ fn kind_of(input: &Input) -> u8 {
         Input::Can(_) => kind::CAN,
         Input::Bus(_) => kind::BUS,
         Input::Pulse(_) => kind::PULSE,
+        Input::Tick => kind::TICK,
         Input::State(state) => match state {
             PortState::Open { .. } => kind::OPEN,
             PortState::Absent { .. } => kind::ABSENT,
@@ -187,6 +190,7 @@ fn input(kind: u8, bytes: &mut &[u8], monotonic: i64) -> Option<Input> {
         kind::SPEAKING => PortState::Speaking,
         kind::OVERRUN => PortState::Overrun { bytes: take(bytes)? },
         kind::ENDED => PortState::Ended,
+        kind::TICK => return Some(Input::Tick),
         _ => return None,
     };
     Some(Input::State(state))

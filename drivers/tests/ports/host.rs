@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use insd_base::{Arrival, Input, PortId, PortState};
+use insd_base::{Arrival, Input, PortId, PortState, Span, Time};
 use insd_drivers::ports::{
-    OutputConfig, OutputPort, PortConfig, PortHandle, Receiver, Surroundings, Transport,
+    Outgoing, OutputConfig, OutputPort, PortConfig, PortHandle, Receiver, Surroundings, Transport,
     WAITING_LIMIT, queue, spawn, spawn_output,
 };
 use rustix::fs::{Mode, OFlags, fcntl_getfl, fcntl_setfl, open};
@@ -51,6 +51,16 @@ impl Host {
     pub(crate) fn spawn_output(&self, port: u16, config: OutputConfig) -> OutputPort {
         assert_eq!(config.faults(), Vec::<String>::new());
         spawn_output(PortId(port), config, self.surroundings.clone())
+    }
+
+    /// The monotonic clock, now.
+    pub(crate) fn time(&self) -> Time {
+        self.surroundings.clock.now().monotonic
+    }
+
+    /// A message that is valid now, and for a minute.
+    pub(crate) fn message(&self, slot: u16, bytes: Vec<u8>) -> Outgoing {
+        Outgoing { slot, bytes, valid: self.time(), period: Span::from_seconds(60.0) }
     }
 
     /// Takes the next arrival.

@@ -11,4 +11,5 @@ mod host;
 mod network;
 mod node;
 mod output;
+mod pace;
 mod serial;

@@ -9,9 +9,9 @@ use insd_drivers::ports::{
 };
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::{TcpListener, TcpStream, UdpSocket};
-use tokio::time::sleep;
+use tokio::time::{sleep, timeout};
 
-use crate::host::Host;
+use crate::host::{Host, PATIENCE};
 
 const ANY_PORT: &str = "127.0.0.1:0";
 
@@ -66,7 +66,7 @@ async fn a_multicast_group_is_joined_and_written_to() {
     let mut host = Host::new();
     let _port = host.spawn(1, Transport::Udp(input));
     let to = SocketAddr::from((group, port));
-    let destination = Destination::Udp(UdpOutput { to, ttl: 1, interface });
+    let destination = Destination::Udp(UdpOutput { interface, ..UdpOutput::new(to) });
     let output = host.spawn_output(2, OutputConfig::new(destination));
     for _ in 0..2 {
         if let Input::State(PortState::Absent { reason }) = host.next().await.input {
@@ -74,11 +74,59 @@ async fn a_multicast_group_is_joined_and_written_to() {
             return;
         }
     }
-    output.send(b"to all".to_vec());
-    match host.next().await.input {
-        Input::Bytes(bytes) => assert_eq!(bytes, b"to all"),
-        other => eprintln!("skipped: no multicast here: {other:?}"),
+    for (slot, message) in [b"to all", b"again "].into_iter().enumerate() {
+        output.send(host.message(slot as u16, message.to_vec()));
+        match host.next().await.input {
+            Input::Bytes(bytes) => assert_eq!(bytes, message, "one message, one datagram"),
+            other => eprintln!("skipped: no multicast here: {other:?}"),
+        }
     }
+}
+
+#[tokio::test]
+async fn another_program_on_this_computer_hears_a_group_each_message_one_datagram() {
+    let group = Ipv4Addr::new(239, 192, 0, 4);
+    let other = UdpSocket::bind("0.0.0.0:0").await.unwrap();
+    let to = SocketAddr::from((group, other.local_addr().unwrap().port()));
+    if let Err(error) = other.join_multicast_v4(group, Ipv4Addr::LOCALHOST) {
+        eprintln!("skipped: no multicast here: {error}");
+        return;
+    }
+    let mut host = Host::new();
+    let interface = Some(Ipv4Addr::LOCALHOST);
+    let destination = Destination::Udp(UdpOutput { interface, ttl: 3, ..UdpOutput::new(to) });
+    let output = host.spawn_output(1, OutputConfig::new(destination));
+    host.opened(1).await;
+    let messages = ["$HEHDT,274.07,T*03\r\n", "$HEROT,0.0,A*2B\r\n", "$HEHDT,274.08,T*0C\r\n"];
+    for (slot, message) in messages.into_iter().enumerate() {
+        output.send(host.message(slot as u16, message.into()));
+    }
+    let mut datagram = [0; 2000];
+    for message in messages {
+        let (length, from) =
+            timeout(PATIENCE, other.recv_from(&mut datagram)).await.unwrap().unwrap();
+        assert_eq!(&datagram[..length], message.as_bytes());
+        assert_eq!(from.ip(), Ipv4Addr::LOCALHOST, "by the interface that was asked for");
+    }
+    let status = output.status();
+    assert_eq!((status.sent, status.dropped), (3, 0));
+}
+
+#[tokio::test]
+async fn a_message_too_long_for_a_datagram_is_lost_alone() {
+    let other = UdpSocket::bind(ANY_PORT).await.unwrap();
+    let to = other.local_addr().unwrap();
+    let mut host = Host::new();
+    let limit = Some(1 << 20);
+    let config = OutputConfig::new(Destination::Udp(UdpOutput::new(to)));
+    let output = host.spawn_output(1, OutputConfig { waiting_bytes: limit, ..config });
+    host.opened(1).await;
+    output.send(host.message(1, vec![0; 70_000]));
+    output.send(host.message(2, b"short".to_vec()));
+    let mut datagram = [0; 100];
+    let length = timeout(PATIENCE, other.recv(&mut datagram)).await.unwrap().unwrap();
+    assert_eq!(&datagram[..length], b"short");
+    assert_eq!((output.dropped(), output.attempts()), (1, 1));
 }
 
 #[tokio::test]

@@ -7,7 +7,8 @@ use std::time::Duration;
 
 use insd_base::{PortId, PortState, Span, UtcTime};
 use insd_drivers::ports::{
-    ChronySock, Destination, File, Leap, OutputConfig, Sample, Serial, TcpServer,
+    ChronySock, Destination, File, Leap, Outgoing, OutputConfig, OutputPort, Pty, Sample, Serial,
+    TcpServer,
 };
 use tokio::io::AsyncReadExt;
 use tokio::net::TcpStream;
@@ -18,8 +19,8 @@ use crate::network::free_address;
 
 const LENGTH: usize = 100;
 
-/// A message of 100 bytes that ends in a line break.
-fn message(number: u32) -> Vec<u8> {
+/// The bytes of a message, 100 of them, that end in a line break.
+fn line(number: u32) -> Vec<u8> {
     format!("{number:0width$}\n", width = LENGTH - 1).into_bytes()
 }
 
@@ -44,30 +45,45 @@ async fn settle(condition: impl Fn() -> bool) {
     timeout(PATIENCE, wait).await.unwrap();
 }
 
+/// All that was handed over is sent, dropped or waiting.
+fn assert_sum(output: &OutputPort, handed: u64) {
+    let status = output.status();
+    assert_eq!(status.sent + status.dropped + status.waiting, handed, "{status:?}");
+}
+
 #[tokio::test]
-async fn the_oldest_whole_messages_are_dropped_when_nobody_reads() {
+async fn a_device_that_stalls_gets_what_is_new_when_it_reads_again() {
+    const SENT: u32 = 3000;
     let mut device = Device::new();
     let mut host = Host::new();
-    let config =
-        OutputConfig { waiting_bytes: Some(1000), ..OutputConfig::new(serial(device.path())) };
-    let output = host.spawn_output(1, config);
+    let output = host.spawn_output(1, OutputConfig::new(serial(device.path())));
     host.opened(1).await;
-    const SENT: u32 = 2000;
     for number in 0..SENT {
-        output.send(message(number));
+        output.send(host.message(number as u16 % 3, line(number)));
         if number % 10 == 0 {
             sleep(Duration::from_millis(1)).await;
         }
     }
     assert!(output.dropped() > 0, "the terminal holds more than thought");
     let mut heard = Vec::new();
-    while !heard.ends_with(&message(SENT - 1)) {
+    while output.status().waiting > 0 || !heard.ends_with(b"\n") {
         heard.extend(device.heard());
         sleep(Duration::from_millis(2)).await;
     }
-    let numbers = numbers(&heard);
-    assert!(numbers.windows(2).all(|pair| pair[0] < pair[1]), "in their order");
+    heard.extend(device.heard());
+    let mut numbers = numbers(&heard);
+    for slot in 0..3 {
+        let of_slot = numbers.iter().filter(|number| **number % 3 == slot);
+        assert!(of_slot.is_sorted(), "the messages of a slot in their order");
+    }
+    let last = numbers.split_off(numbers.len() - 3);
+    assert!((SENT - 3..SENT).all(|newest| last.contains(&newest)), "{last:?}");
+    numbers.extend(last);
     assert_eq!(numbers.len() as u64 + output.dropped(), u64::from(SENT));
+    let status = output.status();
+    assert_eq!((status.waiting, status.bytes), (0, heard.len() as u64));
+    assert!(matches!(status.state, Some(PortState::Open { .. })));
+    assert_sum(&output, SENT.into());
 }
 
 #[tokio::test]
@@ -77,10 +93,11 @@ async fn an_output_comes_back_with_its_device_and_leaves_out_what_is_old() {
     let mut host = Host::new();
     let output = host.spawn_output(1, OutputConfig::new(serial(&link)));
     host.state(1, |state| matches!(state, PortState::Absent { .. })).await;
-    output.send(message(1));
+    output.send(host.message(1, line(1)));
+    assert_eq!(output.status().waiting, 1);
     let mut device = Device::at(&link);
     host.opened(1).await;
-    output.send(message(2));
+    output.send(host.message(2, line(2)));
     let mut heard = Vec::new();
     while heard.len() < LENGTH {
         heard.extend(device.heard());
@@ -89,44 +106,70 @@ async fn an_output_comes_back_with_its_device_and_leaves_out_what_is_old() {
     assert_eq!((numbers(&heard), output.dropped()), (vec![2], 1));
     drop(device);
     host.state(1, |state| matches!(state, PortState::Lost { .. })).await;
+    assert!(matches!(output.status().state, Some(PortState::Lost { .. })));
 }
 
 #[tokio::test]
 async fn a_server_writes_to_all_clients_and_one_that_stalls_costs_the_others_nothing() {
+    const BURST: u32 = 200;
     let bind = free_address();
     let mut host = Host::new();
     let destination = Destination::TcpServer(TcpServer { bind, max_clients: 4 });
     let output = host.spawn_output(1, OutputConfig::new(destination));
     host.opened(1).await;
-    let _stalled = TcpStream::connect(bind).await.unwrap();
+    output.send(host.message(0, line(999)));
+    assert_eq!(output.status().slots, [], "nobody was there");
+    let mut stalled = TcpStream::connect(bind).await.unwrap();
     let mut reading = TcpStream::connect(bind).await.unwrap();
     host.state(1, |state| state.to_string().ends_with("2 clients")).await;
-    let mut line = [0; LENGTH];
+    let mut bytes = [0; LENGTH];
     let mut sent = 0;
     // until the stalled one has cost messages
-    while output.dropped() == 0 {
-        for _ in 0..200 {
-            output.send(message(sent));
-            sent += 1;
+    while output.dropped() < u64::from(BURST) {
+        for number in sent..sent + BURST {
+            output.send(host.message((number - sent) as u16, line(number)));
         }
-        for expected in sent - 200..sent {
-            timeout(PATIENCE, reading.read_exact(&mut line)).await.unwrap().unwrap();
-            assert_eq!(numbers(&line), [expected]);
+        for expected in sent..sent + BURST {
+            timeout(PATIENCE, reading.read_exact(&mut bytes)).await.unwrap().unwrap();
+            assert_eq!(numbers(&bytes), [expected]);
         }
+        sent += BURST;
     }
+    assert_sum(&output, 2 * u64::from(sent));
+    let mut late = TcpStream::connect(bind).await.unwrap();
+    host.state(1, |state| state.to_string().ends_with("3 clients")).await;
+    output.send(host.message(0, line(sent)));
+    timeout(PATIENCE, late.read_exact(&mut bytes)).await.unwrap().unwrap();
+    assert_eq!(numbers(&bytes), [sent], "who comes late gets what is new");
+
+    let mut old = 0;
+    while numbers(&bytes) != [sent - 1] {
+        timeout(PATIENCE, stalled.read_exact(&mut bytes)).await.unwrap().unwrap();
+        old += LENGTH;
+    }
+    eprintln!("{sent} messages; the systems held {old} bytes for a client that did not read");
+    drop((stalled, reading, late));
+    host.state(1, |state| state.to_string().ends_with(" 0 clients")).await;
+    settle(|| output.status().waiting == 0).await;
+    assert_sum(&output, 2 * u64::from(sent) + 3);
 }
 
 #[tokio::test]
-async fn a_file_gets_every_message() {
+async fn a_file_gets_every_message_in_order_whatever_its_slot_and_age() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("out.nmea");
     let mut host = Host::new();
     let destination = Destination::File(File { path: path.clone() });
     let output = host.spawn_output(1, OutputConfig::new(destination));
-    (0..100).for_each(|number| output.send(message(number)));
+    for number in 0..100 {
+        let period = Span::from_nanos(1);
+        output.send(Outgoing { period, ..host.message(number as u16 % 3, line(number)) });
+    }
     host.opened(1).await;
     settle(|| std::fs::metadata(&path).is_ok_and(|file| file.len() == 100 * LENGTH as u64)).await;
     assert_eq!(numbers(&std::fs::read(&path).unwrap()), (0..100).collect::<Vec<u32>>());
+    settle(|| output.status().sent == 100).await;
+    assert_sum(&output, 100);
 }
 
 #[tokio::test]
@@ -134,32 +177,24 @@ async fn a_made_terminal_gives_what_is_new_to_whoever_comes() {
     let folder = tempfile::tempdir().unwrap();
     let link = folder.path().join("nmea");
     let mut host = Host::new();
-    let destination = Destination::Pty(File { path: link.clone() });
-    let config = OutputConfig { waiting_bytes: Some(1000), ..OutputConfig::new(destination) };
-    let output = host.spawn_output(1, config);
+    let output = host.spawn_output(1, OutputConfig::new(Destination::Pty(Pty::new(link.clone()))));
     host.opened(1).await;
-    for number in 0..100 {
-        output.send(message(number));
-        sleep(Duration::from_millis(1)).await;
-    }
+    let mut unread = 0;
+    let mut sent = 0;
     // more than a second without a reader: what the kernel held is forgotten
-    settle(|| output.dropped() >= 90).await;
-    let mut reader = std::fs::File::open(&link).unwrap();
-    let mut lines = vec![0; LENGTH];
-    output.send(message(100));
-    let mut last = Vec::new();
-    while last != [100] {
-        let read;
-        (read, reader, lines) = tokio::task::spawn_blocking(move || {
-            let read = reader.read_exact(&mut lines);
-            (read, reader, lines)
-        })
-        .await
-        .unwrap();
-        read.unwrap();
-        last = numbers(&lines);
-        assert!(last[0] >= 90, "{last:?}");
+    while unread == 0 {
+        output.send(host.message(1, line(sent)));
+        sleep(Duration::from_millis(100)).await;
+        sent += 1;
+        unread = output.status().slots[0].unread;
     }
+    assert_sum(&output, sent.into());
+    let mut reader = std::fs::File::open(&link).unwrap();
+    let mut bytes = vec![0; LENGTH];
+    let read = tokio::task::spawn_blocking(move || reader.read_exact(&mut bytes).map(|()| bytes));
+    let bytes = timeout(PATIENCE, read).await.unwrap().unwrap().unwrap();
+    let first = numbers(&bytes)[0];
+    assert!(u64::from(first) >= unread, "{first}, although {unread} were forgotten");
     drop(output);
     settle(|| !link.exists()).await;
 }

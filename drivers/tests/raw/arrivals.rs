@@ -38,6 +38,7 @@ fn input() -> impl Strategy<Value = Input> {
             Input::Pulse(Pulse { time: Time::from_nanos(time), sequence })
         }),
         1 => state().prop_map(Input::State),
+        1 => Just(Input::Tick),
     ]
 }
 

@@ -78,6 +78,9 @@ pub enum Input {
     Pulse(Pulse),
     /// Another state of the port.
     State(PortState),
+    /// Time has come for the ports that are written to. It arrives from nowhere but our own clock, and is
+    /// recorded with the rest: what was sent depends on what had arrived until then.
+    Tick,
 }
 
 /// Something that reached the computer.

@@ -1,18 +1,33 @@
-//! From a navigation solution to the sentences of one port, or the messages of one NMEA 2000 bus: which,
-//! how often, and how far each may be trusted.
+//! From the newest there is to know of the ship to the messages of every port, and of every NMEA 2000 bus:
+//! which, when, and how far each may be trusted.
 //!
-//! Pure: no I/O, no clock; the UTC of a solution is handed in as a value. Nothing is invented: what
-//! the solution does not say stays empty, and what it is not sure of is marked so or not sent.
+//! Pure: no I/O, no clock; time and UTC are handed in as values. Nothing is invented: what is not known
+//! stays empty, and what is not sure is marked so or not sent.
+//!
+//! [`Station`] knows when something is due, carries the newest motion on to that instant and to each
+//! port's monitoring point, and lets the ports speak. `docs/outputs.md` has the messages field by field,
+//! the profiles and the policy.
 
-mod config;
+pub mod alerts;
+mod epoch;
+mod lan;
+mod manner;
+mod messages;
 pub mod n2k;
 mod policy;
 mod port;
+mod profile;
+mod said;
 mod schedule;
-mod sentences;
+mod station;
 
-pub use config::{PortConfig, SentenceKind};
-pub use insd_wire::nmea::{CivilTime, Date, TimeOfDay};
+pub use epoch::{Distance, Epoch, Receiver, Variation};
+pub use insd_wire::nmea::{CivilTime, Date, Sfi, Talker, TimeOfDay, TransmissionGroup};
+pub use lan::{Datagram, Lan, LanConfig};
+pub use manner::Manner;
+pub use messages::{Content, MessageKind};
 pub use policy::{Policy, PositionLimits};
-pub use port::Port;
-pub use schedule::Rate;
+pub use port::{Message, Port, PortConfig};
+pub use profile::Profile;
+pub use schedule::{Boundary, Pacer, Rate};
+pub use station::{Moment, Station};

@@ -47,9 +47,16 @@ pub struct Policy {
     pub velocity: f64,
     /// Course over ground, rad; beyond it the course is left empty. Default 5 deg.
     pub course: f64,
+    /// Whether the status of GLL, GNS, RMC and the like is A also for estimated and simulated data.
+    /// IEC 61162-1 has it V for all modes but A, D, F, P and R, and consumers then show nothing at all of a
+    /// ship that sails by dead reckoning. Default no.
+    pub estimated_is_valid: bool,
     /// Speed, m/s, below which there is no course, however well the velocity is known: a ship that
     /// sways at her berth goes nowhere. Default 0.1 m/s.
     pub least_speed: f64,
+    /// Alert limit of the horizontal error of the position, m, with which a protection level is compared.
+    /// Default none, as it depends on the waters and on what the position is for.
+    pub alert_limit: Option<f64>,
 }
 
 impl Default for PositionLimits {
@@ -74,7 +81,9 @@ impl Default for Policy {
             level: 0.5 * DEG,
             velocity: 1.0,
             course: 5.0 * DEG,
+            estimated_is_valid: false,
             least_speed: 0.1,
+            alert_limit: None,
         }
     }
 }
@@ -140,6 +149,18 @@ impl Policy {
         }
     }
 
+    /// Whether the status that goes with a mode is A.
+    #[must_use]
+    pub fn is_valid(&self, mode: PositionMode) -> bool {
+        match mode {
+            PositionMode::NotValid => false,
+            PositionMode::Estimated | PositionMode::Simulator | PositionMode::Manual => {
+                self.estimated_is_valid
+            }
+            _ => true,
+        }
+    }
+
     /// Whether the ship moves fast enough, also for what is known of her velocity, to have a
     /// course: to first order its sigma is that of the velocity across the track over the speed.
     #[must_use]
@@ -147,6 +168,21 @@ impl Policy {
         let sigma = solution.sigma.velocity.0.xy().max();
         let speed = solution.speed();
         speed >= self.least_speed && sigma <= speed * self.course
+    }
+}
+
+/// The letter of a quality.
+pub(crate) fn mode_of(quality: FixQuality) -> PositionMode {
+    match quality {
+        FixQuality::Invalid => PositionMode::NotValid,
+        FixQuality::Autonomous => PositionMode::Autonomous,
+        FixQuality::Differential => PositionMode::Differential,
+        FixQuality::Precise => PositionMode::Precise,
+        FixQuality::RtkFixed => PositionMode::RtkFixed,
+        FixQuality::RtkFloat => PositionMode::RtkFloat,
+        FixQuality::Estimated => PositionMode::Estimated,
+        FixQuality::Manual => PositionMode::Manual,
+        FixQuality::Simulated => PositionMode::Simulator,
     }
 }
 

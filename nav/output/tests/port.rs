@@ -3,14 +3,27 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
 
 use insd_base::units::{DEG, KNOT};
-use insd_base::{Attitude, Body, Geodetic, Mode, Ned, Solution, SolutionSigma, Time};
-use insd_output::{CivilTime, Date, Port, PortConfig, TimeOfDay};
+use insd_base::{Attitude, Body, Geodetic, Mode, Ned, Solution, SolutionSigma, Time, UtcTime};
+use insd_output::{Epoch, Manner, Policy, Port, PortConfig, Profile};
 use proptest::prelude::*;
 
-const UTC: CivilTime = CivilTime {
-    date: Date { year: 2026, month: 1, day: 2 },
-    time: TimeOfDay { hour: 3, minute: 4, second: 5, nanosecond: 600_000_000 },
-};
+/// 2026-01-02 03:04:05 and so many milliseconds.
+fn utc(ms: u32) -> Option<UtcTime> {
+    UtcTime::from_civil((2026, 1, 2), (3, 4, 5), ms * 1_000_000)
+}
+
+fn epoch(solution: &Solution) -> Epoch {
+    Epoch { solution: Some(*solution), utc: utc(0), ..Epoch::unknown(solution.time) }
+}
+
+fn bridge() -> PortConfig {
+    Profile::named("bridge").unwrap().port()
+}
+
+fn simulated(unmarked_when_simulated: bool) -> PortConfig {
+    let manner = Manner { simulated: true, unmarked_when_simulated, policy: Policy::default() };
+    PortConfig { manner, ..bridge() }
+}
 
 fn solution() -> Solution {
     Solution {
@@ -31,8 +44,12 @@ fn solution() -> Solution {
 }
 
 fn said(config: &PortConfig, solution: &Solution) -> Vec<String> {
-    let mut port = Port::new(config.clone());
-    let bytes = port.sentences(solution, Some(UTC)).to_vec();
+    lines(&mut Port::new(config.clone()), &epoch(solution))
+}
+
+fn lines(port: &mut Port, epoch: &Epoch) -> Vec<String> {
+    let bytes =
+        port.messages(epoch).iter().flat_map(|message| message.content.to_bytes()).collect();
     String::from_utf8(bytes).unwrap().split_terminator("\r\n").map(str::to_owned).collect()
 }
 
@@ -44,30 +61,30 @@ fn one(config: &PortConfig, solution: &Solution, address: &str) -> Option<String
 
 #[test]
 fn an_aided_ship_is_told_in_full() {
-    let lines = said(&PortConfig::bridge(), &solution());
+    let lines = said(&bridge(), &solution());
     let stems: Vec<&str> = lines.iter().map(|line| line.split('*').next().unwrap()).collect();
     assert_eq!(
         stems,
         [
+            "$INZDA,030405.00,02,01,2026,,",
+            "$INGGA,030405.00,3530.00000,N,13915.00000,W,1,,,,,,,,",
+            "$INVTG,90.00,T,,M,10.00,N,18.52,K,A",
             "$HEHDT,91.50,T",
             "$HETHS,91.50,A",
             "$TIROT,-12.0,A",
-            "$INZDA,030405.60,02,01,2026,,",
-            "$INGGA,030405.60,3530.00000,N,13915.00000,W,1,,,,,,,,",
-            "$INVTG,90.00,T,,M,10.00,N,18.52,K,A",
         ]
     );
 }
 
 #[test]
 fn a_simulated_ship_is_marked_in_every_sentence_that_has_a_mark() {
-    let config = PortConfig { simulated: true, ..PortConfig::bridge() };
+    let config = simulated(false);
     let lines = said(&config, &solution());
     assert_eq!(lines.len(), 4, "HDT and ROT have no mark and are not sent: {lines:?}");
     assert!(one(&config, &solution(), "HETHS").unwrap().ends_with(",S"));
     assert!(one(&config, &solution(), "INGGA").unwrap().contains(",W,8,"));
     assert!(one(&config, &solution(), "INVTG").unwrap().ends_with(",S"));
-    assert_eq!(said(&PortConfig::demo(), &solution()).len(), 6);
+    assert_eq!(said(&simulated(true), &solution()).len(), 6);
 }
 
 #[test]
@@ -77,7 +94,7 @@ fn hdt_stops_and_ths_says_v_when_the_heading_is_not_to_be_used() {
     let aligning = Solution { mode: Mode::FineAlignment, ..solution() };
     let mut lost = solution();
     lost.sigma.heading = f64::NAN;
-    for config in [PortConfig::bridge(), PortConfig::demo()] {
+    for config in [bridge(), simulated(true)] {
         for solution in [&unsure, &aligning, &lost] {
             assert_eq!(one(&config, solution, "HEHDT"), None);
             assert_eq!(one(&config, solution, "HETHS").unwrap(), "$HETHS,,V");
@@ -89,8 +106,8 @@ fn hdt_stops_and_ths_says_v_when_the_heading_is_not_to_be_used() {
 fn a_heading_between_the_limits_is_estimated() {
     let mut solution = solution();
     solution.sigma.heading = 1.0 * DEG;
-    assert_eq!(one(&PortConfig::bridge(), &solution, "HETHS").unwrap(), "$HETHS,91.50,E");
-    assert!(one(&PortConfig::bridge(), &solution, "HEHDT").is_some());
+    assert_eq!(one(&bridge(), &solution, "HETHS").unwrap(), "$HETHS,91.50,E");
+    assert!(one(&bridge(), &solution, "HEHDT").is_some());
 }
 
 #[test]
@@ -98,7 +115,7 @@ fn position_quality_follows_the_sigma() {
     for (sigma, digit) in [(0.05, 4), (0.2, 5), (0.8, 2), (5.0, 1), (50.0, 6)] {
         let mut solution = solution();
         solution.sigma.position = Ned::new(sigma, 0.0, 0.0);
-        let gga = one(&PortConfig::bridge(), &solution, "INGGA").unwrap();
+        let gga = one(&bridge(), &solution, "INGGA").unwrap();
         assert!(gga.contains(&format!(",W,{digit},")), "{sigma}: {gga}");
     }
 }
@@ -107,8 +124,8 @@ fn position_quality_follows_the_sigma() {
 fn dead_reckoning_is_never_called_better_than_estimated() {
     for mode in [Mode::DeadReckoning, Mode::Inertial] {
         let solution = Solution { mode, ..solution() };
-        assert!(one(&PortConfig::bridge(), &solution, "INGGA").unwrap().contains(",W,6,"));
-        assert!(one(&PortConfig::bridge(), &solution, "INVTG").unwrap().ends_with(",E"));
+        assert!(one(&bridge(), &solution, "INGGA").unwrap().contains(",W,6,"));
+        assert!(one(&bridge(), &solution, "INVTG").unwrap().ends_with(",E"));
     }
 }
 
@@ -117,10 +134,10 @@ fn an_invalid_position_is_empty() {
     let fault = Solution { mode: Mode::Fault, ..solution() };
     let mut lost = solution();
     lost.sigma.position = Ned::new(90.0, 90.0, 1.0);
-    for config in [PortConfig::bridge(), PortConfig::demo()] {
+    for config in [bridge(), simulated(true)] {
         for solution in [&fault, &lost] {
             let gga = one(&config, solution, "INGGA").unwrap();
-            assert_eq!(gga, "$INGGA,030405.60,,,,,0,,,,,,,,");
+            assert_eq!(gga, "$INGGA,030405.00,,,,,0,,,,,,,,");
             assert_eq!(one(&config, solution, "INVTG").unwrap(), "$INVTG,,T,,M,,N,,K,N");
         }
     }
@@ -130,7 +147,7 @@ fn an_invalid_position_is_empty() {
 fn a_ship_at_rest_has_a_speed_but_no_course() {
     let mut solution = solution();
     solution.velocity = Ned::new(0.01, 0.0, 0.0);
-    let vtg = one(&PortConfig::bridge(), &solution, "INVTG").unwrap();
+    let vtg = one(&bridge(), &solution, "INVTG").unwrap();
     assert_eq!(vtg, "$INVTG,,T,,M,0.02,N,0.04,K,A");
 }
 
@@ -139,29 +156,28 @@ fn a_course_that_the_velocity_does_not_support_is_left_empty() {
     let mut solution = solution();
     solution.velocity = Ned::new(0.3, 0.0, 0.0);
     solution.sigma.velocity = Ned::new(0.02, 0.02, 0.02);
-    assert!(one(&PortConfig::bridge(), &solution, "INVTG").unwrap().starts_with("$INVTG,0.00,T"));
+    assert!(one(&bridge(), &solution, "INVTG").unwrap().starts_with("$INVTG,0.00,T"));
     solution.sigma.velocity = Ned::new(0.02, 0.05, 0.02);
-    assert!(one(&PortConfig::bridge(), &solution, "INVTG").unwrap().starts_with("$INVTG,,T"));
+    assert!(one(&bridge(), &solution, "INVTG").unwrap().starts_with("$INVTG,,T"));
 }
 
 #[test]
 fn height_above_sea_level_is_said_only_where_the_geoid_is_known() {
-    let config = PortConfig { geoid_separation: Some(36.7), ..PortConfig::bridge() };
+    let config = PortConfig { geoid_separation: Some(36.7), ..bridge() };
     let gga = one(&config, &solution(), "INGGA").unwrap();
     assert!(gga.ends_with(",W,1,,,3.30,M,36.70,M,,"), "{gga}");
 }
 
 #[test]
 fn one_second_of_solutions_gives_ten_headings_and_one_position() {
-    let mut port = Port::new(PortConfig::bridge());
-    let mut lines = Vec::new();
+    let mut port = Port::new(bridge());
+    let mut formatters = Vec::new();
     for step in 0..10 {
-        let time = Time::from_nanos(step * 100_000_000);
-        let bytes = port.sentences(&Solution { time, ..solution() }, Some(UTC));
-        let text = String::from_utf8(bytes.to_vec()).unwrap();
-        lines.extend(text.split_terminator("\r\n").map(|line| line[3..6].to_owned()));
+        let time = Time::from_nanos(i64::from(step) * 100_000_000);
+        let epoch = Epoch { time, utc: utc(step * 100), ..epoch(&solution()) };
+        formatters.extend(lines(&mut port, &epoch).into_iter().map(|line| line[3..6].to_owned()));
     }
-    let count = |formatter: &str| lines.iter().filter(|line| *line == formatter).count();
+    let count = |formatter: &str| formatters.iter().filter(|line| *line == formatter).count();
     assert_eq!([count("HDT"), count("THS"), count("ROT")], [10, 10, 10]);
     assert_eq!([count("GGA"), count("VTG"), count("ZDA")], [1, 1, 1]);
 }
@@ -189,7 +205,8 @@ proptest! {
             },
             mode,
         };
-        let config = PortConfig { simulated, geoid_separation: Some(sn), ..PortConfig::demo() };
+        let manner = Manner { simulated, ..Manner::default() };
+        let config = PortConfig { manner, geoid_separation: Some(sn), ..bridge() };
         for line in said(&config, &solution) {
             prop_assert!(line.len() <= 80);
             prop_assert!(insd_wire::nmea::Sentence::read(line.as_bytes()).is_ok(), "{}", line);

@@ -43,6 +43,8 @@ struct Options {
     /// Sensors send at once and on fast lines: then no solution is told before a measurement that the
     /// voyage itself has by that time.
     prompt: bool,
+    /// A file with more of the configuration: outputs, points.
+    append: Option<PathBuf>,
 }
 
 fn main() {
@@ -125,6 +127,7 @@ fn options() -> Options {
         from: given("--from", "30").parse().unwrap(),
         utc: arguments.iter().any(|argument| argument == "--utc"),
         prompt: arguments.iter().any(|argument| argument == "--prompt"),
+        append: Some(given("--append", "")).filter(|file| !file.is_empty()).map(PathBuf::from),
     }
 }
 
@@ -211,7 +214,8 @@ fn configuration(options: &Options, voyage: &Voyage, feeds: &FeedConfig) -> Stri
     let mut recording = toml::Table::new();
     recording.insert("folder".into(), folder.join("recording").display().to_string().into());
     root.insert("recording".into(), recording.into());
-    format!("{root}\n{}", ports.collect::<String>())
+    let more = options.append.as_deref().map(|file| fs::read_to_string(file).unwrap());
+    format!("{root}\n{}{}", ports.collect::<String>(), more.unwrap_or_default())
 }
 
 /// Sends everything at its time; gives by how much it was late at most, s.

@@ -196,27 +196,39 @@ fn against_truth(voyage: &Voyage, start: f64, all: &[Read]) -> Worst {
     worst
 }
 
-/// Each position of the bus is one of the solution, and the heading beside it is that of the same row.
+/// How far a place is from the way between two rows of the solution, and how far along it is, deg.
+fn beside(pair: &[Solution], place: [f64; 2]) -> (f64, f64) {
+    let at = |own: &Solution| [own.position.latitude / DEG, own.position.longitude / DEG];
+    let (one, other) = (at(&pair[0]), at(&pair[1]));
+    let way = [other[0] - one[0], other[1] - one[1]];
+    let to = [place[0] - one[0], place[1] - one[1]];
+    let length = (way[0] * way[0] + way[1] * way[1]).max(1e-18);
+    let share = ((way[0] * to[0] + way[1] * to[1]) / length).clamp(0.0, 1.0);
+    ((to[0] - share * way[0]).abs().max((to[1] - share * way[1]).abs()), share)
+}
+
+/// Each position of the bus lies between two rows of the solution, and the heading beside it does, too.
 /// Gives how many there are.
 fn against_nav(nav: &[Solution], all: &[Read]) -> usize {
     let mut compared = 0;
     for (index, read) in all.iter().enumerate() {
-        let What::Position([latitude, longitude]) = read.what else { continue };
-        let off = |own: &Solution| {
-            let at = [own.position.latitude / DEG, own.position.longitude / DEG];
-            (at[0] - latitude).abs().max((at[1] - longitude).abs())
-        };
-        let row = nav.iter().min_by(|one, other| off(one).total_cmp(&off(other))).unwrap();
-        assert!(off(row) < 0.6e-7, "{read:?} is no row of the solution: {}", off(row));
-        let beside = all[index.saturating_sub(6)..index].iter().rev();
-        let mut headings = beside.filter_map(|own| match own.what {
+        let What::Position(place) = read.what else { continue };
+        let near = |pair: &[Solution]| beside(pair, place);
+        let pair = nav.windows(2).min_by(|one, other| near(one).0.total_cmp(&near(other).0));
+        let pair = pair.unwrap();
+        let (off, share) = near(pair);
+        // a correction between two rows is a step of centimetres
+        assert!(off < 6e-7, "{read:?} is on no way of the solution: {off}");
+        let before = all[index.saturating_sub(6)..index].iter().rev();
+        let mut headings = before.filter_map(|own| match own.what {
             What::Heading(heading) if read.at - own.at < 0.05 => Some(heading),
             _ => None,
         });
         if let Some(heading) = headings.next() {
-            let off = apart(heading, row.attitude.heading / DEG);
-            assert!(off.abs() < 0.0031, "heading {heading} beside {off} deg off");
-            assert!(row.mode.is_navigating(), "a heading in mode {:?}", row.mode);
+            let ends = [pair[0].attitude.heading / DEG, pair[1].attitude.heading / DEG];
+            let off = apart(heading, ends[0] + share * apart(ends[1], ends[0]));
+            assert!(off.abs() < 0.05, "heading {heading} beside {off} deg off");
+            assert!(pair[1].mode.is_navigating(), "a heading in mode {:?}", pair[1].mode);
             compared += 1;
         }
     }

@@ -15,7 +15,8 @@ use insd_drivers::ports::{
 };
 use insd_n2k::Name;
 use insd_n2k::node::{Node, NodeCounts, NodeEvent};
-use insd_output::n2k::{Epoch, Voice};
+use insd_output::Epoch;
+use insd_output::n2k::Voice;
 use tokio::runtime::Runtime;
 
 use super::guest::SECOND;

@@ -1,6 +1,7 @@
 //! `insd replay`: a recorded voyage through the same engine as the daemon, without a clock.
 
 mod recording;
+mod sent;
 mod sink;
 mod voyage;
 
@@ -21,9 +22,13 @@ pub struct ReplayArgs {
     /// Solutions per second [default: 10; of a raw recording, those of its configuration]
     #[arg(long, value_name = "HZ", value_parser = super::rate)]
     rate: Option<f64>,
-    /// For a raw recording: another configuration than the one it was made with
+    /// For a raw recording: another configuration than the one it was made with. For a voyage: where
+    /// the ports for --sent are
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
+    /// Also write what each port is sent, to NAME.sent, and what is known at its epochs, to epochs.csv
+    #[arg(long, value_name = "FOLDER")]
+    sent: Option<PathBuf>,
     /// For a raw recording that spans restarts of the program: which run, from 1
     #[arg(long, value_name = "N", default_value_t = 1)]
     run: u32,

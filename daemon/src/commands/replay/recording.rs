@@ -3,6 +3,7 @@
 use anyhow::Context;
 
 use super::ReplayArgs;
+use super::sent::Sent;
 use super::sink::Sink;
 use crate::pipeline::{Pipeline, Product};
 use crate::raw_run::RawRun;
@@ -16,18 +17,25 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     engine.output_rate = args.rate.unwrap_or(engine.output_rate);
     engine.alignment = args.alignment.config();
     engine.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
-    let mut pipeline = Pipeline::new(&raw.config.intake(), engine);
+    let mut pipeline = Pipeline::new(&raw.config.intake(), engine, raw.config.speaker());
     let mut sink = Sink::create(args)?;
+    let sent = args.sent.as_deref().map(|folder| Sent::create(folder, &raw.config));
+    let mut sent = sent.transpose()?;
     raw.for_each(|arrival| {
         let mut written = Ok(());
         pipeline.handle(arrival, |intake, product| {
             tell(intake, &product);
-            if let (Product::Engine(output), true) = (&product, written.is_ok()) {
-                written = sink.take(output);
+            if written.is_ok() {
+                written = match (&product, &mut sent) {
+                    (Product::Engine(output), _) => sink.take(output),
+                    (Product::Spoken(spoken), Some(sent)) => sent.take(spoken),
+                    _ => Ok(()),
+                };
             }
         });
-        written.context("cannot write the solution")
+        written.context("cannot write what comes of it")
     })?;
     eprint!("{}", sink.summary(pipeline.counts(), 0, Vec::new()));
+    sent.map_or(Ok(()), Sent::finish)?;
     sink.finish()
 }

@@ -7,7 +7,20 @@ use insd_n2k::pgn::{
     RateOfTurn, SetDrift, Speed, SpeedComponents, SystemTime, TimeDate, VariationSource,
 };
 
-use super::said::{Level, Said};
+use crate::said::{Level, Said};
+
+/// Resolution of times on the bus: 100 us.
+const TICK: i64 = 100_000;
+const TICKS_PER_SECOND: f64 = 1e4;
+
+/// Days since 1970-01-01 and seconds of the day, UTC. Rounded to the resolution of the bus before it is
+/// taken apart, so that no day has a second 86400.
+fn utc(said: &Said<'_>) -> Option<(u16, f64)> {
+    let ticks = said.utc()?.as_nanos().saturating_add(TICK / 2).div_euclid(TICK);
+    let day = 86_400 * 1_000_000_000 / TICK;
+    let date = u16::try_from(ticks.div_euclid(day)).ok()?;
+    Some((date, ticks.rem_euclid(day) as f64 / TICKS_PER_SECOND))
+}
 
 /// A group that is made from an epoch.
 pub(crate) trait Say: Group {
@@ -36,7 +49,7 @@ impl Say for RateOfTurn {
 
 impl Say for Heave {
     fn say(said: &Said<'_>) -> Self {
-        Heave { sid: said.sid, heave: said.heave() }
+        Heave { sid: said.sid, heave: said.heave().map(|heave| heave.heave) }
     }
 }
 
@@ -111,10 +124,9 @@ impl Say for CourseSpeed {
 
 impl Say for GnssPosition {
     fn say(said: &Said<'_>) -> Self {
-        let place = said.marked_position();
-        let receiver = said.marked_receiver();
-        let quality = said.quality();
-        let (date, time) = said.utc().unzip();
+        let marked = said.marked();
+        let (place, quality, receiver) = (marked.position(), marked.quality(), marked.receiver());
+        let (date, time) = utc(said).unzip();
         GnssPosition {
             sid: said.sid,
             date,
@@ -123,12 +135,12 @@ impl Say for GnssPosition {
             longitude: place.map(|place| place.longitude),
             altitude: place.map(|place| place.height),
             system: Some(GnssSystem::Integrated),
-            method: Some(method(quality, said.config.simulated)),
+            method: Some(method(quality, said.is_simulated())),
             integrity: Some(integrity(quality)),
             satellites: receiver.satellites.and_then(|satellites| u8::try_from(satellites).ok()),
             hdop: receiver.hdop,
             pdop: receiver.pdop,
-            geoid: said.geoid(),
+            geoid: marked.geoid(),
             stations: Vec::new(),
         }
     }
@@ -161,14 +173,14 @@ fn integrity(quality: FixQuality) -> Integrity {
 
 impl Say for TimeDate {
     fn say(said: &Said<'_>) -> Self {
-        let (date, time) = said.utc().unzip();
+        let (date, time) = utc(said).unzip();
         TimeDate { date, time, local_offset: None }
     }
 }
 
 impl Say for SystemTime {
     fn say(said: &Said<'_>) -> Self {
-        let (date, time) = said.utc().unzip();
+        let (date, time) = utc(said).unzip();
         SystemTime { sid: said.sid, source: said.time_source(), date, time }
     }
 }

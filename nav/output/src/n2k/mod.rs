@@ -5,15 +5,12 @@
 //! groups, their signs, and when a field is not available.
 
 mod config;
-mod epoch;
 mod groups;
 mod load;
-mod said;
 mod table;
 mod voice;
 
 pub use config::{GroupSection, N2kGroups};
-pub use epoch::{Epoch, Receiver, Variation};
 pub use load::{BITS_PER_SECOND, BusLoad};
 pub use table::{default_transmit, least_interval};
-pub use voice::{Voice, VoiceConfig};
+pub use voice::Voice;

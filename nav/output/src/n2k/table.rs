@@ -8,10 +8,10 @@ use insd_n2k::pgn::{
     PseudorangeNoise, RateOfTurn, SetDrift, Speed, SpeedComponents, SystemTime, TimeDate,
 };
 
-use super::epoch::Epoch;
 use super::groups::Say;
-use super::said::Said;
-use super::voice::VoiceConfig;
+use crate::epoch::Epoch;
+use crate::manner::Manner;
+use crate::said::Said;
 
 const MILLISECOND: i64 = 1_000_000;
 /// Where no interval is named, which is for heave alone: that of the satellite compasses in canboat's logs
@@ -79,8 +79,8 @@ impl Entry {
 
     /// Frames of one message.
     pub(crate) fn frames(&self) -> usize {
-        let (epoch, config) = (Epoch::unknown(Time::START), VoiceConfig::default());
-        let length = (self.contents)(&Said::new(None, &epoch, &config)).len();
+        let (epoch, manner) = (Epoch::unknown(Time::START), Manner::default());
+        let length = (self.contents)(&Said::new(&epoch, &manner)).len();
         if fast_packet::is_fast(self.pgn) { fast_packet::frames(length) } else { 1 }
     }
 

@@ -1,12 +1,13 @@
 //! What the default table costs the bus, and that the figure of the library is that of real frames.
 
 use insd_base::units::DEG;
-use insd_base::{CanFrame, Ned, Time};
+use insd_base::{CanFrame, Ned, Time, UtcTime};
 use insd_n2k::node::Transmit;
 use insd_n2k::{BROADCAST, N2kId, fast_packet};
-use insd_output::n2k::{BITS_PER_SECOND, BusLoad, Epoch, Voice, VoiceConfig, default_transmit};
+use insd_output::n2k::{BITS_PER_SECOND, BusLoad, Voice, default_transmit};
+use insd_output::{Epoch, Manner};
 
-use crate::ship::{epoch, solution};
+use crate::ship::{epoch, heaving, solution};
 
 #[test]
 fn the_default_table_takes_four_percent_of_the_bus() {
@@ -38,12 +39,13 @@ fn sailing(step: i64) -> Epoch {
     ship.velocity = Ned::new(0.45 + 0.1 * (0.4 * seconds).cos(), 5.12 - 0.01 * seconds, 0.0);
     ship.position.latitude += 1e-7 * seconds;
     ship.position.longitude += 1e-6 * seconds;
-    let utc = epoch().utc.map(|utc| utc.plus(time - Time::START));
+    let utc =
+        UtcTime::from_civil((2026, 1, 2), (3, 4, 0), 0).map(|utc| utc.plus(time - Time::START));
     Epoch {
         time,
         solution: Some(ship),
         utc,
-        heave: Some(0.8 * (0.7 * seconds).sin()),
+        heave: Some(heaving(0.8 * (0.7 * seconds).sin())),
         covariance_north_east: None,
         current: None,
         ..epoch()
@@ -62,7 +64,7 @@ fn frames(priority: u8, pgn: u32, contents: &[u8], counter: u8) -> Vec<CanFrame>
 #[test]
 fn the_mean_stuffing_is_that_of_real_frames() {
     let table = default_transmit();
-    let mut voice = Voice::new(VoiceConfig::default());
+    let mut voice = Voice::new(Manner::default());
     let mut counts = Vec::new();
     for step in 0..600 {
         for (pgn, contents) in voice.messages(&sailing(step), &table) {

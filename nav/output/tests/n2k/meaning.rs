@@ -7,10 +7,10 @@ use insd_n2k::pgn::{
     MagneticVariation, North, PositionRapid, PseudorangeNoise, RateOfTurn, SetDrift, Speed,
     SpeedComponents, SystemTime, TimeDate, TimeSource, VariationSource,
 };
-use insd_output::n2k::Epoch;
+use insd_output::Epoch;
 use proptest::prelude::*;
 
-use crate::ship::{epoch, near, said, with};
+use crate::ship::{epoch, heaving, near, said, with};
 
 #[test]
 fn bow_up_and_starboard_side_down_are_positive() {
@@ -212,7 +212,7 @@ fn sailing() -> impl Strategy<Value = Solution> {
 proptest! {
     #[test]
     fn every_group_says_what_the_solution_says(ship in sailing(), heave in -15.0..15.0_f64) {
-        let told = Epoch { solution: Some(ship), heave: Some(heave), ..epoch() };
+        let told = Epoch { solution: Some(ship), heave: Some(heaving(heave)), ..epoch() };
         let heading: Heading = said(&told);
         let off = wrap_pi(heading.heading.unwrap() - ship.attitude.heading);
         prop_assert!(off.abs() < 0.6e-4);

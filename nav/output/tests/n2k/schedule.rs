@@ -8,16 +8,17 @@ use insd_n2k::pgn::{
     Attitude, CourseSpeed, GnssPosition, Group, Heading, PositionRapid, SpeedComponents,
     SystemTime, TimeDate,
 };
-use insd_output::n2k::{Epoch, Voice, VoiceConfig, default_transmit};
+use insd_output::n2k::{Voice, default_transmit};
+use insd_output::{Epoch, Manner};
 
 use crate::ship::{all, epoch};
 
 fn voice() -> Voice {
-    Voice::new(VoiceConfig::default())
+    Voice::new(Manner::default())
 }
 
 fn at(ms: i64) -> Epoch {
-    Epoch { time: Time::from_nanos(ms * 1_000_000), ..epoch() }
+    Epoch { time: Time::from_nanos(ms * 1_000_000), utc: None, ..epoch() }
 }
 
 /// One group of the default table at another interval.

@@ -2,11 +2,13 @@
 
 use insd_base::units::DEG;
 use insd_base::{
-    Attitude, Body, Geodetic, Mode, Ned, Solution, SolutionSigma, Span, Time, UtcTime,
+    Attitude, Body, Geodetic, Heave, HeaveQuality, Mode, Ned, Solution, SolutionSigma, Span, Time,
+    UtcTime,
 };
 use insd_n2k::node::Transmit;
 use insd_n2k::pgn::{Group, TimeSource};
-use insd_output::n2k::{Epoch, Receiver, Variation, Voice, VoiceConfig, default_transmit};
+use insd_output::n2k::{Voice, default_transmit};
+use insd_output::{Epoch, Manner, Receiver, Variation};
 
 /// East of Tokyo at 10 knots on 085, heeling to starboard, turning to port.
 pub(crate) fn solution() -> Solution {
@@ -27,6 +29,19 @@ pub(crate) fn solution() -> Solution {
     }
 }
 
+/// A settled heave, m, up.
+pub(crate) fn heaving(heave: f64) -> Heave {
+    Heave {
+        time: Time::START,
+        heave,
+        rate: 0.0,
+        acceleration: 0.0,
+        sigma: 0.02,
+        quality: HeaveQuality::Settled,
+        delayed: None,
+    }
+}
+
 /// That ship with everything else that can be known.
 pub(crate) fn epoch() -> Epoch {
     Epoch {
@@ -34,7 +49,7 @@ pub(crate) fn epoch() -> Epoch {
         covariance_north_east: Some(0.1),
         utc: UtcTime::from_civil((2026, 1, 2), (3, 4, 5), 600_000_000),
         time_source: Some(TimeSource::Gps),
-        heave: Some(-0.42),
+        heave: Some(heaving(-0.42)),
         variation: Some(Variation { value: -7.6 * DEG, model: 2025, day: Some(20_455) }),
         geoid: Some(36.7),
         current: Some(Ned::new(0.3, -0.4, 0.0)),
@@ -66,7 +81,7 @@ pub(crate) fn all() -> Vec<Transmit> {
 }
 
 /// What a voice says first of an epoch in one of the groups.
-pub(crate) fn said_by<G: Group>(config: &VoiceConfig, epoch: &Epoch) -> G {
+pub(crate) fn said_by<G: Group>(config: &Manner, epoch: &Epoch) -> G {
     let messages = Voice::new(config.clone()).messages(epoch, &all());
     let (_, contents) = messages.into_iter().find(|(pgn, _)| *pgn == G::PGN).unwrap();
     G::read(&contents).unwrap()
@@ -74,7 +89,7 @@ pub(crate) fn said_by<G: Group>(config: &VoiceConfig, epoch: &Epoch) -> G {
 
 /// The same by the default policy.
 pub(crate) fn said<G: Group>(epoch: &Epoch) -> G {
-    said_by(&VoiceConfig::default(), epoch)
+    said_by(&Manner::default(), epoch)
 }
 
 /// Fails unless a value is there and as near as the resolution of its field allows.

@@ -1,24 +1,33 @@
-//! What is known at one instant.
+//! What is known at one instant of one point of the ship.
 
-use insd_base::{Ned, Solution, Time, UtcTime};
+use insd_base::{AlignmentPhase, AlignmentStatus, Heave, Ned, Solution, Span, Time, UtcTime};
 use insd_n2k::pgn::TimeSource;
+
+/// A levelling that has said nothing for longer than this has come to a halt: it speaks every 10 s.
+const LEVELLING: Span = Span::from_nanos(15_000_000_000);
 
 /// What is known at one instant; what is not known is `None` and is sent as not available.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Epoch {
     /// The instant: time of validity of everything here. It decides which messages are due.
     pub time: Time,
-    /// Where the ship is, how she moves and lies.
+    /// Where that point is, how the ship moves and lies.
     pub solution: Option<Solution>,
+    /// Acceleration of the point over the Earth, m/s^2.
+    pub acceleration: Option<Ned>,
+    /// Rate of turn, rad/s, starboard positive, where it is not simply that of the solution but damped.
+    pub rate_of_turn: Option<f64>,
     /// North-east element of the covariance of the solution's position, m^2. With it the ellipse of the
     /// horizontal error is known, without it only its extent to the north and to the east.
     pub covariance_north_east: Option<f64>,
+    /// Since when the mode of the solution is what it is.
+    pub mode_since: Option<Time>,
     /// The instant in UTC.
     pub utc: Option<UtcTime>,
     /// What UTC is known from.
     pub time_source: Option<TimeSource>,
-    /// Heave, m, up positive.
-    pub heave: Option<f64>,
+    /// Heave of the point.
+    pub heave: Option<Heave>,
     /// Magnetic variation at the ship.
     pub variation: Option<Variation>,
     /// Height of the geoid above the ellipsoid at the ship, m.
@@ -27,6 +36,19 @@ pub struct Epoch {
     pub current: Option<Ned>,
     /// What the receiver in use says of its fix.
     pub receiver: Option<Receiver>,
+    /// Distance run since the start, through the water and over ground, m.
+    pub distance: Distance,
+    /// How the alignment stands.
+    pub alignment: Option<AlignmentStatus>,
+}
+
+/// Distance run since the start, m.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Distance {
+    /// Through the water.
+    pub water: Option<f64>,
+    /// Over ground.
+    pub ground: Option<f64>,
 }
 
 /// Magnetic variation and where it comes from.
@@ -62,7 +84,10 @@ impl Epoch {
         Epoch {
             time,
             solution: None,
+            acceleration: None,
+            rate_of_turn: None,
             covariance_north_east: None,
+            mode_since: None,
             utc: None,
             time_source: None,
             heave: None,
@@ -70,6 +95,15 @@ impl Epoch {
             geoid: None,
             current: None,
             receiver: None,
+            distance: Distance::default(),
+            alignment: None,
         }
+    }
+    /// Whether it is being found which way is down: there cannot be a solution yet.
+    pub(crate) fn is_levelling(&self) -> bool {
+        let goes_on = |status: &AlignmentStatus| {
+            status.phase == AlignmentPhase::Levelling && self.time - status.time <= LEVELLING
+        };
+        self.solution.is_none() && self.alignment.as_ref().is_some_and(goes_on)
     }
 }

@@ -5,7 +5,7 @@ use insd_output::CivilTime;
 
 /// The calendar of one voyage: UTC of its start.
 #[derive(Clone, Copy, Debug)]
-pub struct Calendar {
+pub(crate) struct Calendar {
     start: UtcTime,
 }
 
@@ -13,7 +13,7 @@ impl Calendar {
     /// The calendar of a voyage that starts at this RFC 3339 instant; `None` if it is none, or outside
     /// the years that [`UtcTime`] holds.
     #[must_use]
-    pub fn new(start_utc: &str) -> Option<Self> {
+    pub(crate) fn new(start_utc: &str) -> Option<Self> {
         let start: jiff::Timestamp = start_utc.parse().ok()?;
         let nanos = i64::try_from(start.as_nanosecond()).ok()?;
         Some(Calendar { start: UtcTime::from_nanos(nanos) })
@@ -21,8 +21,14 @@ impl Calendar {
 
     /// UTC of an instant.
     #[must_use]
-    pub fn utc(&self, time: Time) -> Option<CivilTime> {
-        CivilTime::from_utc(self.start.plus(time - Time::START))
+    pub(crate) fn utc(&self, time: Time) -> UtcTime {
+        self.start.plus(time - Time::START)
+    }
+
+    /// The same as date and time of day.
+    #[must_use]
+    pub(crate) fn civil(&self, time: Time) -> Option<CivilTime> {
+        CivilTime::from_utc(self.utc(time))
     }
 }
 
@@ -34,10 +40,10 @@ mod tests {
     #[test]
     fn a_voyage_sails_across_a_leap_day_into_march() {
         let calendar = Calendar::new("2028-02-28T23:59:59.5Z").unwrap();
-        let utc = calendar.utc(Time::from_seconds(0.75)).unwrap();
+        let utc = calendar.civil(Time::from_seconds(0.75)).unwrap();
         assert_eq!(utc.date, Date { year: 2028, month: 2, day: 29 });
         assert_eq!(utc.time.nanosecond, 250_000_000);
-        let next = calendar.utc(Time::from_seconds(86_400.75)).unwrap();
+        let next = calendar.civil(Time::from_seconds(86_400.75)).unwrap();
         assert_eq!(next.date, Date { year: 2028, month: 3, day: 1 });
     }
 

@@ -1,8 +1,7 @@
-//! How long an IMU frame takes to become a heading: from its last byte written to one pseudo terminal to
-//! the first byte of the HDT it causes read from another, with ten outputs open, beside a bare echo from
-//! one pseudo terminal to another through tokio at the same times.
+//! When outputs leave: at 50 Hz on ten ports, beside a load of busy threads, how long after its UTC boundary
+//! an epoch can be read at the far end of a pseudo terminal, and what the daemon itself says of its ports.
 //!
-//! `cargo run --release -p insd-tests --example latency -- target/release/insd [SECONDS]`
+//! `cargo run --release -p insd-tests --example timing -- target/release/insd [SECONDS [BUSY THREADS]]`
 
 #![allow(clippy::unwrap_used)] // a tool of the tests
 
@@ -14,28 +13,33 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use insd::clock::Clock;
+use insd_base::UtcTime;
 use insd_drivers::recording::{Compression, write_voyage};
 use insd_simulator::{Scenario, shipped, simulate};
-use insd_tests::feed::{Encoding, FeedConfig, feed};
+use insd_tests::feed::{Calendar, Encoding, FeedConfig, feed};
 use insd_tests::wire::Wire;
-use tokio::io::{AsyncReadExt, AsyncWriteExt};
-use tokio_serial::SerialPortBuilderExt;
+use insd_wire::nmea::{Sentence, Zda};
+use thread_priority::{
+    RealtimeThreadSchedulePolicy, ThreadPriority, ThreadSchedulePolicy,
+    set_thread_priority_and_policy, thread_native_id,
+};
 
 /// Ports that the daemon writes to.
 const OUTPUTS: usize = 10;
 /// Time until the ship is aligned and sends headings, s.
 const SETTLE: f64 = 60.0;
-/// IMU samples per second.
-const RATE: f64 = 200.0;
+/// Epochs of each port per second.
+const OUTPUT_RATE: f64 = 50.0;
 
-/// When bytes came, s.
-type Times = Arc<Mutex<Vec<f64>>>;
+/// Lines and when the last of their bytes came, s.
+type Heard = Arc<Mutex<Vec<(f64, String)>>>;
 
 fn main() {
     let mut arguments = std::env::args().skip(1);
     let insd = arguments.next().unwrap_or_else(|| "target/release/insd".to_owned());
     let seconds: f64 = arguments.next().map_or(60.0, |text| text.parse().unwrap());
-    let dir = std::env::temp_dir().join(format!("insd-latency-{}", std::process::id()));
+    let busy: usize = arguments.next().map_or(0, |text| text.parse().unwrap());
+    let dir = std::env::temp_dir().join(format!("insd-timing-{}", std::process::id()));
     fs::create_dir_all(&dir).unwrap();
 
     let rate = "imu.rate_hz=200".parse().unwrap();
@@ -45,7 +49,7 @@ fn main() {
     let mut feeds = FeedConfig::new(&voyage, &[Encoding::Sbg, Encoding::Ubx, Encoding::Ths]);
     for sensor in &mut feeds.sensors {
         sensor.latency = 0.0;
-        sensor.byte_time = 0.0;
+        sensor.byte_time = 10.0 / 921_600.0;
     }
     let mut wires: Vec<Wire> =
         (0..3).map(|port| Wire::new(&dir.join(format!("tty{port}"))).unwrap()).collect();
@@ -53,41 +57,39 @@ fn main() {
     let clock = Clock::start();
     let outputs: Vec<Wire> =
         (0..OUTPUTS).map(|port| Wire::new(&dir.join(format!("out{port}"))).unwrap()).collect();
-    let mut heard: Vec<Times> =
+    let heard: Vec<Heard> =
         outputs.iter().map(|wire| listen(wire.file().unwrap(), clock)).collect();
+    for _ in 0..busy {
+        std::thread::spawn(|| while std::hint::black_box(true) {});
+    }
     let mut daemon =
         Command::new(insd).args(["run", "--config"]).arg(dir.join("insd.toml")).spawn().unwrap();
+    // the sensors do not suffer from the load, and whoever listens does not; the daemon does
+    ahead();
     std::thread::sleep(Duration::from_secs(1));
 
-    let headings = heard.swap_remove(0);
-    let mut echo_in = Wire::new(&dir.join("echo-in")).unwrap();
-    let (echoes, _out, _runtime) = echo(&dir, clock);
-    let (mut frames, mut calls) = (Vec::new(), Vec::new());
     let begun = clock.elapsed().as_secs_f64();
+    let mut measured = None;
     for sending in feed(&voyage, &feeds) {
         let due = sending.at.as_seconds();
         if due > SETTLE + seconds {
             break;
         }
         wait_until(&clock, begun + due);
-        let is_imu = sending.port == 0;
         wires[sending.port].send(sending.bytes()).unwrap();
-        if is_imu && due > SETTLE {
-            frames.push(clock.elapsed().as_secs_f64());
-            wait_until(&clock, begun + due + 0.4 / RATE);
-            echo_in.send(b"$HEHDT,000.00,T*00\r\n").unwrap();
-            calls.push(clock.elapsed().as_secs_f64());
+        if due > SETTLE && measured.is_none() {
+            measured = Some(heard[0].lock().unwrap().len());
         }
     }
     std::thread::sleep(Duration::from_millis(200));
-    report("IMU frame to HDT", &frames, &headings.lock().unwrap());
-    report("bare echo", &calls, &echoes.lock().unwrap());
+    let lines = heard[0].lock().unwrap();
+    report(&lines[measured.unwrap_or(0)..], begun, Calendar::new(&voyage.header.start_utc).start);
     stop(&mut daemon);
     fs::remove_dir_all(&dir).unwrap();
 }
 
 fn configuration(dir: &Path, feeds: &FeedConfig, voyage: &insd_base::Voyage) -> String {
-    let mut text = format!("[ship]\nstart = \"moored\"\nrate_hz = {RATE}\n");
+    let mut text = "[ship]\nstart = \"moored\"\nrate_hz = 10\n".to_owned();
     let header = fs::read_to_string(dir.join("voyage/voyage.toml")).unwrap();
     let mut header: toml::Table = header.parse().unwrap();
     if let Some(imu) = header.get_mut("imu").and_then(toml::Value::as_table_mut) {
@@ -109,54 +111,40 @@ fn configuration(dir: &Path, feeds: &FeedConfig, voyage: &insd_base::Voyage) -> 
         let path = dir.join(format!("out{output}"));
         text.push_str(&format!(
             "[[output]]\nname = \"out {output}\"\ndestination = {{ kind = \"serial\", device = {path:?}, baud = 921600 }}\n\
-             sentences = {{ HDT = {RATE} }}\n"
+             messages = {{ HDT = {OUTPUT_RATE}, ROT = {OUTPUT_RATE}, ZDA = {OUTPUT_RATE} }}\n"
         ));
     }
     text
 }
 
-/// Notes when each line begins that comes over a pseudo terminal.
-fn listen(mut file: File, clock: Clock) -> Times {
-    let times = Times::default();
-    let noted = Arc::clone(&times);
-    std::thread::spawn(move || {
-        let mut buffer = [0; 4096];
-        let mut ended = true;
-        while let Ok(count) = file.read(&mut buffer) {
-            let now = clock.elapsed().as_secs_f64();
-            for byte in &buffer[..count] {
-                if ended {
-                    noted.lock().unwrap().push(now);
-                }
-                ended = *byte == b'\n';
-            }
-            if count == 0 {
-                break;
-            }
-        }
-    });
-    times
+/// Lets this thread go before all others, if that is allowed.
+fn ahead() {
+    let policy = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
+    let value = ThreadPriority::Crossplatform(30.try_into().unwrap());
+    if let Err(fault) = set_thread_priority_and_policy(thread_native_id(), value, policy) {
+        println!("no real-time priority for the sensors: {fault:?}");
+    }
 }
 
-/// A bare echo: from one pseudo terminal to another, through tokio.
-fn echo(dir: &Path, clock: Clock) -> (Times, Wire, tokio::runtime::Runtime) {
-    let out = Wire::new(&dir.join("echo-out")).unwrap();
-    let times = listen(out.file().unwrap(), clock);
-    let runtime =
-        tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().unwrap();
-    let [from, to] = ["echo-in", "echo-out"].map(|name| dir.join(name).display().to_string());
-    runtime.spawn(async move {
-        let open = |path| tokio_serial::new(path, 921_600).open_native_async().unwrap();
-        let (mut from, mut to) = (open(from), open(to));
-        let mut buffer = [0; 4096];
-        while let Ok(count) = AsyncReadExt::read(&mut from, &mut buffer).await {
-            let answer = &buffer[..count];
-            if count == 0 || AsyncWriteExt::write_all(&mut to, answer).await.is_err() {
-                break;
+/// Notes each line that comes over a pseudo terminal, and when it was whole.
+fn listen(mut file: File, clock: Clock) -> Heard {
+    let lines = Heard::default();
+    let noted = Arc::clone(&lines);
+    std::thread::spawn(move || {
+        ahead();
+        let (mut buffer, mut line) = ([0; 4096], Vec::new());
+        while let Ok(count @ 1..) = file.read(&mut buffer) {
+            let now = clock.elapsed().as_secs_f64();
+            for byte in &buffer[..count] {
+                line.push(*byte);
+                if *byte == b'\n' {
+                    let text = String::from_utf8_lossy(&std::mem::take(&mut line)).into_owned();
+                    noted.lock().unwrap().push((now, text));
+                }
             }
         }
     });
-    (times, out, runtime)
+    lines
 }
 
 fn wait_until(clock: &Clock, due: f64) {
@@ -166,29 +154,39 @@ fn wait_until(clock: &Clock, due: f64) {
     }
 }
 
-/// From each cause to the first effect after it and before the next cause.
-fn report(what: &str, causes: &[f64], effects: &[f64]) {
-    let mut delays = Vec::new();
-    let mut missing = 0;
-    for pair in causes.windows(2) {
-        let after = effects.partition_point(|effect| effect < &pair[0]);
-        match effects.get(after).filter(|effect| **effect < pair[1]) {
-            Some(effect) => delays.push(effect - pair[0]),
-            None => missing += 1,
-        }
-    }
-    delays.sort_by(f64::total_cmp);
+/// How late each epoch's last byte could be read after the boundary that its ZDA names, by the feed's UTC.
+fn report(heard: &[(f64, String)], begun: f64, start: UtcTime) {
+    let mut late: Vec<f64> = heard
+        .iter()
+        .filter_map(|(at, line)| {
+            let utc = zda(line)?;
+            Some(at - begun - utc.since(start).as_seconds())
+        })
+        .collect();
+    late.sort_by(f64::total_cmp);
     let quantile = |share: f64| {
-        let index = (delays.len() as f64 * share) as usize;
-        delays.get(index.min(delays.len().saturating_sub(1))).copied().unwrap_or(f64::NAN) * 1e6
+        let index = (late.len() as f64 * share) as usize;
+        late.get(index.min(late.len().saturating_sub(1))).copied().unwrap_or(f64::NAN) * 1e3
     };
+    let within = late.iter().filter(|late| late.abs() <= 1e-3).count();
     println!(
-        "{what:18} median {:6.0} us  p99 {:6.0} us  greatest {:6.0} us  of {}, {missing} without an answer in time",
+        "{} epochs read at the far end, after their UTC boundary: median {:.3} ms, 1 % {:.3}, 99 % {:.3}, \
+         greatest {:.3}; within 1 ms {:.2} %",
+        late.len(),
         quantile(0.5),
+        quantile(0.01),
         quantile(0.99),
         quantile(1.0),
-        delays.len()
+        100.0 * within as f64 / late.len().max(1) as f64
     );
+}
+
+/// The instant of a ZDA.
+fn zda(line: &str) -> Option<UtcTime> {
+    match Sentence::read(line.as_bytes()).ok()?.1 {
+        Sentence::Zda(Zda { utc: Some(utc), .. }) => utc.to_utc(),
+        _ => None,
+    }
 }
 
 fn stop(daemon: &mut Child) {

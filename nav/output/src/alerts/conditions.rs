@@ -1,0 +1,174 @@
+//! Which alerts there are, and when each of them holds.
+
+use insd_base::{FixQuality, Mode, Span, Time};
+use insd_wire::nmea::{AlertId, AlertPriority, HeadingMode, Manufacturer};
+
+use crate::epoch::Epoch;
+use crate::policy::Policy;
+
+/// Mnemonic under which our own alerts go, that of the PINSD sentences. It is not registered anywhere.
+const MANUFACTURER: &str = "INS";
+
+/// What an alert is raised for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Condition {
+    /// There is no solution that may be used, and none is in the making: the IMU is silent, or the
+    /// solution is known to be wrong. Standard alert 3062 of ISO 8728.
+    SystemFault,
+    /// The heading was valid and is not any more: THS says V.
+    HeadingLost,
+    /// The heading is less certain than it should be: THS says E.
+    HeadingDegraded,
+    /// The position was valid and is not any more: GGA says 0.
+    PositionLost,
+    /// The position is estimated: GGA says 6.
+    PositionEstimated,
+    /// UTC is not known.
+    NoUtc,
+    /// The data come from a simulator.
+    Simulated,
+}
+
+/// An alert that there can be.
+struct Definition {
+    manufacturer: Option<Manufacturer>,
+    identifier: u32,
+    priority: AlertPriority,
+    title: &'static str,
+    description: &'static str,
+    /// For how many seconds the condition must hold, and be gone, before the alert is raised and
+    /// rectified.
+    delays: [u8; 2],
+}
+
+impl Condition {
+    /// All of them, those that matter most first.
+    pub const ALL: [Condition; 7] = [
+        Condition::SystemFault,
+        Condition::HeadingLost,
+        Condition::PositionLost,
+        Condition::HeadingDegraded,
+        Condition::PositionEstimated,
+        Condition::NoUtc,
+        Condition::Simulated,
+    ];
+
+    /// Which alert it is. There is one instance of each, which has no number.
+    #[must_use]
+    pub fn alert(self) -> AlertId {
+        let Definition { manufacturer, identifier, .. } = self.definition();
+        AlertId { manufacturer, identifier, instance: None }
+    }
+
+    /// How urgent it is when it is raised.
+    #[must_use]
+    pub fn priority(self) -> AlertPriority {
+        self.definition().priority
+    }
+
+    /// Its title, at most 16 characters.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        self.definition().title
+    }
+
+    /// What it means or what to do, at most 36 characters.
+    #[must_use]
+    pub fn description(self) -> &'static str {
+        self.definition().description
+    }
+
+    fn definition(self) -> Definition {
+        use AlertPriority::{Caution, Warning};
+        let own = |identifier, priority, [title, description]: [&'static str; 2], delays| {
+            let manufacturer = Manufacturer::new(MANUFACTURER);
+            Definition { manufacturer, identifier, priority, title, description, delays }
+        };
+        match self {
+            Condition::SystemFault => Definition {
+                manufacturer: None,
+                ..own(3062, Warning, ["System fault", "No solution. Check the IMU"], [5, 5])
+            },
+            Condition::HeadingLost => {
+                own(10_001, Warning, ["Heading lost", "Use another heading"], [2, 10])
+            }
+            Condition::PositionLost => {
+                own(10_002, Warning, ["Position lost", "Use another position"], [2, 10])
+            }
+            Condition::HeadingDegraded => {
+                own(10_003, Caution, ["Heading degraded", "Heading is less certain"], [10, 30])
+            }
+            Condition::PositionEstimated => {
+                own(10_004, Caution, ["Pos. estimated", "No GNSS or little certainty"], [10, 30])
+            }
+            Condition::NoUtc => own(10_005, Caution, ["No UTC", "Times are left empty"], [60, 10]),
+            Condition::Simulated => {
+                own(10_006, Caution, ["Simulated data", "Do not use for navigation"], [0, 0])
+            }
+        }
+    }
+
+    /// For how long it must hold, or be gone, before that counts.
+    fn delay(self, holds: bool) -> Span {
+        let [raised, rectified] = self.definition().delays;
+        Span::from_seconds(f64::from(if holds { raised } else { rectified }))
+    }
+}
+
+/// Finds which conditions hold, from one epoch after the other.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Watch {
+    /// Whether the heading and the position have been valid since the start.
+    had_heading: bool,
+    had_position: bool,
+    latches: [Latch; Condition::ALL.len()],
+}
+
+/// What counts, and since when it is the other way.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+struct Latch {
+    holds: bool,
+    otherwise: Option<Time>,
+}
+
+impl Watch {
+    /// Takes note of an epoch, by the limits of a policy; gives which conditions hold now.
+    pub fn note(
+        &mut self,
+        epoch: &Epoch,
+        policy: &Policy,
+        simulated: bool,
+    ) -> [(Condition, bool); Condition::ALL.len()] {
+        let usable = epoch.solution.filter(|solution| solution.mode != Mode::Fault);
+        let heading = usable.map(|solution| policy.heading(&solution));
+        let quality = usable.map(|solution| policy.quality(&solution));
+        self.had_heading |= heading.is_some_and(|mode| mode != HeadingMode::NotValid);
+        self.had_position |= quality.is_some_and(|quality| quality != FixQuality::Invalid);
+        let (had_heading, had_position) = (self.had_heading, self.had_position);
+        let holds = |condition| match condition {
+            Condition::SystemFault => usable.is_none() && !epoch.is_levelling(),
+            Condition::HeadingLost => had_heading && heading == Some(HeadingMode::NotValid),
+            Condition::HeadingDegraded => heading == Some(HeadingMode::Estimated),
+            Condition::PositionLost => had_position && quality == Some(FixQuality::Invalid),
+            Condition::PositionEstimated => quality == Some(FixQuality::Estimated),
+            Condition::NoUtc => epoch.utc.is_none(),
+            Condition::Simulated => simulated,
+        };
+        let mut found = Condition::ALL.map(|condition| (condition, holds(condition)));
+        for ((condition, holds), latch) in found.iter_mut().zip(&mut self.latches) {
+            latch.note(*holds, epoch.time, condition.delay(*holds));
+            *holds = latch.holds;
+        }
+        found
+    }
+}
+
+impl Latch {
+    fn note(&mut self, holds: bool, now: Time, delay: Span) {
+        if holds == self.holds {
+            self.otherwise = None;
+        } else if now - *self.otherwise.get_or_insert(now) >= delay {
+            *self = Latch { holds, otherwise: None };
+        }
+    }
+}

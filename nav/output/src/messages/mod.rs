@@ -1,0 +1,158 @@
+//! The messages that a port can send, by family: an epoch as each of them.
+
+mod alerts;
+mod heading;
+mod motion;
+mod octans;
+mod others;
+mod pashr;
+mod pinsd;
+mod pixse;
+mod position;
+mod psxn;
+mod speed;
+mod state;
+mod time;
+mod transducers;
+
+use std::fmt;
+
+use insd_wire::nmea::{Line, Talker};
+
+use crate::said::Said;
+
+/// What one message is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Content {
+    /// Sentences that belong together and leave in this order.
+    Lines(Vec<Line>),
+    /// A binary telegram.
+    Binary(Vec<u8>),
+}
+
+/// A kind of message.
+pub(crate) struct Entry {
+    /// Its name in the configuration.
+    pub(crate) name: &'static str,
+    /// Who speaks, if nothing else is configured; `None` for makers' own.
+    pub(crate) talker: Option<Talker>,
+    /// Bytes of the longest that a ship can bring about.
+    pub(crate) longest: usize,
+    /// The message of an epoch; `None` where silence is the only honest answer.
+    pub(crate) make: Make,
+}
+
+type Make = fn(&Said<'_>, Talker) -> Option<Content>;
+
+impl Entry {
+    /// A maker's own, which has no talker.
+    const fn own(name: &'static str, longest: usize, make: Make) -> Self {
+        Entry { name, talker: None, longest, make }
+    }
+}
+
+/// All families, in the order in which their messages leave a port at one epoch: time first, as others have
+/// none of their own. gpsd publishes the roll and pitch of PASHR only when a heading or a rate of turn follows
+/// in the same epoch; an Octans and a Phins send their heading first, and their sets belong to it.
+static FAMILIES: &[&[Entry]] = &[
+    time::ENTRIES,
+    position::ENTRIES,
+    speed::ENTRIES,
+    pashr::ENTRIES,
+    psxn::ENTRIES,
+    others::ENTRIES,
+    heading::ENTRIES,
+    octans::ENTRIES,
+    pixse::ENTRIES,
+    motion::ENTRIES,
+    pinsd::ENTRIES,
+    transducers::ENTRIES,
+    state::ENTRIES,
+    alerts::ENTRIES,
+];
+
+/// A kind of message that a port can send, by its name in the configuration: `GGA`, `PASHR.sbg`.
+#[derive(Clone, Copy)]
+pub struct MessageKind(&'static Entry);
+
+impl MessageKind {
+    /// All there are, in the order in which they leave a port at one epoch.
+    pub fn all() -> impl Iterator<Item = Self> {
+        FAMILIES.iter().flat_map(|family| family.iter()).map(MessageKind)
+    }
+
+    /// The kind of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::all().find(|kind| kind.name() == name)
+    }
+
+    /// Its name in the configuration.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.0.name
+    }
+
+    /// Bytes of the longest message of this kind that a ship can bring about.
+    #[must_use]
+    pub fn longest(self) -> usize {
+        self.0.longest
+    }
+
+    /// Who speaks, if nothing else is configured; `None` for makers' own messages, which have no talker.
+    #[must_use]
+    pub fn talker(self) -> Option<Talker> {
+        self.0.talker
+    }
+
+    /// Whether it tells of alerts.
+    pub(crate) fn tells_alerts(self) -> bool {
+        alerts::ENTRIES.iter().any(|entry| entry.name == self.name())
+    }
+
+    /// Whether it tells of changes: it is made once for each, and not at all without any.
+    pub(crate) fn tells_changes(self) -> bool {
+        self.name() == alerts::CHANGES
+    }
+
+    pub(crate) fn make(self, said: &Said<'_>, talker: Option<Talker>) -> Option<Content> {
+        (self.0.make)(said, talker.or(self.0.talker).unwrap_or(Talker::IN))
+    }
+}
+
+impl PartialEq for MessageKind {
+    fn eq(&self, other: &Self) -> bool {
+        self.name() == other.name()
+    }
+}
+
+impl Eq for MessageKind {}
+
+impl fmt::Debug for MessageKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl Content {
+    /// The bytes for the wire.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        match self {
+            Content::Lines(lines) => {
+                lines.iter().flat_map(|line| line.as_bytes().iter().copied()).collect()
+            }
+            Content::Binary(bytes) => bytes.clone(),
+        }
+    }
+}
+
+/// One sentence without a mark for simulated data: from a simulator there is none.
+fn unmarked(said: &Said<'_>, write: fn(&Said<'_>) -> Line) -> Option<Content> {
+    if said.is_muted() { None } else { one(write(said)) }
+}
+
+/// One sentence.
+fn one(line: Line) -> Option<Content> {
+    Some(Content::Lines(vec![line]))
+}

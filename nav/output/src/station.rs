@@ -1,0 +1,237 @@
+//! All ports together: when something is due, and the epoch of each port's monitoring point.
+
+use insd_base::{AlignmentStatus, Body, Heave, Mode, Motion, Span, Time, UtcTime};
+use insd_n2k::pgn::TimeSource;
+use insd_wire::nmea::{Acn, Hbt};
+
+use crate::alerts::{AlertBoard, AlertConfig, Watch};
+use crate::epoch::{Distance, Epoch, Receiver, Variation};
+use crate::policy::Policy;
+use crate::port::{Message, Port, PortConfig};
+use crate::schedule::{Boundary, Pacer, Rate};
+
+/// Longest time over which a motion is carried on. After it nothing is known: the IMU is silent.
+const CARRIED: Span = Span::from_nanos(200_000_000);
+
+/// Distance, damping and the like are kept up at least so often, and alerts just so often, Hz.
+const UPKEEP: f64 = 10.0;
+
+/// Speed below which a ship covers no ground but sways, m/s.
+const UNDER_WAY: f64 = 0.1;
+
+/// The newest there is to know, each with its own time.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Moment {
+    /// How the IMU moves.
+    pub motion: Option<Motion>,
+    /// Heave of each monitoring point.
+    pub heaves: Vec<Option<Heave>>,
+    /// What UTC is known from.
+    pub time_source: Option<TimeSource>,
+    /// Magnetic variation at the ship.
+    pub variation: Option<Variation>,
+    /// What the receiver in use says of its fix.
+    pub receiver: Option<Receiver>,
+    /// How the alignment stands.
+    pub alignment: Option<AlignmentStatus>,
+}
+
+/// All ports of a ship.
+#[derive(Clone, Debug)]
+pub struct Station {
+    ports: Vec<Port>,
+    points: Vec<Body>,
+    pacer: Pacer,
+    odometer: Odometer,
+    standing: Standing,
+    watch: Watch,
+    board: AlertBoard,
+}
+
+impl Station {
+    /// Ports, and the monitoring points as levers from the IMU, body axes, m; the first is the IMU itself. `others` are the rates at
+    /// which epochs are wanted beside the ports' own.
+    #[must_use]
+    pub fn new(
+        ports: impl IntoIterator<Item = PortConfig>,
+        points: Vec<Body>,
+        others: impl IntoIterator<Item = Rate>,
+    ) -> Self {
+        let ports: Vec<Port> = ports.into_iter().map(Port::new).collect();
+        let upkeep = (!ports.is_empty()).then(|| Rate::from_hertz(UPKEEP));
+        let rates: Vec<Rate> =
+            ports.iter().flat_map(Port::rates).chain(others).chain(upkeep).collect();
+        Station {
+            ports,
+            points,
+            pacer: Pacer::new(rates),
+            odometer: Odometer::default(),
+            standing: Standing::default(),
+            watch: Watch::default(),
+            board: AlertBoard::default(),
+        }
+    }
+
+    /// The same with another patience with warnings that nobody acknowledges.
+    #[must_use]
+    pub fn with_alerts(self, config: AlertConfig) -> Self {
+        Station { board: AlertBoard::new(config), ..self }
+    }
+
+    /// Its ports.
+    #[must_use]
+    pub fn ports(&self) -> &[Port] {
+        &self.ports
+    }
+
+    /// Its alerts. Heading and position are judged by the policy of the first port that tells of alerts.
+    #[must_use]
+    pub fn alerts(&self) -> &AlertBoard {
+        &self.board
+    }
+
+    /// Obeys a command of the bridge about an alert. What comes of it, an ALF or the refusal, leaves all
+    /// ports that send ALF with their next one.
+    pub fn acknowledge(&mut self, command: &Acn, now: Time, utc: Option<UtcTime>) {
+        self.board.handle(command, &Boundary { time: now, utc });
+    }
+
+    /// Hears a heartbeat of the bridge; see [`AlertBoard::hear`].
+    pub fn hear(&mut self, heartbeat: &Hbt, now: Time) {
+        self.board.hear(heartbeat, now);
+    }
+
+    /// The next instant at which something is due; `None` if nothing ever is.
+    #[must_use]
+    pub fn next(&self, now: Time, utc: Option<UtcTime>) -> Option<Time> {
+        self.pacer.next(now, utc)
+    }
+
+    /// What has become due up to now; see [`Pacer::due`].
+    pub fn due(&mut self, now: Time, utc: Option<UtcTime>) -> Vec<Boundary> {
+        self.pacer.due(now, utc)
+    }
+
+    /// Boundaries that were skipped because nobody was awake.
+    #[must_use]
+    pub fn skipped(&self) -> u64 {
+        self.pacer.skipped()
+    }
+
+    /// The messages that are due at a boundary, of each port that has any, with its index.
+    pub fn messages(
+        &mut self,
+        boundary: &Boundary,
+        moment: &Moment,
+        mut send: impl FnMut(usize, Vec<Message>),
+    ) {
+        let imu = self.epoch(boundary, moment, 0);
+        self.odometer.note(&imu);
+        self.standing.note(&imu);
+        if Rate::from_hertz(UPKEEP).is_on(boundary.grid()) {
+            self.keep_watch(&imu, boundary);
+        }
+        for index in 0..self.ports.len() {
+            let Some(point) = self.ports.get(index).map(|port| port.config().point) else { break };
+            let epoch = self.epoch(boundary, moment, point);
+            if let Some(messages) =
+                self.ports.get_mut(index).map(|port| port.messages_with(&epoch, Some(&self.board)))
+                && !messages.is_empty()
+            {
+                send(index, messages);
+            }
+        }
+    }
+
+    /// Raises and rectifies alerts.
+    fn keep_watch(&mut self, epoch: &Epoch, now: &Boundary) {
+        let mut judges = self.ports.iter().filter(|port| port.tells_alerts());
+        let policy = judges.next().map_or_else(Policy::default, |port| port.config().manner.policy);
+        let simulated = self.ports.iter().any(|port| port.config().manner.simulated);
+        for (condition, holds) in self.watch.note(epoch, &policy, simulated) {
+            if holds {
+                self.board.raise(condition, now);
+            } else {
+                self.board.rectify(condition, now);
+            }
+        }
+        self.board.wait(now);
+    }
+
+    /// What is known of each monitoring point at a boundary, in their order.
+    #[must_use]
+    pub fn epochs(&self, boundary: &Boundary, moment: &Moment) -> Vec<Epoch> {
+        (0..self.points.len()).map(|point| self.epoch(boundary, moment, point)).collect()
+    }
+
+    /// What is known of a monitoring point at a boundary. The newest motion is carried on to it, but not
+    /// for longer than 0.2 s: nothing is told with a new time that is not new.
+    fn epoch(&self, boundary: &Boundary, moment: &Moment, point: usize) -> Epoch {
+        let lever = self.points.get(point).copied().unwrap_or_default();
+        let is_near = |time: Time| (boundary.time - time).as_nanos().abs() <= CARRIED.as_nanos();
+        let motion = moment.motion.filter(|motion| is_near(motion.solution.time));
+        let motion = motion.map(|motion| motion.at(boundary.time).at_point(&lever));
+        let heave = moment.heaves.get(point).copied().flatten();
+        Epoch {
+            solution: motion.map(|motion| motion.solution),
+            acceleration: motion.and_then(|motion| motion.acceleration),
+            covariance_north_east: motion.and_then(|motion| motion.covariance_north_east),
+            current: motion.and_then(|motion| motion.current).map(|current| current.velocity),
+            heave: heave.filter(|heave| is_near(heave.time)).map(|heave| heave.at(boundary.time)),
+            mode_since: self.standing.since,
+            utc: boundary.utc,
+            time_source: moment.time_source,
+            variation: moment.variation,
+            receiver: moment.receiver,
+            distance: self.odometer.distance,
+            alignment: moment.alignment,
+            ..Epoch::unknown(boundary.time)
+        }
+    }
+}
+
+/// Since when the system does what it does, or nothing.
+#[derive(Clone, Debug, Default)]
+struct Standing {
+    mode: Option<Mode>,
+    since: Option<Time>,
+}
+
+impl Standing {
+    fn note(&mut self, epoch: &Epoch) {
+        let mode = epoch.solution.map(|solution| solution.mode);
+        if self.since.is_none() || mode != self.mode {
+            *self = Standing { mode, since: Some(epoch.time) };
+        }
+    }
+}
+
+/// Adds up the distance run since the start.
+#[derive(Clone, Debug, Default)]
+struct Odometer {
+    distance: Distance,
+    last: Option<Time>,
+}
+
+impl Odometer {
+    fn note(&mut self, epoch: &Epoch) {
+        let passed = self.last.replace(epoch.time).map(|last| (epoch.time - last).as_seconds());
+        let solution = epoch.solution.filter(|solution| solution.mode.is_navigating());
+        let Some((solution, passed)) = solution.zip(passed.filter(|passed| *passed > 0.0)) else {
+            return;
+        };
+        let over_ground = solution.velocity.0.xy();
+        let through_water = epoch.current.map(|current| over_ground - current.0.xy());
+        add(&mut self.distance.ground, over_ground.norm() * passed, passed);
+        if let Some(velocity) = through_water {
+            add(&mut self.distance.water, velocity.norm() * passed, passed);
+        }
+    }
+}
+
+fn add(distance: &mut Option<f64>, more: f64, passed: f64) {
+    if more.is_finite() {
+        let counts = more >= UNDER_WAY * passed;
+        *distance.get_or_insert(0.0) += if counts { more } else { 0.0 };
+    }
+}
