@@ -60,6 +60,33 @@ noise-free:
 bench *options:
     cargo bench --workspace {{options}}
 
+# when outputs leave, beside so many busy threads: at the far end of a terminal, and as the daemon counts
+timing seconds="60" busy="4":
+    cargo build --release
+    cargo run --release -p insd-tests --example timing -- target/release/insd {{seconds}} {{busy}}
+
+# the heave filter alone in seas of 4 to 20 s with IMUs of three grades: errors over their bars, two minutes
+heave-campaign:
+    cargo test --release -p insd-nav --test heave -- --ignored --nocapture the_campaign
+
+# heave as two ports send it, against the truth: sea states 3 to 6, periods 4 to 20 s; about three minutes
+heave-chain grade="navigation":
+    #!/usr/bin/env bash
+    set -euo pipefail
+    cargo build --release
+    mkdir -p target/heave
+    cd target/heave
+    for sea in "0.88 7.5" "1.88 8.8" "3.25 9.7" "5.0 12.4" "0.9 4" "1.9 6" "3.2 15" "1.9 20" "5.0 20"; do
+        set -- $sea
+        ../release/insd simulate ../../tests/conformance/heave-scenario.toml --out sailed --set imu.grade={{grade}} \
+            --set sea.significant_height_m=$1 --set sea.peak_period_s=$2 > /dev/null
+        ../release/insd replay sailed --out nav.csv --config ../../tests/conformance/heave-ports.toml --sent sent 2> /dev/null
+        echo "== $1 m, $2 s"
+        python3 ../../tests/conformance/heave.py sailed sent/imu.sent 0 0 0 500
+        python3 ../../tests/conformance/heave.py sailed sent/bow.sent 40 8 5 500
+        rm -r sailed sent
+    done
+
 # what an NMEA 2000 bus costs the daemon, and what its node puts on the bus
 can-cost seconds="60" background="400":
     cargo build --release
@@ -85,6 +112,29 @@ picture:
 # the pictures and tables of docs/alignment.md, the same bytes every time
 alignment-page:
     cargo run --release -p insd-tests --example alignment_page -- docs
+
+# independent readers on what the ports send in a simulated voyage; INSD_GPSDECODE: gpsd 3.27's decoder
+conformance-outputs *options:
+    #!/usr/bin/env bash
+    set -euo pipefail
+    peers=target/conformance
+    mkdir -p "$peers"
+    cargo build --release -p insd
+    insd=${CARGO_TARGET_DIR:-target}/release/insd
+    rm -rf "$peers/voyage" "$peers/sent"
+    "$insd" simulate tests/conformance/outputs-voyage.toml --seed 1 --out "$peers/voyage"
+    "$insd" replay "$peers/voyage" --out "$peers/nav.csv" --sent "$peers/sent" \
+        --config tests/conformance/outputs.toml
+    [ -x "$peers/venv/bin/pip" ] || python3 -m venv "$peers/venv"
+    "$peers/venv/bin/pip" install --quiet pynmeagps==1.1.8 pynmea2==1.19.0
+    npm install --silent --no-audit --no-fund --prefix "$peers" @signalk/nmea0183-signalk@3.20.1
+    gpsdecode=${INSD_GPSDECODE:-$(command -v gpsdecode || true)}
+    # --first: what leaves first at an epoch, before what has no time; --rot-damping: as the profiles have it
+    NODE_PATH="$peers/node_modules" "$peers/venv/bin/python" tests/conformance/outputs.py \
+        "$peers"/sent/epochs.csv "$peers"/sent/*.sent ${gpsdecode:+--gpsdecode "$gpsdecode"} \
+        --first gpsd=ZDA --first ecdis=ZDA --first vdr=ZDA --first seapath=ZDA --first radar-arpa=ZDA \
+        --first ais=GNS --first autopilot=RMC --first phins=HDT --first others=PRDID \
+        --rot-damping ais=1 --rot-damping autopilot=0.5 {{options}}
 
 # all that CI does
 ci:
