@@ -107,10 +107,10 @@ impl Speaker {
         }
         let moment = self.moment(engine, now, utc);
         for boundary in due {
-            self.station.messages(&boundary, &moment, |port, messages| {
+            let epochs = self.station.messages(&boundary, &moment, |port, messages| {
                 say(Spoken::Messages(port, messages));
             });
-            say(Spoken::Epochs(self.station.epochs(&boundary, &moment)));
+            say(Spoken::Epochs(epochs));
         }
     }
 

@@ -3,6 +3,8 @@
 use insd_base::{AlignmentPhase, AlignmentStatus, Heave, Ned, Solution, Span, Time, UtcTime};
 use insd_n2k::pgn::TimeSource;
 
+use crate::schedule::Boundary;
+
 /// A levelling that has said nothing for longer than this has come to a halt: it speaks every 10 s.
 const LEVELLING: Span = Span::from_nanos(15_000_000_000);
 
@@ -78,6 +80,11 @@ pub struct Receiver {
 }
 
 impl Epoch {
+    /// Its instant on the grid of the outputs: that of UTC as soon as it is known.
+    pub(crate) fn boundary(&self) -> Boundary {
+        Boundary { time: self.time, utc: self.utc }
+    }
+
     /// An instant of which nothing else is known.
     #[must_use]
     pub fn unknown(time: Time) -> Self {

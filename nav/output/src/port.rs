@@ -8,7 +8,7 @@ use crate::epoch::Epoch;
 use crate::manner::Manner;
 use crate::messages::{Content, MessageKind};
 use crate::said::Said;
-use crate::schedule::{Boundary, Rate};
+use crate::schedule::Rate;
 
 /// One port.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -125,7 +125,7 @@ impl Port {
         let rate_of_turn = self.damped(epoch);
         let geoid = self.config.geoid_separation.or(epoch.geoid);
         let epoch = Epoch { rate_of_turn, geoid, ..*epoch };
-        let grid = Boundary { time: epoch.time, utc: epoch.utc }.grid();
+        let grid = epoch.boundary().grid();
         let manner = &self.config.manner;
         let alerts = board.map(|board| board.list(|condition| manner.shows(condition)));
         let said = Said::new(&epoch, manner).with_alerts(alerts.as_deref());

@@ -162,7 +162,7 @@ impl Beat {
     /// Whether this epoch is the first one of an interval, so that messages of one rate leave
     /// together and a late or missing epoch does not shift the ones after it.
     pub(crate) fn is_due(&mut self, epoch: &Epoch, interval: Span) -> bool {
-        let grid = Boundary { time: epoch.time, utc: epoch.utc }.grid();
+        let grid = epoch.boundary().grid();
         let length = interval.as_nanos().max(1);
         let number = |grid: i64| grid.div_euclid(length);
         let due = self.last.is_none_or(|last| {

@@ -118,29 +118,39 @@ impl Station {
         self.pacer.skipped()
     }
 
-    /// The messages that are due at a boundary, of each port that has any, with its index.
+    /// The messages that are due at a boundary, of each port that has any, with its index. Gives what is known
+    /// of each monitoring point there, in their order.
     pub fn messages(
         &mut self,
         boundary: &Boundary,
         moment: &Moment,
         mut send: impl FnMut(usize, Vec<Message>),
-    ) {
-        let imu = self.epoch(boundary, moment, 0);
-        self.odometer.note(&imu);
-        self.standing.note(&imu);
-        if Rate::from_hertz(UPKEEP).is_on(boundary.grid()) {
-            self.keep_watch(&imu, boundary);
+    ) -> Vec<Epoch> {
+        let mut epochs: Vec<Epoch> = self
+            .points
+            .iter()
+            .enumerate()
+            .map(|(index, lever)| epoch(boundary, moment, index, lever))
+            .collect();
+        if let Some(imu) = epochs.first().copied() {
+            self.odometer.note(&imu);
+            self.standing.note(&imu);
+            if Rate::from_hertz(UPKEEP).is_on(boundary.grid()) {
+                self.keep_watch(&imu, boundary);
+            }
         }
-        for index in 0..self.ports.len() {
-            let Some(point) = self.ports.get(index).map(|port| port.config().point) else { break };
-            let epoch = self.epoch(boundary, moment, point);
-            if let Some(messages) =
-                self.ports.get_mut(index).map(|port| port.messages_with(&epoch, Some(&self.board)))
-                && !messages.is_empty()
-            {
+        for epoch in &mut epochs {
+            epoch.distance = self.odometer.distance;
+            epoch.mode_since = self.standing.since;
+        }
+        for (index, port) in self.ports.iter_mut().enumerate() {
+            let Some(epoch) = epochs.get(port.config().point).or(epochs.first()) else { continue };
+            let messages = port.messages_with(epoch, Some(&self.board));
+            if !messages.is_empty() {
                 send(index, messages);
             }
         }
+        epochs
     }
 
     /// Raises and rectifies alerts.
@@ -157,37 +167,6 @@ impl Station {
         }
         self.board.wait(now);
     }
-
-    /// What is known of each monitoring point at a boundary, in their order.
-    #[must_use]
-    pub fn epochs(&self, boundary: &Boundary, moment: &Moment) -> Vec<Epoch> {
-        (0..self.points.len()).map(|point| self.epoch(boundary, moment, point)).collect()
-    }
-
-    /// What is known of a monitoring point at a boundary. The newest motion is carried on to it, but not
-    /// for longer than 0.2 s: nothing is told with a new time that is not new.
-    fn epoch(&self, boundary: &Boundary, moment: &Moment, point: usize) -> Epoch {
-        let lever = self.points.get(point).copied().unwrap_or_default();
-        let is_near = |time: Time| (boundary.time - time).as_nanos().abs() <= CARRIED.as_nanos();
-        let motion = moment.motion.filter(|motion| is_near(motion.solution.time));
-        let motion = motion.map(|motion| motion.at(boundary.time).at_point(&lever));
-        let heave = moment.heaves.get(point).copied().flatten();
-        Epoch {
-            solution: motion.map(|motion| motion.solution),
-            acceleration: motion.and_then(|motion| motion.acceleration),
-            covariance_north_east: motion.and_then(|motion| motion.covariance_north_east),
-            current: motion.and_then(|motion| motion.current).map(|current| current.velocity),
-            heave: heave.filter(|heave| is_near(heave.time)).map(|heave| heave.at(boundary.time)),
-            mode_since: self.standing.since,
-            utc: boundary.utc,
-            time_source: moment.time_source,
-            variation: moment.variation,
-            receiver: moment.receiver,
-            distance: self.odometer.distance,
-            alignment: moment.alignment,
-            ..Epoch::unknown(boundary.time)
-        }
-    }
 }
 
 /// Since when the system does what it does, or nothing.
@@ -203,6 +182,28 @@ impl Standing {
         if self.since.is_none() || mode != self.mode {
             *self = Standing { mode, since: Some(epoch.time) };
         }
+    }
+}
+
+/// What is known of a monitoring point at a boundary. The newest motion is carried on to it, but not
+/// for longer than 0.2 s: nothing is told with a new time that is not new.
+fn epoch(boundary: &Boundary, moment: &Moment, point: usize, lever: &Body) -> Epoch {
+    let is_near = |time: Time| (boundary.time - time).as_nanos().abs() <= CARRIED.as_nanos();
+    let motion = moment.motion.filter(|motion| is_near(motion.solution.time));
+    let motion = motion.map(|motion| motion.at(boundary.time).at_point(lever));
+    let heave = moment.heaves.get(point).copied().flatten();
+    Epoch {
+        solution: motion.map(|motion| motion.solution),
+        acceleration: motion.and_then(|motion| motion.acceleration),
+        covariance_north_east: motion.and_then(|motion| motion.covariance_north_east),
+        current: motion.and_then(|motion| motion.current).map(|current| current.velocity),
+        heave: heave.filter(|heave| is_near(heave.time)).map(|heave| heave.at(boundary.time)),
+        utc: boundary.utc,
+        time_source: moment.time_source,
+        variation: moment.variation,
+        receiver: moment.receiver,
+        alignment: moment.alignment,
+        ..Epoch::unknown(boundary.time)
     }
 }
 
