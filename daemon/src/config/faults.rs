@@ -80,6 +80,9 @@ fn nodes(config: &Config, faults: &mut Vec<String>) {
         if !is_bus {
             faults.push(format!("{place}: port: expected the name of a CAN port"));
         }
+        if !node.point.as_ref().is_none_or(|name| config.has_point(name)) {
+            faults.push(format!("{place}: point: expected the name of a [[point]]"));
+        }
         faults.extend(node.faults().into_iter().map(|fault| format!("{place}: {fault}")));
     }
 }
@@ -98,6 +101,9 @@ fn outputs(config: &Config, faults: &mut Vec<String>) {
     }
     for output in &config.outputs {
         let place = format!("[[output]] \"{}\"", output.name);
+        if config.outputs.iter().filter(|other| other.name == output.name).count() > 1 {
+            faults.push(format!("{place}: name: expected a name that no other output has"));
+        }
         faults.extend(output.faults(config).into_iter().map(|fault| format!("{place}: {fault}")));
     }
     if let Some(recording) = &config.recording

@@ -188,3 +188,13 @@ fn a_table_of_a_can_imu_is_read_from_toml_and_its_faults_are_told() {
     let fault = toml::from_str::<Sensors>(unknown).unwrap_err();
     assert!(fault.to_string().contains("xsense"), "{fault}");
 }
+
+#[test]
+fn a_name_that_is_not_there_or_there_twice_is_a_fault() {
+    let nodes = format!("{}\n[[node]]\nport = \"imu\"\npoint = \"bwo\"\n", with_node());
+    let fault = Config::of_text(&nodes).unwrap_err();
+    assert!(fault.contains("point: expected the name of a [[point]]"), "{fault}");
+    let twice = SHIPPED.replace("name = \"network\"", "name = \"ecdis\"");
+    let fault = Config::of_text(&twice).unwrap_err();
+    assert!(fault.contains("expected a name that no other output has"), "{fault}");
+}
