@@ -21,6 +21,15 @@ vm *options:
     CARGO_TARGET_X86_64_UNKNOWN_LINUX_GNU_RUNNER="{{justfile_directory()}}/tests/vm/runner" VM_TIMEOUT=400 \
         cargo test --workspace --test vm_pps --test vm_can --test vm_bus -- --ignored {{options}}
 
+# the Debian package; needs `cargo install cargo-deb --version 3.8.0 --locked`
+deb *options:
+    systemd/package {{options}}
+
+# the package installed, started, hurt, upgraded and purged in a small Debian, see tests/vm/README.md
+vm-service:
+    tests/vm/prepare service
+    VM_TIMEOUT=400 tests/vm/service/run "$(systemd/package)"
+
 # what CI refuses: unformatted code and any warning
 lint:
     cargo fmt --all --check
@@ -87,6 +96,16 @@ heave-chain grade="navigation":
         rm -r sailed sent
     done
 
+# what the daemon costs at 200 samples a second with ten outputs, and how soon it speaks
+footprint seconds="60":
+    cargo build --release
+    INSD_PROGRAM="${CARGO_TARGET_DIR:-target}/release/insd" \
+        cargo run --release -p insd-tests --example footprint {{seconds}}
+
+# days of a ship through the daemon's pipeline as fast as it goes: memory, counters, gaps
+soak hours="72" imu_hz="50":
+    cargo run --release -p insd-tests --example soak -- {{hours}} {{imu_hz}}
+
 # what an NMEA 2000 bus costs the daemon, and what its node puts on the bus
 can-cost seconds="60" background="400":
     cargo build --release
@@ -108,6 +127,18 @@ fuzz-all seconds="60":
 # the README's picture of the demo, the same bytes every time
 picture:
     cargo run --release -p insd --example demo_picture -- docs/demo.svg
+
+# the status page with a made-up ship: alignment, underway, fault
+page scene="underway" address="127.0.0.1:8470":
+    cargo run -p insd-web --example show -- {{scene}} {{address}}
+
+# the status page in a browser; needs Debian's chromium and chromium-driver
+browser *options:
+    cargo test -p insd-web --test browser -- --ignored {{options}}
+
+# the pictures of docs/page.md
+page-pictures:
+    INSD_PICTURES=docs/page cargo test -p insd-web --test browser -- --ignored pictures
 
 # the pictures and tables of docs/alignment.md, the same bytes every time
 alignment-page:

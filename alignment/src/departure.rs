@@ -4,9 +4,10 @@ use insd_base::{Geodetic, Span, Time, earth};
 use insd_nav::Filter;
 use insd_nav::error_state::{POSITION, VELOCITY};
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 /// Watches how far and how fast the estimate moves away.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Departure {
     from: Vector3<f64>,
     speed: f64,
@@ -43,6 +44,12 @@ impl Departure {
             start: filter.time(),
             next: filter.time(),
         }
+    }
+
+    /// The same on a time line that is later by a span.
+    #[must_use]
+    pub fn shifted(self, by: Span) -> Self {
+        Departure { start: self.start + by, next: self.next + by, ..self }
     }
 
     /// Looks at the estimate, if it is time to.

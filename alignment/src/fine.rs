@@ -3,11 +3,14 @@
 //!
 //! The same filter then navigates: it is handed over, not copied into another, and nothing steps.
 
+pub mod kept;
+
 use insd_base::{Forecast, ImuSpec, Lack, Message, Received, SeaEstimate, Solution, Time};
 use insd_nav::{AidReport, Estimator, Filter, Increment, Outcome, Report};
 
 use crate::config::Method;
 use crate::departure::Departure;
+use crate::disturbance::Model;
 use crate::forecast;
 use crate::moorings::Moorings;
 use crate::prefiltered::Prefiltered;
@@ -102,6 +105,15 @@ impl Fine {
     pub fn moorings(&self) -> Option<&Moorings> {
         match &self.hold {
             Some(Hold::Moorings(moorings)) => Some(moorings),
+            _ => None,
+        }
+    }
+
+    /// The model of the sea that the prefilter found last, where it is what holds the filter.
+    #[must_use]
+    pub fn sea_model(&self) -> Option<&Model> {
+        match &self.hold {
+            Some(Hold::Prefiltered(prefiltered)) => prefiltered.model(),
             _ => None,
         }
     }

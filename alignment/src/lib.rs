@@ -26,6 +26,7 @@ pub mod white;
 pub use bank::Bank;
 pub use config::{AlignmentConfig, InMotion, Method};
 pub use fine::Fine;
+pub use fine::kept::KeptFine;
 pub use in_motion::EightState;
 pub use levelling::{Level, Levelling};
 pub use stored::StoredState;

@@ -15,9 +15,10 @@ use insd_nav::error_state::SWAY;
 use insd_nav::innovation::Innovation;
 use insd_nav::{Filter, Oscillator, Outcome, Sway};
 use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
 
 /// What is known of the ship at her berth, and learnt.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Moorings {
     place: Geodetic,
     sway_variance: [f64; 2],
@@ -140,6 +141,17 @@ impl Moorings {
     #[must_use]
     pub fn place(&self) -> &Geodetic {
         &self.place
+    }
+
+    /// The same on a time line that is later by a span.
+    #[must_use]
+    pub fn shifted(self, by: Span) -> Self {
+        Moorings {
+            next: self.next + by,
+            shifting_until: self.shifting_until + by,
+            start: self.start + by,
+            ..self
+        }
     }
 
     /// Holds the filter against the berth if it is time to; returns the log-likelihood.

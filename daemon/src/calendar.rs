@@ -3,6 +3,18 @@
 use insd_base::{Time, UtcTime};
 use insd_output::CivilTime;
 
+/// An instant as people and files write it; empty where no calendar reaches.
+pub(crate) fn rfc3339(utc: UtcTime) -> String {
+    let instant = jiff::Timestamp::from_nanosecond(i128::from(utc.as_nanos()));
+    instant.map(|instant| format!("{instant:.0}")).unwrap_or_default()
+}
+
+/// The same with milliseconds.
+pub(crate) fn rfc3339_millis(utc: UtcTime) -> String {
+    let instant = jiff::Timestamp::from_nanosecond(i128::from(utc.as_nanos()));
+    instant.map(|instant| format!("{instant:.3}")).unwrap_or_default()
+}
+
 /// The calendar of one voyage: UTC of its start.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Calendar {

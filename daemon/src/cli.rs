@@ -5,8 +5,12 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use insd_drivers::recording::RecordingError;
 
-use crate::commands::{campaign, convert, evaluate, limit, ports, replay, run, simulate, sniff};
+use crate::commands::{
+    campaign, check_config, convert, evaluate, example_config, feed, generate, limit, monitor,
+    ports, replay, report, run, simulate, sniff,
+};
 use crate::demo;
+use crate::logging::Log;
 
 /// Exit status when the input is to blame.
 const BAD_INPUT: u8 = 2;
@@ -25,12 +29,16 @@ pub struct Cli {
 enum Command {
     /// Navigate: read the ship's sensors, feed her equipment
     Run(run::RunArgs),
+    /// Show in this terminal what a running daemon's status page shows
+    Monitor(monitor::MonitorArgs),
     /// Show a simulated ship navigating in real time, with NMEA on a pseudo terminal
     Demo(demo::DemoArgs),
     /// Make a voyage directory with truth from a scenario
     Simulate(simulate::SimulateArgs),
     /// Run a recorded voyage through the navigator
     Replay(replay::ReplayArgs),
+    /// Make one self-contained page of a recording: track, attitude, errors claimed, aids, alerts
+    Report(report::ReportArgs),
     /// Make a voyage directory of a raw recording
     Convert(convert::ConvertArgs),
     /// Compare a solution with truth
@@ -39,10 +47,19 @@ enum Command {
     Campaign(campaign::CampaignArgs),
     /// How well the optimal filter could do in a scenario
     Limit(limit::LimitArgs),
+    /// Look for faults in a configuration: tells all of them, and what it amounts to
+    CheckConfig(check_config::CheckConfigArgs),
+    /// Print a commented configuration to start from
+    ExampleConfig(example_config::ExampleConfigArgs),
+    /// Be the sensors of a simulated ship, in real time, each on a pseudo terminal
+    Feed(feed::FeedArgs),
     /// List the ports of this computer, with the names to use in a configuration
     Ports(ports::PortsArgs),
     /// Listen to ports and tell what comes: formats, rates, damage, what may be wrong
     Sniff(sniff::SniffArgs),
+    /// Write manual pages or completions for shells
+    #[command(hide = true)]
+    Generate(generate::GenerateArgs),
 }
 
 /// The input is to blame, not the machine: ends with exit status 2.
@@ -62,16 +79,22 @@ impl Cli {
     ///
     /// # Errors
     /// Whatever the command meets; [`exit_code`] tells bad input from other failures.
-    pub fn run(self) -> anyhow::Result<()> {
+    pub fn run(self, log: &Log) -> anyhow::Result<()> {
         match self.command {
-            Command::Run(args) => run::run(&args),
+            Command::Run(args) => run::run(&args, log),
+            Command::Monitor(args) => monitor::run(&args),
             Command::Convert(args) => convert::run(&args),
             Command::Demo(args) => demo::run(args),
             Command::Simulate(args) => simulate::run(&args),
             Command::Replay(args) => replay::run(&args),
+            Command::Report(args) => report::run(&args),
             Command::Evaluate(args) => evaluate::run(&args),
             Command::Campaign(args) => campaign::run(&args),
             Command::Limit(args) => limit::run(&args),
+            Command::CheckConfig(args) => check_config::run(&args),
+            Command::ExampleConfig(args) => example_config::run(&args),
+            Command::Feed(args) => feed::run(&args),
+            Command::Generate(args) => generate::run(&args),
             Command::Ports(args) => ports::run(&args),
             Command::Sniff(args) => sniff::run(&args),
         }

@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all.
 
 use std::fs::{self, File};
-use std::io::{BufWriter, IntoInnerError, Write};
+use std::io::{self, BufWriter, IntoInnerError, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
@@ -45,6 +45,15 @@ impl OutputFile {
         self.temporary = None;
         Ok(())
     }
+}
+
+/// Puts a text in the place of a file, whole or not at all, and waits until the disk has it.
+pub(crate) fn replace(place: &Path, text: &str) -> io::Result<()> {
+    let fresh = place.with_extension("new");
+    let mut file = File::create(&fresh)?;
+    file.write_all(text.as_bytes())?;
+    file.sync_all()?;
+    fs::rename(&fresh, place)
 }
 
 impl Write for OutputFile {

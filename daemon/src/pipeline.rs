@@ -1,14 +1,23 @@
 //! From what arrives to solutions: intake and engine in one. Daemon and replay run this very code, so
 //! that a recording replays to the same bits.
 
-use insd_base::{Arrival, Counts, Input, Time, UtcTime};
+use std::sync::Arc;
+
+use insd_base::{
+    AlertOrder, Arrival, Counts, Heave, Input, Mode, Motion, Order, ResumeDoubt, Time, UtcTime,
+};
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_intake::config::IntakeConfig;
 use insd_intake::event::IntakeEvent;
 use insd_intake::status::IntakeStatus;
 use insd_intake::{Intake, Intaken};
+use insd_wire::nmea::AlertCommand;
 
-use crate::speaker::{Speaker, Spoken};
+use crate::config::{Change, Config};
+use crate::redundancy::{Dispute, EngineStatus, FIRST, InUse, Redundancy, Said, Spare, Vote};
+use crate::speaker::{Knows, Speaker, Spoken};
+use crate::state::Checkpoints;
+use crate::stored;
 
 /// What an arrival led to.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,47 +28,270 @@ pub enum Product {
     Intake(IntakeEvent),
     /// Something for the ports that are written to.
     Spoken(Spoken),
+    /// What became of an order.
+    Order(Obeyed),
+    /// Something from a spare engine of this name.
+    Spare(Arc<str>, Output),
+    /// Something about which engine is believed.
+    Vote(Vote),
+}
+
+/// What became of an order.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Obeyed {
+    /// One about an alert: whether there is such an alert that it could be done to.
+    Alert {
+        /// The alert's identifier.
+        identifier: u32,
+        /// What was ordered.
+        command: AlertOrder,
+        /// Whether it was done.
+        done: bool,
+    },
+    /// Another configuration holds; what it changed.
+    Configured(Change),
+    /// Another configuration was not taken: its faults.
+    ConfigurationRefused(String),
+    /// Navigation goes on from where the run before ended: the first engine, or a spare.
+    Resumed,
+    /// It does not, and why.
+    NotResumed(ResumeDoubt),
+    /// The state of the ship at her berth is on offer.
+    StoredStateOffered,
+    /// It is not, and why.
+    StoredStateRefused(String),
+}
+
+/// What a pipeline is made of.
+#[derive(Debug)]
+pub struct Parts {
+    /// What is plugged in.
+    pub intake: IntakeConfig,
+    /// What the first engine is told.
+    pub engine: EngineConfig,
+    /// What speaks to the ports.
+    pub speaker: Speaker,
+    /// Further engines.
+    pub spares: Vec<Spare>,
 }
 
 /// Intake, engine and what speaks to the ports.
 #[derive(Debug)]
 pub struct Pipeline {
+    config: Config,
     intake: Intake,
     engine: Engine,
     speaker: Speaker,
+    /// The spare engines, if there are any.
+    redundancy: Option<Redundancy>,
 }
 
 impl Pipeline {
     /// A pipeline that knows nothing yet.
     #[must_use]
-    pub fn new(intake: &IntakeConfig, engine: EngineConfig, speaker: Speaker) -> Self {
-        Pipeline { intake: Intake::new(intake), engine: Engine::new(engine), speaker }
+    pub fn new(config: &Config) -> Self {
+        Self::with_engine(config, config.engine())
+    }
+
+    /// The same, its engines told otherwise than the configuration has it.
+    #[must_use]
+    pub fn with_engine(config: &Config, engine: EngineConfig) -> Self {
+        let spares = config.spares(&engine);
+        let parts = Parts { intake: config.intake(), engine, speaker: config.speaker(), spares };
+        Self::of(config, parts)
+    }
+
+    /// A pipeline of parts of which the configuration says nothing.
+    #[must_use]
+    pub fn of(config: &Config, parts: Parts) -> Self {
+        let Parts { intake, engine, speaker, spares } = parts;
+        Pipeline {
+            intake: Intake::new(&intake),
+            engine: Engine::new(engine),
+            speaker,
+            redundancy: (!spares.is_empty()).then(|| Redundancy::new(spares)),
+            config: config.clone(),
+        }
     }
 
     /// Takes what arrived, in order of arrival, and hands over all that comes of it.
-    pub fn handle(&mut self, arrival: &Arrival, mut product: impl FnMut(&Intake, Product)) {
+    pub fn handle(&mut self, arrival: &Arrival, mut product: impl FnMut(Product)) {
+        let now = arrival.stamp.monotonic;
+        if let Input::Order(order) = &arrival.input {
+            product(Product::Order(self.obey(order, now)));
+            return;
+        }
+        if let Some(redundancy) = &mut self.redundancy {
+            let first = (&self.engine, &self.intake);
+            redundancy.look(now, first, |vote| product(Product::Vote(vote)));
+        }
         self.intake.handle(arrival);
         while let Some(taken) = self.intake.poll_output() {
             match taken {
-                Intaken::Event(event) => product(&self.intake, Product::Intake(event)),
+                Intaken::Event(event) => product(Product::Intake(event)),
                 Intaken::Measured(received) => {
                     self.speaker.hear(&received);
                     self.engine.handle(&received);
-                    while let Some(output) = self.engine.poll_output() {
-                        self.speaker.note(&output);
-                        product(&self.intake, Product::Engine(output));
-                    }
+                    self.hand_on(&mut product);
                 }
             }
         }
-        let now = arrival.stamp.monotonic;
-        let (intake, utc) = (&self.intake, self.intake.utc_at(now));
+        self.handle_spares(arrival, &mut product);
+        let utc = self.intake.utc_at(now);
         self.speaker.overhear(arrival, utc);
         if arrival.input == Input::Tick {
-            self.speaker.speak(&self.engine, now, utc, |spoken| {
-                product(intake, Product::Spoken(spoken));
-            });
+            let known = InUse { first: &self.engine, redundancy: self.redundancy.as_ref() };
+            self.speaker.speak(&known, now, utc, |spoken| product(Product::Spoken(spoken)));
         }
+    }
+
+    /// Hands on what the first engine says, unless it is the word of a spare that counts.
+    fn hand_on(&mut self, product: &mut impl FnMut(Product)) {
+        while let Some(output) = self.engine.poll_output() {
+            let redundancy = self.redundancy.as_mut();
+            if redundancy.is_some_and(|spares| !spares.hear_first(&output)) {
+                continue;
+            }
+            self.speaker.note(&output);
+            product(Product::Engine(output));
+        }
+    }
+
+    fn handle_spares(&mut self, arrival: &Arrival, product: &mut impl FnMut(Product)) {
+        let Some(redundancy) = &mut self.redundancy else { return };
+        redundancy.handle(arrival, |said| match said {
+            Said::Solution(solution) => product(Product::Engine(Output::Solution(solution))),
+            Said::Spare(name, output) => product(Product::Spare(name, output)),
+        });
+        if let Some(status) = redundancy.alignment() {
+            self.speaker.note(&Output::Alignment(status));
+        }
+    }
+
+    fn obey(&mut self, order: &Order, now: Time) -> Obeyed {
+        match order {
+            Order::Alert { identifier, command } => {
+                let ordered = match command {
+                    AlertOrder::Acknowledge => AlertCommand::Acknowledge,
+                    AlertOrder::Silence => AlertCommand::Silence,
+                };
+                let utc = self.intake.utc_at(now);
+                let done = self.speaker.obey(*identifier, ordered, now, utc);
+                Obeyed::Alert { identifier: *identifier, command: *command, done }
+            }
+            Order::Configuration(text) => match Config::of_text(text) {
+                Ok(config) => Obeyed::Configured(self.configure(config)),
+                Err(faults) => Obeyed::ConfigurationRefused(faults),
+            },
+            Order::Checkpoint { age, state } => {
+                let Some(checkpoints) = Checkpoints::parse(state) else {
+                    return Obeyed::NotResumed(ResumeDoubt::Damaged);
+                };
+                let first = match checkpoints.of(FIRST) {
+                    Some(own) => self.engine.resume(own, now, *age),
+                    None => Err(ResumeDoubt::Damaged),
+                };
+                let spares = self.redundancy.as_mut();
+                let resumed = spares.is_some_and(|own| own.resume(&checkpoints, now, *age));
+                match first {
+                    Err(doubt) if !resumed => Obeyed::NotResumed(doubt),
+                    _ => Obeyed::Resumed,
+                }
+            }
+            Order::StoredState(text) => match stored::parse(text) {
+                Ok(state) => {
+                    self.engine.offer(state);
+                    Obeyed::StoredStateOffered
+                }
+                Err(fault) => Obeyed::StoredStateRefused(fault),
+            },
+        }
+    }
+
+    /// Takes over what may change while the ship sails: alignment and navigation go on.
+    fn configure(&mut self, config: Config) -> Change {
+        let (config, change) = config.succeeding(&self.config);
+        let engine = config.engine();
+        let spares = config.spares(&engine);
+        if change.inputs {
+            self.intake = Intake::new(&config.intake());
+        }
+        if change.outputs || change.inputs {
+            self.speaker.succeed(config.speaker());
+            self.engine.observe_points(engine.points);
+            self.redundancy.iter_mut().for_each(|own| own.configure(&spares, change.inputs));
+        }
+        self.config = config;
+        change
+    }
+
+    /// What the engines need to go on after a crash; `None` while none of them could.
+    #[must_use]
+    pub fn checkpoint(&self) -> Option<Vec<u8>> {
+        let first = self.engine.checkpoint().map(|state| (FIRST.to_owned(), state));
+        let spares = self.redundancy.iter().flat_map(Redundancy::checkpoints);
+        Checkpoints(first.into_iter().chain(spares).collect()).bytes()
+    }
+
+    /// The configuration that holds.
+    #[must_use]
+    pub fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// The first engine.
+    #[must_use]
+    pub fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    /// The engine whose word goes out.
+    #[must_use]
+    pub fn engine_in_use(&self) -> &Engine {
+        self.in_use().engine()
+    }
+
+    /// What the system does: the mode of the engine whose word goes out.
+    #[must_use]
+    pub fn mode(&self) -> Mode {
+        self.engine_in_use().mode()
+    }
+
+    /// How the first IMU moves by the engine in use, at its last sample.
+    #[must_use]
+    pub fn motion(&self) -> Option<Motion> {
+        self.in_use().motion()
+    }
+
+    /// Heave of the first IMU by the engine in use.
+    #[must_use]
+    pub fn heave(&self) -> Option<Heave> {
+        self.in_use().heaves().first().copied().flatten()
+    }
+
+    fn in_use(&self) -> InUse<'_> {
+        InUse { first: &self.engine, redundancy: self.redundancy.as_ref() }
+    }
+
+    /// All engines, the first one first.
+    #[must_use]
+    pub fn engines(&self) -> Vec<EngineStatus> {
+        match &self.redundancy {
+            Some(redundancy) => redundancy.engines(&self.engine),
+            None => vec![EngineStatus {
+                name: FIRST.to_owned(),
+                mode: self.engine.mode(),
+                motion: self.engine.motion(),
+                chosen: true,
+                doubt: None,
+            }],
+        }
+    }
+
+    /// Engines that are apart by more than they claim.
+    #[must_use]
+    pub fn disputes(&self) -> Vec<Dispute> {
+        self.redundancy.as_ref().map(Redundancy::disputes).unwrap_or_default()
     }
 
     /// When the next [`Input::Tick`] is wanted: something is then due at a port that is written to.
@@ -86,7 +318,7 @@ impl Pipeline {
         self.intake.status()
     }
 
-    /// What the engine used and rejected.
+    /// What the first engine used and rejected.
     #[must_use]
     pub fn counts(&self) -> &Counts {
         self.engine.counts()

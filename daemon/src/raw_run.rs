@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use insd_base::Arrival;
-use insd_drivers::raw::{EXTENSION, RawFault, RawReader};
+use insd_drivers::raw::{EXTENSION, FileHeader, RawFault, RawRead, RawReader};
 
 use crate::cli::BadInput;
 use crate::config::Config;
@@ -14,6 +14,7 @@ pub struct RawRun {
     pub config: Config,
     reader: RawReader,
     run: u32,
+    header: Option<FileHeader>,
 }
 
 /// Whether a path is a raw recording, or a folder that holds one.
@@ -47,7 +48,8 @@ impl RawRun {
                 })?
             }
         };
-        Ok(RawRun { config, reader, run })
+        let header = reader.header().cloned();
+        Ok(RawRun { config, reader, run, header })
     }
 
     /// Hands over the arrivals in their order. What is wrong with the recording is told on standard
@@ -59,24 +61,57 @@ impl RawRun {
         &mut self,
         mut each: impl FnMut(&Arrival) -> anyhow::Result<()>,
     ) -> anyhow::Result<()> {
-        let mut run = 1;
-        for item in &mut self.reader {
-            match item {
-                Ok(arrival) if run == self.run => each(&arrival)?,
-                Ok(_) => {}
-                Err(fault @ RawFault::NewRun { .. }) => {
-                    eprintln!("{fault}");
-                    run += 1;
-                }
-                Err(fault) => eprintln!("{fault}"),
+        let runs = self.walk(|item| match item {
+            Ok(arrival) => each(&arrival),
+            Err(fault) => {
+                eprintln!("{fault}");
+                Ok(())
             }
+        })?;
+        if runs > 1 {
+            eprintln!("run {} of {runs} was read; choose another with --run", self.run);
+        }
+        Ok(())
+    }
+
+    /// Hands over the arrivals in their order, and between them what is wrong with the recording, that
+    /// of its other runs included. Gives the number of runs.
+    ///
+    /// # Errors
+    /// The first that `each` returns; or there is no such run.
+    pub fn walk(
+        &mut self,
+        mut each: impl FnMut(Result<Arrival, RawFault>) -> anyhow::Result<()>,
+    ) -> anyhow::Result<u32> {
+        let mut run = 1;
+        let mut begun = false;
+        while let Some(item) = self.reader.next() {
+            run += u32::from(matches!(item, Err(RawFault::NewRun { .. })));
+            if item.is_ok() && run != self.run {
+                continue;
+            }
+            if item.is_ok() && !begun {
+                begun = true;
+                self.header = self.reader.header().cloned();
+            }
+            each(item)?;
         }
         if run < self.run {
             return Err(BadInput(format!("there are {run} runs in this recording")).into());
         }
-        if run > 1 {
-            eprintln!("run {} of {run} was read; choose another with --run", self.run);
-        }
-        Ok(())
+        Ok(run)
+    }
+
+    /// What the file says in which the run begins: the program and its configuration. `None` if every
+    /// header up to there was damaged.
+    #[must_use]
+    pub fn header(&self) -> Option<&FileHeader> {
+        self.header.as_ref()
+    }
+
+    /// What was read so far, of all runs.
+    #[must_use]
+    pub fn read(&self) -> RawRead {
+        self.reader.counts()
     }
 }

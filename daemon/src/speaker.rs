@@ -2,13 +2,13 @@
 //! a recording replays to the bytes that were sent.
 
 use insd_base::{
-    AlignmentStatus, Arrival, Geodetic, Message as Measurement, PortId, Received, Span, Time,
-    UtcTime,
+    AlignmentStatus, Arrival, Geodetic, Heave, Message as Measurement, Motion, PortId, Received,
+    Span, Time, UtcTime,
 };
 use insd_engine::{Engine, Output};
 use insd_n2k::pgn::TimeSource;
 use insd_output::{Epoch, Message, Moment, Receiver, Station, Variation};
-use insd_wire::nmea::Sentence;
+use insd_wire::nmea::{AlertCommand, Sentence};
 
 use crate::ears::Ears;
 
@@ -18,6 +18,28 @@ const MODEL: u16 = 2025;
 const VARIATION_SPAN: Span = Span::from_nanos(60_000_000_000);
 /// What a receiver said of its fix holds for so long.
 const RECEIVER_SPAN: Span = Span::from_nanos(5_000_000_000);
+
+/// Who knows how the ship moves.
+pub trait Knows {
+    /// How the IMU moves.
+    fn motion(&self) -> Option<Motion>;
+    /// Heave of each monitoring point.
+    fn heaves(&self) -> Vec<Option<Heave>>;
+    /// Whether two engines are apart by more than they claim.
+    fn engines_differ(&self) -> bool {
+        false
+    }
+}
+
+impl Knows for Engine {
+    fn motion(&self) -> Option<Motion> {
+        Engine::motion(self)
+    }
+
+    fn heaves(&self) -> Vec<Option<Heave>> {
+        Engine::heaves(self)
+    }
+}
 
 /// What leaves at a boundary.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,10 +86,34 @@ impl Speaker {
         }
     }
 
+    /// Obeys the operator about an alert; whether it could.
+    pub fn obey(
+        &mut self,
+        identifier: u32,
+        command: AlertCommand,
+        now: Time,
+        utc: Option<UtcTime>,
+    ) -> bool {
+        self.station.obey(identifier, command, now, utc)
+    }
+
+    /// Speaks from now on to other ports, knowing and alerting of what it did.
+    pub fn succeed(&mut self, next: Speaker) {
+        let Speaker { mut station, ears, .. } = next;
+        station.inherit(&self.station);
+        (self.station, self.ears) = (station, ears);
+    }
+
     /// Its ports.
     #[must_use]
     pub fn station(&self) -> &Station {
         &self.station
+    }
+
+    /// How the alignment stands, as the engine told it last.
+    #[must_use]
+    pub fn alignment(&self) -> Option<AlignmentStatus> {
+        self.alignment
     }
 
     /// Takes note of a measurement on its way to the engine.
@@ -96,7 +142,7 @@ impl Speaker {
     /// Says what has become due up to now.
     pub fn speak(
         &mut self,
-        engine: &Engine,
+        engine: &impl Knows,
         now: Time,
         utc: Option<UtcTime>,
         mut say: impl FnMut(Spoken),
@@ -114,7 +160,7 @@ impl Speaker {
         }
     }
 
-    fn moment(&mut self, engine: &Engine, now: Time, utc: Option<UtcTime>) -> Moment {
+    fn moment(&mut self, engine: &impl Knows, now: Time, utc: Option<UtcTime>) -> Moment {
         let motion = engine.motion();
         let place = motion.map(|motion| motion.solution.position);
         let receiver = self.receiver.filter(|(told, _)| now - *told <= RECEIVER_SPAN);
@@ -125,6 +171,7 @@ impl Speaker {
             variation: place.zip(utc).and_then(|(place, utc)| self.variation(&place, now, utc)),
             receiver: receiver.map(|(_, receiver)| receiver),
             alignment: self.alignment,
+            engines_differ: engine.engines_differ(),
         }
     }
 

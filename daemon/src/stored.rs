@@ -134,7 +134,11 @@ pub fn read(path: &Path) -> anyhow::Result<StoredState> {
     parse(&text).map_err(|fault| BadInput(format!("{name}{fault}")).into())
 }
 
-fn text(state: &StoredState, start_utc: &str) -> Result<String, toml::ser::Error> {
+/// A state as its file has it. `start_utc` is for people.
+///
+/// # Errors
+/// It cannot be put into words.
+pub fn text(state: &StoredState, start_utc: &str) -> Result<String, toml::ser::Error> {
     let triple = |v: &Vector3<f64>, unit: f64| Triple {
         forward: v.x / unit,
         starboard: v.y / unit,
@@ -177,7 +181,10 @@ fn text(state: &StoredState, start_utc: &str) -> Result<String, toml::ser::Error
 }
 
 /// The state of a text, or `:line:column: line: what is wrong`.
-fn parse(text: &str) -> Result<StoredState, String> {
+///
+/// # Errors
+/// As it says.
+pub fn parse(text: &str) -> Result<StoredState, String> {
     let contents: Contents = toml::from_str(text).map_err(|fault| {
         let at = fault.span().map_or(0, |span| span.start);
         let before = text.get(..at).unwrap_or(text);

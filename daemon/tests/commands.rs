@@ -300,3 +300,18 @@ fn the_limit_is_told_as_a_table_and_as_json_and_refused_where_it_is_not_known() 
     let syntax = told(&["limit", "7", "--set", "sea.state"], 2);
     assert!(syntax.contains("expected KEY=VALUE"), "{syntax}");
 }
+
+#[test]
+fn a_report_of_a_voyage_is_one_page_and_one_of_nothing_is_refused() {
+    let desk = Desk::with_voyage();
+    let (empty, page) = (desk.name("empty-000001.insdraw"), desk.name("page.html"));
+    fs::write(&empty, "").unwrap();
+    for missing in [empty.as_str(), &desk.name("nowhere"), &desk.name("")] {
+        told(&["report", missing, "--out", &page], 2);
+        assert!(!desk.path("page.html").exists() && !desk.path("page.html.part").exists());
+    }
+    told(&["report", &desk.voyage(), "--out", &page], 0);
+    let page = fs::read_to_string(desk.path("page.html")).unwrap();
+    assert!(page.contains("<h1>voyage</h1>") && page.ends_with("</html>\n"));
+    assert!(page.contains("not known: a voyage directory") && !page.contains("NaN"));
+}

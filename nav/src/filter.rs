@@ -3,7 +3,7 @@
 use insd_base::{
     Body, Ecef, Message, Mode, Ned, Received, Rejection, Solution, Source, Time, earth,
 };
-use nalgebra::{Matrix2, Matrix4, SMatrix, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, Matrix4, SMatrix, UnitQuaternion, Vector2, Vector3};
 
 use crate::aids::{View, sea_level};
 use crate::antenna::AntennaMotion;
@@ -29,7 +29,9 @@ use crate::trust::Trust;
 use ahead::VelocityEpoch;
 
 pub mod ahead;
+mod estimates;
 mod gnss;
+pub mod kept;
 mod motion;
 mod others;
 
@@ -73,6 +75,9 @@ pub struct Judged {
 
 /// Correction of the attitude after which the knowledge of the biases is turned with it, rad.
 const TURN: f64 = 2e-4;
+
+/// Gap over which the heights are not the ship's: their mean begins anew, s.
+const UNSEEN: f64 = 0.5;
 
 /// After this long without GNSS the solution no longer counts as aided by it, s.
 const GNSS_TIMEOUT: f64 = 5.0;
@@ -171,7 +176,11 @@ impl Filter {
         self.nominal.attitude.renormalize();
         self.antenna.note(self.time, &self.antenna_velocity());
         let place = self.nominal.geodetic();
-        self.level.add(place.height, self.stretch.duration);
+        if self.stretch.bridged > UNSEEN {
+            self.level.restart();
+        } else {
+            self.level.add(place.height, self.stretch.duration);
+        }
         self.gravity = LocalGravity::around(&self.nominal.position, &place);
         self.stretch = Stretch::new();
     }
@@ -386,9 +395,6 @@ impl Estimator for Filter {
         let step = strapdown::integrate(&mut self.nominal, &self.gravity, increment);
         self.stretch.add(&step);
         self.stretch.add_noise(increment);
-        if let Some(whole) = increment.bridged {
-            self.stretch.add_gap(step.duration, whole);
-        }
         self.rate = increment.end_rate;
         self.time = increment.to;
         if self.stretch.duration >= self.interval - 1e-6 {
@@ -431,6 +437,16 @@ impl Estimator for Filter {
 
     fn solution_at(&self, increment: &Increment, at: Time) -> Solution {
         let mut ahead = self.clone();
+        if increment.bridged.is_some() && at > increment.from && at < increment.to {
+            // inside a gap the claim grows from one output to the next
+            let c_eb = self.nominal.c_eb();
+            ahead.advance(&increment.split(at).0);
+            ahead.settle();
+            let noise = increment.rate_noise * (at - increment.from).as_seconds();
+            let turned = c_eb * Matrix3::from_diagonal(&noise) * c_eb.transpose();
+            ATTITUDE.add(&mut ahead.covariance, &turned);
+            return ahead.solution();
+        }
         ahead.nominal = strapdown::extrapolated(&self.nominal, increment, at);
         ahead.time = at;
         ahead.solution()

@@ -3,7 +3,9 @@
 
 use insd_base::{ImuSample, ImuSpec, Rejection, Span, Time};
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
+use crate::bridging::{Bridging, Moment};
 use crate::noise::NoiseMonitor;
 
 /// Compensated increments over an interval.
@@ -21,11 +23,12 @@ pub struct Increment {
     pub end_rate: Vector3<f64>,
     /// Change of the angular rate, rad/s^2.
     pub angular_acceleration: Vector3<f64>,
-    /// Noise density of the rate beyond the stated random walk, body axes, rad^2/s.
+    /// Noise density of the rate beyond the stated random walk, body axes, rad^2/s: of vibration, or of
+    /// what bridging a gap gets wrong.
     pub rate_noise: Vector3<f64>,
     /// Noise density of the force beyond the stated random walk, body axes, m^2/s^3.
     pub force_noise: Vector3<f64>,
-    /// Length of the gap that it is a part of, s, if it was interpolated over missing samples.
+    /// Length of the gap that it is a part of, s, if it was made up over missing samples.
     pub bridged: Option<f64>,
 }
 
@@ -37,21 +40,30 @@ impl Increment {
     }
 
     /// The part up to an instant inside the interval, and the rest.
+    ///
+    /// What the rotation over a gap gets wrong counts at its end: what it does to the velocity on the way
+    /// is part of what is known of that, and a measurement inside must not take the one for the other.
     #[must_use]
     pub fn split(&self, at: Time) -> (Increment, Increment) {
         let share = (at - self.from).as_seconds() / self.duration();
         let remaining = (self.to - at).as_seconds();
+        let (before, after) = match self.bridged {
+            Some(_) => (Vector3::zeros(), self.rate_noise / (1.0 - share)),
+            None => (self.rate_noise, self.rate_noise),
+        };
         let head = Increment {
             to: at,
             rotation: self.rotation * share,
             velocity: self.velocity * share,
             end_rate: self.end_rate - self.angular_acceleration * remaining,
+            rate_noise: before,
             ..*self
         };
         let tail = Increment {
             from: at,
             rotation: self.rotation * (1.0 - share),
             velocity: self.velocity * (1.0 - share),
+            rate_noise: after,
             ..*self
         };
         (head, tail)
@@ -70,26 +82,27 @@ pub enum Conditioned {
 }
 
 /// Turns samples into increments; remembers the last sample.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Conditioner {
     nominal: f64,
     random_walks: (f64, f64),
     rate: NoiseMonitor,
     force: NoiseMonitor,
+    bridging: Bridging,
     /// Mean square of the stamps' departure from the nominal interval, s^2.
     jitter: f64,
     last: Option<Last>,
     leap: Option<Time>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Last {
     time: Time,
     mean: Mean,
 }
 
 /// Mean angular rate and specific force of a sample, and its length.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Mean {
     rate: Vector3<f64>,
     force: Vector3<f64>,
@@ -109,6 +122,12 @@ const JITTERING: f64 = 0.01;
 /// An interval longer than this many nominal ones holds missing samples.
 const GAP: f64 = 1.5;
 
+impl Mean {
+    fn moment(&self) -> Moment {
+        Moment { rate: self.rate, force: self.force }
+    }
+}
+
 impl Conditioner {
     /// A conditioner for samples of this IMU.
     #[must_use]
@@ -118,18 +137,52 @@ impl Conditioner {
             random_walks: (imu.gyro.random_walk, imu.accel.random_walk),
             rate: NoiseMonitor::default(),
             force: NoiseMonitor::default(),
+            bridging: Bridging::default(),
             jitter: 0.0,
             last: None,
             leap: None,
         }
     }
 
+    /// The same on a time line that is later by a span: the next sample closes a gap.
+    #[must_use]
+    pub fn shifted(self, by: Span) -> Self {
+        let last = self.last.map(|last| Last { time: last.time + by, ..last });
+        Conditioner { last, leap: None, ..self }
+    }
+
+    /// What is kept for the next start of the program.
+    #[must_use]
+    pub fn kept(&self) -> Self {
+        let bridging = match &self.last {
+            Some(last) => self.bridging.kept(last.time, &last.mean.moment()),
+            None => Bridging::default(),
+        };
+        let Conditioner { nominal, random_walks, rate, force, jitter, last, leap, .. } = *self;
+        Conditioner { nominal, random_walks, rate, force, bridging, jitter, last, leap }
+    }
+
+    /// What has been learnt of bridging gaps.
+    #[must_use]
+    pub fn bridging(&self) -> &Bridging {
+        &self.bridging
+    }
+
+    /// Whether all of it are numbers.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        let last = self.last.is_none_or(|last| {
+            let mean = &last.mean;
+            mean.duration.is_finite() && mean.rate.iter().chain(&mean.force).all(|x| x.is_finite())
+        });
+        last && self.jitter.is_finite() && self.bridging.is_finite()
+    }
+
     /// Takes the next sample.
     ///
     /// An interval within 1.5 nominal ones is taken as it is (uneven stamps: the increments cover
     /// (last, this]); beyond that the sample covers the last nominal interval and the time before it
-    /// is a gap, bridged with the mean of the rates on both sides. The first sample covers a nominal
-    /// interval.
+    /// is a gap, bridged as [`Bridging`] has learnt to. The first sample covers a nominal interval.
     pub fn take(&mut self, sample: &ImuSample) -> Conditioned {
         let Some(last) = self.last else {
             return self.first(sample);
@@ -159,18 +212,16 @@ impl Conditioner {
         if gap {
             let start = sample.time - Span::from_seconds(duration);
             let bridge = self.bridge(&last, start, &mean);
+            self.bridging.interrupt();
             Conditioned::AfterGap(
                 bridge,
                 self.with_noise(compensated(&mean, &mean, start, sample.time)),
             )
         } else {
             self.jitter += ((elapsed - self.nominal).powi(2) - self.jitter) * JITTER_WEIGHT;
-            Conditioned::Sample(self.with_noise(compensated(
-                &last.mean,
-                &mean,
-                last.time,
-                sample.time,
-            )))
+            let increment = compensated(&last.mean, &mean, last.time, sample.time);
+            self.bridging.learn(&increment, &mean.moment());
+            Conditioned::Sample(self.with_noise(increment))
         }
     }
 
@@ -190,16 +241,17 @@ impl Conditioner {
     /// the sample after the gap began: mean rate and force over that time are added to the noise.
     fn bridge(&self, last: &Last, to: Time, next: &Mean) -> Increment {
         let missing = (to - last.time).as_seconds();
-        let square = |v: &Vector3<f64>| v.component_mul(v) * (self.jitter / missing);
+        let bridge = self.bridging.bridge(last.time, missing, &last.mean.moment(), &next.moment());
+        let jitter = |v: &Vector3<f64>| v.component_mul(v) * (self.jitter / missing);
         Increment {
             from: last.time,
             to,
-            rotation: (last.mean.rate + next.rate) * (0.5 * missing),
-            velocity: (last.mean.force + next.force) * (0.5 * missing),
+            rotation: bridge.rotation,
+            velocity: bridge.velocity,
             end_rate: next.rate,
             angular_acceleration: Vector3::zeros(),
-            rate_noise: square(&next.rate),
-            force_noise: square(&next.force),
+            rate_noise: jitter(&next.rate) + bridge.rotation_variance / missing,
+            force_noise: jitter(&next.force) + bridge.velocity_variance / missing,
             bridged: Some(missing),
         }
     }

@@ -7,6 +7,7 @@
 pub mod aids;
 pub mod antenna;
 pub mod block;
+pub mod bridging;
 pub mod config;
 pub mod error_state;
 pub mod filter;

@@ -5,9 +5,10 @@
 //! stated random walk is added to it.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 /// Running variance of the white noise of three axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NoiseMonitor {
     last: [Vector3<f64>; 4],
     samples: u32,

@@ -4,6 +4,7 @@
 use insd_base::earth;
 use insd_base::{Ecef, Geodetic};
 use nalgebra::{Matrix3, Rotation2, UnitQuaternion, Vector1, Vector2, Vector3, Vector4};
+use serde::{Deserialize, Serialize};
 
 use crate::error_state::{
     ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, BERTH_OFFSET, CURRENT, ErrorState, GNSS_DELAY,
@@ -13,7 +14,7 @@ use crate::error_state::{
 };
 
 /// Estimated values of everything in the error state; units and axes as stated there.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Nominal {
     /// Position of the IMU, ECEF, m.
     pub position: Vector3<f64>,
@@ -87,6 +88,20 @@ impl Nominal {
             log_misalignment: Vector2::zeros(),
             sea_level: position.height,
         }
+    }
+
+    /// Whether it can be a ship's: numbers only, on the Earth, a rotation that is one.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let far = (self.position.norm() / earth::SEMI_MAJOR - 1.0).abs();
+        let rotation = (self.attitude.as_ref().norm() - 1.0).abs();
+        let none = Nominal { attitude: UnitQuaternion::identity(), ..*self };
+        let zero = Nominal::at(
+            &Geodetic::from_degrees(0.0, 0.0, 0.0),
+            &Vector3::zeros(),
+            &Matrix3::identity(),
+        );
+        far < 0.01 && rotation < 1e-6 && zero.error_to(&none).iter().all(|x| x.is_finite())
     }
 
     /// Slow swaying, both oscillators together, north and east, m.

@@ -45,10 +45,8 @@ pub struct Stretch {
     pub rate_noise: Vector3<f64>,
     /// Integral of the excess noise density of the force, body axes, (m/s)^2.
     pub force_noise: Vector3<f64>,
-    /// Attitude variance added by bridged gaps, rad^2.
-    pub gap_attitude: f64,
-    /// Velocity variance added by bridged gaps, (m/s)^2.
-    pub gap_velocity: f64,
+    /// Length of the gap that a part of it was made up over, s; zero where none was.
+    pub bridged: f64,
 }
 
 impl Stretch {
@@ -63,8 +61,7 @@ impl Stretch {
             velocity: Vector3::zeros(),
             rate_noise: Vector3::zeros(),
             force_noise: Vector3::zeros(),
-            gap_attitude: 0.0,
-            gap_velocity: 0.0,
+            bridged: 0.0,
         }
     }
 
@@ -77,26 +74,13 @@ impl Stretch {
         self.velocity += step.velocity;
     }
 
-    /// Adds the noise of an increment beyond the stated random walks.
+    /// Adds the noise of an increment beyond the stated random walks. A gap adds the same however
+    /// often measurements and outputs cut it.
     pub fn add_noise(&mut self, increment: &Increment) {
         let duration = increment.duration();
         self.rate_noise += increment.rate_noise * duration;
         self.force_noise += increment.force_noise * duration;
-    }
-
-    /// Adds the uncertainty of a step that was interpolated: `part`, s, of a gap of `whole` seconds. Each
-    /// part has its share of what the gap adds, however often measurements and outputs cut it.
-    ///
-    /// Within a gap the ship's rate and force go on nearly linearly for a time much shorter than a
-    /// wave and are anyone's guess beyond it.
-    pub fn add_gap(&mut self, part: f64, whole: f64) {
-        const WAVE: f64 = 2.0;
-        const RATE: f64 = 0.05;
-        const FORCE: f64 = 0.5;
-        let guess = whole * (whole / WAVE).powi(2).min(1.0);
-        let share = (part / whole).min(1.0);
-        self.gap_attitude += (RATE * guess).powi(2) * share;
-        self.gap_velocity += (FORCE * guess).powi(2) * share;
+        self.bridged = self.bridged.max(increment.bridged.unwrap_or(0.0));
     }
 }
 
@@ -255,8 +239,8 @@ fn relax_markov(p: &mut Covariance, dt: f64, config: &NavConfig, regime: &Regime
 
 fn add_noise(p: &mut Covariance, stretch: &Stretch, config: &NavConfig) {
     let dt = stretch.duration;
-    let angle = config.imu.gyro.random_walk.powi(2) * dt + stretch.gap_attitude;
-    let velocity = config.imu.accel.random_walk.powi(2) * dt + stretch.gap_velocity;
+    let angle = config.imu.gyro.random_walk.powi(2) * dt;
+    let velocity = config.imu.accel.random_walk.powi(2) * dt;
     ATTITUDE.inflate(p, angle);
     VELOCITY.inflate(p, velocity);
     let c_eb = stretch.c_eb / dt;
@@ -265,9 +249,26 @@ fn add_noise(p: &mut Covariance, stretch: &Stretch, config: &NavConfig) {
         ATTITUDE.add(p, &in_ecef(&stretch.rate_noise));
     }
     if stretch.force_noise.amax() > 0.0 {
-        VELOCITY.add(p, &in_ecef(&stretch.force_noise));
+        let velocity = in_ecef(&stretch.force_noise);
+        VELOCITY.add(p, &velocity);
+        if stretch.bridged > 0.0 {
+            add_way(p, &velocity, dt);
+        }
     }
     SEA_LEVEL.inflate(p, config.sea.level_walk.powi(2) * dt);
+}
+
+/// What an unknown change of the velocity, of a covariance that grew evenly over `dt` seconds, does to
+/// the position meanwhile: V dt^2 / 3, and V dt / 2 with the velocity (Gelb, Applied Optimal Estimation,
+/// example 3.7-1). In the short steps between samples it is nothing.
+fn add_way(p: &mut Covariance, velocity: &Matrix3<f64>, dt: f64) {
+    POSITION.add(p, &(velocity * (dt * dt / 3.0)));
+    let cross = velocity * (0.5 * dt);
+    let (r, v) = (POSITION.start(), VELOCITY.start());
+    let mut block = p.fixed_view_mut::<3, 3>(r, v);
+    block += cross;
+    let mut block = p.fixed_view_mut::<3, 3>(v, r);
+    block += cross.transpose();
 }
 
 #[cfg(test)]

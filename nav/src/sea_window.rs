@@ -3,6 +3,8 @@
 //! Heave is narrow-band: single heights would alias the waves into a slow drift. Over a window of
 //! several waves the heave nearly cancels, and what is left of it is learnt from the data.
 
+use serde::{Deserialize, Serialize};
+
 use crate::config::SeaModel;
 use crate::spread::Spread;
 
@@ -10,7 +12,7 @@ use crate::spread::Spread;
 const WINDOW: f64 = 20.0;
 
 /// Heights summed since the last mean was taken, and the spread of the means.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LevelWindow {
     sum: f64,
     length: f64,
@@ -44,8 +46,13 @@ impl LevelWindow {
     /// The mean height, m, and the length of the window, s; starts a new one.
     pub fn take_mean(&mut self) -> (f64, f64) {
         let taken = (self.sum / self.length, self.length);
+        self.restart();
+        taken
+    }
+
+    /// Starts a new window.
+    pub fn restart(&mut self) {
         self.sum = 0.0;
         self.length = 0.0;
-        taken
     }
 }

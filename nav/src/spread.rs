@@ -1,8 +1,10 @@
 //! The spread of a quantity that should be zero on the mean: heave about the sea level, sway about
 //! the berth. Learnt as a running mean square.
 
+use serde::{Deserialize, Serialize};
+
 /// A running mean square.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     mean_square: f64,
     least: f64,

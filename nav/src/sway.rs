@@ -14,12 +14,13 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Matrix2, Matrix4, Vector4};
+use serde::{Deserialize, Serialize};
 
 use crate::error_state::{Covariance, SWAY, SWAY_VELOCITY};
 use crate::nominal::Nominal;
 
 /// One damped oscillator, the same to the north and to the east.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Oscillator {
     /// Displacement, 1-sigma of each component, m.
     pub std: f64,
@@ -30,7 +31,7 @@ pub struct Oscillator {
 }
 
 /// The oscillators of the swaying.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sway(pub [Oscillator; 2]);
 
 impl Oscillator {

@@ -3,9 +3,10 @@
 
 use insd_base::{Span, Time};
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 /// Memory of one receiver's agreement with the filter.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Trust {
     last_used: Option<Time>,
     suspect_until: Option<Time>,
@@ -21,7 +22,7 @@ pub struct Trust {
 /// In a filter that agrees with its models innovations are white with the expected covariance. Their
 /// running mean then shrinks: m <- m + w (z - m), var(m) = w / (2 - w) var(z); an error too small for
 /// a single epoch shows in it. Their running mean square shows a receiver whose sigmas are too small.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Agreement {
     mean: Vector3<f64>,
     mean_square: f64,
@@ -104,6 +105,24 @@ impl Trust {
             self.position.forget_mean();
         }
         self.suspect_until.is_some()
+    }
+
+    /// The same on a time line that is later by a span.
+    #[must_use]
+    pub fn shifted(self, by: Span) -> Self {
+        let later = |time: Option<Time>| time.map(|time| time + by);
+        Trust {
+            last_used: later(self.last_used),
+            suspect_until: later(self.suspect_until),
+            refused_since: later(self.refused_since),
+            ..self
+        }
+    }
+
+    /// Whether the receiver is found in fault now.
+    #[must_use]
+    pub fn is_suspect(&self, now: Time) -> bool {
+        self.suspect_until.is_some_and(|until| now < until)
     }
 
     /// Notes a position that was used.

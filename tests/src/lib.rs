@@ -3,12 +3,14 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
 
-pub mod feed;
+pub mod engines;
 pub mod noise_free;
+pub mod recorded;
 pub mod sailing;
 pub mod scores;
 pub mod wire;
 
+pub use insd_simulator::feed;
 use insd_simulator::{Scenario, shipped};
 
 /// A shipped scenario by its number.

@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use insd::clock::Clock;
 use insd::config::Config;
+use insd::logging::Log;
 use insd::pipeline::{Pipeline, Product};
 use insd::run::{RunOptions, run};
 use insd::speaker::Spoken;
@@ -33,11 +34,12 @@ fn a_run_over_real_lines_replays_to_the_same_bytes() {
     let text = configuration(dir, &feeds, &voyage);
     let config = Config::of_text(&text).unwrap();
     let nav = dir.join("nav.csv");
-    let options = RunOptions { nav: Some(nav.clone()), seconds: Some(SAILED + 3.0) };
+    let options =
+        RunOptions { nav: Some(nav.clone()), seconds: Some(SAILED + 3.0), ..RunOptions::default() };
     let sendings = feed(&voyage, &feeds);
     let daemon = std::thread::spawn({
         let (config, text) = (config.clone(), text.clone());
-        move || run(&config, &text, &options)
+        move || run(&config, &text, &options, &Log::silent())
     });
     send(dir, &sendings);
     daemon.join().unwrap().unwrap();
@@ -57,7 +59,7 @@ fn a_run_over_real_lines_replays_to_the_same_bytes() {
 
 fn configuration(dir: &Path, feeds: &FeedConfig, voyage: &insd_base::Voyage) -> String {
     let mut text = format!("[recording]\nfolder = {:?}\n", dir.join("recording"));
-    let shipped = include_str!("../../systemd/insd.toml");
+    let shipped = include_str!("../../systemd/examples/survey.toml");
     let imu = shipped.find("[imu]").unwrap()..shipped.find("[[port]]").unwrap();
     text.push_str("[ship]\nstart = \"underway\"\ngnss_lever_m = [0.0, 0.0, -10.0]\n");
     text.push_str(&shipped[imu]);
@@ -108,7 +110,7 @@ fn send(dir: &Path, sendings: &[Sending]) {
 
 /// The solutions of the recording as `nav.csv`, what the port was sent, and the states of ports in it.
 fn replay(dir: &Path, config: &Config) -> (Vec<u8>, Vec<u8>, Vec<String>) {
-    let mut pipeline = Pipeline::new(&config.intake(), config.engine(), config.speaker());
+    let mut pipeline = Pipeline::new(config);
     let mut nav = NavWriter::new(Vec::new()).unwrap();
     let (mut sent, mut states) = (Vec::new(), Vec::new());
     for arrival in RawReader::open(&dir.join("recording")).unwrap() {
@@ -116,7 +118,7 @@ fn replay(dir: &Path, config: &Config) -> (Vec<u8>, Vec<u8>, Vec<String>) {
         if let insd_base::Input::State(state) = &arrival.input {
             states.push(state.to_string());
         }
-        pipeline.handle(&arrival, |_, product| match product {
+        pipeline.handle(&arrival, |product| match product {
             Product::Engine(Output::Solution(solution)) => nav.write(&solution).unwrap(),
             Product::Spoken(Spoken::Messages(_, messages)) => {
                 sent.extend(messages.iter().flat_map(|message| message.content.to_bytes()));

@@ -82,8 +82,6 @@ pub struct Stretch {
     turn: f64,
     rate_noise: f64,
     force_noise: f64,
-    gap_attitude: f64,
-    gap_velocity: f64,
 }
 
 /// A quarter turn to starboard of a horizontal pair: down cross it.
@@ -206,12 +204,6 @@ impl Stretch {
         self.turn += step.turn;
         self.rate_noise += increment.rate_noise.max() * h;
         self.force_noise += increment.force_noise.max() * h;
-        if let Some(whole) = increment.bridged {
-            let mut gap = insd_nav::propagation::Stretch::new();
-            gap.add_gap(h, whole);
-            self.gap_attitude += gap.gap_attitude;
-            self.gap_velocity += gap.gap_velocity;
-        }
     }
 
     /// What the stretch does to the errors, to second order in its length where velocity feeds
@@ -285,9 +277,8 @@ impl Stretch {
 
     fn noise(&self, motion: &Motion, belief: &Belief, config: &NavConfig) -> Covariance {
         let (gyro, accel) = (&config.imu.gyro, &config.imu.accel);
-        let angle = gyro.random_walk.powi(2) * self.duration + self.rate_noise + self.gap_attitude;
-        let speed =
-            accel.random_walk.powi(2) * self.duration + self.force_noise + self.gap_velocity;
+        let angle = gyro.random_walk.powi(2) * self.duration + self.rate_noise;
+        let speed = accel.random_walk.powi(2) * self.duration + self.force_noise;
         let mut q = Covariance::zeros();
         for axis in 0..2 {
             q[(x::VELOCITY + axis, x::VELOCITY + axis)] = speed;

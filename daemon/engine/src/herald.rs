@@ -14,6 +14,7 @@ use insd_base::{
     Message, Received, Span, Time,
 };
 use insd_nav::Estimator;
+use serde::{Deserialize, Serialize};
 
 use crate::ship::Ship;
 
@@ -44,6 +45,14 @@ pub(crate) struct Herald {
     was_moored: bool,
     told_departure: bool,
     heard: Heard,
+}
+
+/// What of it is kept for the next start of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct KeptHerald {
+    reached: Option<Time>,
+    was_moored: bool,
+    told_departure: bool,
 }
 
 /// A forecast, when it was made and by what sea.
@@ -78,6 +87,18 @@ impl Herald {
             told_departure: false,
             heard: Heard::default(),
         }
+    }
+
+    pub(crate) fn kept(&self) -> KeptHerald {
+        let Herald { reached, was_moored, told_departure, .. } = *self;
+        KeptHerald { reached, was_moored, told_departure }
+    }
+
+    /// Goes on from what was kept, on a time line that is later by a span.
+    pub(crate) fn take_up(&mut self, kept: &KeptHerald, by: Span) {
+        self.reached = kept.reached.map(|time| time + by);
+        self.was_moored = kept.was_moored;
+        self.told_departure = kept.told_departure;
     }
 
     /// Notes which aids there are.

@@ -4,28 +4,40 @@
 //! Sans-I/O: [`Engine::handle`] takes one message; then [`Engine::poll_output`] is drained. Pure: no
 //! I/O, no clock, no thread, no randomness.
 
+mod checkpoint;
 mod checks;
 mod coarse;
+mod disturbance;
+mod epochs;
 mod herald;
+mod looks;
+mod mode;
 mod recent;
+mod resume;
+mod resumption;
 mod ship;
+pub mod vote;
 
 use std::collections::VecDeque;
 
-use insd_alignment::{AlignmentConfig, Fine, StoredState, Verdict};
+use insd_alignment::{AlignmentConfig, StoredState, Verdict};
 use insd_base::{
-    AlignmentStatus, Body, Counts, Event, Geodetic, Heave, ImuSample, ImuSpec, Innovation,
-    LeverArms, Message, Mode, Motion, Received, Rejection, Solution, Source, Span, StartCondition,
-    Time, VoyageHeader,
+    AlignmentStatus, Body, Counts, Event, Geodetic, ImuSample, ImuSpec, Innovation, LeverArms,
+    Message, Mode, ModeReason, Received, Rejection, Solution, Source, Span, StartCondition, Time,
+    VoyageHeader,
 };
 use insd_nav::{
-    Conditioned, Conditioner, Estimator, Filter, HeaveFilter, Increment, NavConfig, Outcome,
-    Report, Timeline,
+    Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Outcome, Report,
+    Timeline,
 };
 
 use coarse::Coarse;
+use disturbance::Trace;
+use epochs::{due_at, epochs};
 use herald::Herald;
+use mode::{Facts, Machine};
 use recent::Recent;
+use resumption::Resumption;
 use ship::Ship;
 
 /// What the engine must know before the first message.
@@ -108,13 +120,26 @@ pub struct Engine {
     last: Option<Increment>,
     /// Heave of the monitoring points, if there are any.
     heave: Option<HeaveFilter>,
-    mode: Option<Mode>,
+    machine: Machine,
+    /// When the last sample of the IMU that could be used was received.
+    heard: Option<Time>,
+    /// The state saved before a crash, while it is on trial.
+    resumption: Option<Resumption>,
+    trace: Trace,
     counts: Counts,
     outputs: VecDeque<Output>,
 }
 
+/// Heave of monitoring points, the first of them the IMU, if there are any.
+fn heave_of(imu: &ImuSpec, points: &[Body]) -> Option<HeaveFilter> {
+    let others = points.get(1..)?;
+    Some(HeaveFilter::new(imu, others))
+}
+
 /// A gap in the IMU data after which the ship's attitude is anyone's guess, s.
 const LOST: f64 = 60.0;
+/// While other sensors are heard, an IMU without a sample for so long is silent, s.
+const SILENT: f64 = 2.0;
 
 impl Engine {
     /// An engine that knows nothing yet.
@@ -130,9 +155,11 @@ impl Engine {
             recent: Recent::default(),
             next_epoch: None,
             last: None,
-            heave: (!config.points.is_empty())
-                .then(|| HeaveFilter::new(&config.imu, config.points.get(1..).unwrap_or_default())),
-            mode: None,
+            heave: heave_of(&config.imu, &config.points),
+            machine: Machine::default(),
+            heard: None,
+            resumption: None,
+            trace: Trace::new(),
             counts: Counts::default(),
             outputs: VecDeque::new(),
             nav,
@@ -140,12 +167,30 @@ impl Engine {
         }
     }
 
+    /// Offers the state at the last shutdown, as [`EngineConfig::stored`] does, before the first message.
+    pub fn offer(&mut self, stored: StoredState) {
+        self.config.stored = Some(stored);
+    }
+
+    /// Other monitoring points, the first of them the IMU: if they are others than before, their heave
+    /// begins anew.
+    pub fn observe_points(&mut self, points: Vec<Body>) {
+        if points != self.config.points {
+            self.heave = heave_of(&self.config.imu, &points);
+            self.config.points = points;
+        }
+    }
+
     /// Takes one message, in order of receipt.
     pub fn handle(&mut self, received: &Received) {
         match received.message {
-            Message::Imu(sample) => self.handle_imu(&sample),
-            _ => self.handle_aid(received),
+            Message::Imu(sample) => self.handle_imu(&sample, received.receipt),
+            _ => {
+                self.note_silence(received.receipt);
+                self.handle_aid(received);
+            }
         }
+        self.judge_resumption();
     }
 
     /// The next solution, innovation or event, until there is none.
@@ -159,66 +204,54 @@ impl Engine {
         &self.counts
     }
 
-    /// How the ship moves at the last IMU sample, for outputs between the epochs of the solutions; `None`
-    /// while nothing is known that could be shown to anyone.
-    #[must_use]
-    pub fn motion(&self) -> Option<Motion> {
-        let Stage::Running(line) = &self.stage else { return None };
-        let ship = line.estimator();
-        let solution = Some(ship.solution()).filter(checks::is_sound)?;
-        let filter = ship.likeliest().map(Fine::filter);
-        let acceleration = filter.zip(self.last.as_ref());
-        Some(Motion {
-            solution,
-            acceleration: acceleration.map(|(filter, last)| filter.acceleration(last)),
-            covariance_north_east: filter.map(Filter::covariance_north_east),
-            current: filter.and_then(Filter::current),
-        })
-    }
-
-    /// Heave of each monitoring point at the last IMU sample.
-    #[must_use]
-    pub fn heaves(&self) -> Vec<Option<Heave>> {
-        (0..self.config.points.len()).map(|point| self.heave.as_ref()?.heave(point)).collect()
-    }
-
-    /// The state to store for the next start: `None` unless the ship is aligned and still lies at her
-    /// berth, as one that sails will lie otherwise when she is back.
-    #[must_use]
-    pub fn stored_state(&self) -> Option<StoredState> {
-        match &self.stage {
-            Stage::Levelling(_) => None,
-            Stage::Running(line) => line.estimator().stored_state(&self.config.imu),
-        }
-    }
-
-    fn handle_imu(&mut self, sample: &ImuSample) {
-        match self.conditioner.take(sample) {
+    fn handle_imu(&mut self, sample: &ImuSample, receipt: Time) {
+        let increment = match self.conditioner.take(sample) {
             Conditioned::Sample(increment) => {
-                self.counts.imu_samples += 1;
-                self.advance(&increment);
+                self.begin_resumption(increment.from, 0.0);
+                increment
             }
             Conditioned::AfterGap(bridge, increment) => {
-                self.counts.imu_samples += 1;
-                self.counts.imu_gaps += 1;
-                let missing = bridge.duration();
-                self.tell(Event::ImuGap { time: bridge.to, missing });
-                if missing > LOST {
-                    self.start_over();
-                } else {
-                    self.advance(&bridge);
-                }
-                self.heave.iter_mut().for_each(|heave| heave.interrupt(missing));
-                self.advance(&increment);
+                self.close_gap(&bridge);
+                increment
             }
-            Conditioned::Rejected(reason) => self.count_imu(reason),
+            Conditioned::Rejected(reason) => return self.count_imu(reason),
+        };
+        self.counts.imu_samples += 1;
+        self.heard = Some(receipt);
+        self.advance(&increment);
+        if self.machine.mode() == Mode::Standby {
+            self.leave_standby(sample.time);
         }
     }
 
-    fn start_over(&mut self) {
+    fn close_gap(&mut self, bridge: &Increment) {
+        let missing = bridge.duration();
+        self.trace.clear();
+        if self.begin_resumption(bridge.to, missing) {
+            return self.cross(bridge, missing);
+        }
+        self.counts.imu_gaps += 1;
+        self.tell(Event::ImuGap { time: bridge.to, missing });
+        self.cross(bridge, missing);
+    }
+
+    fn cross(&mut self, bridge: &Increment, missing: f64) {
+        if missing > LOST {
+            self.start_over(bridge.to, ModeReason::GapTooLong);
+        } else {
+            self.advance(bridge);
+        }
+        self.heave.iter_mut().for_each(|heave| heave.interrupt(missing));
+    }
+
+    /// Levels anew, as if nothing had been.
+    fn start_over(&mut self, time: Time, why: ModeReason) {
         self.stage = Stage::Levelling(Box::new(Coarse::new(&self.config)));
         self.herald = Herald::new(&self.config.imu, self.config.alignment.accuracy);
         self.next_epoch = None;
+        self.resumption = None;
+        self.trace.clear();
+        self.enter(time, Mode::CoarseAlignment, Facts::default(), Some(why));
     }
 
     fn count_imu(&mut self, reason: Rejection) {
@@ -244,9 +277,7 @@ impl Engine {
                 if let Some(time) = due_at(self.period, &mut self.next_epoch, increment.to) {
                     solutions.push(Solution { time, ..line.estimator().solution() });
                 }
-                if let (Some(heave), Some(fine)) = (&mut self.heave, line.estimator().likeliest()) {
-                    heave.advance(&fine.filter().vertical_step(increment));
-                }
+                self.watch(increment);
                 for report in &reports {
                     self.note(report);
                 }
@@ -339,6 +370,7 @@ impl Engine {
     }
 
     fn note(&mut self, report: &Report) {
+        self.resumption.iter_mut().for_each(|resumption| resumption.hear(report));
         for aid in &report.floored {
             *self.counts.floored.entry(aid).or_insert(0) += 1;
         }
@@ -375,18 +407,44 @@ impl Engine {
     }
 
     fn emit(&mut self, solution: Solution) {
-        let mut solution = solution;
         if !checks::is_sound(&solution) {
-            solution.mode = Mode::Fault;
+            self.enter(solution.time, Mode::Fault, Facts::default(), None);
+            self.start_over(solution.time, ModeReason::StartedOver);
+            return;
         }
-        if self.mode != Some(solution.mode) {
-            self.mode = Some(solution.mode);
-            self.tell(Event::ModeChanged { time: solution.time, to: solution.mode });
+        self.enter(solution.time, solution.mode, self.facts(), None);
+        self.outputs.push_back(Output::Solution(solution));
+    }
+
+    /// Takes the mode as it is now, and tells a change.
+    fn enter(&mut self, time: Time, to: Mode, facts: Facts, why: Option<ModeReason>) {
+        if let Some(event) = self.machine.enter(time, to, facts, why) {
+            self.tell(event);
         }
-        if solution.mode == Mode::Fault {
-            self.start_over();
-        } else {
-            self.outputs.push_back(Output::Solution(solution));
+    }
+
+    fn facts(&self) -> Facts {
+        match &self.stage {
+            Stage::Levelling(_) => Facts::default(),
+            Stage::Running(line) => Facts::of(line.estimator()),
+        }
+    }
+
+    /// The IMU is heard, for the first time or again.
+    fn leave_standby(&mut self, time: Time) {
+        let to = match &self.stage {
+            Stage::Levelling(_) => Mode::CoarseAlignment,
+            Stage::Running(line) => line.estimator().solution().mode,
+        };
+        let why = self.resumption.as_ref().map(|_| ModeReason::Resumed);
+        self.enter(time, to, self.facts(), why);
+    }
+
+    /// While others are heard, an IMU that is not has failed.
+    fn note_silence(&mut self, receipt: Time) {
+        let silent = self.heard.is_some_and(|heard| (receipt - heard).as_seconds() > SILENT);
+        if silent {
+            self.enter(receipt, Mode::Standby, self.facts(), None);
         }
     }
 
@@ -407,42 +465,4 @@ impl Engine {
     fn tell(&mut self, event: Event) {
         self.outputs.push_back(Output::Event(event));
     }
-}
-
-/// The instant of an epoch: whole multiples of the period since the start of the voyage.
-fn epoch_time(period: Span, index: i64) -> Time {
-    Time::from_nanos(index.saturating_mul(period.as_nanos()))
-}
-
-/// First epoch after an instant.
-fn epoch_after(period: Span, time: Time) -> i64 {
-    time.as_nanos().div_euclid(period.as_nanos().max(1)) + 1
-}
-
-/// Solutions at the epochs strictly inside an increment, before the ship moves over it.
-fn epochs(
-    period: Span,
-    next: &mut Option<i64>,
-    increment: &Increment,
-    line: &Timeline<Ship>,
-    solutions: &mut Vec<Solution>,
-) {
-    let mut index = *next.get_or_insert_with(|| epoch_after(period, increment.from));
-    while epoch_time(period, index) < increment.to {
-        let at = epoch_time(period, index);
-        if at > increment.from {
-            solutions.push(line.estimator().solution_at(increment, at));
-        }
-        index += 1;
-    }
-    *next = Some(index);
-}
-
-/// The epoch at an instant, if there is one; it is then passed.
-fn due_at(period: Span, next: &mut Option<i64>, time: Time) -> Option<Time> {
-    let index = (*next)?;
-    (epoch_time(period, index) == time).then(|| {
-        *next = Some(index + 1);
-        time
-    })
 }

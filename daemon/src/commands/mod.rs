@@ -2,12 +2,18 @@
 
 pub mod alignment;
 pub mod campaign;
+pub mod check_config;
 pub mod convert;
 pub mod evaluate;
+pub mod example_config;
+pub mod feed;
+pub mod generate;
 pub mod limit;
+pub mod monitor;
 mod outage;
 pub mod ports;
 pub mod replay;
+pub mod report;
 pub mod run;
 pub(crate) mod scenario;
 pub mod simulate;

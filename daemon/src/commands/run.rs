@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
+use crate::cli::BadInput;
 use crate::config::Config;
+use crate::logging::Log;
 use crate::run::{self, RunOptions};
 
 /// Options of `insd run`.
@@ -23,8 +25,15 @@ pub struct RunArgs {
 ///
 /// # Errors
 /// The configuration has faults, or something that is needed at the start cannot be had.
-pub fn run(args: &RunArgs) -> anyhow::Result<()> {
+pub fn run(args: &RunArgs, log: &Log) -> anyhow::Result<()> {
     let (config, text) = Config::load(&args.config)?;
-    let options = RunOptions { nav: args.nav.clone(), seconds: args.seconds };
-    run::run(&config, &text, &options)
+    if !log.is_told_by_environment {
+        log.set(&config.log.level).map_err(BadInput)?;
+    }
+    let options = RunOptions {
+        nav: args.nav.clone(),
+        seconds: args.seconds,
+        config: Some(args.config.clone()),
+    };
+    run::run(&config, &text, &options, log)
 }

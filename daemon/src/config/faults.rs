@@ -2,13 +2,14 @@
 
 use insd_drivers::can::CanConfig;
 
-use super::Config;
+use super::{Config, ImuModel, spare};
 
 /// Names, ranges and references: each fault with its place and what was expected.
 pub(super) fn of(config: &Config) -> Vec<String> {
     let mut faults = Vec::new();
     ship(config, &mut faults);
-    imu(config, &mut faults);
+    model("[imu]", &config.imu, &mut faults);
+    spare::of(config, &mut faults);
     ports(config, &mut faults);
     for fault in config.intake().faults() {
         let place = if fault.sensor.is_empty() {
@@ -20,6 +21,7 @@ pub(super) fn of(config: &Config) -> Vec<String> {
     }
     outputs(config, &mut faults);
     nodes(config, &mut faults);
+    faults.extend(config.state.faults().chain(config.log.faults()));
     faults
 }
 
@@ -46,13 +48,14 @@ fn ship(config: &Config, faults: &mut Vec<String>) {
     expect(sigma, "time_std_s", "1e-9 to 1");
 }
 
-fn imu(config: &Config, faults: &mut Vec<String>) {
-    for (key, value, is_time) in config.imu.values() {
+/// Values of an error model that cannot be.
+pub(super) fn model(place: &str, model: &ImuModel, faults: &mut Vec<String>) {
+    for (key, value, is_time) in model.values() {
         let good =
             if is_time { (1e-3..=1e9).contains(&value) } else { (0.0..=1e9).contains(&value) };
         if !good {
             let least = if is_time { "0.001" } else { "0" };
-            faults.push(format!("[imu]: {key}: expected {least} to 1e9"));
+            faults.push(format!("{place}: {key}: expected {least} to 1e9"));
         }
     }
 }

@@ -3,13 +3,18 @@
 //! The text is read twice: first strictly by `toml`, whose errors show line and caret and which bends no
 //! type into another; then by `config`, which lays `INSD__SECTION__KEY` of the environment over it.
 
+mod environment;
 mod faults;
 mod filters;
 mod imu;
 mod lan;
 mod node;
 mod output;
+mod place;
 mod policy;
+mod service;
+mod spare;
+mod succession;
 
 use std::path::{Path, PathBuf};
 
@@ -32,6 +37,9 @@ pub use lan::LanSection;
 pub use node::{NodeMemory, NodeSection};
 pub use output::{OutputSection, Overfull, PointSection};
 pub use policy::PolicySection;
+pub use service::{LogSection, StateSection, WebSection};
+pub use spare::SpareSection;
+pub use succession::Change;
 
 /// How well receiver and IMU agree in time where neither a pulse nor the IMU's own UTC ties them, s.
 const TIME_STD: f64 = 0.02;
@@ -39,8 +47,6 @@ const TIME_STD: f64 = 0.02;
 const BITRATE: u32 = 250_000;
 /// How often the groups of NMEA 2000 are looked at, Hz: their shortest interval.
 const GROUPS_RATE: f64 = 100.0;
-/// Name of the environment variables that override keys.
-const PREFIX: &str = "INSD";
 
 /// Everything that the daemon is told.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -56,6 +62,9 @@ pub struct Config {
     /// Sensors on them.
     #[serde(default, rename = "sensor")]
     pub sensors: Vec<SensorConfig>,
+    /// Engines beside the first.
+    #[serde(default, rename = "spare")]
+    pub spares: Vec<SpareSection>,
     /// Points of the ship that outputs speak of.
     #[serde(default, rename = "point")]
     pub points: Vec<PointSection>,
@@ -69,6 +78,15 @@ pub struct Config {
     pub recording: Option<Recording>,
     /// Where chronyd listens for time.
     pub chrony: Option<Chrony>,
+    /// Where it is kept what the next start goes on from.
+    #[serde(default)]
+    pub state: StateSection,
+    /// The status page.
+    #[serde(default)]
+    pub web: WebSection,
+    /// What is logged.
+    #[serde(default)]
+    pub log: LogSection,
 }
 
 /// Ship and start.
@@ -91,6 +109,8 @@ pub struct Ship {
     /// Log from the IMU: forward, starboard, down, m.
     #[serde(default)]
     pub log_lever_m: [f64; 3],
+    /// Name of the first engine's IMU, where there are several. Left out: the best that is valid.
+    pub imu: Option<String>,
     /// Solutions per second.
     #[serde(default = "ten")]
     pub rate_hz: f64,
@@ -190,20 +210,19 @@ impl Config {
     pub fn load(path: &Path) -> anyhow::Result<(Self, String)> {
         let text = std::fs::read_to_string(path)
             .with_context(|| format!("{}: cannot be read", path.display()))?;
-        let config = Self::parse(&text, environment())
+        let text = environment::written_below(&text);
+        let config = Self::of_text(&text)
             .map_err(|fault| BadInput(format!("{}: {fault}", path.display())))?;
         Ok((config, text))
     }
 
-    /// The configuration of a text alone, as a recording holds it.
+    /// The configuration of a text alone, as [`Config::load`] gives it and a recording holds it: with the
+    /// overrides of the environment written below it.
     ///
     /// # Errors
     /// All faults as one text.
     pub fn of_text(text: &str) -> Result<Self, String> {
-        Self::parse(text, environment().source(Some(config::Map::new())))
-    }
-
-    fn parse(text: &str, environment: config::Environment) -> Result<Self, String> {
+        let environment = environment::of(text);
         toml::from_str::<Config>(text).map_err(|fault| fault.to_string())?;
         let layered = config::Config::builder()
             .add_source(config::File::from_str(text, config::FileFormat::Toml))
@@ -215,6 +234,8 @@ impl Config {
         if faults.is_empty() {
             Ok(layered)
         } else {
+            let faults: Vec<String> =
+                faults.iter().map(|fault| place::with_line(text, fault)).collect();
             Err(format!("{} faults\n  {}", faults.len(), faults.join("\n  ")))
         }
     }
@@ -226,7 +247,8 @@ impl Config {
             .ports
             .iter()
             .map(|port| PortSpec { name: port.name.clone(), link: link(&port.transport) });
-        IntakeConfig { ports: ports.collect(), sensors: self.sensors.clone() }
+        let (sensors, imu) = (self.sensors.clone(), self.ship.imu.clone());
+        IntakeConfig { ports: ports.collect(), sensors, imu }
     }
 
     /// What the engine is told.
@@ -235,8 +257,7 @@ impl Config {
         let ship = &self.ship;
         let [gnss, log] = [ship.gnss_lever_m, ship.log_lever_m]
             .map(|[forward, starboard, down]| insd_base::Body::new(forward, starboard, down));
-        let imus = self.sensors.iter().filter(|sensor| sensor.kind.role() == Role::Imu);
-        let rate = imus.min_by_key(|sensor| sensor.priority).map_or(100.0, |sensor| sensor.rate_hz);
+        let rate = self.imu(None).map_or(100.0, |sensor| sensor.rate_hz);
         let start = match ship.start {
             Start::Moored => StartCondition::Moored,
             Start::Underway => StartCondition::Underway,
@@ -251,7 +272,7 @@ impl Config {
             output_rate: ship.rate_hz,
             alignment: insd_alignment::AlignmentConfig::default(),
             stored: None,
-            time_std: ship.time_std_s.or_else(|| self.time_std()),
+            time_std: ship.time_std_s.or_else(|| self.time_std(None)),
         }
     }
 
@@ -300,22 +321,25 @@ impl Config {
         self.ports.iter().map(config).collect()
     }
 
-    /// `None` where a pulse or the IMU's own UTC ties receiver and IMU.
-    fn time_std(&self) -> Option<f64> {
+    /// The IMU of an engine that has one of its own, else that of the first engine.
+    fn imu(&self, own: Option<&str>) -> Option<&SensorConfig> {
+        let own = own.or(self.ship.imu.as_deref());
+        let imus = self.sensors.iter().filter(|sensor| sensor.kind.role() == Role::Imu);
+        let used = imus.filter(|sensor| own.is_none_or(|own| sensor.name == own));
+        used.min_by_key(|sensor| sensor.priority)
+    }
+
+    /// `None` where a pulse or the own UTC of an engine's IMU ties receiver and IMU.
+    fn time_std(&self, imu: Option<&str>) -> Option<f64> {
+        let imu = imu.or(self.ship.imu.as_deref());
+        let is_own = |sensor: &SensorConfig| {
+            sensor.kind.role() == Role::Imu && imu.is_none_or(|imu| sensor.name == imu)
+        };
         let pulse = self.ports.iter().any(|port| matches!(port.transport, Transport::Pps(_)));
-        let synchronised = self
-            .sensors
-            .iter()
-            .any(|sensor| sensor.kind.role() == Role::Imu && sensor.time == TimeBase::Utc);
+        let synchronised =
+            self.sensors.iter().any(|sensor| is_own(sensor) && sensor.time == TimeBase::Utc);
         (!pulse && !synchronised).then_some(TIME_STD)
     }
-}
-
-fn environment() -> config::Environment {
-    config::Environment::with_prefix(PREFIX)
-        .prefix_separator("__")
-        .separator("__")
-        .try_parsing(true)
 }
 
 fn link(transport: &Transport) -> Link {

@@ -5,7 +5,7 @@ use insd_wire::imu::can::{LayoutChoice, Shipped};
 
 use super::*;
 
-const SHIPPED: &str = include_str!("../../../systemd/insd.toml");
+const SHIPPED: &str = include_str!("../../../systemd/examples/survey.toml");
 
 #[test]
 fn the_shipped_file_has_no_faults_and_says_what_it_seems_to_say() {
@@ -47,11 +47,8 @@ fn an_unknown_key_is_shown_with_its_line() {
 
 #[test]
 fn the_environment_overrides_a_key_and_is_checked_like_the_file() {
-    let with = |value: &str| {
-        let variables = [("INSD__SHIP__RATE_HZ".to_owned(), value.to_owned())].into_iter();
-        let environment = environment().source(Some(variables.collect()));
-        Config::parse(SHIPPED, environment)
-    };
+    let with =
+        |value: &str| Config::of_text(&format!("{SHIPPED}\n#! INSD__SHIP__RATE_HZ={value}\n"));
     assert_eq!(with("50").unwrap().ship.rate_hz, 50.0);
     assert!(with("-1").unwrap_err().contains("rate_hz: expected 0.1 to 1000"));
 }
@@ -155,7 +152,7 @@ fn the_documented_sensors_of_a_bus_are_read() {
             name: sensor.port.clone(),
             link: Link::Can { bit_time: 4e-6 },
         });
-        let mut config = IntakeConfig { ports: ports.collect(), sensors };
+        let mut config = IntakeConfig { ports: ports.collect(), sensors, imu: None };
         config.ports.dedup();
         config.sensors.push(SensorConfig {
             layout: Some(LayoutChoice::Shipped(Shipped::Sbg)),
@@ -178,7 +175,7 @@ fn a_table_of_a_can_imu_is_read_from_toml_and_its_faults_are_told() {
     "#;
     let sensor = layered(table).remove(0);
     let port = PortSpec { name: "can".to_owned(), link: Link::Can { bit_time: 2e-6 } };
-    let config = IntakeConfig { ports: vec![port], sensors: vec![sensor] };
+    let config = IntakeConfig { ports: vec![port], sensors: vec![sensor], imu: None };
     let told = config.faults();
     assert!(told.iter().all(|fault| fault.key == "layout") && told.len() == 2, "{told:?}");
     let fault = toml::from_str::<Sensors>(&table.replace("width", "witdh")).unwrap_err();

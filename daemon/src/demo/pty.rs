@@ -9,10 +9,12 @@ use std::os::fd::OwnedFd;
 use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 
-use rustix::fs::{Mode, OFlags, fcntl_getfl, fcntl_setfl, open};
+use rustix::fs::{Mode, OFlags, fchmod, fcntl_getfl, fcntl_setfl, open};
 use rustix::io::{Errno, ioctl_fionread, write};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
-use rustix::termios::{OptionalActions, QueueSelector, tcflush, tcgetattr, tcsetattr};
+use rustix::termios::{
+    OptionalActions, QueueSelector, ioctl_tiocnxcl, tcflush, tcgetattr, tcsetattr,
+};
 
 /// Bytes that may wait for a reader: about three seconds at the pace of a ship. The kernel can
 /// hold and count 4095.
@@ -56,6 +58,21 @@ impl Pty {
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Lets every user of this computer read it.
+    ///
+    /// # Errors
+    /// Those of the kernel.
+    pub fn share(&self) -> std::io::Result<()> {
+        Ok(fchmod(&self.far, Mode::from_raw_mode(0o666))?)
+    }
+
+    /// Lets the next reader in after one who took the terminal for himself (`TIOCEXCL`) and was killed: a
+    /// serial line forgets that with its last user, this one has us as another.
+    pub fn release(&self) {
+        // it fails on what is no terminal
+        let _ = ioctl_tiocnxcl(&self.far);
     }
 
     /// Bytes pushed, read or not.

@@ -49,6 +49,11 @@ pub fn event(event: &Event) -> String {
         }
         Event::ImuGap { missing, .. } => format!("IMU gap of {missing:.2} s"),
         Event::LeftBerth { .. } => "Left the berth".to_owned(),
+        Event::Resumed { gap, .. } => format!("Going on after {gap:.1} s"),
+        Event::ResumeConfirmed { .. } => "Saved state confirmed".to_owned(),
+        Event::ResumeDropped { reason, .. } => {
+            format!("✗ Saved state: {}", reason.as_str().replace('_', " "))
+        }
         Event::PositionReset { .. } => "Position set anew".to_owned(),
         Event::StoredStateUsed { .. } => "Stored heading confirmed".to_owned(),
         Event::StoredStateDropped { reason, .. } => {

@@ -21,7 +21,7 @@ const FRAME: Duration = Duration::from_millis(100);
 /// A terminal that fails.
 pub async fn show(worker: &Worker, duration: Option<Duration>) -> anyhow::Result<()> {
     let mut farewell = Farewell::new(duration)?;
-    let mut screen = Screen { terminal: ratatui::try_init()? };
+    let mut screen = Screen::new()?;
     let mut ticks = interval(FRAME);
     ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
     loop {
@@ -38,8 +38,19 @@ pub async fn show(worker: &Worker, duration: Option<Duration>) -> anyhow::Result
 }
 
 /// The terminal in full-screen mode; given back when dropped.
-struct Screen {
-    terminal: DefaultTerminal,
+pub(crate) struct Screen {
+    /// The terminal.
+    pub(crate) terminal: DefaultTerminal,
+}
+
+impl Screen {
+    /// Takes the terminal over.
+    ///
+    /// # Errors
+    /// A terminal that fails.
+    pub(crate) fn new() -> std::io::Result<Self> {
+        Ok(Screen { terminal: ratatui::try_init()? })
+    }
 }
 
 impl Drop for Screen {
@@ -49,7 +60,7 @@ impl Drop for Screen {
 }
 
 /// Takes all keys that were pressed; true if one of them asks to end.
-fn quit_was_pressed() -> std::io::Result<bool> {
+pub(crate) fn quit_was_pressed() -> std::io::Result<bool> {
     let mut quit = false;
     while event::poll(Duration::ZERO)? {
         if let Event::Key(key) = event::read()?

@@ -129,7 +129,7 @@ impl Ship {
     }
 
     fn note(&mut self, event: &Event) {
-        if let (Event::ModeChanged { to: Mode::Fault, time }, Some(solution)) =
+        if let (Event::ModeChanged { to: Mode::Fault, time, .. }, Some(solution)) =
             (event, &mut self.board.solution)
         {
             // after a fault no solutions come until the next alignment; the last one is void

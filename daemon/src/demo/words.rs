@@ -115,6 +115,7 @@ pub fn radius_95(sigma: &Ned) -> f64 {
 #[must_use]
 pub fn mode_short(mode: Mode) -> &'static str {
     match mode {
+        Mode::Standby => "no data of the IMU",
         Mode::CoarseAlignment => "levelling and seeking north",
         Mode::FineAlignment => "aligning at the berth",
         Mode::InMotionAlignment => "aligning under way",
@@ -130,6 +131,7 @@ pub fn mode_short(mode: Mode) -> &'static str {
 pub fn mode_advice(mode: Option<Mode>) -> &'static str {
     match mode {
         None => "WAITING  for the first solution",
+        Some(Mode::Standby) => "WAITING  for the IMU: do not use",
         Some(Mode::CoarseAlignment) => "ALIGNING  levelling and seeking north: do not use",
         Some(Mode::FineAlignment) => "ALIGNING  at the berth, heading settling: do not use",
         Some(Mode::InMotionAlignment) => "ALIGNING  under way, finding the heading: do not use",

@@ -1,23 +1,24 @@
 //! Nodes of NMEA 2000: the engine's thread hands in what is to be said; the ports' tasks send it.
 
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use insd_base::Time;
 use insd_drivers::can::SharedSpeaker;
-use insd_n2k::node::{Node, NodeEvent};
+use insd_n2k::node::{Node, NodeEvent, NodeStatus};
 use insd_output::Epoch;
 use insd_output::n2k::Voice;
 
 use crate::config::{Config, NodeMemory, NodeSection};
+use crate::output_file;
 
 /// Time between two looks at what became of a node.
 const LOOK: Duration = Duration::from_millis(200);
 
 /// What is said on one bus.
 struct Bus {
+    port: String,
     voice: Voice,
     node: SharedSpeaker<Node>,
     geoid: Option<f64>,
@@ -47,10 +48,17 @@ impl Buses {
             let (port, state) = (section.port.clone(), section.state.clone());
             named.push(NodeOfPort { port, node: node.clone(), state });
             let point = config.point(section.point.as_deref());
-            Bus { voice: Voice::new(section.voice()), node, geoid: section.geoid_m, point }
+            let (voice, geoid) = (Voice::new(section.voice()), section.geoid_m);
+            Bus { port: section.port.clone(), voice, node, geoid, point }
         });
         let buses = Buses { buses: buses.collect() };
         (buses, named)
+    }
+
+    /// How each node is, by the name of its port.
+    pub(super) fn status(&self) -> Vec<(String, NodeStatus)> {
+        let status = |bus: &Bus| (bus.port.clone(), bus.node.with(|node| node.status()));
+        self.buses.iter().map(status).collect()
     }
 
     /// Says what is known of the monitoring points at an instant.
@@ -124,14 +132,9 @@ fn remembered(path: &Path) -> Option<NodeMemory> {
     serde_json::from_str(&fs::read_to_string(path).ok()?).ok()
 }
 
-/// Puts it into its file, whole or not at all.
 fn remember(path: &Path, memory: &NodeMemory) -> std::io::Result<()> {
-    let fresh = path.with_extension("new");
-    let mut file = fs::File::create(&fresh)?;
-    serde_json::to_writer(&file, memory)?;
-    writeln!(file)?;
-    file.sync_all()?;
-    fs::rename(&fresh, path)
+    let text = serde_json::to_string(memory)?;
+    output_file::replace(path, &format!("{text}\n"))
 }
 
 /// A number that no other computer has: of the identity that the system was given when it was installed.

@@ -1,154 +1,190 @@
 //! The daemon at work: ports, one engine thread, outputs, recording.
 
+mod alert_journal;
 mod bus;
+mod connections;
+mod control;
+mod headline;
+mod heart;
+mod journal;
+mod manager;
 mod outputs;
+mod page;
 mod priority;
+mod report;
+mod service;
+mod showcase;
 mod time_out;
 mod told;
+mod worker;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::RecvTimeoutError;
+use std::thread::JoinHandle;
 use std::time::Duration;
 
 use anyhow::Context;
-use insd_base::{Arrival, Input, PortId, Span, Stamp, Time};
-use insd_drivers::can::{self, CanConfig};
-use insd_drivers::ports::{self, PortConfig, PortHandle, Receiver, Surroundings};
+use insd_base::{PortId, Span};
+use insd_drivers::ports::{self, Surroundings};
 use insd_drivers::raw::{RawHeader, RawWriter, Recorder, RecordingConfig};
 use insd_drivers::recording::NavWriter;
-use insd_engine::Output;
+use tokio::sync::oneshot;
 
-use crate::clock::HostClock;
-use crate::config::{Config, PortSection, Recording};
+use crate::clock::{HostClock, boot_now};
+use crate::config::{Config, Recording, StateSection};
+use crate::logging::Log;
 use crate::output_file::OutputFile;
-use crate::pipeline::{Pipeline, Product};
-use crate::speaker::Spoken;
+use crate::pipeline::Pipeline;
+use crate::state::{self, Folders, Remains, Saver};
 
-use bus::{Buses, NodeOfPort};
-use outputs::Outputs;
-use time_out::TimeOut;
-pub use told::tell;
+use alert_journal::AlertJournal;
+use connections::Connections;
+use headline::Headline;
+use heart::Heart;
+use journal::{Audience, Journal};
+use manager::Manager;
+use service::Service;
+use showcase::Origin;
+pub use told::{Names, tell};
+use worker::{Agenda, Worker};
 
 /// Bytes that may wait for the engine at one port.
 const WAITING: usize = 256 * 1024;
-/// Longest wait for an arrival: time passes even when nothing comes.
-const TURN: Duration = Duration::from_millis(25);
 
-/// The port of what comes from our own clock: none of the configuration.
+/// The port of what comes from our own clock and from the operator: none of the configuration.
 const NOWHERE: PortId = PortId(u16::MAX);
-
-/// Time between the things that are done once a second, s.
-const SECOND: f64 = 1.0;
-/// An epoch that begins later than this is late.
-const PUNCTUAL: Span = Span::from_nanos(1_000_000);
-/// Time between two accounts of what was sent, s.
-const ACCOUNT: f64 = 3600.0;
 
 /// What the command line adds to the configuration.
 #[derive(Clone, Debug, Default)]
 pub struct RunOptions {
     /// Also write the solutions as `nav.csv`.
-    pub nav: Option<std::path::PathBuf>,
+    pub nav: Option<PathBuf>,
     /// Stop after so many seconds.
     pub seconds: Option<f64>,
+    /// The file of the configuration, to be read again when that is asked for.
+    pub config: Option<PathBuf>,
 }
 
-/// Runs until it is told to stop.
+/// Runs until it is told to stop. `text` is that of the configuration.
 ///
 /// # Errors
 /// Something that is needed at the start cannot be had. Ports that are absent are no error.
-pub fn run(config: &Config, text: &str, options: &RunOptions) -> anyhow::Result<()> {
+pub fn run(config: &Config, text: &str, options: &RunOptions, log: &Log) -> anyhow::Result<()> {
     let clock = HostClock::start();
+    let remains = remains(&config.state, &clock);
     let priority = config.ship.priority.filter(|priority| *priority > 0);
-    let runtime = tokio::runtime::Builder::new_multi_thread()
+    let runtime = runtime(priority).context("cannot start the runtime")?;
+    let (queue, receiver) = ports::queue(WAITING);
+    let surroundings = Surroundings { clock: Arc::new(clock), queue, judge: Some(told::judge()) };
+    let guard = runtime.enter();
+    let pipeline = Pipeline::new(config);
+    let made = pipeline.speaker().station().ports();
+    let connections = Connections::open(config, made, &surroundings, runtime.handle());
+    drop(surroundings);
+    let (commander, controls) = control::channel();
+    let (headline, status) = Headline::new();
+    let (configuration, hash) = (options.config.clone(), showcase::hash(text));
+    let page = page::open(config, Origin { started: clock.now(), configuration, hash }, log);
+    let (showcase, orders, _page) = match page {
+        Some(page) => (Some(page.showcase), Some(page.orders), Some(page.handle)),
+        None => (None, None, None),
+    };
+    let heart = Heart::default();
+    let worker = Worker {
+        connections,
+        pipeline,
+        receiver,
+        controls,
+        recorder: config.recording.as_ref().map(|own| start_recorder(own, text)).transpose()?,
+        saver: start_saver(&config.state)?,
+        nav: options.nav.as_deref().map(open_nav).transpose()?,
+        journal: Journal::start(audience(headline, showcase))
+            .context("cannot start the journal")?,
+        clock,
+        heart: heart.clone(),
+        agenda: Agenda::default(),
+        text: text.to_owned(),
+    };
+    let stop = Arc::new(AtomicBool::new(false));
+    let (thread, ended) = start_engine(worker, remains, priority, &stop)?;
+    let service = Service {
+        config: options.config.clone(),
+        log: log.clone(),
+        commander,
+        manager: Manager::start().context("cannot start to speak to the manager")?,
+        heart,
+        headline: status,
+        ended,
+        orders,
+        limit: options.seconds.map(|seconds| Duration::from_secs_f64(seconds.clamp(0.0, 1e9))),
+    };
+    let attended = runtime.block_on(service.attend());
+    stop.store(true, Ordering::Relaxed);
+    let finished = thread.join().map_err(|_| anyhow::anyhow!("the engine thread panicked"))?;
+    drop(guard);
+    runtime.shutdown_timeout(Duration::from_secs(1));
+    finished.and(attended.context("cannot wait for signals"))
+}
+
+fn runtime(priority: Option<u8>) -> std::io::Result<tokio::runtime::Runtime> {
+    tokio::runtime::Builder::new_multi_thread()
         .worker_threads(2)
         .on_thread_start(move || hasten(priority.map(|priority| priority.saturating_sub(1).max(1))))
         .enable_all()
         .build()
-        .context("cannot start the runtime")?;
-    let (queue, receiver) = ports::queue(WAITING);
-    let surroundings =
-        Surroundings { clock: Arc::new(clock), queue: queue.clone(), judge: Some(told::judge()) };
-    let _guard = runtime.enter();
-    let (buses, nodes) = Buses::new(config);
-    let handles = open_inputs(config, &nodes, &surroundings);
-    let first_output = u16::try_from(config.ports.len()).unwrap_or(u16::MAX);
-    let pipeline = Pipeline::new(&config.intake(), config.engine(), config.speaker());
-    let made = pipeline.speaker().station().ports();
-    let outputs = Outputs::open(config, made, first_output, &surroundings);
-    let after_outputs = first_output.saturating_add(outputs.count());
-    let time_out = TimeOut::open(config, after_outputs, &surroundings);
-    let recorder = config.recording.as_ref().map(|own| start_recorder(own, text)).transpose()?;
-    let stop = Arc::new(AtomicBool::new(false));
-    let worker = Worker {
-        pipeline,
-        outputs,
-        buses,
-        time_out,
-        recorder,
-        nav: options.nav.as_deref().map(open_nav).transpose()?,
-        clock,
-        accounted: Time::START,
-        epochs: (0, 0),
-        inputs: first_output,
+}
+
+/// Who is told of the navigation.
+fn audience(headline: Headline, showcase: Option<showcase::Showcase>) -> Vec<Box<dyn Audience>> {
+    let mut all: Vec<Box<dyn Audience>> =
+        vec![Box::new(headline), Box::new(AlertJournal::default())];
+    all.extend(showcase.map(|showcase| Box::new(showcase) as Box<dyn Audience>));
+    all
+}
+
+/// Starts the engine's thread; what is handed back with it is gone when the thread has ended, however it did.
+fn start_engine(
+    worker: Worker,
+    remains: Remains,
+    priority: Option<u8>,
+    stop: &Arc<AtomicBool>,
+) -> std::io::Result<(JoinHandle<anyhow::Result<()>>, oneshot::Receiver<()>)> {
+    let (alive, ended) = oneshot::channel();
+    let stop = Arc::clone(stop);
+    let work = move || {
+        let _alive: oneshot::Sender<()> = alive;
+        hasten(priority);
+        worker.run(remains, &stop)
     };
-    let thread = std::thread::Builder::new().name("engine".to_owned()).spawn({
-        let stop = Arc::clone(&stop);
-        move || {
-            hasten(priority);
-            worker.run(receiver, &stop)
-        }
-    })?;
-    runtime.block_on(until_stopped(options.seconds));
-    stop.store(true, Ordering::Relaxed);
-    let finished = thread.join().map_err(|_| anyhow::anyhow!("the engine thread panicked"))?;
-    drop((handles, queue));
-    runtime.shutdown_timeout(Duration::from_secs(1));
-    finished
+    let thread = std::thread::Builder::new().name("engine".to_owned()).spawn(work)?;
+    Ok((thread, ended))
+}
+
+/// What the run before has left in the folders of the state.
+fn remains(config: &StateSection, clock: &HostClock) -> Remains {
+    if !config.enabled {
+        return Remains::default();
+    }
+    let folders: Vec<PathBuf> =
+        config.runtime_folder().into_iter().chain(config.folder()).collect();
+    state::remains(&folders, &boot_now(&clock.now()))
+}
+
+fn start_saver(config: &StateSection) -> anyhow::Result<Option<Saver>> {
+    let (memory, disk) = (config.runtime_folder(), config.folder());
+    if !config.enabled || (memory.is_none() && disk.is_none()) {
+        return Ok(None);
+    }
+    let interval = Span::from_seconds(config.interval_s);
+    let saver = Saver::start(&Folders { memory, disk, interval });
+    Ok(Some(saver.context("cannot start to save the state")?))
 }
 
 /// A thread that may not go before others still does its work, only later on a busy computer.
 fn hasten(priority: Option<u8>) {
     if let Some(Err(fault)) = priority.map(priority::raise) {
         tracing::info!(fault, "no real-time priority: what is sent may be late on a busy computer");
-    }
-}
-
-/// Opens what is listened to. CAN ports with a node are given it.
-fn open_inputs(
-    config: &Config,
-    nodes: &[NodeOfPort],
-    surroundings: &Surroundings,
-) -> Vec<PortHandle> {
-    let ports = config.ports.iter().zip(config.port_configs()).zip((0..).map(PortId));
-    let open = |((section, port), id): ((&PortSection, PortConfig), PortId)| {
-        let surroundings = surroundings.clone();
-        let node = nodes.iter().find(|node| node.port == section.name);
-        let Some((bus, node)) = CanConfig::of(&port).zip(node) else {
-            return ports::spawn(id, port, surroundings);
-        };
-        let state = node.state.clone();
-        tokio::spawn(bus::watch(node.port.clone(), node.node.clone(), state));
-        can::spawn(id, bus, surroundings, Some(node.node.for_port()))
-    };
-    ports.map(open).collect()
-}
-
-async fn until_stopped(seconds: Option<f64>) {
-    use tokio::signal::unix::{SignalKind, signal};
-    let limit = Duration::from_secs_f64(seconds.unwrap_or(1e9).clamp(0.0, 1e9));
-    let (Ok(mut interrupt), Ok(mut terminate)) =
-        (signal(SignalKind::interrupt()), signal(SignalKind::terminate()))
-    else {
-        tokio::time::sleep(limit).await;
-        return;
-    };
-    tokio::select! {
-        _ = interrupt.recv() => tracing::info!("interrupted"),
-        _ = terminate.recv() => tracing::info!("told to stop"),
-        () = tokio::time::sleep(limit) => tracing::info!("time is up"),
     }
 }
 
@@ -168,111 +204,4 @@ fn start_recorder(config: &Recording, text: &str) -> anyhow::Result<Recorder> {
 
 fn open_nav(path: &Path) -> anyhow::Result<NavWriter<OutputFile>> {
     NavWriter::new(OutputFile::create(path)?).context("cannot write the solution")
-}
-
-/// What runs on the engine's thread.
-struct Worker {
-    pipeline: Pipeline,
-    outputs: Outputs,
-    buses: Buses,
-    time_out: TimeOut,
-    recorder: Option<Recorder>,
-    nav: Option<NavWriter<OutputFile>>,
-    clock: HostClock,
-    /// When it was told last what was sent.
-    accounted: Time,
-    /// Epochs of the outputs, and how many of them began more than a millisecond late.
-    epochs: (u64, u64),
-    /// Ports from this number on are written to, and nothing of the navigation hangs on them.
-    inputs: u16,
-}
-
-impl Worker {
-    fn run(mut self, mut receiver: Receiver, stop: &AtomicBool) -> anyhow::Result<()> {
-        let mut ticked = Time::START;
-        while !stop.load(Ordering::Relaxed) {
-            match receiver.recv_timeout(self.patience()) {
-                Ok(arrival) => self.take(&arrival)?,
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => break,
-            }
-            let now = self.clock.now();
-            let due = self.pipeline.next_tick(now.monotonic);
-            if let Some(due) = due.filter(|due| *due <= now.monotonic) {
-                self.epochs.0 += 1;
-                self.epochs.1 += u64::from(now.monotonic - due > PUNCTUAL);
-                self.take(&Arrival { stamp: now, port: NOWHERE, input: Input::Tick })?;
-            }
-            if (now.monotonic - ticked).as_seconds() >= SECOND {
-                ticked = now.monotonic;
-                self.tick(&now);
-            }
-        }
-        self.finish()
-    }
-
-    /// How long to wait for an arrival: until something is due.
-    fn patience(&self) -> Duration {
-        let now = self.clock.now().monotonic;
-        let wait = |due: Time| Duration::from_nanos((due - now).as_nanos().max(0).unsigned_abs());
-        self.pipeline.next_tick(now).map_or(TURN, wait).min(TURN)
-    }
-
-    /// What is done once a second.
-    fn tick(&mut self, now: &Stamp) {
-        if let Some(recorder) = &mut self.recorder {
-            recorder.tick(now.monotonic);
-        }
-        self.time_out.send(now, self.pipeline.utc_at(now.monotonic));
-        if (now.monotonic - self.accounted).as_seconds() >= ACCOUNT {
-            self.accounted = now.monotonic;
-            self.outputs.tell();
-        }
-    }
-
-    fn take(&mut self, arrival: &insd_base::Arrival) -> anyhow::Result<()> {
-        if arrival.port.0 >= self.inputs && arrival.port != NOWHERE {
-            self.outputs.note(arrival);
-            return Ok(());
-        }
-        if let Some(recorder) = &mut self.recorder {
-            recorder.record(arrival);
-        }
-        let (outputs, buses, nav) = (&mut self.outputs, &mut self.buses, &mut self.nav);
-        let clock = &self.clock;
-        let mut written = Ok(());
-        self.pipeline.handle(arrival, |intake, product| {
-            tell(intake, &product);
-            match product {
-                Product::Engine(Output::Solution(solution)) => {
-                    if let (Some(nav), true) = (nav.as_mut(), written.is_ok()) {
-                        written = nav.write(&solution);
-                    }
-                }
-                Product::Spoken(Spoken::Messages(port, messages)) => {
-                    outputs.send(port, &messages);
-                }
-                Product::Spoken(Spoken::Epochs(epochs)) => {
-                    buses.send(&epochs, clock.now().monotonic);
-                }
-                _ => {}
-            }
-        });
-        written.context("cannot write the solution")
-    }
-
-    fn finish(self) -> anyhow::Result<()> {
-        self.outputs.tell();
-        let skipped = self.pipeline.speaker().station().skipped();
-        let (epochs, late) = self.epochs;
-        tracing::info!(epochs, late, skipped, "epochs, and those begun more than 1 ms late");
-        if let Some(recorder) = self.recorder {
-            let state = recorder.finish();
-            tracing::info!(?state, "recording ended");
-        }
-        match self.nav {
-            Some(nav) => nav.finish().context("cannot write the solution")?.finish(),
-            None => Ok(()),
-        }
-    }
 }

@@ -2,7 +2,7 @@
 
 use insd_base::{Arrival, Input, PortId, Span};
 use insd_drivers::ports::{
-    self, Destination, Outgoing, OutputConfig, OutputPort, Surroundings, UdpOutput,
+    self, Destination, Outgoing, OutputConfig, OutputPort, OutputStatus, Surroundings, UdpOutput,
 };
 use insd_output::{Lan, Message, MessageKind, Port};
 use insd_wire::nmea::TransmissionGroup;
@@ -12,15 +12,23 @@ use crate::config::{Config, LanSection, OutputSection};
 /// All ports that are written to.
 pub(super) struct Outputs {
     first: u16,
-    /// Names of the carriers, by their numbers from `first` on.
+    /// Names of all carriers there ever were, by their numbers from `first` on.
     names: Vec<String>,
     ports: Vec<Output>,
 }
 
 struct Output {
-    name: String,
+    section: OutputSection,
     kinds: Vec<MessageKind>,
     link: Link,
+}
+
+/// What a carrier has done.
+#[derive(Clone, Debug)]
+pub(super) struct OutputReport {
+    pub(super) name: String,
+    pub(super) kinds: Vec<&'static str>,
+    pub(super) status: OutputStatus,
 }
 
 /// What a port's messages go over.
@@ -32,15 +40,25 @@ enum Link {
 }
 
 impl Outputs {
-    /// Opens them; they are numbered from `first`. To be called inside the runtime.
-    pub(super) fn open(
-        config: &Config,
-        made: &[Port],
-        first: u16,
-        surroundings: &Surroundings,
-    ) -> Self {
-        let mut outputs = Outputs { first, names: Vec::new(), ports: Vec::new() };
+    /// None yet; they will be numbered from `first`.
+    pub(super) fn new(first: u16) -> Self {
+        Outputs { first, names: Vec::new(), ports: Vec::new() }
+    }
+
+    /// Closes those that the next configuration has no more, or otherwise.
+    pub(super) fn close_changed(&mut self, next: &Config) {
+        self.ports.retain(|own| next.outputs.contains(&own.section));
+    }
+
+    /// Opens those of a configuration that are not open yet, and puts all in its order. To be called inside
+    /// the runtime.
+    pub(super) fn open(&mut self, config: &Config, made: &[Port], surroundings: &Surroundings) {
+        let mut before = std::mem::take(&mut self.ports);
         for (section, port) in config.outputs.iter().zip(made) {
+            if let Some(index) = before.iter().position(|own| own.section == *section) {
+                self.ports.push(before.swap_remove(index));
+                continue;
+            }
             if let Some(share) = section.overload() {
                 let percent = (share * 100.0).round();
                 tracing::warn!(
@@ -49,17 +67,31 @@ impl Outputs {
                     "asked for more than its line carries"
                 );
             }
-            if let Some(link) = outputs.link(section, port, surroundings) {
-                let (name, kinds) = (section.name.clone(), port.kinds().collect());
-                outputs.ports.push(Output { name, kinds, link });
+            if let Some(link) = self.link(section, port, surroundings) {
+                let kinds = port.kinds().collect();
+                self.ports.push(Output { section: section.clone(), kinds, link });
             }
         }
-        outputs
     }
 
-    /// How many carriers there are.
-    pub(super) fn count(&self) -> u16 {
-        u16::try_from(self.names.len()).unwrap_or(u16::MAX)
+    /// What each carrier has done, with its name.
+    pub(super) fn status(&self) -> Vec<OutputReport> {
+        let mut all = Vec::new();
+        for output in &self.ports {
+            let kinds: Vec<&'static str> = output.kinds.iter().map(|kind| kind.name()).collect();
+            match &output.link {
+                Link::One(carrier) => all.push(OutputReport {
+                    name: output.section.name.clone(),
+                    kinds,
+                    status: carrier.status(),
+                }),
+                Link::Lan(_, carriers) => all.extend(carriers.iter().map(|(group, carrier)| {
+                    let name = format!("{} {}", output.section.name, group.name());
+                    OutputReport { name, kinds: kinds.clone(), status: carrier.status() }
+                })),
+            }
+        }
+        all
     }
 
     /// Hands the messages of an epoch over to the port of this index; never waits.
@@ -135,7 +167,8 @@ impl Outputs {
         config: OutputConfig,
         surroundings: &Surroundings,
     ) -> OutputPort {
-        let number = self.first.saturating_add(self.count());
+        let number = u16::try_from(self.names.len()).unwrap_or(u16::MAX);
+        let number = self.first.saturating_add(number);
         self.names.push(name);
         ports::spawn_output(PortId(number), config, surroundings.clone())
     }
@@ -144,7 +177,7 @@ impl Outputs {
 impl Output {
     fn tell(&self, carrier: &OutputPort, group: Option<TransmissionGroup>) {
         let status = carrier.status();
-        let (name, group) = (&self.name, group.map(TransmissionGroup::name));
+        let (name, group) = (&self.section.name, group.map(TransmissionGroup::name));
         for slot in &status.slots {
             // on the network a slot is a datagram, which may hold several kinds
             let kind = self.kinds.get(usize::from(slot.slot)).filter(|_| group.is_none());

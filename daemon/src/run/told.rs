@@ -1,24 +1,92 @@
 //! Events in words, for the journal.
 
-use insd_base::Event;
+use insd_base::units::DEG;
+use insd_base::{Event, Mode, PortId};
 use insd_drivers::ports::{Judge, Judgement};
 use insd_engine::Output;
-use insd_intake::Intake;
+use insd_engine::vote::{Doubt, VoteEvent};
 use insd_intake::event::{Happening, IntakeEvent};
 use insd_wire::stream::{Cutter, Protocol};
 
-use crate::pipeline::Product;
+use crate::config::{Change, Config};
+use crate::pipeline::{Obeyed, Product};
+use crate::redundancy::Vote;
 
 /// Good frames at which a baud rate is taken as right.
 const CONVINCED: usize = 3;
 
+/// Names of ports and sensors, by their places in the configuration.
+#[derive(Clone, Debug, Default)]
+pub struct Names {
+    ports: Vec<String>,
+    sensors: Vec<String>,
+}
+
+impl Names {
+    /// Those of a configuration.
+    #[must_use]
+    pub fn of(config: &Config) -> Self {
+        Names {
+            ports: config.ports.iter().map(|port| port.name.clone()).collect(),
+            sensors: config.sensors.iter().map(|sensor| sensor.name.clone()).collect(),
+        }
+    }
+
+    /// That of a port.
+    #[must_use]
+    pub fn port(&self, port: PortId) -> &str {
+        self.ports.get(usize::from(port.0)).map_or("?", String::as_str)
+    }
+
+    /// That of a sensor.
+    #[must_use]
+    pub fn sensor(&self, sensor: usize) -> &str {
+        self.sensors.get(sensor).map_or("?", String::as_str)
+    }
+}
+
 /// Tells what is worth telling of a product.
-pub fn tell(intake: &Intake, product: &Product) {
+pub fn tell(names: &Names, product: &Product) {
     match product {
-        Product::Intake(event) => tell_event(intake, event),
+        Product::Intake(event) => tell_event(names, event),
         Product::Engine(Output::Event(event)) => tell_engine(event),
         Product::Engine(Output::Alignment(status)) => tracing::debug!(?status, "alignment"),
-        Product::Engine(_) | Product::Spoken(_) => {}
+        Product::Order(obeyed) => tell_order(obeyed),
+        Product::Spare(name, Output::Event(Event::ModeChanged { time, to, why, .. })) => {
+            let (at, mode, why) = (time.as_seconds(), to.as_str(), why.as_str());
+            tracing::info!(at, engine = %name, mode, why, "mode");
+        }
+        Product::Spare(name, Output::Event(event)) => tracing::debug!(engine = %name, ?event),
+        Product::Vote(vote) => tell_vote(vote),
+        Product::Engine(_) | Product::Spoken(_) | Product::Spare(..) => {}
+    }
+}
+
+fn tell_order(obeyed: &Obeyed) {
+    match obeyed {
+        Obeyed::Alert { identifier, command, done } => {
+            tracing::info!(alert = identifier, ?command, done, "ordered about an alert");
+        }
+        Obeyed::Configured(change) if change.is_nothing() => {
+            tracing::info!("the configuration is as it was");
+        }
+        Obeyed::Configured(Change { inputs, outputs, waiting }) => {
+            tracing::info!(inputs, outputs, "another configuration holds; navigation goes on");
+            for section in waiting {
+                tracing::warn!(section, "changed in the file, and waits for the next start");
+            }
+        }
+        Obeyed::ConfigurationRefused(faults) => {
+            tracing::error!("the configuration is not taken, the old one holds: {faults}");
+        }
+        Obeyed::Resumed => tracing::info!("navigation goes on from where the run before ended"),
+        Obeyed::NotResumed(doubt) => {
+            tracing::warn!(?doubt, "navigation begins anew: what the run before left is no use");
+        }
+        Obeyed::StoredStateOffered => tracing::info!("the heading stored at the berth is on offer"),
+        Obeyed::StoredStateRefused(fault) => {
+            tracing::warn!(fault, "no heading stored at the berth");
+        }
     }
 }
 
@@ -26,8 +94,13 @@ pub fn tell(intake: &Intake, product: &Product) {
 fn tell_engine(event: &Event) {
     match event {
         Event::Rejected { .. } => tracing::debug!(?event, "engine"),
-        Event::ModeChanged { time, to } => {
-            tracing::info!(at = time.as_seconds(), mode = to.as_str(), "mode");
+        Event::ModeChanged { time, from, to, why } => {
+            let (at, from) = (time.as_seconds(), from.map(Mode::as_str));
+            tracing::info!(at, from, mode = to.as_str(), why = why.as_str(), "mode");
+        }
+        Event::ResumeDropped { time, reason } => {
+            let (at, why) = (time.as_seconds(), reason.as_str());
+            tracing::warn!(at, why, "the state saved before the crash is not believed");
         }
         Event::ImuGap { time, missing } => {
             tracing::warn!(at = time.as_seconds(), missing, "gap in the IMU data bridged");
@@ -36,15 +109,43 @@ fn tell_engine(event: &Event) {
     }
 }
 
-fn tell_event(intake: &Intake, event: &IntakeEvent) {
+/// Who differs from whom, and whose word goes out.
+fn tell_vote(vote: &Vote) {
+    match vote.event {
+        VoteEvent::Differ { time, disagreement } => {
+            let (at, difference) = (time.as_seconds(), disagreement.difference);
+            let unit = if difference.quantity.is_angle() { DEG } else { 1.0 };
+            let (by, limit) = (difference.value / unit, difference.limit / unit);
+            let between = [disagreement.between.0, disagreement.between.1].map(|i| vote.name(i));
+            let (what, wrong) = (difference.quantity.as_str(), disagreement.wrong);
+            let (wrong, why) = (wrong.map(|(i, _)| vote.name(i)), wrong.map(|(_, d)| d.as_str()));
+            tracing::warn!(at, ?between, what, by, limit, wrong, why, "engines differ");
+        }
+        VoteEvent::Wrong { time, engine, why, .. } => {
+            let (at, engine, why) = (time.as_seconds(), vote.name(engine), why.as_str());
+            tracing::warn!(at, engine, why, "taken as wrong");
+        }
+        VoteEvent::Agree { time, between } => {
+            let between = [between.0, between.1].map(|i| vote.name(i));
+            tracing::info!(at = time.as_seconds(), ?between, "engines agree again");
+        }
+        VoteEvent::Switched { time, from, to, why } => {
+            let (at, from, to) = (time.as_seconds(), vote.name(from), vote.name(to));
+            let why = why.map(Doubt::as_str);
+            tracing::warn!(at, from, to, why, "outputs come from another engine");
+        }
+    }
+}
+
+fn tell_event(names: &Names, event: &IntakeEvent) {
     let at = event.time.as_seconds();
-    let name = |sensor: &usize| intake.sensor_name(*sensor).to_owned();
+    let name = |sensor: &usize| names.sensor(*sensor).to_owned();
     match &event.what {
         Happening::Port { port, state } => {
-            tracing::info!(at, port = intake.port_name(*port), "{state}");
+            tracing::info!(at, port = names.port(*port), "{state}");
         }
         Happening::Bus { port, event } => {
-            tracing::warn!(at, port = intake.port_name(*port), "bus: {event}");
+            tracing::warn!(at, port = names.port(*port), "bus: {event}");
         }
         Happening::Device { sensor, device } => {
             let (address, known) = (device.address, device.name.map(|name| name.to_string()));

@@ -130,7 +130,7 @@ impl Port {
                 let what = SeenWhat::State(state);
                 show(&Seen { port: &self.plan.name, stamp: *stamp, what });
             }
-            Input::Tick => {}
+            Input::Tick | Input::Order(_) => {}
         }
     }
 

@@ -38,6 +38,35 @@ pub enum Why {
     NoneLeft,
 }
 
+impl Quantity {
+    /// Its word: `inertial`, `bottom_velocity`, ...
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Quantity::Inertial => "inertial",
+            Quantity::Gnss => "gnss",
+            Quantity::BottomVelocity => "bottom_velocity",
+            Quantity::WaterVelocity => "water_velocity",
+            Quantity::Heading => "heading",
+            Quantity::Position => "position",
+        }
+    }
+}
+
+impl Why {
+    /// Its word: `first`, `none_left`, ...
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Why::First => "first",
+            Why::Silent => "silent",
+            Why::Invalid => "invalid",
+            Why::Better => "better",
+            Why::NoneLeft => "none_left",
+        }
+    }
+}
+
 /// Another source is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Chosen {

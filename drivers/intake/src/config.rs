@@ -197,6 +197,8 @@ pub struct IntakeConfig {
     pub ports: Vec<PortSpec>,
     /// Sensors.
     pub sensors: Vec<SensorConfig>,
+    /// Name of the only IMU that is used; the others are listened to. The best that is valid if left out.
+    pub imu: Option<String>,
 }
 
 /// A fault of a sensor's description.

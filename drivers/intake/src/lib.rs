@@ -26,11 +26,12 @@ pub use magnetic::variation;
 use insd_base::{Arrival, Input, PortState, Received, Stamp, Time, UtcTime};
 
 use crate::can::CanIntake;
+use crate::choice::Quantity;
 use crate::config::IntakeConfig;
 use crate::core::Core;
 use crate::event::{Happening, IntakeEvent};
 use crate::port::PortIntake;
-use crate::status::{ChoiceStatus, IntakeStatus, PortStatus, TimeStatus};
+use crate::status::{ChoiceStatus, IntakeStatus, PortStatus, PortTold, SensorStatus, TimeStatus};
 
 /// Time between looks for silences, s.
 const TICK: f64 = 0.1;
@@ -57,7 +58,7 @@ struct Port {
     name: String,
     intake: PortIntake,
     can: CanIntake,
-    state: Option<PortState>,
+    told: PortTold,
     heard: Option<Time>,
 }
 
@@ -70,7 +71,7 @@ impl Intake {
             name: port.name.clone(),
             intake: PortIntake::new(port.link, &config.protocols(&port.name)),
             can: CanIntake::new(port.link, config.speaks_n2k(&port.name)),
-            state: None,
+            told: PortTold::default(),
             heard: None,
         });
         Intake { ports: ports.collect(), core: Core::new(config), ticked: None }
@@ -95,13 +96,16 @@ impl Intake {
                     port.can.hear(*event);
                     core.bus(arrival.port, stamp.monotonic, *event);
                 }
-                Input::Pulse(pulse) => core.utc.pulse(*pulse),
-                Input::Tick => {}
+                Input::Pulse(pulse) => {
+                    port.heard = Some(stamp.monotonic);
+                    core.utc.pulse(*pulse);
+                }
+                Input::Tick | Input::Order(_) => {}
                 Input::State(state) => {
                     if matches!(state, PortState::Lost { .. } | PortState::Ended) {
                         port.intake.interrupt(stamp, |frame| core.frame(index, stamp, frame));
                     }
-                    port.state = Some(state.clone());
+                    port.told.note(state);
                     let (port, state) = (arrival.port, state.clone());
                     core.tell(stamp.monotonic, Happening::Port { port, state });
                 }
@@ -133,12 +137,19 @@ impl Intake {
         self.core.sensors.get(sensor).map_or("", |sensor| &sensor.config.name)
     }
 
+    /// What is known of the sensor in use for a quantity, if there is one.
+    #[must_use]
+    pub fn in_use(&self, quantity: Quantity) -> Option<&SensorStatus> {
+        let choice = self.core.choices.iter().find(|choice| choice.quantity() == quantity)?;
+        Some(&self.core.sensors.get(choice.current()?)?.status)
+    }
+
     /// Everything there is to know of ports, sensors, choices and time.
     #[must_use]
     pub fn status(&self) -> IntakeStatus {
         let ports = self.ports.iter().map(|port| PortStatus {
             name: port.name.clone(),
-            state: port.state.clone(),
+            told: port.told.clone(),
             counts: port.can.counts(port.intake.counts()),
             heard: port.heard,
             bus: port.can.bus(),

@@ -17,8 +17,8 @@ use crate::port::PortCounts;
 pub struct PortStatus {
     /// Its name.
     pub name: String,
-    /// Its last state, if it told one.
-    pub state: Option<PortState>,
+    /// What it told of itself.
+    pub told: PortTold,
     /// Its counters.
     pub counts: PortCounts,
     /// When bytes or frames came last.
@@ -27,6 +27,37 @@ pub struct PortStatus {
     pub bus: BusCounts,
     /// Devices of NMEA 2000 that are known by a claim: addresses and NAMEs.
     pub nodes: Vec<(u8, Name)>,
+}
+
+/// What a port told of itself.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct PortTold {
+    /// Its last state; `None` before it told one.
+    pub state: Option<PortState>,
+    /// What was opened last: device and baud rate, address, file.
+    pub what: Option<String>,
+    /// What the system said last when something was wrong.
+    pub trouble: Option<String>,
+    /// Bytes dropped because more came than could be taken.
+    pub overrun: u64,
+}
+
+impl PortTold {
+    /// Takes note of a state.
+    pub(crate) fn note(&mut self, state: &PortState) {
+        match state {
+            PortState::Open { what } => self.what = Some(what.clone()),
+            PortState::Absent { reason } | PortState::Lost { reason } => {
+                self.trouble = Some(reason.clone());
+            }
+            PortState::Overrun { bytes } => {
+                self.overrun = self.overrun.saturating_add(*bytes);
+                return;
+            }
+            PortState::Silent { .. } | PortState::Speaking | PortState::Ended => {}
+        }
+        self.state = Some(state.clone());
+    }
 }
 
 /// One sensor.

@@ -9,6 +9,7 @@
 //! those derivatives. Of the navigator nothing but the vocabulary of `insd-base` is shared, so an
 //! error in its mechanisation cannot hide here as well.
 
+pub mod feed;
 mod limit;
 mod motion;
 mod quadrature;
@@ -19,7 +20,7 @@ mod shipped;
 mod track;
 
 use insd_base::earth::{c_ne, ecef, geodetic};
-use insd_base::{Body, Ecef, Geodetic, LeverArms, Truth, Voyage, VoyageHeader};
+use insd_base::{Body, Ecef, Geodetic, ImuSample, LeverArms, Stamped, Truth, Voyage, VoyageHeader};
 use nalgebra::Vector3;
 
 use random::{Purpose, normal3, stream};
@@ -50,6 +51,21 @@ pub fn simulate(scenario: &Scenario, seed: u64) -> Voyage {
         reference: scenario.reference.as_ref().map(reference).unwrap_or_default(),
         truth: truth(&track, scenario.truth.rate_hz, duration),
     }
+}
+
+/// The samples of a further IMU of the same kind on the same ship and voyage, `lever` from the first, body
+/// axes, m. Its errors are its own: `number`, from 1, decides them.
+#[must_use]
+pub fn further_imu(
+    scenario: &Scenario,
+    seed: u64,
+    number: u32,
+    lever: &Body,
+) -> Vec<Stamped<ImuSample>> {
+    let track = Track::new(scenario, seed);
+    // seeds of voyages are small numbers
+    let own = seed ^ u64::from(number) << 40;
+    sensors::imu::samples_at(&scenario.imu, &track, scenario.duration(), own, Some(&lever.0))
 }
 
 fn header(scenario: &Scenario, seed: u64) -> VoyageHeader {

@@ -30,6 +30,23 @@ const MOMENTS: [(usize, f64); 8] = [
 ];
 
 #[test]
+fn an_imu_elsewhere_on_the_hull_feels_the_acceleration_of_its_own_point() {
+    let (h, lever) = (1e-2, Body::new(12.0, -3.0, 5.0));
+    for (number, t) in MOMENTS {
+        let track = Track::new(&scenario(number).with_duration(t + 1.0), 1);
+        let (before, now, after) = (track.at(t - h), track.at(t), track.at(t + h));
+        let (place, velocity) = now.at_lever(&lever);
+        let acceleration = (after.at_lever(&lever).1 - before.at_lever(&lever).1) / (2.0 * h);
+        let gravity = gravity_e(&geodetic(&place));
+        let force = acceleration + 2.0 * rate_e().cross(&velocity) - gravity;
+        let measured = increments(&track, t - h, t + h).1
+            + crate::sensors::imu::swing(&track, (t - h, t + h), &lever.0);
+        let expected = now.c_eb.tr_mul(&force);
+        assert_relative_eq!(measured / (2.0 * h), expected, epsilon = 3e-3);
+    }
+}
+
+#[test]
 fn velocity_acceleration_and_rate_are_the_derivatives_of_position_and_attitude() {
     let h = 1e-2;
     for (number, t) in MOMENTS {

@@ -220,6 +220,7 @@ fn length(arrival: &Arrival) -> usize {
     match &arrival.input {
         Input::Bytes(bytes) => bytes.len(),
         Input::Can(_) | Input::Bus(_) => FRAME,
+        Input::Order(order) => order.length(),
         Input::Pulse(_) | Input::State(_) | Input::Tick => 0,
     }
 }

@@ -1,7 +1,8 @@
 //! One arrival as a record of a block.
 
 use insd_base::{
-    Arrival, BusEvent, CanFrame, CanId, Input, PortId, PortState, Pulse, Span, Stamp, Time, UtcTime,
+    AlertOrder, Arrival, BusEvent, CanFrame, CanId, Input, Order, PortId, PortState, Pulse, Span,
+    Stamp, Time, UtcTime,
 };
 
 use super::varint::{put, put_signed, take, take_signed};
@@ -23,6 +24,7 @@ mod kind {
     pub(super) const CAN: u8 = 9;
     pub(super) const BUS: u8 = 10;
     pub(super) const TICK: u8 = 11;
+    pub(super) const ORDER: u8 = 12;
     pub(super) const GAP: u8 = 15;
 }
 
@@ -79,6 +81,7 @@ impl Encoder {
                 put(bytes, u64::from(pulse.sequence));
             }
             Input::State(state) => put_state(bytes, state),
+            Input::Order(order) => put_order(bytes, order),
             Input::Tick => {}
         }
     }
@@ -91,6 +94,7 @@ fn kind_of(input: &Input) -> u8 {
         Input::Bus(_) => kind::BUS,
         Input::Pulse(_) => kind::PULSE,
         Input::Tick => kind::TICK,
+        Input::Order(_) => kind::ORDER,
         Input::State(state) => match state {
             PortState::Open { .. } => kind::OPEN,
             PortState::Absent { .. } => kind::ABSENT,
@@ -137,6 +141,30 @@ fn put_event(bytes: &mut Vec<u8>, event: BusEvent) {
     };
     put(bytes, kind);
     put(bytes, u64::from(number));
+}
+
+/// The kind of the order, then what it holds.
+fn put_order(bytes: &mut Vec<u8>, order: &Order) {
+    match order {
+        Order::Alert { identifier, command } => {
+            put(bytes, 0);
+            put(bytes, u64::from(*identifier));
+            put(bytes, u64::from(*command == AlertOrder::Silence));
+        }
+        Order::Configuration(text) => {
+            put(bytes, 1);
+            put_bytes(bytes, text.as_bytes());
+        }
+        Order::Checkpoint { age, state } => {
+            put(bytes, 2);
+            put_signed(bytes, age.as_nanos());
+            put_bytes(bytes, state);
+        }
+        Order::StoredState(text) => {
+            put(bytes, 3);
+            put_bytes(bytes, text.as_bytes());
+        }
+    }
 }
 
 fn put_bytes(bytes: &mut Vec<u8>, payload: &[u8]) {
@@ -191,6 +219,7 @@ fn input(kind: u8, bytes: &mut &[u8], monotonic: i64) -> Option<Input> {
         kind::OVERRUN => PortState::Overrun { bytes: take(bytes)? },
         kind::ENDED => PortState::Ended,
         kind::TICK => return Some(Input::Tick),
+        kind::ORDER => return take_order(bytes).map(Input::Order),
         _ => return None,
     };
     Some(Input::State(state))
@@ -217,6 +246,27 @@ fn take_event(bytes: &mut &[u8]) -> Option<BusEvent> {
         4 => BusEvent::Restarted,
         5 => BusEvent::Error { class: number },
         6 => BusEvent::Dropped { frames: number },
+        _ => return None,
+    })
+}
+
+fn take_order(bytes: &mut &[u8]) -> Option<Order> {
+    Some(match take(bytes)? {
+        0 => {
+            let identifier = u32::try_from(take(bytes)?).ok()?;
+            let command = match take(bytes)? {
+                0 => AlertOrder::Acknowledge,
+                1 => AlertOrder::Silence,
+                _ => return None,
+            };
+            Order::Alert { identifier, command }
+        }
+        1 => Order::Configuration(take_text(bytes)?),
+        2 => {
+            let age = Span::from_nanos(take_signed(bytes)?);
+            Order::Checkpoint { age, state: take_bytes(bytes)?.to_vec() }
+        }
+        3 => Order::StoredState(take_text(bytes)?),
         _ => return None,
     })
 }

@@ -318,6 +318,7 @@ pub(crate) fn payload(input: &Input) -> usize {
             | PortState::Absent { reason: text }
             | PortState::Lost { reason: text },
         ) => text.len(),
+        Input::Order(order) => order.length(),
         Input::Can(_) | Input::Bus(_) | Input::Pulse(_) | Input::State(_) | Input::Tick => 0,
     }
 }

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use insd_base::{
-    Arrival, BusEvent, CanFrame, CanId, Input, PortId, PortState, Pulse, Span, Stamp, Time, UtcTime,
+    AlertOrder, Arrival, BusEvent, CanFrame, CanId, Input, Order, PortId, PortState, Pulse, Span,
+    Stamp, Time, UtcTime,
 };
 use insd_drivers::raw::{RawFault, RawHeader, RawReader, RawWriter, RecordingConfig};
 use proptest::collection::vec;
@@ -39,6 +40,19 @@ fn input() -> impl Strategy<Value = Input> {
         }),
         1 => state().prop_map(Input::State),
         1 => Just(Input::Tick),
+        1 => order().prop_map(Input::Order),
+    ]
+}
+
+fn order() -> impl Strategy<Value = Order> {
+    let command = prop_oneof![Just(AlertOrder::Acknowledge), Just(AlertOrder::Silence)];
+    prop_oneof![
+        (any::<u32>(), command)
+            .prop_map(|(identifier, command)| Order::Alert { identifier, command }),
+        ".{0,40}".prop_map(Order::Configuration),
+        (any::<i64>(), vec(any::<u8>(), 0..60))
+            .prop_map(|(age, state)| Order::Checkpoint { age: Span::from_nanos(age), state }),
+        ".{0,40}".prop_map(Order::StoredState),
     ]
 }
 

@@ -1,6 +1,7 @@
 //! What happened on the way: rejections with their reason, counters, changes of state.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use crate::messages::Source;
 use crate::solution::Mode;
@@ -76,6 +77,151 @@ impl StoredDoubt {
     }
 }
 
+/// Why a state that was saved before a crash is not gone on from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ResumeDoubt {
+    /// The bytes are not what was written.
+    Damaged,
+    /// It was written by a program with another state.
+    OtherVersion,
+    /// The IMU is another one, by its error model.
+    OtherImu,
+    /// The sensors sit elsewhere.
+    OtherMounting,
+    /// Too long ago, or not in the past.
+    TooOld,
+    /// Of the heading too little would be left after the gap.
+    TooVague,
+    /// The engine is already at work.
+    TooLate,
+    /// The numbers cannot be a ship's.
+    NotFinite,
+    /// GNSS or a reference says that the ship is elsewhere.
+    Position,
+    /// GNSS, a log or a reference says that she moves otherwise.
+    Velocity,
+    /// A reference says that she points elsewhere.
+    Heading,
+    /// Gravity is not where down should be.
+    Level,
+}
+
+impl ResumeDoubt {
+    /// A short name for tables: `damaged`, `other_imu`, ...
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            ResumeDoubt::Damaged => "damaged",
+            ResumeDoubt::OtherVersion => "other_version",
+            ResumeDoubt::OtherImu => "other_imu",
+            ResumeDoubt::OtherMounting => "other_mounting",
+            ResumeDoubt::TooOld => "too_old",
+            ResumeDoubt::TooVague => "too_vague",
+            ResumeDoubt::TooLate => "too_late",
+            ResumeDoubt::NotFinite => "not_finite",
+            ResumeDoubt::Position => "position",
+            ResumeDoubt::Velocity => "velocity",
+            ResumeDoubt::Heading => "heading",
+            ResumeDoubt::Level => "level",
+        }
+    }
+}
+
+impl fmt::Display for ResumeDoubt {
+    /// Its short name.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+impl std::error::Error for ResumeDoubt {}
+
+/// Why the mode changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ModeReason {
+    /// The IMU sends data.
+    ImuHeard,
+    /// The IMU sends no data any more, while others do.
+    ImuSilent,
+    /// It is known which way is down, and where the ship is.
+    Level,
+    /// One heading is left.
+    HeadingFound,
+    /// The heading is as good as is asked for.
+    HeadingSettled,
+    /// The heading of a moored ship is no longer as good as is asked for.
+    HeadingUnsure,
+    /// GNSS is used.
+    GnssInUse,
+    /// GNSS is no longer used.
+    GnssLost,
+    /// A log or a reference is used, without GNSS.
+    LogInUse,
+    /// Neither GNSS nor log nor reference is used any more.
+    AidsLost,
+    /// A ship that was taken as moored is under way.
+    LeftBerth,
+    /// A state saved before a crash is gone on from.
+    Resumed,
+    /// That state was refuted by the sensors.
+    ResumeDropped,
+    /// The solution was not finite, or not on the Earth.
+    NotFinite,
+    /// The IMU was silent for too long to go on.
+    GapTooLong,
+    /// After a fault it is begun anew.
+    StartedOver,
+}
+
+impl ModeReason {
+    /// A short name for tables: `imu_heard`, `gnss_lost`, ...
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            ModeReason::ImuHeard => "imu_heard",
+            ModeReason::ImuSilent => "imu_silent",
+            ModeReason::Level => "level",
+            ModeReason::HeadingFound => "heading_found",
+            ModeReason::HeadingSettled => "heading_settled",
+            ModeReason::HeadingUnsure => "heading_unsure",
+            ModeReason::GnssInUse => "gnss_in_use",
+            ModeReason::GnssLost => "gnss_lost",
+            ModeReason::LogInUse => "log_in_use",
+            ModeReason::AidsLost => "aids_lost",
+            ModeReason::LeftBerth => "left_berth",
+            ModeReason::Resumed => "resumed",
+            ModeReason::ResumeDropped => "resume_dropped",
+            ModeReason::NotFinite => "not_finite",
+            ModeReason::GapTooLong => "gap_too_long",
+            ModeReason::StartedOver => "started_over",
+        }
+    }
+}
+
+impl fmt::Display for ModeReason {
+    /// The same in words.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            ModeReason::ImuHeard => "the IMU sends data",
+            ModeReason::ImuSilent => "the IMU is silent",
+            ModeReason::Level => "it is known which way is down: the heading is sought",
+            ModeReason::HeadingFound => "one heading is left",
+            ModeReason::HeadingSettled => "the heading is as good as is asked for",
+            ModeReason::HeadingUnsure => "the heading is not as sure any more as is asked for",
+            ModeReason::GnssInUse => "GNSS is used",
+            ModeReason::GnssLost => "GNSS is not used any more",
+            ModeReason::LogInUse => "a log or a reference carries her, without GNSS",
+            ModeReason::AidsLost => "no GNSS, log or reference is used any more",
+            ModeReason::LeftBerth => "she left her berth",
+            ModeReason::Resumed => "navigation goes on from the state before the restart",
+            ModeReason::ResumeDropped => "the sensors refute the state before the restart",
+            ModeReason::NotFinite => "the solution was not sound and is not given",
+            ModeReason::GapTooLong => "the IMU was silent for too long",
+            ModeReason::StartedOver => "it is begun anew",
+        })
+    }
+}
+
 /// Something worth telling the operator or the log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
@@ -83,8 +229,12 @@ pub enum Event {
     ModeChanged {
         /// When.
         time: Time,
+        /// From what; `None` for the first of an engine.
+        from: Option<Mode>,
         /// To what.
         to: Mode,
+        /// Why.
+        why: ModeReason,
     },
     /// A measurement was not used.
     Rejected {
@@ -120,6 +270,25 @@ pub enum Event {
         time: Time,
         /// Why.
         reason: StoredDoubt,
+    },
+    /// A state saved before a crash is gone on from, on trial.
+    Resumed {
+        /// When: the first sample of the IMU.
+        time: Time,
+        /// Length of the gap that was bridged, s.
+        gap: f64,
+    },
+    /// The sensors agree with the state that is gone on from.
+    ResumeConfirmed {
+        /// When.
+        time: Time,
+    },
+    /// The sensors refute the state that was gone on from; the ship is levelled anew.
+    ResumeDropped {
+        /// When.
+        time: Time,
+        /// Why.
+        reason: ResumeDoubt,
     },
     /// The position was set anew from a source that the gate had kept out for too long.
     PositionReset {

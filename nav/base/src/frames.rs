@@ -2,6 +2,7 @@
 //! Inside one formula plain `nalgebra` is used, with names that check by eye.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 /// A vector along north, east, down.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -16,7 +17,7 @@ pub struct Body(pub Vector3<f64>);
 pub struct Ecef(pub Vector3<f64>);
 
 /// A point by geodetic latitude and longitude, rad, and height above the WGS-84 ellipsoid, m.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Geodetic {
     /// Geodetic latitude, rad, north positive.
     pub latitude: f64,

@@ -81,6 +81,41 @@ pub enum Input {
     /// Time has come for the ports that are written to. It arrives from nowhere but our own clock, and is
     /// recorded with the rest: what was sent depends on what had arrived until then.
     Tick,
+    /// What the operator orders, or the run before has left. Recorded like all that arrives: what comes
+    /// after depends on it.
+    Order(Order),
+}
+
+/// What is not measured but ordered.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// About an alert of this identifier.
+    Alert {
+        /// Identifier of IEC 62923: a standard one, or one of ours from 10000 on.
+        identifier: u32,
+        /// What is done about it.
+        command: AlertOrder,
+    },
+    /// From here on another configuration holds: its text.
+    Configuration(String),
+    /// The navigation of the run before, to go on from.
+    Checkpoint {
+        /// How long before the stamp of this order it was valid.
+        age: Span,
+        /// What the engine made.
+        state: Vec<u8>,
+    },
+    /// The state of a ship at her berth that the run before has stored: its text.
+    StoredState(String),
+}
+
+/// What an operator can do about an alert.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AlertOrder {
+    /// It is known.
+    Acknowledge,
+    /// It is to be quiet for a while.
+    Silence,
 }
 
 /// Something that reached the computer.
@@ -92,6 +127,18 @@ pub struct Arrival {
     pub port: PortId,
     /// What.
     pub input: Input,
+}
+
+impl Order {
+    /// Bytes of what has no fixed length.
+    #[must_use]
+    pub fn length(&self) -> usize {
+        match self {
+            Order::Alert { .. } => 0,
+            Order::Configuration(text) | Order::StoredState(text) => text.len(),
+            Order::Checkpoint { state, .. } => state.len(),
+        }
+    }
 }
 
 impl fmt::Display for PortState {

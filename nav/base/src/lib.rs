@@ -9,6 +9,7 @@ pub mod alignment;
 pub mod attitude;
 pub mod can;
 pub mod earth;
+pub mod estimates;
 pub mod events;
 pub mod frames;
 pub mod gnss;
@@ -29,11 +30,12 @@ pub use alignment::{
 };
 pub use attitude::Attitude;
 pub use can::{BusEvent, CanFrame, CanId};
-pub use events::{Counts, Event, Innovation, Rejection, StoredDoubt};
+pub use estimates::{Disturbance, Estimate, Estimates};
+pub use events::{Counts, Event, Innovation, ModeReason, Rejection, ResumeDoubt, StoredDoubt};
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
 pub use heave::{DelayedHeave, Heave, HeaveQuality};
-pub use input::{Arrival, Input, PortId, PortState, Pulse, Stamp};
+pub use input::{AlertOrder, Arrival, Input, Order, PortId, PortState, Pulse, Stamp};
 pub use messages::{
     ExternalReference, ImuSample, LogReference, LogVelocity, Message, Received, Source,
 };

@@ -9,6 +9,9 @@ use crate::time::Time;
 /// What the system is doing, as in the last column of `nav.csv`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mode {
+    /// No data of the IMU: before the first sample, or none for a while. No solution says so, as there
+    /// is none.
+    Standby,
     /// Levelling and first search for the heading.
     CoarseAlignment,
     /// At the berth: the mean velocity is known to be zero.
@@ -26,10 +29,11 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// The word of `nav.csv`.
+    /// Its word, as in `nav.csv`.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
+            Mode::Standby => "standby",
             Mode::CoarseAlignment => "coarse_alignment",
             Mode::FineAlignment => "fine_alignment",
             Mode::InMotionAlignment => "in_motion_alignment",
@@ -44,6 +48,7 @@ impl Mode {
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
         [
+            Mode::Standby,
             Mode::CoarseAlignment,
             Mode::FineAlignment,
             Mode::InMotionAlignment,
@@ -127,6 +132,7 @@ mod tests {
     #[test]
     fn every_mode_is_found_by_its_word() {
         for word in [
+            "standby",
             "coarse_alignment",
             "fine_alignment",
             "in_motion_alignment",

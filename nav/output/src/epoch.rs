@@ -42,6 +42,8 @@ pub struct Epoch {
     pub distance: Distance,
     /// How the alignment stands.
     pub alignment: Option<AlignmentStatus>,
+    /// Whether two engines are apart by more than they claim.
+    pub engines_differ: bool,
 }
 
 /// Distance run since the start, m.
@@ -104,6 +106,7 @@ impl Epoch {
             receiver: None,
             distance: Distance::default(),
             alignment: None,
+            engines_differ: false,
         }
     }
     /// Whether it is being found which way is down: there cannot be a solution yet.

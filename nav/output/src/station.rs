@@ -2,7 +2,7 @@
 
 use insd_base::{AlignmentStatus, Body, Heave, Mode, Motion, Span, Time, UtcTime};
 use insd_n2k::pgn::TimeSource;
-use insd_wire::nmea::{Acn, Hbt};
+use insd_wire::nmea::{Acn, AlertCommand, Hbt};
 
 use crate::alerts::{AlertBoard, AlertConfig, Watch};
 use crate::epoch::{Distance, Epoch, Receiver, Variation};
@@ -34,6 +34,8 @@ pub struct Moment {
     pub receiver: Option<Receiver>,
     /// How the alignment stands.
     pub alignment: Option<AlignmentStatus>,
+    /// Whether two engines are apart by more than they claim.
+    pub engines_differ: bool,
 }
 
 /// All ports of a ship.
@@ -58,9 +60,8 @@ impl Station {
         others: impl IntoIterator<Item = Rate>,
     ) -> Self {
         let ports: Vec<Port> = ports.into_iter().map(Port::new).collect();
-        let upkeep = (!ports.is_empty()).then(|| Rate::from_hertz(UPKEEP));
-        let rates: Vec<Rate> =
-            ports.iter().flat_map(Port::rates).chain(others).chain(upkeep).collect();
+        let own = ports.iter().flat_map(Port::rates);
+        let rates: Vec<Rate> = own.chain(others).chain([Rate::from_hertz(UPKEEP)]).collect();
         Station {
             ports,
             points,
@@ -94,6 +95,25 @@ impl Station {
     /// ports that send ALF with their next one.
     pub fn acknowledge(&mut self, command: &Acn, now: Time, utc: Option<UtcTime>) {
         self.board.handle(command, &Boundary { time: now, utc });
+    }
+
+    /// Obeys the operator at our own page about an alert; whether it could.
+    pub fn obey(
+        &mut self,
+        identifier: u32,
+        command: AlertCommand,
+        now: Time,
+        utc: Option<UtcTime>,
+    ) -> bool {
+        self.board.obey(identifier, command, &Boundary { time: now, utc })
+    }
+
+    /// Other ports of the same ship: alerts and the distance run go on from those of `before`.
+    pub fn inherit(&mut self, before: &Station) {
+        self.odometer.clone_from(&before.odometer);
+        self.standing.clone_from(&before.standing);
+        self.watch = before.watch;
+        self.board.clone_from(&before.board);
     }
 
     /// Hears a heartbeat of the bridge; see [`AlertBoard::hear`].
@@ -203,6 +223,7 @@ fn epoch(boundary: &Boundary, moment: &Moment, point: usize, lever: &Body) -> Ep
         variation: moment.variation,
         receiver: moment.receiver,
         alignment: moment.alignment,
+        engines_differ: moment.engines_differ,
         ..Epoch::unknown(boundary.time)
     }
 }

@@ -16,7 +16,7 @@ use insd::clock::Clock;
 use insd_base::UtcTime;
 use insd_drivers::recording::{Compression, write_voyage};
 use insd_simulator::{Scenario, shipped, simulate};
-use insd_tests::feed::{Calendar, Encoding, FeedConfig, feed};
+use insd_tests::feed::{Encoding, FeedConfig, feed};
 use insd_tests::wire::Wire;
 use insd_wire::nmea::{Sentence, Zda};
 use thread_priority::{
@@ -83,7 +83,7 @@ fn main() {
     }
     std::thread::sleep(Duration::from_millis(200));
     let lines = heard[0].lock().unwrap();
-    report(&lines[measured.unwrap_or(0)..], begun, Calendar::new(&voyage.header.start_utc).start);
+    report(&lines[measured.unwrap_or(0)..], begun, feeds.sensors[0].calendar.start);
     stop(&mut daemon);
     fs::remove_dir_all(&dir).unwrap();
 }

@@ -122,7 +122,7 @@ fn a_device_that_moves_to_another_address_is_not_missed() {
     let claim = |sensor: usize, address: u8, seconds: f64| Arrival {
         stamp: ship().at(seconds),
         port: PortId(BUS),
-        input: Input::Can(n2k::claim(sensor, address)),
+        input: Input::Can(n2k::claim(sensor, address).unwrap()),
     };
     nonsense.push(claim(1, new, since - 0.01));
     nonsense.push(claim(7, old, since - 0.005));
@@ -151,7 +151,7 @@ fn a_device_that_falls_silent_is_replaced_by_another_of_the_same_group() {
     doubled = doubled.with(vec![Arrival {
         stamp: ship().at(0.5),
         port: PortId(BUS),
-        input: Input::Can(n2k::claim(second, n2k::address(second))),
+        input: Input::Can(n2k::claim(second, n2k::address(second)).unwrap()),
     }]);
     let compass = usize::from(COMPASS);
     let first = n2k::address(compass);

@@ -11,7 +11,7 @@ use super::passage::{GNSS, Passage, Ship, usual};
 fn ship_with(receiver: Encoding, start: &str, change: impl Fn(&mut Calendar)) -> Ship {
     let encodings = [Encoding::Sbg, receiver, Encoding::Vbw, Encoding::Ths];
     Ship::new(&encodings, |_, config: &mut FeedConfig| {
-        config.sensors.iter_mut().for_each(|own| own.calendar = Calendar::new(start));
+        config.sensors.iter_mut().for_each(|own| own.calendar = Calendar::new(start).unwrap());
         change(&mut config.sensors[usize::from(GNSS)].calendar);
     })
 }

@@ -30,13 +30,14 @@ const PURE: [&str; 9] = [
 ];
 
 /// What a pure crate may depend on beside the house's own crates: all of it without side effects.
-const PURE_DEPENDENCIES: [&str; 10] = [
+const PURE_DEPENDENCIES: [&str; 11] = [
     "crc",
     "fast-float2",
     "kinavis-kernel",
     "kinavis-wmm",
     "nalgebra",
     "nmea",
+    "postcard",
     "serde",
     "statrs",
     "thiserror",
@@ -66,7 +67,7 @@ const IMPURE: [&str; 15] = [
 ];
 
 /// Which crates of the house a crate may use. The daemon sees all; tests may see all.
-const ARROWS: [(&str, &[&str]); 10] = [
+const ARROWS: [(&str, &[&str]); 11] = [
     ("insd-base", &[]),
     ("insd-nav", &["insd-base"]),
     ("insd-wire", &["insd-base"]),
@@ -74,9 +75,10 @@ const ARROWS: [(&str, &[&str]); 10] = [
     ("insd-output", &["insd-base", "insd-wire", "insd-n2k"]),
     ("insd-alignment", &["insd-base", "insd-nav"]),
     ("insd-intake", &["insd-base", "insd-wire", "insd-n2k"]),
-    ("insd-simulator", &["insd-base"]),
+    ("insd-simulator", &["insd-base", "insd-wire", "insd-n2k", "insd-intake"]),
     ("insd-drivers", &["insd-base", "insd-wire", "insd-n2k", "insd-simulator"]),
     ("insd-engine", &["insd-base", "insd-nav", "insd-alignment"]),
+    ("insd-web", &[]),
 ];
 
 /// Words that do not enter the repository: promises to do it later, praise, and paths of one desk.

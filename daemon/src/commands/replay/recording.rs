@@ -7,7 +7,7 @@ use super::sent::Sent;
 use super::sink::Sink;
 use crate::pipeline::{Pipeline, Product};
 use crate::raw_run::RawRun;
-use crate::run::tell;
+use crate::run::{Names, tell};
 use crate::stored;
 
 /// Replays a recording.
@@ -17,14 +17,15 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     engine.output_rate = args.rate.unwrap_or(engine.output_rate);
     engine.alignment = args.alignment.config();
     engine.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
-    let mut pipeline = Pipeline::new(&raw.config.intake(), engine, raw.config.speaker());
+    let mut pipeline = Pipeline::with_engine(&raw.config, engine);
+    let names = Names::of(&raw.config);
     let mut sink = Sink::create(args)?;
     let sent = args.sent.as_deref().map(|folder| Sent::create(folder, &raw.config));
     let mut sent = sent.transpose()?;
     raw.for_each(|arrival| {
         let mut written = Ok(());
-        pipeline.handle(arrival, |intake, product| {
-            tell(intake, &product);
+        pipeline.handle(arrival, |product| {
+            tell(&names, &product);
             if written.is_ok() {
                 written = match (&product, &mut sent) {
                     (Product::Engine(output), _) => sink.take(output),

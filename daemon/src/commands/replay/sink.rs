@@ -69,7 +69,7 @@ impl Sink {
     fn note(&mut self, event: &Event) {
         tracing::debug!(?event);
         match *event {
-            Event::ModeChanged { time, to } => self.modes.push((time, to)),
+            Event::ModeChanged { time, to, .. } => self.modes.push((time, to)),
             Event::LeftBerth { time } => self.departures.push(time),
             Event::PositionReset { time } => self.resets.push(time),
             Event::StoredStateUsed { .. } | Event::StoredStateDropped { .. } => {

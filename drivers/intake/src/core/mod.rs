@@ -14,7 +14,7 @@ use insd_n2k::Name;
 use crate::Intaken;
 use crate::choice::{Choice, Chosen, Quantity};
 use crate::clock::{ShipUtc, SystemWatch};
-use crate::config::IntakeConfig;
+use crate::config::{IntakeConfig, Role};
 use crate::decode::Reading;
 use crate::device::{Device, Heard};
 use crate::event::{Happening, IntakeEvent, Refusal};
@@ -71,6 +71,10 @@ impl Core {
         let mut choices = QUANTITIES.map(|quantity| Choice::new(quantity, hold)).to_vec();
         for (index, sensor) in sensors.iter().enumerate() {
             let patience = Span::from_seconds(sensor.config.patience_s);
+            let only = config.imu.as_ref().filter(|_| sensor.config.kind.role() == Role::Imu);
+            if only.is_some_and(|only| *only != sensor.config.name) {
+                continue;
+            }
             for quantity in sensor.quantities() {
                 choices[*quantity as usize].add(index, sensor.config.priority, patience);
             }

@@ -43,6 +43,22 @@ pub(crate) fn increments(track: &Track, from: f64, to: f64) -> (Vector3<f64>, Ve
     sums
 }
 
+/// What the increment of velocity at a point of the hull is beyond that at the IMU, `lever` from it, body
+/// axes, over (from, to], s: the integral of the angular acceleration's part, d(omega x l)/dt, is what
+/// omega x l has gained, and omega x (omega x l) is integrated.
+pub(crate) fn swing(track: &Track, (from, to): (f64, f64), lever: &Vector3<f64>) -> Vector3<f64> {
+    let rate = |time: f64| inertial(&track.at(time)).0;
+    let swings = |time: f64| rate(time).cross(lever);
+    let dt = to - from;
+    let inward = |node: f64| {
+        let omega = rate(from + node * dt);
+        omega.cross(&omega.cross(lever))
+    };
+    let nodes = NODES.into_iter().zip(WEIGHTS);
+    let turned: Vector3<f64> = nodes.map(|(node, weight)| inward(node) * (weight * dt)).sum();
+    swings(to) - swings(from) + turned
+}
+
 /// The errors of three gyros or three accelerometers:
 /// measured = true (1 + scale) + (turn-on + in-run) dt + random walk.
 #[derive(Debug)]
@@ -140,6 +156,17 @@ pub(crate) fn samples(
     duration: f64,
     seed: u64,
 ) -> Vec<Stamped<ImuSample>> {
+    samples_at(imu, track, duration, seed, None)
+}
+
+/// The samples of an IMU `lever` from the one whose track it is, body axes, m.
+pub(crate) fn samples_at(
+    imu: &Imu,
+    track: &Track,
+    duration: f64,
+    seed: u64,
+    lever: Option<&Vector3<f64>>,
+) -> Vec<Stamped<ImuSample>> {
     let spec = imu.simulated();
     let mut gyro = gyro_errors(&spec, seed);
     let mut accel = accel_errors(&spec, seed);
@@ -152,7 +179,10 @@ pub(crate) fn samples(
         let shift = (normal(&mut jitter) * imu.jitter_std_s).clamp(-limit, limit);
         let time = Time::from_seconds(epoch.as_seconds() + shift);
         let to = time.as_seconds();
-        let (theta, velocity) = increments(track, from, to);
+        let (theta, mut velocity) = increments(track, from, to);
+        if let Some(lever) = lever {
+            velocity += swing(track, (from, to), lever);
+        }
         let message = ImuSample {
             time,
             delta_theta: Body(gyro.measure(&theta, to - from)),

@@ -31,7 +31,7 @@ impl PashrStatus {
             Mode::FineAlignment | Mode::InMotionAlignment => PashrStatus::Degraded,
             Mode::DeadReckoning | Mode::Inertial => PashrStatus::Degraded,
             Mode::Aided => PashrStatus::Full,
-            Mode::Fault => PashrStatus::Error,
+            Mode::Standby | Mode::Fault => PashrStatus::Error,
         }
     }
 }
@@ -39,7 +39,7 @@ impl PashrStatus {
 /// The quality of the fix that aids the attitude.
 fn in_use(fix: FixQuality, mode: Mode) -> FixQuality {
     match mode {
-        Mode::Fault => FixQuality::Invalid,
+        Mode::Standby | Mode::Fault => FixQuality::Invalid,
         Mode::DeadReckoning | Mode::Inertial => FixQuality::Estimated,
         _ => fix,
     }

@@ -7,6 +7,7 @@ use insd_wire::nmea::{
 
 use super::board::{AlertConfig, Escalation};
 use super::conditions::Condition;
+use super::view::AlertView;
 use crate::schedule::Boundary;
 
 /// How long an alert stays silenced.
@@ -142,6 +143,22 @@ impl Alert {
     /// As it stands in the list of what is active.
     pub(super) fn entry(&self) -> AlertEntry {
         AlertEntry { alert: self.condition.alert(), revision: self.revision() }
+    }
+
+    /// As a page or a journal shows it.
+    pub(super) fn view(&self) -> AlertView {
+        AlertView {
+            manufacturer: self.condition.alert().manufacturer,
+            identifier: self.condition.alert().identifier,
+            instance: self.condition.alert().instance,
+            title: self.condition.title(),
+            description: self.condition.description(),
+            priority: self.priority,
+            state: self.state,
+            escalation: self.escalation,
+            revision: self.revision(),
+            changed: self.changed,
+        }
     }
 
     /// The two sentences that tell of it, their message not yet numbered.

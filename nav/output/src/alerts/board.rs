@@ -3,10 +3,11 @@
 use std::collections::VecDeque;
 
 use insd_base::{Span, Time};
-use insd_wire::nmea::{Acn, AlertEntry, AlertState, Alf, Arc, CivilTime, Hbt};
+use insd_wire::nmea::{Acn, AlertCommand, AlertEntry, AlertState, Alf, Arc, CivilTime, Hbt};
 
 use super::alert::Alert;
 use super::conditions::Condition;
+use super::view::AlertView;
 use crate::schedule::Boundary;
 
 /// A heartbeat counts for so many of its intervals: one may be lost.
@@ -128,6 +129,20 @@ impl AlertBoard {
             self.refusals.pop_front();
         }
         Some(arc)
+    }
+
+    /// Obeys the operator at our own page; whether it could. Nothing is refused on the line.
+    pub fn obey(&mut self, identifier: u32, command: AlertCommand, now: &Boundary) -> bool {
+        let supervised = self.is_supervised(now.time);
+        self.each(|alert| {
+            let is_meant = alert.condition.alert().identifier == identifier;
+            is_meant && alert.obey(command, supervised, now)
+        })
+    }
+
+    /// How all alerts stand, those that matter most first.
+    pub fn views(&self) -> impl Iterator<Item = AlertView> + '_ {
+        self.alerts.iter().map(Alert::view)
     }
 
     /// How an alert stands.

@@ -27,6 +27,8 @@ pub enum Condition {
     NoUtc,
     /// The data come from a simulator.
     Simulated,
+    /// Two engines are apart by more than they claim: at least one is wrong.
+    EnginesDiffer,
 }
 
 /// An alert that there can be.
@@ -43,10 +45,11 @@ struct Definition {
 
 impl Condition {
     /// All of them, those that matter most first.
-    pub const ALL: [Condition; 7] = [
+    pub const ALL: [Condition; 8] = [
         Condition::SystemFault,
         Condition::HeadingLost,
         Condition::PositionLost,
+        Condition::EnginesDiffer,
         Condition::HeadingDegraded,
         Condition::PositionEstimated,
         Condition::NoUtc,
@@ -105,6 +108,10 @@ impl Condition {
             Condition::Simulated => {
                 own(10_006, Caution, ["Simulated data", "Do not use for navigation"], [0, 0])
             }
+            // the engines have already been apart, and close, for long enough
+            Condition::EnginesDiffer => {
+                own(10_007, Warning, ["Engines differ", "Compare with another heading"], [0, 0])
+            }
         }
     }
 
@@ -153,6 +160,7 @@ impl Watch {
             Condition::PositionEstimated => quality == Some(FixQuality::Estimated),
             Condition::NoUtc => epoch.utc.is_none(),
             Condition::Simulated => simulated,
+            Condition::EnginesDiffer => epoch.engines_differ,
         };
         let mut found = Condition::ALL.map(|condition| (condition, holds(condition)));
         for ((condition, holds), latch) in found.iter_mut().zip(&mut self.latches) {

@@ -35,6 +35,8 @@
 mod alert;
 mod board;
 mod conditions;
+mod view;
 
 pub use board::{AlertBoard, AlertConfig, Announcement, Escalation};
 pub use conditions::{Condition, Watch};
+pub use view::AlertView;

@@ -33,6 +33,7 @@ fn txt(said: &Said<'_>, talker: Talker) -> Option<Content> {
         None if said.is_levelling() => (NOTICE, "levelling"),
         None => (ERROR, "no solution"),
         Some(Mode::Fault) => (ERROR, "fault"),
+        Some(Mode::Standby) => (ERROR, "no data of the IMU"),
         Some(Mode::CoarseAlignment) => (NOTICE, "coarse alignment"),
         Some(Mode::FineAlignment) => (NOTICE, "fine alignment"),
         Some(Mode::InMotionAlignment) => (NOTICE, "alignment under way"),

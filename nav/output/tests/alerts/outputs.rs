@@ -1,7 +1,7 @@
 //! What of the alerts leaves the ports, and when.
 
 use insd_base::{Body, Mode, Motion};
-use insd_output::alerts::Condition;
+use insd_output::alerts::{AlertView, Condition};
 use insd_output::{
     Boundary, Lan, LanConfig, Manner, Message, MessageKind, Moment, PortConfig, Profile, Rate, Sfi,
     Station, TransmissionGroup,
@@ -111,6 +111,27 @@ fn the_list_is_sent_every_30_s_also_when_it_is_empty() {
 fn nothing_is_said_of_a_ship_on_which_nothing_happens() {
     let heard = Bridge::new([port(&[("ALF", 10.0)])]).hear(600.0, SOUND);
     assert_eq!(heard, []);
+}
+
+#[test]
+fn who_looks_on_sees_all_alerts_as_the_bridge_is_told() {
+    let mut bridge = Bridge::new([alerts()]);
+    bridge.hear(60.0, SOUND);
+    let told = titles(&bridge.hear(31.0, None));
+    let views: Vec<AlertView> = bridge.station.alerts().views().collect();
+    assert_eq!(views.len(), Condition::ALL.len());
+    let active: Vec<&AlertView> =
+        views.iter().filter(|view| view.state != AlertState::Normal).collect();
+    let (_, alf) = told.last().unwrap();
+    assert_eq!(active.len(), 1);
+    assert_eq!((active[0].identifier, active[0].title), (3062, "System fault"));
+    assert_eq!((Some(active[0].state), Some(active[0].priority)), (alf.state, alf.priority));
+    assert_eq!(Some(active[0].escalation), alf.escalation);
+    let changed = active[0].changed.and_then(insd_output::CivilTime::from_utc).unwrap();
+    assert_eq!(
+        alf.time.map(|time| (time.minute, time.second)),
+        Some((changed.time.minute, changed.time.second))
+    );
 }
 
 #[test]

@@ -9,7 +9,8 @@ use insd_wire::nmea::Alf;
 use super::{at, solution};
 
 use Condition::{
-    HeadingDegraded, HeadingLost, NoUtc, PositionEstimated, PositionLost, Simulated, SystemFault,
+    EnginesDiffer, HeadingDegraded, HeadingLost, NoUtc, PositionEstimated, PositionLost, Simulated,
+    SystemFault,
 };
 
 /// Ten looks a second, and when what was found.
@@ -71,6 +72,15 @@ fn levelling(told: Time) -> Option<AlignmentStatus> {
         sea: None,
         shifts: 0,
     })
+}
+
+#[test]
+fn engines_that_differ_are_told_at_once_and_as_long_as_they_do() {
+    let mut look = Look::of_a_sound_ship();
+    let differ = |epoch| Epoch { engines_differ: true, ..epoch };
+    assert_eq!(look.at(0.1, differ), [EnginesDiffer]);
+    assert_eq!(look.at(60.0, differ), [EnginesDiffer]);
+    assert_eq!(look.at(0.1, |epoch| epoch), []);
 }
 
 #[test]

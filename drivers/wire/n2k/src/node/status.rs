@@ -18,6 +18,19 @@ pub enum NodeState {
     CannotClaim,
 }
 
+impl NodeState {
+    /// Its word: `down`, `claiming`, `held`, `cannot_claim`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            NodeState::Down => "down",
+            NodeState::Claiming => "claiming",
+            NodeState::Held => "held",
+            NodeState::CannotClaim => "cannot_claim",
+        }
+    }
+}
+
 /// How a node is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NodeStatus {

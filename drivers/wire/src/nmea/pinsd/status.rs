@@ -72,6 +72,7 @@ letters! {
 impl From<Mode> for PinsdMode {
     fn from(mode: Mode) -> Self {
         match mode {
+            Mode::Standby => PinsdMode::Standby,
             Mode::CoarseAlignment => PinsdMode::CoarseAlignment,
             Mode::FineAlignment => PinsdMode::FineAlignment,
             Mode::InMotionAlignment => PinsdMode::InMotionAlignment,

@@ -1,0 +1,84 @@
+//! The sea for those who look on: the model of the prefilter where it is what aligns the ship, otherwise
+//! one fitted to the horizontal velocity of the last two and a half minutes.
+
+use insd_alignment::Fine;
+use insd_alignment::disturbance::{Config, Model, Order, Prefilter};
+use insd_base::{Disturbance, Span, Time, earth};
+use nalgebra::Vector2;
+
+/// Spacing of the samples: waves down to a period of one second.
+const SPACING: Span = Span::from_nanos(500_000_000);
+/// Length of the window, s: some fifteen waves.
+const WINDOW: f64 = 150.0;
+/// Highest order that is tried.
+const HIGHEST_ORDER: usize = 8;
+/// Points of a spectrum, from one period of a minute to two samples, evenly on a logarithmic scale.
+const POINTS: usize = 96;
+const SLOWEST: f64 = 1.0 / 60.0;
+
+/// The window.
+#[derive(Clone, Debug)]
+pub(crate) struct Trace {
+    window: Prefilter,
+    next: Option<Time>,
+}
+
+impl Trace {
+    pub(crate) fn new() -> Self {
+        let order = Order::Chosen { max: HIGHEST_ORDER };
+        let window = Span::from_seconds(WINDOW);
+        Trace { window: Prefilter::new(&Config { interval: SPACING, window, order }), next: None }
+    }
+
+    /// Takes the velocity of the ship, if it is time to: forward and starboard, as the corrections of
+    /// the filter have not stepped it.
+    pub(crate) fn watch(&mut self, fine: &Fine) {
+        let filter = fine.filter();
+        let now = filter.time();
+        if self.next.is_some_and(|next| now < next) {
+            return;
+        }
+        // a sample that is late does not make the next ones late
+        let due = self.next.filter(|next| now - *next < SPACING).unwrap_or(now);
+        self.next = Some(due + SPACING);
+        let nominal = filter.nominal();
+        let c_ne = earth::c_ne(&nominal.geodetic());
+        let velocity = (c_ne * filter.smooth_velocity()).xy();
+        let bow = (c_ne * nominal.c_eb().column(0)).xy();
+        let bow = bow / bow.norm().max(1e-9);
+        let across = Vector2::new(-bow.y, bow.x);
+        self.window.push(due, &Vector2::new(velocity.dot(&bow), velocity.dot(&across)));
+    }
+
+    /// Forgets what was before a gap.
+    pub(crate) fn clear(&mut self) {
+        self.window.clear();
+        self.next = None;
+    }
+
+    /// The sea; `None` while too little has been seen of it, or nothing is to be seen.
+    pub(crate) fn disturbance(&self, fine: &Fine) -> Option<Disturbance> {
+        if let Some(model) = fine.sea_model() {
+            return Some(described("prefilter", model));
+        }
+        let slow = self.window.estimate().ok()?;
+        Some(described("window", &slow.model))
+    }
+}
+
+fn described(method: &'static str, model: &Model) -> Disturbance {
+    let rows = model.coefficients().iter().flat_map(|a| [a.m11, a.m12, a.m21, a.m22]);
+    let fastest = 0.5 / model.interval();
+    let ratio = fastest / SLOWEST;
+    let density = |point: usize| {
+        let frequency = SLOWEST * ratio.powf(point as f64 / (POINTS - 1) as f64);
+        let density = model.spectrum(frequency)?.trace().re;
+        density.is_finite().then_some((frequency, density))
+    };
+    Disturbance {
+        method,
+        interval: model.interval(),
+        coefficients: rows.collect(),
+        spectrum: (0..POINTS).filter_map(density).collect(),
+    }
+}

@@ -1,0 +1,86 @@
+//! What those who look on are told of the engine, whenever they ask.
+
+use insd_alignment::{Fine, StoredState};
+use insd_base::{Disturbance, Estimates, Heave, Mode, Motion};
+use insd_nav::{Estimator, Filter, Increment};
+
+use crate::ship::Ship;
+use crate::{Engine, Stage, checks};
+
+impl Engine {
+    /// What the engine is doing.
+    #[must_use]
+    pub fn mode(&self) -> Mode {
+        self.machine.mode()
+    }
+
+    /// How the ship moves at the last IMU sample, for outputs between the epochs of the solutions; `None`
+    /// while nothing is known that could be shown to anyone.
+    #[must_use]
+    pub fn motion(&self) -> Option<Motion> {
+        let ship = self.ship()?;
+        let solution = Some(ship.solution()).filter(checks::is_sound)?;
+        let filter = ship.likeliest().map(Fine::filter);
+        let acceleration = filter.zip(self.last.as_ref());
+        Some(Motion {
+            solution,
+            acceleration: acceleration.map(|(filter, last)| filter.acceleration(last)),
+            covariance_north_east: filter.map(Filter::covariance_north_east),
+            current: filter.and_then(Filter::current),
+        })
+    }
+
+    /// Heave of each monitoring point at the last IMU sample.
+    #[must_use]
+    pub fn heaves(&self) -> Vec<Option<Heave>> {
+        (0..self.config.points.len()).map(|point| self.heave.as_ref()?.heave(point)).collect()
+    }
+
+    /// The state to store for the next start: `None` unless the ship is aligned and still lies at her
+    /// berth, as one that sails will lie otherwise when she is back.
+    #[must_use]
+    pub fn stored_state(&self) -> Option<StoredState> {
+        self.ship()?.stored_state(&self.config.imu)
+    }
+
+    /// The errors of the sensors as the filter has them; `None` until there is one. Some 100 ns.
+    #[must_use]
+    pub fn estimates(&self) -> Option<Estimates> {
+        let ship = self.ship()?;
+        ship.likeliest().map(|fine| fine.filter().estimates(ship.is_moored()))
+    }
+
+    /// The sea as a model of the velocity that it gives the ship; `None` until half a minute of it has
+    /// been seen with a single heading. Fitted anew at every call, for half a millisecond of one core: to be
+    /// asked for at most once a second. It changes nothing of the engine.
+    #[must_use]
+    pub fn disturbance(&self) -> Option<Disturbance> {
+        let fine = self.ship().filter(|ship| ship.has_one_heading())?.likeliest()?;
+        self.trace.disturbance(fine)
+    }
+
+    /// The ship on her time line, if the IMU has been heard since the engine was made.
+    fn ship(&self) -> Option<&Ship> {
+        match &self.stage {
+            Stage::Running(line) if !self.is_waiting() => Some(line.estimator()),
+            _ => None,
+        }
+    }
+
+    /// Looks at the ship that has just moved over an increment: for heave, the sea and the trial.
+    pub(crate) fn watch(&mut self, increment: &Increment) {
+        let Stage::Running(line) = &self.stage else { return };
+        let ship = line.estimator();
+        let Some(fine) = ship.likeliest() else { return };
+        if let Some(heave) = &mut self.heave {
+            heave.advance(&fine.filter().vertical_step(increment));
+        }
+        if ship.has_one_heading() {
+            self.trace.watch(fine);
+        }
+        if let Some(resumption) = &mut self.resumption {
+            let sigma = fine.solution().sigma;
+            resumption.feel(fine.filter(), increment, sigma.roll.hypot(sigma.pitch));
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! The monitor's picture: as much as the terminal has room for, what matters most first.
+
+mod lists;
+mod ship;
+
+#[cfg(test)]
+mod tests;
+
+use insd_web::snapshot::Snapshot;
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Color, Style};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, BorderType, Paragraph, Wrap};
+
+use super::board::{Board, Link};
+use super::text::{line, span, time_of_day, word};
+
+/// Smallest terminal that the picture fits into.
+const LEAST: (u16, u16) = (72, 20);
+
+/// Draws what the board knows over the whole frame.
+pub fn draw(frame: &mut Frame<'_>, board: &Board, url: &str) {
+    let area = frame.area();
+    let (link, age) = board.link();
+    let Some(snapshot) = board.snapshot() else {
+        let fault = board.fault().unwrap_or_else(|| "connecting".to_owned());
+        let text = format!("{url}\n\n{fault}\n\nq or Ctrl-C ends");
+        frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
+        return;
+    };
+    if area.width < LEAST.0 || area.height < LEAST.1 {
+        let text = format!("please make the window larger: {} x {}\n\n", LEAST.0, LEAST.1);
+        let text = text + &line(&snapshot);
+        frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
+        return;
+    }
+    let [title, mode, upper, sensors, ports, rest, keys] = Layout::vertical([
+        Constraint::Length(1),
+        Constraint::Length(1),
+        Constraint::Length(10),
+        Constraint::Length(snapshot.sensors.len() as u16 + 3),
+        Constraint::Length((snapshot.inputs.len() + snapshot.outputs.len()) as u16 + 3),
+        Constraint::Fill(1),
+        Constraint::Length(1),
+    ])
+    .areas(area);
+    head(frame, title, &snapshot, link);
+    banner(frame, mode, &snapshot, link, age.as_secs_f64());
+    let [left, right] = Layout::horizontal([Constraint::Fill(1), Constraint::Fill(1)]).areas(upper);
+    ship::ship(frame, left, &snapshot);
+    ship::state(frame, right, &snapshot);
+    lists::sensors(frame, sensors, &snapshot);
+    lists::ports(frame, ports, &snapshot);
+    let [left, right] = Layout::horizontal([Constraint::Fill(1), Constraint::Fill(1)]).areas(rest);
+    lists::alerts(frame, left, &snapshot);
+    lists::events(frame, right, &snapshot);
+    frame.render_widget(Line::styled(format!(" {url}   q or Ctrl-C ends"), dim()), keys);
+}
+
+fn head(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot, link: Link) {
+    let program = &snapshot.program;
+    let mut parts = vec![
+        Span::styled(format!(" {} ", program.unit.as_deref().unwrap_or("insd")), strong()),
+        Span::raw(format!("insd {} up {} ", program.version, span(program.uptime_s))),
+    ];
+    if program.simulated {
+        let style = Style::new().fg(Color::Black).bg(Color::Magenta);
+        parts.push(Span::styled(" SIMULATED ", style));
+    }
+    frame.render_widget(Line::from(parts), area);
+    let utc = snapshot.time.utc.as_deref();
+    let date = utc.and_then(|utc| utc.get(..10)).unwrap_or("");
+    let text = format!("{date} {} UTC ", time_of_day(utc));
+    let style = if link == Link::Live { Style::new() } else { bad() };
+    frame.render_widget(Line::styled(text, style).right_aligned(), area);
+}
+
+/// The mode in its colour; in red what is old.
+fn banner(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot, link: Link, age: f64) {
+    let mode = &snapshot.mode;
+    let old = match link {
+        Link::Lost => Some("CONNECTION LOST"),
+        Link::Silent => Some("NO NEW DATA"),
+        Link::Live | Link::Connecting => None,
+    };
+    let (text, colour) = match old {
+        Some(what) => (format!(" {what}, what is shown is {} old", span(age)), Color::Red),
+        None => {
+            let reason = mode.reason.as_deref().unwrap_or_default();
+            (format!(" {}  {reason}", word(&mode.name).to_uppercase()), colour(&mode.name))
+        }
+    };
+    let style = Style::new().fg(Color::Black).bg(colour).bold();
+    frame.render_widget(Line::styled(text, style).style(style), area);
+    let since = format!("for {} ", span(mode.since_s));
+    frame.render_widget(Line::styled(since, style).right_aligned(), area);
+}
+
+/// Green may be used, yellow with care, cyan not yet, red not at all.
+fn colour(mode: &str) -> Color {
+    match mode {
+        "aided" => Color::Green,
+        "dead_reckoning" | "inertial" => Color::Yellow,
+        "fault" => Color::Red,
+        "" | "standby" => Color::Gray,
+        _ => Color::Cyan,
+    }
+}
+
+/// A box with a title.
+fn panel(title: &str) -> Block<'_> {
+    Block::bordered()
+        .border_type(BorderType::Rounded)
+        .border_style(dim())
+        .title(Line::styled(format!(" {title} "), Style::new().bold().fg(Color::Reset)))
+}
+
+/// Of what matters less.
+fn dim() -> Style {
+    Style::new().fg(Color::DarkGray)
+}
+
+/// Of what the eye should find first.
+fn strong() -> Style {
+    Style::new().bold()
+}
+
+/// Of what is wrong.
+fn bad() -> Style {
+    Style::new().fg(Color::Red).bold()
+}

@@ -1,0 +1,49 @@
+//! How everything stands, gathered by the engine's thread for whoever looks on.
+
+use insd_base::{
+    AlignmentStatus, Counts, Disturbance, Estimates, Heave, Mode, Motion, Stamp, UtcTime,
+};
+use insd_drivers::raw::RecorderState;
+use insd_intake::status::IntakeStatus;
+use insd_n2k::node::NodeStatus;
+use insd_output::alerts::AlertView;
+
+use super::outputs::OutputReport;
+use crate::redundancy::{Dispute, EngineStatus};
+use crate::state::SaverState;
+
+/// How everything stands at one moment. What is costly to find is looked at once a second and is `None` in
+/// between.
+#[derive(Clone, Debug)]
+pub(super) struct Report {
+    pub(super) stamp: Stamp,
+    pub(super) utc: Option<UtcTime>,
+    pub(super) mode: Mode,
+    pub(super) motion: Option<Motion>,
+    pub(super) heave: Option<Heave>,
+    pub(super) alignment: Option<AlignmentStatus>,
+    pub(super) alerts: Vec<AlertView>,
+    pub(super) slow: Option<Box<Slow>>,
+}
+
+/// What is looked at once a second.
+#[derive(Clone, Debug)]
+pub(super) struct Slow {
+    pub(super) intake: IntakeStatus,
+    pub(super) attempts: Vec<u64>,
+    pub(super) counts: Counts,
+    pub(super) outputs: Vec<OutputReport>,
+    /// Nodes of NMEA 2000, by the names of their ports.
+    pub(super) nodes: Vec<(String, NodeStatus)>,
+    pub(super) recorder: Option<RecorderState>,
+    pub(super) saver: Option<SaverState>,
+    pub(super) engines: Vec<EngineStatus>,
+    pub(super) disputes: Vec<Dispute>,
+    pub(super) estimates: Option<Estimates>,
+    /// What moves the ship: looked at every ten seconds.
+    pub(super) disturbance: Option<Disturbance>,
+    /// Epochs of the outputs, those that began late, and those that were skipped.
+    pub(super) epochs: [u64; 3],
+    /// What could not be told.
+    pub(super) untold: u64,
+}

@@ -1,0 +1,81 @@
+//! The engines, and what their filter has found out.
+
+use insd_base::units::{DEG, DEG_PER_HOUR, MICRO_G};
+use insd_base::{self as base, Body};
+use insd_web::snapshot::{Disturbance, DisturbanceAxis, Engine, Estimate, Estimates};
+
+use super::super::report::Slow;
+use crate::redundancy::EngineStatus;
+
+/// Parts of a ratio in a million.
+const PPM: f64 = 1e-6;
+
+/// The engines, if there are several.
+pub(super) fn engines(slow: &Slow) -> Vec<Engine> {
+    let several = slow.engines.iter().filter(|_| slow.engines.len() > 1);
+    several.map(|status| engine(status, slow)).collect()
+}
+
+fn engine(status: &EngineStatus, slow: &Slow) -> Engine {
+    let own = slow.disputes.iter().filter(|dispute| dispute.between.contains(&status.name));
+    let mut differs: Vec<String> =
+        own.map(|dispute| dispute.difference.quantity.as_str().to_owned()).collect();
+    differs.dedup();
+    let solution = status.motion.map(|motion| motion.solution);
+    Engine {
+        name: status.name.clone(),
+        mode: status.mode.as_str().to_owned(),
+        in_use: status.chosen,
+        healthy: status.doubt.is_none() && status.motion.is_some(),
+        heading_deg: solution.map(|solution| solution.attitude.heading / DEG),
+        sigma_heading_deg: solution.map(|solution| solution.sigma.heading / DEG),
+        differs,
+    }
+}
+
+pub(super) fn estimates(found: &base::Estimates) -> Estimates {
+    Estimates {
+        gyro_bias_deg_h: triad(&found.gyro_bias, &found.gyro_bias_sigma, DEG_PER_HOUR),
+        accel_bias_ug: triad(&found.accel_bias, &found.accel_bias_sigma, MICRO_G),
+        log_scale_ppm: Some(estimate(&found.log_scale, PPM)),
+        log_misalignment_deg: Some(estimate(&found.log_heading, DEG)),
+        gnss_lever_m: triad(&found.gnss_lever, &found.gnss_lever_sigma, 1.0),
+        gnss_delay_s: None,
+    }
+}
+
+fn triad(value: &Body, sigma: &Body, unit: f64) -> Vec<Estimate> {
+    let pairs = value.0.iter().zip(sigma.0.iter());
+    let one = |(value, sigma): (&f64, &f64)| base::Estimate { value: *value, sigma: *sigma };
+    pairs.map(|pair| estimate(&one(pair), unit)).collect()
+}
+
+fn estimate(own: &base::Estimate, unit: f64) -> Estimate {
+    Estimate { value: Some(own.value / unit), sigma: Some(own.sigma / unit) }
+}
+
+pub(super) fn disturbance(found: &base::Disturbance) -> Disturbance {
+    let model: Vec<[f64; 2]> = found
+        .spectrum
+        .iter()
+        .filter(|(frequency, density)| frequency.is_finite() && density.is_finite())
+        .map(|(frequency, density)| [*frequency, *density])
+        .collect();
+    let peak = model.iter().max_by(|one, other| one[1].total_cmp(&other[1]));
+    let axis = DisturbanceAxis {
+        name: "horizontal".to_owned(),
+        dominant_period_s: peak.filter(|peak| peak[0] > 0.0).map(|peak| 1.0 / peak[0]),
+        coefficients: found.coefficients.clone(),
+        residual_mps: None,
+        model,
+        measured: Vec::new(),
+    };
+    Disturbance {
+        method: found.method.to_owned(),
+        order: u32::try_from(found.coefficients.len() / 4).ok(),
+        interval_s: Some(found.interval),
+        window_s: None,
+        radius: None,
+        axes: vec![axis],
+    }
+}

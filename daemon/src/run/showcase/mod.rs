@@ -1,0 +1,198 @@
+//! The page's side of the journal: from reports and events to snapshots of everything
+//! ([`insd_web::snapshot`]).
+
+mod aids;
+mod alerts;
+mod alignment;
+mod engines;
+mod ports;
+mod program;
+mod rates;
+mod sensors;
+mod ship;
+
+use std::collections::VecDeque;
+
+use insd_base::{Event, Span, Time, UtcTime};
+use insd_engine::Output;
+use insd_web::Publisher;
+use insd_web::snapshot::{MAX_MODES, MAX_REJECTIONS, Mode, Rejected, Snapshot, Transition};
+
+use super::journal::Audience;
+use super::report::{Report, Slow};
+use super::told::Names;
+use crate::calendar;
+use crate::config::Config;
+use crate::logging::Log;
+use crate::pipeline::{Obeyed, Product};
+
+use aids::Aids;
+pub(super) use program::{Origin, hash};
+use rates::Rates;
+
+/// Keeps what is shown, and shows it.
+pub(super) struct Showcase {
+    publisher: Publisher,
+    log: Log,
+    origin: Origin,
+    config: Config,
+    shown: Snapshot,
+    /// When the mode changed last.
+    mode_since: Time,
+    aids: Aids,
+    input_rates: Rates,
+    sensor_rates: Rates,
+    output_rates: Rates,
+    /// When each alert changed last, by its identifier.
+    alerts: alerts::Changes,
+    /// UTC minus the ship's time line at the last report.
+    utc: Option<UtcTime>,
+    now: Time,
+}
+
+impl Showcase {
+    /// Nothing is shown yet.
+    pub(super) fn new(publisher: Publisher, log: Log, config: &Config, origin: Origin) -> Self {
+        Showcase {
+            publisher,
+            log,
+            shown: Snapshot { program: origin.program(), ..Snapshot::default() },
+            origin,
+            config: config.clone(),
+            mode_since: Time::START,
+            aids: Aids::default(),
+            input_rates: Rates::default(),
+            sensor_rates: Rates::default(),
+            output_rates: Rates::default(),
+            alerts: alerts::Changes::default(),
+            utc: None,
+            now: Time::START,
+        }
+    }
+
+    /// An instant of the ship's time line in UTC, if that is known now.
+    fn utc(&self, time: Time) -> Option<String> {
+        self.utc.map(|utc| calendar::rfc3339_millis(utc.plus(time - self.now)))
+    }
+
+    fn hear_event(&mut self, event: &Event) {
+        match event {
+            Event::ModeChanged { time, from, to, why } => {
+                self.mode_since = *time;
+                let reason = Some(why.to_string());
+                self.shown.mode.reason.clone_from(&reason);
+                let from = from.map(|from| from.as_str().to_owned());
+                let (at_s, utc, to) = (time.as_seconds(), self.utc(*time), to.as_str().to_owned());
+                keep(&mut self.shown.modes, Transition { at_s, utc, from, to, reason }, MAX_MODES);
+            }
+            Event::Rejected { time, source, aid, reason } => {
+                let rejected = Rejected {
+                    at_s: time.as_seconds(),
+                    utc: self.utc(*time),
+                    source: source.name().to_owned(),
+                    aid: (*aid).to_owned(),
+                    reason: reason.as_str().to_owned(),
+                };
+                keep(&mut self.shown.rejections, rejected, MAX_REJECTIONS);
+            }
+            _ => {}
+        }
+    }
+
+    fn see_slow(&mut self, report: &Report, slow: &Slow) {
+        let now = report.stamp.monotonic;
+        self.input_rates.note(now, slow.intake.ports.iter().map(|port| port.counts.bytes));
+        self.sensor_rates.note(now, slow.intake.sensors.iter().map(|sensor| sensor.passed));
+        self.output_rates.note(now, slow.outputs.iter().map(|output| output.status.bytes));
+        let shown = &mut self.shown;
+        shown.sensors = sensors::sensors(&self.config, slow, &self.sensor_rates, now);
+        shown.choices = sensors::choices(&self.config, slow);
+        shown.inputs = ports::inputs(&self.config, slow, &self.input_rates, now);
+        shown.outputs = ports::outputs(&self.config, slow, &self.output_rates);
+        shown.buses = ports::buses(&self.config, slow);
+        shown.schedule = ports::schedule(slow);
+        shown.aids = self.aids.aids(&slow.counts, now);
+        shown.samples = aids::samples(&slow.counts);
+        shown.recording = program::recording(&self.config, slow);
+        shown.engines = engines::engines(slow);
+        shown.estimates = slow.estimates.as_ref().map(engines::estimates);
+        if let Some(disturbance) = &slow.disturbance {
+            shown.disturbance = Some(engines::disturbance(disturbance));
+        }
+        shown.saving = slow.saver.as_ref().map(program::saving);
+        shown.log.lost = slow.untold;
+        shown.log.level = self.log.level();
+        shown.log.repeats = self.log.repeats().total();
+        shown.events = self.log.recent();
+        shown.time = program::time(report, slow);
+        self.origin.measure(&mut shown.program);
+    }
+
+    fn see_fast(&mut self, report: &Report) {
+        let (now, stamp) = (report.stamp.monotonic, &report.stamp);
+        (self.now, self.utc) = (now, report.utc);
+        self.shown.program.uptime_s = now.as_seconds();
+        self.shown.time.at_s = now.as_seconds();
+        self.shown.time.utc = report.utc.map(calendar::rfc3339_millis);
+        self.shown.time.system_utc = Some(calendar::rfc3339_millis(stamp.system));
+        self.shown.mode = Mode {
+            name: report.mode.as_str().to_owned(),
+            since_s: (now - self.mode_since).as_seconds(),
+            reason: self.shown.mode.reason.take(),
+        };
+        let motion = report.motion.as_ref();
+        self.shown.motion =
+            motion.map(|motion| ship::motion(motion, report.heave, |t| self.utc(t)));
+        let status = report.alignment.as_ref();
+        self.shown.alignment = status.map(|own| alignment::alignment(own, now, |t| self.utc(t)));
+        self.shown.alerts = self.alerts.alerts(report);
+    }
+}
+
+impl Audience for Showcase {
+    fn hear(&mut self, _: &Names, product: &Product) {
+        match product {
+            Product::Engine(Output::Event(event)) => self.hear_event(event),
+            Product::Engine(Output::Innovation(innovation)) => self.aids.note(innovation),
+            Product::Order(Obeyed::Configured(_)) => {
+                self.shown.program.configuration_read_at_s = Some(self.now.as_seconds());
+            }
+            _ => {}
+        }
+    }
+
+    fn configure(&mut self, config: &Config, text: &str) {
+        self.config = config.clone();
+        self.shown.program.configuration_hash = Some(program::hash(text));
+        self.shown.program.simulated = config.outputs.iter().any(|output| output.simulated);
+    }
+
+    fn see(&mut self, report: &Report) {
+        self.see_fast(report);
+        if let Some(slow) = &report.slow {
+            self.see_slow(report, slow);
+        }
+        self.publisher.publish(self.shown.clone());
+    }
+}
+
+/// Puts something behind the others, and forgets the oldest beyond so many.
+fn keep<T>(all: &mut Vec<T>, one: T, most: usize) {
+    if all.len() >= most {
+        all.remove(0);
+    }
+    all.push(one);
+}
+
+/// How long ago something was, s.
+fn age(now: Time, then: Option<Time>) -> Option<f64> {
+    then.map(|then| (now - then).as_seconds())
+}
+
+/// Milliseconds.
+fn ms(span: Span) -> f64 {
+    (span.as_seconds() * 1e6).round() / 1e3
+}
+
+/// The last values of a queue.
+type Window<T> = VecDeque<T>;

@@ -1,0 +1,109 @@
+//! Where the ship is, how she moves and lies.
+
+use insd_base::units::{DEG, KNOT, wrap_two_pi};
+use insd_base::{HeaveQuality, Motion, Time};
+use insd_output::Policy;
+use insd_web::snapshot::{Heave, Motion as Shown};
+use nalgebra::{Matrix2, SymmetricEigen};
+
+/// What is shown of a motion, at the IMU.
+pub(super) fn motion(
+    motion: &Motion,
+    heave: Option<insd_base::Heave>,
+    utc: impl Fn(Time) -> Option<String>,
+) -> Shown {
+    let solution = &motion.solution;
+    let (position, velocity, attitude) =
+        (&solution.position, &solution.velocity.0, &solution.attitude);
+    let sigma = &solution.sigma;
+    let policy = Policy::default();
+    let course = policy.has_course(solution).then(|| solution.course() / DEG);
+    let speed = solution.speed();
+    let speed_sigma = sigma.velocity.0.x.hypot(sigma.velocity.0.y) / std::f64::consts::SQRT_2;
+    let ellipse = ellipse(motion);
+    let current = motion.current.map(|current| current.velocity.0);
+    let ahead = current.map(|current| {
+        let (sin, cos) = attitude.heading.sin_cos();
+        (velocity.x - current.x) * cos + (velocity.y - current.y) * sin
+    });
+    Shown {
+        valid_at_s: solution.time.as_seconds(),
+        valid_utc: utc(solution.time),
+        point: None,
+        lat_deg: Some(position.latitude / DEG),
+        lon_deg: Some(position.longitude / DEG),
+        height_m: Some(position.height),
+        velocity_north_mps: Some(velocity.x),
+        velocity_east_mps: Some(velocity.y),
+        velocity_down_mps: Some(velocity.z),
+        speed_kn: Some(speed / KNOT),
+        course_deg: course,
+        water_speed_kn: ahead.map(|ahead| ahead / KNOT),
+        current_speed_kn: current.map(|current| current.x.hypot(current.y) / KNOT),
+        current_set_deg: current.map(|current| wrap_two_pi(current.y.atan2(current.x)) / DEG),
+        roll_deg: Some(attitude.roll / DEG),
+        pitch_deg: Some(attitude.pitch / DEG),
+        heading_deg: Some(attitude.heading / DEG),
+        rate_of_turn_deg_min: Some(solution.rate_of_turn() / DEG * 60.0),
+        heave: heave.map(|heave| shown_heave(&heave)),
+        sigma_north_m: Some(sigma.position.0.x),
+        sigma_east_m: Some(sigma.position.0.y),
+        sigma_height_m: Some(sigma.position.0.z),
+        ellipse_major_m: ellipse.map(|(major, _, _)| major),
+        ellipse_minor_m: ellipse.map(|(_, minor, _)| minor),
+        ellipse_direction_deg: ellipse.map(|(_, _, direction)| direction / DEG),
+        sigma_velocity_north_mps: Some(sigma.velocity.0.x),
+        sigma_velocity_east_mps: Some(sigma.velocity.0.y),
+        sigma_velocity_down_mps: Some(sigma.velocity.0.z),
+        sigma_speed_kn: Some(speed_sigma / KNOT),
+        sigma_course_deg: course.map(|_| (speed_sigma / speed).atan() / DEG),
+        sigma_roll_deg: Some(sigma.roll / DEG),
+        sigma_pitch_deg: Some(sigma.pitch / DEG),
+        sigma_heading_deg: Some(sigma.heading / DEG),
+        heading_quality: Some(word(&policy.heading(solution))),
+        position_quality: Some(word(&policy.quality(solution))),
+    }
+}
+
+/// Half axes of the 1-sigma ellipse of the position, m, and the direction of the longer, rad, 0 to pi.
+fn ellipse(motion: &Motion) -> Option<(f64, f64, f64)> {
+    let sigma = &motion.solution.sigma.position.0;
+    let across = motion.covariance_north_east?;
+    let covariance = Matrix2::new(sigma.x.powi(2), across, across, sigma.y.powi(2));
+    let eigen = SymmetricEigen::new(covariance);
+    let (longer, shorter) =
+        if eigen.eigenvalues.x >= eigen.eigenvalues.y { (0, 1) } else { (1, 0) };
+    let axis = eigen.eigenvectors.column(longer);
+    let direction = axis[1].atan2(axis[0]).rem_euclid(std::f64::consts::PI);
+    let half = |index: usize| eigen.eigenvalues[index].max(0.0).sqrt();
+    Some((half(longer), half(shorter), direction))
+}
+
+fn shown_heave(heave: &insd_base::Heave) -> Heave {
+    let delayed = heave.delayed.as_ref();
+    Heave {
+        heave_m: Some(heave.heave),
+        sigma_heave_m: Some(heave.sigma),
+        quality: match heave.quality {
+            HeaveQuality::Settled => "settled",
+            HeaveQuality::Reduced => "reduced",
+            HeaveQuality::Unsettled => "unsettled",
+        }
+        .to_owned(),
+        delayed_heave_m: delayed.map(|delayed| delayed.heave),
+        sigma_delayed_heave_m: delayed.map(|delayed| delayed.sigma),
+        delay_s: delayed.map(|delayed| (heave.time - delayed.time).as_seconds()),
+    }
+}
+
+/// The name of a variant in small letters: `NotValid` as `not_valid`.
+fn word(variant: &impl std::fmt::Debug) -> String {
+    let mut word = String::new();
+    for letter in format!("{variant:?}").chars() {
+        if letter.is_uppercase() && !word.is_empty() {
+            word.push('_');
+        }
+        word.extend(letter.to_lowercase());
+    }
+    word
+}

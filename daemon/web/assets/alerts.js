@@ -1,0 +1,133 @@
+// Alerts after IEC 62923: shape and colour tell the priority, the mark tells the state.
+
+import { byId, keep, make, recall, setAttr, setClass, setText, show, svg } from "./dom.js";
+import { clock, duration, words } from "./format.js";
+import { order, load } from "./stream.js";
+
+const SHAPES = {
+  emergency_alarm: "M12 2 23 21H1Z", alarm: "M12 2 23 21H1Z",
+  warning: "M12 2a10 10 0 1 0 0 20a10 10 0 1 0 0-20Z",
+  caution: "M3 3H21V21H3Z", unknown: "M3 3H21V21H3Z",
+};
+const MARKS = { unacknowledged: "!", silenced: "♪̸", acknowledged: "!", transferred: "→", rectified: "✓" };
+const asks = (state) => ["unacknowledged", "silenced"].includes(state);
+const RANK = ["emergency_alarm", "alarm", "warning", "caution", "unknown"];
+const key = (alert) => `${alert.manufacturer ?? ""}-${alert.id}-${alert.instance ?? ""}`;
+
+let token = recall("sessionStorage", "token") ?? "";
+let enabled = null;
+const rows = new Map();
+let before = null;
+
+export function startAlerts() {
+  byId("token-form").addEventListener("submit", (event) => {
+    event.preventDefault();
+    token = byId("token").value;
+    byId("token").value = "";
+    keep("sessionStorage", "token", token);
+    tellToken();
+  });
+  byId("level-form").addEventListener("submit", async (event) => {
+    event.preventDefault();
+    const answer = await give("api/v1/log-level", { level: byId("level").value });
+    setText(byId("level-state"), answer.text);
+  });
+  load("api/v1/orders").then((answer) => { enabled = answer.enabled; tellToken(); }).catch(() => {});
+}
+
+function tellToken() {
+  const text = enabled === false ? "Read only: no token is configured in the program."
+    : token ? "A token is set for this tab." : "Without a token nothing can be changed here.";
+  setText(byId("token-state"), text);
+  byId("token").disabled = enabled === false;
+  byId("token-save").disabled = enabled === false;
+  byId("level-save").disabled = !token || enabled === false;
+  for (const row of rows.values()) row.buttons.forEach((button) => { button.disabled = !token || enabled === false; });
+}
+
+const give = (path, body) =>
+  order(path, token, body).catch(() => ({ done: false, text: "the program cannot be reached" }));
+
+function build(alert) {
+  const icon = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  for (const [name, value] of Object.entries({ viewBox: "0 0 24 24", "aria-hidden": "true", class: "alert-icon" })) icon.setAttribute(name, value);
+  const shape = svg(icon, "path", { class: "alert-shape" });
+  const mark = svg(icon, "text", { x: 12, y: 18 });
+  const [title, text, facts, outcome] = [make("strong"), make("span"), make("small"), make("small", { role: "status" })];
+  const buttons = [["acknowledge", "Acknowledge"], ["silence", "Silence"]].map(([verb, label]) => {
+    const button = make("button", { type: "button", "aria-label": `${label}: ${alert.title}`, class: verb }, label);
+    button.addEventListener("click", async () => {
+      const answer = await give(`api/v1/alerts/${alert.id}/${verb}`, { instance: alert.instance });
+      setText(outcome, answer.done ? "" : answer.text);
+    });
+    return button;
+  });
+  const body = make("div", { class: "alert-body" }, title, text, facts, outcome);
+  const item = make("li", {}, icon, body, make("div", { class: "alert-buttons" }, ...buttons));
+  return { item, shape, mark, title, text, facts, buttons };
+}
+
+function update(row, alert) {
+  setClass(row.item, `alert ${alert.priority} ${alert.state}`);
+  setAttr(row.shape, "d", SHAPES[alert.priority] ?? SHAPES.unknown);
+  setText(row.mark, MARKS[alert.state] ?? "");
+  setText(row.title, alert.title);
+  setText(row.text, alert.description);
+  const maker = alert.manufacturer ? `${alert.manufacturer} ` : "";
+  const again = alert.escalation > 0 ? ` · raised again ${alert.escalation}×` : "";
+  setText(row.facts, `${words(alert.priority)} · ${words(alert.state)} · ${maker}${alert.id}${alert.instance ? `.${alert.instance}` : ""} · since ${clock(alert.changed_utc)} (${duration(alert.since_s)})${again}`);
+  const [acknowledge, silence] = row.buttons;
+  show(acknowledge, asks(alert.state) || alert.state === "rectified");
+  show(silence, alert.state === "unacknowledged");
+}
+
+export function alerts(data) {
+  const list = byId("alert-list");
+  const sorted = [...data.alerts].sort((a, b) =>
+    Number(asks(b.state)) - Number(asks(a.state)) || RANK.indexOf(a.priority) - RANK.indexOf(b.priority));
+  const keys = new Set(sorted.map(key));
+  for (const [name, row] of rows) {
+    if (!keys.has(name)) { row.item.remove(); rows.delete(name); }
+  }
+  sorted.forEach((alert, k) => {
+    if (!rows.has(key(alert))) {
+      rows.set(key(alert), build(alert));
+      tellToken();
+    }
+    const row = rows.get(key(alert));
+    update(row, alert);
+    if (list.children[k] !== row.item) list.insertBefore(row.item, list.children[k] ?? null);
+  });
+  show(byId("no-alerts"), sorted.length === 0);
+  const open = sorted.filter((alert) => asks(alert.state));
+  show(byId("alert-count"), sorted.length > 0);
+  setText(byId("alert-count"), String(sorted.length));
+  setClass(byId("alert-count"), `pill ${sorted[0]?.priority ?? ""}`);
+  strip(open);
+  speak(sorted);
+}
+
+// One line below the head of the page, while something asks for an answer.
+function strip(open) {
+  const node = byId("strip");
+  show(node, open.length > 0);
+  if (open.length === 0) return;
+  setClass(node, `strip ${open[0].priority}`);
+  const more = open.length > 1 ? ` (${open.length - 1} more)` : "";
+  setText(node, `${words(open[0].priority).toUpperCase()}: ${open[0].title}. ${open[0].description}.${more}`);
+}
+
+// New alarms interrupt whoever listens, the rest waits its turn.
+function speak(sorted) {
+  const now = new Map(sorted.map((alert) => [key(alert), alert]));
+  if (before) {
+    for (const [name, alert] of now) {
+      const old = before.get(name);
+      if (old && old.state === alert.state && old.priority === alert.priority) continue;
+      const urgent = ["alarm", "emergency_alarm"].includes(alert.priority) && alert.state === "unacknowledged";
+      setText(byId(urgent ? "say-now" : "say"), `${words(alert.priority)} ${words(alert.state)}: ${alert.title}`);
+    }
+    for (const [name, alert] of before) if (!now.has(name)) setText(byId("say"), `${alert.title}: normal`);
+  }
+  before = now;
+}

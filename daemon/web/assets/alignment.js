@@ -1,0 +1,100 @@
+// Alignment, modes and what moves the ship at her berth.
+
+import { byId, fill, make, right, setAttr, setClass, setText, show, svg } from "./dom.js";
+import { DASH, clock, duration, fixed, known, words } from "./format.js";
+
+const PHASES = ["levelling", "searching", "fine", "aligned"];
+const LIMITS = {
+  gyro_bias: "bias of the gyros", random_walk: "random walk of the gyros", sea: "motion of the ship", latitude: "latitude",
+};
+const LACKS = {
+  time: "too early to foresee", manoeuvres: "depends on manoeuvres", gnss_velocity: "no GNSS velocity",
+  aid: "no GNSS velocity, no log, no reference", method: "no forecast with this method",
+};
+
+function readiness(alignment) {
+  const limit = LIMITS[alignment.limited_by] ?? "";
+  switch (alignment.forecast) {
+    case "reached": return ["Aligned", alignment.text];
+    case "expected": {
+      const at = alignment.ready_utc ? ` at ${clock(alignment.ready_utc)} UTC` : "";
+      return [`Ready in ${duration(alignment.ready_in_s)}${at}`, limit ? `limited by: ${limit}` : ""];
+    }
+    case "unreachable":
+      return ["Out of reach", `at best ${fixed(alignment.best_deg, 2)}°${limit ? `, limited by: ${limit}` : ""}`];
+    default: return ["Not foreseeable", LACKS[alignment.lacks] ?? ""];
+  }
+}
+
+export function alignment(data) {
+  const now = data.alignment;
+  const list = byId("steps");
+  const phases = now?.phase === "in_motion" ? ["levelling", "in_motion", "aligned"] : PHASES;
+  const at = phases.indexOf(now?.phase);
+  while (list.children.length > phases.length) list.lastChild.remove();
+  phases.forEach((phase, k) => {
+    if (!list.children[k]) list.append(make("li"));
+    setText(list.children[k], words(phase));
+    setClass(list.children[k], k < at || now?.phase === "aligned" ? "done" : k === at ? "current" : "");
+    if (k === at) list.children[k].setAttribute("aria-current", "step");
+    else list.children[k].removeAttribute("aria-current");
+  });
+  const [when, why] = now ? readiness(now) : [DASH, ""];
+  setText(byId("ready-when"), when);
+  setText(byId("ready-why"), why);
+  setText(byId("align-place"), now ? (now.moored ? "at the berth" : "under way") : "");
+  const part = known(now?.progress) ? Math.max(0, Math.min(1, now.progress)) : null;
+  setAttr(byId("progress-fill"), "width", part === null ? 0 : (part * 100).toFixed(1));
+  if (part === null) byId("progress").removeAttribute("aria-valuenow");
+  else setAttr(byId("progress"), "aria-valuenow", Math.round(part * 100));
+}
+
+export function modeTone(name) {
+  if (name === "aided") return "good";
+  if (name === "dead_reckoning" || name === "inertial") return "warn";
+  if (name === "fault") return "bad";
+  return name.endsWith("alignment") && name !== "coarse_alignment" ? "busy" : "calm";
+}
+
+export function modes(data) {
+  const newest = [...data.modes].reverse();
+  fill(byId("modes"), newest.map((change) => [
+    change.utc ? clock(change.utc) : `${fixed(change.at_s, 0)} s`,
+    { text: words(change.to), cls: `state ${modeTone(change.to)}` },
+    { text: change.reason ?? DASH, cls: "wrap" },
+  ]));
+  timeline(byId("timeline"), data);
+}
+
+// Each mode as a bar; the last hour, or all if it is shorter.
+function timeline(root, data) {
+  const now = data.time.at_s;
+  const from = Math.max(data.modes[0]?.at_s ?? 0, now - 3600);
+  const x = (at) => Math.max(0, ((at - from) / Math.max(now - from, 1)) * 1000);
+  const bars = data.modes
+    .map((change, k) => ({ tone: modeTone(change.to), name: change.to, x1: x(change.at_s), x2: x(data.modes[k + 1]?.at_s ?? now) }))
+    .filter((bar) => bar.x2 > bar.x1);
+  while (root.children.length > bars.length) root.lastChild.remove();
+  bars.forEach((bar, k) => {
+    const node = root.children[k] ?? svg(root, "rect", { y: 0, height: 26 });
+    setAttr(node, "x", bar.x1.toFixed(1));
+    setAttr(node, "width", Math.max(2, bar.x2 - bar.x1).toFixed(1));
+    setAttr(node, "class", `tone-${bar.tone}`);
+  });
+  setAttr(root, "aria-label", `Modes of the last ${duration(now - from)}: ${bars.map((bar) => words(bar.name)).join(", ")}`);
+}
+
+export function disturbance(data) {
+  const found = data.disturbance;
+  const card = byId("disturbance-card");
+  card.classList.toggle("without", !found);
+  show(byId("no-disturbance"), !found);
+  const order = known(found?.order) ? `, order ${found.order}` : "";
+  const window = known(found?.window_s) ? `, window ${fixed(found.window_s, 0)} s` : "";
+  const radius = known(found?.radius) ? `, radius ${fixed(found.radius, 3)}` : "";
+  setText(byId("disturbance-method"), found ? `${words(found.method)}${order}${window}${radius}` : "");
+  fill(byId("ar"), (found?.axes ?? []).map((axis) => [
+    axis.name, right(fixed(axis.dominant_period_s, 1)), right(fixed(axis.residual_mps, 4)),
+    { text: axis.coefficients.map((one) => fixed(one, 3)).join("  ") || DASH, cls: "num wrap" },
+  ]));
+}

@@ -1,0 +1,66 @@
+// The data as they come: server-sent events, and what to do when they do not.
+
+// Silence after which what is shown is stale, ms.
+const PATIENCE = 2000;
+// Pause before another attempt where the browser has given up, ms.
+const PAUSE = 1500;
+
+export function follow({ onData, onState }) {
+  let source = null;
+  let data = null;
+  let last = null;
+  let state = "connecting";
+
+  function enter(next) {
+    if (next !== state) {
+      state = next;
+      onState(state, data);
+    }
+  }
+
+  function take(event, whole) {
+    const part = JSON.parse(event.data);
+    data = whole ? part : { ...(data ?? {}), ...part };
+    last = performance.now();
+    enter("live");
+    onData(data, whole);
+  }
+
+  function open() {
+    source = new EventSource("api/v1/stream?hz=10");
+    source.addEventListener("snapshot", (event) => take(event, true));
+    source.addEventListener("live", (event) => {
+      // without a whole snapshot there is nothing to put it into
+      if (data) take(event, false);
+    });
+    source.onerror = () => {
+      enter("lost");
+      if (source.readyState === EventSource.CLOSED) setTimeout(open, PAUSE);
+    };
+  }
+
+  setInterval(() => {
+    if (last !== null && performance.now() - last > PATIENCE) {
+      enter(source.readyState === EventSource.OPEN ? "silent" : "lost");
+    }
+  }, 250);
+  open();
+}
+
+export async function load(path) {
+  const answer = await fetch(path, { cache: "no-store" });
+  if (!answer.ok) throw new Error(`${path}: ${answer.status}`);
+  return answer.json();
+}
+
+// Gives an order; resolves to a text that says what became of it.
+export async function order(path, token, body) {
+  const answer = await fetch(path, {
+    method: "POST",
+    headers: { "Authorization": `Bearer ${token}`, "Content-Type": "application/json" },
+    body: JSON.stringify(body),
+  });
+  if (answer.ok) return { done: true, text: "done" };
+  const fault = await answer.json().catch(() => ({ error: `refused (${answer.status})` }));
+  return { done: false, text: fault.error };
+}

@@ -1,0 +1,145 @@
+// Sensors, ports, measurements and the rest that stands in tables.
+
+import { byId, fill, right, bad, setText, setClass, show, make } from "./dom.js";
+import { DASH, age, bytes, clock, count, fixed, known, percent, rate, bearing, words } from "./format.js";
+
+const SENSOR_TONES = { valid: "good", received: "calm", waiting: "calm", rejected: "bad", silent: "bad" };
+const PORT_TONES = { open: "good", waiting: "calm", ended: "calm", silent: "warn", absent: "bad", lost: "bad" };
+const BUS_TONES = { active: "good", warning: "warn", passive: "warn", off: "bad" };
+
+const state = (word, tones) => ({ text: words(word), cls: `state ${tones[word] ?? "calm"}` });
+
+const causes = (list) =>
+  (list ?? []).filter((cause) => cause.count > 0).map((cause) => `${words(cause.reason)} ${count(cause.count)}`).join(", ");
+
+function says(sensor) {
+  const parts = [
+    sensor.fix,
+    known(sensor.satellites) ? `${sensor.satellites} satellites` : null,
+    known(sensor.status_word) ? `0x${sensor.status_word.toString(16).toUpperCase().padStart(4, "0")}` : null,
+    known(sensor.temperature_c) ? `${fixed(sensor.temperature_c, 1)} °C` : null,
+    sensor.device,
+  ];
+  return parts.filter(Boolean).join(" · ") || DASH;
+}
+
+export function sensors(data) {
+  fill(byId("sensor-table"), data.sensors.map((sensor) => [
+    { text: sensor.name, sub: `${words(sensor.kind)} on ${sensor.port}` },
+    state(sensor.state, SENSOR_TONES),
+    { text: sensor.used_for.map(words).join(", ") || DASH, sub: sensor.why ? words(sensor.why) : "" },
+    right(rate(sensor.rate_hz)),
+    right(age(sensor.age_s), sensor.state === "silent" ? "is-bad" : ""),
+    says(sensor),
+    right(count(sensor.passed)),
+    bad(sensor.lost),
+    { text: causes(sensor.refused) || DASH, cls: "wrap" },
+  ]));
+  const list = byId("choices");
+  const lines = data.choices.map((choice) =>
+    `${words(choice.quantity)}: ${choice.sensor ?? "none"}${choice.why ? ` (${words(choice.why)})` : ""}`);
+  while (list.children.length > lines.length) list.lastChild.remove();
+  lines.forEach((line, k) => {
+    if (!list.children[k]) list.append(make("li"));
+    setText(list.children[k], line);
+    setClass(list.children[k], data.choices[k].sensor ? "" : "is-bad");
+  });
+}
+
+export function ports(data) {
+  fill(byId("inputs"), data.inputs.map((port) => [
+    { text: port.name, sub: `${port.transport} · ${port.what}` },
+    state(port.state, PORT_TONES),
+    right(rate(port.rate_bytes_s)), right(age(port.age_s)), right(bytes(port.bytes)), right(count(port.frames)),
+    bad(port.damaged), bad(port.skipped_bytes), bad(port.overrun_bytes), bad(port.reopened),
+    { text: port.last_error ?? DASH, cls: "wrap" },
+  ]));
+  fill(byId("outputs"), data.outputs.map(output));
+  const { epochs, late, skipped } = data.schedule;
+  setText(byId("schedule"), `${count(epochs)} epochs, ${count(late)} late by more than 1 ms, ${count(skipped)} skipped`);
+  show(byId("bus-card"), data.buses.length > 0);
+  fill(byId("buses"), data.buses.map((bus) => [
+    bus.port, state(bus.state, BUS_TONES), right(percent(bus.load)), right(rate(bus.rate_hz)),
+    bad(bus.errors), bad(bus.offs), bad(bus.dropped),
+    bus.node_state ? { text: `${words(bus.node_state)}, address ${bus.address ?? DASH}`, sub: bus.name ?? "" } : DASH,
+    { text: bus.nodes.map((node) => `${node.address}: ${node.name}`).join(", ") || DASH, cls: "wrap" },
+  ]));
+}
+
+function output(port) {
+  const load = known(port.capacity_bytes_s) && known(port.rate_bytes_s) ? port.rate_bytes_s / port.capacity_bytes_s : null;
+  const ms = (value) => right(known(value) ? fixed(value, value < 10 ? 2 : 0) : DASH);
+  const names = port.messages.map((message) => `${message.name}${known(message.rate_hz) ? ` ${Number(message.rate_hz.toPrecision(3))} Hz` : ""}`);
+  const details = port.messages.map((message) =>
+    `${message.name}: ${message.sent} sent, ${message.dropped} dropped, p99 ${fixed(message.age_ms?.p99, 1)} ms`);
+  return [
+    { text: port.name, sub: `${port.transport} · ${port.what}${port.point ? ` · at ${port.point}` : ""}` },
+    { ...state(port.state, PORT_TONES), sub: port.last_error ?? "" },
+    right(rate(port.rate_bytes_s)),
+    right(percent(load), load > 0.9 ? "is-bad" : ""),
+    right(count(port.sent)), bad(port.dropped), right(count(port.waiting)),
+    ms(port.age_ms?.last), ms(port.age_ms?.p50), ms(port.age_ms?.p99), ms(port.age_ms?.max),
+    { text: names.join(", ") || DASH, cls: "wrap", title: details.join("\n") },
+  ];
+}
+
+// An innovation as a bar of characters about the middle: three sigmas to each side.
+function gauge(value) {
+  if (!known(value)) return { text: DASH, cls: "num" };
+  const mark = Math.max(0, Math.min(12, Math.round(value * 2) + 6));
+  const bar = [...Array(13).keys()].map((k) => (k === mark ? "●" : k === 6 ? "┼" : "─")).join("");
+  return { text: `${bar} ${fixed(value, 1)}`, cls: `num gauge ${Math.abs(value) > 3 ? "is-bad" : ""}` };
+}
+
+export function measurements(data) {
+  fill(byId("aids"), data.aids.map((aid) => [
+    words(aid.name),
+    aid.in_use ? { text: "used", cls: "state good" } : { text: "not used", cls: "state warn" },
+    right(age(aid.age_s)), right(count(aid.accepted)), bad(aid.rejected),
+    gauge(aid.last_normalised_innovation),
+    { text: causes(aid.reasons) || DASH, cls: "wrap" },
+  ]));
+  const { used, gaps, duplicates, out_of_order: late, out_of_range: wild } = data.samples;
+  setText(byId("samples"), `IMU: ${count(used)} samples, ${gaps} gaps, ${duplicates + late + wild} refused`);
+  const newest = [...data.rejections].reverse();
+  fill(byId("rejections"), newest.map((one) => [
+    one.utc ? clock(one.utc) + one.utc.slice(19, 21) : `${fixed(one.at_s, 1)} s`, one.source, words(one.aid), words(one.reason),
+  ]));
+  show(byId("no-rejections"), newest.length === 0);
+}
+
+const SEVERITIES = { error: "bad", warn: "warn", info: "calm", debug: "calm" };
+
+export function system(data) {
+  const engines = data.engines.map((engine) => [
+    engine.name, words(engine.mode), right(bearing(engine.heading_deg, 2)), right(fixed(engine.sigma_heading_deg, 3)),
+    engine.differs.length > 0
+      ? { text: `differs: ${engine.differs.map(words).join(", ")}`, cls: "state bad" }
+      : { text: engine.in_use ? "in use" : engine.healthy ? "in reserve" : "left out", cls: `state ${engine.in_use ? "good" : "calm"}` },
+  ]);
+  fill(byId("engines"), engines);
+  const recording = data.recording;
+  const node = byId("recording-state");
+  setText(node, recording ? `${words(recording.state)}${recording.last_error ? `: ${recording.last_error}` : ""}` : "off");
+  setClass(node, recording?.state === "failing" ? "is-bad" : "");
+  estimates(data.estimates);
+  fill(byId("events"), [...data.events].reverse().map((event) => [
+    event.utc ? clock(event.utc) : `${fixed(event.at_s, 1)} s`, state(event.severity, SEVERITIES), { text: event.text, cls: "wrap" },
+  ]));
+}
+
+const AXES = ["forward", "starboard", "down"];
+
+function estimates(found) {
+  const rows = [];
+  const add = (what, estimate, unit, digits) => {
+    if (estimate) rows.push([what, right(fixed(estimate.value, digits)), right(fixed(estimate.sigma, digits)), unit]);
+  };
+  found?.gyro_bias_deg_h.forEach((one, k) => add(`gyro bias ${AXES[k]}`, one, "°/h", 4));
+  found?.accel_bias_ug.forEach((one, k) => add(`accelerometer bias ${AXES[k]}`, one, "µg", 0));
+  add("scale of the log", found?.log_scale_ppm, "ppm", 0);
+  add("misalignment of the log", found?.log_misalignment_deg, "°", 2);
+  found?.gnss_lever_m.forEach((one, k) => add(`GNSS lever arm ${AXES[k]}`, one, "m", 2));
+  add("delay of the GNSS", found?.gnss_delay_s, "s", 3);
+  fill(byId("estimates"), rows);
+}

@@ -1,0 +1,62 @@
+//! What the page is told at its start, and why it may not start.
+
+use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+
+/// Fewest characters of a token.
+pub const MIN_TOKEN: usize = 16;
+
+/// Where to listen.
+#[derive(Debug)]
+pub enum Listen {
+    /// At an address.
+    Address(SocketAddr),
+    /// At a socket that somebody else has opened, such as systemd.
+    Inherited(TcpListener),
+}
+
+/// What the page is told at its start.
+#[derive(Debug)]
+pub struct WebConfig {
+    /// Where to listen. Default 127.0.0.1:8470: nobody but this computer.
+    pub listen: Listen,
+    /// Who sends it may acknowledge alerts and change the level of the journal; at least [`MIN_TOKEN`]
+    /// characters. Without a token nothing can be changed.
+    pub token: Option<String>,
+    /// Names under which the page may be asked for, beside `localhost` and bare addresses: that of a
+    /// reverse proxy, or of this computer. Others are refused, as a web site could otherwise read the page
+    /// through the browser of somebody on board (DNS rebinding).
+    pub allowed_hosts: Vec<String>,
+    /// Most connections at a time; further ones are told that it is too many (503).
+    pub max_clients: usize,
+}
+
+impl Default for WebConfig {
+    fn default() -> Self {
+        let address = SocketAddr::from((Ipv4Addr::LOCALHOST, 8470));
+        WebConfig {
+            listen: Listen::Address(address),
+            token: None,
+            allowed_hosts: Vec::new(),
+            max_clients: 600,
+        }
+    }
+}
+
+/// Why the page cannot start.
+#[derive(Debug, thiserror::Error)]
+pub enum WebError {
+    /// The address cannot be listened at.
+    #[error("cannot listen at {address}: {source}")]
+    Bind {
+        /// The address.
+        address: SocketAddr,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The inherited socket is not usable, or there is no thread to be had.
+    #[error("cannot start the status page: {0}")]
+    System(#[from] std::io::Error),
+    /// The token could be guessed.
+    #[error("the token has {0} characters; {MIN_TOKEN} is the least")]
+    ShortToken(usize),
+}

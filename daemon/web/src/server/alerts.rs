@@ -1,0 +1,128 @@
+//! The orders: what may be changed with a token.
+
+use std::sync::Arc;
+
+use axum::body::Bytes;
+use axum::extract::{Extension, Path, State};
+use axum::http::header::{RETRY_AFTER, WWW_AUTHENTICATE};
+use axum::http::{HeaderMap, StatusCode};
+use axum::response::{IntoResponse, Response};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use crate::orders::{Failure, Order};
+
+use super::accept::Peer;
+use super::access::Denied;
+use super::guard::fault;
+use super::hall::Hall;
+
+/// Longest filter of the journal, characters.
+const LONGEST_LEVEL: usize = 200;
+
+/// The body of an order about an alert; it may be left out.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct AlertBody {
+    #[serde(default)]
+    instance: Option<u32>,
+}
+
+/// The body of an order about the journal.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LevelBody {
+    level: String,
+}
+
+pub(super) async fn acknowledge(
+    State(hall): State<Arc<Hall>>,
+    Extension(peer): Extension<Peer>,
+    Path(id): Path<u32>,
+    headers: HeaderMap,
+    body: Bytes,
+) -> Response {
+    let order = || {
+        let AlertBody { instance } = alert_body(&body)?;
+        Ok(Order::Acknowledge { id, instance })
+    };
+    give(&hall, &headers, peer, order).await
+}
+
+pub(super) async fn silence(
+    State(hall): State<Arc<Hall>>,
+    Extension(peer): Extension<Peer>,
+    Path(id): Path<u32>,
+    headers: HeaderMap,
+    body: Bytes,
+) -> Response {
+    let order = || {
+        let AlertBody { instance } = alert_body(&body)?;
+        Ok(Order::Silence { id, instance })
+    };
+    give(&hall, &headers, peer, order).await
+}
+
+pub(super) async fn log_level(
+    State(hall): State<Arc<Hall>>,
+    Extension(peer): Extension<Peer>,
+    headers: HeaderMap,
+    body: Bytes,
+) -> Response {
+    let order = || {
+        let LevelBody { level } = parse(&body)?;
+        let good = |c: char| c.is_ascii_alphanumeric() || "_:=,-".contains(c);
+        if level.is_empty() || level.len() > LONGEST_LEVEL || !level.chars().all(good) {
+            return Err("level: a level such as \"debug\", or a filter by module".to_owned());
+        }
+        Ok(Order::LogLevel(level))
+    };
+    give(&hall, &headers, peer, order).await
+}
+
+/// Whoever may not change anything is not told what is wrong with the order.
+async fn give(
+    hall: &Hall,
+    headers: &HeaderMap,
+    peer: Peer,
+    order: impl FnOnce() -> Result<Order, String>,
+) -> Response {
+    if let Err(denied) = hall.access.check(headers, peer.0.ip()) {
+        return deny(denied);
+    }
+    let order = match order() {
+        Ok(order) => order,
+        Err(text) => return fault(StatusCode::BAD_REQUEST, &text),
+    };
+    tracing::info!(?order, peer = %peer.0, "an order over the network");
+    match hall.orders.send(order).await {
+        Ok(()) => StatusCode::NO_CONTENT.into_response(),
+        Err(Failure::Refused(reason)) => fault(StatusCode::CONFLICT, &reason),
+        Err(Failure::Busy) => fault(StatusCode::SERVICE_UNAVAILABLE, "too many orders wait"),
+        Err(Failure::Silent) => fault(StatusCode::GATEWAY_TIMEOUT, "the navigator did not answer"),
+    }
+}
+
+fn deny(denied: Denied) -> Response {
+    match denied {
+        Denied::Disabled => {
+            fault(StatusCode::FORBIDDEN, "nothing can be changed here: no token is configured")
+        }
+        Denied::WrongToken => {
+            let text = "a token is needed: Authorization: Bearer TOKEN";
+            ([(WWW_AUTHENTICATE, "Bearer")], fault(StatusCode::UNAUTHORIZED, text)).into_response()
+        }
+        Denied::TooMany => {
+            let text = "too many wrong tokens from this address";
+            ([(RETRY_AFTER, "60")], fault(StatusCode::TOO_MANY_REQUESTS, text)).into_response()
+        }
+    }
+}
+
+fn alert_body(body: &[u8]) -> Result<AlertBody, String> {
+    if body.is_empty() { Ok(AlertBody::default()) } else { parse(body) }
+}
+
+fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, String> {
+    serde_json::from_slice(body).map_err(|fault| format!("the body: {fault}"))
+}

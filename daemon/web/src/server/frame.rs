@@ -1,0 +1,84 @@
+//! A snapshot as it leaves: each form is made once, when the first client asks for it, and shared by all.
+
+use std::sync::{Arc, OnceLock};
+
+use axum::body::Bytes;
+use serde::Serialize;
+
+use crate::channel::Numbered;
+use crate::snapshot::{Alignment, Mode, Motion, Snapshot, TimeInfo};
+
+use super::metrics;
+
+/// A snapshot and its forms.
+#[derive(Debug)]
+pub(super) struct Frame {
+    source: Arc<Numbered>,
+    json: OnceLock<Bytes>,
+    whole: OnceLock<Bytes>,
+    live: OnceLock<Bytes>,
+    metrics: OnceLock<Bytes>,
+}
+
+/// What changes many times a second: the event `live`.
+#[derive(Serialize)]
+struct Live<'a> {
+    version: u32,
+    time: &'a TimeInfo,
+    mode: &'a Mode,
+    motion: &'a Option<Motion>,
+    alignment: &'a Option<Alignment>,
+}
+
+impl Frame {
+    pub(super) fn new(source: Arc<Numbered>) -> Self {
+        Frame {
+            source,
+            json: OnceLock::new(),
+            whole: OnceLock::new(),
+            live: OnceLock::new(),
+            metrics: OnceLock::new(),
+        }
+    }
+
+    pub(super) fn number(&self) -> u64 {
+        self.source.number
+    }
+
+    pub(super) fn snapshot(&self) -> &Snapshot {
+        &self.source.snapshot
+    }
+
+    /// All of it as JSON.
+    pub(super) fn json(&self) -> Bytes {
+        self.json.get_or_init(|| json(self.snapshot()).into()).clone()
+    }
+
+    /// All of it as an event of the stream.
+    pub(super) fn whole(&self) -> Bytes {
+        self.whole.get_or_init(|| self.event("snapshot", &self.json())).clone()
+    }
+
+    /// What changes many times a second, as an event of the stream.
+    pub(super) fn live(&self) -> Bytes {
+        let Snapshot { version, time, mode, motion, alignment, .. } = self.snapshot();
+        let live = Live { version: *version, time, mode, motion, alignment };
+        self.live.get_or_init(|| self.event("live", &json(&live))).clone()
+    }
+
+    /// All of it as metrics.
+    pub(super) fn metrics(&self) -> Bytes {
+        self.metrics.get_or_init(|| metrics::text(self.snapshot()).into()).clone()
+    }
+
+    /// JSON has no line breaks of its own, so one line of data is enough.
+    fn event(&self, name: &str, data: &[u8]) -> Bytes {
+        let head = format!("id: {}\nevent: {name}\ndata: ", self.number());
+        [head.as_bytes(), data, b"\n\n"].concat().into()
+    }
+}
+
+/// What cannot be written as JSON does not occur in the model; if it did the answer would be empty.
+pub(super) fn json(value: &impl Serialize) -> Vec<u8> {
+    serde_json::to_vec(value).unwrap_or_default()
+}

@@ -1,0 +1,112 @@
+//! What all connections share, and the task that keeps it new.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use axum::body::Bytes;
+use tokio::sync::watch;
+use tokio::time::{MissedTickBehavior, interval};
+
+use crate::channel::Viewer;
+use crate::orders::OrderSender;
+use crate::snapshot::Snapshot;
+
+use super::access::Access;
+use super::frame::Frame;
+use super::history::History;
+use super::track::Track;
+
+/// How often it is looked whether there is a new snapshot.
+const LOOK: Duration = Duration::from_millis(50);
+/// Looks without anything new after which the engine is taken as dead: 2 s.
+const PATIENCE: u32 = 40;
+/// Looks after which one wrong token of each client is forgotten: 6 s.
+const FORGET: u32 = 120;
+
+/// What all connections share.
+#[derive(Debug)]
+pub(super) struct Hall {
+    frames: watch::Sender<Option<Arc<Frame>>>,
+    alive: AtomicBool,
+    past: Mutex<Past>,
+    pub(super) clients: AtomicUsize,
+    pub(super) access: Access,
+    pub(super) orders: OrderSender,
+}
+
+#[derive(Debug, Default)]
+struct Past {
+    track: Track,
+    history: History,
+}
+
+impl Hall {
+    pub(super) fn new(token: Option<String>, hosts: &[String], orders: OrderSender) -> Self {
+        Hall {
+            frames: watch::Sender::new(None),
+            alive: AtomicBool::new(false),
+            past: Mutex::default(),
+            clients: AtomicUsize::new(0),
+            access: Access::new(token, hosts),
+            orders,
+        }
+    }
+
+    /// The newest frame; `None` before the first.
+    pub(super) fn latest(&self) -> Option<Arc<Frame>> {
+        self.frames.borrow().clone()
+    }
+
+    /// Each frame from now on, or the newest where one is slow.
+    pub(super) fn follow(&self) -> watch::Receiver<Option<Arc<Frame>>> {
+        self.frames.subscribe()
+    }
+
+    /// Whether the engine has published something within the last 2 s.
+    pub(super) fn is_alive(&self) -> bool {
+        self.alive.load(Ordering::Relaxed)
+    }
+
+    pub(super) fn track(&self) -> Bytes {
+        self.past().track.json()
+    }
+
+    pub(super) fn history(&self) -> Bytes {
+        self.past().history.json()
+    }
+
+    fn note(&self, snapshot: &Snapshot) {
+        let mut past = self.past();
+        past.track.note(snapshot);
+        past.history.note(snapshot);
+    }
+
+    /// Only this thread ever takes it, and never across a wait.
+    fn past(&self) -> MutexGuard<'_, Past> {
+        self.past.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Looks for new snapshots for ever. It looks rather than being woken, so that the engine need not wake
+/// anybody.
+pub(super) async fn pump(viewer: &Viewer, hall: &Hall) {
+    let mut ticks = interval(LOOK);
+    ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    let (mut number, mut idle, mut looks) = (None, PATIENCE, 0_u32);
+    loop {
+        ticks.tick().await;
+        looks = (looks + 1) % FORGET;
+        if looks == 0 {
+            hall.access.forget();
+        }
+        let latest = viewer.latest().filter(|latest| Some(latest.number) != number);
+        idle = if latest.is_some() { 0 } else { idle.saturating_add(1) };
+        hall.alive.store(idle < PATIENCE, Ordering::Relaxed);
+        if let Some(latest) = latest {
+            number = Some(latest.number);
+            hall.note(&latest.snapshot);
+            hall.frames.send_replace(Some(Arc::new(Frame::new(latest))));
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! The last ten minutes of what is plotted, so that a page that is loaded anew has plots.
+
+use std::collections::VecDeque;
+
+use axum::body::Bytes;
+use serde_json::{Map, Value, json};
+
+use crate::snapshot::{Motion, Snapshot};
+
+/// Most rows: ten minutes at one a second.
+const ROWS: usize = 600;
+/// Least time between two rows, s; snapshots come when they come.
+const STEP: f64 = 0.95;
+
+/// A column: its name, and where it is found.
+type Column = (&'static str, fn(&Motion) -> Option<f64>);
+
+/// What is kept.
+const COLUMNS: [Column; 9] = [
+    ("heading_deg", |motion| motion.heading_deg),
+    ("sigma_heading_deg", |motion| motion.sigma_heading_deg),
+    ("roll_deg", |motion| motion.roll_deg),
+    ("pitch_deg", |motion| motion.pitch_deg),
+    ("rate_of_turn_deg_min", |motion| motion.rate_of_turn_deg_min),
+    ("heave_m", |motion| motion.heave.as_ref()?.heave_m),
+    ("speed_kn", |motion| motion.speed_kn),
+    ("course_deg", |motion| motion.course_deg),
+    ("ellipse_major_m", |motion| motion.ellipse_major_m),
+];
+
+/// The last ten minutes.
+#[derive(Debug, Default)]
+pub(super) struct History {
+    rows: VecDeque<(f64, [Option<f64>; COLUMNS.len()])>,
+    json: Option<Bytes>,
+}
+
+impl History {
+    /// Takes note of a snapshot, once a second.
+    pub(super) fn note(&mut self, snapshot: &Snapshot) {
+        let at = snapshot.time.at_s;
+        let passed = self.rows.back().map(|(last, _)| at - last);
+        if passed.is_some_and(|passed| (0.0..STEP).contains(&passed)) {
+            return;
+        }
+        if passed.is_some_and(|passed| passed < 0.0) {
+            self.rows.clear();
+        }
+        if self.rows.len() == ROWS {
+            self.rows.pop_front();
+        }
+        let motion = snapshot.motion.as_ref();
+        self.rows.push_back((at, COLUMNS.map(|(_, of)| motion.and_then(of))));
+        self.json = None;
+    }
+
+    /// All rows as JSON, one list for each column, the oldest first.
+    pub(super) fn json(&mut self) -> Bytes {
+        let rows = &self.rows;
+        let make = || {
+            let mut columns = Map::new();
+            let at: Vec<f64> = rows.iter().map(|(at, _)| round(*at, 100.0)).collect();
+            columns.insert("version".to_owned(), json!(crate::snapshot::VERSION));
+            columns.insert("at_s".to_owned(), json!(at));
+            for (index, (name, _)) in COLUMNS.iter().enumerate() {
+                let value = |values: &[Option<f64>]| values.get(index).copied().flatten();
+                let column = rows.iter().map(|(_, values)| value(values).map(|v| round(v, 1e5)));
+                columns.insert((*name).to_owned(), json!(column.collect::<Vec<_>>()));
+            }
+            Bytes::from(Value::Object(columns).to_string())
+        };
+        self.json.get_or_insert_with(make).clone()
+    }
+}
+
+fn round(value: f64, unit: f64) -> f64 {
+    (value * unit).round() / unit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ten_minutes_are_kept_and_unknown_stays_unknown() {
+        let mut history = History::default();
+        for tick in 0..7000 {
+            let roll_deg = (tick % 2 == 0).then_some(f64::from(tick));
+            let motion = Motion { roll_deg, ..Motion::default() };
+            let mut snapshot = Snapshot { motion: Some(motion), ..Snapshot::default() };
+            snapshot.time.at_s = f64::from(tick) * 0.1;
+            history.note(&snapshot);
+        }
+        let json: Value = serde_json::from_slice(&history.json()).unwrap();
+        assert_eq!(json["at_s"].as_array().unwrap().len(), ROWS);
+        assert_eq!(json["roll_deg"][599], 6990.0);
+        assert_eq!(json["heading_deg"][599], Value::Null);
+    }
+}

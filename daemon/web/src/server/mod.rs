@@ -1,0 +1,136 @@
+//! The thread of the page and what runs on it.
+
+mod accept;
+mod access;
+mod alerts;
+mod api;
+mod frame;
+mod guard;
+mod hall;
+mod history;
+mod metrics;
+mod page;
+mod stall;
+mod stream;
+mod track;
+
+use std::net::{SocketAddr, TcpListener};
+use std::sync::Arc;
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use axum::Router;
+use axum::extract::DefaultBodyLimit;
+use axum::routing::{get, post};
+use tokio::runtime::{Builder, Runtime};
+use tokio::sync::watch;
+
+use crate::channel::Viewer;
+use crate::config::{Listen, MIN_TOKEN, WebConfig, WebError};
+use crate::orders::OrderSender;
+
+use hall::Hall;
+
+/// Longest body of a request, bytes.
+const MAX_BODY: usize = 4096;
+
+/// The running page. It ends when this is dropped.
+#[derive(Debug)]
+pub struct WebHandle {
+    address: SocketAddr,
+    stop: watch::Sender<bool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl WebHandle {
+    /// Where it listens.
+    #[must_use]
+    pub fn address(&self) -> SocketAddr {
+        self.address
+    }
+}
+
+impl Drop for WebHandle {
+    fn drop(&mut self) {
+        self.stop.send_replace(true);
+        if let Some(thread) = self.thread.take() {
+            // a panic there was told by the panic hook, and nothing hangs on the page
+            let _ = thread.join();
+        }
+    }
+}
+
+/// Starts the page on a thread of its own.
+///
+/// # Errors
+/// The address cannot be listened at, the token is too short, or the system grants no thread.
+pub fn start(
+    config: WebConfig,
+    viewer: Viewer,
+    orders: OrderSender,
+) -> Result<WebHandle, WebError> {
+    if let Some(length) = config.token.as_ref().map(String::len).filter(|l| *l < MIN_TOKEN) {
+        return Err(WebError::ShortToken(length));
+    }
+    let listener = match config.listen {
+        Listen::Inherited(listener) => listener,
+        Listen::Address(address) => {
+            TcpListener::bind(address).map_err(|source| WebError::Bind { address, source })?
+        }
+    };
+    listener.set_nonblocking(true)?;
+    let address = listener.local_addr()?;
+    let runtime = Builder::new_current_thread().enable_all().build()?;
+    let hall = Arc::new(Hall::new(config.token, &config.allowed_hosts, orders));
+    let (stop, stopped) = watch::channel(false);
+    let max_clients = config.max_clients;
+    let run = move || run(runtime, listener, &viewer, &hall, max_clients, stopped);
+    let thread = std::thread::Builder::new().name("web".to_owned()).spawn(run)?;
+    Ok(WebHandle { address, stop, thread: Some(thread) })
+}
+
+fn run(
+    runtime: Runtime,
+    listener: TcpListener,
+    viewer: &Viewer,
+    hall: &Arc<Hall>,
+    max_clients: usize,
+    mut stopped: watch::Receiver<bool>,
+) {
+    let router = router(hall);
+    runtime.block_on(async {
+        tokio::select! {
+            () = hall::pump(viewer, hall) => {}
+            ended = accept::accept(listener, router, hall, max_clients) => {
+                if let Err(fault) = ended {
+                    tracing::warn!(%fault, "the status page cannot be served");
+                }
+            }
+            _ = stopped.wait_for(|stopped| *stopped) => {}
+        }
+    });
+    // connections that are open are cut: browsers come back by themselves
+    runtime.shutdown_timeout(Duration::from_millis(100));
+}
+
+fn router(hall: &Arc<Hall>) -> Router {
+    Router::new()
+        .route("/", get(page::index))
+        .route("/favicon.ico", get(page::icon))
+        .route("/assets/{name}", get(page::asset))
+        .route("/health", get(api::health))
+        .route("/metrics", get(api::metrics))
+        .route("/api/v1/status", get(api::status))
+        .route("/api/v1/stream", get(stream::stream))
+        .route("/api/v1/track", get(api::track))
+        .route("/api/v1/history", get(api::history))
+        .route("/api/v1/orders", get(api::orders))
+        .route("/api/v1/schema", get(api::schema))
+        .route("/api/v1/alerts/{id}/acknowledge", post(alerts::acknowledge))
+        .route("/api/v1/alerts/{id}/silence", post(alerts::silence))
+        .route("/api/v1/log-level", post(alerts::log_level))
+        .fallback(guard::not_found)
+        .layer(DefaultBodyLimit::max(MAX_BODY))
+        .layer(axum::middleware::from_fn_with_state(Arc::clone(hall), guard::guard))
+        .with_state(Arc::clone(hall))
+}

@@ -1,0 +1,134 @@
+//! The one data model of the page, the interface and the monitor: everything that the daemon tells of
+//! itself at an instant, as JSON.
+//!
+//! It stands on the far side of the border: angles in degrees, speeds in knots where mariners use them,
+//! and each unit is the end of the field's name (`_deg`, `_m`, `_mps`, `_kn`, `_hz`, `_s`, `_utc`).
+//! Unknown is `None` and becomes `null`; it is never zero. A number that is not finite becomes `null`,
+//! too. UTC is text as of RFC 3339 with milliseconds (`2026-11-21T12:00:00.000Z`). `_at_s` is an instant of
+//! the ship's own time line: seconds since the program started, which never step.
+//!
+//! Within [`VERSION`] fields and words are only ever added; readers ignore what they do not know.
+
+mod aids;
+mod alerts;
+mod alignment;
+mod ports;
+mod program;
+mod sensors;
+mod ship;
+
+pub use aids::{Aid, Cause, Rejected, Samples};
+pub use alerts::{Alert, AlertPriority, AlertState, Event, Severity};
+pub use alignment::{Alignment, Disturbance, DisturbanceAxis};
+pub use ports::{Age, Bus, BusNode, BusState, Input, Output, OutputMessage, PortState, Schedule};
+pub use program::{
+    Engine, Log, Mode, Program, Recording, RecordingState, Saving, TimeInfo, Transition,
+};
+pub use sensors::{Choice, Sensor, SensorState};
+pub use ship::{Estimate, Estimates, Heave, Motion};
+
+use serde::{Deserialize, Serialize};
+
+/// Version of the model. It changes only when a field goes away or changes its meaning.
+pub const VERSION: u32 = 1;
+
+/// Most transitions of the mode that are told.
+pub const MAX_MODES: usize = 50;
+/// Most refused measurements that are told one by one.
+pub const MAX_REJECTIONS: usize = 50;
+/// Most lines of the journal that are told.
+pub const MAX_EVENTS: usize = 100;
+
+/// Everything that is told of an instant.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Snapshot {
+    /// [`VERSION`].
+    pub version: u32,
+    /// Which program this is, and since when it runs.
+    pub program: Program,
+    /// What time it is, and how well that is known.
+    pub time: TimeInfo,
+    /// What the system is doing.
+    pub mode: Mode,
+    /// The last changes of the mode, oldest first, at most [`MAX_MODES`].
+    pub modes: Vec<Transition>,
+    /// Where the ship is, how she moves and lies; `None` while nothing is known that could be shown.
+    pub motion: Option<Motion>,
+    /// What the alignment knows of itself; `None` before its first word.
+    pub alignment: Option<Alignment>,
+    /// The instances of the navigator, if there are several.
+    pub engines: Vec<Engine>,
+    /// What the filter has found out about the sensors; `None` while there is no filter.
+    pub estimates: Option<Estimates>,
+    /// Sensors, in the order of the configuration.
+    pub sensors: Vec<Sensor>,
+    /// Which sensor is used for what, and why.
+    pub choices: Vec<Choice>,
+    /// Ports that are listened to, in the order of the configuration.
+    pub inputs: Vec<Input>,
+    /// Ports that are written to, in the order of the configuration.
+    pub outputs: Vec<Output>,
+    /// CAN buses.
+    pub buses: Vec<Bus>,
+    /// How punctual the outputs are.
+    pub schedule: Schedule,
+    /// What became of the measurements of each aid.
+    pub aids: Vec<Aid>,
+    /// What became of the samples of the IMU.
+    pub samples: Samples,
+    /// The last measurements that were not used, oldest first, at most [`MAX_REJECTIONS`].
+    pub rejections: Vec<Rejected>,
+    /// Alerts that are not normal, those that matter most first.
+    pub alerts: Vec<Alert>,
+    /// What moves the ship; `None` until it has been seen for a while.
+    pub disturbance: Option<Disturbance>,
+    /// The recording; `None` if none is asked for.
+    pub recording: Option<Recording>,
+    /// What is saved for the next start; `None` if nothing is.
+    pub saving: Option<Saving>,
+    /// The journal.
+    pub log: Log,
+    /// The last lines of the journal, oldest first, at most [`MAX_EVENTS`].
+    pub events: Vec<Event>,
+}
+
+impl Default for Snapshot {
+    fn default() -> Self {
+        Snapshot {
+            version: VERSION,
+            program: Program::default(),
+            time: TimeInfo::default(),
+            mode: Mode::default(),
+            modes: Vec::new(),
+            motion: None,
+            alignment: None,
+            engines: Vec::new(),
+            estimates: None,
+            sensors: Vec::new(),
+            choices: Vec::new(),
+            inputs: Vec::new(),
+            outputs: Vec::new(),
+            buses: Vec::new(),
+            schedule: Schedule::default(),
+            aids: Vec::new(),
+            samples: Samples::default(),
+            rejections: Vec::new(),
+            alerts: Vec::new(),
+            disturbance: None,
+            recording: None,
+            saving: None,
+            log: Log::default(),
+            events: Vec::new(),
+        }
+    }
+}
+
+impl Snapshot {
+    /// Whether the heading is good enough to steer and navigate by: the mode is `aided`,
+    /// `dead_reckoning` or `inertial`.
+    #[must_use]
+    pub fn is_navigating(&self) -> bool {
+        matches!(self.mode.name.as_str(), "aided" | "dead_reckoning" | "inertial")
+    }
+}

@@ -1,0 +1,127 @@
+//! Where the ship is, how she moves and lies, and what was found out about her sensors.
+
+use serde::{Deserialize, Serialize};
+
+/// Where the ship is, how she moves and lies, at the IMU or the point named, and how sure that is. All
+/// sigmas are 1-sigma.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Motion {
+    /// Time of validity, on the ship's time line, s.
+    pub valid_at_s: f64,
+    /// The same in UTC, if it is known.
+    pub valid_utc: Option<String>,
+    /// The point that it is told of; `None` for the IMU.
+    pub point: Option<String>,
+    /// Latitude, WGS-84, deg, north positive.
+    pub lat_deg: Option<f64>,
+    /// Longitude, WGS-84, deg, east positive.
+    pub lon_deg: Option<f64>,
+    /// Height above the ellipsoid, m.
+    pub height_m: Option<f64>,
+    /// Velocity over the Earth, north, m/s.
+    pub velocity_north_mps: Option<f64>,
+    /// East, m/s.
+    pub velocity_east_mps: Option<f64>,
+    /// Down, m/s.
+    pub velocity_down_mps: Option<f64>,
+    /// Speed over ground, kn.
+    pub speed_kn: Option<f64>,
+    /// Course over ground, from true north, deg, 0 to 360; `None` where it is not certain enough.
+    pub course_deg: Option<f64>,
+    /// Speed through the water ahead, kn, if a log tells it.
+    pub water_speed_kn: Option<f64>,
+    /// Speed of the current, kn, if a log tells it.
+    pub current_speed_kn: Option<f64>,
+    /// Where the current sets to, from true north, deg.
+    pub current_set_deg: Option<f64>,
+    /// Roll, deg, starboard side down positive.
+    pub roll_deg: Option<f64>,
+    /// Pitch, deg, bow up positive.
+    pub pitch_deg: Option<f64>,
+    /// True heading, deg, 0 to 360.
+    pub heading_deg: Option<f64>,
+    /// Rate of turn, deg/min, bow to starboard positive.
+    pub rate_of_turn_deg_min: Option<f64>,
+    /// Heave; `None` if it is not asked for.
+    pub heave: Option<Heave>,
+    /// 1-sigma of the position to the north, m.
+    pub sigma_north_m: Option<f64>,
+    /// To the east, m.
+    pub sigma_east_m: Option<f64>,
+    /// Of the height, m.
+    pub sigma_height_m: Option<f64>,
+    /// Half the longer axis of the 1-sigma error ellipse of the position, m.
+    pub ellipse_major_m: Option<f64>,
+    /// Half the shorter axis, m.
+    pub ellipse_minor_m: Option<f64>,
+    /// Direction of the longer axis, from true north, deg, 0 to 180.
+    pub ellipse_direction_deg: Option<f64>,
+    /// 1-sigma of the velocity to the north, m/s.
+    pub sigma_velocity_north_mps: Option<f64>,
+    /// To the east, m/s.
+    pub sigma_velocity_east_mps: Option<f64>,
+    /// Down, m/s.
+    pub sigma_velocity_down_mps: Option<f64>,
+    /// 1-sigma of the speed, kn.
+    pub sigma_speed_kn: Option<f64>,
+    /// 1-sigma of the course, deg.
+    pub sigma_course_deg: Option<f64>,
+    /// 1-sigma of the roll, deg.
+    pub sigma_roll_deg: Option<f64>,
+    /// 1-sigma of the pitch, deg.
+    pub sigma_pitch_deg: Option<f64>,
+    /// 1-sigma of the heading, deg.
+    pub sigma_heading_deg: Option<f64>,
+    /// How THS would judge the heading: `autonomous`, `estimated`, `not_valid`, `simulated`.
+    pub heading_quality: Option<String>,
+    /// How GGA would judge the position: `rtk_fixed`, `rtk_float`, `differential`, `autonomous`,
+    /// `estimated`, `invalid`, `simulated`.
+    pub position_quality: Option<String>,
+}
+
+/// Heave: its mean over many waves is zero.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Heave {
+    /// In real time, m, up positive.
+    pub heave_m: Option<f64>,
+    /// 1-sigma, m.
+    pub sigma_heave_m: Option<f64>,
+    /// `unsettled`, `reduced`, `settled`.
+    pub quality: String,
+    /// The delayed heave, m, up positive.
+    pub delayed_heave_m: Option<f64>,
+    /// 1-sigma, m.
+    pub sigma_delayed_heave_m: Option<f64>,
+    /// How long ago the delayed heave was, s.
+    pub delay_s: Option<f64>,
+}
+
+/// What the filter has found out about the sensors.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Estimates {
+    /// Biases of the gyros about the body axes forward, starboard, down, deg/h.
+    pub gyro_bias_deg_h: Vec<Estimate>,
+    /// Biases of the accelerometers along the same axes, micro-g.
+    pub accel_bias_ug: Vec<Estimate>,
+    /// Scale factor of the log, ppm.
+    pub log_scale_ppm: Option<Estimate>,
+    /// Misalignment of the log, deg, bow to starboard positive.
+    pub log_misalignment_deg: Option<Estimate>,
+    /// Lever arm of the GNSS antenna, if it is estimated: forward, starboard, down, m.
+    pub gnss_lever_m: Vec<Estimate>,
+    /// Delay of the GNSS, s.
+    pub gnss_delay_s: Option<Estimate>,
+}
+
+/// A value and how sure it is.
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Estimate {
+    /// The value, in the unit of the field that holds it.
+    pub value: Option<f64>,
+    /// 1-sigma, in the same unit.
+    pub sigma: Option<f64>,
+}

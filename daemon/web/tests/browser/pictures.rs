@@ -1,0 +1,52 @@
+//! The pictures of the documentation, on request.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crate::driver::Browser;
+use crate::live::Live;
+use crate::scene::{Scene, Show};
+
+/// Largest picture, bytes.
+const LARGEST: usize = 250_000;
+
+/// Name, scene, size, light, and how far down.
+type Picture = (&'static str, Scene, [u32; 2], &'static str, &'static str);
+
+const PICTURES: [Picture; 7] = [
+    ("underway", Scene::Underway, [1600, 900], "day", "#ship"),
+    ("underway-night", Scene::Underway, [1600, 900], "night", "#ship"),
+    ("alignment", Scene::Alignment, [1280, 800], "day", "#alignment"),
+    ("fault", Scene::Fault, [1280, 860], "night", "#alerts"),
+    ("fault-dusk", Scene::Fault, [1280, 800], "dusk", "#ship"),
+    ("phone", Scene::Underway, [360, 780], "day", "#ship"),
+    ("phone-fault", Scene::Fault, [360, 780], "night", "#alerts"),
+];
+
+#[test]
+#[ignore = "needs chromium and chromedriver; writes into the folder INSD_PICTURES"]
+fn pictures() {
+    let Some(folder) = std::env::var_os("INSD_PICTURES").map(PathBuf::from) else { return };
+    // relative to the workspace, not to the crate
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
+    let scenes = [Scene::Alignment, Scene::Underway, Scene::Fault];
+    let lives = scenes.map(|scene| (scene, Live::of(Show::from_the_start(scene))));
+    // all of the past is gone through
+    std::thread::sleep(Duration::from_secs(18));
+    let browser = Browser::start();
+    browser.be_calm();
+    for (name, scene, [width, height], theme, place) in PICTURES {
+        let live = lives.iter().find(|(own, _)| *own == scene).map(|(_, live)| live).unwrap();
+        browser.size(width, height);
+        browser.go(&live.url());
+        browser.run(&format!("localStorage.setItem('theme', '{theme}')"));
+        browser.go(&live.url());
+        browser.until("data come", || browser.text("#link") == "live");
+        let down = "if ('PLACE' !== '#ship') document.querySelector('PLACE').scrollIntoView()";
+        browser.run(&down.replace("PLACE", place));
+        std::thread::sleep(Duration::from_millis(2500));
+        let png = browser.picture();
+        assert!(png.len() < LARGEST, "{name}: {} bytes", png.len());
+        std::fs::write(folder.join(format!("{name}.png")), png).unwrap();
+    }
+}

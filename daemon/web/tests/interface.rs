@@ -1,0 +1,261 @@
+//! The interface as programs use it, over real sockets.
+
+#![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
+#![allow(clippy::disallowed_methods)] // what is measured here is time
+
+mod house;
+mod scene;
+
+use std::collections::BTreeSet;
+use std::io::{BufRead, BufReader, Write};
+use std::net::SocketAddr;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use house::{House, TOKEN, body, with_token};
+use insd_web::snapshot::{AlertState, Snapshot};
+use insd_web::{Listen, WebConfig, WebError};
+use scene::{Scene, Show};
+use serde_json::Value;
+
+/// The description of the interface.
+const PAGE: &str = include_str!("../../../docs/api.md");
+
+/// Runs a scene on a thread of its own while something is asked.
+fn while_it_runs(house: &mut House, ask: impl FnOnce(SocketAddr) + Send) {
+    let done = AtomicBool::new(false);
+    let address = house.address;
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            let _done = Done(&done);
+            ask(address);
+        });
+        while !done.load(Ordering::Relaxed) {
+            house.publish();
+            std::thread::sleep(Duration::from_millis(100));
+        }
+    });
+}
+
+/// Tells that something is over, also when it failed.
+struct Done<'a>(&'a AtomicBool);
+
+impl Drop for Done<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Names of all fields of a value, at any depth.
+fn fields(value: &Value, all: &mut BTreeSet<String>) {
+    match value {
+        Value::Object(map) => {
+            for (name, value) in map {
+                all.insert(name.clone());
+                fields(value, all);
+            }
+        }
+        Value::Array(list) => list.iter().for_each(|value| fields(value, all)),
+        _ => {}
+    }
+}
+
+#[test]
+fn what_is_published_is_what_is_read() {
+    for scene in [Scene::Alignment, Scene::Underway, Scene::Fault] {
+        let house = House::showing(scene, WebConfig::default());
+        let answer = house.get("/api/v1/status");
+        let read: Snapshot = serde_json::from_str(body(&answer)).unwrap();
+        // once through JSON, whose reader may be off by the last bit of a number
+        let sent = serde_json::to_string(&Show::new(scene).next()).unwrap();
+        assert!(read == serde_json::from_str(&sent).unwrap(), "{scene:?}");
+    }
+}
+
+#[test]
+fn every_field_is_described() {
+    let mut all = BTreeSet::new();
+    for scene in [Scene::Alignment, Scene::Underway, Scene::Fault] {
+        fields(&serde_json::to_value(Show::new(scene).next()).unwrap(), &mut all);
+    }
+    let silent: Vec<_> = all.iter().filter(|name| !PAGE.contains(&format!("`{name}`"))).collect();
+    assert!(silent.is_empty(), "docs/api.md does not tell of {silent:?}");
+    let house = House::open(WebConfig::default());
+    assert_eq!(body(&house.get("/api/v1/schema")), PAGE);
+}
+
+#[test]
+fn readers_of_this_version_bear_what_later_ones_add_or_leave_out() {
+    let text = r#"{ "version": 1, "a_field_to_come": [1], "alerts": [{ "id": 7, "priority": "to_come" }] }"#;
+    let read: Snapshot = serde_json::from_str(text).unwrap();
+    assert_eq!(read.alerts[0].id, 7);
+    assert_eq!(read.alerts[0].state, AlertState::Unknown);
+    assert_eq!(read.motion, None);
+}
+
+#[test]
+fn unknown_is_null_and_never_zero() {
+    let snapshot = Snapshot {
+        motion: Some(insd_web::snapshot::Motion { roll_deg: Some(f64::NAN), ..Default::default() }),
+        ..Snapshot::default()
+    };
+    let value = serde_json::to_value(snapshot).unwrap();
+    assert_eq!(value["motion"]["heading_deg"], Value::Null);
+    assert_eq!(value["motion"]["roll_deg"], Value::Null);
+    assert_eq!(value["alignment"], Value::Null);
+}
+
+#[test]
+fn the_stream_begins_with_all_and_goes_on_with_what_changes() {
+    let mut house = House::open(WebConfig::default());
+    while_it_runs(&mut house, |address| {
+        let mut stream = std::net::TcpStream::connect(address).unwrap();
+        stream.write_all(b"GET /api/v1/stream?hz=10 HTTP/1.1\r\nhost: localhost\r\n\r\n").unwrap();
+        let begun = Instant::now();
+        let mut events = Vec::new();
+        for line in BufReader::new(stream).lines().map_while(Result::ok) {
+            if let Some(name) = line.strip_prefix("event: ") {
+                events.push(name.to_owned());
+            }
+            if let Some(data) = line.strip_prefix("data: ") {
+                let value: Value = serde_json::from_str(data).unwrap();
+                assert!(value["motion"]["heading_deg"].is_number());
+            }
+            if begun.elapsed() > Duration::from_secs(3) {
+                break;
+            }
+        }
+        let whole = events.iter().filter(|name| *name == "snapshot").count();
+        assert_eq!(events.first().map(String::as_str), Some("snapshot"));
+        assert!((3..=4).contains(&whole), "{events:?}");
+        assert!((20..=31).contains(&events.len()), "{events:?}");
+    });
+    assert!(house.get("/api/v1/stream?hz=50").starts_with("HTTP/1.1 400"));
+}
+
+#[test]
+fn health_ends_when_the_engine_publishes_no_more() {
+    let mut house = House::open(WebConfig::default());
+    house.publish();
+    assert!(house.get("/health").starts_with("HTTP/1.1 200"));
+    std::thread::sleep(Duration::from_millis(2400));
+    assert!(house.get("/health").starts_with("HTTP/1.1 503"));
+    assert!(house.get("/metrics").contains("insd_publishing 0.0"));
+    // what is known stays to be seen
+    assert!(house.get("/api/v1/status").starts_with("HTTP/1.1 200"));
+}
+
+#[test]
+fn before_the_first_snapshot_there_is_nothing_to_show() {
+    let (_publisher, viewer) = insd_web::channel();
+    let (sender, _orders) = insd_web::orders::channel();
+    let listen = Listen::Address(([127, 0, 0, 1], 0).into());
+    let config = WebConfig { listen, ..WebConfig::default() };
+    let page = insd_web::start(config, viewer, sender).unwrap();
+    for path in ["health", "api/v1/status", "metrics"] {
+        let url = format!("http://{}/{path}", page.address());
+        assert!(matches!(ureq::get(&url).call(), Err(ureq::Error::StatusCode(503))), "{path}");
+    }
+}
+
+#[test]
+fn track_and_history_are_kept_for_pages_that_are_loaded_later() {
+    let mut house = House::open(WebConfig::default());
+    for _ in 0..20 {
+        house.publisher.publish(house.show.skip());
+        std::thread::sleep(Duration::from_millis(70));
+    }
+    let track: Value = serde_json::from_str(body(&house.get("/api/v1/track"))).unwrap();
+    let history: Value = serde_json::from_str(body(&house.get("/api/v1/history"))).unwrap();
+    assert!(track["lat_deg"].as_array().unwrap().len() >= 3);
+    assert!(history["sigma_heading_deg"].as_array().unwrap().len() >= 15);
+}
+
+#[test]
+fn without_a_token_nothing_can_be_changed() {
+    let mut house = House::open(WebConfig::default());
+    for path in
+        ["/api/v1/alerts/10001/acknowledge", "/api/v1/alerts/10001/silence", "/api/v1/log-level"]
+    {
+        assert!(house.post(path, None, "").starts_with("HTTP/1.1 403"));
+        assert!(house.post(path, Some(TOKEN), "").starts_with("HTTP/1.1 403"));
+    }
+    assert!(house.orders.poll().is_none());
+    assert_eq!(body(&house.get("/api/v1/orders")), r#"{"enabled":false}"#);
+}
+
+#[test]
+fn who_has_the_token_can_acknowledge_and_who_has_not_cannot() {
+    let mut house = House::showing(Scene::Fault, with_token());
+    while_it_runs(&mut house, |address| {
+        let agent: ureq::Agent =
+            ureq::Agent::config_builder().http_status_as_error(false).build().into();
+        let post = |path: &str, token: &str, body: &str| {
+            let url = format!("http://{address}/api/v1/{path}");
+            let request = agent.post(&url).header("Authorization", &format!("Bearer {token}"));
+            request.send(body).unwrap().status().as_u16()
+        };
+        assert_eq!(post("alerts/10001/acknowledge", "wrong", ""), 401);
+        assert_eq!(post("alerts/10001/acknowledge", TOKEN, "{\"instance\":null}"), 204);
+        assert_eq!(post("alerts/10001/acknowledge", TOKEN, ""), 409);
+        assert_eq!(post("alerts/10002/silence", TOKEN, ""), 204);
+        assert_eq!(post("alerts/99/silence", TOKEN, ""), 409);
+        assert_eq!(post("alerts/x/silence", TOKEN, ""), 400);
+        assert_eq!(post("log-level", TOKEN, "{\"level\":\"insd=debug\"}"), 204);
+        assert_eq!(post("log-level", TOKEN, "{\"level\":\"a b\"}"), 400);
+        assert_eq!(post("log-level", TOKEN, "nonsense"), 400);
+        for _ in 0..12 {
+            post("log-level", "guess", "");
+        }
+        assert_eq!(post("log-level", TOKEN, "{\"level\":\"info\"}"), 429);
+    });
+    let state = |id| {
+        let snapshot: Snapshot = serde_json::from_str(body(&house.get("/api/v1/status"))).unwrap();
+        snapshot.alerts.iter().find(|alert| alert.id == id).unwrap().state
+    };
+    assert_eq!((state(10_001), state(10_002)), (AlertState::Acknowledged, AlertState::Silenced));
+}
+
+#[test]
+fn an_engine_that_does_not_answer_is_told_of() {
+    let house = House::open(with_token());
+    let answer = house.post("/api/v1/log-level", Some(TOKEN), "{\"level\":\"info\"}");
+    assert!(answer.starts_with("HTTP/1.1 504"), "{answer}");
+}
+
+#[test]
+fn files_are_sent_again_only_when_they_have_changed() {
+    let house = House::open(WebConfig::default());
+    let answer = house.get("/");
+    let tag = answer.lines().find_map(|line| line.strip_prefix("etag: ")).unwrap();
+    let again = format!(
+        "GET / HTTP/1.1\r\nhost: localhost\r\nif-none-match: {tag}\r\nconnection: close\r\n\r\n"
+    );
+    assert!(house.raw(&again).starts_with("HTTP/1.1 304"));
+}
+
+#[test]
+fn a_token_that_could_be_guessed_and_an_address_in_use_are_refused() {
+    let start = |config| {
+        let (_publisher, viewer) = insd_web::channel();
+        let (sender, _orders) = insd_web::orders::channel();
+        insd_web::start(config, viewer, sender).map(|_| ())
+    };
+    let config = WebConfig { token: Some("short".to_owned()), ..WebConfig::default() };
+    assert!(matches!(start(config), Err(WebError::ShortToken(5))));
+    let house = House::open(WebConfig::default());
+    let config = WebConfig { listen: Listen::Address(house.address), ..WebConfig::default() };
+    assert!(matches!(start(config), Err(WebError::Bind { .. })));
+}
+
+#[test]
+fn the_page_ends_at_once_although_clients_hang_on() {
+    let mut house = House::open(WebConfig::default());
+    let mut stream = house.connect();
+    stream.write_all(b"GET /api/v1/stream HTTP/1.1\r\nhost: localhost\r\n\r\n").unwrap();
+    house.publish();
+    std::thread::sleep(Duration::from_millis(200));
+    let begun = Instant::now();
+    drop(house.handle.take());
+    assert!(begun.elapsed() < Duration::from_secs(1));
+}

@@ -1,0 +1,308 @@
+//! A made-up ship for the page: nothing is computed here but what pleases the eye. Every field of the
+//! model is filled in one scene or another.
+
+#![allow(dead_code)] // each test uses a part of it
+
+mod plumbing;
+mod ship;
+
+use insd_web::snapshot::{
+    Alert, AlertPriority, AlertState, Engine, Event, Log, Mode, Program, Recording, RecordingState,
+    Severity, Snapshot, TimeInfo, Transition,
+};
+use insd_web::{Order, OrderReceiver};
+
+/// Time between two snapshots, s.
+pub(crate) const STEP: f64 = 0.1;
+
+/// What is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Scene {
+    /// At the berth, the heading is being found.
+    Alignment,
+    /// Under way, all is well.
+    Underway,
+    /// Under way, GNSS and a compass are gone, alerts are up.
+    Fault,
+}
+
+impl Scene {
+    /// The scene of a word.
+    pub(crate) fn from_word(word: &str) -> Option<Self> {
+        match word {
+            "alignment" => Some(Scene::Alignment),
+            "underway" => Some(Scene::Underway),
+            "fault" => Some(Scene::Fault),
+            _ => None,
+        }
+    }
+}
+
+/// A scene as it goes on.
+#[derive(Debug)]
+pub(crate) struct Show {
+    pub(crate) scene: Scene,
+    ticks: u32,
+    /// States of the two alerts of the fault that ask to be acknowledged.
+    alerts: [AlertState; 2],
+    level: String,
+}
+
+impl Show {
+    /// A scene that has been going on for some minutes.
+    pub(crate) fn new(scene: Scene) -> Self {
+        let alerts = [AlertState::Unacknowledged; 2];
+        Show { scene, ticks: 3000, alerts, level: "info".to_owned() }
+    }
+
+    /// The same from its beginning, to be gone through by [`Show::skip`].
+    pub(crate) fn from_the_start(scene: Scene) -> Self {
+        Show { ticks: 0, ..Show::new(scene) }
+    }
+
+    /// Whether it is still before the moment at which [`Show::new`] begins.
+    pub(crate) fn is_past(&self) -> bool {
+        self.ticks < 3000
+    }
+
+    /// A snapshot a second later.
+    pub(crate) fn skip(&mut self) -> Snapshot {
+        self.ticks += 9;
+        self.next()
+    }
+
+    /// The next snapshot, a tenth of a second later.
+    pub(crate) fn next(&mut self) -> Snapshot {
+        self.ticks += 1;
+        let t = f64::from(self.ticks) * STEP;
+        let mode = self.mode(t);
+        let mut snapshot = Snapshot {
+            program: program(t),
+            time: time(t, self.scene),
+            modes: self.modes(),
+            mode,
+            motion: Some(ship::motion(t, self.scene)),
+            alignment: Some(ship::alignment(t, self.scene)),
+            engines: self.engines(t),
+            estimates: Some(ship::estimates(t)),
+            rejections: plumbing::rejections(t, self.scene),
+            aids: plumbing::aids(t, self.scene),
+            samples: plumbing::samples(t),
+            alerts: self.alerts(t),
+            recording: Some(self.recording(t)),
+            log: Log { level: self.level.clone(), repeats: 12, lost: 0 },
+            events: self.events(),
+            ..Snapshot::default()
+        };
+        if self.scene == Scene::Alignment {
+            snapshot.disturbance = Some(ship::disturbance());
+        }
+        plumbing::fill(&mut snapshot, t, self.scene);
+        snapshot
+    }
+
+    /// Obeys all orders that have come.
+    pub(crate) fn obey(&mut self, orders: &mut OrderReceiver) {
+        while let Some(request) = orders.poll() {
+            let outcome = self.obey_one(&request.order);
+            request.answer(outcome);
+        }
+    }
+
+    fn obey_one(&mut self, order: &Order) -> Result<(), String> {
+        let (id, state) = match order {
+            Order::LogLevel(level) => {
+                self.level.clone_from(level);
+                return Ok(());
+            }
+            Order::Acknowledge { id, .. } => (*id, AlertState::Acknowledged),
+            Order::Silence { id, .. } => (*id, AlertState::Silenced),
+        };
+        let index = [10_001, 10_002].iter().position(|own| *own == id);
+        let slot = index.and_then(|index| self.alerts.get_mut(index));
+        let asks =
+            |state: AlertState| matches!(state, AlertState::Unacknowledged | AlertState::Silenced);
+        match slot.filter(|slot| asks(**slot) && self.scene == Scene::Fault) {
+            Some(slot) => *slot = state,
+            None => return Err("there is nothing to acknowledge".to_owned()),
+        }
+        Ok(())
+    }
+
+    fn mode(&self, t: f64) -> Mode {
+        let (name, since_s, reason) = match self.scene {
+            Scene::Alignment => ("fine_alignment", t - 60.0, "one heading is left of twenty-four"),
+            Scene::Underway => ("aided", t - 180.0, "GNSS position and velocity in use"),
+            Scene::Fault => {
+                ("dead_reckoning", t - 240.0, "no GNSS for 10 s; the Doppler log is in use")
+            }
+        };
+        Mode { name: name.to_owned(), since_s, reason: Some(reason.to_owned()) }
+    }
+
+    fn modes(&self) -> Vec<Transition> {
+        let change = |at_s: f64, from: Option<&str>, to: &str, reason: &str| Transition {
+            at_s,
+            utc: Some(utc(at_s)),
+            from: from.map(str::to_owned),
+            to: to.to_owned(),
+            reason: Some(reason.to_owned()),
+        };
+        let mut modes = vec![
+            change(0.0, None, "coarse_alignment", "the first samples of the IMU"),
+            change(60.0, Some("coarse_alignment"), "fine_alignment", "one heading is left"),
+        ];
+        if self.scene != Scene::Alignment {
+            let reason = "heading within 0.12° of 0.12°";
+            modes.push(change(180.0, Some("fine_alignment"), "aided", reason));
+        }
+        if self.scene == Scene::Fault {
+            let reason = "no GNSS for 10 s; the Doppler log is in use";
+            modes.push(change(240.0, Some("aided"), "dead_reckoning", reason));
+        }
+        modes
+    }
+
+    fn engines(&self, t: f64) -> Vec<Engine> {
+        let motion = ship::motion(t, self.scene);
+        let fault = self.scene == Scene::Fault;
+        let engine = |name: &str, in_use: bool, off: f64| Engine {
+            name: name.to_owned(),
+            mode: self.mode(t).name,
+            in_use,
+            healthy: off == 0.0,
+            heading_deg: motion.heading_deg.map(|heading| heading + off),
+            sigma_heading_deg: motion.sigma_heading_deg,
+            differs: if off == 0.0 { Vec::new() } else { vec!["heading".to_owned()] },
+        };
+        vec![engine("main", true, 0.0), engine("hot", false, if fault { 1.4 } else { 0.0 })]
+    }
+
+    fn alerts(&self, t: f64) -> Vec<Alert> {
+        let alert = |id, priority, state, [title, description]: [&str; 2], since: f64| Alert {
+            id,
+            manufacturer: Some("INS".to_owned()),
+            title: title.to_owned(),
+            description: description.to_owned(),
+            priority,
+            state,
+            changed_utc: Some(utc(since)),
+            since_s: Some(t - since),
+            ..Alert::default()
+        };
+        if self.scene != Scene::Fault {
+            return Vec::new();
+        }
+        let [heading, position] = self.alerts;
+        let lost = ["Position lost", "Use another position"];
+        let engine = ["Heading lost", "Use another heading"];
+        let mut alarm = alert(10_002, AlertPriority::Alarm, position, lost, 262.0);
+        alarm.escalation = 1;
+        vec![
+            alarm,
+            alert(10_001, AlertPriority::Warning, heading, engine, 250.0),
+            alert(
+                10_004,
+                AlertPriority::Caution,
+                AlertState::Acknowledged,
+                ["Pos. estimated", "No GNSS or little certainty"],
+                250.0,
+            ),
+            alert(
+                10_005,
+                AlertPriority::Warning,
+                AlertState::Rectified,
+                ["No UTC", "Times are left empty"],
+                281.0,
+            ),
+        ]
+    }
+
+    fn recording(&self, t: f64) -> Recording {
+        let fault = self.scene == Scene::Fault;
+        Recording {
+            state: if fault { RecordingState::Failing } else { RecordingState::Recording },
+            folder: "/var/lib/insd/recording".to_owned(),
+            bytes: (t * 8400.0) as u64,
+            files: 1,
+            quota_bytes: Some(20_000_000_000),
+            lost: if fault { 1841 } else { 0 },
+            last_error: fault.then(|| "No space left on device (os error 28)".to_owned()),
+        }
+    }
+
+    fn events(&self) -> Vec<Event> {
+        let line = |at_s: f64, severity: Severity, text: &str| Event {
+            at_s,
+            utc: Some(utc(at_s)),
+            severity,
+            text: text.to_owned(),
+        };
+        let mut events = vec![
+            line(
+                0.1,
+                Severity::Info,
+                "imu: open: /dev/serial/by-id/usb-FTDI_IMU-if00-port0, 921600 baud",
+            ),
+            line(
+                0.2,
+                Severity::Info,
+                "gnss: open: /dev/serial/by-id/usb-u-blox_GNSS-if00, 115200 baud",
+            ),
+            line(0.9, Severity::Info, "inertial: from imu (first)"),
+            line(1.6, Severity::Info, "time: by messages, to 20 ms"),
+            line(2.4, Severity::Info, "time: by pulses, to 2 us"),
+            line(60.0, Severity::Info, "mode: fine alignment"),
+        ];
+        if self.scene != Scene::Alignment {
+            events.push(line(180.0, Severity::Info, "mode: aided"));
+        }
+        if self.scene == Scene::Fault {
+            events.push(line(229.4, Severity::Warn, "gnss: says that it is invalid, status 0"));
+            events.push(line(240.0, Severity::Warn, "mode: dead reckoning"));
+            events.push(line(251.3, Severity::Warn, "gyro-compass: silent for 3.0 s"));
+            events.push(line(
+                262.0,
+                Severity::Error,
+                "recording: No space left on device (os error 28)",
+            ));
+        }
+        events
+    }
+}
+
+/// An instant as text; the scenes play on one day.
+pub(crate) fn utc(t: f64) -> String {
+    let (whole, millis) = (t.floor() as u64, (t.fract() * 1000.0) as u64);
+    let seconds = 8 * 3600 + 12 * 60 + whole;
+    let (hour, minute) = (seconds / 3600 % 24, seconds / 60 % 60);
+    format!("2026-11-21T{hour:02}:{minute:02}:{:02}.{millis:03}Z", seconds % 60)
+}
+
+fn program(t: f64) -> Program {
+    Program {
+        name: "insd".to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        started_utc: Some(utc(0.0)),
+        uptime_s: t,
+        unit: Some("MV Example".to_owned()),
+        configuration_path: Some("/etc/insd/insd.toml".to_owned()),
+        configuration_hash: Some("5f1d0c9a7be2".to_owned()),
+        configuration_read_at_s: Some(0.0),
+        simulated: true,
+        memory_bytes: Some(19_400_000),
+        processor_s: Some(t * 0.021),
+    }
+}
+
+fn time(t: f64, scene: Scene) -> TimeInfo {
+    let pulses = scene != Scene::Fault;
+    TimeInfo {
+        at_s: t,
+        utc: Some(utc(t)),
+        system_utc: Some(utc(t + 0.012)),
+        quality: if pulses { "pulses" } else { "messages" }.to_owned(),
+        source: Some(if pulses { "pulse" } else { "gnss" }.to_owned()),
+        sigma_s: Some(if pulses { 2e-6 } else { 0.018 }),
+    }
+}

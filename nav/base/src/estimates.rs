@@ -1,0 +1,56 @@
+//! What the filter has found of the sensors and the sea, for those who look on.
+
+use crate::frames::Body;
+use crate::motion::Current;
+
+/// A number and its 1-sigma, in the same unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The number.
+    pub value: f64,
+    /// Its 1-sigma.
+    pub sigma: f64,
+}
+
+/// Errors of the sensors as the filter has them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimates {
+    /// Bias of the gyros, turn-on and in-run together, body axes, rad/s.
+    pub gyro_bias: Body,
+    /// 1-sigma of the same.
+    pub gyro_bias_sigma: Body,
+    /// Bias of the accelerometers, turn-on and in-run together, body axes, m/s^2.
+    pub accel_bias: Body,
+    /// 1-sigma of the same.
+    pub accel_bias_sigma: Body,
+    /// Scale factor error of the log, ratio.
+    pub log_scale: Estimate,
+    /// Misalignment of the log about starboard, rad.
+    pub log_pitch: Estimate,
+    /// Misalignment of the log about down, rad.
+    pub log_heading: Estimate,
+    /// Velocity of the water, while a log tells the speed through it.
+    pub current: Option<Current>,
+    /// Lever arm from the IMU to the GNSS antenna as now known, body axes, m.
+    pub gnss_lever: Body,
+    /// 1-sigma of the same.
+    pub gnss_lever_sigma: Body,
+    /// Whether the ship is taken as lying at her berth.
+    pub moored: bool,
+}
+
+/// The sea as an autoregressive model of the velocity that it gives the ship, of the last minutes.
+///
+/// d(k) = sum A_i d(k-i) + eps(k), with d the velocity of two horizontal components: north and east where
+/// the prefilter holds a ship at her berth, otherwise forward and starboard.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disturbance {
+    /// `prefilter`: the model that the alignment works with; `window`: one fitted to be looked at.
+    pub method: &'static str,
+    /// From sample to sample, s.
+    pub interval: f64,
+    /// A_1, A_2, ..: four numbers each, by rows, without unit.
+    pub coefficients: Vec<f64>,
+    /// Frequency, Hz, and spectral density of both components together, one-sided, (m/s)^2/Hz.
+    pub spectrum: Vec<(f64, f64)>,
+}

@@ -1,0 +1,219 @@
+//! A filter as it is kept for the next start of the program, and taken up again.
+
+use insd_base::{Span, Time};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::Filter;
+use crate::config::NavConfig;
+use crate::error_state::{Covariance, STATES};
+use crate::initial::InitialState;
+use crate::nominal::Nominal;
+use crate::sea_window::LevelWindow;
+use crate::sway::Sway;
+use crate::trust::Trust;
+
+/// Estimate, covariance and memory of a filter that navigates. What a moment brings back is left out: the
+/// acceleration of the antenna, the pace of the receiver.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct KeptFilter {
+    time: Time,
+    nominal: Nominal,
+    /// The covariance by columns, each down to its diagonal.
+    triangle: Vec<f64>,
+    rate: Vector3<f64>,
+    trust: Trust,
+    rtk: Option<bool>,
+    level: LevelWindow,
+    sway: Option<Sway>,
+    last_relative: Option<Time>,
+    last_water: Option<Time>,
+    turned: Vector3<f64>,
+    unswayed: f64,
+}
+
+/// A correlation may be beyond one by so much: rounding.
+const ROUNDING: f64 = 1e-6;
+
+impl KeptFilter {
+    /// Instant of the estimate.
+    #[must_use]
+    pub fn time(&self) -> Time {
+        self.time
+    }
+
+    /// Whether the receiver was found in fault at that instant: then it is no witness.
+    #[must_use]
+    pub fn is_receiver_suspect(&self) -> bool {
+        self.trust.is_suspect(self.time)
+    }
+
+    /// The covariance; `None` unless its size is this program's and it can be one.
+    fn covariance(&self) -> Option<Covariance> {
+        if self.triangle.len() != STATES * (STATES + 1) / 2 {
+            return None;
+        }
+        let mut p = Covariance::zeros();
+        let mut values = self.triangle.iter();
+        for column in 0..STATES {
+            for row in 0..=column {
+                let value = *values.next()?;
+                p[(row, column)] = value;
+                p[(column, row)] = value;
+            }
+        }
+        let root = p.diagonal().map(f64::sqrt);
+        let is_one = p.iter().all(|value| value.is_finite())
+            && root.iter().all(|std| std.is_finite())
+            && (0..STATES).all(|i| {
+                let bound = |j: usize| root[i] * root[j] * (1.0 + ROUNDING) + f64::MIN_POSITIVE;
+                (0..i).all(|j| p[(i, j)].abs() <= bound(j))
+            });
+        is_one.then_some(p)
+    }
+}
+
+impl Filter {
+    /// What is worth keeping of a filter that navigates.
+    #[must_use]
+    pub fn kept(&self) -> KeptFilter {
+        if !self.is_settled() {
+            let mut settled = self.clone();
+            settled.settle();
+            return settled.kept();
+        }
+        let p = &self.covariance;
+        let column = |column: usize| (0..=column).map(move |row| p[(row, column)]);
+        KeptFilter {
+            time: self.time,
+            nominal: self.nominal,
+            triangle: (0..STATES).flat_map(column).collect(),
+            rate: self.rate,
+            trust: self.trust,
+            rtk: self.rtk,
+            level: self.level,
+            sway: self.sway,
+            last_relative: self.last_relative,
+            last_water: self.last_water,
+            turned: self.turned,
+            unswayed: self.unswayed,
+        }
+    }
+
+    /// A filter that goes on from what was kept, on a time line that is later by a span. `None` if it
+    /// cannot be a filter's.
+    #[must_use]
+    pub fn taken_up(config: &NavConfig, kept: &KeptFilter, by: Span) -> Option<Filter> {
+        let covariance = kept.covariance()?;
+        let initial = InitialState {
+            time: kept.time + by,
+            nominal: kept.nominal,
+            covariance,
+            rate: kept.rate,
+        };
+        let later = |time: Option<Time>| time.map(|time| time + by);
+        let filter = Filter {
+            trust: kept.trust.shifted(by),
+            rtk: kept.rtk,
+            level: kept.level,
+            sway: kept.sway,
+            navigating: true,
+            last_relative: later(kept.last_relative),
+            last_water: later(kept.last_water),
+            turned: kept.turned,
+            unswayed: kept.unswayed,
+            ..Filter::new(config, &initial)
+        };
+        (kept.nominal.is_sound() && kept.rate.iter().all(|x| x.is_finite())).then_some(filter)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error_state::{ATTITUDE, POSITION, VELOCITY};
+    use crate::increments::Increment;
+    use crate::initial::sensor_covariance;
+    use crate::timeline::Estimator;
+    use insd_base::{Geodetic, ImuSpec, LeverArms, Triad};
+    use nalgebra::Matrix3;
+
+    fn filter() -> (NavConfig, Filter) {
+        let triad = Triad {
+            bias_std: 1e-7,
+            instability_std: 1e-8,
+            instability_time: 100.0,
+            random_walk: 1e-6,
+            scale_std: 1e-5,
+        };
+        let config = NavConfig::new(
+            ImuSpec { rate: 100.0, gyro: triad, accel: triad },
+            LeverArms::default(),
+        );
+        let place = Geodetic::from_degrees(35.0, 139.0, 20.0);
+        let nominal = Nominal::at(&place, &Vector3::new(5.0, 1.0, 0.0), &Matrix3::identity());
+        let mut covariance = sensor_covariance(&config);
+        for (block, std) in [(POSITION, 3.0), (VELOCITY, 0.1), (ATTITUDE, 1e-3)] {
+            block.renew(&mut covariance, &Matrix3::from_diagonal_element(std * std));
+        }
+        let time = Time::from_seconds(500.0);
+        let mut filter = Filter::new(
+            &config,
+            &InitialState { time, nominal, covariance, rate: Vector3::zeros() },
+        );
+        filter.begin_navigation();
+        for step in 0..55 {
+            filter.advance(&still(500.0 + 0.01 * f64::from(step)));
+        }
+        (config, filter)
+    }
+
+    fn still(from: f64) -> Increment {
+        Increment {
+            from: Time::from_seconds(from),
+            to: Time::from_seconds(from + 0.01),
+            rotation: Vector3::new(1e-4, 0.0, 2e-4),
+            velocity: Vector3::new(0.0, 0.0, -0.098),
+            end_rate: Vector3::zeros(),
+            angular_acceleration: Vector3::zeros(),
+            rate_noise: Vector3::zeros(),
+            force_noise: Vector3::zeros(),
+            bridged: None,
+        }
+    }
+
+    #[test]
+    fn a_filter_that_is_taken_up_goes_on_as_if_nothing_had_been() {
+        let (config, mut filter) = filter();
+        let kept = filter.kept();
+        filter.settle();
+        let by = Span::from_seconds(-600.0);
+        let mut again = Filter::taken_up(&config, &kept, by).unwrap();
+        assert_eq!(again.time() + Span::from_seconds(600.0), filter.time());
+        for step in 0..300 {
+            filter.advance(&still(500.55 + 0.01 * f64::from(step)));
+            again.advance(&still(-99.45 + 0.01 * f64::from(step)));
+        }
+        filter.settle();
+        again.settle();
+        assert_eq!(again.nominal(), filter.nominal());
+        assert_eq!(again.covariance(), filter.covariance());
+    }
+
+    #[test]
+    fn what_cannot_be_a_covariance_is_refused() {
+        let (config, filter) = filter();
+        let kept = filter.kept();
+        let spoilt = |change: &dyn Fn(&mut KeptFilter)| {
+            let mut spoilt = kept.clone();
+            change(&mut spoilt);
+            Filter::taken_up(&config, &spoilt, Span::ZERO).is_none()
+        };
+        assert!(spoilt(&|kept| kept.triangle[0] = -1.0));
+        assert!(spoilt(&|kept| kept.triangle[1] = 1e3));
+        assert!(spoilt(&|kept| kept.triangle[7] = f64::NAN));
+        assert!(spoilt(&|kept| kept.triangle.truncate(7)));
+        assert!(spoilt(&|kept| kept.nominal.velocity.x = f64::INFINITY));
+        assert!(!spoilt(&|_| {}));
+    }
+}
