@@ -51,9 +51,9 @@ pub(crate) fn run(text: &str) -> ExitCode {
     println!("  hours  wall s    memory  samples  rejected  headings  greatest gap s");
     while let Some(arrival) = pipe::read(&mut from) {
         let now = arrival.stamp.monotonic;
-        while let Some(due) = pipeline.next_tick(now).filter(|due| *due <= now) {
-            let stamp = insd_base::Stamp { monotonic: due, ..arrival.stamp };
-            let tick = Arrival { stamp, port: PortId(u16::MAX), input: Input::Tick };
+        // as the daemon does when it is awake: what is due by now is due
+        if pipeline.next_tick(now).is_some_and(|due| due <= now) {
+            let tick = Arrival { stamp: arrival.stamp, port: PortId(u16::MAX), input: Input::Tick };
             account.take(&mut pipeline, &mut recorder, &tick);
         }
         account.take(&mut pipeline, &mut recorder, &arrival);

@@ -1,4 +1,4 @@
-//! A ship at her berth and then on a long voyage, and what her sensors send.
+//! A ship on a long voyage, and what her sensors send.
 
 use std::io::Write;
 
@@ -24,7 +24,7 @@ impl Ship {
         let duration = hours * 3600.0;
         let overrides = [format!("imu.rate_hz={imu_rate}"), "truth.rate_hz=0.1".to_owned()];
         let overrides = overrides.map(|text| text.parse().unwrap());
-        let scenario = Scenario::with_overrides(shipped()[0].1, &overrides).unwrap();
+        let scenario = Scenario::with_overrides(shipped()[9].1, &overrides).unwrap();
         let voyage = simulate(&scenario.with_duration(duration), 1);
         let feeds = FeedConfig::new(&voyage, &[Encoding::Sbg, Encoding::Ubx, Encoding::Vbw]);
         Ship { voyage, feeds, duration }
@@ -34,10 +34,13 @@ impl Ship {
     pub(crate) fn configuration(&self) -> String {
         let shipped = include_str!("../../../systemd/examples/survey.toml");
         let imu = shipped.find("[imu]").unwrap()..shipped.find("[[port]]").unwrap();
-        let lever = self.voyage.header.lever_arms.gnss.0;
+        let arms = &self.voyage.header.lever_arms;
+        let arm = |arm: &insd_base::Body| format!("[{:?}, {:?}, {:?}]", arm.0.x, arm.0.y, arm.0.z);
         let mut text = format!(
-            "[ship]\nstart = \"underway\"\ngnss_lever_m = [{:?}, {:?}, {:?}]\n{}",
-            lever.x, lever.y, lever.z, &shipped[imu]
+            "[ship]\nstart = \"underway\"\ngnss_lever_m = {}\nlog_lever_m = {}\n{}",
+            arm(&arms.gnss),
+            arm(&arms.log),
+            &shipped[imu]
         );
         for sensor in self.feeds.intake(&self.voyage).sensors {
             let transport = "{ kind = \"udp\", bind = \"127.0.0.1:1\" }";
