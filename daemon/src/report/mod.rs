@@ -11,7 +11,7 @@ mod page;
 mod source;
 mod statistics;
 mod times;
-mod words;
+pub(crate) mod words;
 
 use insd_base::{Counts, Geodetic, StartCondition};
 use insd_drivers::raw::RawRead;

@@ -9,6 +9,7 @@ use super::journal::Audience;
 use super::report::Report;
 use super::told::Names;
 use crate::pipeline::Product;
+use crate::report::words::priority;
 
 /// Remembers how each alert stood last.
 #[derive(Debug, Default)]
@@ -41,15 +42,6 @@ fn tell(view: &AlertView) {
             tracing::warn!(alert, title, description, priority, state, escalation, "alert");
         }
         _ => tracing::info!(alert, title, description, priority, state, escalation, "alert"),
-    }
-}
-
-fn priority(priority: AlertPriority) -> &'static str {
-    match priority {
-        AlertPriority::EmergencyAlarm => "emergency alarm",
-        AlertPriority::Alarm => "alarm",
-        AlertPriority::Warning => "warning",
-        AlertPriority::Caution => "caution",
     }
 }
 

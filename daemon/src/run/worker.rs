@@ -5,7 +5,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 
 use anyhow::Context;
-use insd_base::{Arrival, Event, Input, Order, Span, Stamp, Time};
+use insd_base::{Arrival, Input, Order, Span, Stamp, Time};
 use insd_drivers::ports::Receiver;
 use insd_drivers::raw::Recorder;
 use insd_drivers::recording::NavWriter;
@@ -290,9 +290,7 @@ impl Worker {
                 if let Product::Order(own) = &product {
                     obeyed(own);
                 }
-                if is_told(&product) {
-                    journal.tell(Note::Product(product));
-                }
+                journal.tell(Note::Product(product));
             }
         });
         written.context("cannot write the solution")
@@ -320,12 +318,4 @@ impl Worker {
             None => Ok(()),
         }
     }
-}
-
-/// Innovations come by the hundred and are for files.
-fn is_told(product: &Product) -> bool {
-    !matches!(
-        product,
-        Product::Engine(Output::Innovation(_) | Output::Event(Event::Rejected { .. }))
-    ) || tracing::enabled!(tracing::Level::DEBUG)
 }

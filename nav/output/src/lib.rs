@@ -29,5 +29,6 @@ pub use messages::{Content, MessageKind};
 pub use policy::{Policy, PositionLimits};
 pub use port::{Message, Port, PortConfig};
 pub use profile::Profile;
+pub use said::Ellipse;
 pub use schedule::{Boundary, Pacer, Rate};
 pub use station::{Moment, Station};

@@ -39,13 +39,31 @@ pub(crate) struct Level {
 }
 
 /// The ellipse of the horizontal error.
-#[derive(Clone, Copy)]
-pub(crate) struct Ellipse {
-    /// 1-sigma along the major and the minor axis, m.
-    pub(crate) major: f64,
-    pub(crate) minor: f64,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ellipse {
+    /// 1-sigma along the major axis, m.
+    pub major: f64,
+    /// The same along the minor axis.
+    pub minor: f64,
     /// Direction of the major axis from true north, rad, 0 to pi.
-    pub(crate) orientation: f64,
+    pub orientation: f64,
+}
+
+impl Ellipse {
+    /// That of a position with these 1-sigma, m, and this covariance of north and east, m^2; `None` where
+    /// that is not finite.
+    #[must_use]
+    pub fn new(sigma: &Ned, covariance_north_east: f64) -> Option<Self> {
+        let (north, east) = (sigma.0.x * sigma.0.x, sigma.0.y * sigma.0.y);
+        let shared = finite(covariance_north_east)?;
+        let (mean, half) = ((north + east) / 2.0, (north - east) / 2.0);
+        let radius = half.hypot(shared);
+        Some(Ellipse {
+            major: (mean + radius).sqrt(),
+            minor: (mean - radius).max(0.0).sqrt(),
+            orientation: shared.atan2(half).rem_euclid(std::f64::consts::TAU) / 2.0,
+        })
+    }
 }
 
 impl<'a> Said<'a> {
@@ -261,16 +279,7 @@ impl<'a> Said<'a> {
 
     /// The ellipse of the horizontal error, if the covariance is known.
     pub(crate) fn ellipse(&self) -> Option<Ellipse> {
-        let sigma = self.position_sigma()?.0;
-        let (north, east) = (sigma.x * sigma.x, sigma.y * sigma.y);
-        let shared = finite(self.told.covariance_north_east?)?;
-        let (mean, half) = ((north + east) / 2.0, (north - east) / 2.0);
-        let radius = half.hypot(shared);
-        Some(Ellipse {
-            major: (mean + radius).sqrt(),
-            minor: (mean - radius).max(0.0).sqrt(),
-            orientation: shared.atan2(half).rem_euclid(std::f64::consts::TAU) / 2.0,
-        })
+        Ellipse::new(&self.position_sigma()?, self.told.covariance_north_east?)
     }
 
     /// Mode of course and speed.

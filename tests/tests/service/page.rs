@@ -47,7 +47,11 @@ fn five_hundred_clients_that_read_and_one_that_never_does_cost_the_bridge_no_mes
     assert!(served > 450, "{served} of 500 clients were served");
     drop((idle, clients, garbage));
     wait_until("the page is as before", || status(ship.page).is_some());
-    assert_eq!(status(ship.page).unwrap()["outputs"][0]["dropped"], 0);
+    let own = status(ship.page).unwrap();
+    assert_eq!(own["outputs"][0]["dropped"], 0);
+    let position =
+        own["aids"].as_array().unwrap().iter().find(|aid| aid["name"] == "gnss_position");
+    assert_eq!(position.unwrap()["in_use"], true);
     assert!(daemon.is_running());
     daemon.stop();
 }

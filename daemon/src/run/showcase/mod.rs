@@ -11,8 +11,6 @@ mod rates;
 mod sensors;
 mod ship;
 
-use std::collections::VecDeque;
-
 use insd_base::{Event, Span, Time, UtcTime};
 use insd_engine::Output;
 use insd_web::Publisher;
@@ -45,8 +43,9 @@ pub(super) struct Showcase {
     output_rates: Rates,
     /// When each alert changed last, by its identifier.
     alerts: alerts::Changes,
-    /// UTC minus the ship's time line at the last report.
+    /// UTC at the last report, if it was known.
     utc: Option<UtcTime>,
+    /// When that was.
     now: Time,
 }
 
@@ -124,7 +123,7 @@ impl Showcase {
         shown.log.level = self.log.level();
         shown.log.repeats = self.log.repeats().total();
         shown.events = self.log.recent();
-        shown.time = program::time(report, slow);
+        (shown.time.quality, shown.time.sigma_s) = program::time_quality(&slow.intake.time);
         self.origin.measure(&mut shown.program);
     }
 
@@ -193,6 +192,3 @@ fn age(now: Time, then: Option<Time>) -> Option<f64> {
 fn ms(span: Span) -> f64 {
     (span.as_seconds() * 1e6).round() / 1e3
 }
-
-/// The last values of a queue.
-type Window<T> = VecDeque<T>;

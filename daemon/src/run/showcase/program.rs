@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use crc::{CRC_32_ISO_HDLC, Crc};
 use insd_base::Stamp;
 use insd_intake::clock::TimeQuality;
-use insd_web::snapshot::{Program, Recording, RecordingState, Saving, TimeInfo};
+use insd_intake::status::TimeStatus;
+use insd_web::snapshot::{Program, Recording, RecordingState, Saving};
 use rustix::time::{ClockId, clock_gettime};
 
-use super::super::report::{Report, Slow};
+use super::super::report::Slow;
 use crate::calendar;
 use crate::config::Config;
 use crate::state::SaverState;
@@ -52,21 +53,14 @@ pub(in crate::run) fn hash(text: &str) -> String {
     format!("{:08x}", Crc::<u32>::new(&CRC_32_ISO_HDLC).checksum(text.as_bytes()))
 }
 
-pub(super) fn time(report: &Report, slow: &Slow) -> TimeInfo {
-    let status = &slow.intake.time;
-    TimeInfo {
-        at_s: report.stamp.monotonic.as_seconds(),
-        utc: report.utc.map(calendar::rfc3339_millis),
-        system_utc: Some(calendar::rfc3339_millis(report.stamp.system)),
-        quality: match status.quality {
-            TimeQuality::Unknown => "unknown",
-            TimeQuality::Messages => "messages",
-            TimeQuality::Pulses => "pulses",
-        }
-        .to_owned(),
-        source: None,
-        sigma_s: status.sigma,
-    }
+/// How UTC is known, and its 1-sigma, s.
+pub(super) fn time_quality(status: &TimeStatus) -> (String, Option<f64>) {
+    let quality = match status.quality {
+        TimeQuality::Unknown => "unknown",
+        TimeQuality::Messages => "messages",
+        TimeQuality::Pulses => "pulses",
+    };
+    (quality.to_owned(), status.sigma)
 }
 
 pub(super) fn recording(config: &Config, slow: &Slow) -> Option<Recording> {

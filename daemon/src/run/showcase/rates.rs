@@ -1,8 +1,8 @@
 //! How fast counters grow.
 
-use insd_base::Time;
+use std::collections::VecDeque;
 
-use super::Window;
+use insd_base::Time;
 
 /// Looks that are remembered: so many seconds.
 const LOOKS: usize = 5;
@@ -10,7 +10,7 @@ const LOOKS: usize = 5;
 /// The last values of some counters.
 #[derive(Debug, Default)]
 pub(super) struct Rates {
-    looks: Window<(Time, Vec<u64>)>,
+    looks: VecDeque<(Time, Vec<u64>)>,
 }
 
 impl Rates {

@@ -2,9 +2,8 @@
 
 use insd_base::units::{DEG, KNOT, wrap_two_pi};
 use insd_base::{HeaveQuality, Motion, Time};
-use insd_output::Policy;
+use insd_output::{Ellipse, Policy};
 use insd_web::snapshot::{Heave, Motion as Shown};
-use nalgebra::{Matrix2, SymmetricEigen};
 
 /// What is shown of a motion, at the IMU.
 pub(super) fn motion(
@@ -20,7 +19,7 @@ pub(super) fn motion(
     let course = policy.has_course(solution).then(|| solution.course() / DEG);
     let speed = solution.speed();
     let speed_sigma = sigma.velocity.0.x.hypot(sigma.velocity.0.y) / std::f64::consts::SQRT_2;
-    let ellipse = ellipse(motion);
+    let ellipse = motion.covariance_north_east.and_then(|own| Ellipse::new(&sigma.position, own));
     let current = motion.current.map(|current| current.velocity.0);
     let ahead = current.map(|current| {
         let (sin, cos) = attitude.heading.sin_cos();
@@ -49,9 +48,9 @@ pub(super) fn motion(
         sigma_north_m: Some(sigma.position.0.x),
         sigma_east_m: Some(sigma.position.0.y),
         sigma_height_m: Some(sigma.position.0.z),
-        ellipse_major_m: ellipse.map(|(major, _, _)| major),
-        ellipse_minor_m: ellipse.map(|(_, minor, _)| minor),
-        ellipse_direction_deg: ellipse.map(|(_, _, direction)| direction / DEG),
+        ellipse_major_m: ellipse.map(|own| own.major),
+        ellipse_minor_m: ellipse.map(|own| own.minor),
+        ellipse_direction_deg: ellipse.map(|own| own.orientation / DEG),
         sigma_velocity_north_mps: Some(sigma.velocity.0.x),
         sigma_velocity_east_mps: Some(sigma.velocity.0.y),
         sigma_velocity_down_mps: Some(sigma.velocity.0.z),
@@ -63,20 +62,6 @@ pub(super) fn motion(
         heading_quality: Some(word(&policy.heading(solution))),
         position_quality: Some(word(&policy.quality(solution))),
     }
-}
-
-/// Half axes of the 1-sigma ellipse of the position, m, and the direction of the longer, rad, 0 to pi.
-fn ellipse(motion: &Motion) -> Option<(f64, f64, f64)> {
-    let sigma = &motion.solution.sigma.position.0;
-    let across = motion.covariance_north_east?;
-    let covariance = Matrix2::new(sigma.x.powi(2), across, across, sigma.y.powi(2));
-    let eigen = SymmetricEigen::new(covariance);
-    let (longer, shorter) =
-        if eigen.eigenvalues.x >= eigen.eigenvalues.y { (0, 1) } else { (1, 0) };
-    let axis = eigen.eigenvectors.column(longer);
-    let direction = axis[1].atan2(axis[0]).rem_euclid(std::f64::consts::PI);
-    let half = |index: usize| eigen.eigenvalues[index].max(0.0).sqrt();
-    Some((half(longer), half(shorter), direction))
 }
 
 fn shown_heave(heave: &insd_base::Heave) -> Heave {
