@@ -160,9 +160,10 @@ fn synchronisation_std(imu: &ImuSpec) -> f64 {
 
 /// How well the antenna's lever arm is known where nobody states it, 1-sigma, m.
 ///
-/// No antenna sits inside the IMU: a lever arm of exactly zero is one that was not measured.
+/// No antenna sits inside the IMU: a lever arm of exactly zero is one that was not measured. Then it is
+/// anywhere on a ship: masts are tens of metres high, and so far may the bridge be from the IMU.
 fn lever_std(arms: &LeverArms) -> f64 {
     const SURVEYED: f64 = 0.002;
-    const UNMEASURED: f64 = 1.0;
+    const UNMEASURED: f64 = 20.0;
     if arms.gnss.0.norm() == 0.0 { UNMEASURED } else { SURVEYED }
 }

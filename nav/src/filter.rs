@@ -9,8 +9,8 @@ use crate::aids::{View, sea_level};
 use crate::antenna::AntennaMotion;
 use crate::config::NavConfig;
 use crate::error_state::{
-    ATTITUDE, BERTH_OFFSET, Covariance, ErrorState, POSITION, SEA_LEVEL, SWAY, SWAY_VELOCITY,
-    VELOCITY,
+    ATTITUDE, BERTH_OFFSET, Covariance, ErrorState, POSITION, SEA_LEVEL, STATES, SWAY,
+    SWAY_VELOCITY, VELOCITY,
 };
 use crate::gate::ChiSquareGate;
 use crate::increments::Increment;
@@ -20,6 +20,7 @@ use crate::nominal::Nominal;
 use crate::propagation::{self, Regime, Stretch, markov_decay};
 use crate::report::{AidReport, Outcome, Report};
 use crate::sea_window::LevelWindow;
+use crate::separate_bias::SeparateBias;
 use crate::solution_sigma::solution_sigma;
 use crate::strapdown::{self, LocalGravity};
 use crate::sway::Sway;
@@ -60,6 +61,10 @@ pub struct Filter {
     unswayed: f64,
     absorbed: Vector3<f64>,
     velocity_epoch: Option<VelocityEpoch>,
+    /// What wrong constants of the installation would do, while the filter navigates.
+    bias: Option<SeparateBias>,
+    /// 1-sigma of the lever arm of the log, m, if it was found to be otherwise than configured.
+    log_lever_std: Option<Vector3<f64>>,
 }
 
 /// What the gates said of an innovation.
@@ -111,6 +116,8 @@ impl Filter {
             unswayed: 0.0,
             absorbed: Vector3::zeros(),
             velocity_epoch: None,
+            bias: None,
+            log_lever_std: None,
         }
     }
 
@@ -137,6 +144,7 @@ impl Filter {
     pub fn begin_navigation(&mut self) {
         self.navigating = true;
         self.interval = self.config.covariance_interval;
+        self.bias = Some(SeparateBias::new(&self.view()));
     }
 
     /// Propagates the covariance only every so many seconds until navigation begins: for searches
@@ -172,6 +180,11 @@ impl Filter {
             &self.config,
             &regime,
         );
+        if let Some(bias) = &mut self.bias {
+            let gradient = self.gravity.gradient();
+            let response = bias.response_mut();
+            propagation::carry(response, &self.stretch, gradient, &self.config, &regime);
+        }
         self.relax_nominal(self.stretch.duration);
         self.nominal.attitude.renormalize();
         self.antenna.note(self.time, &self.antenna_velocity());
@@ -227,7 +240,17 @@ impl Filter {
         Judged { outcome, log_likelihood, innovation: detail(&weighed) }
     }
 
+    /// What an update takes from the effect of the constants of the installation.
+    fn pass_on<const M: usize>(&mut self, weighed: &Weighed<M>, gain: &SMatrix<f64, STATES, M>) {
+        if let Some(bias) = &mut self.bias {
+            weighed.pass_on(bias.response_mut(), gain);
+        }
+    }
+
     fn absorb<const M: usize>(&mut self, weighed: &Weighed<M>) {
+        if self.bias.is_some() {
+            self.pass_on(weighed, &weighed.gain());
+        }
         let error = weighed.update(&mut self.covariance);
         self.nominal.inject(&error);
         self.corrected += error;
@@ -340,15 +363,15 @@ impl Filter {
     /// knowledge of the horizontal.
     fn absorb_vertically(&mut self, weighed: &Weighed<1>) {
         let up = self.nominal.position.normalize();
-        let error = weighed.update_shaped(&mut self.covariance, |optimal| {
-            let mut gain = SMatrix::zeros();
-            for block in [POSITION, VELOCITY] {
-                let along = block.of(optimal).dot(&up);
-                block.set(&mut gain, &(up * along));
-            }
-            SEA_LEVEL.set(&mut gain, &SEA_LEVEL.of(optimal));
-            gain
-        });
+        let optimal = weighed.gain();
+        let mut gain = SMatrix::zeros();
+        for block in [POSITION, VELOCITY] {
+            let along = block.of(&optimal).dot(&up);
+            block.set(&mut gain, &(up * along));
+        }
+        SEA_LEVEL.set(&mut gain, &SEA_LEVEL.of(&optimal));
+        self.pass_on(weighed, &gain);
+        let error = weighed.update_with(&mut self.covariance, &gain);
         self.nominal.inject(&error);
         self.absorbed += VELOCITY.of(&error);
     }
@@ -376,6 +399,19 @@ impl Filter {
         } else {
             Mode::Inertial
         }
+    }
+
+    /// Mean square of the latest innovations of GNSS, of which one is expected, each counted as a fault at
+    /// most; `None` before enough of them are known.
+    #[must_use]
+    pub fn strain(&self) -> Option<f64> {
+        self.bias.as_ref().and_then(SeparateBias::strain)
+    }
+
+    /// Whether the motion of the ship has confirmed the configured lever arm of the antenna.
+    #[must_use]
+    pub fn is_lever_confirmed(&self) -> bool {
+        self.bias.as_ref().is_some_and(SeparateBias::is_confirmed)
     }
 
     /// Claimed 1-sigma of the heading, rad.

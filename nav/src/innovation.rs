@@ -65,19 +65,44 @@ impl<const M: usize> Weighed<M> {
         SVector::from_fn(|i, _| l.row(i).norm())
     }
 
-    /// Update with a gain of one's own choice, which need not be the optimal one: Joseph's form,
-    /// P <- (I - K H) P (I - K H)^T + K R K^T. `shape` makes the gain from the optimal one.
+    /// The optimal gain, P H^T S^-1.
     #[must_use]
-    pub fn update_shaped(
-        &self,
-        p: &mut Covariance,
-        shape: impl Fn(&SMatrix<f64, STATES, M>) -> SMatrix<f64, STATES, M>,
-    ) -> ErrorState {
-        let gain = shape(&(self.pht * self.factor.inverse()));
+    pub fn gain(&self) -> SMatrix<f64, STATES, M> {
+        self.pht * self.factor.inverse()
+    }
+
+    /// Update with a gain of one's own choice: Joseph's form,
+    /// P <- (I - K H) P (I - K H)^T + K R K^T.
+    #[must_use]
+    pub fn update_with(&self, p: &mut Covariance, gain: &SMatrix<f64, STATES, M>) -> ErrorState {
         let left = Covariance::identity() - gain * self.innovation.h;
         *p = left * *p * left.transpose() + gain * self.innovation.r * gain.transpose();
         *p = (*p + p.transpose()) * 0.5;
         gain * self.innovation.z
+    }
+
+    /// What an effect on the errors (a row for each cause) does to the innovation, and the innovation
+    /// itself, both whitened: L^-1 (H U + D) transposed, and L^-1 z, D what the causes do to it directly.
+    #[must_use]
+    pub fn whitened_with<const W: usize>(
+        &self,
+        response: &SMatrix<f64, W, STATES>,
+        direct: &SMatrix<f64, M, W>,
+    ) -> (SMatrix<f64, W, M>, SVector<f64, M>) {
+        let mut effect = self.innovation.h * response.transpose() + direct;
+        self.factor.l_dirty().solve_lower_triangular_mut(&mut effect);
+        (effect.transpose(), self.whitened())
+    }
+
+    /// Takes from an effect on the errors what an update with this gain takes from it:
+    /// U <- U - K H U.
+    pub fn pass_on<const W: usize>(
+        &self,
+        response: &mut SMatrix<f64, W, STATES>,
+        gain: &SMatrix<f64, STATES, M>,
+    ) {
+        let effect = *response * self.innovation.h.transpose();
+        *response -= effect * gain.transpose();
     }
 
     fn whitened(&self) -> SVector<f64, M> {

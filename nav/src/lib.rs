@@ -22,6 +22,7 @@ pub mod nominal;
 pub mod propagation;
 pub mod report;
 pub mod sea_window;
+pub mod separate_bias;
 pub mod solution_sigma;
 pub mod spread;
 pub mod strapdown;

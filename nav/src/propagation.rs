@@ -26,7 +26,7 @@ use crate::strapdown::Step;
 
 type Transition = SMatrix<f64, STRAPDOWN_STATES, STRAPDOWN_STATES>;
 type Input = SMatrix<f64, STRAPDOWN_STATES, 3>;
-type Columns = SMatrix<f64, STATES, STRAPDOWN_STATES>;
+type Columns<const R: usize> = SMatrix<f64, R, STRAPDOWN_STATES>;
 
 /// Sums over the strapdown steps since the covariance was last propagated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -156,8 +156,30 @@ pub fn propagate(
     add_noise(p, stretch, config);
 }
 
-/// P Phi^T in the columns of the strapdown states.
-fn strapdown_columns(p: &Covariance, stretch: &Stretch, rows: &StrapdownRows) -> Columns {
+/// Carries an effect on the errors, a row for each cause, over a stretch: U^T <- U^T Phi^T.
+pub fn carry<const R: usize>(
+    response: &mut SMatrix<f64, R, STATES>,
+    stretch: &Stretch,
+    gradient: &Matrix3<f64>,
+    config: &NavConfig,
+    regime: &Regime,
+) {
+    if stretch.duration <= 0.0 {
+        return;
+    }
+    let columns = strapdown_columns(response, stretch, &strapdown_rows(stretch, gradient));
+    response.fixed_columns_mut::<STRAPDOWN_STATES>(0).copy_from(&columns);
+    for (start, end, _, time) in markov(config, regime) {
+        response.columns_mut(start, end - start).scale_mut(markov_decay(stretch.duration, time));
+    }
+}
+
+/// P Phi^T in the columns of the strapdown states, P the covariance or any rows beside it.
+fn strapdown_columns<const R: usize>(
+    p: &SMatrix<f64, R, STATES>,
+    stretch: &Stretch,
+    rows: &StrapdownRows,
+) -> Columns<R> {
     let dt = stretch.duration;
     let own = p.fixed_columns::<STRAPDOWN_STATES>(0);
     let triad = |bias: usize, drift: usize, scale: usize, mean: Vector3<f64>| {
@@ -177,7 +199,11 @@ fn strapdown_columns(p: &Covariance, stretch: &Stretch, rows: &StrapdownRows) ->
 }
 
 /// Phi (P Phi^T) in the rows and columns of the strapdown states, made symmetric.
-fn strapdown_corner(columns: &Columns, stretch: &Stretch, rows: &StrapdownRows) -> Transition {
+fn strapdown_corner(
+    columns: &Columns<STATES>,
+    stretch: &Stretch,
+    rows: &StrapdownRows,
+) -> Transition {
     let dt = stretch.duration;
     let triad = |bias: usize, drift: usize, scale: usize, mean: Vector3<f64>| {
         let scaled = Matrix3::from_diagonal(&mean) * columns.fixed_rows::<3>(scale);

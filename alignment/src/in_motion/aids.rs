@@ -93,6 +93,18 @@ impl Scene {
         self.c_pb * self.rate.cross(lever)
     }
 
+    /// Square of the sine of the angle between the mast and the vertical.
+    fn lean_squared(&self) -> f64 {
+        self.c_pb[(0, 2)].powi(2) + self.c_pb[(1, 2)].powi(2)
+    }
+
+    /// Variance of the velocity that an unknown lever arm gives the antenna as the ship rolls and
+    /// pitches, (m/s)^2.
+    #[must_use]
+    pub fn rocking(&self, belief: &Belief) -> f64 {
+        self.rate.xy().norm_squared() * belief.prior[k::LEVER]
+    }
+
     /// Position of the IMU less the estimated one, north and east, m.
     fn offset(&self, place: &Geodetic) -> Vector2<f64> {
         let (meridian, prime) = self.local.radii;
@@ -104,20 +116,28 @@ impl Scene {
     }
 }
 
-/// GNSS position at the antenna: z = dr + (R(dpsi) C_pb l and its tilt) + v tau + slow + white.
+/// GNSS position at the antenna: z = dr + (R(dpsi) C_pb l and its tilt) + v tau + slow + white. What an
+/// unknown height of the antenna does as the ship leans counts as noise.
 #[must_use]
-pub fn gnss_position(scene: &Scene, fix: &Split<Geodetic>, lever: &Vector3<f64>) -> Innovation<2> {
+pub fn gnss_position(
+    scene: &Scene,
+    fix: &Split<Geodetic>,
+    lever: &Vector3<f64>,
+    belief: &Belief,
+) -> Innovation<2> {
     let (arm, mut h) = scene.motion.carried(&(scene.c_pb * lever));
     h.fixed_view_mut::<2, 2>(0, x::POSITION).fill_with_identity();
     let mut hc = ByConsidered::zeros();
     hc.fixed_view_mut::<2, 2>(0, k::LEVER).copy_from(&scene.hull);
     hc.set_column(k::DELAY, &-scene.motion.velocity);
     set_slow(&mut hc, k::SLOW_POSITION, &fix.slow);
+    let leaning = scene.lean_squared() * belief.prior[k::LEVER];
+    let white = fix.white.component_mul(&fix.white);
     Innovation {
         z: scene.offset(&fix.value) - arm,
         h,
         hc,
-        r: Matrix2::from_diagonal(&fix.white.component_mul(&fix.white)),
+        r: Matrix2::from_diagonal(&white.add_scalar(leaning)),
     }
 }
 
@@ -144,8 +164,8 @@ pub fn gnss_velocity(
     hc.set_column(k::DELAY, &-late);
     hc.set_column(k::VELOCITY_DELAY, &-late);
     set_slow(&mut hc, k::SLOW_VELOCITY, &fix.slow);
-    let rocking = scene.rate.xy().norm_squared() * belief.prior[k::LEVER];
-    let noise = scene.rate_variance * lever.norm_squared() + rocking + unsure * delay;
+    let swinging = scene.rate_variance * lever.norm_squared() + scene.rocking(belief);
+    let noise = swinging + unsure * delay;
     let white = fix.white.component_mul(&fix.white);
     Innovation {
         z: fix.value - scene.motion.velocity - swing,
@@ -174,13 +194,12 @@ pub fn log_velocity(
     let u = Vector3::new(reading.u, v, reading.w.unwrap_or_else(fitting));
     let at_imu = c * (u - scene.rate.cross(lever));
     let (seen, by_state) = scene.motion.carried(&at_imu);
-    let upright = Vector2::new(c[(0, 2)], c[(1, 2)]).norm_squared();
     let mut variance = reading.std.powi(2) + scene.rate_variance * lever.norm_squared();
     if reading.v.is_none() {
         variance += LEEWAY * LEEWAY;
     }
     if reading.w.is_none() {
-        variance += upright * scene.down.1;
+        variance += scene.lean_squared() * scene.down.1;
     }
     let mut h = -by_state;
     if at_imu.xy().norm() < MOVING * variance.sqrt() {

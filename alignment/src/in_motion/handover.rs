@@ -134,6 +134,7 @@ impl EightState {
         let up = c_en.column(2) * c_en.column(2).transpose();
         POSITION.add(&mut covariance, &(up * height));
         VELOCITY.add(&mut covariance, &(up * down));
+        hang_from_mast(&mut covariance, &c_en, &own.motion.c_pb());
         covariance = (covariance + covariance.transpose()) * 0.5;
         Some(InitialState { time: own.time, nominal, covariance, rate: own.rate })
     }
@@ -182,4 +183,21 @@ impl EightState {
         put(LOG_MISALIGNMENT.start() + 1, k::LOG_TURN, 1.0);
         m
     }
+}
+
+/// The height came from the antenna by way of its lever arm, and is off as that is: with dl the error of
+/// the lever arm, dr_D = dr_D - (C_nb dl)_D. The horizontal pair carries its part in the belief.
+fn hang_from_mast(
+    p: &mut insd_nav::error_state::Covariance,
+    c_en: &Matrix3<f64>,
+    c_nb: &Matrix3<f64>,
+) {
+    let by_lever = -c_en.column(2) * c_nb.row(2);
+    let lever = GNSS_LEVER.start();
+    let rows = by_lever * p.fixed_rows::<3>(lever);
+    let mut position = p.fixed_rows_mut::<3>(POSITION.start());
+    position += rows;
+    let columns = p.fixed_columns::<3>(lever) * by_lever.transpose();
+    let mut position = p.fixed_columns_mut::<3>(POSITION.start());
+    position += columns;
 }

@@ -41,6 +41,7 @@ impl EightState {
             passed.push(self.judge(&innovation, fix.time, source, GNSS_VELOCITY, &mut report));
             if std.value.z < floors::UNTOLD {
                 let (white, slow) = shares(std.value.z, share);
+                let white = white.hypot(scene.rocking(&self.belief).sqrt());
                 self.vertical.measure_down(velocity.0.z - swing.z, white, slow);
             }
         }
@@ -51,7 +52,7 @@ impl EightState {
             }
             let share = self.config.gnss.position_slow_share_for(self.rtk == Some(true));
             let split = split(position, &std.value, share);
-            let innovation = aids::gnss_position(&self.scene(), &split, &lever);
+            let innovation = aids::gnss_position(&self.scene(), &split, &lever, &self.belief);
             passed.push(self.judge(&innovation, fix.time, source, GNSS_POSITION, &mut report));
             if std.value.z < floors::UNTOLD {
                 let above = (self.motion.c_pb() * lever).z;

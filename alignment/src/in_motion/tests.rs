@@ -355,9 +355,9 @@ fn table() -> [Aid; 6] {
         Split { value, white: Vector2::repeat(0.1), slow: Vector2::repeat(0.1) }
     }
     [
-        ("gnss_position", |scene, _| {
+        ("gnss_position", |scene, belief| {
             let fix = split(Geodetic::from_degrees(52.000_01, 139.000_02, 40.0));
-            aids::gnss_position(scene, &fix, &LEVER)
+            aids::gnss_position(scene, &fix, &LEVER, belief)
         }),
         ("gnss_velocity", |scene, belief| {
             let fix = split(Vector2::new(4.0, -3.0));

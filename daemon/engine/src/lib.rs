@@ -16,15 +16,16 @@ mod recent;
 mod resume;
 mod resumption;
 mod ship;
+mod surveyor;
 pub mod vote;
 
 use std::collections::VecDeque;
 
 use insd_alignment::{AlignmentConfig, StoredState, Verdict};
 use insd_base::{
-    AlignmentStatus, Body, Counts, Event, Geodetic, ImuSample, ImuSpec, Innovation, LeverArms,
-    Message, Mode, ModeReason, Received, Rejection, Solution, Source, Span, StartCondition, Time,
-    VoyageHeader,
+    AlignmentStatus, Body, Counts, Event, Finding, Geodetic, ImuSample, ImuSpec, Innovation,
+    LeverArms, Message, Mode, ModeReason, Received, Rejection, Solution, Source, Span,
+    StartCondition, Time, VoyageHeader,
 };
 use insd_nav::{
     Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Outcome, Report,
@@ -39,6 +40,7 @@ use mode::{Facts, Machine};
 use recent::Recent;
 use resumption::Resumption;
 use ship::Ship;
+use surveyor::Surveyor;
 
 /// What the engine must know before the first message.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,6 +116,7 @@ pub struct Engine {
     conditioner: Conditioner,
     stage: Stage,
     herald: Herald,
+    surveyor: Surveyor,
     recent: Recent,
     period: Span,
     next_epoch: Option<i64>,
@@ -136,6 +139,8 @@ fn heave_of(imu: &ImuSpec, points: &[Body]) -> Option<HeaveFilter> {
     Some(HeaveFilter::new(imu, others))
 }
 
+/// A lever arm of which nothing is known, 1-sigma of each component, m.
+const ANYWHERE: f64 = 50.0;
 /// A gap in the IMU data after which the ship's attitude is anyone's guess, s.
 const LOST: f64 = 60.0;
 /// While other sensors are heard, an IMU without a sample for so long is silent, s.
@@ -151,6 +156,7 @@ impl Engine {
             conditioner: Conditioner::new(&config.imu),
             stage: Stage::Levelling(Box::new(Coarse::new(&config))),
             herald: Herald::new(&config.imu, config.alignment.accuracy),
+            surveyor: Surveyor::new(&config.lever_arms),
             period: Span::from_seconds(1.0 / config.output_rate),
             recent: Recent::default(),
             next_epoch: None,
@@ -285,6 +291,8 @@ impl Engine {
                     self.emit(solution);
                 }
                 self.tell_alignment();
+                self.tell_installation();
+                self.consider_another();
                 self.tell_of_stored();
             }
         }
@@ -303,6 +311,31 @@ impl Engine {
         let (departure, status) = self.herald.look(line.estimator(), line.now());
         self.outputs.extend(departure.map(Output::Event));
         self.outputs.extend(status.map(Output::Alignment));
+    }
+
+    /// What an alignment that GNSS refutes was misled by is most likely the lever arm of the antenna: the
+    /// next one takes it as unknown. There is no third.
+    fn consider_another(&mut self) {
+        let Stage::Running(line) = &self.stage else { return };
+        if line.estimator().is_refuted() && self.nav.gnss.lever_std < ANYWHERE {
+            let time = line.now();
+            self.nav.gnss.lever_std = ANYWHERE;
+            self.start_over(time, ModeReason::HeadingRefuted);
+        }
+    }
+
+    fn tell_installation(&mut self) {
+        let Stage::Running(line) = &self.stage else { return };
+        let time = line.now();
+        for finding in self.surveyor.look(line.estimator(), time) {
+            self.tell(Event::InstallationFound { time, finding });
+        }
+    }
+
+    /// What of the installation is found to be otherwise than configured, as it is known now.
+    #[must_use]
+    pub fn findings(&self) -> &[Finding] {
+        self.surveyor.findings()
     }
 
     /// Starts the ship at the beginning of the levelling window and lets her sail through it.
@@ -345,6 +378,9 @@ impl Engine {
             self.reject(received, aid, Rejection::OutOfRange);
         }
         self.herald.hear(&checked);
+        if let Message::Log(log) = &checked.message {
+            self.surveyor.hear(log);
+        }
         match &mut self.stage {
             Stage::Levelling(coarse) => coarse.observe(&checked),
             Stage::Running(line) => {
@@ -413,6 +449,7 @@ impl Engine {
             return;
         }
         self.enter(solution.time, solution.mode, self.facts(), None);
+        let solution = self.surveyor.see(solution);
         self.outputs.push_back(Output::Solution(solution));
     }
 

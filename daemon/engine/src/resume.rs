@@ -71,7 +71,7 @@ impl Engine {
         }
         let start = fine.filter().time();
         let (fine, aligned) = (Box::new(fine), kept.aligned);
-        let ship = Ship::Navigating { fine, aligned, verdict: None };
+        let ship = Ship::Navigating { fine, aligned, verdict: None, trial: None };
         self.stage = Stage::Running(Box::new(Timeline::new(ship, start)));
         self.conditioner = conditioner;
         self.herald.take_up(&kept.herald, by);

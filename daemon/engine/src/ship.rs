@@ -5,12 +5,20 @@ use insd_alignment::{
     AlignmentConfig, Bank, EightState, Fine, InMotion, Level, Method, StoredState, Verdict,
 };
 use insd_base::alignment::{ACCURACY, heading_target};
-use insd_base::units::DEG;
-use insd_base::{ImuSpec, Mode, Received, Solution, StoredDoubt, Time};
+use insd_base::units::{DEG, DEG_PER_HOUR};
+use insd_base::{ImuSpec, Mode, Received, Solution, Span, StoredDoubt, Time};
 use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
 
 /// Heading sigma below which a ship can be steered by it for the first time.
 const STEERABLE: f64 = 1.0 * DEG;
+
+/// A heading that was found under way is on trial for so long, s; with gyros that do not find north on their
+/// own, of a larger turn-on bias than this, rad/s, until motion has confirmed the lever arm that it was found by, or for so long.
+const TRIAL: f64 = 300.0;
+const LONGEST_TRIAL: f64 = 7200.0;
+const BLIND: f64 = 1.0 * DEG_PER_HOUR;
+/// Mean square of the innovations, of which one is expected, that refutes what was handed over.
+const REFUTED: f64 = 8.0;
 
 /// Latitude beyond which north turns under the ship too fast for the filter of eight states.
 const POLAR: f64 = 88.0 * DEG;
@@ -24,7 +32,7 @@ pub(crate) enum Ship {
     /// once it is found, if she is moored.
     InMotion { finder: Box<EightState>, config: Box<NavConfig>, berth: Option<Method> },
     /// One is known, `aligned` once well enough to steer by; `verdict` on a stored state.
-    Navigating { fine: Box<Fine>, aligned: bool, verdict: Option<Verdict> },
+    Navigating { fine: Box<Fine>, aligned: bool, verdict: Option<Verdict>, trial: Option<Time> },
 }
 
 impl Ship {
@@ -65,6 +73,19 @@ impl Ship {
         match self {
             Ship::Navigating { fine, aligned: true, .. } => StoredState::of(fine, imu),
             _ => None,
+        }
+    }
+
+    /// Whether GNSS refutes what was handed over for navigation a while ago: on what the heading was found
+    /// by, something was not as configured.
+    pub(crate) fn is_refuted(&self) -> bool {
+        match self {
+            Ship::Navigating { fine, trial: Some(end), .. } => {
+                let filter = fine.filter();
+                let on_trial = filter.time() < *end && !filter.is_lever_confirmed();
+                on_trial && filter.strain().is_some_and(|strain| strain > REFUTED)
+            }
+            _ => false,
         }
     }
 
@@ -121,7 +142,19 @@ impl Ship {
         };
         if let Some(mut fine) = found {
             fine.filter_mut().begin_navigation();
-            *self = Ship::Navigating { fine: Box::new(fine), aligned: false, verdict };
+            let trial = self.trial(fine.filter().time());
+            *self = Ship::Navigating { fine: Box::new(fine), aligned: false, verdict, trial };
+        }
+    }
+
+    /// Until when what is handed over now is on trial.
+    fn trial(&self, now: Time) -> Option<Time> {
+        match self {
+            Ship::InMotion { config, .. } if config.imu.gyro.bias_std < BLIND => {
+                Some(now + Span::from_seconds(TRIAL))
+            }
+            Ship::InMotion { .. } => Some(now + Span::from_seconds(LONGEST_TRIAL)),
+            _ => None,
         }
     }
 

@@ -54,6 +54,9 @@ pub fn event(event: &Event) -> String {
         Event::ResumeDropped { reason, .. } => {
             format!("✗ Saved state: {}", reason.as_str().replace('_', " "))
         }
+        Event::InstallationFound { finding, .. } => {
+            format!("✗ Installation: {}", finding.as_str().replace('_', " "))
+        }
         Event::PositionReset { .. } => "Position set anew".to_owned(),
         Event::StoredStateUsed { .. } => "Stored heading confirmed".to_owned(),
         Event::StoredStateDropped { reason, .. } => {

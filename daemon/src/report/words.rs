@@ -40,6 +40,7 @@ pub(crate) fn engine(event: &Event) -> (&'static str, Option<String>) {
             let reason = reason.as_str().replace('_', " ");
             ("restart", Some(format!("the sensors refute the state before the restart: {reason}")))
         }
+        Event::InstallationFound { finding, .. } => ("installation", Some(finding.to_string())),
         Event::PositionReset { .. } => {
             let words = "the position was set anew from a source that was kept out for too long";
             ("position reset", Some(words.to_owned()))

@@ -35,6 +35,11 @@ pub struct Estimates {
     pub gnss_lever: Body,
     /// 1-sigma of the same.
     pub gnss_lever_sigma: Body,
+    /// Delay of GNSS epochs behind their time tags, s.
+    pub gnss_delay: Estimate,
+    /// Lever arm from the IMU to the log, body axes, m, and its 1-sigma, if it is found to be otherwise than
+    /// configured.
+    pub log_lever: Option<(Body, Body)>,
     /// Whether the ship is taken as lying at her berth.
     pub moored: bool,
 }

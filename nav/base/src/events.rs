@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use crate::installation::Finding;
 use crate::messages::Source;
 use crate::solution::Mode;
 use crate::time::Time;
@@ -169,6 +170,8 @@ pub enum ModeReason {
     NotFinite,
     /// The IMU was silent for too long to go on.
     GapTooLong,
+    /// GNSS refutes the heading that was found.
+    HeadingRefuted,
     /// After a fault it is begun anew.
     StartedOver,
 }
@@ -193,6 +196,7 @@ impl ModeReason {
             ModeReason::ResumeDropped => "resume_dropped",
             ModeReason::NotFinite => "not_finite",
             ModeReason::GapTooLong => "gap_too_long",
+            ModeReason::HeadingRefuted => "heading_refuted",
             ModeReason::StartedOver => "started_over",
         }
     }
@@ -217,6 +221,7 @@ impl fmt::Display for ModeReason {
             ModeReason::ResumeDropped => "the sensors refute the state before the restart",
             ModeReason::NotFinite => "the solution was not sound and is not given",
             ModeReason::GapTooLong => "the IMU was silent for too long",
+            ModeReason::HeadingRefuted => "GNSS refutes the heading that was found",
             ModeReason::StartedOver => "it is begun anew",
         })
     }
@@ -289,6 +294,13 @@ pub enum Event {
         time: Time,
         /// Why.
         reason: ResumeDoubt,
+    },
+    /// Something of the installation is found to be otherwise than configured.
+    InstallationFound {
+        /// When.
+        time: Time,
+        /// What.
+        finding: Finding,
     },
     /// The position was set anew from a source that the gate had kept out for too long.
     PositionReset {

@@ -15,6 +15,7 @@ pub mod frames;
 pub mod gnss;
 pub mod heave;
 pub mod input;
+pub mod installation;
 pub mod messages;
 pub mod motion;
 pub mod sensor;
@@ -36,6 +37,7 @@ pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
 pub use heave::{DelayedHeave, Heave, HeaveQuality};
 pub use input::{AlertOrder, Arrival, Input, Order, PortId, PortState, Pulse, Stamp};
+pub use installation::Finding;
 pub use messages::{
     ExternalReference, ImuSample, LogReference, LogVelocity, Message, Received, Source,
 };

@@ -30,6 +30,8 @@ pub struct Prediction {
     pub velocity: Vector3<f64>,
     /// Its derivative with respect to the error state.
     pub h: SMatrix<f64, 3, STATES>,
+    /// Its derivative with respect to the lever arm, 1/s.
+    pub by_lever: Matrix3<f64>,
     /// Covariance of the noise that the lever arm turns from rate to velocity, (m/s)^2.
     pub swing_noise: Matrix3<f64>,
 }
@@ -61,7 +63,8 @@ pub fn predict(view: &View, reference: LogReference, lever: &Vector3<f64>) -> Pr
     let by_turn = skew(&u) * (1.0 + view.nominal.log_scale);
     LOG_MISALIGNMENT.set_columns(&mut h, &by_turn.fixed_columns::<2>(1).into_owned());
     let swing_noise = by_gyro * by_gyro.transpose() * view.rate_variance;
-    Prediction { velocity: gain * u, h, swing_noise }
+    let by_lever = gain * skew(&view.rate);
+    Prediction { velocity: gain * u, h, by_lever, swing_noise }
 }
 
 /// Innovation of one component (0 forward, 1 starboard, 2 down), measured in m/s with sigma `std`.

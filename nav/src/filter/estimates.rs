@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 
 use super::Filter;
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, GNSS_LEVER, GYRO_BIAS, GYRO_DRIFT, LOG_MISALIGNMENT, LOG_SCALE,
+    ACCEL_BIAS, ACCEL_DRIFT, GNSS_DELAY, GNSS_LEVER, GYRO_BIAS, GYRO_DRIFT, LOG_MISALIGNMENT,
+    LOG_SCALE,
 };
 
 impl Filter {
@@ -26,6 +27,8 @@ impl Filter {
             current: self.current(),
             gnss_lever: Body(self.antenna_lever()),
             gnss_lever_sigma: Body(Vector3::from_fn(|i, _| self.std(lever + i))),
+            gnss_delay: estimate(nominal.gnss_delay, GNSS_DELAY.start()),
+            log_lever: self.log_lever_std.map(|sigma| (self.config.lever_arms.log, Body(sigma))),
             moored,
         }
     }

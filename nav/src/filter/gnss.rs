@@ -14,6 +14,7 @@ use crate::floors;
 use crate::gate::dop_limit;
 use crate::innovation::Innovation;
 use crate::report::{Outcome, Report};
+use crate::separate_bias::SeparateBias;
 use crate::solution_sigma::axes_turn;
 use crate::strapdown::earth_relative_rate;
 use crate::trust::{Agreement, FAULT};
@@ -38,6 +39,7 @@ impl Filter {
             return;
         }
         self.note_quality(fix.quality);
+        self.mend_installation(report);
         let velocity = self.apply_velocity(fix, source, report);
         self.apply_position(fix, velocity.as_ref(), source, report);
     }
@@ -157,6 +159,7 @@ impl Filter {
         of: impl Fn(&mut Filter) -> &mut Agreement,
     ) -> bool {
         let Some(weighed) = innovation.weigh(&self.covariance) else { return true };
+        self.bias.iter_mut().for_each(|bias| bias.hear(&weighed));
         let mean_square = weighed.nis() / 3.0;
         of(self).learn(&innovation.z.component_div(&weighed.sigma()), mean_square);
         mean_square > FAULT
@@ -209,8 +212,34 @@ impl Filter {
             self.nominal.velocity = view.c_ne.transpose() * velocity.velocity - swing;
         }
         ATTITUDE.inflate(&mut self.covariance, LOST_ATTITUDE * LOST_ATTITUDE);
+        let acceleration = velocity.map(|fix| view.c_ne.transpose() * fix.acceleration);
+        if let Some(bias) = &mut self.bias {
+            bias.place(&view);
+            acceleration.iter().for_each(|acceleration| bias.start(&view, acceleration));
+        }
         self.trust.clear();
         self.trust.used(self.time);
         report.position_reset = true;
+    }
+
+    /// Where the innovations show that the antenna sits elsewhere than configured, or that its epochs come
+    /// later: takes the estimate to be what it would have been with that.
+    fn mend_installation(&mut self, report: &mut Report) {
+        let Some((bias, finding)) = self.bias.and_then(|bias| Some((bias, bias.finding()?))) else {
+            return;
+        };
+
+        let (error, unsure) = bias.correction(&finding);
+        self.covariance += unsure;
+        self.nominal.inject(&error);
+        self.corrected += error;
+        self.absorbed += VELOCITY.of(&error);
+        if let Some((off, sigma)) = finding.log_lever() {
+            self.config.lever_arms.log.0 += off;
+            self.log_lever_std = Some(sigma);
+        }
+        self.bias = Some(SeparateBias::new(&self.view()));
+        self.trust.clear();
+        report.installation_mended = true;
     }
 }

@@ -112,18 +112,18 @@ impl Filter {
             rate: kept.rate,
         };
         let later = |time: Option<Time>| time.map(|time| time + by);
-        let filter = Filter {
+        let mut filter = Filter {
             trust: kept.trust.shifted(by),
             rtk: kept.rtk,
             level: kept.level,
             sway: kept.sway,
-            navigating: true,
             last_relative: later(kept.last_relative),
             last_water: later(kept.last_water),
             turned: kept.turned,
             unswayed: kept.unswayed,
             ..Filter::new(config, &initial)
         };
+        filter.begin_navigation();
         (kept.nominal.is_sound() && kept.rate.iter().all(|x| x.is_finite())).then_some(filter)
     }
 }

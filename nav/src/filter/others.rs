@@ -1,11 +1,13 @@
 //! Log and external reference.
 
 use insd_base::{ExternalReference, LogReference, LogVelocity, Source};
-use nalgebra::Vector2;
+use nalgebra::{Matrix3, SMatrix, Vector2};
 
 use super::{Filter, enter};
+use crate::aids::log_velocity::Prediction;
 use crate::aids::{log_velocity, reference_heading, reference_position, reference_velocity};
 use crate::floors::{self, Believable, Floored};
+use crate::innovation::Innovation;
 use crate::report::{Outcome, Report};
 
 impl Filter {
@@ -17,18 +19,20 @@ impl Filter {
         let default = self.config.log.default_std;
         let range = Believable { least: 0.002, greatest: 10.0, default };
         let std = floored(log.std, &range, aid, report);
-        let lever = self.config.lever_arms.log.0;
-        let prediction = log_velocity::predict(&self.view(), log.reference, &lever);
+        let prediction = self.predict_log(log);
         if let Some(measured) = log_velocity::all_components(log) {
-            let judged = self.judge(&log_velocity::complete(&prediction, &measured, std), None);
+            let innovation = log_velocity::complete(&prediction, &measured, std);
+            self.hear_log(&innovation, &prediction.by_lever);
+            let judged = self.judge(&innovation, None);
             self.note_log(log, enter(report, log.time, source, aid, &judged));
             return;
         }
         for (axis, measured) in [log.u, log.v, log.w].into_iter().enumerate() {
             let Some(measured) = measured else { continue };
-            let prediction = log_velocity::predict(&self.view(), log.reference, &lever);
-            let judged =
-                self.judge(&log_velocity::component(&prediction, axis, measured, std), None);
+            let prediction = self.predict_log(log);
+            let innovation = log_velocity::component(&prediction, axis, measured, std);
+            self.hear_log(&innovation, &prediction.by_lever.fixed_rows::<1>(axis).into_owned());
+            let judged = self.judge(&innovation, None);
             self.note_log(log, enter(report, log.time, source, aid, &judged));
         }
     }
@@ -62,6 +66,29 @@ impl Filter {
             let judged =
                 self.judge(&reference_heading::innovation(&self.view(), heading, std), None);
             self.note(enter(report, reference.time, source, "reference_heading", &judged));
+        }
+    }
+
+    /// A lever arm that was found here, and not measured, makes noise as the ship turns.
+    fn predict_log(&self, log: &LogVelocity) -> Prediction {
+        let lever = self.config.lever_arms.log.0;
+        let mut prediction = log_velocity::predict(&self.view(), log.reference, &lever);
+        if let Some(std) = self.log_lever_std {
+            let by_std = prediction.by_lever * Matrix3::from_diagonal(&std);
+            prediction.swing_noise += by_std * by_std.transpose();
+        }
+        prediction
+    }
+
+    /// What a log says of the lever arms, whether it is used or not.
+    fn hear_log<const M: usize>(
+        &mut self,
+        innovation: &Innovation<M>,
+        by_lever: &SMatrix<f64, M, 3>,
+    ) {
+        let Some(bias) = &mut self.bias else { return };
+        if let Some(weighed) = innovation.weigh(&self.covariance) {
+            bias.hear_log(&weighed, by_lever);
         }
     }
 

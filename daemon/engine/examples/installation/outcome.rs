@@ -1,0 +1,149 @@
+//! What came of a voyage.
+
+use std::fmt;
+
+use insd_base::{Event, Mode, Truth, Voyage, VoyageHeader, earth};
+use insd_engine::{Engine, EngineConfig, Output};
+
+use crate::mistakes::Mistake;
+
+/// Errors of one voyage, or of all seeds together.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Outcome {
+    name: String,
+    horizontal: f64,
+    vertical: f64,
+    nees: f64,
+    heading_nees: f64,
+    /// Greatest horizontal error while told valid, m, and in claimed sigmas, from the start.
+    worst: f64,
+    worst_sigmas: f64,
+    told: Option<f64>,
+    voyages: f64,
+    told_in: f64,
+}
+
+impl Outcome {
+    pub(crate) const HEAD: &'static str =
+        "mistake            horiz. m  down m   NEES  hdg NEES  worst m  sigmas  told in   after s";
+
+    /// Mean squares over voyages, the worst of all.
+    pub(crate) fn of(name: &str, all: &[Outcome]) -> Outcome {
+        let n = all.len() as f64;
+        let mean = |of: fn(&Outcome) -> f64| all.iter().map(of).sum::<f64>() / n;
+        let worst = |of: fn(&Outcome) -> f64| all.iter().map(of).fold(0.0, f64::max);
+        let mut told: Vec<f64> = all.iter().filter_map(|one| one.told).collect();
+        told.sort_by(f64::total_cmp);
+        Outcome {
+            name: name.to_owned(),
+            horizontal: mean(|one| one.horizontal.powi(2)).sqrt(),
+            vertical: mean(|one| one.vertical.powi(2)).sqrt(),
+            nees: mean(|one| one.nees),
+            heading_nees: mean(|one| one.heading_nees),
+            worst: worst(|one| one.worst),
+            worst_sigmas: worst(|one| one.worst_sigmas),
+            told: told.last().copied(),
+            voyages: n,
+            told_in: told.len() as f64,
+        }
+    }
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let told = self.told.map_or("-".to_owned(), |at| format!("{at:.0}"));
+        write!(
+            f,
+            "{:<18} {:>8.2} {:>7.2} {:>6.2} {:>9.2} {:>8.1} {:>7.1} {:>4}/{:<3} {:>8}",
+            self.name,
+            self.horizontal,
+            self.vertical,
+            self.nees,
+            self.heading_nees,
+            self.worst,
+            self.worst_sigmas,
+            self.told_in,
+            self.voyages,
+            told
+        )
+    }
+}
+
+/// Sails a voyage with a mistake.
+pub(crate) fn sail(voyage: &Voyage, mistake: &Mistake, from: f64) -> Outcome {
+    let mut header: VoyageHeader = voyage.header.clone();
+    (mistake.make)(&mut header);
+    let mut engine = Engine::new(EngineConfig::for_voyage(&header, 1.0));
+    let mut outcome = Outcome::default();
+    let mut judged = Judged::default();
+    let mut truth = voyage.truth.iter().peekable();
+    for received in voyage.received() {
+        engine.handle(&received);
+        while let Some(output) = engine.poll_output() {
+            match output {
+                Output::Solution(solution) => {
+                    while truth.next_if(|truth| truth.time < solution.time).is_some() {}
+                    if let Some(truth) = truth.peek().filter(|t| t.time == solution.time) {
+                        judged.judge(&solution, truth, from, &mut outcome);
+                    }
+                }
+                Output::Event(Event::InstallationFound { time, .. }) => {
+                    outcome.told.get_or_insert(time.as_seconds());
+                }
+                _ => {}
+            }
+        }
+    }
+    judged.finish(outcome)
+}
+
+#[derive(Default)]
+struct Judged {
+    n: f64,
+    horizontal: f64,
+    vertical: f64,
+    nees: f64,
+    heading_nees: f64,
+}
+
+impl Judged {
+    fn judge(
+        &mut self,
+        solution: &insd_base::Solution,
+        truth: &Truth,
+        from: f64,
+        outcome: &mut Outcome,
+    ) {
+        let apart = earth::ecef(&solution.position).0 - earth::ecef(&truth.position).0;
+        let error = earth::c_ne(&truth.position) * apart;
+        let std = solution.sigma.position.0;
+        let off = error.xy().norm();
+        let valid = !matches!(solution.mode, Mode::CoarseAlignment | Mode::Standby | Mode::Fault);
+        if valid {
+            outcome.worst = outcome.worst.max(off);
+            outcome.worst_sigmas = outcome.worst_sigmas.max(off / std.xy().norm());
+        }
+        if solution.time.as_seconds() < from {
+            return;
+        }
+        self.n += 1.0;
+        self.horizontal += off * off;
+        self.vertical += error.z * error.z;
+        let scaled = error.component_div(&std);
+        self.nees += scaled.xy().norm_squared() / 2.0;
+        if let Some(attitude) = truth.attitude {
+            let heading = insd_base::units::wrap_pi(solution.attitude.heading - attitude.heading);
+            self.heading_nees += (heading / solution.sigma.heading).powi(2);
+        }
+    }
+
+    fn finish(&self, outcome: Outcome) -> Outcome {
+        Outcome {
+            horizontal: (self.horizontal / self.n).sqrt(),
+            vertical: (self.vertical / self.n).sqrt(),
+            nees: self.nees / self.n,
+            heading_nees: self.heading_nees / self.n,
+            ..outcome
+        }
+    }
+}

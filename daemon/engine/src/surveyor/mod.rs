@@ -1,0 +1,133 @@
+//! What of the installation is otherwise than configured: read off what the filter has found.
+//!
+//! It looks every ten seconds at the newest state, as the herald does, and is no part of what the time
+//! line takes back.
+
+mod log;
+mod mounting;
+
+use insd_base::{Estimates, Finding, LeverArms, LogVelocity, Mode, Solution, Span, Time};
+
+use log::LogWatch;
+use mounting::Mounting;
+
+use crate::ship::Ship;
+
+/// Spacing of looks.
+const LOOK: Span = Span::from_nanos(10_000_000_000);
+/// A constant is otherwise than configured if it is beyond so many sigmas,
+const SIGNIFICANT: f64 = 5.0;
+/// and by so much: lever arm, m; delay, s.
+const LEVER: f64 = 0.5;
+const DELAY: f64 = 0.05;
+/// A log is compared with a solution at most so far from it in time, s.
+const LATE: f64 = 0.5;
+/// A lever arm that was not measured is told when it is known so well, each component, 1-sigma, m.
+const KNOWN: f64 = 0.5;
+
+/// What was found, and when to look next.
+#[derive(Clone, Debug)]
+pub(crate) struct Surveyor {
+    arms: LeverArms,
+    mounting: Mounting,
+    log: LogWatch,
+    newest: Option<Solution>,
+    next: Option<Time>,
+    findings: Vec<Finding>,
+}
+
+impl Surveyor {
+    pub(crate) fn new(arms: &LeverArms) -> Self {
+        Surveyor {
+            arms: *arms,
+            mounting: Mounting::default(),
+            log: LogWatch::default(),
+            newest: None,
+            next: None,
+            findings: Vec::new(),
+        }
+    }
+
+    /// What is found to be otherwise than configured, as it is known now.
+    pub(crate) fn findings(&self) -> &[Finding] {
+        &self.findings
+    }
+
+    /// Sees a solution, and claims no more of it than the mounting allows.
+    pub(crate) fn see(&mut self, solution: Solution) -> Solution {
+        self.mounting.see(&solution);
+        self.newest = Some(solution);
+        let mut doubted = solution;
+        for [heading, level] in self.findings.iter().filter_map(Finding::attitude_doubt) {
+            let sigma = &mut doubted.sigma;
+            sigma.heading = sigma.heading.max(heading);
+            sigma.roll = sigma.roll.max(level);
+            sigma.pitch = sigma.pitch.max(level);
+        }
+        doubted
+    }
+
+    /// Hears a log, which is compared with a solution that does not live by it.
+    pub(crate) fn hear(&mut self, log: &LogVelocity) {
+        let aided = |solution: &Solution| {
+            matches!(solution.mode, Mode::Aided | Mode::InMotionAlignment)
+                && (log.time - solution.time).as_seconds().abs() < LATE
+        };
+        if let Some(solution) = self.newest.filter(aided) {
+            self.log.hear(log, &solution, &self.arms.log);
+        }
+    }
+
+    /// Looks, if it is time; gives what was not found before.
+    pub(crate) fn look(&mut self, ship: &Ship, now: Time) -> Vec<Finding> {
+        if self.next.is_some_and(|next| now < next) {
+            return Vec::new();
+        }
+        self.next = Some(now + LOOK);
+        let Some(fine) = ship.likeliest().filter(|_| ship.has_one_heading()) else {
+            return Vec::new();
+        };
+        let estimates = fine.filter().estimates(fine.is_moored());
+        let found: Vec<Finding> = self.all(&estimates).into_iter().flatten().collect();
+        let is_new = |finding: &&Finding| {
+            !self.findings.iter().any(|known| known.as_str() == finding.as_str())
+        };
+        let told = found.iter().filter(is_new).copied().collect();
+        self.findings = found;
+        told
+    }
+
+    /// A lever arm in the axes of an IMU that is not mounted as configured means nothing; a ship that a
+    /// log, too, sees going astern goes astern.
+    fn all(&self, estimates: &Estimates) -> [Option<Finding>; 5] {
+        let astern = |finding: &Finding| {
+            matches!(finding, Finding::MountingTurned { .. }) && self.log.agrees()
+        };
+        let mounting = self.mounting.finding().filter(|finding| !astern(finding));
+        let lever = self.lever(estimates).filter(|_| mounting.is_none());
+        let log_lever = self.log_lever(estimates).filter(|_| mounting.is_none());
+        [mounting, lever, delay(estimates), log_lever, self.log.finding()]
+    }
+
+    fn log_lever(&self, estimates: &Estimates) -> Option<Finding> {
+        let (found, sigma) = estimates.log_lever?;
+        Some(Finding::LogLever { configured: self.arms.log, found, sigma })
+    }
+
+    fn lever(&self, estimates: &Estimates) -> Option<Finding> {
+        let (found, sigma) = (estimates.gnss_lever, estimates.gnss_lever_sigma);
+        let configured = self.arms.gnss;
+        if configured.0.norm() == 0.0 {
+            let known = sigma.0.max() < KNOWN;
+            return known.then_some(Finding::GnssLeverUnmeasured { found, sigma });
+        }
+        let difference = found.0 - configured.0;
+        let is_other = |i: usize| difference[i].abs() > LEVER.max(SIGNIFICANT * sigma.0[i]);
+        (0..3).any(is_other).then_some(Finding::GnssLever { configured, found, sigma })
+    }
+}
+
+fn delay(estimates: &Estimates) -> Option<Finding> {
+    let (found, sigma) = (estimates.gnss_delay.value, estimates.gnss_delay.sigma);
+    (found.abs() > DELAY.max(SIGNIFICANT * sigma)).then_some(Finding::GnssDelay { found, sigma })
+}

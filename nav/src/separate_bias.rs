@@ -1,0 +1,255 @@
+//! What the estimate would be if a constant of the installation were other than configured: the lever
+//! arm of the antenna, the delay of its epochs, or the lever arm of the log.
+//!
+//! The filter takes these constants as known, to millimetres where they were measured, and cannot doubt
+//! them: a mast on the wrong side makes it doubt the receiver. So what a wrong constant does to it is
+//! carried along beside it. With b the error of the constants, true minus configured, and U its effect
+//! on the errors of the estimate,
+//!
+//! E\[x\] = U b,   U <- Phi U,   U <- U - K H U,   E\[z\] = G b,   G = H U,
+//!
+//! with the gains that were really used, K = 0 where a measurement was refused. The filter's innovations
+//! then tell b by least squares, the information growing by G^T S^-1 G and the evidence by G^T S^-1 z,
+//! and the estimate that another b would have led to is x + U b (Friedland, Treatment of Bias in
+//! Recursive Filtering, IEEE Transactions on Automatic Control AC-14 (1969), eqs. (13)-(27); as a test:
+//! Willsky and Jones, A Generalized Likelihood Ratio Approach, AC-21 (1976)).
+//!
+//! A constant is found wrong when it explains what the innovations are off by: the likelihood with it is
+//! greater by far, and with it the innovations are about what they should be. A receiver that lies or a
+//! gyro that fails is not explained by where the antenna sits.
+
+use insd_base::attitude::skew;
+use nalgebra::{Cholesky, Matrix3, SMatrix, SVector, Vector3};
+
+use crate::aids::View;
+use crate::error_state::{
+    Covariance, ErrorState, GNSS_DELAY, GNSS_LEVER, POSITION, STATES, VELOCITY,
+};
+use crate::innovation::Weighed;
+use crate::trust::FAULT;
+
+/// Constants that are doubted: the lever arm of the antenna, three components, m; the delay, s; the lever
+/// arm of the log, m.
+pub const CONSTANTS: usize = 7;
+const DELAY_AT: usize = 3;
+const LOG_AT: usize = 4;
+
+/// One value for each constant.
+pub type Constants = SVector<f64, CONSTANTS>;
+/// The covariance of the constants.
+pub type ConstantsCovariance = SMatrix<f64, CONSTANTS, CONSTANTS>;
+
+const fn hypothesis(lever: f64, delay: f64, log: f64) -> Constants {
+    SVector::from_array_storage(nalgebra::ArrayStorage([[
+        lever, lever, lever, delay, log, log, log,
+    ]]))
+}
+
+/// U transposed: what a unit of each constant does to the errors of the estimate.
+pub type Response = SMatrix<f64, CONSTANTS, STATES>;
+
+/// What a constant may be off by, 1-sigma: the longest of masts, and more seconds than any receiver
+/// needs for a fix.
+const LEVER: f64 = 50.0;
+const DELAY: f64 = 1.0;
+/// A constant that is not doubted.
+const CERTAIN: f64 = 1e-9;
+/// What may be wrong: the lever arm of the antenna, the delay, or both; that of the log, or of both sensors.
+const HYPOTHESES: [Constants; 5] = [
+    hypothesis(LEVER, CERTAIN, CERTAIN),
+    hypothesis(CERTAIN, DELAY, CERTAIN),
+    hypothesis(LEVER, DELAY, CERTAIN),
+    hypothesis(CERTAIN, CERTAIN, LEVER),
+    hypothesis(LEVER, CERTAIN, LEVER),
+];
+/// Errors smaller than these are the business of the filter's own sigmas, m and s.
+const LEAST: Constants = hypothesis(1.0, 0.1, 1.0);
+/// Logarithm of the ratio of likelihoods from which on a hypothesis is believed.
+const CONVINCING: f64 = 30.0;
+/// Mean square of the innovations (one is expected) that a hypothesis may leave unexplained.
+const UNEXPLAINED: f64 = 5.0;
+/// An error is one beyond so many of its sigmas.
+const SIGNIFICANT: f64 = 6.0;
+/// Quantities that must have been heard.
+const FEWEST: f64 = 60.0;
+/// Quantities that the memory spans.
+const SPAN: f64 = 3600.0;
+/// Quantities that make a moment.
+const MOMENT: f64 = 600.0;
+/// A lever arm of which an error so large would have shown is confirmed, each component, 1-sigma, m.
+const CONFIRMED: f64 = 0.5;
+/// Share of a correction that it is unsure of, as what it does to the estimate is not quite linear.
+const BENT: f64 = 0.05;
+
+/// The effect of the constants on the estimate, and what the innovations say of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeparateBias {
+    response: Response,
+    information: ConstantsCovariance,
+    evidence: Constants,
+    /// Sum of the normalised squares of the innovations, and how many there were.
+    misfit: f64,
+    heard: f64,
+    /// Mean of the squares of late, none of them counting for more than a fault.
+    strain: f64,
+}
+
+/// What the constants are found to be off by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Finding {
+    /// True minus configured.
+    pub value: Constants,
+    /// Its covariance.
+    pub covariance: ConstantsCovariance,
+}
+
+impl SeparateBias {
+    /// The filter's position has come from the receiver by way of the configured constants, its
+    /// velocity has not.
+    #[must_use]
+    pub fn new(view: &View) -> Self {
+        let mut response = Response::zeros();
+        for (row, state) in (GNSS_LEVER.start()..GNSS_LEVER.end()).enumerate() {
+            response[(row, state)] = 1.0;
+        }
+        response[(DELAY_AT, GNSS_DELAY.start())] = 1.0;
+        let mut bias = SeparateBias {
+            response,
+            information: ConstantsCovariance::zeros(),
+            evidence: Constants::zeros(),
+            misfit: 0.0,
+            heard: 0.0,
+            strain: 0.0,
+        };
+        bias.place(view);
+        bias
+    }
+
+    /// The position has been set to what the receiver says: r = p - C_eb l + v tau.
+    pub fn place(&mut self, view: &View) {
+        let by_delay = view.nominal.velocity.transpose();
+        self.set(POSITION.start(), &-view.c_eb.transpose(), &by_delay);
+    }
+
+    /// The velocity has been set to what the receiver says: v = v_a - C_eb (omega x l) + a tau, with the
+    /// `acceleration` of the antenna in ECEF axes, m/s^2.
+    pub fn start(&mut self, view: &View, acceleration: &Vector3<f64>) {
+        let by_lever = -(view.c_eb * skew(&view.rate)).transpose();
+        self.set(VELOCITY.start(), &by_lever, &acceleration.transpose());
+    }
+
+    fn set(&mut self, state: usize, by_lever: &Matrix3<f64>, by_delay: &SMatrix<f64, 1, 3>) {
+        self.response.fixed_view_mut::<3, 3>(0, state).copy_from(by_lever);
+        self.response.fixed_view_mut::<1, 3>(DELAY_AT, state).copy_from(by_delay);
+    }
+
+    /// The effect on the errors, to be carried along with them.
+    pub fn response_mut(&mut self) -> &mut Response {
+        &mut self.response
+    }
+
+    /// Hears an innovation of GNSS, used or not, before it is absorbed.
+    pub fn hear<const M: usize>(&mut self, weighed: &Weighed<M>) {
+        let mean_square = weighed.nis() / M as f64;
+        self.weigh_in(weighed, &SMatrix::zeros());
+        self.strain += (mean_square.min(FAULT) - self.strain) * (M as f64 / self.heard.min(MOMENT));
+    }
+
+    /// Hears an innovation of the log, used or not, before it is absorbed; `by_lever` is its derivative with
+    /// respect to the lever arm of the log, which is no state of the filter.
+    pub fn hear_log<const M: usize>(
+        &mut self,
+        weighed: &Weighed<M>,
+        by_lever: &SMatrix<f64, M, 3>,
+    ) {
+        let mut direct = SMatrix::<f64, M, CONSTANTS>::zeros();
+        direct.fixed_columns_mut::<3>(LOG_AT).copy_from(by_lever);
+        self.weigh_in(weighed, &direct);
+    }
+
+    fn weigh_in<const M: usize>(
+        &mut self,
+        weighed: &Weighed<M>,
+        direct: &SMatrix<f64, M, CONSTANTS>,
+    ) {
+        let (effect, z) = weighed.whitened_with(&self.response, direct);
+        let kept = 1.0 - M as f64 / SPAN;
+        self.information = self.information * kept + effect * effect.transpose();
+        self.evidence = self.evidence * kept + effect * z;
+        self.misfit = self.misfit * kept + z.norm_squared();
+        self.heard = self.heard * kept + M as f64;
+    }
+
+    /// Whether the configured lever arm has been confirmed: nothing speaks against it, and if it were wrong
+    /// something would.
+    #[must_use]
+    pub fn is_confirmed(&self) -> bool {
+        let s = SMatrix::from_diagonal(&HYPOTHESES[0]);
+        let factor = Cholesky::new(SMatrix::identity() + s * self.information * s);
+        factor.is_some_and(|factor| {
+            let unsure = s * factor.inverse() * s;
+            (0..3).all(|i| unsure[(i, i)] < CONFIRMED * CONFIRMED)
+        })
+    }
+
+    /// Mean square of the latest innovations, of which one is expected, each counted as a fault at most;
+    /// `None` before there are enough of them.
+    #[must_use]
+    pub fn strain(&self) -> Option<f64> {
+        (self.heard >= FEWEST).then_some(self.strain)
+    }
+
+    /// What is found to be wrong, if anything is.
+    #[must_use]
+    pub fn finding(&self) -> Option<Finding> {
+        if self.heard < FEWEST {
+            return None;
+        }
+        let weighed = HYPOTHESES.iter().filter_map(|prior| self.weigh(prior));
+        let (_, finding) = weighed.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(finding)
+    }
+
+    /// How much better a hypothesis fits than the configuration, and what it finds; `None` unless it is
+    /// believed. With S the prior sigmas and A = I + S Lambda S the logarithm of the ratio of likelihoods
+    /// is (S eta)^T A^-1 (S eta) / 2 - ln(det A) / 2.
+    fn weigh(&self, prior: &Constants) -> Option<(f64, Finding)> {
+        let s = SMatrix::from_diagonal(prior);
+        let factor = Cholesky::new(SMatrix::identity() + s * self.information * s)?;
+        let scaled = s * self.evidence;
+        let solved = factor.solve(&scaled);
+        let explained = scaled.dot(&solved);
+        let left = ((self.misfit - explained) / self.heard).max(1.0);
+        let volume: f64 = factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
+        let score = explained / (2.0 * left) - volume;
+        let covariance = s * factor.inverse() * s * left;
+        let value = s * solved;
+        let is_large = |i: usize| {
+            value[i].abs() > LEAST[i].max(SIGNIFICANT * covariance[(i, i)].max(0.0).sqrt())
+        };
+        let convinces = score > CONVINCING && left < UNEXPLAINED && (0..CONSTANTS).any(is_large);
+        convinces.then_some((score, Finding { value, covariance }))
+    }
+
+    /// The error of the estimate that a finding means, and the covariance that it adds to it.
+    #[must_use]
+    pub fn correction(&self, finding: &Finding) -> (ErrorState, Covariance) {
+        let Finding { value, covariance } = finding;
+        let bent = SMatrix::from_diagonal(&(value.component_mul(value) * (BENT * BENT)));
+        let unsure = self.response.transpose() * (covariance + bent) * self.response;
+        (self.response.transpose() * value, unsure)
+    }
+}
+
+impl Finding {
+    /// What the lever arm of the log is found to be off by, m, with 1-sigma, if it is by much.
+    #[must_use]
+    pub fn log_lever(&self) -> Option<(Vector3<f64>, Vector3<f64>)> {
+        let value = self.value.fixed_rows::<3>(LOG_AT).into_owned();
+        let sigma = Vector3::from_fn(|i, _| {
+            let i = LOG_AT + i;
+            self.covariance[(i, i)].max(0.0).sqrt()
+        });
+        (value.amax() > LEAST[LOG_AT]).then_some((value, sigma))
+    }
+}
