@@ -5,7 +5,8 @@
 use std::sync::Arc;
 
 use insd_base::{
-    AlignmentStatus, Arrival, Body, Heave, Message, Mode, Motion, Received, Solution, Span, Time,
+    AlignmentStatus, Arrival, Body, Finding, Heave, Message, Mode, Motion, Received, Solution,
+    Span, Time,
 };
 use insd_engine::vote::{
     Difference, Disagreement, Doubt, Record, Testimony, Voice, VoteEvent, Voter,
@@ -357,6 +358,10 @@ impl Knows for InUse<'_> {
     fn heaves(&self) -> Vec<Option<Heave>> {
         let of_spare = |spare: &Running| spare.engine.heaves().into_iter().skip(1).collect();
         self.spare().map_or_else(|| self.first.heaves(), of_spare)
+    }
+
+    fn findings(&self) -> &[Finding] {
+        self.engine().findings()
     }
 
     fn engines_differ(&self) -> bool {

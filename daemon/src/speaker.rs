@@ -2,12 +2,12 @@
 //! a recording replays to the bytes that were sent.
 
 use insd_base::{
-    AlignmentStatus, Arrival, Geodetic, Heave, Message as Measurement, Motion, PortId, Received,
-    Span, Time, UtcTime,
+    AlignmentStatus, Arrival, Finding, Geodetic, Heave, Message as Measurement, Motion, PortId,
+    Received, Span, Time, UtcTime,
 };
 use insd_engine::{Engine, Output};
 use insd_n2k::pgn::TimeSource;
-use insd_output::{Epoch, Message, Moment, Receiver, Station, Variation};
+use insd_output::{Doubts, Epoch, Message, Moment, Receiver, Station, Variation};
 use insd_wire::nmea::{AlertCommand, Sentence};
 
 use crate::ears::Ears;
@@ -29,6 +29,8 @@ pub trait Knows {
     fn engines_differ(&self) -> bool {
         false
     }
+    /// What of the installation is found to be otherwise than configured.
+    fn findings(&self) -> &[Finding];
 }
 
 impl Knows for Engine {
@@ -38,6 +40,10 @@ impl Knows for Engine {
 
     fn heaves(&self) -> Vec<Option<Heave>> {
         Engine::heaves(self)
+    }
+
+    fn findings(&self) -> &[Finding] {
+        Engine::findings(self)
     }
 }
 
@@ -172,6 +178,7 @@ impl Speaker {
             receiver: receiver.map(|(_, receiver)| receiver),
             alignment: self.alignment,
             engines_differ: engine.engines_differ(),
+            doubts: Doubts::of(engine.findings()),
         }
     }
 

@@ -270,11 +270,13 @@ impl Engine {
 
     fn advance(&mut self, increment: &Increment) {
         self.last = Some(*increment);
+        self.surveyor.measure(increment);
         match &mut self.stage {
             Stage::Levelling(coarse) => {
                 coarse.advance(increment);
                 self.try_start();
                 self.tell_levelling(increment.to);
+                self.tell_installation(increment.to);
             }
             Stage::Running(line) => {
                 let mut solutions = Vec::new();
@@ -291,7 +293,7 @@ impl Engine {
                     self.emit(solution);
                 }
                 self.tell_alignment();
-                self.tell_installation();
+                self.tell_installation(increment.to);
                 self.consider_another();
                 self.tell_of_stored();
             }
@@ -324,10 +326,12 @@ impl Engine {
         }
     }
 
-    fn tell_installation(&mut self) {
-        let Stage::Running(line) = &self.stage else { return };
-        let time = line.now();
-        for finding in self.surveyor.look(line.estimator(), time) {
+    fn tell_installation(&mut self, time: Time) {
+        let ship = match &self.stage {
+            Stage::Running(line) => Some(line.estimator()),
+            Stage::Levelling(_) => None,
+        };
+        for finding in self.surveyor.look(ship, time) {
             self.tell(Event::InstallationFound { time, finding });
         }
     }
@@ -347,6 +351,10 @@ impl Engine {
             }
             return;
         };
+        if self.surveyor.refuses_imu() {
+            **coarse = Coarse::new(&self.config);
+            return;
+        }
         let stored = self.config.stored.as_ref();
         let ship = Ship::aligning(&self.nav, &level, &kinematics, &self.config.alignment, stored);
         let mut line = Timeline::new(ship, level.time);
@@ -449,8 +457,8 @@ impl Engine {
             return;
         }
         self.enter(solution.time, solution.mode, self.facts(), None);
-        let solution = self.surveyor.see(solution);
-        self.outputs.push_back(Output::Solution(solution));
+        self.surveyor.see(&solution);
+        self.outputs.push_back(Output::Solution(self.surveyor.claim(solution)));
     }
 
     /// Takes the mode as it is now, and tells a change.

@@ -23,7 +23,7 @@ impl Engine {
         let filter = ship.likeliest().map(Fine::filter);
         let acceleration = filter.zip(self.last.as_ref());
         Some(Motion {
-            solution,
+            solution: self.surveyor.claim(solution),
             acceleration: acceleration.map(|(filter, last)| filter.acceleration(last)),
             covariance_north_east: filter.map(Filter::covariance_north_east),
             current: filter.and_then(Filter::current),

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use insd_base::{AlignmentStatus, Counts, Event, Forecast, Mode, Time};
+use insd_base::{AlignmentStatus, Counts, Event, Finding, Forecast, Mode, Time};
 use insd_drivers::recording::FileReport;
 
 use crate::evaluation::{Align, Table};
@@ -21,6 +21,7 @@ pub(super) struct Summary<'a> {
     pub(super) modes: &'a [(Time, Mode)],
     pub(super) departures: &'a [Time],
     pub(super) resets: &'a [Time],
+    pub(super) findings: &'a [(Time, Finding)],
     pub(super) stored: Option<&'a Event>,
     pub(super) counts: &'a Counts,
     pub(super) dropped: u64,
@@ -68,6 +69,9 @@ impl Summary<'_> {
         }
         for time in self.resets.iter().take(MODES_TOLD) {
             writeln!(f, "  {:>10.1} s  position set anew", time.as_seconds())?;
+        }
+        for (time, finding) in self.findings {
+            writeln!(f, "  {:>10.1} s  {finding}", time.as_seconds())?;
         }
         match self.stored {
             Some(Event::StoredStateUsed { time }) => {

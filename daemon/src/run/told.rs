@@ -105,6 +105,10 @@ fn tell_engine(event: &Event) {
         Event::ImuGap { time, missing } => {
             tracing::warn!(at = time.as_seconds(), missing, "gap in the IMU data bridged");
         }
+        Event::InstallationFound { time, finding } => {
+            let (at, paste) = (time.as_seconds(), finding.to_paste());
+            tracing::warn!(at, finding = finding.as_str(), paste, "{finding}");
+        }
         _ => tracing::info!(?event, "engine"),
     }
 }

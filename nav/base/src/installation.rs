@@ -41,6 +41,16 @@ pub enum Finding {
         /// 1-sigma, s.
         sigma: f64,
     },
+    /// The accelerometers do not tell gravity.
+    ImuForce {
+        /// Mean of the specific force, m/s^2.
+        mean: f64,
+    },
+    /// The gyros tell a rate that no ship has.
+    ImuRate {
+        /// Root mean square of the rate, rad/s.
+        mean: f64,
+    },
     /// The IMU is not the way up that it is said to be: the ship seems to lean for ever.
     MountingTilted {
         /// List to starboard that it says, rad.
@@ -71,6 +81,8 @@ impl Finding {
             Finding::GnssLeverUnmeasured { .. } => "gnss_lever_unmeasured",
             Finding::LogLever { .. } => "log_lever",
             Finding::GnssDelay { .. } => "gnss_delay",
+            Finding::ImuForce { .. } => "imu_force",
+            Finding::ImuRate { .. } => "imu_rate",
             Finding::MountingTilted { .. } => "mounting_tilted",
             Finding::MountingTurned { .. } => "mounting_turned",
             Finding::LogMounting { .. } => "log_mounting",
@@ -87,7 +99,9 @@ impl Finding {
     #[must_use]
     pub fn attitude_doubt(&self) -> Option<[f64; 2]> {
         match self {
-            Finding::MountingTilted { .. } => Some([PI, PI]),
+            Finding::MountingTilted { .. } | Finding::ImuForce { .. } | Finding::ImuRate { .. } => {
+                Some([PI, PI])
+            }
             Finding::MountingTurned { turn } => Some([turn.abs(), turn.abs().min(0.5 * PI)]),
             _ => None,
         }
@@ -132,6 +146,18 @@ fn lying(roll: f64, pitch: f64) -> &'static str {
     let greatest = |best: usize, i: usize| if down[i].abs() > down[best].abs() { i } else { best };
     let axis = (0..3).fold(2, greatest);
     WORDS[axis][usize::from(down[axis] < 0.0)]
+}
+
+/// What may have gone wrong with accelerometers of such a mean, m/s^2.
+fn force_cause(mean: f64) -> &'static str {
+    let near = |to: f64| (mean / to - 1.0).abs() < 0.05;
+    match () {
+        () if near(1.0) => "they seem to tell g where m/s2 are expected",
+        () if near(9.81 * 9.81) => "they seem to tell m/s2 where g is expected",
+        () if near(9.81 / 1000.0) || near(9810.0) => "a factor of a thousand, check the unit",
+        () if mean < 1.0 => "are they increments of velocity, or is gravity taken out?",
+        () => "check the unit, the rate and whether these are rates or increments",
+    }
 }
 
 /// What may have gone wrong with a log that says so many times too much in such a direction, rad.
@@ -206,6 +232,16 @@ impl fmt::Display for Finding {
                     "GNSS epochs seem to be tagged {by:.2} s {word} their time, good to {sigma:.2} s"
                 )
             }
+            Finding::ImuForce { mean } => write!(
+                f,
+                "the accelerometers say {mean:.2} m/s2 where gravity is 9.81: {}",
+                force_cause(*mean)
+            ),
+            Finding::ImuRate { mean } => write!(
+                f,
+                "the gyros say {:.0} deg/s on the mean: do they tell degrees where radians are expected?",
+                mean.to_degrees()
+            ),
             Finding::MountingTilted { roll, pitch } => write!(
                 f,
                 "the IMU seems to be mounted {}: it says roll {:.0} deg, pitch {:.0} deg",

@@ -1,6 +1,8 @@
 //! What is known at one instant of one point of the ship.
 
-use insd_base::{AlignmentPhase, AlignmentStatus, Heave, Ned, Solution, Span, Time, UtcTime};
+use insd_base::{
+    AlignmentPhase, AlignmentStatus, Finding, Heave, Ned, Solution, Span, Time, UtcTime,
+};
 use insd_n2k::pgn::TimeSource;
 
 use crate::schedule::Boundary;
@@ -44,6 +46,31 @@ pub struct Epoch {
     pub alignment: Option<AlignmentStatus>,
     /// Whether two engines are apart by more than they claim.
     pub engines_differ: bool,
+    /// What of the installation is found to be otherwise than configured.
+    pub doubts: Doubts,
+}
+
+/// What of the installation is found to be otherwise than configured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Doubts {
+    /// How the IMU is mounted, or what it tells.
+    pub mounting: bool,
+    /// Lever arms, delays, logs.
+    pub installation: bool,
+}
+
+impl Doubts {
+    /// Those of a list of findings.
+    #[must_use]
+    pub fn of(findings: &[Finding]) -> Self {
+        let is_mounting = |finding: &&Finding| finding.attitude_doubt().is_some();
+        Doubts {
+            mounting: findings.iter().any(|finding| is_mounting(&finding)),
+            installation: findings
+                .iter()
+                .any(|finding| finding.is_fault() && !is_mounting(&finding)),
+        }
+    }
 }
 
 /// Distance run since the start, m.
@@ -107,6 +134,7 @@ impl Epoch {
             distance: Distance::default(),
             alignment: None,
             engines_differ: false,
+            doubts: Doubts::default(),
         }
     }
     /// Whether it is being found which way is down: there cannot be a solution yet.

@@ -21,7 +21,7 @@ mod said;
 mod schedule;
 mod station;
 
-pub use epoch::{Distance, Epoch, Receiver, Variation};
+pub use epoch::{Distance, Doubts, Epoch, Receiver, Variation};
 pub use insd_wire::nmea::{CivilTime, Date, Sfi, Talker, TimeOfDay, TransmissionGroup};
 pub use lan::{Datagram, Lan, LanConfig};
 pub use manner::Manner;

@@ -5,7 +5,7 @@ use insd_n2k::pgn::TimeSource;
 use insd_wire::nmea::{Acn, AlertCommand, Hbt};
 
 use crate::alerts::{AlertBoard, AlertConfig, Watch};
-use crate::epoch::{Distance, Epoch, Receiver, Variation};
+use crate::epoch::{Distance, Doubts, Epoch, Receiver, Variation};
 use crate::policy::Policy;
 use crate::port::{Message, Port, PortConfig};
 use crate::schedule::{Boundary, Pacer, Rate};
@@ -36,6 +36,8 @@ pub struct Moment {
     pub alignment: Option<AlignmentStatus>,
     /// Whether two engines are apart by more than they claim.
     pub engines_differ: bool,
+    /// What of the installation is found to be otherwise than configured.
+    pub doubts: Doubts,
 }
 
 /// All ports of a ship.
@@ -224,6 +226,7 @@ fn epoch(boundary: &Boundary, moment: &Moment, point: usize, lever: &Body) -> Ep
         receiver: moment.receiver,
         alignment: moment.alignment,
         engines_differ: moment.engines_differ,
+        doubts: moment.doubts,
         ..Epoch::unknown(boundary.time)
     }
 }

@@ -42,7 +42,7 @@ fn main() {
 
 /// All seeds of one mistake.
 fn campaign(scenario: &Scenario, mistake: &Mistake, seeds: u64, from: f64) -> Outcome {
-    let one = |seed: u64| sail(&simulate(scenario, seed), mistake, from);
+    let one = |seed: u64| sail(simulate(scenario, seed), mistake, from);
     let outcomes: Vec<Outcome> = (1..=seeds).into_par_iter().map(one).collect();
     Outcome::of(mistake.name, &outcomes)
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use insd_base::{Event, Mode, Truth, Voyage, VoyageHeader, earth};
+use insd_base::{Event, Mode, Truth, Voyage, earth};
 use insd_engine::{Engine, EngineConfig, Output};
 
 use crate::mistakes::Mistake;
@@ -70,10 +70,10 @@ impl fmt::Display for Outcome {
 }
 
 /// Sails a voyage with a mistake.
-pub(crate) fn sail(voyage: &Voyage, mistake: &Mistake, from: f64) -> Outcome {
-    let mut header: VoyageHeader = voyage.header.clone();
-    (mistake.make)(&mut header);
-    let mut engine = Engine::new(EngineConfig::for_voyage(&header, 1.0));
+pub(crate) fn sail(voyage: Voyage, mistake: &Mistake, from: f64) -> Outcome {
+    let mut voyage = voyage;
+    (mistake.make)(&mut voyage);
+    let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
     let mut outcome = Outcome::default();
     let mut judged = Judged::default();
     let mut truth = voyage.truth.iter().peekable();
@@ -87,8 +87,13 @@ pub(crate) fn sail(voyage: &Voyage, mistake: &Mistake, from: f64) -> Outcome {
                         judged.judge(&solution, truth, from, &mut outcome);
                     }
                 }
-                Output::Event(Event::InstallationFound { time, .. }) => {
-                    outcome.told.get_or_insert(time.as_seconds());
+                Output::Event(Event::InstallationFound { time, finding }) => {
+                    if std::env::var_os("WORDS").is_some() {
+                        eprintln!("{}: {:.0} s: {finding}", mistake.name, time.as_seconds());
+                    }
+                    if finding.as_str() == mistake.cause || mistake.cause.is_empty() {
+                        outcome.told.get_or_insert(time.as_seconds());
+                    }
                 }
                 _ => {}
             }

@@ -3,13 +3,17 @@
 //! It looks every ten seconds at the newest state, as the herald does, and is no part of what the time
 //! line takes back.
 
+mod imu;
 mod log;
 mod mounting;
 
 use insd_base::{Estimates, Finding, LeverArms, LogVelocity, Mode, Solution, Span, Time};
 
+use imu::ImuWatch;
 use log::LogWatch;
 use mounting::Mounting;
+
+use insd_nav::Increment;
 
 use crate::ship::Ship;
 
@@ -29,6 +33,7 @@ const KNOWN: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub(crate) struct Surveyor {
     arms: LeverArms,
+    imu: ImuWatch,
     mounting: Mounting,
     log: LogWatch,
     newest: Option<Solution>,
@@ -40,6 +45,7 @@ impl Surveyor {
     pub(crate) fn new(arms: &LeverArms) -> Self {
         Surveyor {
             arms: *arms,
+            imu: ImuWatch::default(),
             mounting: Mounting::default(),
             log: LogWatch::default(),
             newest: None,
@@ -53,10 +59,24 @@ impl Surveyor {
         &self.findings
     }
 
-    /// Sees a solution, and claims no more of it than the mounting allows.
-    pub(crate) fn see(&mut self, solution: Solution) -> Solution {
-        self.mounting.see(&solution);
-        self.newest = Some(solution);
+    /// Sees an increment of the IMU.
+    pub(crate) fn measure(&mut self, increment: &Increment) {
+        self.imu.see(increment);
+    }
+
+    /// Whether nothing can be made of what the IMU says.
+    pub(crate) fn refuses_imu(&self) -> bool {
+        self.imu.finding().is_some()
+    }
+
+    /// Sees a solution.
+    pub(crate) fn see(&mut self, solution: &Solution) {
+        self.mounting.see(solution);
+        self.newest = Some(*solution);
+    }
+
+    /// A solution that claims no more than the mounting allows.
+    pub(crate) fn claim(&self, solution: Solution) -> Solution {
         let mut doubted = solution;
         for [heading, level] in self.findings.iter().filter_map(Finding::attitude_doubt) {
             let sigma = &mut doubted.sigma;
@@ -79,16 +99,16 @@ impl Surveyor {
     }
 
     /// Looks, if it is time; gives what was not found before.
-    pub(crate) fn look(&mut self, ship: &Ship, now: Time) -> Vec<Finding> {
+    pub(crate) fn look(&mut self, ship: Option<&Ship>, now: Time) -> Vec<Finding> {
         if self.next.is_some_and(|next| now < next) {
             return Vec::new();
         }
         self.next = Some(now + LOOK);
-        let Some(fine) = ship.likeliest().filter(|_| ship.has_one_heading()) else {
-            return Vec::new();
+        let navigating = ship.filter(|ship| ship.has_one_heading()).and_then(Ship::likeliest);
+        let found: Vec<Finding> = match navigating {
+            Some(fine) => self.all(&fine.filter().estimates(fine.is_moored())),
+            None => self.of_imu(),
         };
-        let estimates = fine.filter().estimates(fine.is_moored());
-        let found: Vec<Finding> = self.all(&estimates).into_iter().flatten().collect();
         let is_new = |finding: &&Finding| {
             !self.findings.iter().any(|known| known.as_str() == finding.as_str())
         };
@@ -99,14 +119,23 @@ impl Surveyor {
 
     /// A lever arm in the axes of an IMU that is not mounted as configured means nothing; a ship that a
     /// log, too, sees going astern goes astern.
-    fn all(&self, estimates: &Estimates) -> [Option<Finding>; 5] {
+    fn all(&self, estimates: &Estimates) -> Vec<Finding> {
         let astern = |finding: &Finding| {
             matches!(finding, Finding::MountingTurned { .. }) && self.log.agrees()
         };
-        let mounting = self.mounting.finding().filter(|finding| !astern(finding));
-        let lever = self.lever(estimates).filter(|_| mounting.is_none());
-        let log_lever = self.log_lever(estimates).filter(|_| mounting.is_none());
-        [mounting, lever, delay(estimates), log_lever, self.log.finding()]
+        let mut found = self.of_imu();
+        found.retain(|finding| !astern(finding));
+        let levers = [self.lever(estimates), self.log_lever(estimates)];
+        if found.is_empty() {
+            found.extend(levers.into_iter().flatten());
+        }
+        found.extend(delay(estimates).into_iter().chain(self.log.finding()));
+        found
+    }
+
+    /// What is found of the IMU alone.
+    fn of_imu(&self) -> Vec<Finding> {
+        self.imu.finding().or_else(|| self.mounting.finding()).into_iter().collect()
     }
 
     fn log_lever(&self, estimates: &Estimates) -> Option<Finding> {

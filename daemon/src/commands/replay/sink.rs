@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use insd_base::{AlignmentStatus, Counts, Event, Innovation, Mode, Time};
+use insd_base::{AlignmentStatus, Counts, Event, Finding, Innovation, Mode, Time};
 use insd_drivers::recording::{FileReport, NavWriter};
 use insd_engine::Output;
 
@@ -21,6 +21,7 @@ pub(super) struct Sink {
     modes: Vec<(Time, Mode)>,
     departures: Vec<Time>,
     resets: Vec<Time>,
+    findings: Vec<(Time, Finding)>,
     stored: Option<Event>,
     solutions: u64,
 }
@@ -37,6 +38,7 @@ impl Sink {
             modes: Vec::new(),
             departures: Vec::new(),
             resets: Vec::new(),
+            findings: Vec::new(),
             stored: None,
             solutions: 0,
         })
@@ -72,6 +74,7 @@ impl Sink {
             Event::ModeChanged { time, to, .. } => self.modes.push((time, to)),
             Event::LeftBerth { time } => self.departures.push(time),
             Event::PositionReset { time } => self.resets.push(time),
+            Event::InstallationFound { time, finding } => self.findings.push((time, finding)),
             Event::StoredStateUsed { .. } | Event::StoredStateDropped { .. } => {
                 self.stored = Some(*event);
             }
@@ -94,6 +97,7 @@ impl Sink {
             modes: &self.modes,
             departures: &self.departures,
             resets: &self.resets,
+            findings: &self.findings,
             stored: self.stored.as_ref(),
             counts,
             dropped,

@@ -29,6 +29,11 @@ pub enum Condition {
     Simulated,
     /// Two engines are apart by more than they claim: at least one is wrong.
     EnginesDiffer,
+    /// The IMU does not seem to be mounted as configured, or does not tell what it should: heading, roll and
+    /// pitch are not to be used.
+    MountingDoubt,
+    /// Something else of the installation is found to be otherwise than configured, such as a lever arm.
+    Installation,
 }
 
 /// An alert that there can be.
@@ -45,13 +50,15 @@ struct Definition {
 
 impl Condition {
     /// All of them, those that matter most first.
-    pub const ALL: [Condition; 8] = [
+    pub const ALL: [Condition; 10] = [
         Condition::SystemFault,
         Condition::HeadingLost,
         Condition::PositionLost,
+        Condition::MountingDoubt,
         Condition::EnginesDiffer,
         Condition::HeadingDegraded,
         Condition::PositionEstimated,
+        Condition::Installation,
         Condition::NoUtc,
         Condition::Simulated,
     ];
@@ -112,6 +119,13 @@ impl Condition {
             Condition::EnginesDiffer => {
                 own(10_007, Warning, ["Engines differ", "Compare with another heading"], [0, 0])
             }
+            // what was found has persisted for long enough
+            Condition::MountingDoubt => {
+                own(10_020, Warning, ["Mounting doubt", "IMU not as configured. See page"], [0, 10])
+            }
+            Condition::Installation => {
+                own(10_021, Caution, ["Installation", "Not as configured. See page"], [0, 10])
+            }
         }
     }
 
@@ -161,6 +175,8 @@ impl Watch {
             Condition::NoUtc => epoch.utc.is_none(),
             Condition::Simulated => simulated,
             Condition::EnginesDiffer => epoch.engines_differ,
+            Condition::MountingDoubt => epoch.doubts.mounting,
+            Condition::Installation => epoch.doubts.installation,
         };
         let mut found = Condition::ALL.map(|condition| (condition, holds(condition)));
         for ((condition, holds), latch) in found.iter_mut().zip(&mut self.latches) {

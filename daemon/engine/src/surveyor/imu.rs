@@ -1,0 +1,67 @@
+//! Whether the IMU tells what its configuration says it does: gravity is known, and ships do not spin.
+
+use insd_base::Finding;
+use insd_base::units::DEG;
+use insd_nav::Increment;
+
+/// Gravity at sea, m/s^2, and by how much of it the mean force may differ: a rough sea, a short window.
+const GRAVITY: f64 = 9.81;
+const OFF: f64 = 0.05;
+/// Root mean square of a ship's rate of turn, all axes, that is beyond any sea, rad/s.
+const SPIN: f64 = 25.0 * DEG;
+/// Time constant of the means, and how long must have been seen, s.
+const SPAN: f64 = 20.0;
+const SEEN: f64 = 9.0;
+
+/// Once found wrong it is right when both are within these shares of the limits for so long, s: in a calm
+/// degrees look like radians.
+const CALM: f64 = 0.3;
+const RIGHT: f64 = 60.0;
+
+/// Means of what the IMU says.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ImuWatch {
+    force: f64,
+    rate_square: f64,
+    seen: f64,
+    /// What was found, and for how long it has been right since, s.
+    found: Option<Finding>,
+    right: f64,
+}
+
+impl ImuWatch {
+    /// Sees an increment that was measured.
+    pub(super) fn see(&mut self, increment: &Increment) {
+        let duration = increment.duration();
+        if increment.bridged.is_some() || duration <= 0.0 {
+            return;
+        }
+        self.seen += duration;
+        let share = duration / self.seen.min(SPAN);
+        self.force += (increment.velocity.norm() / duration - self.force) * share;
+        let rate = increment.rotation.norm() / duration;
+        self.rate_square += (rate * rate - self.rate_square) * share;
+        self.judge(duration);
+    }
+
+    fn judge(&mut self, duration: f64) {
+        let off = (self.force / GRAVITY - 1.0).abs() / OFF;
+        let spin = self.rate_square.sqrt() / SPIN;
+        self.right = if off.max(spin) < CALM { self.right + duration } else { 0.0 };
+        if self.seen < SEEN {
+            return;
+        }
+        if off > 1.0 {
+            self.found = Some(Finding::ImuForce { mean: self.force });
+        } else if spin > 1.0 {
+            self.found = Some(Finding::ImuRate { mean: self.rate_square.sqrt() });
+        } else if self.right > RIGHT {
+            self.found = None;
+        }
+    }
+
+    /// What it gets wrong, if anything.
+    pub(super) fn finding(&self) -> Option<Finding> {
+        self.found
+    }
+}

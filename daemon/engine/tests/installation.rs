@@ -1,0 +1,131 @@
+//! Installations that are not as configured: the ship stays where she is, and the cause is named.
+
+use insd_base::units::DEG;
+use insd_base::{Body, Event, Finding, Solution, Truth, Voyage, earth};
+use insd_engine::{Engine, EngineConfig, Output};
+use insd_simulator::{Scenario, shipped, simulate};
+use nalgebra::{Rotation3, Vector3};
+
+/// A quarter of an hour under way in sea state 4, with four turns.
+fn voyage() -> Voyage {
+    let (_, text) = shipped().iter().find(|(name, _)| name.starts_with("10")).unwrap();
+    simulate(&Scenario::from_toml(text).unwrap().with_duration(1000.0), 3)
+}
+
+struct Sailed {
+    solutions: Vec<Solution>,
+    truth: Vec<Truth>,
+    told: Vec<Finding>,
+    last: Vec<Finding>,
+}
+
+fn sail(voyage: Voyage) -> Sailed {
+    let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
+    let (mut solutions, mut told) = (Vec::new(), Vec::new());
+    for received in voyage.received() {
+        engine.handle(&received);
+        while let Some(output) = engine.poll_output() {
+            match output {
+                Output::Solution(solution) => solutions.push(solution),
+                Output::Event(Event::InstallationFound { finding, .. }) => told.push(finding),
+                _ => {}
+            }
+        }
+    }
+    Sailed { solutions, truth: voyage.truth, told, last: engine.findings().to_vec() }
+}
+
+impl Sailed {
+    fn names(&self) -> Vec<&'static str> {
+        self.told.iter().map(Finding::as_str).collect()
+    }
+
+    /// RMS of the horizontal error of the last minute, m, and over the claimed sigma.
+    fn end(&self) -> (f64, f64) {
+        let from = self.solutions.len() - 60;
+        let (mut square, mut scaled) = (0.0, 0.0);
+        for solution in &self.solutions[from..] {
+            let truth = self.truth.iter().find(|truth| truth.time >= solution.time).unwrap();
+            let apart = earth::ecef(&solution.position).0 - earth::ecef(&truth.position).0;
+            let error = (earth::c_ne(&truth.position) * apart).xy().norm_squared();
+            square += error / 60.0;
+            scaled += error / solution.sigma.position.0.xy().norm_squared() / 60.0;
+        }
+        (square.sqrt(), scaled.sqrt())
+    }
+}
+
+/// The samples of an IMU that is turned in the ship by these angles, deg.
+fn turned(mut voyage: Voyage, roll: f64, pitch: f64, yaw: f64) -> Voyage {
+    let c = Rotation3::from_euler_angles(roll * DEG, pitch * DEG, yaw * DEG).inverse();
+    for sample in &mut voyage.imu {
+        sample.message.delta_theta = Body(c * sample.message.delta_theta.0);
+        sample.message.delta_velocity = Body(c * sample.message.delta_velocity.0);
+    }
+    voyage
+}
+
+#[test]
+fn nothing_is_found_where_all_is_as_configured() {
+    let sailed = sail(voyage());
+    assert_eq!(sailed.told, []);
+}
+
+#[test]
+fn a_lever_arm_of_the_wrong_sign_costs_a_ship_nothing_and_is_told() {
+    let truth = sail(voyage()).end().0;
+    for wrong in [[-6.0, -0.8, 14.0], [6.0, 0.8, 14.0], [-60.0, -8.0, -140.0]] {
+        let mut voyage = voyage();
+        voyage.header.lever_arms.gnss = Body(Vector3::from(wrong));
+        let sailed = sail(voyage);
+        let (error, sigmas) = sailed.end();
+        assert!(error < 1.5 * truth.max(0.8) && sigmas < 3.0, "{wrong:?}: {error} m, {sigmas}");
+        let Some(Finding::GnssLever { found, .. }) = sailed.last.first() else {
+            panic!("{wrong:?}: {:?}", sailed.last);
+        };
+        let off = found.0 - Vector3::new(-6.0, -0.8, -14.0);
+        assert!(off.amax() < 2.5, "{wrong:?}: {found:?}");
+    }
+}
+
+#[test]
+fn a_lever_arm_that_was_not_measured_is_found_and_is_no_fault() {
+    let mut voyage = voyage();
+    voyage.header.lever_arms.gnss = Body::default();
+    let sailed = sail(voyage);
+    assert!(sailed.end().0 < 2.0, "{:?}", sailed.end());
+    assert_eq!(sailed.names(), ["gnss_lever_unmeasured"]);
+    assert!(!sailed.told[0].is_fault());
+}
+
+#[test]
+fn an_imu_that_is_upside_down_is_named_and_no_attitude_is_claimed() {
+    for (roll, pitch) in [(180.0, 0.0), (0.0, 180.0), (90.0, 0.0), (0.0, -90.0)] {
+        let sailed = sail(turned(voyage(), roll, pitch, 0.0));
+        let sigma = sailed.solutions.last().unwrap().sigma;
+        assert!(sailed.names().contains(&"mounting_tilted"), "{:?}", sailed.told);
+        assert!(sigma.heading > 90.0 * DEG && sigma.roll > 90.0 * DEG, "{sigma:?}");
+    }
+}
+
+#[test]
+fn an_imu_that_is_turned_about_the_vertical_is_named_and_its_heading_not_claimed() {
+    for yaw in [90.0, 180.0, -90.0] {
+        let sailed = sail(turned(voyage(), 0.0, 0.0, yaw));
+        assert!(sailed.names().contains(&"mounting_turned"), "{yaw}: {:?}", sailed.told);
+        assert!(sailed.solutions.last().unwrap().sigma.heading > 80.0 * DEG);
+    }
+}
+
+#[test]
+fn an_imu_that_tells_other_units_is_named_and_nothing_is_made_of_it() {
+    let mut in_g = voyage();
+    in_g.imu.iter_mut().for_each(|imu| imu.message.delta_velocity.0 /= 9.806_65);
+    let mut in_degrees = voyage();
+    in_degrees.imu.iter_mut().for_each(|imu| imu.message.delta_theta.0 *= 57.3);
+    for (voyage, name) in [(in_g, "imu_force"), (in_degrees, "imu_rate")] {
+        let sailed = sail(voyage);
+        assert_eq!(sailed.names(), [name]);
+        assert_eq!(sailed.solutions.len(), 0);
+    }
+}
