@@ -13,6 +13,7 @@ mod herald;
 mod looks;
 mod mode;
 mod recent;
+mod relay;
 mod resume;
 mod resumption;
 mod ship;
@@ -38,6 +39,7 @@ use epochs::{due_at, epochs};
 use herald::Herald;
 use mode::{Facts, Machine};
 use recent::Recent;
+use relay::Relay;
 use resumption::Resumption;
 use ship::Ship;
 use surveyor::Surveyor;
@@ -62,6 +64,8 @@ pub struct EngineConfig {
     pub stored: Option<StoredState>,
     /// How well GNSS epochs and IMU samples agree in time, 1-sigma, s; `None`: by the grade of the IMU.
     pub time_std: Option<f64>,
+    /// Whether receivers and compass pass through while there are no data of the IMU.
+    pub relay: bool,
     /// Monitoring points of which the heave is wanted, from the IMU, body axes, m. The first is the IMU
     /// itself. Without any there is no heave.
     pub points: Vec<Body>,
@@ -80,6 +84,7 @@ impl EngineConfig {
             alignment: AlignmentConfig::default(),
             stored: None,
             time_std: None,
+            relay: true,
             points: Vec::new(),
         }
     }
@@ -118,6 +123,7 @@ pub struct Engine {
     herald: Herald,
     surveyor: Surveyor,
     recent: Recent,
+    relay: Relay,
     period: Span,
     next_epoch: Option<i64>,
     last: Option<Increment>,
@@ -159,6 +165,7 @@ impl Engine {
             surveyor: Surveyor::new(&config.lever_arms),
             period: Span::from_seconds(1.0 / config.output_rate),
             recent: Recent::default(),
+            relay: Relay::default(),
             next_epoch: None,
             last: None,
             heave: heave_of(&config.imu, &config.points),
@@ -386,6 +393,7 @@ impl Engine {
             self.reject(received, aid, Rejection::OutOfRange);
         }
         self.herald.hear(&checked);
+        self.relay.hear(&checked);
         if let Message::Log(log) = &checked.message {
             self.surveyor.hear(log);
         }

@@ -15,9 +15,14 @@ impl Engine {
     }
 
     /// How the ship moves at the last IMU sample, for outputs between the epochs of the solutions; `None`
-    /// while nothing is known that could be shown to anyone.
+    /// while nothing is known that could be shown to anyone. Without data of the IMU it is what receivers and
+    /// compass say, in [`Mode::Standby`].
     #[must_use]
     pub fn motion(&self) -> Option<Motion> {
+        if self.machine.mode() == Mode::Standby && !self.is_waiting() {
+            let lever = self.config.lever_arms.gnss;
+            return self.config.relay.then(|| self.relay.motion(&lever)).flatten();
+        }
         let ship = self.ship()?;
         let solution = Some(ship.solution()).filter(checks::is_sound)?;
         let filter = ship.likeliest().map(Fine::filter);

@@ -111,6 +111,10 @@ pub struct Ship {
     pub log_lever_m: [f64; 3],
     /// Name of the first engine's IMU, where there are several. Left out: the best that is valid.
     pub imu: Option<String>,
+    /// Whether position, course, speed and heading of receivers and compass pass through, marked, while
+    /// there are no data of the IMU.
+    #[serde(default = "yes")]
+    pub relay: bool,
     /// Solutions per second.
     #[serde(default = "ten")]
     pub rate_hz: f64,
@@ -183,6 +187,9 @@ pub struct Chrony {
     pub socket: PathBuf,
 }
 
+fn yes() -> bool {
+    true
+}
 fn ten() -> f64 {
     10.0
 }
@@ -273,6 +280,7 @@ impl Config {
             alignment: insd_alignment::AlignmentConfig::default(),
             stored: None,
             time_std: ship.time_std_s.or_else(|| self.time_std(None)),
+            relay: ship.relay,
         }
     }
 

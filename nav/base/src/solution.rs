@@ -9,8 +9,8 @@ use crate::time::Time;
 /// What the system is doing, as in the last column of `nav.csv`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mode {
-    /// No data of the IMU: before the first sample, or none for a while. No solution says so, as there
-    /// is none.
+    /// No data of the IMU: before the first sample, or none for a while. A solution that says so is what
+    /// receivers and compass say.
     Standby,
     /// Levelling and first search for the heading.
     CoarseAlignment,

@@ -117,7 +117,10 @@ impl Policy {
     #[must_use]
     pub fn heading(&self, solution: &Solution) -> HeadingMode {
         let sigma = solution.sigma.heading;
-        if !solution.mode.is_navigating() {
+        if solution.mode == Mode::Standby && sigma <= self.heading_estimated {
+            // a compass's word, which nobody has compared with anything
+            HeadingMode::Estimated
+        } else if !solution.mode.is_navigating() {
             HeadingMode::NotValid
         } else if sigma <= self.heading_autonomous {
             HeadingMode::Autonomous
@@ -188,5 +191,5 @@ pub(crate) fn mode_of(quality: FixQuality) -> PositionMode {
 
 /// Whether the position rests on satellites.
 pub(crate) fn uses_gnss(mode: Mode) -> bool {
-    matches!(mode, Mode::Aided | Mode::InMotionAlignment)
+    matches!(mode, Mode::Aided | Mode::InMotionAlignment | Mode::Standby)
 }

@@ -168,7 +168,8 @@ impl<'a> Said<'a> {
     /// The same for messages that cannot do without, level or not: what the horizon has to do with them
     /// is the rotation of the Earth, 15 deg an hour.
     pub(crate) fn any_rates(&self) -> Option<Body> {
-        let solution = self.told.solution.filter(|solution| solution.mode != Mode::Fault)?;
+        let measured = |solution: &Solution| !matches!(solution.mode, Mode::Fault | Mode::Standby);
+        let solution = self.told.solution.filter(measured)?;
         Some(solution.rate).filter(|rate| rate.0.iter().all(|part| part.is_finite()))
     }
 

@@ -12,6 +12,8 @@ use crate::schedule::{Boundary, Pacer, Rate};
 
 /// Longest time over which a motion is carried on. After it nothing is known: the IMU is silent.
 const CARRIED: Span = Span::from_nanos(200_000_000);
+/// What receivers and compass say is carried on for longer, as they speak once a second.
+const RELAYED: Span = Span::from_nanos(1_500_000_000);
 
 /// Distance, damping and the like are kept up at least so often, and alerts just so often, Hz.
 const UPKEEP: f64 = 10.0;
@@ -210,8 +212,13 @@ impl Standing {
 /// What is known of a monitoring point at a boundary. The newest motion is carried on to it, but not
 /// for longer than 0.2 s: nothing is told with a new time that is not new.
 fn epoch(boundary: &Boundary, moment: &Moment, point: usize, lever: &Body) -> Epoch {
-    let is_near = |time: Time| (boundary.time - time).as_nanos().abs() <= CARRIED.as_nanos();
-    let motion = moment.motion.filter(|motion| is_near(motion.solution.time));
+    let within =
+        |time: Time, span: Span| (boundary.time - time).as_nanos().abs() <= span.as_nanos();
+    let is_near = |time: Time| within(time, CARRIED);
+    let motion = moment.motion.filter(|motion| {
+        let relayed = motion.solution.mode == Mode::Standby;
+        within(motion.solution.time, if relayed { RELAYED } else { CARRIED })
+    });
     let motion = motion.map(|motion| motion.at(boundary.time).at_point(lever));
     let heave = moment.heaves.get(point).copied().flatten();
     Epoch {

@@ -167,7 +167,10 @@ impl Watch {
         self.had_position |= quality.is_some_and(|quality| quality != FixQuality::Invalid);
         let (had_heading, had_position) = (self.had_heading, self.had_position);
         let holds = |condition| match condition {
-            Condition::SystemFault => usable.is_none() && !epoch.is_levelling(),
+            Condition::SystemFault => {
+                usable.is_none_or(|solution| solution.mode == Mode::Standby)
+                    && !epoch.is_levelling()
+            }
             Condition::HeadingLost => had_heading && heading == Some(HeadingMode::NotValid),
             Condition::HeadingDegraded => heading == Some(HeadingMode::Estimated),
             Condition::PositionLost => had_position && quality == Some(FixQuality::Invalid),
