@@ -8,9 +8,11 @@
 //! 5    local zone: hours to add to local time to get UTC, -13 to 13, negative for east longitude
 //! 6    local zone: minutes, of the same sign as the hours
 //! ```
+//! There are receivers whose sentence ends after field 5, or 4. Time and date must be good; a bad zone is
+//! left out, and so is a time without a date.
 
 use super::civil::{CivilTime, Date};
-use super::decimal::{Form, parse};
+use super::decimal::{Form, parse, parse_digits};
 use super::fault::Fault;
 use super::fields::Fields;
 use super::frame::Frame;
@@ -58,7 +60,7 @@ impl Zda {
         })
     }
 
-    /// Reads the sentence. Date and time stand together or not at all.
+    /// Reads the sentence. A time without a date is unknown.
     ///
     /// # Errors
     /// The first [`Fault`] of its fields.
@@ -67,7 +69,7 @@ impl Zda {
         let time = fields.time_of_day()?;
         let day = fields.whole(31)?;
         let month = fields.whole(12)?;
-        let year = fields.whole(9999)?;
+        let year = fields.convert(|text| parse_digits(text).filter(|_| text.len() == 4))?;
         let utc = match (time, day, month, year) {
             (Some(time), Some(day), Some(month), Some(year)) => {
                 let date = Date::from_parts(year, month, day);
@@ -75,10 +77,16 @@ impl Zda {
                 Some(CivilTime { date: date.ok_or_else(|| fields.malformed())?, time })
             }
             (None, None, None, None) => None,
+            // a receiver that has not learnt the date yet
+            (Some(_), None, None, None) => {
+                fields.leave_out(Fault::Malformed { field: 2 });
+                None
+            }
             _ => return Err(fields.malformed()),
         };
-        let hours = signed(&mut fields, 13)?;
-        let minutes = signed(&mut fields, 59)?;
+        let hours = if fields.has_more() { fields.optional(|own| signed(own, 13))? } else { None };
+        let minutes =
+            if fields.has_more() { fields.optional(|own| signed(own, 59))? } else { None };
         let zone = hours.map(|hours| Zone { hours, minutes: minutes.unwrap_or(0) });
         Ok(Zda { utc, zone })
     }
