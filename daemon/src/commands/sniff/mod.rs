@@ -4,6 +4,7 @@
 mod address;
 mod asker;
 mod can;
+mod captured;
 mod frames;
 mod live;
 mod recorded;
@@ -63,14 +64,20 @@ PORT is one of
   can0                         a CAN bus: devices by NAME, product and messages
   can+tcp://FORMAT@HOST:PORT   a CAN gateway that speaks text: candump, ydwg, actisense,
   can+udp://FORMAT@ADDR:PORT   canboat-plain
-  capture.log                  a named pipe, or a file: what a device has said, a log of candump
-  voyage.insdraw               a raw recording, or a folder with one";
+  capture.log                  a named pipe, or a file: what a device has said, a log of candump,
+                               of canboat, of a gateway of NMEA 2000
+  voyage.insdraw               a raw recording, or a folder with one
+
+Exit status
+  0  something that insd reads came from every PORT
+  1  a PORT cannot be opened, or nothing came from it that insd reads
+  2  the command line is wrong, or a recording is none";
 
 /// Listens and reports.
 ///
 /// # Errors
-/// A recording that cannot be read, or an output that fails. A port that cannot be opened is part of
-/// the report.
+/// A recording that cannot be read, or an output that fails. A port that cannot be opened, or from which
+/// nothing comes that insd reads, is part of the report, and an error behind it.
 pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
     let protocols = if args.protocol.is_empty() { &Protocol::ALL[..] } else { &args.protocol[..] };
     let mut ports = Vec::new();
@@ -82,6 +89,10 @@ pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
                 config: PortConfig::clone(config),
                 search_s: address.search_s(),
             }),
+            Source::Captured(path, format) => {
+                let read = captured::read(path, *format, &address.plan, protocols, args.raw)?;
+                report.ports.extend(read.ports);
+            }
             Source::Recording(path) => {
                 let read = recorded::read(path, &address.plan.name, protocols, args.raw)?;
                 report.ports.extend(read.ports);
@@ -101,7 +112,15 @@ pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
     } else {
         text::report(&report)
     };
-    print(&text)
+    print(&text)?;
+    let mute: Vec<&str> = report
+        .ports
+        .iter()
+        .filter(|port| !port.is_readable())
+        .map(|port| port.name.as_str())
+        .collect();
+    anyhow::ensure!(mute.is_empty(), "nothing that insd reads came from {}", mute.join(", "));
+    Ok(())
 }
 
 /// Prints, and takes no offence at a reader that has seen enough.
