@@ -282,7 +282,8 @@ fn the_advice_for_lines_without_a_checksum_works_as_it_is_pasted() {
     let name = sensors[0].port.clone();
     let ports = vec![insd_intake::config::PortSpec { name, link: super::port::link("/dev/x") }];
     let config = insd_intake::config::IntakeConfig { ports, sensors, imu: None };
-    assert_eq!(config.faults(), []);
+    // nothing is wrong with what was pasted, but a ship needs an IMU besides
+    assert!(config.faults().iter().all(|fault| fault.sensor.is_empty()), "{:?}", config.faults());
     let mut intake = insd_intake::Intake::new(&config);
     arrivals.iter().for_each(|arrival| intake.handle(arrival));
     let status = &intake.status().sensors[0];

@@ -100,6 +100,17 @@ fn a_short_form_cut_short_is_no_shorter_form() {
 }
 
 #[test]
+fn a_year_of_two_digits_has_a_century() {
+    // a B&G Zeus behind GoFree (Signal K)
+    let (Sentence::Zda(zda), left_out) = read("$GPZDA,195719,16,04,14,-02,00*63") else { panic!() };
+    let date = zda.utc.unwrap().date;
+    assert_eq!((date, left_out), (Date { year: 2014, month: 4, day: 16 }, LeftOut::default()));
+    let Ok((Sentence::Zda(old), _)) = framed("$GPZDA,195719,16,04,94,00,00") else { panic!() };
+    assert_eq!(old.utc.unwrap().date.year, 1994);
+    assert!(framed("$GPZDA,195719,16,04,20").is_err(), "2014, cut short");
+}
+
+#[test]
 fn a_time_without_a_date_is_no_time_and_is_noted() {
     let (Sentence::Zda(zda), left_out) = read("$GPZDA,095559,,,,00,*4D") else { panic!() };
     assert_eq!((zda.utc, left_out), (None, one(2)));

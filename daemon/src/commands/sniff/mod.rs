@@ -16,6 +16,7 @@ use anyhow::Context;
 use insd_drivers::ports::PortConfig;
 use insd_wire::stream::Protocol;
 
+use crate::sniff::report::PortReport;
 use crate::sniff::{Plan, Report, text};
 
 pub use address::{Address, Source, parse};
@@ -82,6 +83,7 @@ pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
     let protocols = if args.protocol.is_empty() { &Protocol::ALL[..] } else { &args.protocol[..] };
     let mut ports = Vec::new();
     let mut report = Report { ports: Vec::new() };
+    let mut mutes = Vec::new();
     for address in &args.ports {
         match &address.source {
             Source::Port(config) => ports.push(live::Opening {
@@ -91,10 +93,12 @@ pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
             }),
             Source::Captured(path, format) => {
                 let read = captured::read(path, *format, &address.plan, protocols, args.raw)?;
+                mutes.extend(mute(&address.plan.name, &read.ports));
                 report.ports.extend(read.ports);
             }
             Source::Recording(path) => {
                 let read = recorded::read(path, &address.plan.name, protocols, args.raw)?;
+                mutes.extend(mute(&address.plan.name, &read.ports));
                 report.ports.extend(read.ports);
             }
         }
@@ -103,7 +107,9 @@ pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
         let is_live = !(args.once || args.json || args.raw) && io::stdout().is_terminal();
         let style =
             live::Style { seconds: args.seconds, redraw: is_live, frames: args.raw, ask: args.ask };
-        report.ports.extend(live::listen(ports, protocols, style)?.ports);
+        let heard = live::listen(ports, protocols, style)?.ports;
+        mutes.extend(heard.iter().filter_map(|port| mute(&port.name, std::slice::from_ref(port))));
+        report.ports.extend(heard);
     }
     let text = if args.json {
         serde_json::to_string_pretty(&report)? + "\n"
@@ -113,14 +119,13 @@ pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
         text::report(&report)
     };
     print(&text)?;
-    let mute: Vec<&str> = report
-        .ports
-        .iter()
-        .filter(|port| !port.is_readable())
-        .map(|port| port.name.as_str())
-        .collect();
-    anyhow::ensure!(mute.is_empty(), "nothing that insd reads came from {}", mute.join(", "));
+    anyhow::ensure!(mutes.is_empty(), "nothing that insd reads came from {}", mutes.join(", "));
     Ok(())
+}
+
+/// The argument, if nothing that insd reads came from any of its ports.
+fn mute(name: &str, ports: &[PortReport]) -> Option<String> {
+    (!ports.iter().any(PortReport::is_readable)).then(|| name.to_owned())
 }
 
 /// Prints, and takes no offence at a reader that has seen enough.

@@ -8,7 +8,8 @@
 //! 5    local zone: hours to add to local time to get UTC, -13 to 13, negative for east longitude
 //! 6    local zone: minutes, of the same sign as the hours
 //! ```
-//! There are receivers whose sentence ends after field 5, or 4. Time and date must be good; a bad zone is
+//! There are receivers whose sentence ends after field 5, or 4, and such that send a year of two digits: 80
+//! to 99 are 1980 to 1999. Time and date must be good; a bad zone is
 //! left out, and so is a time without a date.
 
 use super::civil::{CivilTime, Date};
@@ -69,7 +70,7 @@ impl Zda {
         let time = fields.time_of_day()?;
         let day = fields.whole(31)?;
         let month = fields.whole(12)?;
-        let year = fields.convert(|text| parse_digits(text).filter(|_| text.len() == 4))?;
+        let year = year(&mut fields)?;
         let utc = match (time, day, month, year) {
             (Some(time), Some(day), Some(month), Some(year)) => {
                 let date = Date::from_parts(year, month, day);
@@ -89,6 +90,20 @@ impl Zda {
             if fields.has_more() { fields.optional(|own| signed(own, 59))? } else { None };
         let zone = hours.map(|hours| Zone { hours, minutes: minutes.unwrap_or(0) });
         Ok(Zda { utc, zone })
+    }
+}
+
+/// The year; of two digits only where another field follows, as it may have been cut short.
+fn year(fields: &mut Fields<'_>) -> Result<Option<u32>, Fault> {
+    let text = fields.text()?;
+    let year = parse_digits(text);
+    match (text.len(), year) {
+        (0, _) => Ok(None),
+        (4, Some(year)) => Ok(Some(year)),
+        (2, Some(year)) if fields.has_more() => {
+            Ok(Some(year + if year >= 80 { 1900 } else { 2000 }))
+        }
+        _ => Err(fields.malformed()),
     }
 }
 
