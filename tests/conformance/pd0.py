@@ -46,7 +46,11 @@ def unlike(ours, theirs, bit):
 def compare(own, data):
     differences = collections.Counter()
     common = 0
-    for index, number in enumerate(data["number"].values):
+    numbers = data["number"].values
+    for index, number in enumerate(numbers):
+        # dolfyn fills the place of a last ensemble that is cut short with the one before it
+        if index > 0 and number == numbers[index - 1]:
+            continue
         entry = own.get(int(number))
         if entry is None:
             continue
