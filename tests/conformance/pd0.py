@@ -25,14 +25,15 @@ VECTORS = [("velocity", "vel_bt", 0.001), ("range", "dist_bt", 0.01)]
 
 
 def ours_of(path):
-    ensembles, told = collections.defaultdict(dict), {}
+    ensembles, told = collections.defaultdict(lambda: collections.defaultdict(list)), {}
     with open(path, encoding="utf-8") as file:
         for line in file:
             entry = json.loads(line)
             if "read" in entry:
                 told[entry["file"]] = entry
             else:
-                ensembles[entry["file"]][entry["number"]] = entry
+                # an instrument that starts again counts some numbers twice
+                ensembles[entry["file"]][entry["number"]].append(entry)
     return ensembles, told
 
 
@@ -46,14 +47,10 @@ def unlike(ours, theirs, bit):
 def compare(own, data):
     differences = collections.Counter()
     common = 0
-    numbers = data["number"].values
-    for index, number in enumerate(numbers):
-        # dolfyn fills the place of a last ensemble that is cut short with the one before it
-        if index > 0 and number == numbers[index - 1]:
+    for index, number in enumerate(data["number"].values):
+        if not own[int(number)]:
             continue
-        entry = own.get(int(number))
-        if entry is None:
-            continue
+        entry = own[int(number)].pop(0)
         common += 1
         for name, theirs, bit in SCALARS:
             if theirs in data and unlike(entry[name], float(data[theirs].values[index]), bit):
@@ -80,7 +77,7 @@ def main():
                 print(f"{name}: ours {told[name]}; dolfyn refuses: {type(error).__name__} {error}")
                 continue
         common, differences = compare(ensembles[name], data)
-        theirs = len(set(int(number) for number in data["number"].values))
+        theirs = len(data["number"])
         own = told[name]
         print(f"{name}: read {own['read']}, refused {own['refused']}, damaged {own['damaged']}; "
               f"dolfyn {theirs}, in common {common}, different: {dict(differences) or 'nothing'}")
