@@ -38,6 +38,10 @@ const DAY: i64 = 86_400 * SECOND;
 const WEEK: i64 = 604_800 * SECOND;
 /// What a week number of ten bits goes over, ns.
 const CYCLE: i64 = 1024 * WEEK;
+/// Before GPS began and after its last week no date is believed: it is as if it were the nearest to that, ns
+/// since 1970. The ends also keep sums of times within what they are counted in.
+const FIRST: i64 = 315_964_800 * SECOND;
+const LAST: i64 = FIRST + 9999 * WEEK;
 /// What a computer's clock that has been set may be off, ns: a date that is farther from it, and would
 /// be even after whole cycles, is no rollover but a recording.
 const OFF: i64 = 2 * 365 * DAY;
@@ -140,13 +144,15 @@ impl ShipUtc {
             EpochTime::Utc(utc) => {
                 // the receiver took the leap seconds of today off: the date is put right before them
                 let near = |own: &Self, gps| own.utc_of(gps).as_nanos();
-                let behind = self.behind(utc.as_nanos(), stamp, live, near);
-                self.gps_of(UtcTime::from_nanos(utc.as_nanos().saturating_add(behind)))
+                let told = utc.as_nanos().clamp(FIRST, LAST);
+                let behind = self.behind(told, stamp, live, near);
+                self.gps_of(UtcTime::from_nanos(told.saturating_add(behind)))
             }
             EpochTime::Gps(gps) => {
                 let near = |_: &Self, gps: GpsTime| gps.as_nanos();
-                let behind = self.behind(gps.as_nanos(), stamp, live, near);
-                GpsTime::from_nanos(gps.as_nanos().saturating_add(behind))
+                let told = gps.as_nanos().clamp(0, LAST - FIRST);
+                let behind = self.behind(told, stamp, live, near);
+                GpsTime::from_nanos(told.saturating_add(behind))
             }
             _ if !self.knows_date(stamp.monotonic) => return None,
             EpochTime::TimeOfWeek(nanos) => self.expected(stamp).nearest_with_tow(*nanos),
@@ -181,7 +187,7 @@ impl ShipUtc {
             0
         } else if is_set {
             cycles_behind(told, near(self, self.gps_of(stamp.system)), OFF)
-        } else if (stamp.system.as_nanos() - told).abs() < TOGETHER {
+        } else if stamp.system.as_nanos().saturating_sub(told).saturating_abs() < TOGETHER {
             0
         } else {
             let short = made.as_nanos().saturating_sub(told).max(0);
@@ -450,8 +456,9 @@ impl Doubt {
     /// The doubt with one more epoch, if it agrees with the first. Epochs that were held up and come all
     /// at once do not: each is late by less than the one before.
     fn again(self, epoch: GpsTime, late: f64) -> Option<Self> {
-        let new = (epoch.as_nanos() - self.last.as_nanos()).abs() > SAME;
-        let since = epoch.as_nanos() - self.first.as_nanos();
+        let apart = |other: GpsTime| epoch.as_nanos().saturating_sub(other.as_nanos());
+        let new = apart(self.last).saturating_abs() > SAME;
+        let since = apart(self.first);
         let agreed = AGREE.min(0.5 * since as f64 * 1e-9);
         let agrees = since >= 0 && (late - self.late).abs() <= agreed;
         let count = self.count + u32::from(new);
