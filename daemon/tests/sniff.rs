@@ -89,7 +89,7 @@ fn the_search_can_be_restricted_to_a_protocol() {
     let log = corpus("tnt-revolution.log");
     let (status, text, _) = told(&["sniff", &log, "--protocol", "ubx", "--json"]);
     let report: Value = serde_json::from_str(&text).unwrap();
-    assert_eq!((status, report["ports"][0]["frames"].as_u64()), (0, Some(0)));
+    assert_eq!((status, report["ports"][0]["frames"].as_u64()), (1, Some(0)));
     assert!(text.contains("only ubx was looked for"), "{text}");
     let (status, _, error) = told(&["sniff", &log, "--protocol", "morse"]);
     assert!(status == 2 && error.contains("expected one of nmea, ubx"), "{error}");
@@ -98,8 +98,9 @@ fn the_search_can_be_restricted_to_a_protocol() {
 #[test]
 fn a_device_that_is_not_there_is_part_of_the_report() {
     let device = "/dev/insd-nonesuch";
-    let (status, text, _) = told(&["sniff", &format!("{device},4800"), "--seconds", "0.3"]);
-    assert_eq!(status, 0);
+    let (status, text, error) = told(&["sniff", &format!("{device},4800"), "--seconds", "0.3"]);
+    assert_eq!(status, 1);
+    assert!(error.contains("nothing that insd reads came from /dev/insd-nonesuch"), "{error}");
     assert!(text.contains("/dev/insd-nonesuch: absent: No such file"), "{text}");
     assert!(text.contains("`insd ports` lists"), "{text}");
     let (_, json, _) = told(&["sniff", device, "--seconds", "0.3", "--json"]);
@@ -169,4 +170,41 @@ fn ports_are_listed_for_people_and_programs() {
     let (status, json, _) = told(&["ports", "--json"]);
     let ports: Value = serde_json::from_str(&json).unwrap();
     assert!(status == 0 && ports.is_array(), "{json}");
+}
+
+#[test]
+fn the_status_tells_whether_every_port_had_something_to_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        path.display().to_string()
+    };
+    let good = file("good.log", b"$HETHS,316.70,E*1A\r\n");
+    let bare = file("bare.log", b"$GPZDA,000000,01,08,2014,7\r\n");
+    let console = file("console.log", &b"U-Boot 2020.01 starting kernel\r\n".repeat(9));
+    let empty = file("empty.log", b"");
+    let damaged = file("damaged.log", b"$HETHS,316.71,E*1A\r\n");
+    let status = |ports: &[&str]| told(&[&["sniff"], ports].concat()).0;
+    assert_eq!((status(&[&good]), status(&[&bare]), status(&[&good, &bare])), (0, 0, 0));
+    assert_eq!((status(&[&console]), status(&[&empty]), status(&[&damaged])), (1, 1, 1));
+    assert_eq!(status(&[&good, &console]), 1);
+    assert_eq!(status(&[&file("none.insdraw", b"no recording")]), 2);
+}
+
+#[test]
+fn a_log_of_a_gateway_is_named_and_its_devices_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bus.raw");
+    let lines = "00:29:58.626 R 0DF11313 00 9D F3 FC FF FF 7F FD\r\n\
+                 00:29:58.627 R 09F11213 00 16 3A FF 7F FF 7F FD\r\n";
+    fs::write(&path, lines.repeat(5)).unwrap();
+    let (status, text, _) = told(&["sniff", &path.display().to_string()]);
+    assert_eq!(status, 0, "{text}");
+    assert!(text.contains("Yacht Devices gateway (YDWG RAW)"), "{text}");
+    assert!(text.contains("127250") && text.contains("format = \"ydwg\""), "{text}");
+    assert!(text.contains("kind = \"n2k_heading\""), "{text}");
+    fs::write(&path, "!PDGY,126992,3,4,255,481.711,BfANRoBVlyM\n").unwrap();
+    let (status, text, _) = told(&["sniff", &path.display().to_string()]);
+    assert!(status == 1 && text.contains("iKonvert"), "{status} {text}");
 }

@@ -7,7 +7,7 @@ Needs pynmeagps and pynmea2 from PyPI:
     venv/bin/python tests/conformance/nmea.py CORPUS ours.jsonl
 
 The sentences are found here a second time, by a regular expression on the bytes, so that nothing is
-missed by our cutter. Ends with 1 if a sentence was missed, if less than 99 % of the sentences of our
+missed by our cutter. Ends with 1 if a sentence was missed, if less than 99.9 % of the sentences of our
 types are accepted, or if a difference is not explained.
 """
 
@@ -393,11 +393,33 @@ def why(kind, field, line, ours):
             return "11 fields, the mode in the place of E or W: the variation has no sign"
     if kind == "GSV" and field == "satellites" and len(fields) % 4 == 1:
         return "a signal identifier at the end: theirs takes it for the number of another satellite"
-    void = (kind == "RMC" and fields[2] == "V") or (kind == "GGA" and fields[6] == "0")
+    bad = left_out(kind, field, fields) if ours is None else None
+    if bad is not None:
+        return bad
+    if kind == "ZDA" and field == "zone_minutes" and (len(fields) < 7 or not fields[6]):
+        return "minutes of the zone that are not told are 0 beside its hours"
+    if kind == "ZDA" and field in ("date", "zone_hours") and len(fields[4]) == 2:
+        return "a year of two digits: theirs has it in the first century"
+    places = {"RMC": (2, 3, 5), "GGA": (6, 2, 4), "GLL": (6, 1, 3)}
+    status, north, east = places.get(kind, (0, 0, 0))
+    void = kind in places and fields[status] in ("V", "0")
     if void and field in ("latitude", "longitude") and ours is None:
-        latitude, longitude = (fields[3], fields[5]) if kind == "RMC" else (fields[2], fields[4])
+        latitude, longitude = fields[north], fields[east]
         if latitude[2:4] == "60" or float(latitude) > 9000 or float(longitude) > 18000:
             return "not valid by its own word, and no position: 60 minutes, or 360 degrees"
+    return None
+
+
+def left_out(kind, field, fields):
+    """Why we have left a field out that theirs takes, or None."""
+    if kind == "RMC" and field == "variation" and float(fields[10]) > 180:
+        return "a variation beyond 180 deg is left out"
+    if kind == "GST" and field == "orientation" and float(fields[5]) < 0:
+        return "a negative orientation is left out"
+    if kind == "GSA" and field == "system" and "." in fields[18]:
+        return "a fourth dilution in the place of the system is left out"
+    if kind == "ZDA" and field == "time" and not any(fields[2:5]):
+        return "a time without a date is left out"
     return None
 
 
@@ -448,8 +470,11 @@ def main():
         if entry is None:
             missed.append((file, end, line))
             continue
+        if not any(body(line)[1:]):
+            others[kind]["says nothing"] += 1
+            continue
         if kind not in OURS or "other" in entry:
-            others[kind][entry["other"]] += 1
+            others[kind][entry.get("other", "read, and not compared")] += 1
             continue
         row = table[kind]
         row["good"] += 1
@@ -481,7 +506,7 @@ def main():
         print(f"  {kind}:", ", ".join(f"{count} {word}" for word, count in counts.items()))
     good = sum(row["good"] for row in table.values())
     accepted = sum(row["ours"] for row in table.values())
-    failed = missed or unexplained or accepted < 0.99 * good
+    failed = missed or unexplained or accepted < 0.999 * good
     sys.exit(1 if failed else 0)
 
 

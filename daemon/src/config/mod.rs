@@ -358,6 +358,7 @@ fn link(transport: &Transport) -> Link {
             Link::Serial { byte_time }
         }
         Transport::Udp(_) => Link::Datagrams,
+        Transport::File(_) => Link::File,
         Transport::Slcan(adapter) => bus(adapter.bitrate),
         Transport::Socketcan(_)
         | Transport::GatewayTcp(_)

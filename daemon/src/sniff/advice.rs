@@ -209,11 +209,17 @@ fn checksums(port: &PortReport) -> Vec<String> {
     if port.messages.iter().any(bare) {
         hints.push(
             "lines without a checksum are refused: switch it on in the device, or set \
-             `no_checksum = true` for the sensor"
+             `no_checksum = true` for the sensor (what is damaged on the line is then believed)"
                 .to_owned(),
         );
     }
-    let is_used = port.messages.iter().any(|message| message.used > 0);
+    let flawed: u64 = port.messages.iter().map(|message| message.flawed).sum();
+    if flawed > 0 {
+        hints.push(format!(
+            "{flawed} sentences have a field that is none: it is left out, and the rest is used"
+        ));
+    }
+    let is_used = port.messages.iter().any(|message| message.used + message.bare > 0);
     if port.frames >= FRAMES && !is_used && port.stray_share() < MOSTLY {
         hints.push(
             "nothing of this is used by insd: choose other messages in the device".to_owned(),

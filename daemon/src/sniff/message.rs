@@ -5,7 +5,7 @@ use insd_wire::describe::Reading;
 use insd_wire::stream::Protocol;
 
 use super::named::Named;
-use super::report::{MessageReport, Refusal};
+use super::report::{LogAxes, MessageReport, Refusal};
 
 /// Bytes of a refused message that are kept.
 const KEPT: usize = 96;
@@ -24,8 +24,12 @@ pub(super) struct Message {
     count: u64,
     used: u64,
     refused: u64,
+    bare: u64,
+    flawed: u64,
     intervals: Intervals,
     refusal: Option<Refusal>,
+    flaw: Option<Refusal>,
+    axes: Option<LogAxes>,
 }
 
 /// Mean and spread of the intervals between instants, kept while they pass (Welford).
@@ -45,8 +49,12 @@ impl Message {
             count: 0,
             used: 0,
             refused: 0,
+            bare: 0,
+            flawed: 0,
             intervals: Intervals::default(),
             refusal: None,
+            flaw: None,
+            axes: None,
         }
     }
 
@@ -54,13 +62,24 @@ impl Message {
     pub(super) fn add(&mut self, named: &Named<'_>, begun: Time, bytes: &[u8]) {
         self.count += 1;
         self.intervals.add(begun);
+        self.bare += u64::from(named.bare);
+        self.axes = named.axes.or(self.axes);
+        let told = |reason: &Option<String>| {
+            let reason = reason.clone().unwrap_or_default();
+            Some(Refusal { reason, bytes: excerpt(bytes) })
+        };
         match named.read {
-            Reading::Used => self.used += 1,
+            Reading::Used => {
+                self.used += 1;
+                if named.reason.is_some() {
+                    self.flawed += 1;
+                    self.flaw = told(&named.reason);
+                }
+            }
             Reading::Other => {}
             Reading::Refused => {
                 self.refused += 1;
-                let reason = named.reason.clone().unwrap_or_default();
-                self.refusal = Some(Refusal { reason, bytes: excerpt(bytes) });
+                self.refusal = told(&named.reason);
             }
         }
     }
@@ -74,10 +93,14 @@ impl Message {
             count: self.count,
             used: self.used,
             refused: self.refused,
+            bare: self.bare,
+            flawed: self.flawed,
             rate_hz: timed.and_then(|(_, intervals)| intervals.rate()),
             jitter_ms: timed.and_then(|(_, intervals)| Some(intervals.std()? * 1e3)),
             age_s: timed.and_then(|(now, intervals)| intervals.age(now)),
             refusal: self.refusal.clone(),
+            flaw: self.flaw.clone(),
+            axes: self.axes,
         }
     }
 }

@@ -145,6 +145,13 @@ impl Sniffed {
         }
     }
 
+    /// Tells of a port what is known by other means than its arrivals.
+    pub fn note(&mut self, id: PortId, note: &str) {
+        if let Some(port) = self.ports.get_mut(&id) {
+            port.notes.push(note.to_owned());
+        }
+    }
+
     /// So many bytes were heard at a port while its baud rate was searched, and none could be read.
     pub fn unreadable(&mut self, id: PortId, bytes: u64) {
         if let Some(port) = self.ports.get_mut(&id) {

@@ -8,6 +8,8 @@ use insd_wire::nmea::others::{self, Understood};
 use insd_wire::nmea::{ChecksumPolicy, Frame, Talker};
 use insd_wire::stream::Protocol;
 
+use super::report::LogAxes;
+
 /// Longest name of a message that is kept, bytes.
 const LONGEST: usize = 24;
 
@@ -19,8 +21,12 @@ pub(super) const UNNAMED: &str = "NMEA";
 pub(super) struct Named<'a> {
     pub(super) name: String,
     pub(super) read: Reading,
-    /// Why it is refused.
+    /// Why it is refused, or what was left out of it.
     pub(super) reason: Option<String>,
+    /// It would be read if lines without a checksum were taken.
+    pub(super) bare: bool,
+    /// Axes of a Doppler log's velocities.
+    pub(super) axes: Option<LogAxes>,
     pub(super) talker: Option<Talker>,
     /// Whom a TAG block names.
     pub(super) source: Option<&'a str>,
@@ -34,7 +40,24 @@ pub(super) fn named(protocol: Protocol, frame: &[u8]) -> Named<'_> {
     let described = describe(protocol, frame);
     let reason = (described.read == Reading::Refused)
         .then(|| fault(protocol, frame).unwrap_or_else(|| "not what its format says".to_owned()));
-    Named { name: described.name, read: described.read, reason, talker: None, source: None }
+    let axes = (protocol == Protocol::Pd0).then(|| axes(frame)).flatten();
+    let (talker, source) = (None, None);
+    Named { name: described.name, read: described.read, reason, bare: false, axes, talker, source }
+}
+
+/// Axes of an ensemble's velocities.
+fn axes(frame: &[u8]) -> Option<LogAxes> {
+    let fixed = pd0::Ensemble::read(frame).ok()?.fixed;
+    Some(LogAxes {
+        frame: match fixed.transformation.coordinates {
+            pd0::Coordinates::Beam => "beam",
+            pd0::Coordinates::Instrument => "instrument",
+            pd0::Coordinates::Ship => "ship",
+            pd0::Coordinates::Earth => "earth",
+        },
+        up: fixed.geometry.is_some_and(|geometry| geometry.up),
+        alignment_deg: (fixed.heading_alignment.to_degrees() * 100.0).round() / 100.0,
+    })
 }
 
 /// Whether a frame proves that its protocol is spoken. A line without a checksum does not: there is
@@ -50,7 +73,9 @@ pub(crate) fn is_proof(protocol: Protocol, frame: &[u8]) -> bool {
 fn sentence(line: &[u8]) -> Named<'_> {
     let (read, reason) = match others::kind(line) {
         Ok(kind) => match kind.understood {
-            Understood::Read => (Reading::Used, None),
+            Understood::Read(left_out) => {
+                (Reading::Used, left_out.first.map(|fault| format!("{fault}, and left out")))
+            }
             Understood::Refused(fault) => (Reading::Refused, Some(fault.to_string())),
             // of a sentence that nobody needs an odd form harms nobody
             Understood::Odd | Understood::Recognised | Understood::Unknown => {
@@ -60,16 +85,21 @@ fn sentence(line: &[u8]) -> Named<'_> {
         Err(fault) => (Reading::Refused, Some(fault.to_string())),
     };
     let frame = Frame::parse_with(line, ChecksumPolicy::Optional).ok();
-    let talker = frame.and_then(|frame| frame.talker());
+    let frame = frame.as_ref();
+    let talker = frame.and_then(Frame::talker);
     // what has neither a checksum nor a known form may be anything
     let is_sound = talker.is_some() || read != Reading::Refused;
     let address = frame.filter(|_| is_sound).map_or(UNNAMED, |frame| frame.address());
+    let reads =
+        |frame: &&Frame<'_>| matches!(others::kind_of(line, frame).understood, Understood::Read(_));
     Named {
         name: address.chars().take(LONGEST).collect(),
         read,
         reason,
+        bare: read == Reading::Refused && frame.filter(reads).is_some(),
+        axes: None,
         talker,
-        source: frame.and_then(|frame| frame.tag()).and_then(|tag| tag.source),
+        source: frame.and_then(Frame::tag).and_then(|tag| tag.source),
     }
 }
 
@@ -111,6 +141,26 @@ mod tests {
         assert_eq!(without.reason.as_deref(), Some("no checksum"));
         let odd = named(Protocol::Nmea, b"$junk without end");
         assert_eq!(odd.name, "NMEA");
+    }
+
+    #[test]
+    fn a_line_that_a_port_may_allow_is_told_from_one_that_is_good_for_nothing() {
+        for (line, bare) in [
+            (&b"$GPZDA,000000,01,08,2014,7"[..], true),
+            (b"$GPGLL,2200.097,S,01756.346,W", true),
+            (b"$GPGLL,2200.097,S,01756.346,W*00", false),
+            (b"$GPZDA,000000,01,08", false),
+            (b"$PUHAW,UVH,-4.87,-6.04,219.2", false),
+        ] {
+            assert_eq!(named(Protocol::Nmea, line).bare, bare);
+        }
+    }
+
+    #[test]
+    fn a_sentence_without_its_bad_field_is_used_and_says_what_is_left_out() {
+        let named = named(Protocol::Nmea, b"$GPGST,213122.000,15.7,22.8,11.6,-1.1,0.4,0.6,1.3*76");
+        assert_eq!(named.read, Reading::Used);
+        assert_eq!(named.reason.as_deref(), Some("field 5 is malformed, and left out"));
     }
 
     #[test]

@@ -38,6 +38,8 @@ pub(super) struct Port {
     told: Told,
     /// Bytes heard while no baud rate could be found.
     pub(super) unreadable: u64,
+    /// What is known of it by other means than its arrivals.
+    pub(super) notes: Vec<String>,
     what: Option<String>,
     baud: Option<u32>,
     link: Link,
@@ -82,6 +84,7 @@ impl Port {
             protocols: protocols.to_vec(),
             told: Told::Nothing,
             unreadable: 0,
+            notes: Vec::new(),
             what: None,
             baud: None,
             link,
@@ -241,7 +244,8 @@ impl Port {
             hints: Vec::new(),
             suggestions: Vec::new(),
         };
-        report.hints = advice::hints(&report, &self.tail, self.unreadable, &self.protocols);
+        report.hints = self.notes.clone();
+        report.hints.extend(advice::hints(&report, &self.tail, self.unreadable, &self.protocols));
         report.suggestions = suggestion::sections(&report, self.plan.transport.as_ref());
         report
     }
@@ -313,7 +317,7 @@ fn baud(what: &str) -> Option<u32> {
 }
 
 /// What carries the bytes of a port that says this when it is open.
-fn link(what: &str) -> Link {
+pub(super) fn link(what: &str) -> Link {
     match baud(what) {
         Some(baud) => Link::Serial { byte_time: SYMBOLS / f64::from(baud) },
         None if what.starts_with("udp ") => Link::Datagrams,

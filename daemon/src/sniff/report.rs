@@ -102,6 +102,10 @@ pub struct MessageReport {
     pub used: u64,
     /// Of these, not what their format says.
     pub refused: u64,
+    /// Of the refused, those that are read where lines without a checksum are taken.
+    pub bare: u64,
+    /// Of the used, those of which a bad field is left out.
+    pub flawed: u64,
     /// Messages per second.
     pub rate_hz: Option<f64>,
     /// Standard deviation of the intervals between arrivals, ms.
@@ -110,6 +114,21 @@ pub struct MessageReport {
     pub age_s: Option<f64>,
     /// The last one that was refused.
     pub refusal: Option<Refusal>,
+    /// The last one of which a field was left out, and which.
+    pub flaw: Option<Refusal>,
+    /// Axes of the velocities of a Doppler log that tells them.
+    pub axes: Option<LogAxes>,
+}
+
+/// Axes in which a Doppler log of RDI tells velocities.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LogAxes {
+    /// `beam`, `instrument`, `ship` or `earth`.
+    pub frame: &'static str,
+    /// Whether it looks up.
+    pub up: bool,
+    /// Its heading alignment (`EA`): where its beam 3 points, deg clockwise from the bow.
+    pub alignment_deg: f64,
 }
 
 /// A message that was refused.
@@ -153,6 +172,14 @@ impl PortReport {
     #[must_use]
     pub fn is_mute(&self) -> bool {
         self.bytes == 0 && self.pulses.is_none() && self.bus.is_none()
+    }
+
+    /// Whether something came that insd can read, if only where lines without a checksum are taken.
+    #[must_use]
+    pub fn is_readable(&self) -> bool {
+        let good = |message: &MessageReport| message.count > message.refused || message.bare > 0;
+        let frames = self.bus.as_ref().is_some_and(|bus| bus.frames > 0);
+        self.messages.iter().any(good) || self.pulses.is_some() || frames
     }
 
     /// Share of the bytes that belong to no frame, 0 to 1.

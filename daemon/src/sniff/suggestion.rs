@@ -18,6 +18,9 @@ const NEAR: f64 = 0.04;
 /// Talkers of satellite receivers.
 const RECEIVERS: [&str; 7] = ["GP", "GN", "GL", "GA", "GB", "GQ", "BD"];
 
+/// Sentences that are read of a receiver.
+const RECEIVED: [&str; 8] = ["GGA", "GNS", "GLL", "RMC", "VTG", "ZDA", "GST", "GSA"];
+
 /// A sensor that a port carries.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Sensor {
@@ -114,8 +117,8 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         }),
         plain_sensor(port, Protocol::Ubx, "ubx", "gnss", "NAV-PVT"),
         plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF "),
-        plain_sensor(port, Protocol::Pd0, "pd0", "log", ""),
-        plain_sensor(port, Protocol::Pd6, "pd6", "log", "PD6 :B"),
+        plain_sensor(port, Protocol::Pd0, "pd0", "log", "").map(|log| mounted(log, port)),
+        plain_sensor(port, Protocol::Pd6, "pd6", "log", "PD6 :B").map(|log| mounted(log, port)),
     ];
     let mut sensors: Vec<Sensor> = binary.into_iter().flatten().collect();
     let has_receiver = sensors.iter().any(|sensor| sensor.role == "gnss");
@@ -125,7 +128,10 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         None => {}
     }
     sensors.extend(sentences(port, "nmea_log", "log", &["VBW", "VHW"]));
-    sensors.extend(own(port, "nortek", "log", "PNORBT"));
+    sensors
+        .extend(own(port, "nortek", "log", "PNORBT").map(|sensor| {
+            sensor.note("x forward, y to starboard, z down; else tell its mounting")
+        }));
     sensors.extend(compasses(port));
     sensors.extend(own(port, "psxn", "psxn", "PSXN"));
     sensors.extend(own(port, "pashr", "pashr", "PASHR").map(|sensor| {
@@ -134,10 +140,50 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
     sensors
 }
 
-/// Messages of a protocol that are used.
+/// Messages of a protocol that are used, or would be if lines without a checksum were taken.
 fn used(port: &PortReport, protocol: Protocol) -> impl Iterator<Item = &MessageReport> {
-    let is = move |message: &&MessageReport| message.protocol == protocol && message.used > 0;
+    let is = move |message: &&MessageReport| {
+        message.protocol == protocol && message.used + message.bare > 0
+    };
     port.messages.iter().filter(is)
+}
+
+/// The key without which a sensor of these messages would lose one of them.
+fn with_checksum<'a>(
+    sensor: Sensor,
+    mut messages: impl Iterator<Item = &'a MessageReport>,
+) -> Sensor {
+    if messages.any(|message| message.bare > message.used) {
+        return sensor.key("no_checksum = true".to_owned());
+    }
+    sensor
+}
+
+/// A log of RDI with its mounting, as far as the axes of its velocities need one.
+fn mounted(log: Sensor, port: &PortReport) -> Sensor {
+    let told = used(port, Protocol::Pd0).find_map(|message| message.axes);
+    let ships = used(port, Protocol::Pd6).any(|message| message.name.ends_with("BS"));
+    let (frame, up, alignment) = match told {
+        Some(axes) => (axes.frame, axes.up, axes.alignment_deg),
+        None => (if ships { "ship" } else { "instrument" }, false, 0.0),
+    };
+    match frame {
+        "ship" => log.note("it tells the axes of the ship, by its own heading alignment (EA)"),
+        "earth" => log
+            .note("it tells east and north by its own compass, and errs with it: better set it to")
+            .note("the axes of the ship (EX10111)"),
+        _ => {
+            let axes = if up {
+                "\"port\", \"forward\", \"down\""
+            } else {
+                "\"starboard\", \"forward\", \"up\""
+            };
+            let turn = format!("rotation_deg = [0.0, 0.0, {alignment:?}]");
+            log.key(format!("mounting = {{ axes = [{axes}], {turn} }}"))
+                .note(&format!("{frame} axes: so it hangs if its beam 3 points {alignment:?} deg"))
+                .note("clockwise from the bow, as its heading alignment (EA) says")
+        }
+    }
 }
 
 fn imu(
@@ -205,7 +251,7 @@ fn receiver(port: &PortReport) -> Option<Sensor> {
     if with_formatter(port, &["ZDA", "RMC"]).next().is_none() {
         sensor = sensor.note("neither ZDA nor RMC: the receiver does not tell the date");
     }
-    Some(sensor)
+    Some(with_checksum(sensor, with_formatter(port, &RECEIVED)))
 }
 
 /// A receiver that speaks binary, too, is read in that language alone.
@@ -222,7 +268,8 @@ fn sentences(
     formatters: &[&str],
 ) -> Option<Sensor> {
     let rate = with_formatter(port, formatters).next()?.rate_hz.map(round);
-    Some(Sensor { kind, role, protocol: "nmea", rate, ..Sensor::default() })
+    let sensor = Sensor { kind, role, protocol: "nmea", rate, ..Sensor::default() };
+    Some(with_checksum(sensor, with_formatter(port, formatters)))
 }
 
 /// A sensor of makers' own sentences.
@@ -232,7 +279,8 @@ fn own(port: &PortReport, kind: &'static str, role: &'static str, start: &str) -
             && (kind != "nortek" || matches!(message.name.as_bytes().last(), Some(b'6'..=b'9')))
     };
     let rate = used(port, Protocol::Nmea).find(is_read)?.rate_hz.map(round);
-    Some(Sensor { kind, role, protocol: "nmea", rate, ..Sensor::default() })
+    let sensor = Sensor { kind, role, protocol: "nmea", rate, ..Sensor::default() };
+    Some(with_checksum(sensor, used(port, Protocol::Nmea).filter(is_read)))
 }
 
 /// One compass for each talker that tells a heading and is no receiver.
@@ -259,7 +307,7 @@ fn compasses(port: &PortReport) -> Vec<Sensor> {
         if own().all(|message| message.name.ends_with("HDG") || message.name.ends_with("HDM")) {
             sensor = sensor.key("magnetic = true".to_owned());
         }
-        sensor
+        with_checksum(sensor, own().copied())
     };
     talkers.iter().map(compass).collect()
 }

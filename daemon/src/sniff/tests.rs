@@ -259,3 +259,64 @@ fn an_imu_is_suggested_with_the_rate_to_which_it_was_set() {
     let (_, sensors) = suggested(&port);
     assert_eq!((sensors[0].kind, sensors[0].rate_hz), (Kind::Mip, 100.0));
 }
+
+/// A second of the R/V Nathaniel B. Palmer in August 2014 (OpenRVDAS).
+fn palmer(second: u32) -> String {
+    format!(
+        "$GPZDA,0000{second:02},01,08,2014,7\r\n$GPGLL,2200.097,S,01756.346,W\r\n\
+         $GPVTG,220.6,T,,M,009.7,N,018.0,K\r\n"
+    )
+}
+
+#[test]
+fn the_advice_for_lines_without_a_checksum_works_as_it_is_pasted() {
+    let second = |second: u32| bytes(f64::from(second), palmer(second).as_bytes());
+    let open = opened("/dev/ttyUSB0 at 4800 baud");
+    let arrivals: Vec<Arrival> = std::iter::once(open).chain((0..10).map(second)).collect();
+    let port = after(&arrivals);
+    assert!(port.is_readable() && hints(&port).contains("no_checksum = true"), "{}", hints(&port));
+    let (_, sensors) = suggested(&port);
+    assert_eq!((sensors.len(), sensors[0].kind), (1, Kind::NmeaGnss));
+    assert!(sensors[0].no_checksum, "{sensors:?}");
+    // the ship that is configured so
+    let name = sensors[0].port.clone();
+    let ports = vec![insd_intake::config::PortSpec { name, link: super::port::link("/dev/x") }];
+    let config = insd_intake::config::IntakeConfig { ports, sensors, imu: None };
+    // nothing is wrong with what was pasted, but a ship needs an IMU besides
+    assert!(config.faults().iter().all(|fault| fault.sensor.is_empty()), "{:?}", config.faults());
+    let mut intake = insd_intake::Intake::new(&config);
+    arrivals.iter().for_each(|arrival| intake.handle(arrival));
+    let status = &intake.status().sensors[0];
+    assert!(status.heard.is_some() && status.refused.is_empty(), "{status:?}");
+}
+
+#[test]
+fn the_mounting_of_a_log_is_suggested_by_the_axes_that_it_tells() {
+    use insd_wire::log::pd0::{Coordinates, Ensemble};
+    let explorer: String = include_str!("../../../drivers/wire/tests/data/pd0_explorer.hex")
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .flat_map(str::chars)
+        .filter(char::is_ascii_hexdigit)
+        .collect();
+    let frame: Vec<u8> = (0..explorer.len() / 2)
+        .map(|at| u8::from_str_radix(&explorer[2 * at..2 * at + 2], 16).unwrap())
+        .collect();
+    let mut ensemble = Ensemble::read(&frame).unwrap();
+    let mut suggestion = |coordinates, alignment: f64| {
+        ensemble.fixed.transformation.coordinates = coordinates;
+        ensemble.fixed.heading_alignment = alignment.to_radians();
+        let port = after(&[opened("/dev/ttyUSB0 at 4800 baud"), bytes(1.0, &ensemble.write())]);
+        let (_, sensors) = suggested(&port);
+        (sensors[0].mounting, port.suggestions[1].clone())
+    };
+    for coordinates in [Coordinates::Beam, Coordinates::Instrument] {
+        let (mounting, text) = suggestion(coordinates, 45.0);
+        assert_eq!(mounting, insd_intake::mounting::Mounting::rdi(45_f64.to_radians(), false));
+        assert!(text.contains("beam 3 points 45.0 deg"), "{text}");
+    }
+    let (mounting, text) = suggestion(Coordinates::Ship, 45.0);
+    assert_eq!(mounting, insd_intake::mounting::Mounting::default());
+    assert!(text.contains("axes of the ship"), "{text}");
+    assert!(suggestion(Coordinates::Earth, 0.0).1.contains("EX10111"));
+}

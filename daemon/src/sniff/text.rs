@@ -146,7 +146,7 @@ fn messages(port: &PortReport) -> String {
     let is_timed = port.seconds.is_some();
     let times: &[(&str, Align)] = if is_timed { &TIMES } else { &[] };
     let mut table = Table::new(&[&NAME[..], times, &READ].concat());
-    let mut refusals = Vec::new();
+    let (mut refusals, mut flaws) = (Vec::new(), Vec::new());
     for message in &port.messages {
         let name = message.name.clone();
         let protocol = message.protocol.name().to_owned();
@@ -156,21 +156,25 @@ fn messages(port: &PortReport) -> String {
         }
         row.push(reading(message));
         table.push(row);
-        if let Some(refusal) = &message.refusal {
-            let name = format!("{}: {}", message.name, refusal.reason);
-            refusals.push((name, refusal.bytes.as_str()));
+        for (told, last) in [(&mut refusals, &message.refusal), (&mut flaws, &message.flaw)] {
+            if let Some(last) = last {
+                let name = format!("{}: {}", message.name, last.reason);
+                told.push((name, last.bytes.as_str()));
+            }
         }
     }
     let mut text = table.to_string();
     if port.more > 0 {
         let _ = writeln!(text, "  and {} frames of further kinds", port.more);
     }
-    if !refusals.is_empty() {
-        text.push_str("\n  refused last\n");
-    }
-    for (name, bytes) in refusals {
-        text.push_str(&folded("    ", &name));
-        let _ = writeln!(text, "      {bytes}");
+    for (heading, told) in [("refused last", refusals), ("left out last", flaws)] {
+        if !told.is_empty() {
+            let _ = writeln!(text, "\n  {heading}");
+        }
+        for (name, bytes) in told {
+            text.push_str(&folded("    ", &name));
+            let _ = writeln!(text, "      {bytes}");
+        }
     }
     text
 }

@@ -130,7 +130,8 @@ pub struct SensorConfig {
     /// Whose time of an IMU's samples is believed.
     #[serde(default)]
     pub time: TimeBase,
-    /// How an IMU or log sits.
+    /// How an IMU or log sits. A log of RDI (PD0, PD6) of which nothing is told hangs as its maker has
+    /// it: beam 3 forward by its own heading alignment.
     #[serde(default)]
     pub mounting: Mounting,
     /// Talkers that are heard, on a port that carries several; all if none is named.

@@ -7,13 +7,18 @@ use crate::choice::Chosen;
 use crate::clock::TimeChange;
 use crate::device::Device;
 
-/// Why a reading of a sensor was not passed on.
+/// Why a reading of a sensor, or a part of it, was not passed on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Refusal {
     /// The frame's contents are not what its format says.
     Malformed,
+    /// A field of a sentence is bad; it is left out, and the rest of the sentence is taken.
+    Field,
     /// The device's own status says that it is not valid.
     Invalid,
+    /// What the accelerometers sense is not gravity, in the mean of seconds: they are not filled in, not
+    /// in the unit that the format says, or broken.
+    Gravity,
     /// Its time does not fit what is known, or it comes so soon after the one before that it must have
     /// waited, or have been told already.
     TimeDoubted,
@@ -37,7 +42,9 @@ impl Refusal {
     pub fn as_str(self) -> &'static str {
         match self {
             Refusal::Malformed => "malformed",
+            Refusal::Field => "field",
             Refusal::Invalid => "invalid",
+            Refusal::Gravity => "gravity",
             Refusal::TimeDoubted => "time_doubted",
             Refusal::NoTime => "no_time",
             Refusal::NotChosen => "not_chosen",

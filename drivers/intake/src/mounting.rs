@@ -57,6 +57,20 @@ impl Direction {
 }
 
 impl Mounting {
+    /// How a Doppler log of RDI hangs whose mounting nobody told: looking down, beam 3 forward by
+    /// `alignment`, rad, clockwise from the bow (its heading alignment, `EA`). Its x points from beam 1
+    /// to beam 2, y from beam 4 to beam 3, z from the sea bed to its face; one that looks up is turned
+    /// over about y.
+    ///
+    /// Source: Teledyne RDI WorkHorse and RiverPro guides, commands `EA` and `PS3` (beam azimuths 270,
+    /// 90, 0 and 180 deg from the forward mark).
+    #[must_use]
+    pub fn rdi(alignment: f64, up: bool) -> Self {
+        use Direction::{Down, Forward, Port, Starboard, Up};
+        let axes = if up { [Port, Forward, Down] } else { [Starboard, Forward, Up] };
+        Mounting { axes, rotation_deg: [0.0, 0.0, alignment.to_degrees()] }
+    }
+
     /// Rotation from the device's axes to forward, starboard, down; `None` if the axes are no
     /// right-handed set.
     #[must_use]
@@ -88,6 +102,21 @@ mod tests {
         let mounting = Mounting { axes: [Forward, Port, Up], ..Mounting::default() };
         let gravity = turned(&mounting.c_bd().unwrap(), [0.1, 0.2, 9.8]);
         assert_eq!(gravity, Body::new(0.1, -0.2, -9.8));
+    }
+
+    #[test]
+    fn a_log_of_rdi_has_beam_3_forward_and_beam_2_to_starboard() {
+        for (up, sign) in [(false, 1.0), (true, -1.0)] {
+            let c_bd = Mounting::rdi(0.0, up).c_bd().unwrap();
+            assert_eq!(turned(&c_bd, [0.0, 1.0, 0.0]), Body::new(1.0, 0.0, 0.0));
+            assert_eq!(turned(&c_bd, [1.0, 0.0, 0.0]), Body::new(0.0, sign, 0.0));
+            assert_eq!(turned(&c_bd, [0.0, 0.0, 1.0]), Body::new(0.0, 0.0, -sign));
+        }
+        // beam 3 turned 45 deg clockwise from the bow, as in the maker's example of EA+04500
+        let c_bd = Mounting::rdi(std::f64::consts::FRAC_PI_4, false).c_bd().unwrap();
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        let ahead = turned(&c_bd, [0.0, 1.0, 0.0]);
+        assert_relative_eq!(ahead.0, Vector3::new(half, half, 0.0), epsilon = 1e-12);
     }
 
     #[test]

@@ -21,8 +21,10 @@ pub enum Link {
         /// Time for a byte with its start and stop bits.
         byte_time: f64,
     },
-    /// A stream without timing of its own: TCP, pipe, file.
+    /// A stream without timing of its own: TCP, pipe.
     Stream,
+    /// A file: a stream that was written at another time than that of the computer's clock.
+    File,
     /// Datagrams: no frame goes over the end of one.
     Datagrams,
     /// A CAN bus: frames instead of bytes.

@@ -61,7 +61,7 @@ fn nmea(frame: &[u8]) -> Described {
     match others::kind(frame) {
         Ok(kind) => {
             let read = match kind.understood {
-                Understood::Read => Reading::Used,
+                Understood::Read(_) => Reading::Used,
                 Understood::Refused(_) | Understood::Odd => Reading::Refused,
                 Understood::Recognised | Understood::Unknown => Reading::Other,
             };

@@ -54,7 +54,8 @@ fn raw_blocks_of_version_4_are_found_behind_all_the_others() {
     let Motion::Rates { gyro, accel } = reading.motion else { unreachable!() };
     assert_eq!(gyro, [0.0; 3]);
     is_near(accel[2], 8.000_145, 1e-5);
-    assert_eq!((reading.utc, reading.valid, reading.status), (None, true, 0x4C00_0000));
+    assert_eq!((reading.utc, reading.status), (None, 0x4C00_0000));
+    assert!(!reading.valid, "a rotation of zeros");
     let device_time = reading.device_time.unwrap();
     assert_eq!((device_time.ticks.value, device_time.ticks.modulus), (8_715_306, 1 << 32));
     is_near(reading.temperature.unwrap(), 25.993, 1e-3);
@@ -87,6 +88,29 @@ fn pitch_is_positive_bow_up_here_and_bow_down_on_the_wire() {
     let navigation = Navigation { attitude: Some(attitude), ..Navigation::default() };
     let frame = Telegram { version: 3, navigation, ..Telegram::default() }.write();
     assert_eq!(frame[33..37], (-10.0_f32).to_be_bytes());
+}
+
+#[test]
+fn raw_blocks_that_nobody_fills_are_not_valid_whatever_the_status_says() {
+    // the telegram of version 4 once more, with a rotation: 8.00 m/s^2 beside 9.81 in its other blocks
+    let mut telegram = Telegram::read(&bytes_of_hex(V4)).unwrap();
+    telegram.navigation.raw_rotation = Some([1e-5, 0.0, 4e-5]);
+    assert!(!telegram.reading().unwrap().valid);
+    telegram.navigation.raw_acceleration = Some([-0.035, 0.01, 9.80]);
+    assert!(telegram.reading().unwrap().valid);
+    telegram.navigation.raw_acceleration = Some([0.0; 3]);
+    assert!(!telegram.reading().unwrap().valid);
+    // without the other blocks there is nothing to hold them against but zero
+    let raw = |gyro, accel| {
+        let navigation = Navigation {
+            raw_rotation: Some(gyro),
+            raw_acceleration: Some(accel),
+            ..Navigation::default()
+        };
+        Telegram { version: 5, navigation, ..Telegram::default() }.reading().unwrap().valid
+    };
+    assert!(raw([1e-5, 0.0, 4e-5], [0.0, 0.0, 8.0]));
+    assert!(!raw([0.0; 3], [0.0, 0.0, 9.81]) && !raw([1e-5, 0.0, 4e-5], [0.0; 3]));
 }
 
 #[test]

@@ -320,3 +320,40 @@ proptest! {
         });
     }
 }
+
+#[test]
+fn an_ensemble_of_many_data_types_is_read() {
+    // WinRiver II writes some eighty types into one ensemble, with its notes among them
+    let whole = ensemble(Coordinates::Ship, [Some(0.1), Some(-2.0), Some(0.0), Some(0.0)]);
+    for others in [30_u8, 65, 200] {
+        let frame = with_others(&whole.write(), others);
+        assert_eq!(look(&frame), Look::Frame(frame.len()), "{others}");
+        assert_eq!(Ensemble::read(&frame).unwrap(), Ensemble::read(&whole.write()).unwrap());
+    }
+}
+
+/// An ensemble with so many types of four bytes behind its own.
+fn with_others(frame: &[u8], others: u8) -> Vec<u8> {
+    let own = frame[5];
+    let start = 6 + 2 * usize::from(own);
+    let shift = 2 * u16::from(others);
+    let body = &frame[start..frame.len() - 4];
+    let length = u16::try_from(start + body.len() + 2).unwrap() + shift + 4 * u16::from(others);
+    let mut longer = vec![0x7F, 0x7F];
+    longer.extend(length.to_le_bytes());
+    longer.extend([0, own + others]);
+    for pair in frame[6..start].chunks(2) {
+        longer.extend((u16::from_le_bytes([pair[0], pair[1]]) + shift).to_le_bytes());
+    }
+    let mut offset = u16::try_from(start + body.len()).unwrap() + shift;
+    for _ in 0..others {
+        longer.extend(offset.to_le_bytes());
+        offset += 4;
+    }
+    longer.extend(body);
+    (0..others).for_each(|_| longer.extend([0x22, 0x20, 1, 2]));
+    longer.extend([0, 0]);
+    let sum = longer.iter().fold(0_u16, |sum, byte| sum.wrapping_add(u16::from(*byte)));
+    longer.extend(sum.to_le_bytes());
+    longer
+}

@@ -30,9 +30,10 @@ const PURE: [&str; 9] = [
 ];
 
 /// What a pure crate may depend on beside the house's own crates: all of it without side effects.
-const PURE_DEPENDENCIES: [&str; 11] = [
+const PURE_DEPENDENCIES: [&str; 13] = [
     "crc",
     "fast-float2",
+    "igrf",
     "kinavis-kernel",
     "kinavis-wmm",
     "nalgebra",
@@ -42,6 +43,8 @@ const PURE_DEPENDENCIES: [&str; 11] = [
     "statrs",
     "thiserror",
     "toml",
+    // dates of the calendar, without its clock
+    "time",
 ];
 
 /// Seeded generators, for the simulator alone.

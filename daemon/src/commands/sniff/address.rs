@@ -10,7 +10,8 @@ use insd_drivers::ports::{
 };
 use insd_drivers::raw;
 
-use super::can;
+use super::{can, captured};
+use crate::sniff::bus::file::BusFile;
 use crate::sniff::{Plan, Transport as Suggested};
 
 /// Rates at which a serial line is listened to when none is given, the most common first.
@@ -41,6 +42,8 @@ pub enum Source {
     Port(Box<PortConfig>),
     /// A raw recording.
     Recording(PathBuf),
+    /// A file of a gateway of NMEA 2000.
+    Captured(PathBuf, BusFile),
 }
 
 impl Address {
@@ -52,7 +55,7 @@ impl Address {
                 Transport::Serial(serial) => serial.probe_bauds.len() as f64 * serial.probe_s,
                 _ => 0.0,
             },
-            Source::Recording(_) => 0.0,
+            Source::Recording(_) | Source::Captured(..) => 0.0,
         }
     }
 }
@@ -176,7 +179,13 @@ fn path(text: &str) -> Result<Address, String> {
         Some((_, kind)) if kind.is_file() && is_recording => return recording(text, path, rate),
         Some((_, kind)) if kind.is_file() && can::is_log(path) => can::log(path),
         Some((_, kind)) if kind.is_file() => {
-            (Transport::File(File { path: path.to_owned() }), false, None)
+            if let Some(format) = captured::format_of(path) {
+                return captured(text, path, rate, format);
+            }
+            let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+            let table = format!("{{ kind = \"file\", path = {} }}", quoted(&whole));
+            let file = Transport::File(File { path: path.to_owned() });
+            (file, false, Some(Suggested::Other(table)))
         }
         Some((_, kind)) if kind.is_fifo() => {
             let table = format!("{{ kind = \"pipe\", path = {} }}", quoted(path));
@@ -198,6 +207,21 @@ fn recording(text: &str, path: &Path, rate: Option<Option<u32>>) -> Result<Addre
     }
     let plan = Plan { name: text.to_owned(), timed: true, transport: None };
     Ok(Address { plan, source: Source::Recording(path.to_owned()) })
+}
+
+/// A file in which some gateway of a CAN bus has written.
+fn captured(
+    text: &str,
+    path: &Path,
+    rate: Option<Option<u32>>,
+    format: BusFile,
+) -> Result<Address, String> {
+    if rate.is_some() {
+        return Err(format!("{} is a log of a bus: it has no baud rate", path.display()));
+    }
+    let transport = format.transport().map(|table| Suggested::Other(table.to_owned()));
+    let plan = Plan { name: text.to_owned(), timed: false, transport };
+    Ok(Address { plan, source: Source::Captured(path.to_owned(), format) })
 }
 
 /// A baud rate; `None` if it is to be found.
@@ -240,7 +264,7 @@ mod tests {
                 assert!(!config.write && config.faults().is_empty());
                 config.transport
             }
-            Source::Recording(path) => panic!("{}", path.display()),
+            Source::Recording(path) | Source::Captured(path, _) => panic!("{}", path.display()),
         }
     }
 

@@ -4,6 +4,7 @@
 mod address;
 mod asker;
 mod can;
+mod captured;
 mod frames;
 mod live;
 mod recorded;
@@ -15,6 +16,7 @@ use anyhow::Context;
 use insd_drivers::ports::PortConfig;
 use insd_wire::stream::Protocol;
 
+use crate::sniff::report::PortReport;
 use crate::sniff::{Plan, Report, text};
 
 pub use address::{Address, Source, parse};
@@ -63,18 +65,25 @@ PORT is one of
   can0                         a CAN bus: devices by NAME, product and messages
   can+tcp://FORMAT@HOST:PORT   a CAN gateway that speaks text: candump, ydwg, actisense,
   can+udp://FORMAT@ADDR:PORT   canboat-plain
-  capture.log                  a named pipe, or a file: what a device has said, a log of candump
-  voyage.insdraw               a raw recording, or a folder with one";
+  capture.log                  a named pipe, or a file: what a device has said, a log of candump,
+                               of canboat, of a gateway of NMEA 2000
+  voyage.insdraw               a raw recording, or a folder with one
+
+Exit status
+  0  something that insd reads came from every PORT
+  1  a PORT cannot be opened, or nothing came from it that insd reads
+  2  the command line is wrong, or a recording is none";
 
 /// Listens and reports.
 ///
 /// # Errors
-/// A recording that cannot be read, or an output that fails. A port that cannot be opened is part of
-/// the report.
+/// A recording that cannot be read, or an output that fails. A port that cannot be opened, or from which
+/// nothing comes that insd reads, is part of the report, and an error behind it.
 pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
     let protocols = if args.protocol.is_empty() { &Protocol::ALL[..] } else { &args.protocol[..] };
     let mut ports = Vec::new();
     let mut report = Report { ports: Vec::new() };
+    let mut mutes = Vec::new();
     for address in &args.ports {
         match &address.source {
             Source::Port(config) => ports.push(live::Opening {
@@ -82,8 +91,14 @@ pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
                 config: PortConfig::clone(config),
                 search_s: address.search_s(),
             }),
+            Source::Captured(path, format) => {
+                let read = captured::read(path, *format, &address.plan, protocols, args.raw)?;
+                mutes.extend(mute(&address.plan.name, &read.ports));
+                report.ports.extend(read.ports);
+            }
             Source::Recording(path) => {
                 let read = recorded::read(path, &address.plan.name, protocols, args.raw)?;
+                mutes.extend(mute(&address.plan.name, &read.ports));
                 report.ports.extend(read.ports);
             }
         }
@@ -92,7 +107,9 @@ pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
         let is_live = !(args.once || args.json || args.raw) && io::stdout().is_terminal();
         let style =
             live::Style { seconds: args.seconds, redraw: is_live, frames: args.raw, ask: args.ask };
-        report.ports.extend(live::listen(ports, protocols, style)?.ports);
+        let heard = live::listen(ports, protocols, style)?.ports;
+        mutes.extend(heard.iter().filter_map(|port| mute(&port.name, std::slice::from_ref(port))));
+        report.ports.extend(heard);
     }
     let text = if args.json {
         serde_json::to_string_pretty(&report)? + "\n"
@@ -101,7 +118,14 @@ pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
     } else {
         text::report(&report)
     };
-    print(&text)
+    print(&text)?;
+    anyhow::ensure!(mutes.is_empty(), "nothing that insd reads came from {}", mutes.join(", "));
+    Ok(())
+}
+
+/// The argument, if nothing that insd reads came from any of its ports.
+fn mute(name: &str, ports: &[PortReport]) -> Option<String> {
+    (!ports.iter().any(PortReport::is_readable)).then(|| name.to_owned())
 }
 
 /// Prints, and takes no offence at a reader that has seen enough.

@@ -1,6 +1,7 @@
 //! Statistics of a CAN bus: which devices are on it, and what each of them sends.
 
 mod device;
+pub mod file;
 pub mod report;
 pub(super) mod suggestion;
 #[cfg(test)]

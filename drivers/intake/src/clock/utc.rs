@@ -11,7 +11,7 @@ use insd_wire::nmea::TimeOfDay;
 use super::map::{ClockMap, MapChange, Observed};
 use super::pulses::{PulseFault, Pulses};
 
-/// The day this version was made: no receiver and no clock is believed to be before it.
+/// The day this version was made: no clock of a computer and no receiver at work is before it.
 const MADE: (i32, u8, u8) = (2026, 1, 1);
 /// What a computer's clock is off at first, ratio.
 const DRIFT_STD: f64 = 1e-4;
@@ -38,6 +38,15 @@ const DAY: i64 = 86_400 * SECOND;
 const WEEK: i64 = 604_800 * SECOND;
 /// What a week number of ten bits goes over, ns.
 const CYCLE: i64 = 1024 * WEEK;
+/// Before GPS began and after its last week no date is believed: it is as if it were the nearest to that, ns
+/// since 1970. The ends also keep sums of times within what they are counted in.
+const FIRST: i64 = 315_964_800 * SECOND;
+const LAST: i64 = FIRST + 9999 * WEEK;
+/// What a computer's clock that has been set may be off, ns: a date that is farther from it, and would
+/// be even after whole cycles, is no rollover but a recording.
+const OFF: i64 = 2 * 365 * DAY;
+/// What the clock of a recording and its receivers are apart at most, ns.
+const TOGETHER: i64 = DAY;
 
 /// How well UTC is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -128,44 +137,81 @@ impl Default for ShipUtc {
 impl ShipUtc {
     /// The instant of an epoch in GPS time, from whatever part of it a message tells; the rest is what
     /// is nearest to what is known. `None` for a part while no date is known: the system clock is asked
-    /// for it only after some seconds in which no message told one.
-    pub fn resolve(&mut self, epoch: &EpochTime, stamp: &Stamp) -> Option<GpsTime> {
-        let is_whole = matches!(epoch, EpochTime::Utc(_) | EpochTime::Gps(_));
-        if !is_whole && !self.knows_date(stamp.monotonic) {
-            return None;
-        }
-        let gps = self.resolve_near(epoch, self.expected(stamp));
-        if is_whole {
+    /// for it only after some seconds in which no message told one. `live`: the message was made while
+    /// the computer's clock ran, and is not read from a file.
+    pub fn resolve(&mut self, epoch: &EpochTime, stamp: &Stamp, live: bool) -> Option<GpsTime> {
+        let gps = match epoch {
+            EpochTime::Utc(utc) => {
+                // the receiver took the leap seconds of today off: the date is put right before them
+                let near = |own: &Self, gps| own.utc_of(gps).as_nanos();
+                let told = utc.as_nanos().clamp(FIRST, LAST);
+                let behind = self.behind(told, stamp, live, near);
+                self.gps_of(UtcTime::from_nanos(told.saturating_add(behind)))
+            }
+            EpochTime::Gps(gps) => {
+                let near = |_: &Self, gps: GpsTime| gps.as_nanos();
+                let told = gps.as_nanos().clamp(0, LAST - FIRST);
+                let behind = self.behind(told, stamp, live, near);
+                GpsTime::from_nanos(told.saturating_add(behind))
+            }
+            _ if !self.knows_date(stamp.monotonic) => return None,
+            EpochTime::TimeOfWeek(nanos) => self.expected(stamp).nearest_with_tow(*nanos),
+            EpochTime::TimeOfDay(clock) => self.resolve_clock(*clock, self.expected(stamp)),
+        };
+        if matches!(epoch, EpochTime::Utc(_) | EpochTime::Gps(_)) {
             self.dated = Some((gps, stamp.monotonic));
         }
         Some(gps)
     }
 
-    fn resolve_near(&mut self, epoch: &EpochTime, expected: GpsTime) -> GpsTime {
-        match epoch {
-            EpochTime::Utc(utc) => {
-                // the receiver took the leap seconds of today off: the date is put right before them
-                let behind = self.rolled_over(utc.as_nanos(), self.utc_of(expected).as_nanos());
-                self.gps_of(UtcTime::from_nanos(utc.as_nanos().saturating_add(behind)))
-            }
-            EpochTime::Gps(gps) => {
-                let behind = self.rolled_over(gps.as_nanos(), expected.as_nanos());
-                GpsTime::from_nanos(gps.as_nanos().saturating_add(behind))
-            }
-            EpochTime::TimeOfWeek(nanos) => expected.nearest_with_tow(*nanos),
-            EpochTime::TimeOfDay(clock) => self.resolve_clock(*clock, expected),
-        }
-    }
-
     /// By how much a time is behind for whole cycles of 1024 weeks, ns; a change is told.
-    fn rolled_over(&mut self, told: i64, near: i64) -> i64 {
-        let cycles = near.saturating_sub(told).saturating_add(CYCLE / 2).div_euclid(CYCLE);
+    ///
+    /// A date is put right only by evidence: by what messages have told before, by a computer's clock
+    /// that has been set and from which the date is away by whole cycles, or, where that clock has not
+    /// been set, because a receiver at work is not older than this program. Any other date is taken as
+    /// it stands, as is one of a file that nothing speaks against.
+    fn behind(
+        &mut self,
+        told: i64,
+        stamp: &Stamp,
+        live: bool,
+        near: impl Fn(&Self, GpsTime) -> i64,
+    ) -> i64 {
+        let made = UtcTime::from_civil(MADE, (0, 0, 0), 0).unwrap_or(stamp.system);
+        let is_set = live && stamp.system >= made;
+        let cycles = if let Some(known) = self.told_before(stamp) {
+            let known = near(self, known);
+            self.look_ahead(told, known, is_set);
+            cycles_behind(told, known, TOGETHER)
+        } else if !live {
+            0
+        } else if is_set {
+            cycles_behind(told, near(self, self.gps_of(stamp.system)), OFF)
+        } else if stamp.system.as_nanos().saturating_sub(told).saturating_abs() < TOGETHER {
+            0
+        } else {
+            let short = made.as_nanos().saturating_sub(told).max(0);
+            short.saturating_add(CYCLE - 1).div_euclid(CYCLE)
+        };
         let weeks = cycles * (CYCLE / WEEK);
         if weeks != self.rollover && weeks != 0 {
             self.changes.push(TimeChange::Rollover { weeks });
             self.rollover = weeks;
         }
         cycles.saturating_mul(CYCLE)
+    }
+
+    /// Where no clock has confirmed the date that is believed, a receiver that is ahead of it by whole
+    /// cycles shows that it is behind, as none is ever ahead.
+    fn look_ahead(&mut self, told: i64, known: i64, is_set: bool) {
+        if !is_set && cycles_behind(known, told, TOGETHER) > 0 {
+            if self.quality != TimeQuality::Unknown {
+                let by = told.saturating_sub(known) as f64 * 1e-9;
+                self.changes.push(TimeChange::Stepped { by });
+            }
+            self.start_over();
+            self.dated = None;
+        }
     }
 
     /// The instant nearest to `expected` with this time of day.
@@ -283,16 +329,21 @@ impl ShipUtc {
         self.map().is_some() || self.dated.is_some() || in_vain
     }
 
-    /// GPS time by what is known: by the tie, by the last message with a date, or by the system clock if
-    /// that is not before this version was made.
+    /// GPS time by the tie, or by the last message with a date.
+    fn told_before(&self, stamp: &Stamp) -> Option<GpsTime> {
+        let tied = self.map().and_then(|map| inverse(map, stamp.monotonic));
+        tied.or_else(|| {
+            let (gps, told) = self.dated?;
+            let since = (stamp.monotonic - told).as_nanos();
+            Some(GpsTime::from_nanos(gps.as_nanos().saturating_add(since)))
+        })
+    }
+
+    /// GPS time by what messages have told, or by the system clock if that is not before this version
+    /// was made.
     fn expected(&self, stamp: &Stamp) -> GpsTime {
-        if let Some(gps) = self.map().and_then(|map| inverse(map, stamp.monotonic)) {
+        if let Some(gps) = self.told_before(stamp) {
             return gps;
-        }
-        if let Some((gps, told)) = self.dated {
-            return GpsTime::from_nanos(
-                gps.as_nanos().saturating_add((stamp.monotonic - told).as_nanos()),
-            );
         }
         let made = UtcTime::from_civil(MADE, (0, 0, 0), 0).unwrap_or(stamp.system);
         self.gps_of(stamp.system.max(made))
@@ -405,13 +456,23 @@ impl Doubt {
     /// The doubt with one more epoch, if it agrees with the first. Epochs that were held up and come all
     /// at once do not: each is late by less than the one before.
     fn again(self, epoch: GpsTime, late: f64) -> Option<Self> {
-        let new = (epoch.as_nanos() - self.last.as_nanos()).abs() > SAME;
-        let since = epoch.as_nanos() - self.first.as_nanos();
+        let apart = |other: GpsTime| epoch.as_nanos().saturating_sub(other.as_nanos());
+        let new = apart(self.last).saturating_abs() > SAME;
+        let since = apart(self.first);
         let agreed = AGREE.min(0.5 * since as f64 * 1e-9);
         let agrees = since >= 0 && (late - self.late).abs() <= agreed;
         let count = self.count + u32::from(new);
         (agrees || !new).then_some(Doubt { last: epoch, count, ..self })
     }
+}
+
+/// By how many whole cycles of 1024 weeks a time is behind another, if it is to within some nanoseconds;
+/// else 0.
+fn cycles_behind(told: i64, near: i64, within: i64) -> i64 {
+    let behind = near.saturating_sub(told);
+    let cycles = behind.saturating_add(CYCLE / 2).div_euclid(CYCLE);
+    let rest = behind.saturating_sub(cycles.saturating_mul(CYCLE));
+    if rest.saturating_abs() < within { cycles.max(0) } else { 0 }
 }
 
 fn inverse(map: &ClockMap, time: Time) -> Option<GpsTime> {

@@ -12,7 +12,8 @@ use crate::sensor::Epoch;
 impl Core {
     /// Parts of epochs that came before any date was known wait for it.
     pub(super) fn gnss(&mut self, index: usize, stamp: &Stamp, came: Came, part: &GnssPart) {
-        let gps = part.epoch.and_then(|epoch| self.utc.resolve(&epoch, stamp));
+        let live = self.sensors[index].live;
+        let gps = part.epoch.and_then(|epoch| self.utc.resolve(&epoch, stamp, live));
         let times = (came.begun, came.ended);
         let undated = &mut self.sensors[index].undated;
         if gps.is_none() && (part.epoch.is_some() || !undated.is_empty()) {
@@ -24,7 +25,7 @@ impl Core {
             return;
         }
         for (early, times) in std::mem::take(undated) {
-            let gps = early.epoch.and_then(|epoch| self.utc.resolve(&epoch, stamp));
+            let gps = early.epoch.and_then(|epoch| self.utc.resolve(&epoch, stamp, live));
             self.part(index, stamp, times, &early, gps);
         }
         self.part(index, stamp, times, part, gps);
@@ -107,15 +108,16 @@ impl Core {
     pub(super) fn clock(&mut self, index: usize, stamp: &Stamp, came: Came, epoch: &EpochTime) {
         let config = &self.sensors[index].config;
         let (priority, latency) = (config.priority, Span::from_seconds(config.latency_s));
-        if let Some(gps) = self.utc.resolve(epoch, stamp)
+        let live = self.sensors[index].live;
+        if let Some(gps) = self.utc.resolve(epoch, stamp, live)
             && !self.utc.message((priority, index), gps, came.begun, latency)
         {
             self.refuse(index, Refusal::TimeDoubted);
         }
     }
 
-    pub(super) fn pulse_time(&mut self, stamp: &Stamp, pulse: &PulseTime) {
-        let gps = self.utc.resolve(&pulse.instant, stamp);
+    pub(super) fn pulse_time(&mut self, index: usize, stamp: &Stamp, pulse: &PulseTime) {
+        let gps = self.utc.resolve(&pulse.instant, stamp, self.sensors[index].live);
         if let Some(gps) = gps.filter(|_| pulse.order == PulseOrder::Next) {
             self.utc.announce(gps);
         }

@@ -12,6 +12,10 @@ use crate::sensor::{ImuChange, TimeBase};
 impl Core {
     pub(super) fn imu(&mut self, index: usize, stamp: &Stamp, came: Came, sample: &ImuReading) {
         let now = stamp.monotonic;
+        let sensor = &mut self.sensors[index];
+        let pulls = sensor.gravity.bears(&sample.motion, 1.0 / sensor.config.rate_hz);
+        let (live, told) = (sensor.live, sample.valid);
+        let sample = &ImuReading { valid: told && pulls, ..*sample };
         self.validity(index, now, sample.valid, sample.status);
         let sensor = &mut self.sensors[index];
         sensor.status.temperature = sample.temperature.or(sensor.status.temperature);
@@ -21,7 +25,7 @@ impl Core {
         if let (Some(utc), None) = (sample.utc, changes[1]) {
             let priority = sensor.config.priority.saturating_add(100);
             let latency = Span::from_seconds(sensor.config.latency_s);
-            if let Some(gps) = self.utc.resolve(&EpochTime::Utc(utc), stamp) {
+            if let Some(gps) = self.utc.resolve(&EpochTime::Utc(utc), stamp, live) {
                 self.utc.message((priority, index), gps, came.begun, latency);
             }
         }
@@ -29,7 +33,7 @@ impl Core {
             self.tell_imu(index, now, change);
         }
         if !sample.valid {
-            self.refuse(index, Refusal::Invalid);
+            self.refuse(index, if told { Refusal::Gravity } else { Refusal::Invalid });
         }
         if self.sensors[index].config.time == TimeBase::Utc && sample.utc.is_none() {
             self.refuse(index, Refusal::NoTime);

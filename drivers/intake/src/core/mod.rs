@@ -211,13 +211,14 @@ impl Core {
         match reading {
             Reading::Imu(sample) => self.imu(index, stamp, came, sample),
             Reading::Gnss(part) => self.gnss(index, stamp, came, part),
-            Reading::Pulse(pulse) => self.pulse_time(stamp, pulse),
+            Reading::Pulse(pulse) => self.pulse_time(index, stamp, pulse),
             Reading::Velocity(velocity) => self.velocity(index, stamp, came, velocity),
             Reading::Heading(heading) => self.heading(index, stamp, came, heading),
             Reading::Fix(position, std) => self.manual(index, stamp, came, *position, *std),
             Reading::Place(position) => self.place(index, stamp, came, *position),
             Reading::Clock(epoch) => self.clock(index, stamp, came, epoch),
             Reading::Shown(shown) => self.sensors[index].status.shown.enter(*shown),
+            Reading::LeftOut(reason) => self.refuse(index, *reason),
             Reading::Idle => {}
         }
     }

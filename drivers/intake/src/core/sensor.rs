@@ -10,7 +10,8 @@ use crate::choice::Quantity;
 use crate::config::{IntakeConfig, Kind, Role, SensorConfig};
 use crate::decode::Decoder;
 use crate::device::DeviceChoice;
-use crate::sensor::{Epoch, EpochBuilder, ImuIntake, ImuSettings, Pace};
+use crate::port::Link;
+use crate::sensor::{Epoch, EpochBuilder, Gravity, ImuIntake, ImuSettings, Pace};
 use crate::status::SensorStatus;
 
 /// One sensor at work.
@@ -29,6 +30,10 @@ pub(crate) struct Sensor {
     pub(super) undated: Vec<(GnssPart, (Time, Time))>,
     /// How often it gives each quantity that is timed by its receipt.
     pub(super) paces: [Pace; QUANTITIES.len()],
+    /// What it says is new, and not read from a file.
+    pub(super) live: bool,
+    /// Whether an IMU's specific force is gravity, in the mean.
+    pub(super) gravity: Gravity,
     /// Its number among the sensors of its role.
     pub(super) number: u8,
 }
@@ -54,6 +59,8 @@ impl Sensor {
             waiting: VecDeque::new(),
             undated: Vec::new(),
             paces: [Pace::default(); QUANTITIES.len()],
+            live: port.is_none_or(|port| intake.ports[port].link != Link::File),
+            gravity: Gravity::default(),
             number,
         }
     }

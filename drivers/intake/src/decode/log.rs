@@ -9,6 +9,7 @@ use insd_wire::nmea::{NortekBottomTrack, Sentence, Vbw, VbwVelocity, Vhw};
 use nalgebra::{Matrix3, Vector3};
 
 use super::Reading;
+use crate::config::Kind;
 use crate::event::Refusal;
 use crate::mounting::Mounting;
 
@@ -33,14 +34,21 @@ pub struct ShipVelocity {
 #[derive(Clone, Debug)]
 pub(super) struct LogState {
     c_bd: Matrix3<f64>,
+    /// The mounting was not told, and is that of the log's maker.
+    by_maker: bool,
     std: f64,
     /// The instrument's own attitude, with which it turned what it sends in Earth axes.
     attitude: Option<Attitude>,
 }
 
 impl LogState {
-    pub(super) fn new(mounting: &Mounting, std: f64) -> Self {
-        LogState { c_bd: mounting.c_bd().unwrap_or_else(Matrix3::identity), std, attitude: None }
+    /// A log of a kind. The instrument's axes of RDI are never those of the hull, so a mounting that
+    /// says they are was not told: then it is the maker's.
+    pub(super) fn new(kind: Kind, mounting: &Mounting, std: f64) -> Self {
+        let by_maker = matches!(kind, Kind::Pd0 | Kind::Pd6) && *mounting == Mounting::default();
+        let mounting = if by_maker { Mounting::rdi(0.0, false) } else { *mounting };
+        let c_bd = mounting.c_bd().unwrap_or_else(Matrix3::identity);
+        LogState { c_bd, by_maker, std, attitude: None }
     }
 
     pub(super) fn sentence(&mut self, sentence: &Sentence) -> Result<Vec<Reading>, Refusal> {
@@ -56,6 +64,11 @@ impl LogState {
         let ensemble = Ensemble::read(bytes).map_err(|_| Refusal::Malformed)?;
         self.attitude = attitude(&ensemble);
         let geometry = ensemble.fixed.geometry;
+        if self.by_maker {
+            let up = geometry.is_some_and(|geometry| geometry.up);
+            let mounting = Mounting::rdi(ensemble.fixed.heading_alignment, up);
+            self.c_bd = mounting.c_bd().unwrap_or(self.c_bd);
+        }
         let mut readings = Vec::new();
         for reference in [LogReference::Bottom, LogReference::Water] {
             if let Some(reading) = ensemble.reading(reference) {

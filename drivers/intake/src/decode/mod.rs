@@ -42,6 +42,8 @@ pub enum Reading {
     Clock(EpochTime),
     /// Something that is shown and not used.
     Shown(ShownPart),
+    /// A part of the frame is not taken, and why.
+    LeftOut(Refusal),
     /// A good frame that says nothing which is used.
     Idle,
 }
@@ -75,7 +77,7 @@ impl Decoder {
         Decoder {
             config: config.clone(),
             imu: imu::ImuState::new(config),
-            log: log::LogState::new(&config.mounting, config.velocity_std_mps),
+            log: log::LogState::new(config.kind, &config.mounting, config.velocity_std_mps),
             heading: heading::HeadingState::default(),
             n2k: n2k::N2kState::default(),
             can: config
@@ -153,12 +155,15 @@ impl Decoder {
             return Ok(Vec::new());
         }
         let sentence = Sentence::read_frame(&frame).map_err(|_| Refusal::Malformed)?;
-        match self.config.kind {
-            Kind::NmeaGnss | Kind::NmeaPosition => Ok(gnss::nmea(&sentence)),
-            Kind::NmeaLog | Kind::Nortek => self.log.sentence(&sentence),
-            Kind::Manual => Ok(vec![manual(&sentence)]),
-            _ => self.heading.sentence(&sentence, &self.config),
-        }
+        let mut readings = match self.config.kind {
+            Kind::NmeaGnss | Kind::NmeaPosition => gnss::nmea(&sentence),
+            Kind::NmeaLog | Kind::Nortek => self.log.sentence(&sentence)?,
+            Kind::Manual => vec![manual(&sentence)],
+            _ => self.heading.sentence(&sentence, &self.config)?,
+        };
+        let left_out = usize::from(frame.left_out().count);
+        readings.extend(std::iter::repeat_n(Reading::LeftOut(Refusal::Field), left_out));
+        Ok(readings)
     }
 
     /// Whether the sentence's talker is one of the sensor's; makers' own sentences have none.

@@ -174,8 +174,8 @@ impl Epoch {
     /// What the receiver says of its fix: autonomous if it gives a position and says nothing.
     #[must_use]
     pub fn quality(&self) -> FixQuality {
-        let silent =
-            if self.part.position.is_some() { FixQuality::Autonomous } else { FixQuality::Invalid };
+        let placed = self.part.position.is_some() || self.part.horizontal.is_some();
+        let silent = if placed { FixQuality::Autonomous } else { FixQuality::Invalid };
         self.part.quality.unwrap_or(silent)
     }
 

@@ -1,5 +1,6 @@
 //! The reader's cursor over the fields of a frame.
 
+use std::cell::Cell;
 use std::ops::RangeInclusive;
 
 use insd_base::units::wrap_two_pi;
@@ -14,11 +15,46 @@ use super::position::Position;
 pub struct Fields<'a> {
     rest: Option<&'a str>,
     taken: u8,
+    left_out: &'a Cell<LeftOut>,
+}
+
+/// Fields of a sentence that were bad, and that it is good without.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct LeftOut {
+    /// How many.
+    pub count: u8,
+    /// What is wrong with the first of them.
+    pub first: Option<Fault>,
 }
 
 impl<'a> Fields<'a> {
-    pub(crate) fn new(rest: Option<&'a str>) -> Self {
-        Fields { rest, taken: 0 }
+    pub(crate) fn new(rest: Option<&'a str>, left_out: &'a Cell<LeftOut>) -> Self {
+        Fields { rest, taken: 0, left_out }
+    }
+
+    /// What a sentence is good without: where it is malformed it is unknown, and noted as left out.
+    /// `read` must take all of its fields, whatever the first of them holds. One that is missing stays
+    /// a fault, as the line may have been cut short.
+    ///
+    /// # Errors
+    /// Any but [`Fault::Malformed`].
+    pub fn optional<T>(
+        &mut self,
+        read: impl FnOnce(&mut Self) -> Result<Option<T>, Fault>,
+    ) -> Result<Option<T>, Fault> {
+        match read(self) {
+            Err(fault @ Fault::Malformed { .. }) => {
+                self.leave_out(fault);
+                Ok(None)
+            }
+            read => read,
+        }
+    }
+
+    /// Notes that a field is left out.
+    pub(crate) fn leave_out(&self, fault: Fault) {
+        let LeftOut { count, first } = self.left_out.get();
+        self.left_out.set(LeftOut { count: count.saturating_add(1), first: first.or(Some(fault)) });
     }
 
     /// Whether there is another field, even an empty one.
@@ -136,13 +172,43 @@ impl<'a> Fields<'a> {
     /// # Errors
     /// As [`Fields::convert`]; a magnitude without its letter is malformed.
     pub fn signed(&mut self, max: f64, letters: [&str; 2]) -> Result<Option<f64>, Fault> {
-        let magnitude = self.number_in(0.0..=max)?;
-        let sign = self.convert(|text| sign_of(text, letters))?;
-        match (magnitude, sign) {
+        let magnitude = self.number_in(0.0..=max);
+        let sign = self.convert(|text| sign_of(text, letters));
+        if let Err(fault @ Fault::Missing { .. }) = sign {
+            return Err(fault);
+        }
+        match (magnitude?, sign?) {
             (Some(magnitude), Some(sign)) => Ok(Some(sign * magnitude)),
             (None, _) => Ok(None),
             (Some(_), None) => Err(self.malformed()),
         }
+    }
+
+    /// A decimal number within bounds and the letter of its unit; a number beside another letter is
+    /// malformed.
+    ///
+    /// # Errors
+    /// As [`Fields::convert`].
+    pub fn with_unit(
+        &mut self,
+        range: RangeInclusive<f64>,
+        unit: &str,
+    ) -> Result<Option<f64>, Fault> {
+        let number = self.number_in(range);
+        match (self.fixed(unit), number) {
+            (Ok(()), number) => number,
+            (Err(fault @ Fault::Malformed { .. }), number) => Err(number.err().unwrap_or(fault)),
+            (Err(fault), _) => Err(fault),
+        }
+    }
+
+    /// An angle of 0 to 360 degrees and the letter of its north, returned in rad, [0, 2 pi).
+    ///
+    /// # Errors
+    /// As [`Fields::convert`].
+    pub fn degrees_with(&mut self, letter: &str) -> Result<Option<f64>, Fault> {
+        let degrees = self.with_unit(0.0..=360.0, letter)?;
+        Ok(degrees.map(|degrees| wrap_two_pi(degrees.to_radians())))
     }
 
     /// A status: A valid, V not valid.

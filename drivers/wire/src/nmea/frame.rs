@@ -1,19 +1,22 @@
 //! From `$` to checksum: the frame that every sentence shares.
 
+use std::cell::Cell;
+
 use super::fault::Fault;
-use super::fields::Fields;
+use super::fields::{Fields, LeftOut};
 use super::line::Talker;
 use super::tag::TagBlock;
 
 /// A line whose frame and checksum are good; its fields are still text.
 ///
 /// Lines longer than 82 bytes are taken: several makers exceed the standard in their own sentences.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame<'a> {
     tag: Option<&'a str>,
     encapsulated: bool,
     address: &'a str,
     body: Option<&'a str>,
+    left_out: Cell<LeftOut>,
 }
 
 /// What becomes of a line without a checksum. A wrong one is always refused.
@@ -64,7 +67,7 @@ impl<'a> Frame<'a> {
             Some((address, body)) => (address, Some(body)),
             None => (text, None),
         };
-        Ok(Frame { tag, encapsulated, address, body })
+        Ok(Frame { tag, encapsulated, address, body, left_out: Cell::default() })
     }
 
     /// The TAG block that stood before the sentence.
@@ -103,15 +106,22 @@ impl<'a> Frame<'a> {
 
     /// The fields, from the first after the address.
     #[must_use]
-    pub fn fields(&self) -> Fields<'a> {
-        Fields::new(self.body)
+    pub fn fields(&self) -> Fields<'_> {
+        Fields::new(self.body, &self.left_out)
+    }
+
+    /// What the readers of this frame have left out so far: fields that were bad, and that the
+    /// sentence is good without.
+    #[must_use]
+    pub fn left_out(&self) -> LeftOut {
+        self.left_out.get()
     }
 
     /// The fields of a sentence of this formatter.
     ///
     /// # Errors
     /// [`Fault::Address`] or [`Fault::OtherSentence`].
-    pub fn fields_of(&self, formatter: &str) -> Result<Fields<'a>, Fault> {
+    pub fn fields_of(&self, formatter: &str) -> Result<Fields<'_>, Fault> {
         let (_, own) = self.approved()?;
         if own == formatter { Ok(self.fields()) } else { Err(Fault::OtherSentence) }
     }
@@ -120,7 +130,7 @@ impl<'a> Frame<'a> {
     ///
     /// # Errors
     /// [`Fault::OtherSentence`].
-    pub fn fields_of_own(&self, address: &str) -> Result<Fields<'a>, Fault> {
+    pub fn fields_of_own(&self, address: &str) -> Result<Fields<'_>, Fault> {
         if self.address == address && !self.encapsulated {
             Ok(self.fields())
         } else {

@@ -15,6 +15,7 @@
 use super::civil::TimeOfDay;
 use super::decimal::Form;
 use super::fault::Fault;
+use super::fields::Fields;
 use super::frame::Frame;
 use super::gsa::hexadecimal;
 use super::line::{Line, Talker};
@@ -82,18 +83,19 @@ impl Gbs {
     /// The first [`Fault`] of its fields.
     pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
-        let metres = -METRES.limit..=METRES.limit;
+        let metres = |fields: &mut Fields<'_>| fields.number_in(-METRES.limit..=METRES.limit);
+        let satellite = |fields: &mut Fields<'_>| fields.whole(999);
         Ok(Gbs {
             time: fields.time_of_day()?,
-            latitude_error: fields.number_in(metres.clone())?,
-            longitude_error: fields.number_in(metres.clone())?,
-            altitude_error: fields.number_in(metres.clone())?,
-            satellite: fields.whole(999)?.and_then(|id| u16::try_from(id).ok()),
-            missed_detection: fields.number_in(0.0..=PROBABILITY.limit)?,
-            bias: fields.number_in(metres)?,
-            bias_std: fields.number_in(0.0..=METRES.limit)?,
-            system: if fields.has_more() { hexadecimal(&mut fields)? } else { None },
-            signal: if fields.has_more() { hexadecimal(&mut fields)? } else { None },
+            latitude_error: fields.optional(metres)?,
+            longitude_error: fields.optional(metres)?,
+            altitude_error: fields.optional(metres)?,
+            satellite: fields.optional(satellite)?.and_then(|id| u16::try_from(id).ok()),
+            missed_detection: fields.optional(|own| own.number_in(0.0..=PROBABILITY.limit))?,
+            bias: fields.optional(metres)?,
+            bias_std: fields.optional(|own| own.number_in(0.0..=METRES.limit))?,
+            system: if fields.has_more() { fields.optional(hexadecimal)? } else { None },
+            signal: if fields.has_more() { fields.optional(hexadecimal)? } else { None },
         })
     }
 }

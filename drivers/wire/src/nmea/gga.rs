@@ -22,6 +22,8 @@
 //! Where the quality is 0, what is no position is unknown (a receiver without a fix sends 8960.0000
 //! for a latitude); elsewhere it is a fault. A Saab R4 leaves field 14 out; that is read if field 13
 //! is empty, so that a line cut short inside field 13 is not taken for a shorter one.
+//!
+//! Time, position and quality must be good; any other field that is bad is left out.
 
 use insd_base::FixQuality;
 
@@ -95,15 +97,16 @@ impl Gga {
         let position = fields.position();
         let digit = fields.letter()?.and_then(|letter| letter.checked_sub(b'0'));
         let quality = digit.and_then(FixQuality::from_gga).ok_or_else(|| fields.malformed())?;
-        let satellites = fields.whole(99)?.and_then(|count| u8::try_from(count).ok());
-        let hdop = fields.number_in(0.0..=HDOP.limit)?;
-        let altitude = fields.number_in(-HEIGHT.limit..=HEIGHT.limit)?;
-        fields.fixed("M")?;
-        let geoid_separation = fields.number_in(-HEIGHT.limit..=HEIGHT.limit)?;
-        fields.fixed("M")?;
-        let age = fields.number_in(0.0..=AGE.limit)?;
+        let satellites = fields.optional(|own| own.whole(99))?;
+        let satellites = satellites.and_then(|count| u8::try_from(count).ok());
+        let height = -HEIGHT.limit..=HEIGHT.limit;
+        let hdop = fields.optional(|own| own.number_in(0.0..=HDOP.limit))?;
+        let altitude = fields.optional(|own| own.with_unit(height.clone(), "M"))?;
+        let geoid_separation = fields.optional(|own| own.with_unit(height, "M"))?;
+        let age = fields.optional(|own| own.number_in(0.0..=AGE.limit))?;
         let station = if fields.has_more() || age.is_some() {
-            fields.whole(STATION_MAX)?.and_then(|id| u16::try_from(id).ok())
+            let station = fields.optional(|own| own.whole(STATION_MAX))?;
+            station.and_then(|id| u16::try_from(id).ok())
         } else {
             None
         };

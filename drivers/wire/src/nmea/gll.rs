@@ -9,7 +9,8 @@
 //! 6    A valid, V not valid
 //! 7    mode: A D E F M N P R S; absent before NMEA 2.3
 //! ```
-//! The form of the Loran age, which ends after field 4, is refused.
+//! The form of the Loran age ends after field 4, and has neither a time nor a status: its position is
+//! taken as valid. Position, time, status and mode must be good.
 
 use super::civil::TimeOfDay;
 use super::fault::Fault;
@@ -59,6 +60,10 @@ impl Gll {
     pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let position = fields.position();
+        if !fields.has_more() {
+            let position = position?;
+            return Ok(Gll { position, time: None, valid: position.is_some(), mode: None });
+        }
         let time = fields.time_of_day()?;
         let valid = fields.status()?;
         let mode = if fields.has_more() {

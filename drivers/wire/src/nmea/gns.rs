@@ -15,6 +15,9 @@
 //! 12    differential station, 0000 to 4095
 //! 13    navigational status: S C U V; absent before NMEA 4.1
 //! ```
+//! Time, position and modes must be good; any other field that is bad is left out.
+
+use std::ops::RangeInclusive;
 
 use insd_base::FixQuality;
 
@@ -119,22 +122,34 @@ impl Gns {
         let mut gns = Gns {
             time,
             modes,
-            satellites: fields.whole(99)?.and_then(|count| u8::try_from(count).ok()),
-            hdop: fields.number_in(0.0..=HDOP.limit)?,
-            altitude: fields.number_in(-HEIGHT.limit..=HEIGHT.limit)?,
-            geoid_separation: fields.number_in(-HEIGHT.limit..=HEIGHT.limit)?,
-            age: fields.number_in(0.0..=AGE.limit)?,
-            station: fields.whole(STATION_MAX)?.and_then(|id| u16::try_from(id).ok()),
+            satellites: whole(&mut fields, 99)?.and_then(|count| u8::try_from(count).ok()),
+            hdop: number(&mut fields, 0.0..=HDOP.limit)?,
+            altitude: number(&mut fields, -HEIGHT.limit..=HEIGHT.limit)?,
+            geoid_separation: number(&mut fields, -HEIGHT.limit..=HEIGHT.limit)?,
+            age: number(&mut fields, 0.0..=AGE.limit)?,
+            station: whole(&mut fields, STATION_MAX)?.and_then(|id| u16::try_from(id).ok()),
             ..Gns::default()
         };
         gns.position =
             if gns.quality() == FixQuality::Invalid { position.ok().flatten() } else { position? };
         if fields.has_more() {
-            gns.nav_status =
-                fields.convert(|text| letter_of(text).and_then(NavStatus::from_letter))?;
+            gns.nav_status = fields.optional(nav_status)?;
         }
         Ok(gns)
     }
+}
+
+/// The navigational status, which says little.
+pub(crate) fn nav_status(fields: &mut Fields<'_>) -> Result<Option<NavStatus>, Fault> {
+    fields.convert(|text| letter_of(text).and_then(NavStatus::from_letter))
+}
+
+fn number(fields: &mut Fields<'_>, range: RangeInclusive<f64>) -> Result<Option<f64>, Fault> {
+    fields.optional(|own| own.number_in(range))
+}
+
+fn whole(fields: &mut Fields<'_>, most: u32) -> Result<Option<u32>, Fault> {
+    fields.optional(|own| own.whole(most))
 }
 
 fn modes(fields: &mut Fields<'_>) -> Result<[Option<PositionMode>; MAX_SYSTEMS], Fault> {

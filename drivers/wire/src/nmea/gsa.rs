@@ -11,7 +11,8 @@
 //!        NMEA 4.1
 //! ```
 //! A receiver of several systems sends one sentence for each. SiRF-III receivers of 24 channels send
-//! 24 satellites (field 27 is then the first dilution).
+//! 24 satellites (field 27 is then the first dilution). Some receivers send a fourth dilution, of time,
+//! in field 18, which is no system. The dimension must be good; any other field that is bad is left out.
 
 use super::decimal::{Form, parse_digits};
 use super::fault::Fault;
@@ -88,10 +89,12 @@ impl Gsa {
     pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let places = if fields.remaining() >= MAX_USED + 5 { MAX_USED } else { PLACES };
-        let automatic = fields.convert(|text| match text {
-            "A" => Some(true),
-            "M" => Some(false),
-            _ => None,
+        let automatic = fields.optional(|own| {
+            own.convert(|text| match text {
+                "A" => Some(true),
+                "M" => Some(false),
+                _ => None,
+            })
         })?;
         let dimension = match fields.text()? {
             "1" => FixDimension::None,
@@ -101,17 +104,18 @@ impl Gsa {
         };
         let mut satellites = [None; MAX_USED];
         for satellite in satellites.iter_mut().take(places) {
-            *satellite = fields.whole(999)?.and_then(|id| u16::try_from(id).ok());
+            let id = fields.optional(|own| own.whole(999))?;
+            *satellite = id.and_then(|id| u16::try_from(id).ok());
         }
-        let range = 0.0..=DOP.limit;
+        let dop = |fields: &mut Fields<'_>| fields.number_in(0.0..=DOP.limit);
         Ok(Gsa {
             automatic,
             dimension,
             satellites,
-            pdop: fields.number_in(range.clone())?,
-            hdop: fields.number_in(range.clone())?,
-            vdop: fields.number_in(range)?,
-            system: if fields.has_more() { hexadecimal(&mut fields)? } else { None },
+            pdop: fields.optional(dop)?,
+            hdop: fields.optional(dop)?,
+            vdop: fields.optional(dop)?,
+            system: if fields.has_more() { fields.optional(hexadecimal)? } else { None },
         })
     }
 }

@@ -9,11 +9,13 @@
 //! 5    orientation of the semi-major axis, deg true
 //! 6..8 1-sigma of latitude, longitude and altitude, m
 //! ```
-//! An inertial system has no residuals: its field 2 is empty (sbgECom).
+//! An inertial system has no residuals: its field 2 is empty (sbgECom). The time must be good; any other
+//! field that is bad (a negative orientation, for instance) is left out.
 
 use super::civil::TimeOfDay;
 use super::decimal::Form;
 use super::fault::Fault;
+use super::fields::Fields;
 use super::frame::Frame;
 use super::line::{Line, Talker};
 
@@ -71,15 +73,16 @@ impl Gst {
     pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let range = 0.0..=SIGMA.limit;
+        let sigma = |fields: &mut Fields<'_>| fields.number_in(range.clone());
         Ok(Gst {
             time: fields.time_of_day()?,
-            range_rms: fields.number_in(range.clone())?,
-            major_std: fields.number_in(range.clone())?,
-            minor_std: fields.number_in(range.clone())?,
-            orientation: fields.degrees()?,
-            latitude_std: fields.number_in(range.clone())?,
-            longitude_std: fields.number_in(range.clone())?,
-            altitude_std: fields.number_in(range)?,
+            range_rms: fields.optional(sigma)?,
+            major_std: fields.optional(sigma)?,
+            minor_std: fields.optional(sigma)?,
+            orientation: fields.optional(Fields::degrees)?,
+            latitude_std: fields.optional(sigma)?,
+            longitude_std: fields.optional(sigma)?,
+            altitude_std: fields.optional(sigma)?,
         })
     }
 }

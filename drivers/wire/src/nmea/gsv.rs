@@ -85,14 +85,15 @@ impl Gsv {
         if number > sentences {
             return Err(fields.malformed());
         }
-        let in_view = fields.whole(999)?.and_then(|count| u16::try_from(count).ok());
+        let in_view =
+            fields.optional(|own| own.whole(999))?.and_then(|count| u16::try_from(count).ok());
         let mut satellites = [None; 4];
         for satellite in &mut satellites {
             if fields.remaining() >= 2 {
                 *satellite = Some(SatelliteInView::read(&mut fields)?);
             }
         }
-        let signal = if fields.has_more() { hexadecimal(&mut fields)? } else { None };
+        let signal = if fields.has_more() { fields.optional(hexadecimal)? } else { None };
         Ok(Gsv { sentences, number, in_view, satellites, signal })
     }
 }
@@ -100,10 +101,10 @@ impl Gsv {
 impl SatelliteInView {
     fn read(fields: &mut Fields<'_>) -> Result<Self, Fault> {
         Ok(SatelliteInView {
-            id: fields.whole(999)?.and_then(|id| u16::try_from(id).ok()),
-            elevation: fields.number_in(-90.0..=90.0)?.map(f64::to_radians),
-            azimuth: fields.degrees()?,
-            noise_density: fields.number_in(0.0..=NOISE.limit)?,
+            id: fields.optional(|own| own.whole(999))?.and_then(|id| u16::try_from(id).ok()),
+            elevation: fields.optional(|own| own.number_in(-90.0..=90.0))?.map(f64::to_radians),
+            azimuth: fields.optional(Fields::degrees)?,
+            noise_density: fields.optional(|own| own.number_in(0.0..=NOISE.limit))?,
         })
     }
 }

@@ -8,7 +8,8 @@
 //! 4, 5 variation, deg, E or W
 //! ```
 //! East is added to the reading, west subtracted: reading + deviation is the magnetic heading, and
-//! with the variation the true one. An empty variation is unknown, not zero.
+//! with the variation the true one. An empty variation is unknown, not zero, and one that is bad is left
+//! out. A bad deviation is a fault: without it the reading is no heading.
 
 use insd_base::units::wrap_two_pi;
 
@@ -65,7 +66,9 @@ impl Hdg {
         Ok(Hdg {
             reading: fields.degrees()?,
             deviation: fields.signed(CORRECTION.limit, ["E", "W"])?.map(f64::to_radians),
-            variation: fields.signed(CORRECTION.limit, ["E", "W"])?.map(f64::to_radians),
+            variation: fields
+                .optional(|own| own.signed(CORRECTION.limit, ["E", "W"]))?
+                .map(f64::to_radians),
         })
     }
 }

@@ -8,6 +8,8 @@
 //!   never a zero;
 //! - a reader takes any bytes without panicking, refuses a wrong checksum, and ignores fields after
 //!   the ones it knows, as later editions of the standard only append;
+//! - what a sentence is for, its time and its words on validity must be good. Anything else in it that is
+//!   malformed is unknown, and noted ([`Frame::left_out`]): one bad field does not kill a sentence;
 //! - the checksum is weak (a line cut short passes one time in 256), so a reader also checks that all
 //!   fields are there, their letters and their ranges.
 //!
@@ -89,7 +91,7 @@ pub use arc::Arc;
 pub use civil::{CivilTime, Date, TimeOfDay};
 pub use dtm::{Datum, Dtm};
 pub use fault::Fault;
-pub use fields::Fields;
+pub use fields::{Fields, LeftOut};
 pub use frame::{ChecksumPolicy, Frame, checksum};
 pub use gbs::Gbs;
 pub use gga::Gga;

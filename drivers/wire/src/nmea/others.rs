@@ -10,6 +10,7 @@
 use nmea::{Error, ParseResult, SENTENCE_MAX_LEN, SentenceType};
 
 use super::fault::Fault;
+use super::fields::LeftOut;
 use super::frame::Frame;
 use super::sentence::Sentence;
 
@@ -25,8 +26,8 @@ pub struct Kind<'a> {
 /// How far a sentence is understood.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Understood {
-    /// The navigator reads it.
-    Read,
+    /// The navigator reads it; what was bad in it is left out.
+    Read(LeftOut),
     /// The navigator reads such sentences, but not this one.
     Refused(Fault),
     /// The navigator does not need it; it has the form that the `nmea` crate knows.
@@ -43,14 +44,20 @@ pub enum Understood {
 /// The [`Fault`] of its frame.
 pub fn kind(line: &[u8]) -> Result<Kind<'_>, Fault> {
     let frame = Frame::parse(line)?;
+    Ok(kind_of(line, &frame))
+}
+
+/// The kind of the sentence of a frame, which is that of a line.
+#[must_use]
+pub fn kind_of<'a>(line: &[u8], frame: &Frame<'a>) -> Kind<'a> {
     let name = frame.approved().map_or(frame.address(), |(_, formatter)| formatter);
-    let understood = match Sentence::read_frame(&frame) {
-        Ok(_) => Understood::Read,
+    let understood = match Sentence::read_frame(frame) {
+        Ok(_) => Understood::Read(frame.left_out()),
         Err(Fault::OtherSentence) if frame.talker().is_some() => ask(line, name),
         Err(Fault::OtherSentence | Fault::Address) => Understood::Unknown,
         Err(fault) => Understood::Refused(fault),
     };
-    Ok(Kind { name, understood })
+    Kind { name, understood }
 }
 
 /// Asks the `nmea` crate about a line whose frame is good.
@@ -85,7 +92,7 @@ mod tests {
 
     #[test]
     fn sentences_are_told_apart_by_how_far_they_are_understood() {
-        assert_eq!(understood("HEHDT,1.0,T"), Understood::Read);
+        assert_eq!(understood("HEHDT,1.0,T"), Understood::Read(LeftOut::default()));
         assert_eq!(understood("HEHDT,1.0,M"), Understood::Refused(Fault::Malformed { field: 2 }));
         assert_eq!(understood("WIMWV,41.1,R,1.0,N,A"), Understood::Recognised);
         assert_eq!(understood("WIMWV,x,R"), Understood::Odd);

@@ -231,7 +231,7 @@ impl Pashr {
             heading,
             roll: angle(&mut fields, -180.0)?,
             pitch: angle(&mut fields, -180.0)?,
-            heave_as_sent: fields.number_in(-HEAVE.limit..=HEAVE.limit)?,
+            heave_as_sent: fields.optional(|own| own.number_in(-HEAVE.limit..=HEAVE.limit))?,
             roll_std: angle(&mut fields, 0.0)?,
             pitch_std: angle(&mut fields, 0.0)?,
             heading_std: angle(&mut fields, 0.0)?,
@@ -241,9 +241,10 @@ impl Pashr {
     }
 }
 
-/// An angle of at least `min` and at most 360 deg.
+/// An angle of at least `min` and at most 360 deg; another one is left out.
 fn angle(fields: &mut Fields<'_>, min: f64) -> Result<Option<f64>, Fault> {
-    Ok(fields.number_in(min..=SIGMA.limit)?.map(f64::to_radians))
+    let degrees = fields.optional(|own| own.number_in(min..=SIGMA.limit))?;
+    Ok(degrees.map(f64::to_radians))
 }
 
 fn digit(fields: &mut Fields<'_>) -> Result<Option<u8>, Fault> {

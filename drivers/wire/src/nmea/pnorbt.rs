@@ -204,11 +204,11 @@ impl NortekBottomTrack {
         }
         if with_sensors {
             track.sensors = Some(NortekSensors {
-                voltage: values.number()?,
-                sound_speed: values.number()?,
-                pressure: values.number()?.map(|dbar| dbar * 1e4),
-                temperature: values.number()?,
-                status: values.convert(hexadecimal)?,
+                voltage: values.optional(parse)?,
+                sound_speed: values.optional(parse)?,
+                pressure: values.optional(parse)?.map(|dbar| dbar * 1e4),
+                temperature: values.optional(parse)?,
+                status: values.optional(hexadecimal)?,
             });
         }
         Ok(track)
@@ -334,6 +334,13 @@ impl<'a> Values<'a> {
     fn number(&mut self) -> Result<Option<f64>, Fault> {
         self.convert(parse)
     }
+
+    /// As [`Values::convert`], but what is malformed is left out. A wrong key is a fault.
+    fn optional<T>(&mut self, to: impl FnOnce(&'a str) -> Option<T>) -> Result<Option<T>, Fault> {
+        let text = self.convert(Some)?;
+        let value = text.map(|text| to(text).ok_or_else(|| self.fields.malformed())).transpose();
+        self.fields.optional(|_| value)
+    }
 }
 
 fn velocity(values: &mut Values<'_>) -> Result<Option<f64>, Fault> {
@@ -342,12 +349,12 @@ fn velocity(values: &mut Values<'_>) -> Result<Option<f64>, Fault> {
 }
 
 fn merit(values: &mut Values<'_>) -> Result<Option<f64>, Fault> {
-    let merit = values.convert(|text| parse(text).filter(|merit| *merit >= 0.0))?;
+    let merit = values.optional(|text| parse(text).filter(|merit| *merit >= 0.0))?;
     Ok(merit.filter(|merit| (merit - INVALID_MERIT).abs() > 5e-6))
 }
 
 fn range(values: &mut Values<'_>) -> Result<Option<f64>, Fault> {
-    let range = values.convert(|text| parse(text).filter(|range| *range >= 0.0))?;
+    let range = values.optional(|text| parse(text).filter(|range| *range >= 0.0))?;
     Ok(range.filter(|range| *range > 0.0))
 }
 

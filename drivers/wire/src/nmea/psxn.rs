@@ -146,13 +146,13 @@ impl Psxn {
                 roll: angle(&mut fields, ANGLE)?,
                 pitch: angle(&mut fields, ANGLE)?,
                 heading: fields.degrees()?,
-                heave: fields.number_in(range)?,
+                heave: fields.optional(|own| own.number_in(range))?,
             },
             "24" => Psxn::Rates {
                 roll_rate: angle(&mut fields, RATE)?,
                 pitch_rate: angle(&mut fields, RATE)?,
                 yaw_rate: angle(&mut fields, RATE)?,
-                down_velocity: fields.number_in(range)?,
+                down_velocity: fields.optional(|own| own.number_in(range))?,
             },
             _ => return Err(Fault::OtherSentence),
         })
@@ -164,7 +164,8 @@ fn degrees(line: &mut Composer, angles: &[Option<f64>], form: Form) {
 }
 
 fn angle(fields: &mut Fields<'_>, form: Form) -> Result<Option<f64>, Fault> {
-    Ok(fields.number_in(-form.limit..=form.limit)?.map(f64::to_radians))
+    let degrees = fields.optional(|own| own.number_in(-form.limit..=form.limit))?;
+    Ok(degrees.map(f64::to_radians))
 }
 
 fn quality(fields: &mut Fields<'_>) -> Result<Option<PsxnQuality>, Fault> {

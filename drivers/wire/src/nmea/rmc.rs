@@ -14,18 +14,19 @@
 //! 12    mode: A D E F M N P R S; absent before NMEA 2.3
 //! 13    navigational status: S C U V; absent before NMEA 4.1
 //! ```
-//! What is no position, course or date in a sentence that says V is unknown; in one that says A it
-//! is a fault. A Motorola receiver leaves field 11 out and puts the mode there: its variation, which
-//! then has no sign, is unknown.
+//! What is no position in a sentence that says V is unknown; in one that says A it is a fault, as is a
+//! bad time, status or mode. Any other field that is bad is left out: there are receivers that send a
+//! variation of 999.9. A Motorola receiver leaves field 11 out and puts the mode there: its variation,
+//! which then has no sign, is unknown.
 
 use insd_base::units::KNOT;
 
 use super::civil::{Date, TimeOfDay};
-use super::decimal::{Form, parse, parse_digits};
+use super::decimal::{Form, parse_digits};
 use super::fault::Fault;
 use super::fields::Fields;
 use super::frame::Frame;
-use super::gns::letter_of;
+use super::gns::{letter_of, nav_status};
 use super::line::{Line, Talker};
 use super::mode::{NavStatus, PositionMode};
 use super::position::Position;
@@ -95,23 +96,14 @@ impl Rmc {
         let time = fields.time_of_day()?;
         let valid = fields.status()?;
         let position = fields.position();
-        let speed = fields.number_in(0.0..=SPEED.limit)?.map(|knots| knots * KNOT);
-        let course = fields.degrees();
-        let date = fields.convert(short_date);
-        if let Err(Fault::Missing { .. }) = date {
-            return Err(Fault::Missing { field: 9 });
-        }
+        let speed = fields.optional(|own| own.number_in(0.0..=SPEED.limit))?;
+        let speed = speed.map(|knots| knots * KNOT);
+        let course = fields.optional(Fields::degrees)?;
+        let date = fields.optional(|own| own.convert(short_date))?;
         let (variation, mode) = variation_and_mode(&mut fields)?;
-        let nav_status = if fields.has_more() {
-            fields.convert(|text| letter_of(text).and_then(NavStatus::from_letter))?
-        } else {
-            None
-        };
-        let mut rmc = Rmc { time, valid, speed, variation, mode, nav_status, ..Rmc::default() };
-        rmc.position = if valid { position? } else { position.ok().flatten() };
-        rmc.course = if valid { course? } else { course.ok().flatten() };
-        rmc.date = if valid { date? } else { date.ok().flatten() };
-        Ok(rmc)
+        let nav_status = if fields.has_more() { fields.optional(nav_status)? } else { None };
+        let position = if valid { position? } else { position.ok().flatten() };
+        Ok(Rmc { time, valid, position, speed, course, date, variation, mode, nav_status })
     }
 }
 
@@ -119,19 +111,16 @@ impl Rmc {
 fn variation_and_mode(
     fields: &mut Fields<'_>,
 ) -> Result<(Option<f64>, Option<PositionMode>), Fault> {
-    let degrees = fields.convert(|text| parse(text).filter(|v| (0.0..=180.0).contains(v)))?;
-    let side = fields.text()?;
-    let mode_in_its_place = letter_of(side).and_then(PositionMode::from_letter);
-    match (side, mode_in_its_place) {
-        ("E" | "W" | "", _) => {}
-        (_, Some(mode)) if !fields.has_more() => return Ok((None, Some(mode))),
-        _ => return Err(fields.malformed()),
+    let mut behind = fields.clone();
+    behind.text()?;
+    let mode_in_its_place = letter_of(behind.text()?).and_then(PositionMode::from_letter);
+    if let Some(mode) = mode_in_its_place.filter(|mode| *mode != PositionMode::Estimated)
+        && !behind.has_more()
+    {
+        return Ok((None, Some(mode)));
     }
-    if degrees.is_some() && side.is_empty() {
-        return Err(fields.malformed());
-    }
-    let sign = if side == "W" { -1.0 } else { 1.0 };
-    let variation = degrees.map(|degrees| sign * degrees.to_radians());
+    let variation = fields.optional(|own| own.signed(VARIATION.limit, ["E", "W"]))?;
+    let variation = variation.map(f64::to_radians);
     if !fields.has_more() {
         return Ok((variation, None));
     }

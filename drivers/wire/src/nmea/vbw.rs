@@ -10,7 +10,7 @@
 //! 9, 10 speed of the stern athwart over ground, and its status
 //! ```
 //! The sentence of older editions ends after field 6, and units of SBG Systems still send it so. An
-//! empty status is read as not valid.
+//! empty status is read as not valid, and so is a bad one; a speed that is bad is left out.
 
 use insd_base::units::KNOT;
 
@@ -100,14 +100,15 @@ impl Vbw {
 
 impl VbwVelocity {
     fn read(fields: &mut Fields<'_>) -> Result<Self, Fault> {
-        let longitudinal = speed(fields)?;
-        Ok(VbwVelocity { longitudinal, transverse: speed(fields)?, valid: status(fields)? })
+        let longitudinal = fields.optional(speed)?;
+        let transverse = fields.optional(speed)?;
+        Ok(VbwVelocity { longitudinal, transverse, valid: status(fields)? })
     }
 }
 
 impl VbwStern {
     fn read(fields: &mut Fields<'_>) -> Result<Self, Fault> {
-        Ok(VbwStern { transverse: speed(fields)?, valid: status(fields)? })
+        Ok(VbwStern { transverse: fields.optional(speed)?, valid: status(fields)? })
     }
 }
 
@@ -124,10 +125,12 @@ fn speed(fields: &mut Fields<'_>) -> Result<Option<f64>, Fault> {
 }
 
 fn status(fields: &mut Fields<'_>) -> Result<bool, Fault> {
-    let status = fields.convert(|text| match text {
-        "A" => Some(true),
-        "V" => Some(false),
-        _ => None,
+    let status = fields.optional(|own| {
+        own.convert(|text| match text {
+            "A" => Some(true),
+            "V" => Some(false),
+            _ => None,
+        })
     })?;
     Ok(status == Some(true))
 }

@@ -54,12 +54,9 @@ impl Vdr {
     /// The first [`Fault`] of its fields.
     pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
-        let set = fields.degrees()?;
-        fields.fixed("T")?;
-        let set_magnetic = fields.degrees()?;
-        fields.fixed("M")?;
-        let knots = fields.number_in(0.0..=SPEED.limit)?;
-        fields.fixed("N")?;
+        let set = fields.optional(|own| own.degrees_with("T"))?;
+        let set_magnetic = fields.optional(|own| own.degrees_with("M"))?;
+        let knots = fields.optional(|own| own.with_unit(0.0..=SPEED.limit, "N"))?;
         Ok(Vdr { set, set_magnetic, drift: knots.map(|knots| knots * KNOT) })
     }
 }

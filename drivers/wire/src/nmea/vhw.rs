@@ -8,7 +8,8 @@
 //! 5, 6 speed through the water, knots
 //! 7, 8 speed through the water, km/h
 //! ```
-//! It has no status, and cannot tell drift from headway.
+//! It has no status, and cannot tell drift from headway. A value that is bad, or stands beside another
+//! letter, is left out.
 
 use insd_base::units::KNOT;
 
@@ -60,14 +61,11 @@ impl Vhw {
     /// The first [`Fault`] of its fields.
     pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
-        let heading = fields.degrees()?;
-        fields.fixed("T")?;
-        let heading_magnetic = fields.degrees()?;
-        fields.fixed("M")?;
-        let knots = fields.number_in(-SPEED.limit..=SPEED.limit)?;
-        fields.fixed("N")?;
-        let kmh = fields.number_in(-2.0 * SPEED.limit..=2.0 * SPEED.limit)?;
-        fields.fixed("K")?;
+        let speed = |limit: f64| -limit..=limit;
+        let heading = fields.optional(|own| own.degrees_with("T"))?;
+        let heading_magnetic = fields.optional(|own| own.degrees_with("M"))?;
+        let knots = fields.optional(|own| own.with_unit(speed(SPEED.limit), "N"))?;
+        let kmh = fields.optional(|own| own.with_unit(speed(2.0 * SPEED.limit), "K"))?;
         let speed = knots.map(|knots| knots * KNOT).or(kmh.map(|kmh| kmh * KMH));
         Ok(Vhw { heading, heading_magnetic, speed })
     }

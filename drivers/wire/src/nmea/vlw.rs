@@ -68,7 +68,6 @@ impl Vlw {
 }
 
 fn distance(fields: &mut Fields<'_>) -> Result<Option<f64>, Fault> {
-    let miles = fields.number_in(0.0..=DISTANCE.limit)?;
-    fields.fixed("N")?;
+    let miles = fields.optional(|own| own.with_unit(0.0..=DISTANCE.limit, "N"))?;
     Ok(miles.map(|miles| miles * MILE))
 }

@@ -10,7 +10,7 @@
 //! 9    mode: A D E F M N P R S; never empty in newer editions, absent before NMEA 2.3
 //! ```
 //! The unit letters stay even beside an empty field: readers tell the older layout without letters
-//! by them.
+//! by them. The mode must be good; a value that is bad, or stands beside another letter, is left out.
 
 use insd_base::units::KNOT;
 
@@ -68,14 +68,10 @@ impl Vtg {
     /// The first [`Fault`] of its fields.
     pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
-        let course = fields.degrees()?;
-        fields.fixed("T")?;
-        let course_magnetic = fields.degrees()?;
-        fields.fixed("M")?;
-        let knots = fields.number_in(0.0..=SPEED.limit)?;
-        fields.fixed("N")?;
-        let kmh = fields.number_in(0.0..=2.0 * SPEED.limit)?;
-        fields.fixed("K")?;
+        let course = fields.optional(|own| own.degrees_with("T"))?;
+        let course_magnetic = fields.optional(|own| own.degrees_with("M"))?;
+        let knots = fields.optional(|own| own.with_unit(0.0..=SPEED.limit, "N"))?;
+        let kmh = fields.optional(|own| own.with_unit(0.0..=2.0 * SPEED.limit, "K"))?;
         let mode = if fields.has_more() {
             let mode = fields.letter()?.and_then(PositionMode::from_letter);
             Some(mode.ok_or_else(|| fields.malformed())?)

@@ -8,9 +8,12 @@
 //! 5    local zone: hours to add to local time to get UTC, -13 to 13, negative for east longitude
 //! 6    local zone: minutes, of the same sign as the hours
 //! ```
+//! There are receivers whose sentence ends after field 5, or 4, and such that send a year of two digits: 80
+//! to 99 are 1980 to 1999. Time and date must be good; a bad zone is
+//! left out, and so is a time without a date.
 
 use super::civil::{CivilTime, Date};
-use super::decimal::{Form, parse};
+use super::decimal::{Form, parse, parse_digits};
 use super::fault::Fault;
 use super::fields::Fields;
 use super::frame::Frame;
@@ -58,7 +61,7 @@ impl Zda {
         })
     }
 
-    /// Reads the sentence. Date and time stand together or not at all.
+    /// Reads the sentence. A time without a date is unknown.
     ///
     /// # Errors
     /// The first [`Fault`] of its fields.
@@ -67,7 +70,7 @@ impl Zda {
         let time = fields.time_of_day()?;
         let day = fields.whole(31)?;
         let month = fields.whole(12)?;
-        let year = fields.whole(9999)?;
+        let year = year(&mut fields)?;
         let utc = match (time, day, month, year) {
             (Some(time), Some(day), Some(month), Some(year)) => {
                 let date = Date::from_parts(year, month, day);
@@ -75,12 +78,32 @@ impl Zda {
                 Some(CivilTime { date: date.ok_or_else(|| fields.malformed())?, time })
             }
             (None, None, None, None) => None,
+            // a receiver that has not learnt the date yet
+            (Some(_), None, None, None) => {
+                fields.leave_out(Fault::Malformed { field: 2 });
+                None
+            }
             _ => return Err(fields.malformed()),
         };
-        let hours = signed(&mut fields, 13)?;
-        let minutes = signed(&mut fields, 59)?;
+        let hours = if fields.has_more() { fields.optional(|own| signed(own, 13))? } else { None };
+        let minutes =
+            if fields.has_more() { fields.optional(|own| signed(own, 59))? } else { None };
         let zone = hours.map(|hours| Zone { hours, minutes: minutes.unwrap_or(0) });
         Ok(Zda { utc, zone })
+    }
+}
+
+/// The year; of two digits only where another field follows, as it may have been cut short.
+fn year(fields: &mut Fields<'_>) -> Result<Option<u32>, Fault> {
+    let text = fields.text()?;
+    let year = parse_digits(text);
+    match (text.len(), year) {
+        (0, _) => Ok(None),
+        (4, Some(year)) => Ok(Some(year)),
+        (2, Some(year)) if fields.has_more() => {
+            Ok(Some(year + if year >= 80 { 1900 } else { 2000 }))
+        }
+        _ => Err(fields.malformed()),
     }
 }
 

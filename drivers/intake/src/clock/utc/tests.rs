@@ -14,7 +14,7 @@ fn stamp(seconds: f64) -> Stamp {
 /// A message of source `index` at `seconds`, of an epoch that is late by 0.1 s and told off by `off`, s.
 fn told(utc: &mut ShipUtc, index: usize, seconds: f64, off: f64) -> bool {
     let label = start().plus(Span::from_seconds(seconds - 0.1 + off));
-    let epoch = utc.resolve(&EpochTime::Utc(label), &stamp(seconds)).unwrap();
+    let epoch = utc.resolve(&EpochTime::Utc(label), &stamp(seconds), true).unwrap();
     utc.message((1 + index as u8, index), epoch, Time::from_seconds(seconds), Span::ZERO)
 }
 
@@ -41,7 +41,7 @@ fn messages_that_were_held_up_are_refused_and_make_no_step() {
         let held_up = (29.5 * rate) as u32;
         for k in 0..held_up {
             let epoch = stamp(10.0 + f64::from(k) / rate).system;
-            let epoch = utc.resolve(&EpochTime::Utc(epoch), &stamp(40.0)).unwrap();
+            let epoch = utc.resolve(&EpochTime::Utc(epoch), &stamp(40.0), true).unwrap();
             let believed = utc.message((1, 0), epoch, Time::from_seconds(40.0), Span::ZERO);
             let beyond = 30.0 - f64::from(k) / rate - 0.1 - LATEST;
             assert!(beyond.abs() < 0.01 || believed == (beyond < 0.0), "{k} of {rate} Hz");
@@ -100,11 +100,11 @@ fn another_source_takes_over_when_that_in_use_is_not_believed_any_more() {
 fn a_date_of_1024_weeks_ago_has_the_leap_seconds_of_today() {
     let mut utc = ShipUtc::default();
     let ago = start().plus(Span::from_nanos(-CYCLE));
-    let gps = utc.resolve(&EpochTime::Utc(ago), &stamp(0.0));
+    let gps = utc.resolve(&EpochTime::Utc(ago), &stamp(0.0), true);
     assert_eq!(gps, Some(start().to_gps()));
     assert_eq!(utc.take_changes(), [TimeChange::Rollover { weeks: 1024 }]);
     let by_week = GpsTime::from_nanos(start().to_gps().as_nanos() - CYCLE);
-    assert_eq!(utc.resolve(&EpochTime::Gps(by_week), &stamp(0.0)), Some(start().to_gps()));
+    assert_eq!(utc.resolve(&EpochTime::Gps(by_week), &stamp(0.0), true), Some(start().to_gps()));
     assert_eq!(utc.take_changes(), []);
 }
 
@@ -160,4 +160,63 @@ fn pulses_that_messages_name_make_the_ships_utc() {
         assert_eq!(by_pulses, second >= 3, "at {second} s");
     }
     assert_eq!(utc.quality(), TimeQuality::Pulses);
+}
+
+/// A date told by a message, and what becomes of it while the computer's clock says something.
+fn dated(
+    utc: &mut ShipUtc,
+    told: (i32, u8, u8),
+    clock: (i32, u8, u8),
+    live: bool,
+) -> (i32, u8, u8) {
+    let noon = |day| UtcTime::from_civil(day, (12, 0, 0), 0).unwrap();
+    let stamp = Stamp { monotonic: Time::from_seconds(1.0), system: noon(clock) };
+    let gps = utc.resolve(&EpochTime::Utc(noon(told)), &stamp, live).unwrap();
+    utc.utc_of(gps).to_civil().0
+}
+
+#[test]
+fn the_date_of_a_recording_stands() {
+    let fresh = ShipUtc::default;
+    let (then, now) = ((2014, 8, 1), (2026, 11, 22));
+    assert_eq!(dated(&mut fresh(), then, now, false), then, "a file");
+    assert_eq!(dated(&mut fresh(), then, now, true), then, "a file that is played to a port");
+    assert_eq!(dated(&mut fresh(), then, then, true), then, "with the clock of its time");
+    // 1024 weeks ago to the day: a file has no clock that could speak against it
+    assert_eq!(dated(&mut fresh(), (2007, 4, 8), now, false), (2007, 4, 8));
+}
+
+#[test]
+fn the_date_of_a_receiver_at_work_that_has_rolled_over_is_put_right() {
+    let fresh = ShipUtc::default;
+    // the clock is right, or was not carried on while the computer was off
+    for clock in [(2026, 11, 22), (2026, 1, 2), (2028, 5, 1)] {
+        assert_eq!(dated(&mut fresh(), (2007, 4, 8), clock, true), (2026, 11, 22), "{clock:?}");
+    }
+    // it was never set: no receiver at work is older than the program
+    for clock in [(1970, 1, 1), (2000, 1, 1), (2025, 12, 1)] {
+        assert_eq!(dated(&mut fresh(), (2007, 4, 8), clock, true), (2026, 11, 22), "{clock:?}");
+        assert_eq!(dated(&mut fresh(), (2030, 4, 8), clock, true), (2030, 4, 8), "{clock:?}");
+    }
+}
+
+#[test]
+fn a_receiver_that_has_rolled_over_is_put_right_by_another_one_in_the_same_file() {
+    // the R/V Nathaniel B. Palmer on the 1st of August 2014 had one of either kind
+    let (wrong, right) = ((1994, 12, 16), (2014, 8, 1));
+    let mut utc = ShipUtc::default();
+    assert_eq!(dated(&mut utc, wrong, (2026, 11, 22), false), wrong);
+    assert_eq!(dated(&mut utc, right, (2026, 11, 22), false), right);
+    assert_eq!(dated(&mut utc, wrong, (2026, 11, 22), false), right);
+    assert_eq!(utc.take_changes(), [TimeChange::Rollover { weeks: 1024 }]);
+}
+
+#[test]
+fn a_receiver_that_is_ahead_of_the_clock_by_whole_cycles_moves_nothing() {
+    let mut utc = known();
+    let ahead = start().plus(Span::from_nanos(CYCLE)).plus(Span::from_seconds(10.0));
+    let epoch = utc.resolve(&EpochTime::Utc(ahead), &stamp(10.0), true).unwrap();
+    assert!(!utc.message((2, 1), epoch, Time::from_seconds(10.0), Span::ZERO));
+    assert_eq!(utc.quality(), TimeQuality::Messages);
+    assert!(error(&utc, 10.0).abs() < 2e-3);
 }

@@ -26,7 +26,8 @@
 //! something new.
 //!
 //! In the maker's logs, of systems at rest, the raw pair reads 0 deg/s and 8.00 m/s^2 where the others
-//! agree with 9.81. It seems that some systems give them coarsely; look at them before use as an IMU.
+//! agree with 9.81, and no status says so: it seems that some systems do not fill these blocks. Such a
+//! reading is not valid.
 
 mod external;
 mod reading;

@@ -3,7 +3,7 @@
 use insd_base::{LogReference, Span, UtcTime};
 
 use super::external::{EmLog, LogSpeed};
-use super::telegram::Telegram;
+use super::telegram::{Attitude, Navigation, Telegram};
 use crate::imu::{DeviceTime, ImuReading, Motion, Wrapping};
 use crate::log::{LogFrame, LogReading};
 
@@ -19,9 +19,43 @@ const UNUSABLE: u32 = 1 << 9 | 1 << 10 | 1 << 11 | 1 << 13 | 1 << 31;
 /// Bit of the second word of the system status: UTC detected.
 const UTC_DETECTED: u32 = 1 << 9;
 
+/// How far the raw specific force may be from what the other blocks say it is, m/s^2: filters and times
+/// of validity of the two differ while the ship is shaken.
+const APART: f64 = 1.0;
+/// Standard gravity, m/s^2.
+const GRAVITY: f64 = 9.806_65;
+
+impl Navigation {
+    /// Whether a raw pair may be what gyroscopes and accelerometers sense. It is not
+    ///
+    /// - if all of a block is exactly zero: the Earth turns and pulls, so that nobody has filled it;
+    /// - if the same telegram tells the acceleration without gravity, and this with the gravity of the
+    ///   attitude is another specific force, by more than 1 m/s^2 in length.
+    fn bears_raw(&self, gyro: [f64; 3], accel: [f64; 3]) -> bool {
+        let filled = [gyro, accel].iter().all(|block| block.iter().any(|own| *own != 0.0));
+        let expected = self.acceleration.zip(self.attitude).map(|(free, attitude)| {
+            let up = up(&attitude);
+            length([0, 1, 2].map(|axis| free[axis] + GRAVITY * up[axis]))
+        });
+        filled && expected.is_none_or(|expected| (length(accel) - expected).abs() < APART)
+    }
+}
+
+/// The direction that is up, along XV1 forward, XV2 to port, XV3 up.
+fn up(attitude: &Attitude) -> [f64; 3] {
+    let (sin_roll, cos_roll) = attitude.roll.sin_cos();
+    let (sin_pitch, cos_pitch) = attitude.pitch.sin_cos();
+    [sin_pitch, cos_pitch * sin_roll, cos_pitch * cos_roll]
+}
+
+fn length(vector: [f64; 3]) -> f64 {
+    vector.iter().map(|own| own * own).sum::<f64>().sqrt()
+}
+
 impl Telegram {
     /// Angular rate and specific force about and along XV1 forward, XV2 to port, XV3 up; `None` unless
-    /// both raw blocks are there. Valid if the user status tells of no anomaly, or is not there.
+    /// both raw blocks are there. Valid if the user status tells of no anomaly, or is not there, and
+    /// nothing in the telegram speaks against the raw blocks ([`Navigation::bears_raw`]).
     #[must_use]
     pub fn reading(&self) -> Option<ImuReading> {
         let navigation = &self.navigation;
@@ -34,7 +68,7 @@ impl Telegram {
             counter: Some(Wrapping { value: self.counter.into(), modulus: 1 << 32 }),
             utc: self.utc_of(self.validity),
             temperature: navigation.temperatures.map(|[gyro, ..]| gyro),
-            valid: status & UNUSABLE == 0,
+            valid: status & UNUSABLE == 0 && navigation.bears_raw(gyro, accel),
             status,
             ..ImuReading::bare(Motion::Rates { gyro, accel })
         })

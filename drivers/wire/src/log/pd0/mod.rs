@@ -43,8 +43,6 @@ use crate::stream::Look;
 /// Longest ensemble that is taken, bytes: leaders, bottom track, and profiles of 255 cells with four
 /// velocities, correlations, intensities, percents and states each come to some 6700.
 const LONGEST: usize = 8192;
-/// Most data types in an ensemble.
-const MOST_TYPES: u8 = 32;
 /// Bytes of the header before the offsets, and of the checksum.
 const HEADER: usize = 6;
 const SUM: usize = 2;
@@ -71,7 +69,7 @@ pub fn look(bytes: &[u8]) -> Look {
         return Look::Nothing;
     };
     let start = HEADER + 2 * usize::from(*types);
-    if !(1..=MOST_TYPES).contains(types) || !(start + 2..=LONGEST).contains(&length) {
+    if *types == 0 || !(start + 2..=LONGEST).contains(&length) {
         return Look::Nothing;
     }
     let Some(offsets) = bytes.get(HEADER..start) else { return Look::More(start) };
