@@ -19,7 +19,7 @@ pub struct Profile {
 }
 
 /// All profiles. Rates in Hz.
-static PROFILES: [Profile; 11] = [
+static PROFILES: [Profile; 12] = [
     Profile {
         name: "bridge",
         about: "the least that a bridge needs: heading, rate of turn, position, course, speed, time",
@@ -175,6 +175,13 @@ static PROFILES: [Profile; 11] = [
             ("PHCMP", 1.0),
             ("PHINF", 10.0),
         ],
+        turn_damping: 0.0,
+        estimated_is_valid: false,
+    },
+    Profile {
+        name: "signalk",
+        about: "Signal K server: all it has paths for, as deltas",
+        messages: &[("SIGNALK", 5.0)],
         turn_damping: 0.0,
         estimated_is_valid: false,
     },

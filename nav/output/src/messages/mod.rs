@@ -10,6 +10,7 @@ mod pinsd;
 mod pixse;
 mod position;
 mod psxn;
+mod signalk;
 mod speed;
 mod state;
 mod time;
@@ -69,6 +70,7 @@ static FAMILIES: &[&[Entry]] = &[
     pinsd::ENTRIES,
     transducers::ENTRIES,
     state::ENTRIES,
+    signalk::ENTRIES,
     alerts::ENTRIES,
 ];
 
