@@ -2,6 +2,7 @@
 """The recipes of docs/connect.md, run with the real consumers.
 
     tests/conformance/connect.py INSD [--gpsd PROGRAM] [--signalk FOLDER] [--seconds 30] [--keep FOLDER]
+        [--here]
 
 INSD is the program. It simulates a voyage and replays it with the ports of the page, so that each port's bytes
 are those that the daemon would send it; they are then played to the consumer through the very destinations of
@@ -13,7 +14,7 @@ port was told.
 - chrony: `chronyd -p` reads the page's lines, if it is installed.
 
 All of it runs in a network of its own, so the page's numbers of ports are free and nothing is asked of the
-outside; that needs root or user namespaces. Ends with 1 if a value is missing or differs, and with 2 if a
+outside; that needs root or user namespaces, and `--here` does without. Ends with 1 if a value is missing or differs, and with 2 if a
 consumer that was asked for is not there.
 """
 
@@ -21,6 +22,7 @@ import argparse
 import bisect
 import csv
 import ctypes
+import datetime
 import fcntl
 import json
 import math
@@ -132,7 +134,6 @@ class Player(threading.Thread):
     def __init__(self, heading, chunks, pace):
         super().__init__(daemon=True)
         (self.kind, self.address), self.chunks, self.pace = destination(heading), chunks, pace
-        self.called = threading.Event()
         if self.kind == "udp":
             self.line = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         else:
@@ -143,7 +144,6 @@ class Player(threading.Thread):
             send = lambda line: self.line.sendto(line, self.address)
         else:
             send = self.line.accept()[0].sendall
-            self.called.set()
             time.sleep(0.5)
         for chunk in self.chunks:
             for line in chunk:
@@ -205,8 +205,6 @@ class Near:
 
 
 def utc(text):
-    import datetime
-
     return datetime.datetime.fromisoformat(text.replace("Z", "+00:00")).timestamp()
 
 
@@ -214,9 +212,8 @@ def utc(text):
 
 
 def gpsd(program, truth, folder, seconds):
-    findings = Findings("gpsd")
     version = subprocess.run([program, "-V"], capture_output=True, text=True).stdout.strip()
-    findings.name = f"gpsd: {version}"
+    findings = Findings(f"gpsd: {version}")
     player = Player("gpsd", epochs(folder / "sent/gpsd.sent", seconds, b"ZDA,"), 0.25)
     words = block("gpsd", "sh").split()
     assert words[0] == "gpsd", "the recipe starts gpsd"
@@ -422,11 +419,13 @@ def main():
     parser.add_argument("--signalk", type=pathlib.Path)
     parser.add_argument("--seconds", type=int, default=30)
     parser.add_argument("--keep", type=pathlib.Path)
+    parser.add_argument("--here", action="store_true")
     options = parser.parse_args()
     if not os.path.exists(options.gpsd):
         print(f"no gpsd at {options.gpsd}", file=sys.stderr)
         sys.exit(2)
-    alone()
+    if not options.here:
+        alone()
     with tempfile.TemporaryDirectory() as scratch:
         folder = options.keep or pathlib.Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
