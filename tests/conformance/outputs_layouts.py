@@ -60,6 +60,7 @@ LAYOUTS = [
     "PIXSE,HT_STS,{}",
     "PRDID,{pitch},{roll},{heading}",
     "PFEC,GPatt,{heading},{pitch},{roll}",
+    "PTNTHTM,{heading},{},{pitch},{},{roll},{},,",
     "PFEC,GPhve,{heave},{status:c}",
     "PSAT,HPR,{clock:t},{heading},{pitch},{roll},{status:c}",
 ]

@@ -65,7 +65,7 @@ pub struct NodeSection {
     pub state: Option<PathBuf>,
     /// Name of the monitoring point that it speaks of; the IMU if left out.
     pub point: Option<String>,
-    /// Height of the geoid above the ellipsoid where the ship sails, m.
+    /// Height of the geoid above the ellipsoid where the ship sails, m, in place of that of EGM96.
     pub geoid_m: Option<f64>,
     /// Whether the data come from a simulator, and must say so.
     #[serde(default)]

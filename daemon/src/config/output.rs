@@ -62,7 +62,7 @@ pub struct OutputSection {
     pub point: Option<String>,
     /// Time constant by which the rate of turn is damped, s.
     pub rot_damping_s: Option<f64>,
-    /// Height of the geoid above the ellipsoid where the ship sails, m, for the altitude in GGA.
+    /// Height of the geoid above the ellipsoid where the ship sails, m, in place of that of EGM96.
     pub geoid_m: Option<f64>,
     /// Whether the data come from a simulator, and must say so.
     #[serde(default)]

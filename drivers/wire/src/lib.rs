@@ -12,4 +12,5 @@ pub mod imu;
 pub mod log;
 pub mod motion;
 pub mod nmea;
+pub mod signalk;
 pub mod stream;

@@ -10,7 +10,7 @@ use insd_base::utm::Utm;
 use insd_wire::nmea::{
     Marked, PfecAttitude, Phcmp, Phinf, Phlin, Phoct, PhoctState, Phspd, Phtro, Pixse,
     PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus, Position, Prdid, PrdidForm,
-    Sentence, TimeOfDay, WaveMotion,
+    Ptnthtm, Sentence, TimeOfDay, WaveMotion,
 };
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -185,6 +185,11 @@ proptest! {
         let Sentence::Prdid(back) = read(&prdid.write_as(form)) else { panic!() };
         prop_assert!(all_close(&[roll, pitch], &[back.roll, back.pitch], 0.005 * DEG));
         prop_assert!(same_angle(heading, back.heading, 0.005 * DEG));
+        let ptnthtm = Ptnthtm { roll, pitch, heading, is_warned: plain && heading.is_some() };
+        let Sentence::Ptnthtm(back) = read(&ptnthtm.write()) else { panic!() };
+        prop_assert!(all_close(&[roll, pitch], &[back.roll, back.pitch], 0.005 * DEG));
+        prop_assert!(same_angle(heading, back.heading, 0.005 * DEG));
+        prop_assert_eq!(back.is_warned, ptnthtm.is_warned);
         let pfec = PfecAttitude { roll, pitch, heading };
         let Sentence::PfecAttitude(back) = read(&pfec.write()) else { panic!() };
         let upright = roll.filter(|roll| roll.abs() <= FRAC_PI_2);
@@ -213,6 +218,7 @@ proptest! {
             phoct.write(),
             Prdid { roll: x, pitch: y, heading: z }.write(),
             PfecAttitude { roll: x, pitch: y, heading: z }.write(),
+            Ptnthtm { roll: x, pitch: y, heading: z, is_warned: true }.write(),
             Pixse::Attitude { roll: x, pitch: y }.write(),
             Pixse::Position { position: place, altitude: z }.write(),
             Pixse::Grid { utm, altitude: z }.write(),

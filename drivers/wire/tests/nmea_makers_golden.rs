@@ -12,7 +12,7 @@ use insd_wire::nmea::{
     ChecksumPolicy, Fault, Frame, InsUserStatus, Line, Marked, OctansStatus, Pashr, PashrDialect,
     PfecAttitude, Phcmp, Phinf, Phlin, Phoct, PhoctState, Phspd, Phtro, Pixse,
     PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus, Position, Prdid, PrdidForm,
-    Psxn, Sentence, Talker, TimeOfDay, WaveMotion, checksum,
+    Psxn, Ptnthtm, Sentence, Talker, TimeOfDay, WaveMotion, checksum,
 };
 
 /// Sentences that are written to the byte as they are published, but for their checksums, which are
@@ -236,6 +236,7 @@ fn sentences(ship: &Ship) -> Vec<String> {
         Prdid { roll, pitch, heading }.write(),
         PfecAttitude { roll, pitch, heading }.write(),
         Psxn::Motion { roll, pitch, heading, heave: down }.write(),
+        Ptnthtm { roll, pitch, heading, is_warned: false }.write(),
         in_dialect(PashrDialect::Sbg),
         in_dialect(PashrDialect::SbgWassp),
     ];
@@ -259,6 +260,7 @@ fn a_ship_that_leans_to_starboard_and_rises_has_the_signs_of_each_format() {
             "$PRDID,+003.00,+005.00,090.00",
             "$PFEC,GPatt,090.0,+03.0,+05.0",
             "$PSXN,23,5.00,3.00,90.00,-1.50",
+            "$PTNTHTM,90.00,N,3.00,N,5.00,N,,",
             "$PASHR,,090.00,T,+005.00,+003.00,-001.50,,,,",
             "$PASHR,,090.00,T,+005.00,+003.00,+001.50,,,,",
         ]
@@ -281,6 +283,7 @@ fn a_ship_that_leans_to_port_and_falls_has_the_other_signs() {
             "$PRDID,-003.00,-005.00,090.00",
             "$PFEC,GPatt,090.0,-03.0,-05.0",
             "$PSXN,23,-5.00,-3.00,90.00,1.50",
+            "$PTNTHTM,90.00,N,-3.00,N,-5.00,N,,",
             "$PASHR,,090.00,T,-005.00,-003.00,+001.50,,,,",
             "$PASHR,,090.00,T,-005.00,-003.00,-001.50,,,,",
         ]
@@ -302,6 +305,7 @@ fn unknown_values_are_empty_fields_and_never_valid() {
         (Pixse::HighLevel(None).write(), "$PIXSE,HT_STS,*"),
         (Prdid::default().write(), "$PRDID,,,*"),
         (PfecAttitude::default().write(), "$PFEC,GPatt,,,*"),
+        (Ptnthtm::default().write(), "$PTNTHTM,,L,,L,,L,,*"),
     ];
     for (line, text) in unknown {
         assert!(line.as_str().starts_with(text), "{line:?}");
@@ -359,6 +363,7 @@ fn the_greatest_lengths_of_the_octans_set_are_those_that_are_stated() {
         (phoct.write(), Phoct::LONGEST),
         (Prdid { roll, pitch, heading }.write(), Prdid::LONGEST),
         (PfecAttitude { roll: pitch, pitch, heading }.write(), PfecAttitude::LONGEST),
+        (Ptnthtm { roll, pitch, heading, is_warned: true }.write(), Ptnthtm::LONGEST),
     ];
     for (line, longest) in lines {
         assert_eq!(line.as_bytes().len(), longest, "{line:?}");

@@ -12,6 +12,7 @@ pub mod earth;
 pub mod estimates;
 pub mod events;
 pub mod frames;
+pub mod geoid;
 pub mod gnss;
 pub mod heave;
 pub mod input;

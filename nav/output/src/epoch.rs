@@ -34,7 +34,7 @@ pub struct Epoch {
     pub heave: Option<Heave>,
     /// Magnetic variation at the ship.
     pub variation: Option<Variation>,
-    /// Height of the geoid above the ellipsoid at the ship, m.
+    /// Height of the geoid above the ellipsoid at the ship, m, where it is not to be that of EGM96.
     pub geoid: Option<f64>,
     /// Velocity of the water over ground, m/s: the current. Its down component is not used.
     pub current: Option<Ned>,

@@ -25,8 +25,7 @@ pub struct PortConfig {
     pub point: usize,
     /// Time constant by which the rate of turn is damped, s; 0 for none.
     pub turn_damping: f64,
-    /// Height of the geoid above the WGS-84 ellipsoid where the ship sails, m. Without it the
-    /// height above mean sea level is unknown.
+    /// Height of the geoid above the WGS-84 ellipsoid where the ship sails, m, in place of that of EGM96.
     pub geoid_separation: Option<f64>,
 }
 

@@ -19,13 +19,14 @@ pub struct Profile {
 }
 
 /// All profiles. Rates in Hz.
-static PROFILES: [Profile; 11] = [
+static PROFILES: [Profile; 12] = [
     Profile {
         name: "bridge",
         about: "the least that a bridge needs: heading, rate of turn, position, course, speed, time",
         messages: &[
             ("ZDA", 1.0),
             ("GGA", 1.0),
+            ("RMC", 1.0),
             ("VTG", 1.0),
             ("HDT", 10.0),
             ("THS", 10.0),
@@ -178,19 +179,26 @@ static PROFILES: [Profile; 11] = [
         estimated_is_valid: false,
     },
     Profile {
+        name: "signalk",
+        about: "Signal K server: all it has paths for, as deltas",
+        messages: &[("SIGNALK", 5.0)],
+        turn_damping: 0.0,
+        estimated_is_valid: false,
+    },
+    Profile {
         name: "gpsd",
+        // neither PASHR nor GST: of the one gpsd 3.22 gives no fix, after the other no attitude that can be read
         about: "gpsd and chart programs on computers: all that they read",
         messages: &[
             ("ZDA", 1.0),
             ("GGA", 1.0),
             ("RMC", 1.0),
-            ("GST", 1.0),
             ("VTG", 1.0),
             ("VHW", 1.0),
             ("HDT", 10.0),
             ("ROT", 10.0),
             ("XDR", 1.0),
-            ("PASHR.sbg", 10.0),
+            ("PTNTHTM", 10.0),
         ],
         turn_damping: 0.0,
         estimated_is_valid: true,

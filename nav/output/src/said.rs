@@ -1,5 +1,6 @@
 //! An epoch as far as the policy lets it be told. Every value that leaves passes through here.
 
+use insd_base::geoid::undulation;
 use insd_base::{
     AlignmentStatus, Attitude, Body, DelayedHeave, FixQuality, Geodetic, Heave, HeaveQuality, Mode,
     Ned, Solution, SolutionSigma, Span, Time, UtcTime,
@@ -251,9 +252,10 @@ impl<'a> Said<'a> {
         self.manner.policy.is_valid(mode)
     }
 
-    /// Height of the geoid above the ellipsoid, m.
+    /// Height of the geoid above the ellipsoid, m: that which is configured, else that of EGM96.
     pub(crate) fn geoid(&self) -> Option<f64> {
-        self.told.geoid.filter(|_| self.position().is_some())
+        let place = self.position()?;
+        self.told.geoid.or_else(|| undulation(&place))
     }
 
     /// Height above mean sea level, m.

@@ -2,9 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
 
+use insd_base::geoid::undulation;
 use insd_base::units::{DEG, KNOT};
 use insd_base::{Attitude, Body, Geodetic, Mode, Ned, Solution, SolutionSigma, Time, UtcTime};
-use insd_output::{Epoch, Manner, Policy, Port, PortConfig, Profile};
+use insd_output::{Epoch, Manner, MessageKind, Policy, Port, PortConfig, Profile, Rate};
 use proptest::prelude::*;
 
 /// 2026-01-02 03:04:05 and so many milliseconds.
@@ -67,8 +68,9 @@ fn an_aided_ship_is_told_in_full() {
         stems,
         [
             "$INZDA,030405.00,02,01,2026,,",
-            "$INGGA,030405.00,3530.00000,N,13915.00000,W,1,,,,,,,,",
+            "$INGGA,030405.00,3530.00000,N,13915.00000,W,1,,,73.45,M,-33.45,M,,",
             "$INVTG,90.00,T,,M,10.00,N,18.52,K,A",
+            "$INRMC,030405.00,A,3530.00000,N,13915.00000,W,10.00,90.00,020126,,,A,S",
             "$HEHDT,91.50,T",
             "$HETHS,91.50,A",
             "$TIROT,-12.0,A",
@@ -80,11 +82,11 @@ fn an_aided_ship_is_told_in_full() {
 fn a_simulated_ship_is_marked_in_every_sentence_that_has_a_mark() {
     let config = simulated(false);
     let lines = said(&config, &solution());
-    assert_eq!(lines.len(), 4, "HDT and ROT have no mark and are not sent: {lines:?}");
+    assert_eq!(lines.len(), 5, "HDT and ROT have no mark and are not sent: {lines:?}");
     assert!(one(&config, &solution(), "HETHS").unwrap().ends_with(",S"));
     assert!(one(&config, &solution(), "INGGA").unwrap().contains(",W,8,"));
     assert!(one(&config, &solution(), "INVTG").unwrap().ends_with(",S"));
-    assert_eq!(said(&simulated(true), &solution()).len(), 6);
+    assert_eq!(said(&simulated(true), &solution()).len(), 7);
 }
 
 #[test]
@@ -162,10 +164,53 @@ fn a_course_that_the_velocity_does_not_support_is_left_empty() {
 }
 
 #[test]
-fn height_above_sea_level_is_said_only_where_the_geoid_is_known() {
+fn height_above_sea_level_is_never_empty_and_by_the_geoid_that_is_configured_else_by_egm96() {
     let config = PortConfig { geoid_separation: Some(36.7), ..bridge() };
     let gga = one(&config, &solution(), "INGGA").unwrap();
     assert!(gga.ends_with(",W,1,,,3.30,M,36.70,M,,"), "{gga}");
+    let gga = one(&bridge(), &solution(), "INGGA").unwrap();
+    assert!(gga.ends_with(",W,1,,,73.45,M,-33.45,M,,"), "{gga}");
+}
+
+#[test]
+fn the_altitude_of_every_sentence_is_height_minus_geoid_all_round_the_world() {
+    for latitude in [-89.5, -60.3, -12.0, 0.0, 33.3, 54.1, 89.5] {
+        for longitude in [-179.99, -100.0, -3.3, 0.0, 79.0, 147.5, 179.99] {
+            let place = Geodetic::from_degrees(latitude, longitude, 25.0);
+            let here = Solution { position: place, ..solution() };
+            let geoid = undulation(&place).unwrap();
+            for name in ["GGA", "GNS"] {
+                let config = PortConfig {
+                    messages: vec![(MessageKind::named(name).unwrap(), Rate::from_hertz(1.0))],
+                    ..PortConfig::default()
+                };
+                let line = one(&config, &here, &format!("IN{name}")).unwrap();
+                let fields: Vec<&str> = line.split(',').collect();
+                let own = fields.get(9..).unwrap();
+                let number = |index: usize| own[index].parse::<f64>().unwrap();
+                let separation = number(if name == "GGA" { 2 } else { 1 });
+                assert!((separation - geoid).abs() < 0.0051, "{line} {geoid}");
+                assert!((number(0) + separation - 25.0).abs() < 0.011, "{line}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_bridge_is_given_rmc_as_consumers_want_it_with_altitude_and_course_before_it() {
+    let names: Vec<_> = Port::new(bridge()).kinds().map(MessageKind::name).collect();
+    assert_eq!(names, ["ZDA", "GGA", "VTG", "RMC", "HDT", "THS", "ROT"]);
+}
+
+#[test]
+fn gpsd_is_sent_nothing_that_upsets_its_old_releases() {
+    let port = Port::new(Profile::named("gpsd").unwrap().port());
+    let names: Vec<_> = port.kinds().map(MessageKind::name).collect();
+    // times of 10 Hz hide the end of the epoch; after GST its attitude is no JSON
+    assert!(!names.iter().any(|name| name.starts_with("PASHR") || *name == "GST"), "{names:?}");
+    let place = |name: &str| names.iter().position(|own| *own == name).unwrap();
+    assert!(place("GGA") < place("RMC") && place("VTG") < place("RMC"), "{names:?}");
+    assert!(names.contains(&"PTNTHTM"));
 }
 
 #[test]

@@ -68,6 +68,7 @@ mod pixse;
 mod pnorbt;
 mod prdid;
 mod psxn;
+mod ptnthtm;
 mod rmc;
 mod rot;
 mod sentence;
@@ -125,6 +126,7 @@ pub use pnorbt::{NortekBeam, NortekBottomTrack, NortekGroundSpeed, NortekSensors
 pub use position::Position;
 pub use prdid::{Prdid, PrdidForm};
 pub use psxn::{Psxn, PsxnQuality};
+pub use ptnthtm::Ptnthtm;
 pub use rmc::Rmc;
 pub use rot::Rot;
 pub use sentence::Sentence;

@@ -8,7 +8,7 @@ use super::{
     NortekBeam, NortekBottomTrack, NortekGroundSpeed, Pashr, Pinsd, Psxn, Rmc, Rot, Ths, Txt, Vbw,
     Vdr, Vhw, Vlw, Vtg, Xdr, Zda,
 };
-use super::{PfecAttitude, Phcmp, Phinf, Phlin, Phoct, Phspd, Phtro, Pixse, Prdid};
+use super::{PfecAttitude, Phcmp, Phinf, Phlin, Phoct, Phspd, Phtro, Pixse, Prdid, Ptnthtm};
 
 /// The enum, and the match of a formatter to its reader and of a sentence to its writer.
 macro_rules! sentences {
@@ -149,6 +149,8 @@ sentences! {
         Prdid("PRDID"),
         /// Attitude, rates, quality of Seatex and Kongsberg units.
         Psxn("PSXN"),
+        /// Attitude of compasses of True North.
+        Ptnthtm("PTNTHTM"),
     }
 }
 

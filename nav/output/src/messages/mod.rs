@@ -10,6 +10,7 @@ mod pinsd;
 mod pixse;
 mod position;
 mod psxn;
+mod signalk;
 mod speed;
 mod state;
 mod time;
@@ -52,12 +53,13 @@ impl Entry {
 }
 
 /// All families, in the order in which their messages leave a port at one epoch: time first, as others have
-/// none of their own. gpsd publishes the roll and pitch of PASHR only when a heading or a rate of turn follows
-/// in the same epoch; an Octans and a Phins send their heading first, and their sets belong to it.
+/// none of their own. gpsd of 3.23 and later publishes the roll and pitch of PASHR only when a heading or a
+/// rate of turn follows in the same epoch; an Octans and a Phins send their heading first, and their sets belong to it.
 static FAMILIES: &[&[Entry]] = &[
     time::ENTRIES,
     position::ENTRIES,
     speed::ENTRIES,
+    position::LAST,
     pashr::ENTRIES,
     psxn::ENTRIES,
     others::ENTRIES,
@@ -68,6 +70,7 @@ static FAMILIES: &[&[Entry]] = &[
     pinsd::ENTRIES,
     transducers::ENTRIES,
     state::ENTRIES,
+    signalk::ENTRIES,
     alerts::ENTRIES,
 ];
 

@@ -1,9 +1,9 @@
-//! Attitude for current profilers, and as satellite compasses send it.
+//! Attitude for current profilers, as satellite compasses send it, and for gpsd.
 //!
 //! What is beyond the policy is empty. None has a mark for simulated data, so from a simulator they are
 //! silent.
 
-use insd_wire::nmea::{Line, PfecAttitude, Prdid};
+use insd_wire::nmea::{Line, PfecAttitude, Prdid, Ptnthtm};
 
 use super::{Entry, unmarked};
 use crate::said::Said;
@@ -12,6 +12,7 @@ pub(super) static ENTRIES: &[Entry] = &[
     Entry::own("PRDID", Prdid::LONGEST, |said, _| unmarked(said, prdid)),
     Entry::own("PFEC.GPatt", PfecAttitude::LONGEST, |said, _| unmarked(said, pfec)),
     Entry::own("PFEC.GPatt.v1", PfecAttitude::LONGEST, |said, _| unmarked(said, pfec_v1)),
+    Entry::own("PTNTHTM", Ptnthtm::LONGEST, |said, _| unmarked(said, ptnthtm)),
 ];
 
 fn prdid(said: &Said<'_>) -> Line {
@@ -26,6 +27,13 @@ fn pfec(said: &Said<'_>) -> Line {
 /// Version 1.5 has no checksum.
 fn pfec_v1(said: &Said<'_>) -> Line {
     attitude(said).write_old()
+}
+
+/// A heading that is an estimate only is told with a warning.
+fn ptnthtm(said: &Said<'_>) -> Line {
+    let (roll, pitch) = said.roll_and_pitch().unzip();
+    let (heading, is_warned) = (said.heading(), said.is_heading_estimated());
+    Ptnthtm { heading, is_warned, pitch, roll }.write()
 }
 
 fn attitude(said: &Said<'_>) -> PfecAttitude {

@@ -10,11 +10,17 @@ use crate::said::Said;
 pub(super) static ENTRIES: &[Entry] = &[
     Entry { name: "GGA", talker: Some(Talker::IN), longest: Gga::LONGEST, make: gga },
     Entry { name: "GNS", talker: Some(Talker::IN), longest: Gns::LONGEST, make: gns },
-    Entry { name: "RMC", talker: Some(Talker::IN), longest: Rmc::LONGEST, make: rmc },
     Entry { name: "GLL", talker: Some(Talker::IN), longest: Gll::LONGEST, make: gll },
     Entry { name: "GST", talker: Some(Talker::IN), longest: Gst::LONGEST, make: gst },
     Entry { name: "GBS", talker: Some(Talker::IN), longest: Gbs::LONGEST, make: gbs },
 ];
+
+/// RMC alone, which leaves after all other sentences of position and speed. gpsd takes the last one that bears
+/// a time for the end of an epoch and publishes its fix there and then, with all that came before: altitude of
+/// GGA, magnetic course of VTG. GGA, the other one, says that there is no fix where a ship sails by dead
+/// reckoning and so names no satellites.
+pub(super) static LAST: &[Entry] =
+    &[Entry { name: "RMC", talker: Some(Talker::IN), longest: Rmc::LONGEST, make: rmc }];
 
 fn place(said: &Said<'_>) -> Option<Position> {
     let place = said.position()?;

@@ -28,8 +28,15 @@ fn hbt(said: &Said<'_>, talker: Talker) -> Option<Content> {
 
 /// The mode in words.
 fn txt(said: &Said<'_>, talker: Talker) -> Option<Content> {
-    let mode = said.marked().mode();
-    let (kind, words) = match mode {
+    let (kind, words) = words(said);
+    let mark = if said.is_simulated() { " (simulated)" } else { "" };
+    let sentences = Txt::message(kind, &format!("insd: {words}{mark}"));
+    Some(Content::Lines(sentences.iter().map(|sentence| sentence.write(talker)).collect()))
+}
+
+/// What the system does, in words, and whether that is an error, simulated or not.
+pub(super) fn words(said: &Said<'_>) -> (u8, &'static str) {
+    match said.marked().mode() {
         None if said.is_levelling() => (NOTICE, "levelling"),
         None => (ERROR, "no solution"),
         Some(Mode::Fault) => (ERROR, "fault"),
@@ -40,8 +47,5 @@ fn txt(said: &Said<'_>, talker: Talker) -> Option<Content> {
         Some(Mode::Aided) => (NOTICE, "aided navigation"),
         Some(Mode::DeadReckoning) => (NOTICE, "dead reckoning"),
         Some(Mode::Inertial) => (NOTICE, "inertial navigation alone"),
-    };
-    let mark = if said.is_simulated() { " (simulated)" } else { "" };
-    let sentences = Txt::message(kind, &format!("insd: {words}{mark}"));
-    Some(Content::Lines(sentences.iter().map(|sentence| sentence.write(talker)).collect()))
+    }
 }

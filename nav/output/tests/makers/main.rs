@@ -137,6 +137,10 @@ fn the_other_attitudes_have_their_signs() {
             check([pfec.roll, pfec.pitch, pfec.heading], side, 0.1 * DEG);
         }
     }
+    for side in [1.0, -1.0] {
+        let Sentence::Ptnthtm(told) = read("PTNTHTM", &leaned(side)) else { panic!() };
+        check([told.roll, told.pitch, told.heading], side, 0.01 * DEG);
+    }
     let whole = |name| lines(name, &Manner::default(), &epoch()).remove(0);
     assert_eq!(whole("PFEC.GPatt.v1"), "$PFEC,GPatt,090.0,+05.0,+10.0");
     assert_eq!(whole("PFEC.GPatt"), "$PFEC,GPatt,090.0,+05.0,+10.0*45");

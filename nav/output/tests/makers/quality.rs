@@ -290,6 +290,7 @@ fn where_nothing_is_known_nothing_is_zero() {
         ("PRDID", "PRDID,,,"),
         ("PFEC.GPatt", "PFEC,GPatt,,,"),
         ("PFEC.GPatt.v1", "PFEC,GPatt,,,"),
+        ("PTNTHTM", "PTNTHTM,,L,,L,,L,,"),
         ("PHTRO", "PHTRO,,,,"),
         ("PHLIN", "PHLIN,,,"),
         ("PHSPD", "PHSPD,,,"),
@@ -323,6 +324,8 @@ fn what_is_beyond_the_policy_is_empty() {
         ("PRDID", not_level(), "PRDID,,,090.00"),
         ("PRDID", bad_heading(), "PRDID,+005.00,+010.00,"),
         ("PFEC.GPatt", not_level(), "PFEC,GPatt,090.0,,"),
+        ("PTNTHTM", not_level(), "PTNTHTM,90.00,N,,L,,L,,"),
+        ("PTNTHTM", bad_heading(), "PTNTHTM,,L,5.00,N,10.00,N,,"),
         ("PHTRO", not_level(), "PHTRO,,,,"),
         ("PHSPD", heaving(HeaveQuality::Unsettled), "PHSPD,,,"),
         ("PHCMP", lost(), "PHCMP,,,,"),
@@ -343,7 +346,7 @@ fn what_is_beyond_the_policy_is_empty() {
     }
     let without_geoid = Epoch { geoid: None, ..epoch() };
     let place = said("PIXSE.POSITI", &without_geoid).unwrap();
-    assert_eq!(place, "$PIXSE,POSITI,54.00000000,8.00000000,");
+    assert_eq!(place, "$PIXSE,POSITI,54.00000000,8.00000000,4.310", "by EGM96 it is 39.19 m");
 }
 
 #[test]

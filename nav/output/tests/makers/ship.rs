@@ -10,7 +10,7 @@ use insd_output::{Epoch, Manner, MessageKind, Port, PortConfig, Rate};
 use insd_wire::nmea::{ChecksumPolicy, Frame, Sentence};
 
 /// All kinds of makers' sentences.
-pub(crate) const KINDS: [&str; 37] = [
+pub(crate) const KINDS: [&str; 38] = [
     "PASHR.sbg",
     "PASHR.sbg_wassp",
     "PASHR.ixblue",
@@ -25,6 +25,7 @@ pub(crate) const KINDS: [&str; 37] = [
     "PRDID",
     "PFEC.GPatt",
     "PFEC.GPatt.v1",
+    "PTNTHTM",
     "PHTRO",
     "PHLIN",
     "PHSPD",
