@@ -3,7 +3,7 @@
 use insd_base::units::{DEG, KNOT, wrap_two_pi};
 use insd_base::{HeaveQuality, Motion, Time};
 use insd_output::{Ellipse, Policy};
-use insd_web::snapshot::{Heave, Motion as Shown};
+use insd_web::snapshot::{Freshness, Heave, Motion as Shown};
 
 /// What is shown of a motion, at the IMU.
 pub(super) fn motion(
@@ -27,6 +27,7 @@ pub(super) fn motion(
     });
     Shown {
         valid_at_s: solution.time.as_seconds(),
+        freshness: Freshness::Fresh,
         valid_utc: utc(solution.time),
         point: None,
         lat_deg: Some(position.latitude / DEG),
@@ -67,6 +68,7 @@ pub(super) fn motion(
 fn shown_heave(heave: &insd_base::Heave) -> Heave {
     let delayed = heave.delayed.as_ref();
     Heave {
+        valid_at_s: heave.time.as_seconds(),
         heave_m: Some(heave.heave),
         sigma_heave_m: Some(heave.sigma),
         quality: match heave.quality {

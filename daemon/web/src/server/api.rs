@@ -34,9 +34,10 @@ pub(super) async fn history(State(hall): State<Arc<Hall>>) -> Response {
     body(JSON, hall.history())
 }
 
-/// Whether anything can be changed here, with a token.
+/// Whether anything can be changed here, with a token, and why not.
 pub(super) async fn orders(State(hall): State<Arc<Hall>>) -> Response {
-    Json(json!({ "enabled": hall.access.has_token() })).into_response()
+    let why = hall.access.read_only();
+    Json(json!({ "enabled": why.is_none(), "why": why })).into_response()
 }
 
 pub(super) async fn schema() -> Response {

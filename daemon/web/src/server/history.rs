@@ -49,7 +49,7 @@ impl History {
         if self.rows.len() == ROWS {
             self.rows.pop_front();
         }
-        let motion = snapshot.motion.as_ref();
+        let motion = snapshot.present();
         self.rows.push_back((at, COLUMNS.map(|(_, of)| motion.and_then(of))));
         self.json = None;
     }

@@ -46,7 +46,7 @@ struct Columns {
 impl Track {
     /// Takes note of a snapshot, if the ship has moved or time has gone.
     pub(super) fn note(&mut self, snapshot: &Snapshot) {
-        let place = snapshot.motion.as_ref().and_then(|motion| motion.lat_deg.zip(motion.lon_deg));
+        let place = snapshot.present().and_then(|motion| motion.lat_deg.zip(motion.lon_deg));
         let Some((lat, lon)) = place.filter(|(lat, lon)| lat.is_finite() && lon.is_finite()) else {
             return;
         };

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::age::Freshness;
+
 /// Where the ship is, how she moves and lies, at the IMU or the point named, and how sure that is. All
 /// sigmas are 1-sigma.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
@@ -9,6 +11,8 @@ use serde::{Deserialize, Serialize};
 pub struct Motion {
     /// Time of validity, on the ship's time line, s.
     pub valid_at_s: f64,
+    /// Whether that may be taken as the present: `fresh`, or `old` for a moment before it is gone.
+    pub freshness: Freshness,
     /// The same in UTC, if it is known.
     pub valid_utc: Option<String>,
     /// The point that it is told of; `None` for the IMU.
@@ -84,6 +88,8 @@ pub struct Motion {
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Heave {
+    /// Time of validity of the heave in real time, on the ship's time line, s.
+    pub valid_at_s: f64,
     /// In real time, m, up positive.
     pub heave_m: Option<f64>,
     /// 1-sigma, m.
