@@ -62,6 +62,10 @@ pub(super) fn motion(
         sigma_heading_deg: Some(sigma.heading / DEG),
         heading_quality: Some(word(&policy.heading(solution))),
         position_quality: Some(word(&policy.quality(solution))),
+        velocity_quality: Some(word(&policy.velocity(solution))),
+        level_quality: Some(
+            if policy.is_level(solution) { "valid" } else { "not_valid" }.to_owned(),
+        ),
     }
 }
 

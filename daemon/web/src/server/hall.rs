@@ -37,10 +37,10 @@ pub(super) struct Hall {
     pub(super) orders: OrderSender,
 }
 
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Past {
     track: Track,
-    history: History,
+    histories: [History; 2],
 }
 
 impl Hall {
@@ -48,7 +48,7 @@ impl Hall {
         Hall {
             frames: watch::Sender::new(None),
             alive: AtomicBool::new(false),
-            past: Mutex::default(),
+            past: Mutex::new(Past { track: Track::default(), histories: History::both() }),
             clients: AtomicUsize::new(0),
             access: Access::new(token, hosts),
             orders,
@@ -74,8 +74,10 @@ impl Hall {
         self.past().track.json()
     }
 
-    pub(super) fn history(&self) -> Bytes {
-        self.past().history.json()
+    /// The finer history, or the coarser one.
+    pub(super) fn history(&self, is_coarse: bool) -> Bytes {
+        let [fine, coarse] = &mut self.past().histories;
+        if is_coarse { coarse.json() } else { fine.json() }
     }
 
     /// Shows what was seen as it is now.
@@ -88,7 +90,7 @@ impl Hall {
     fn note(&self, snapshot: &Snapshot) {
         let mut past = self.past();
         past.track.note(snapshot);
-        past.history.note(snapshot);
+        past.histories.iter_mut().for_each(|history| history.note(snapshot));
     }
 
     /// Only this thread ever takes it, and never across a wait.

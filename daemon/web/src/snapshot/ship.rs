@@ -82,6 +82,10 @@ pub struct Motion {
     /// How GGA would judge the position: `rtk_fixed`, `rtk_float`, `differential`, `autonomous`,
     /// `estimated`, `invalid`, `simulated`.
     pub position_quality: Option<String>,
+    /// How VTG would judge course and speed: `autonomous`, `differential`, ..., `not_valid`.
+    pub velocity_quality: Option<String>,
+    /// Whether roll and pitch are good enough to be sent: `valid`, `not_valid`.
+    pub level_quality: Option<String>,
 }
 
 /// Heave: its mean over many waves is zero.
