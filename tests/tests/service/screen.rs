@@ -214,8 +214,10 @@ fn of_terminal(picture: &str) -> Shown {
 }
 
 fn of_text(who: &'static str, text: &str, snapshot: &Snapshot) -> Shown {
-    let speed = text.find(" kn").and_then(|end| number(text.get(..end)?.rsplit(' ').next()?));
     let of = |name: &str| behind(text, name);
+    // a line of text has no room for the word
+    let bare = || number(text.split_once(" kn")?.0.rsplit(' ').next()?);
+    let speed = if text.contains("speed ") { of("speed ") } else { bare() };
     Shown {
         who,
         numbers: [of("heading "), of("roll "), speed],

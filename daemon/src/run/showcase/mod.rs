@@ -118,10 +118,11 @@ impl Showcase {
     /// that change, and the one back, are told with the others.
     fn follow_mode(&mut self, now: Time) {
         let seen = self.shown.after(0.0).mode;
-        if seen.name == self.mode_told {
+        // before the first word of the engine there is none to differ from
+        if seen.name == self.mode_told || self.mode_told.is_empty() {
             return;
         }
-        let from = Some(self.mode_told.clone()).filter(|from| !from.is_empty());
+        let from = Some(self.mode_told.clone());
         if seen.name == self.shown.mode.name {
             self.enter(now, from, &seen.name, Some(ModeReason::ImuHeard.to_string()));
         } else {
