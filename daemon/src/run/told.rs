@@ -217,3 +217,72 @@ pub(super) fn judge() -> Judge {
         if frames >= CONVINCED { Judgement::Fits } else { Judgement::Wrong }
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::{self, Write};
+    use std::sync::{Arc, Mutex};
+
+    use insd_base::{PortState, Time};
+    use insd_intake::choice::{Chosen, Quantity, Why};
+    use insd_intake::clock::{TimeChange, TimeQuality};
+
+    use super::*;
+
+    #[derive(Clone, Default)]
+    struct Sink(Arc<Mutex<Vec<u8>>>);
+
+    impl Write for Sink {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            self.0.lock().unwrap().write(bytes)
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    /// The line that is written of something that happened.
+    fn line(what: Happening) -> String {
+        let names = Names { ports: vec!["gnss".to_owned()], sensors: vec!["gnss".to_owned()] };
+        let sink = Sink::default();
+        let own = sink.clone();
+        let writer = tracing_subscriber::fmt().with_ansi(false).with_writer(move || own.clone());
+        let event = IntakeEvent { time: Time::from_seconds(1.0), what };
+        tracing::subscriber::with_default(writer.finish(), || {
+            tell(&names, &Product::Intake(event));
+        });
+        String::from_utf8(sink.0.lock().unwrap().clone()).unwrap()
+    }
+
+    #[test]
+    fn a_device_that_is_absent_is_a_warning_and_one_that_is_there_is_none() {
+        let port = PortId(0);
+        let reason = "No such file or directory".to_owned();
+        let absent = line(Happening::Port { port, state: PortState::Absent { reason } });
+        assert!(absent.contains(" WARN ") && absent.contains("No such file"), "{absent}");
+        let what = "/dev/ttyS0".to_owned();
+        let open = line(Happening::Port { port, state: PortState::Open { what } });
+        assert!(open.contains(" INFO "), "{open}");
+    }
+
+    #[test]
+    fn the_journal_speaks_in_words() {
+        let chosen = |from, to, why| {
+            line(Happening::Chosen(Chosen { quantity: Quantity::Gnss, from, to, why }))
+        };
+        let first = chosen(None, Some(0), Why::First);
+        assert!(first.contains("source of GNSS: gnss instead of none: the first that is valid"));
+        let lost = chosen(Some(0), None, Why::NoneLeft);
+        assert!(lost.contains(" WARN ") && lost.contains("there is none left"), "{lost}");
+        let time = line(Happening::Time(TimeChange::Quality(TimeQuality::Pulses)));
+        let status = line(Happening::SensorValid { sensor: 0, valid: false, status: 0x3FF });
+        assert!(status.contains("0x03ff"), "{status}");
+        for text in [first, lost, time, status] {
+            assert!(
+                !["Some(", "None", "{", "Quality("].iter().any(|own| text.contains(own)),
+                "{text}"
+            );
+        }
+    }
+}

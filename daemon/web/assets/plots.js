@@ -15,8 +15,9 @@ export function history(span = SPAN, step = 0.95) {
     },
     note(at, motion) {
       const last = rows[rows.length - 1];
-      if (last && at < last.at) rows = [];
-      if (last && at - last.at < step && at >= last.at) return false;
+      // time that goes back far is that of another start
+      if (last && at < last.at - 2) rows = [];
+      if (last && at - last.at < step && at >= last.at - 2) return false;
       rows.push({
         at,
         heading_deg: motion?.heading_deg, sigma_heading_deg: motion?.sigma_heading_deg,

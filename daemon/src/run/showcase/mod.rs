@@ -11,6 +11,8 @@ mod program;
 mod rates;
 mod sensors;
 mod ship;
+#[cfg(test)]
+mod tests;
 
 use insd_base::{Event, ModeReason, Span, Time, UtcTime};
 use insd_engine::Output;

@@ -21,7 +21,8 @@ use super::track::Track;
 const LOOK: Duration = Duration::from_millis(50);
 /// Time without anything new after which the engine is taken as dead.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// Time without anything new after which what is there is shown again, older.
+/// Time without anything new after which what is there is shown again, older, and then again and again.
+const SOON: Duration = Duration::from_millis(250);
 const AGAIN: Duration = Duration::from_millis(100);
 /// Looks after which one wrong token of each client is forgotten: 6 s.
 const FORGET: u32 = 120;
@@ -123,7 +124,9 @@ pub(super) async fn pump(viewer: &Viewer, hall: &Hall) {
         if let Some(source) = latest {
             hall.show(seen.insert(Seen { source, at: now, shown: now }), now);
         }
-        if let Some(own) = seen.as_mut().filter(|own| now - own.shown >= AGAIN) {
+        if let Some(own) =
+            seen.as_mut().filter(|own| now - own.at >= SOON && now - own.shown >= AGAIN)
+        {
             own.shown = now;
             hall.show(own, now);
         }

@@ -12,6 +12,10 @@ const ROWS: [usize; 2] = [600, 720];
 /// Least time between two rows, s; snapshots come when they come.
 const STEPS: [f64; 2] = [0.95, 9.95];
 
+/// Time that goes back by more than this is that of another start, s. By less it goes back where the last
+/// snapshot was shown again, older, before the next one came.
+pub(super) const BACK: f64 = -2.0;
+
 /// A column: its name, and where it is found.
 type Column = (&'static str, fn(&Motion) -> Option<f64>);
 
@@ -50,10 +54,10 @@ impl History {
     pub(super) fn note(&mut self, snapshot: &Snapshot) {
         let at = snapshot.time.at_s;
         let passed = self.rows.back().map(|(last, _)| at - last);
-        if passed.is_some_and(|passed| (0.0..self.step).contains(&passed)) {
+        if passed.is_some_and(|passed| (BACK..self.step).contains(&passed)) {
             return;
         }
-        if passed.is_some_and(|passed| passed < 0.0) {
+        if passed.is_some_and(|passed| passed < BACK) {
             self.rows.clear();
         }
         if self.rows.len() == self.most {
@@ -90,6 +94,20 @@ fn round(value: f64, unit: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_snapshot_that_was_shown_again_before_the_next_one_costs_no_history() {
+        let [mut history, _] = History::both();
+        for tick in 0..100 {
+            let mut snapshot = Snapshot::default();
+            snapshot.time.at_s = f64::from(tick);
+            history.note(&snapshot);
+            history.note(&snapshot.after(1.1));
+        }
+        assert!(history.rows.len() >= 100, "{}", history.rows.len());
+        history.note(&Snapshot::default());
+        assert_eq!(history.rows.len(), 1, "another start");
+    }
 
     #[test]
     fn ten_minutes_are_kept_finely_two_hours_coarsely_and_unknown_stays_unknown() {

@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::snapshot::Snapshot;
 
 use super::frame::json;
+use super::history::BACK;
 
 /// Most points: five and a half hours under way, days at the berth.
 const POINTS: usize = 4000;
@@ -82,7 +83,7 @@ impl Track {
 /// Time that goes back is that of another start: it counts as gone.
 fn is_due(last: &Point, next: &Point) -> bool {
     let passed = next.at - last.at;
-    !(0.0..LATE).contains(&passed) || (passed >= SOON && way(last, next) >= STEP)
+    !(BACK..LATE).contains(&passed) || (passed >= SOON && way(last, next) >= STEP)
 }
 
 /// Way between two points close by, m, as if the Earth were flat there.
