@@ -1,7 +1,7 @@
 //! Where the ship is, how she moves and lies.
 
 use insd_base::units::{DEG, KNOT, wrap_two_pi};
-use insd_base::{HeaveQuality, Motion, Time};
+use insd_base::{HeaveQuality, Motion, Solution, Time};
 use insd_output::{Ellipse, Policy};
 use insd_web::snapshot::{Freshness, Heave, Motion as Shown};
 
@@ -63,10 +63,12 @@ pub(super) fn motion(
         heading_quality: Some(word(&policy.heading(solution))),
         position_quality: Some(word(&policy.quality(solution))),
         velocity_quality: Some(word(&policy.velocity(solution))),
-        level_quality: Some(
-            if policy.is_level(solution) { "valid" } else { "not_valid" }.to_owned(),
-        ),
+        level_quality: Some(level(&policy, solution)),
     }
+}
+
+fn level(policy: &Policy, solution: &Solution) -> String {
+    if policy.is_level(solution) { "valid" } else { "not_valid" }.to_owned()
 }
 
 fn shown_heave(heave: &insd_base::Heave) -> Heave {

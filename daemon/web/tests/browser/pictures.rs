@@ -8,7 +8,7 @@ use crate::live::Live;
 use crate::scene::{Scene, Show};
 
 /// Largest picture, bytes.
-const LARGEST: usize = 250_000;
+const LARGEST: usize = 300_000;
 
 /// Name, scene, size, light, and how far down.
 type Picture = (&'static str, Scene, [u32; 2], &'static str, &'static str);
