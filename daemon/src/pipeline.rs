@@ -318,6 +318,11 @@ impl Pipeline {
         self.intake.status()
     }
 
+    /// When each sensor spoke last, in the order of the configuration.
+    pub fn heard(&self) -> impl Iterator<Item = Option<Time>> + '_ {
+        self.intake.heard()
+    }
+
     /// What the first engine used and rejected.
     #[must_use]
     pub fn counts(&self) -> &Counts {

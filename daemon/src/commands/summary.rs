@@ -94,7 +94,13 @@ impl Summary<'_> {
         for status in early.filter(|early| early.time < last.time).into_iter().chain([last]) {
             writeln!(f, "  {:>10.1} s  {status}", status.time.as_seconds())?;
         }
-        if let Forecast::Unreachable { .. } | Forecast::Unknown { .. } = last.ready {
+        let is_reached = |status: &AlignmentStatus| {
+            let sigma = status.sigma.map(|sigma| sigma.heading);
+            sigma.zip(status.target).is_some_and(|(sigma, target)| sigma <= target)
+        };
+        let unforeseen =
+            matches!(last.ready, Forecast::Unreachable { .. } | Forecast::Unknown { .. });
+        if unforeseen && !self.alignment.iter().any(is_reached) {
             writeln!(f, "  the heading never was as good as is asked for")?;
         }
         if let Some(sea) = last.sea {

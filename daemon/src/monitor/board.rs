@@ -1,15 +1,13 @@
-//! What the monitor knows: the last snapshot, and how old it is.
+//! What the monitor knows: the last snapshot, and how old it is. Whoever looks is shown it as it is then: what
+//! has grown too old meanwhile is gone ([`Snapshot::after`]).
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use insd_web::snapshot::{Alignment, Mode, Motion, Snapshot, TimeInfo};
+use insd_web::snapshot::{Alignment, Freshness, Mode, Motion, Snapshot, TimeInfo};
 use serde::Deserialize;
 
 use crate::clock::Clock;
-
-/// Age of data that are not worth showing as the present.
-const STALE: Duration = Duration::from_secs(2);
 
 /// How the program at the other end is reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,10 +85,12 @@ impl Board {
         (seen.connected, seen.fault) = (false, Some(fault));
     }
 
-    /// The last snapshot, if there is one.
+    /// The last snapshot as it is now, if there is one.
     #[must_use]
     pub fn snapshot(&self) -> Option<Snapshot> {
-        self.lock().snapshot.as_deref().cloned()
+        let seen = self.lock();
+        let passed = self.clock.elapsed().saturating_sub(seen.at);
+        seen.snapshot.as_deref().map(|snapshot| snapshot.after(passed.as_secs_f64()))
     }
 
     /// Why there is no connection.
@@ -99,15 +99,18 @@ impl Board {
         self.lock().fault.clone()
     }
 
-    /// How the program is reached, and how old the data are.
+    /// How the program is reached, and how long ago the navigator told what is shown.
     #[must_use]
     pub fn link(&self) -> (Link, Duration) {
         let seen = self.lock();
-        let age = self.clock.elapsed().saturating_sub(seen.at);
+        let told = seen.snapshot.as_ref().map_or(0.0, |snapshot| snapshot.time.told_ago_s);
+        let told = Duration::try_from_secs_f64(told).unwrap_or_default();
+        let age = self.clock.elapsed().saturating_sub(seen.at) + told;
+        let is_fresh = Freshness::of_age(age.as_secs_f64()) != Freshness::Gone;
         let link = match (&seen.snapshot, seen.connected) {
             (None, _) if seen.fault.is_none() => Link::Connecting,
             (_, false) => Link::Lost,
-            (Some(_), true) if age < STALE => Link::Live,
+            (Some(_), true) if is_fresh => Link::Live,
             _ => Link::Silent,
         };
         (link, age)
@@ -136,7 +139,7 @@ mod tests {
         );
         board.take("live", "nonsense");
         let snapshot = board.snapshot().unwrap();
-        assert_eq!((snapshot.program.version.as_str(), snapshot.time.at_s), ("9", 7.0));
+        assert_eq!((snapshot.program.version.as_str(), snapshot.time.at_s.floor()), ("9", 7.0));
         assert!(snapshot.is_navigating());
         assert_eq!(board.link().0, Link::Live);
         board.disconnect("gone".to_owned());

@@ -71,16 +71,17 @@ pub(super) fn place(motion: &Motion) -> [String; 2] {
 #[must_use]
 pub fn line(snapshot: &Snapshot) -> String {
     let nothing = Motion::default();
-    let motion = snapshot.motion.as_ref().unwrap_or(&nothing);
+    let motion = snapshot.present().unwrap_or(&nothing);
     let [lat, lon] = place(motion);
     format!(
-        "{} {}  {lat} {lon}  heading {}  roll {}  pitch {}  {}  alerts {}",
+        "{} {}  {lat} {lon}  heading {}  roll {}  pitch {}  {}  course {}  alerts {}",
         time_of_day(snapshot.time.utc.as_deref()),
         word(&snapshot.mode.name),
         sure(motion.heading_deg, motion.sigma_heading_deg, 2, "deg"),
         fixed(motion.roll_deg, 2),
         fixed(motion.pitch_deg, 2),
         sure(motion.speed_kn, None, 2, "kn"),
+        fixed(motion.course_deg, 1),
         snapshot.alerts.len(),
     )
 }
@@ -102,9 +103,8 @@ pub fn summary(snapshot: &Snapshot) -> String {
     let reason = mode.reason.as_deref().map(|reason| format!(": {reason}"));
     let since = span(mode.since_s);
     row("mode", &format!("{} for {since}{}", word(&mode.name), reason.unwrap_or_default()));
-    if let Some(motion) = &snapshot.motion {
-        ship(motion, &mut row);
-    }
+    let nothing = Motion::default();
+    ship(snapshot.present().unwrap_or(&nothing), &mut row);
     if let Some(alignment) = &snapshot.alignment {
         row("alignment", &alignment.text);
     }

@@ -111,9 +111,13 @@ pub(super) async fn watch(port: String, node: SharedSpeaker<Node>, state: Option
 fn tell(port: &str, event: &NodeEvent) {
     match event {
         NodeEvent::Claimed { address } => tracing::info!(port, address, "node: has an address"),
-        NodeEvent::SameName { .. } | NodeEvent::NoneFree | NodeEvent::AddressUsed { .. } => {
-            tracing::warn!(port, ?event, "node");
+        NodeEvent::SameName { address } => {
+            tracing::warn!(port, address, "node: another one has the same NAME");
         }
+        NodeEvent::AddressUsed { address } => {
+            tracing::warn!(port, address, "node: another one sends from its address");
+        }
+        NodeEvent::NoneFree => tracing::warn!(port, "node: no address is free, it is quiet"),
         _ => tracing::info!(port, ?event, "node"),
     }
 }

@@ -1,7 +1,8 @@
 //! How everything stands, in one line: what `systemctl status` shows.
 
-use insd_base::Mode;
 use insd_base::units::DEG;
+use insd_base::{Mode, Solution};
+use insd_web::snapshot::Freshness;
 use tokio::sync::watch;
 
 use super::journal::Audience;
@@ -38,10 +39,14 @@ impl Audience for Headline {
 }
 
 fn line(report: &Report, speaking: usize) -> String {
-    let mode = report.mode.as_str().replace('_', " ");
     let alerts = report.alerts.iter().filter(|alert| alert.is_active()).count();
     let rest = format!("{speaking} sensors speak, {alerts} alerts");
-    let Some(solution) = report.motion.map(|motion| motion.solution) else {
+    let age = |solution: &Solution| (report.stamp.monotonic - solution.time).as_seconds();
+    let is_fresh = |own: &Solution| Freshness::of_age(age(own)) == Freshness::Fresh;
+    let solution = report.motion.map(|motion| motion.solution);
+    let is_silent = report.mode.is_navigating() && solution.is_some_and(|own| !is_fresh(&own));
+    let mode = if is_silent { Mode::Standby } else { report.mode }.as_str().replace('_', " ");
+    let Some(solution) = solution.filter(is_fresh) else {
         return format!("{mode}; {rest}");
     };
     if report.mode == Mode::Fault {

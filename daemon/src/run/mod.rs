@@ -85,7 +85,7 @@ pub fn run(config: &Config, text: &str, options: &RunOptions, log: &Log) -> anyh
     let (commander, controls) = control::channel();
     let (headline, status) = Headline::new();
     let (configuration, hash) = (options.config.clone(), showcase::hash(text));
-    let page = page::open(config, Origin { started: clock.now(), configuration, hash }, log);
+    let page = page::open(config, Origin { clock, started: clock.now(), configuration, hash }, log);
     let (showcase, orders, _page) = match page {
         Some(page) => (Some(page.showcase), Some(page.orders), Some(page.handle)),
         None => (None, None, None),

@@ -2,7 +2,8 @@
 
 use insd_base::{Arrival, Input, PortId, Span};
 use insd_drivers::ports::{
-    self, Destination, Outgoing, OutputConfig, OutputPort, OutputStatus, Surroundings, UdpOutput,
+    self, AgeStatus, Destination, Outgoing, OutputConfig, OutputPort, OutputStatus, Surroundings,
+    UdpOutput,
 };
 use insd_output::{Lan, Message, MessageKind, Port};
 use insd_wire::nmea::TransmissionGroup;
@@ -182,9 +183,21 @@ impl Output {
             // on the network a slot is a datagram, which may hold several kinds
             let kind = self.kinds.get(usize::from(slot.slot)).filter(|_| group.is_none());
             let ms = |age: Span| (age.as_seconds() * 1e5).round() / 1e2;
-            let age = slot.age.map(|age| (ms(age.p50), ms(age.p99), ms(age.max)));
+            let of = |own: fn(&AgeStatus) -> Span| slot.age.as_ref().map(|age| ms(own(age)));
+            let (p50_ms, p99_ms, max_ms) =
+                (of(|age| age.p50), of(|age| age.p99), of(|age| age.max));
             let (message, sent, dropped) = (kind.map(|kind| kind.name()), slot.sent, slot.dropped);
-            tracing::info!(output = name, group, message, sent, dropped, age_ms = ?age, "sent");
+            tracing::info!(
+                output = name,
+                group,
+                message,
+                sent,
+                dropped,
+                p50_ms,
+                p99_ms,
+                max_ms,
+                "sent"
+            );
         }
     }
 }

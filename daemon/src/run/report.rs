@@ -1,7 +1,7 @@
 //! How everything stands, gathered by the engine's thread for whoever looks on.
 
 use insd_base::{
-    AlignmentStatus, Counts, Disturbance, Estimates, Heave, Mode, Motion, Stamp, UtcTime,
+    AlignmentStatus, Counts, Disturbance, Estimates, Heave, Mode, Motion, Stamp, Time, UtcTime,
 };
 use insd_drivers::raw::RecorderState;
 use insd_intake::status::IntakeStatus;
@@ -23,6 +23,9 @@ pub(super) struct Report {
     pub(super) heave: Option<Heave>,
     pub(super) alignment: Option<AlignmentStatus>,
     pub(super) alerts: Vec<AlertView>,
+    pub(super) engines: Vec<EngineStatus>,
+    /// When each sensor spoke last, in the order of the configuration.
+    pub(super) heard: Vec<Option<Time>>,
     pub(super) slow: Option<Box<Slow>>,
 }
 
@@ -37,7 +40,6 @@ pub(super) struct Slow {
     pub(super) nodes: Vec<(String, NodeStatus)>,
     pub(super) recorder: Option<RecorderState>,
     pub(super) saver: Option<SaverState>,
-    pub(super) engines: Vec<EngineStatus>,
     pub(super) disputes: Vec<Dispute>,
     pub(super) estimates: Option<Estimates>,
     /// What moves the ship: looked at every ten seconds.

@@ -1,7 +1,7 @@
 //! Events in words, for the journal.
 
 use insd_base::units::DEG;
-use insd_base::{Event, Mode, PortId};
+use insd_base::{Event, Mode, PortId, PortState};
 use insd_drivers::ports::{Judge, Judgement};
 use insd_engine::Output;
 use insd_engine::vote::{Doubt, VoteEvent};
@@ -11,6 +11,7 @@ use insd_wire::stream::{Cutter, Protocol};
 use crate::config::{Change, Config};
 use crate::pipeline::{Obeyed, Product};
 use crate::redundancy::Vote;
+use crate::report::words;
 
 /// Good frames at which a baud rate is taken as right.
 const CONVINCED: usize = 3;
@@ -50,11 +51,11 @@ pub fn tell(names: &Names, product: &Product) {
     match product {
         Product::Intake(event) => tell_event(names, event),
         Product::Engine(Output::Event(event)) => tell_engine(event),
-        Product::Engine(Output::Alignment(status)) => tracing::debug!(?status, "alignment"),
+        Product::Engine(Output::Alignment(status)) => tracing::debug!("alignment: {status:?}"),
         Product::Order(obeyed) => tell_order(obeyed),
         Product::Spare(name, Output::Event(Event::ModeChanged { time, to, why, .. })) => {
-            let (at, mode, why) = (time.as_seconds(), to.as_str(), why.as_str());
-            tracing::info!(at, engine = %name, mode, why, "mode");
+            let at = time.as_seconds();
+            tracing::info!(at, engine = %name, mode = to.as_str(), "mode: {why}");
         }
         Product::Spare(name, Output::Event(event)) => tracing::debug!(engine = %name, ?event),
         Product::Vote(vote) => tell_vote(vote),
@@ -64,9 +65,7 @@ pub fn tell(names: &Names, product: &Product) {
 
 fn tell_order(obeyed: &Obeyed) {
     match obeyed {
-        Obeyed::Alert { identifier, command, done } => {
-            tracing::info!(alert = identifier, ?command, done, "ordered about an alert");
-        }
+        Obeyed::Alert { .. } => tracing::info!("{}", words::order(obeyed)),
         Obeyed::Configured(change) if change.is_nothing() => {
             tracing::info!("the configuration is as it was");
         }
@@ -81,7 +80,8 @@ fn tell_order(obeyed: &Obeyed) {
         }
         Obeyed::Resumed => tracing::info!("navigation goes on from where the run before ended"),
         Obeyed::NotResumed(doubt) => {
-            tracing::warn!(?doubt, "navigation begins anew: what the run before left is no use");
+            let why = doubt.as_str();
+            tracing::warn!(why, "navigation begins anew: what the run before left is no use");
         }
         Obeyed::StoredStateOffered => tracing::info!("the heading stored at the berth is on offer"),
         Obeyed::StoredStateRefused(fault) => {
@@ -96,7 +96,12 @@ fn tell_engine(event: &Event) {
         Event::Rejected { .. } => tracing::debug!(?event, "engine"),
         Event::ModeChanged { time, from, to, why } => {
             let (at, from) = (time.as_seconds(), from.map(Mode::as_str));
-            tracing::info!(at, from, mode = to.as_str(), why = why.as_str(), "mode");
+            let mode = to.as_str();
+            if matches!(to, Mode::Standby | Mode::Fault) {
+                tracing::warn!(at, from, mode, "mode: {why}");
+            } else {
+                tracing::info!(at, from, mode, "mode: {why}");
+            }
         }
         Event::ResumeDropped { time, reason } => {
             let (at, why) = (time.as_seconds(), reason.as_str());
@@ -109,7 +114,14 @@ fn tell_engine(event: &Event) {
             let (at, paste) = (time.as_seconds(), finding.to_paste());
             tracing::warn!(at, finding = finding.as_str(), paste, "{finding}");
         }
-        _ => tracing::info!(?event, "engine"),
+        Event::PositionReset { .. } | Event::StoredStateDropped { .. } => {
+            let (what, text) = words::engine(event);
+            tracing::warn!("{what}: {}", text.unwrap_or_default());
+        }
+        _ => {
+            let (what, text) = words::engine(event);
+            tracing::info!("{what}: {}", text.unwrap_or_default());
+        }
     }
 }
 
@@ -123,15 +135,16 @@ fn tell_vote(vote: &Vote) {
             let between = [disagreement.between.0, disagreement.between.1].map(|i| vote.name(i));
             let (what, wrong) = (difference.quantity.as_str(), disagreement.wrong);
             let (wrong, why) = (wrong.map(|(i, _)| vote.name(i)), wrong.map(|(_, d)| d.as_str()));
-            tracing::warn!(at, ?between, what, by, limit, wrong, why, "engines differ");
+            let [one, other] = between;
+            tracing::warn!(at, one, other, what, by, limit, wrong, why, "engines differ");
         }
         VoteEvent::Wrong { time, engine, why, .. } => {
             let (at, engine, why) = (time.as_seconds(), vote.name(engine), why.as_str());
             tracing::warn!(at, engine, why, "taken as wrong");
         }
         VoteEvent::Agree { time, between } => {
-            let between = [between.0, between.1].map(|i| vote.name(i));
-            tracing::info!(at = time.as_seconds(), ?between, "engines agree again");
+            let (one, other) = (vote.name(between.0), vote.name(between.1));
+            tracing::info!(at = time.as_seconds(), one, other, "engines agree again");
         }
         VoteEvent::Switched { time, from, to, why } => {
             let (at, from, to) = (time.as_seconds(), vote.name(from), vote.name(to));
@@ -146,19 +159,34 @@ fn tell_event(names: &Names, event: &IntakeEvent) {
     let name = |sensor: &usize| names.sensor(*sensor).to_owned();
     match &event.what {
         Happening::Port { port, state } => {
-            tracing::info!(at, port = names.port(*port), "{state}");
+            let port = names.port(*port);
+            match state {
+                PortState::Open { .. } | PortState::Speaking | PortState::Ended => {
+                    tracing::info!(at, port, "{state}");
+                }
+                PortState::Absent { .. }
+                | PortState::Lost { .. }
+                | PortState::Silent { .. }
+                | PortState::Overrun { .. } => tracing::warn!(at, port, "{state}"),
+            }
         }
         Happening::Bus { port, event } => {
             tracing::warn!(at, port = names.port(*port), "bus: {event}");
         }
         Happening::Device { sensor, device } => {
-            let (address, known) = (device.address, device.name.map(|name| name.to_string()));
-            tracing::info!(at, sensor = name(sensor), address, name = ?known, "device");
+            let address = device.address;
+            let known = device.name.map_or("not known".to_owned(), |name| name.to_string());
+            tracing::info!(at, sensor = name(sensor), address, name = known, "device");
         }
         Happening::SensorSpeaks { sensor } => tracing::info!(at, sensor = name(sensor), "speaks"),
         Happening::SensorSilent { sensor } => tracing::warn!(at, sensor = name(sensor), "silent"),
         Happening::SensorValid { sensor, valid, status } => {
-            tracing::warn!(at, sensor = name(sensor), valid, status, "validity");
+            let (sensor, word) = (name(sensor), format!("{status:#06x}"));
+            if *valid {
+                tracing::info!(at, sensor, status = word, "valid again");
+            } else {
+                tracing::warn!(at, sensor, status = word, "says that it is not valid");
+            }
         }
         Happening::SamplesLost { sensor, count } => {
             tracing::warn!(at, sensor = name(sensor), count, "samples lost");
@@ -167,10 +195,14 @@ fn tell_event(names: &Names, event: &IntakeEvent) {
             tracing::warn!(at, sensor = name(sensor), by, "device clock stepped");
         }
         Happening::Chosen(chosen) => {
-            let (from, to) = (chosen.from.as_ref().map(name), chosen.to.as_ref().map(name));
-            tracing::info!(at, quantity = ?chosen.quantity, ?from, ?to, why = ?chosen.why, "source");
+            let source = words::choice(chosen, |sensor| names.sensor(sensor));
+            if chosen.to.is_some() {
+                tracing::info!(at, "source of {source}");
+            } else {
+                tracing::warn!(at, "source of {source}");
+            }
         }
-        Happening::Time(change) => tracing::info!(at, ?change, "time"),
+        Happening::Time(change) => tracing::info!(at, "time: {}", words::time(change)),
         Happening::SystemClockStepped { by } => {
             tracing::warn!(at, by = by.as_seconds(), "system clock stepped");
         }
@@ -188,4 +220,73 @@ pub(super) fn judge() -> Judge {
         }
         if frames >= CONVINCED { Judgement::Fits } else { Judgement::Wrong }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{self, Write};
+    use std::sync::{Arc, Mutex};
+
+    use insd_base::{PortState, Time};
+    use insd_intake::choice::{Chosen, Quantity, Why};
+    use insd_intake::clock::{TimeChange, TimeQuality};
+
+    use super::*;
+
+    #[derive(Clone, Default)]
+    struct Sink(Arc<Mutex<Vec<u8>>>);
+
+    impl Write for Sink {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            self.0.lock().unwrap().write(bytes)
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    /// The line that is written of something that happened.
+    fn line(what: Happening) -> String {
+        let names = Names { ports: vec!["gnss".to_owned()], sensors: vec!["gnss".to_owned()] };
+        let sink = Sink::default();
+        let own = sink.clone();
+        let writer = tracing_subscriber::fmt().with_ansi(false).with_writer(move || own.clone());
+        let event = IntakeEvent { time: Time::from_seconds(1.0), what };
+        tracing::subscriber::with_default(writer.finish(), || {
+            tell(&names, &Product::Intake(event));
+        });
+        String::from_utf8(sink.0.lock().unwrap().clone()).unwrap()
+    }
+
+    #[test]
+    fn a_device_that_is_absent_is_a_warning_and_one_that_is_there_is_none() {
+        let port = PortId(0);
+        let reason = "No such file or directory".to_owned();
+        let absent = line(Happening::Port { port, state: PortState::Absent { reason } });
+        assert!(absent.contains(" WARN ") && absent.contains("No such file"), "{absent}");
+        let what = "/dev/ttyS0".to_owned();
+        let open = line(Happening::Port { port, state: PortState::Open { what } });
+        assert!(open.contains(" INFO "), "{open}");
+    }
+
+    #[test]
+    fn the_journal_speaks_in_words() {
+        let chosen = |from, to, why| {
+            line(Happening::Chosen(Chosen { quantity: Quantity::Gnss, from, to, why }))
+        };
+        let first = chosen(None, Some(0), Why::First);
+        assert!(first.contains("source of GNSS: gnss instead of none: the first that is valid"));
+        let lost = chosen(Some(0), None, Why::NoneLeft);
+        assert!(lost.contains(" WARN ") && lost.contains("there is none left"), "{lost}");
+        let time = line(Happening::Time(TimeChange::Quality(TimeQuality::Pulses)));
+        let status = line(Happening::SensorValid { sensor: 0, valid: false, status: 0x3FF });
+        assert!(status.contains("0x03ff"), "{status}");
+        for text in [first, lost, time, status] {
+            assert!(
+                !["Some(", "None", "{", "Quality("].iter().any(|own| text.contains(own)),
+                "{text}"
+            );
+        }
+    }
 }

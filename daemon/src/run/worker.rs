@@ -194,6 +194,8 @@ impl Worker {
             heave: pipeline.heave(),
             alignment: speaker.alignment(),
             alerts: speaker.station().alerts().views().collect(),
+            engines: pipeline.engines(),
+            heard: pipeline.heard().collect(),
             slow: is_second.then(|| Box::new(self.slow(with_sea))),
         }
     }
@@ -208,7 +210,6 @@ impl Worker {
             nodes: self.connections.buses.status(),
             recorder: self.recorder.as_ref().map(Recorder::state),
             saver: self.saver.as_ref().map(Saver::state),
-            engines: self.pipeline.engines(),
             disputes: self.pipeline.disputes(),
             estimates: self.pipeline.engine_in_use().estimates(),
             disturbance: with_sea.then(|| self.pipeline.engine_in_use().disturbance()).flatten(),
@@ -311,7 +312,9 @@ impl Worker {
         tracing::info!(epochs, late, skipped, "epochs, and those begun more than 1 ms late");
         if let Some(recorder) = self.recorder {
             let state = recorder.finish();
-            tracing::info!(?state, "recording ended");
+            let (bytes, files) = (state.written.bytes, state.written.files);
+            let (left_out, fault) = (state.written.dropped, state.fault.map(|own| own.to_string()));
+            tracing::info!(bytes, files, left_out, fault, "recording ended");
         }
         match self.nav {
             Some(nav) => nav.finish().context("cannot write the solution")?.finish(),

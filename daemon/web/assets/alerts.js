@@ -15,7 +15,7 @@ const RANK = ["emergency_alarm", "alarm", "warning", "caution", "unknown"];
 const key = (alert) => `${alert.manufacturer ?? ""}-${alert.id}-${alert.instance ?? ""}`;
 
 let token = recall("sessionStorage", "token") ?? "";
-let enabled = null;
+let readOnly = null;
 const rows = new Map();
 let before = null;
 
@@ -32,17 +32,17 @@ export function startAlerts() {
     const answer = await give("api/v1/log-level", { level: byId("level").value });
     setText(byId("level-state"), answer.text);
   });
-  load("api/v1/orders").then((answer) => { enabled = answer.enabled; tellToken(); }).catch(() => {});
+  load("api/v1/orders").then((answer) => { readOnly = answer.enabled ? null : answer.why; tellToken(); }).catch(() => {});
 }
 
 function tellToken() {
-  const text = enabled === false ? "Read only: no token is configured in the program."
+  const text = readOnly ? `Read only: ${readOnly}.`
     : token ? "A token is set for this tab." : "Without a token nothing can be changed here.";
   setText(byId("token-state"), text);
-  byId("token").disabled = enabled === false;
-  byId("token-save").disabled = enabled === false;
-  byId("level-save").disabled = !token || enabled === false;
-  for (const row of rows.values()) row.buttons.forEach((button) => { button.disabled = !token || enabled === false; });
+  byId("token").disabled = Boolean(readOnly);
+  byId("token-save").disabled = Boolean(readOnly);
+  byId("level-save").disabled = !token || Boolean(readOnly);
+  for (const row of rows.values()) row.buttons.forEach((button) => { button.disabled = !token || Boolean(readOnly); });
 }
 
 const give = (path, body) =>
@@ -81,7 +81,8 @@ function update(row, alert) {
   show(silence, alert.state === "unacknowledged");
 }
 
-export function alerts(data) {
+// The alerts, and in which order they stand.
+export function alerts(data, link) {
   const list = byId("alert-list");
   const sorted = [...data.alerts].sort((a, b) =>
     Number(asks(b.state)) - Number(asks(a.state)) || RANK.indexOf(a.priority) - RANK.indexOf(b.priority));
@@ -98,6 +99,9 @@ export function alerts(data) {
     update(row, alert);
     if (list.children[k] !== row.item) list.insertBefore(row.item, list.children[k] ?? null);
   });
+  const areKnown = link !== "silent" && link !== "lost";
+  setText(byId("no-alerts"), areKnown ? "No active alerts." : "Whether there are alerts is not known.");
+  setClass(byId("no-alerts"), areKnown ? "empty good" : "empty");
   show(byId("no-alerts"), sorted.length === 0);
   const open = sorted.filter((alert) => asks(alert.state));
   show(byId("alert-count"), sorted.length > 0);
@@ -105,6 +109,7 @@ export function alerts(data) {
   setClass(byId("alert-count"), `pill ${sorted[0]?.priority ?? ""}`);
   strip(open);
   speak(sorted);
+  return sorted;
 }
 
 // One line below the head of the page, while something asks for an answer.

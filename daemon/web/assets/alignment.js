@@ -42,7 +42,9 @@ export function alignment(data) {
   const [when, why] = now ? readiness(now) : [DASH, ""];
   setText(byId("ready-when"), when);
   setText(byId("ready-why"), why);
-  setText(byId("align-place"), now ? (now.moored ? "at the berth" : "under way") : "");
+  const told = known(now?.told_at_s) ? data.time.at_s - now.told_at_s : 0;
+  const where = now?.moored ? "at the berth" : "under way";
+  setText(byId("align-place"), now ? `${where}${told > 1 ? `, told ${fixed(told, 0)} s ago` : ""}` : "");
   const part = known(now?.progress) ? Math.max(0, Math.min(1, now.progress)) : null;
   setAttr(byId("progress-fill"), "width", part === null ? 0 : (part * 100).toFixed(1));
   if (part === null) byId("progress").removeAttribute("aria-valuenow");
@@ -53,6 +55,7 @@ export function modeTone(name) {
   if (name === "aided") return "good";
   if (name === "dead_reckoning" || name === "inertial") return "warn";
   if (name === "fault") return "bad";
+  if (!name) return "calm";
   return name.endsWith("alignment") && name !== "coarse_alignment" ? "busy" : "calm";
 }
 

@@ -2,16 +2,18 @@
 
 import { byId, binder, keep, recall, setAttr, setClass, setText, show } from "./dom.js";
 import { clock } from "./format.js";
+import { after } from "./age.js";
 import { follow, load } from "./stream.js";
-import { rose, horizon, turn, speak } from "./instruments.js";
+import { rose, horizon, turn, qualities, speak } from "./instruments.js";
 import { chart } from "./chart.js";
 import { history, plot, sigmaPlot, spectrum } from "./plots.js";
 import { sensors, ports, measurements, system } from "./tables.js";
 import { alignment, disturbance, modes, modeTone } from "./alignment.js";
 import { alerts, startAlerts } from "./alerts.js";
+import * as bridge from "./bridge.js";
 
 const bind = binder(document);
-const instruments = [rose(byId("rose")), horizon(byId("horizon")), turn(byId("turn"))];
+const instruments = [rose(byId("rose")), rose(byId("b-rose")), horizon(byId("horizon")), turn(byId("turn")), turn(byId("b-turn")), qualities];
 const sheet = chart(byId("chart"));
 const past = history();
 const plots = [
@@ -22,7 +24,15 @@ const plots = [
   ["plot-speed", () => past.series("speed_kn"), { least: 1 }],
 ].map(([id, series, options]) => [byId(id), series, options]);
 
+// how often it is looked whether what is shown has grown too old, ms
+const LOOK = 100;
+
+// what came last and when, whether there is a connection, and what of it is shown
+let came = null;
+let at = 0;
+let linked = null;
 let data = null;
+let link = "connecting";
 // what is to be drawn anew with the next picture
 const due = { live: false, whole: false, plots: false };
 let waiting = false;
@@ -52,6 +62,9 @@ function drawLive() {
   setText(byId("utc"), clock(data.time.utc));
   setAttr(byId("utc"), "datetime", data.time.utc ?? "");
   setClass(byId("mode-chip"), `mode tone-${modeTone(data.mode.name)}`);
+  document.body.dataset.motion = data.motion?.freshness ?? "gone";
+  bridge.lean(byId("b-roll"), data.motion?.roll_deg, 20);
+  bridge.lean(byId("b-pitch"), data.motion?.pitch_deg, 10);
 }
 
 function drawWhole() {
@@ -62,64 +75,94 @@ function drawWhole() {
   system(data);
   modes(data);
   disturbance(data);
-  alerts(data);
+  bridge.alerts(alerts(data, link), link !== "silent" && link !== "lost");
   speak(data.motion);
   sheet.speak();
-  document.title = `${data.program.unit ?? "insd"}: ${data.mode.name.replaceAll("_", " ")}`;
+  const what = link === "silent" || link === "lost" ? `⚠ ${LINKS[link]}` : data.mode.name.replaceAll("_", " ");
+  document.title = `${data.program.unit ?? "insd"}: ${what}`;
 }
 
 function drawPlots() {
   plots.forEach(([canvas, series, options]) => plot(canvas, series(), options));
   sigmaPlot(byId("plot-sigma"), past.series("sigma_heading_deg"), data.alignment?.target_deg);
   spectrum(byId("spectrum"), data.disturbance?.axes ?? []);
+  bridge.draw();
 }
 
 function take(next, whole) {
-  data = next;
   if (whole && version !== null && version !== next.program.version) {
     // another program answers: it has another page
     location.reload();
     return;
   }
   if (whole) version = next.program.version;
+  [came, at] = [next, performance.now()];
   sheet.note(next.time.at_s, next.motion);
-  due.plots = past.note(next.time.at_s, next.motion) || due.plots;
+  due.plots = [past, bridge].map((own) => own.note(next.time.at_s, next.motion)).some(Boolean) || due.plots;
+  age(whole);
+}
+
+// Shows what came as it is now: with the data, and when none come, again and again.
+function age(whole) {
+  if (!came) return;
+  data = after(came, (performance.now() - at) / 1000);
+  const before = link;
+  link = linkNow();
+  if (link !== before) enter();
   due.live = true;
-  due.whole = whole || due.whole;
+  due.whole = whole || link !== before || due.whole;
   wake();
+}
+
+function linkNow() {
+  if (!linked) return "lost";
+  if (data.time.told_ago_s > 1) return "silent";
+  return data.motion?.freshness === "fresh" ? "live" : "connected";
 }
 
 // What has been before this page looked; also after a gap.
 function catchUp() {
   load("api/v1/track").then((columns) => { sheet.past(columns); wake(); }).catch(() => {});
   load("api/v1/history").then((columns) => { past.past(columns); due.plots = true; wake(); }).catch(() => {});
+  bridge.catchUp(() => { due.plots = true; wake(); });
 }
 
-const LINKS = { connecting: "connecting", live: "live", silent: "no new data", lost: "connection lost" };
+const LINKS = { connecting: "connecting", live: "live", connected: "no motion", silent: "no new data", lost: "connection lost" };
 
-function enter(state) {
-  setText(byId("link"), LINKS[state]);
-  setClass(byId("link"), `badge link ${state}`);
-  const stale = state !== "live";
-  document.body.classList.toggle("stale", stale && data !== null);
-  document.body.classList.toggle("waiting", data === null && stale);
-  const at = data ? ` Last data ${clock(data.time.utc ?? data.time.system_utc)} UTC.` : "";
-  const what = state === "silent" ? "The navigator sends no new data." : "Connection lost.";
-  setText(byId("lost"), `${what}${at} What is shown below is old.`);
-  show(byId("lost"), stale && data !== null);
-  if (stale && data !== null) document.title = `⚠ ${LINKS[state]}`;
-  if (state === "live") catchUp();
+function enter() {
+  setText(byId("link"), LINKS[link]);
+  setClass(byId("link"), `badge link ${link}`);
+  const stale = link === "silent" || link === "lost";
+  document.body.classList.toggle("stale", stale && came !== null);
+  document.body.classList.toggle("waiting", came === null);
+  const last = came ? ` Last data ${clock(came.time.utc ?? came.time.system_utc)} UTC.` : "";
+  const what = link === "silent" ? "The navigator sends no new data." : "Connection lost.";
+  setText(byId("lost"), `${what}${last} Nothing below is the present.`);
+  show(byId("lost"), stale && came !== null);
+}
+
+function onLink(open) {
+  if (linked === open) return;
+  linked = open;
+  if (open) catchUp();
+  else if (came) age(true);
+  else { link = "lost"; enter(); }
 }
 
 function startTheme() {
-  const select = byId("theme");
+  const [select, dimmer] = [byId("theme"), byId("dimmer")];
   const apply = () => {
     document.documentElement.dataset.theme = select.value;
+    // never so dark that nothing is seen
+    document.documentElement.style.setProperty("--shade", String(0.85 * (1 - dimmer.value / 100)));
     keep("localStorage", "theme", select.value);
+    keep("localStorage", "dimmer", dimmer.value);
     redraw();
   };
   select.value = recall("localStorage", "theme") ?? "auto";
+  dimmer.value = recall("localStorage", "dimmer") ?? "100";
   select.addEventListener("change", apply);
+  dimmer.addEventListener("input", apply);
   apply();
 }
 
@@ -132,5 +175,7 @@ function redraw() {
 window.addEventListener("resize", redraw);
 window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
 startTheme();
+bridge.startView(redraw);
 startAlerts();
-follow({ onData: take, onState: enter });
+setInterval(() => { if (performance.now() - at > LOOK) age(false); }, LOOK);
+follow({ onData: take, onLink });

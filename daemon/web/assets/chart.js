@@ -97,7 +97,7 @@ export function chart(canvas) {
       dirty = true;
       if (!known(next?.lat_deg) || !known(next?.lon_deg)) return;
       const last = track.at[track.at.length - 1];
-      if (last === undefined || at - last >= 2 || at < last) push(at, next.lat_deg, next.lon_deg);
+      if (last === undefined || at - last >= 2 || at < last - 2) push(at, next.lat_deg, next.lon_deg);
     },
     draw() {
       if (!dirty || canvas.clientWidth === 0) return;

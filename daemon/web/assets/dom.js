@@ -50,7 +50,9 @@ function fillCell(row, column, cell) {
   const { text = DASH, cls = "", sub, title } = typeof cell === "object" && cell ? cell : { text: cell };
   let node = row.cells[column];
   if (!node) {
-    node = column === 0 ? make("th", { scope: "row" }) : make("td");
+    // on a phone each cell stands in a line of its own, with the heading of its column
+    const heading = row.closest("table").tHead.rows[0].cells[column]?.textContent ?? "";
+    node = column === 0 ? make("th", { scope: "row" }) : make("td", { "data-head": heading });
     node.append(make("span"));
     row.append(node);
   }
@@ -77,10 +79,13 @@ export function binder(root) {
     path: node.dataset.bind,
     format: formats[node.dataset.as ?? "plain"],
     other: node.dataset.or,
+    // without a number there is no unit
+    holder: node.closest("dd"),
   }));
   return (data) => {
-    for (const { node, path, format, other } of bound) {
+    for (const { node, path, format, other, holder } of bound) {
       const text = format(at(data, path));
+      holder?.classList.toggle("without", text === DASH);
       setText(node, text === DASH && other !== undefined ? other : text);
     }
   };

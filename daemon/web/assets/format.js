@@ -100,7 +100,7 @@ const plain = (value) => (value === null || value === undefined || value === "" 
 // the formats that the page names in data-as
 export const formats = {
   plain, lat, lon, metres, duration, bytes, count, words, date, datetime, smalltime,
-  bearing: (value) => bearing(value),
+  bearing: (value) => bearing(value), bearing0: (value) => bearing(value, 0),
   fixed0: (v) => fixed(v, 0), fixed1: (v) => fixed(v, 1), fixed2: (v) => fixed(v, 2), fixed3: (v) => fixed(v, 3),
   signed1: (v) => signed(v, 1), signed2: (v) => signed(v, 2),
   sigma1: (v) => sigma(v, 1), sigma2: (v) => sigma(v, 2), sigma3: (v) => sigma(v, 3),

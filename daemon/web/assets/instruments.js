@@ -34,7 +34,7 @@ export function rose(root) {
   svg(root, "path", { d: "M0 -105 7 -119 -7 -119Z", class: "lubber" });
   const value = svg(root, "text", { y: 8, class: "big" }, DASH);
   const doubtText = svg(root, "text", { y: 32, class: "doubt-text" }, "");
-  svg(root, "text", { y: -28, class: "label" }, "HEADING T");
+  const label = svg(root, "text", { y: -28, class: "label" }, "HEADING T");
 
   return (motion) => {
     const { heading_deg: heading, sigma_heading_deg: sure, course_deg: track } = motion ?? {};
@@ -47,9 +47,24 @@ export function rose(root) {
     setAttr(doubt, "d", half > 0 ? arc(109, -half, half) : "");
     setAttr(course, "visibility", known(track) ? "visible" : "hidden");
     if (known(track)) setAttr(course, "transform", `rotate(${track.toFixed(2)})`);
-    setText(byId("heading-quality"), motion?.heading_quality ? words(motion.heading_quality) : "");
-    setText(byId("position-quality"), motion?.position_quality ? words(motion.position_quality) : "");
+    const isValid = motion?.heading_quality !== "not_valid";
+    setClass(value, isValid ? "big" : "big not-valid");
+    setText(label, isValid ? "HEADING T" : "NOT VALID");
   };
+}
+
+// What may be trusted of the motion. A value that is not valid is never large: style.css looks for these.
+export function qualities(motion) {
+  const { heading_quality: heading, position_quality: position, velocity_quality: velocity, level_quality: level } = motion ?? {};
+  const old = motion?.freshness === "old" ? "old, " : "";
+  const tell = (quality) => (quality ? old + words(quality) : "");
+  for (const [id, quality] of [["heading-quality", heading], ["position-quality", position], ["level-quality", level === "not_valid" ? level : ""]]) {
+    setText(byId(id), tell(quality));
+  }
+  const bad = (quality) => ["not_valid", "invalid"].includes(quality);
+  for (const [name, quality] of Object.entries({ heading, position, velocity, level })) {
+    document.body.classList.toggle(`${name}-not-valid`, bad(quality) || !motion || motion.freshness !== "fresh");
+  }
 }
 
 // Pixels of a degree of pitch.

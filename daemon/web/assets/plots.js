@@ -6,7 +6,8 @@ import { known } from "./format.js";
 // What is plotted: ten minutes at one a second.
 const SPAN = 600;
 
-export function history() {
+// So many seconds of it, with so much between two rows.
+export function history(span = SPAN, step = 0.95) {
   let rows = [];
   return {
     past(columns) {
@@ -14,15 +15,16 @@ export function history() {
     },
     note(at, motion) {
       const last = rows[rows.length - 1];
-      if (last && at < last.at) rows = [];
-      if (last && at - last.at < 0.95 && at >= last.at) return false;
+      // time that goes back far is that of another start
+      if (last && at < last.at - 2) rows = [];
+      if (last && at - last.at < step && at >= last.at - 2) return false;
       rows.push({
         at,
         heading_deg: motion?.heading_deg, sigma_heading_deg: motion?.sigma_heading_deg,
         roll_deg: motion?.roll_deg, pitch_deg: motion?.pitch_deg,
-        heave_m: motion?.heave?.heave_m, speed_kn: motion?.speed_kn,
+        heave_m: motion?.heave?.heave_m, speed_kn: motion?.speed_kn, current_speed_kn: motion?.current_speed_kn,
       });
-      while (rows.length > SPAN + 2) rows.shift();
+      while (rows.length > span / step + 2) rows.shift();
       return true;
     },
     series: (name) => rows.map((row) => [row.at, row[name]]),
@@ -101,15 +103,15 @@ function curve(context, box, points, x, y) {
   context.restore();
 }
 
-function minutes(context, box, x, now) {
-  const step = box.right - box.left < 300 ? 5 : 2;
-  for (let minute = 0; minute <= 10; minute += step) {
+function minutes(context, box, x, now, span = SPAN) {
+  const step = (box.right - box.left < 300 ? 5 : 2) * (span / SPAN);
+  for (let minute = 0; minute <= span / 60; minute += step) {
     column(context, box, x(now - minute * 60), minute === 0 ? "now" : `−${minute} min`);
   }
 }
 
-// One series over the last ten minutes. `least` is the least height of the picture in its unit.
-export function plot(canvas, points, { least, wrap = false }) {
+// One series over the last minutes. `least` is the least height of the picture in its unit.
+export function plot(canvas, points, { least, wrap = false, span = SPAN }) {
   if (canvas.clientWidth === 0) return;
   const { context, width, height } = fitted(canvas);
   const box = frame(context, width, height);
@@ -119,14 +121,14 @@ export function plot(canvas, points, { least, wrap = false }) {
   const pad = Math.max((least - (high - low)) / 2, (high - low) * 0.06);
   [low, high] = [low - pad, high + pad];
   const now = points[points.length - 1][0];
-  const x = (at) => box.right - ((now - at) / SPAN) * (box.right - box.left);
+  const x = (at) => box.right - ((now - at) / span) * (box.right - box.left);
   const y = (value) => box.bottom - ((value - low) / (high - low)) * (box.bottom - box.top);
   const step = nice(high - low, 4);
   for (let value = Math.ceil(low / step) * step; value <= high; value += step) {
     const shown = wrap ? ((value % 360) + 360) % 360 : value;
     rule(context, box, y(value), shown.toFixed(decimals(step)).replace("-", "−"));
   }
-  minutes(context, box, x, now);
+  minutes(context, box, x, now, span);
   context.strokeStyle = colour("accent");
   context.lineWidth = 1.6;
   curve(context, box, points, x, y);

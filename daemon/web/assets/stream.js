@@ -1,49 +1,32 @@
 // The data as they come: server-sent events, and what to do when they do not.
 
-// Silence after which what is shown is stale, ms.
-const PATIENCE = 2000;
 // Pause before another attempt where the browser has given up, ms.
 const PAUSE = 1500;
 
-export function follow({ onData, onState }) {
-  let source = null;
+// `onData` takes what came, whole or put into the last whole; `onLink` is told whether there is a connection.
+export function follow({ onData, onLink }) {
   let data = null;
-  let last = null;
-  let state = "connecting";
-
-  function enter(next) {
-    if (next !== state) {
-      state = next;
-      onState(state, data);
-    }
-  }
 
   function take(event, whole) {
     const part = JSON.parse(event.data);
-    data = whole ? part : { ...(data ?? {}), ...part };
-    last = performance.now();
-    enter("live");
+    data = whole ? part : { ...data, ...part };
+    onLink(true);
     onData(data, whole);
   }
 
   function open() {
-    source = new EventSource("api/v1/stream?hz=10");
+    const source = new EventSource("api/v1/stream?hz=10");
     source.addEventListener("snapshot", (event) => take(event, true));
     source.addEventListener("live", (event) => {
       // without a whole snapshot there is nothing to put it into
       if (data) take(event, false);
     });
     source.onerror = () => {
-      enter("lost");
+      onLink(false);
       if (source.readyState === EventSource.CLOSED) setTimeout(open, PAUSE);
     };
   }
 
-  setInterval(() => {
-    if (last !== null && performance.now() - last > PATIENCE) {
-      enter(source.readyState === EventSource.OPEN ? "silent" : "lost");
-    }
-  }, 250);
   open();
 }
 

@@ -16,12 +16,15 @@ function says(sensor) {
   const parts = [
     sensor.fix,
     known(sensor.satellites) ? `${sensor.satellites} satellites` : null,
-    known(sensor.status_word) ? `0x${sensor.status_word.toString(16).toUpperCase().padStart(4, "0")}` : null,
+    sensor.status?.join(", ") || (sensor.status_word ? `status 0x${sensor.status_word.toString(16).toUpperCase().padStart(4, "0")}` : null),
     known(sensor.temperature_c) ? `${fixed(sensor.temperature_c, 1)} °C` : null,
     sensor.device,
   ];
   return parts.filter(Boolean).join(" · ") || DASH;
 }
+
+// There was a source and there is none: that is bad. One that was never there is not missed.
+const lost = (choice) => !choice.sensor && Boolean(choice.why);
 
 export function sensors(data) {
   fill(byId("sensor-table"), data.sensors.map((sensor) => [
@@ -37,12 +40,12 @@ export function sensors(data) {
   ]));
   const list = byId("choices");
   const lines = data.choices.map((choice) =>
-    `${words(choice.quantity)}: ${choice.sensor ?? "none"}${choice.why ? ` (${words(choice.why)})` : ""}`);
+    `${words(choice.quantity)}: ${choice.sensor ?? "none"}${choice.sensor || lost(choice) ? (choice.why ? ` (${words(choice.why)})` : "") : ""}`);
   while (list.children.length > lines.length) list.lastChild.remove();
   lines.forEach((line, k) => {
     if (!list.children[k]) list.append(make("li"));
     setText(list.children[k], line);
-    setClass(list.children[k], data.choices[k].sensor ? "" : "is-bad");
+    setClass(list.children[k], lost(data.choices[k]) ? "is-bad" : "");
   });
 }
 
@@ -56,7 +59,7 @@ export function ports(data) {
   ]));
   fill(byId("outputs"), data.outputs.map(output));
   const { epochs, late, skipped } = data.schedule;
-  setText(byId("schedule"), `${count(epochs)} epochs, ${count(late)} late by more than 1 ms, ${count(skipped)} skipped`);
+  setText(byId("schedule"), !known(epochs) ? "" : `${count(epochs)} epochs, ${count(late)} late by more than 1 ms, ${count(skipped)} skipped`);
   show(byId("bus-card"), data.buses.length > 0);
   fill(byId("buses"), data.buses.map((bus) => [
     bus.port, state(bus.state, BUS_TONES), right(percent(bus.load)), right(rate(bus.rate_hz)),
@@ -100,7 +103,7 @@ export function measurements(data) {
     { text: causes(aid.reasons) || DASH, cls: "wrap" },
   ]));
   const { used, gaps, duplicates, out_of_order: late, out_of_range: wild } = data.samples;
-  setText(byId("samples"), `IMU: ${count(used)} samples, ${gaps} gaps, ${duplicates + late + wild} refused`);
+  setText(byId("samples"), known(used) ? `IMU: ${count(used)} samples, ${gaps} gaps, ${duplicates + late + wild} refused` : "");
   const newest = [...data.rejections].reverse();
   fill(byId("rejections"), newest.map((one) => [
     one.utc ? clock(one.utc) + one.utc.slice(19, 21) : `${fixed(one.at_s, 1)} s`, one.source, words(one.aid), words(one.reason),

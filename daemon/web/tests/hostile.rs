@@ -53,6 +53,8 @@ fn a_name_that_is_not_ours_is_refused() {
         let answer = ask(bad);
         assert!(answer.starts_with("HTTP/1.1 4"), "{bad}: {answer}");
         assert!(!answer.contains("heading"), "{bad}");
+        let is_named = answer.contains("the key `hosts` of the section [web]");
+        assert!(is_named || answer.starts_with("HTTP/1.1 400"), "{bad}: {answer}");
     }
     let line = "GET http://evil.example/api/v1/status HTTP/1.1\r\nhost: localhost\r\nconnection: close\r\n\r\n";
     assert!(house.raw(line).starts_with("HTTP/1.1 421"));

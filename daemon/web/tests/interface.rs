@@ -64,10 +64,19 @@ fn fields(value: &Value, all: &mut BTreeSet<String>) {
 fn what_is_published_is_what_is_read() {
     for scene in [Scene::Alignment, Scene::Underway, Scene::Fault] {
         let house = House::showing(scene, WebConfig::default());
-        let answer = house.get("/api/v1/status");
-        let read: Snapshot = serde_json::from_str(body(&answer)).unwrap();
+        let sent = Show::new(scene).next();
+        // until it is read before it has grown older
+        let read = loop {
+            house.publisher.publish(sent.clone());
+            std::thread::sleep(Duration::from_millis(60));
+            let answer = house.get("/api/v1/status");
+            let read: Snapshot = serde_json::from_str(body(&answer)).unwrap();
+            if read.time.told_ago_s == 0.0 {
+                break read;
+            }
+        };
         // once through JSON, whose reader may be off by the last bit of a number
-        let sent = serde_json::to_string(&Show::new(scene).next()).unwrap();
+        let sent = serde_json::to_string(&sent.after(0.0)).unwrap();
         assert!(read == serde_json::from_str(&sent).unwrap(), "{scene:?}");
     }
 }
@@ -181,7 +190,8 @@ fn without_a_token_nothing_can_be_changed() {
         assert!(house.post(path, Some(TOKEN), "").starts_with("HTTP/1.1 403"));
     }
     assert!(house.orders.poll().is_none());
-    assert_eq!(body(&house.get("/api/v1/orders")), r#"{"enabled":false}"#);
+    let why = r#"{"enabled":false,"why":"no token is configured"}"#;
+    assert_eq!(body(&house.get("/api/v1/orders")), why);
 }
 
 #[test]
@@ -235,14 +245,25 @@ fn files_are_sent_again_only_when_they_have_changed() {
 }
 
 #[test]
-fn a_token_that_could_be_guessed_and_an_address_in_use_are_refused() {
+fn with_a_token_that_could_be_guessed_the_page_is_read_only_and_says_why() {
+    let short = "fifteen letters";
+    let token = Some(short.to_owned());
+    let house = House::open(WebConfig { token, ..WebConfig::default() });
+    assert!(house.get("/").starts_with("HTTP/1.1 200"));
+    assert!(house.get("/api/v1/status").starts_with("HTTP/1.1 200"));
+    let why = "the token has 15 characters, 16 is the least";
+    assert!(house.get("/api/v1/orders").contains(why));
+    let answer = house.post("/api/v1/log-level", Some(short), "{\"level\":\"info\"}");
+    assert!(answer.starts_with("HTTP/1.1 403") && answer.contains(why), "{answer}");
+}
+
+#[test]
+fn an_address_in_use_is_refused() {
     let start = |config| {
         let (_publisher, viewer) = insd_web::channel();
         let (sender, _orders) = insd_web::orders::channel();
         insd_web::start(config, viewer, sender).map(|_| ())
     };
-    let config = WebConfig { token: Some("short".to_owned()), ..WebConfig::default() };
-    assert!(matches!(start(config), Err(WebError::ShortToken(5))));
     let house = House::open(WebConfig::default());
     let config = WebConfig { listen: Listen::Address(house.address), ..WebConfig::default() };
     assert!(matches!(start(config), Err(WebError::Bind { .. })));

@@ -144,6 +144,11 @@ impl Intake {
         Some(&self.core.sensors.get(choice.current()?)?.status)
     }
 
+    /// When each sensor spoke last, in the order of the configuration.
+    pub fn heard(&self) -> impl Iterator<Item = Option<Time>> + '_ {
+        self.core.sensors.iter().map(|sensor| sensor.status.heard)
+    }
+
     /// Everything there is to know of ports, sensors, choices and time.
     #[must_use]
     pub fn status(&self) -> IntakeStatus {

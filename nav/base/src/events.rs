@@ -208,7 +208,7 @@ impl fmt::Display for ModeReason {
         f.write_str(match self {
             ModeReason::ImuHeard => "the IMU sends data",
             ModeReason::ImuSilent => "the IMU is silent",
-            ModeReason::Level => "it is known which way is down: the heading is sought",
+            ModeReason::Level => "it is known which way is down",
             ModeReason::HeadingFound => "one heading is left",
             ModeReason::HeadingSettled => "the heading is as good as is asked for",
             ModeReason::HeadingUnsure => "the heading is not as sure any more as is asked for",

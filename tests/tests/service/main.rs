@@ -15,4 +15,7 @@ mod kill;
 mod manners;
 mod page;
 mod saving;
+#[path = "../../../daemon/web/tests/scene/mod.rs"]
+mod scene;
+mod screen;
 mod ship;

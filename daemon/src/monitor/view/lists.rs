@@ -1,6 +1,8 @@
 //! Sensors, ports, alerts and the journal.
 
-use insd_web::snapshot::{AlertPriority, AlertState, PortState, SensorState, Severity, Snapshot};
+use insd_web::snapshot::{
+    AlertPriority, AlertState, GONE, PortState, SensorState, Severity, Snapshot,
+};
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Rect};
 use ratatui::style::{Color, Style};
@@ -122,7 +124,15 @@ pub(super) fn alerts(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
             Line::styled(text, style)
         })
         .collect();
-    let text = if lines.is_empty() { Text::from(" none") } else { Text::from(lines) };
+    let room = usize::from(area.height.saturating_sub(2));
+    let mut lines = lines;
+    if lines.len() > room {
+        lines.truncate(room.saturating_sub(1));
+        let more = snapshot.alerts.len() - lines.len();
+        lines.push(Line::styled(format!(" and {more} more"), bad()));
+    }
+    let none = if snapshot.time.told_ago_s > GONE { " not known" } else { " none" };
+    let text = if lines.is_empty() { Text::from(none) } else { Text::from(lines) };
     frame.render_widget(Paragraph::new(text).block(panel("Alerts")), area);
 }
 

@@ -35,27 +35,47 @@ pub fn draw(frame: &mut Frame<'_>, board: &Board, url: &str) {
         frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
         return;
     }
-    let [title, mode, upper, sensors, ports, rest, keys] = Layout::vertical([
+    let wanted = [
+        2 + ship::ROWS,
+        2 + (snapshot.alerts.len() as u16).clamp(4, 8),
+        3 + snapshot.sensors.len() as u16,
+        3 + (snapshot.inputs.len() + snapshot.outputs.len()) as u16,
+    ];
+    let [ship, middle, sensors, ports] = granted(wanted, area.height - 3);
+    let [title, mode, ship, middle, sensors, ports, journal, keys] = Layout::vertical([
         Constraint::Length(1),
         Constraint::Length(1),
-        Constraint::Length(10),
-        Constraint::Length(snapshot.sensors.len() as u16 + 3),
-        Constraint::Length((snapshot.inputs.len() + snapshot.outputs.len()) as u16 + 3),
+        Constraint::Length(ship),
+        Constraint::Length(middle),
+        Constraint::Length(sensors),
+        Constraint::Length(ports),
         Constraint::Fill(1),
         Constraint::Length(1),
     ])
     .areas(area);
     head(frame, title, &snapshot, link);
     banner(frame, mode, &snapshot, link, age.as_secs_f64());
-    let [left, right] = Layout::horizontal([Constraint::Fill(1), Constraint::Fill(1)]).areas(upper);
-    ship::ship(frame, left, &snapshot);
+    ship::ship(frame, ship, &snapshot);
+    let [left, right] =
+        Layout::horizontal([Constraint::Fill(1), Constraint::Fill(1)]).areas(middle);
+    lists::alerts(frame, left, &snapshot);
     ship::state(frame, right, &snapshot);
     lists::sensors(frame, sensors, &snapshot);
     lists::ports(frame, ports, &snapshot);
-    let [left, right] = Layout::horizontal([Constraint::Fill(1), Constraint::Fill(1)]).areas(rest);
-    lists::alerts(frame, left, &snapshot);
-    lists::events(frame, right, &snapshot);
+    if journal.height > 2 {
+        lists::events(frame, journal, &snapshot);
+    }
     frame.render_widget(Line::styled(format!(" {url}   q or Ctrl-C ends"), dim()), keys);
+}
+
+/// Gives each part the rows that it wants as long as there are any, the first ones first. A part of which
+/// not even a line would be seen gets none.
+fn granted<const N: usize>(wanted: [u16; N], mut rows: u16) -> [u16; N] {
+    wanted.map(|own| {
+        let given = if rows > 3 { own.min(rows) } else { 0 };
+        rows -= given;
+        given
+    })
 }
 
 fn head(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot, link: Link) {
@@ -85,7 +105,7 @@ fn banner(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot, link: Link, ag
         Link::Live | Link::Connecting => None,
     };
     let (text, colour) = match old {
-        Some(what) => (format!(" {what}, what is shown is {} old", span(age)), Color::Red),
+        Some(what) => (format!(" {what}: nothing is known for {}", span(age)), Color::Red),
         None => {
             let reason = mode.reason.as_deref().unwrap_or_default();
             (format!(" {}  {reason}", word(&mode.name).to_uppercase()), colour(&mode.name))
@@ -93,8 +113,10 @@ fn banner(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot, link: Link, ag
     };
     let style = Style::new().fg(Color::Black).bg(colour).bold();
     frame.render_widget(Line::styled(text, style).style(style), area);
-    let since = format!("for {} ", span(mode.since_s));
-    frame.render_widget(Line::styled(since, style).right_aligned(), area);
+    if old.is_none() {
+        let since = format!("for {} ", span(mode.since_s));
+        frame.render_widget(Line::styled(since, style).right_aligned(), area);
+    }
 }
 
 /// Green may be used, yellow with care, cyan not yet, red not at all.

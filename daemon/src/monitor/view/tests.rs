@@ -14,8 +14,14 @@ fn drawn(board: &Board, width: u16, height: u16) -> String {
 }
 
 fn board() -> Board {
-    let motion =
-        Motion { heading_deg: Some(62.04), sigma_heading_deg: Some(0.062), ..Motion::default() };
+    let motion = Motion {
+        heading_deg: Some(62.04),
+        sigma_heading_deg: Some(0.062),
+        speed_kn: Some(12.6),
+        course_deg: Some(64.2),
+        pitch_deg: Some(-1.25),
+        ..Motion::default()
+    };
     let sensor = Sensor { name: "imu".to_owned(), state: SensorState::Silent, ..Sensor::default() };
     let alert = Alert {
         title: "Heading lost".to_owned(),
@@ -41,6 +47,31 @@ fn the_picture_shows_ship_sensors_and_alerts() {
     for text in ["DEAD RECKONING", "62.04°", "± 0.062", "silent", "warning Heading lost"] {
         assert!(picture.contains(text), "{text} is not in\n{picture}");
     }
+}
+
+#[test]
+fn at_80_by_24_speed_course_pitch_and_alerts_are_seen() {
+    let mut snapshot = board().snapshot().unwrap();
+    let input = insd_web::snapshot::Input { name: "port".to_owned(), ..Default::default() };
+    snapshot.inputs = vec![input; 9];
+    snapshot.sensors = vec![snapshot.sensors[0].clone(); 7];
+    let board = Board::default();
+    board.connect();
+    board.take("snapshot", &serde_json::to_string(&snapshot).unwrap());
+    let picture = drawn(&board, 80, 24);
+    for text in ["12.60 kn", "64.2°", "-1.25°", "62.04°", "warning Heading lost", "imu"] {
+        assert!(picture.contains(text), "{text} is not in\n{picture}");
+    }
+}
+
+#[test]
+fn of_many_alerts_as_many_are_seen_as_there_is_room_for_and_the_rest_is_counted() {
+    let mut snapshot = board().snapshot().unwrap();
+    snapshot.alerts = vec![snapshot.alerts[0].clone(); 12];
+    let board = Board::default();
+    board.connect();
+    board.take("snapshot", &serde_json::to_string(&snapshot).unwrap());
+    assert!(drawn(&board, 100, 40).contains("and 5 more"));
 }
 
 #[test]

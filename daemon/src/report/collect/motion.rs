@@ -13,6 +13,8 @@ const PACE: Span = Span::from_nanos(1_000_000_000);
 const PLACES: usize = 4096;
 /// Speed below which a ship covers no ground but sways, m/s.
 const UNDER_WAY: f64 = 0.1;
+/// Heading sigma below which a heading is one to steer by, as the engine has it, rad.
+const STEERABLE: f64 = 1.0 * DEG;
 /// A solution that is missing for longer than this is a gap, s.
 const GAP: f64 = 2.0;
 
@@ -126,7 +128,9 @@ impl Motion {
 
     /// Takes a solution; gives the time since the last, s, unless there was a gap.
     pub(crate) fn solution(&mut self, solution: &Solution) -> Option<f64> {
-        let (time, navigating) = (solution.time, solution.mode.is_navigating());
+        let time = solution.time;
+        let steerable = self.navigated.is_some() || solution.sigma.heading <= STEERABLE;
+        let navigating = solution.mode.is_navigating() && steerable;
         self.solutions += 1;
         self.first.get_or_insert(time);
         if navigating {

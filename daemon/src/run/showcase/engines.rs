@@ -4,20 +4,20 @@ use insd_base::units::{DEG, DEG_PER_HOUR, MICRO_G};
 use insd_base::{self as base, Body};
 use insd_web::snapshot::{Disturbance, DisturbanceAxis, Engine, Estimate, Estimates};
 
-use super::super::report::Slow;
-use crate::redundancy::EngineStatus;
+use super::super::report::Report;
+use crate::redundancy::{Dispute, EngineStatus};
 
 /// Parts of a ratio in a million.
 const PPM: f64 = 1e-6;
 
 /// The engines, if there are several.
-pub(super) fn engines(slow: &Slow) -> Vec<Engine> {
-    let several = slow.engines.iter().filter(|_| slow.engines.len() > 1);
-    several.map(|status| engine(status, slow)).collect()
+pub(super) fn engines(report: &Report, disputes: &[Dispute]) -> Vec<Engine> {
+    let several = report.engines.iter().filter(|_| report.engines.len() > 1);
+    several.map(|status| engine(status, disputes)).collect()
 }
 
-fn engine(status: &EngineStatus, slow: &Slow) -> Engine {
-    let own = slow.disputes.iter().filter(|dispute| dispute.between.contains(&status.name));
+fn engine(status: &EngineStatus, disputes: &[Dispute]) -> Engine {
+    let own = disputes.iter().filter(|dispute| dispute.between.contains(&status.name));
     let mut differs: Vec<String> =
         own.map(|dispute| dispute.difference.quantity.as_str().to_owned()).collect();
     differs.dedup();
@@ -27,6 +27,7 @@ fn engine(status: &EngineStatus, slow: &Slow) -> Engine {
         mode: status.mode.as_str().to_owned(),
         in_use: status.chosen,
         healthy: status.doubt.is_none() && status.motion.is_some(),
+        valid_at_s: solution.map(|solution| solution.time.as_seconds()),
         heading_deg: solution.map(|solution| solution.attitude.heading / DEG),
         sigma_heading_deg: solution.map(|solution| solution.sigma.heading / DEG),
         differs,

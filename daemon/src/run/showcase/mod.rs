@@ -5,13 +5,16 @@ mod aids;
 mod alerts;
 mod alignment;
 mod engines;
+mod meaning;
 mod ports;
 mod program;
 mod rates;
 mod sensors;
 mod ship;
+#[cfg(test)]
+mod tests;
 
-use insd_base::{Event, Span, Time, UtcTime};
+use insd_base::{Event, ModeReason, Span, Time, UtcTime};
 use insd_engine::Output;
 use insd_web::Publisher;
 use insd_web::snapshot::{MAX_MODES, MAX_REJECTIONS, Mode, Rejected, Snapshot, Transition};
@@ -23,6 +26,7 @@ use crate::calendar;
 use crate::config::Config;
 use crate::logging::Log;
 use crate::pipeline::{Obeyed, Product};
+use crate::redundancy::Dispute;
 
 use aids::Aids;
 pub(super) use program::{Origin, hash};
@@ -35,8 +39,11 @@ pub(super) struct Showcase {
     origin: Origin,
     config: Config,
     shown: Snapshot,
-    /// When the mode changed last.
+    /// When the mode that is shown changed last, and to which.
     mode_since: Time,
+    mode_told: String,
+    /// What engines were found to differ in, when that was looked at last.
+    disputes: Vec<Dispute>,
     aids: Aids,
     input_rates: Rates,
     sensor_rates: Rates,
@@ -59,6 +66,8 @@ impl Showcase {
             origin,
             config: config.clone(),
             mode_since: Time::START,
+            mode_told: String::new(),
+            disputes: Vec::new(),
             aids: Aids::default(),
             input_rates: Rates::default(),
             sensor_rates: Rates::default(),
@@ -77,12 +86,10 @@ impl Showcase {
     fn hear_event(&mut self, event: &Event) {
         match event {
             Event::ModeChanged { time, from, to, why } => {
-                self.mode_since = *time;
                 let reason = Some(why.to_string());
                 self.shown.mode.reason.clone_from(&reason);
                 let from = from.map(|from| from.as_str().to_owned());
-                let (at_s, utc, to) = (time.as_seconds(), self.utc(*time), to.as_str().to_owned());
-                keep(&mut self.shown.modes, Transition { at_s, utc, from, to, reason }, MAX_MODES);
+                self.enter(*time, from, to.as_str(), reason);
             }
             Event::Rejected { time, source, aid, reason } => {
                 let rejected = Rejected {
@@ -95,6 +102,34 @@ impl Showcase {
                 keep(&mut self.shown.rejections, rejected, MAX_REJECTIONS);
             }
             _ => {}
+        }
+    }
+
+    /// Another mode is shown from here on.
+    fn enter(&mut self, time: Time, from: Option<String>, to: &str, reason: Option<String>) {
+        if self.mode_told == to {
+            return;
+        }
+        to.clone_into(&mut self.mode_told);
+        self.mode_since = time;
+        let (at_s, utc, to) = (time.as_seconds(), self.utc(time), to.to_owned());
+        keep(&mut self.shown.modes, Transition { at_s, utc, from, to, reason }, MAX_MODES);
+    }
+
+    /// The mode as everybody sees it may be another than the engine's, which does not know how late it is:
+    /// that change, and the one back, are told with the others.
+    fn follow_mode(&mut self, now: Time) {
+        let seen = self.shown.after(0.0).mode;
+        // before the first word of the engine there is none to differ from
+        if seen.name == self.mode_told || self.mode_told.is_empty() {
+            return;
+        }
+        let from = Some(self.mode_told.clone());
+        if seen.name == self.shown.mode.name {
+            self.enter(now, from, &seen.name, Some(ModeReason::ImuHeard.to_string()));
+        } else {
+            let since = now + Span::from_seconds(-seen.since_s);
+            self.enter(since, from, &seen.name, seen.reason);
         }
     }
 
@@ -113,7 +148,7 @@ impl Showcase {
         shown.aids = self.aids.aids(&slow.counts, now);
         shown.samples = aids::samples(&slow.counts);
         shown.recording = program::recording(&self.config, slow);
-        shown.engines = engines::engines(slow);
+        self.disputes.clone_from(&slow.disputes);
         shown.estimates = slow.estimates.as_ref().map(engines::estimates);
         if let Some(disturbance) = &slow.disturbance {
             shown.disturbance = Some(engines::disturbance(disturbance));
@@ -145,6 +180,9 @@ impl Showcase {
         let status = report.alignment.as_ref();
         self.shown.alignment = status.map(|own| alignment::alignment(own, now, |t| self.utc(t)));
         self.shown.alerts = self.alerts.alerts(report);
+        self.shown.engines = engines::engines(report, &self.disputes);
+        let rows = self.shown.sensors.iter_mut().zip(&report.heard);
+        rows.for_each(|(row, heard)| row.age_s = age(now, *heard));
     }
 }
 
@@ -171,6 +209,9 @@ impl Audience for Showcase {
         if let Some(slow) = &report.slow {
             self.see_slow(report, slow);
         }
+        let now = self.origin.clock.now().monotonic;
+        self.shown.time.told_ago_s = (now - report.stamp.monotonic).as_seconds().max(0.0);
+        self.follow_mode(report.stamp.monotonic);
         self.publisher.publish(self.shown.clone());
     }
 }

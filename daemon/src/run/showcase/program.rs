@@ -11,6 +11,7 @@ use rustix::time::{ClockId, clock_gettime};
 
 use super::super::report::Slow;
 use crate::calendar;
+use crate::clock::HostClock;
 use crate::config::Config;
 use crate::state::SaverState;
 
@@ -20,6 +21,8 @@ const PAGE: u64 = 4096;
 /// Where the program came from.
 #[derive(Clone, Debug)]
 pub(in crate::run) struct Origin {
+    /// The clocks of the ship's time line.
+    pub(in crate::run) clock: HostClock,
     pub(in crate::run) started: Stamp,
     pub(in crate::run) configuration: Option<PathBuf>,
     pub(in crate::run) hash: String,

@@ -8,6 +8,7 @@ use insd_web::snapshot::{Cause, Choice, Sensor, SensorState};
 
 use super::super::report::Slow;
 use super::age;
+use super::meaning::meaning;
 use super::rates::Rates;
 use crate::config::Config;
 
@@ -25,6 +26,7 @@ pub(super) fn sensors(config: &Config, slow: &Slow, rates: &Rates, now: Time) ->
             rate_hz: rates.rate(index),
             age_s: age(now, status.heard),
             status_word: status.heard.map(|_| status.status),
+            status: status.heard.map(|_| meaning(section.kind, status.status)).unwrap_or_default(),
             temperature_c: status.temperature,
             used_for: choices.iter().map(|choice| quantity(choice)).collect(),
             why: choices.first().and_then(|choice| why(choice)),

@@ -1,9 +1,9 @@
 //! Where the ship is, how she moves and lies.
 
 use insd_base::units::{DEG, KNOT, wrap_two_pi};
-use insd_base::{HeaveQuality, Motion, Time};
+use insd_base::{HeaveQuality, Motion, Solution, Time};
 use insd_output::{Ellipse, Policy};
-use insd_web::snapshot::{Heave, Motion as Shown};
+use insd_web::snapshot::{Freshness, Heave, Motion as Shown};
 
 /// What is shown of a motion, at the IMU.
 pub(super) fn motion(
@@ -27,6 +27,7 @@ pub(super) fn motion(
     });
     Shown {
         valid_at_s: solution.time.as_seconds(),
+        freshness: Freshness::Fresh,
         valid_utc: utc(solution.time),
         point: None,
         lat_deg: Some(position.latitude / DEG),
@@ -61,12 +62,19 @@ pub(super) fn motion(
         sigma_heading_deg: Some(sigma.heading / DEG),
         heading_quality: Some(word(&policy.heading(solution))),
         position_quality: Some(word(&policy.quality(solution))),
+        velocity_quality: Some(word(&policy.velocity(solution))),
+        level_quality: Some(level(&policy, solution)),
     }
+}
+
+fn level(policy: &Policy, solution: &Solution) -> String {
+    if policy.is_level(solution) { "valid" } else { "not_valid" }.to_owned()
 }
 
 fn shown_heave(heave: &insd_base::Heave) -> Heave {
     let delayed = heave.delayed.as_ref();
     Heave {
+        valid_at_s: heave.time.as_seconds(),
         heave_m: Some(heave.heave),
         sigma_heave_m: Some(heave.sigma),
         quality: match heave.quality {

@@ -8,6 +8,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use axum::http::HeaderMap;
 use axum::http::header::AUTHORIZATION;
 
+use crate::config::MIN_TOKEN;
+
 /// Wrong tokens after which a client is not listened to for a while.
 const PATIENCE: u32 = 10;
 /// Clients whose wrong tokens are counted each for itself.
@@ -17,6 +19,8 @@ const CLIENTS: usize = 256;
 #[derive(Debug)]
 pub(super) struct Access {
     token: Option<String>,
+    /// Why there is none.
+    read_only: Option<String>,
     hosts: Vec<String>,
     failures: Mutex<HashMap<IpAddr, u32>>,
 }
@@ -35,12 +39,24 @@ pub(super) enum Denied {
 impl Access {
     pub(super) fn new(token: Option<String>, hosts: &[String]) -> Self {
         let hosts = hosts.iter().map(|host| host.to_ascii_lowercase()).collect();
-        Access { token, hosts, failures: Mutex::default() }
+        // by a token that can be guessed nobody may change anything, and all may look
+        let read_only = match token.as_ref().map(|token| token.chars().count()) {
+            None => Some("no token is configured".to_owned()),
+            Some(length) if length < MIN_TOKEN => {
+                tracing::error!(
+                    "the token has {length} characters, {MIN_TOKEN} is the least: the page is read only"
+                );
+                Some(format!("the token has {length} characters, {MIN_TOKEN} is the least"))
+            }
+            Some(_) => None,
+        };
+        let token = token.filter(|_| read_only.is_none());
+        Access { token, read_only, hosts, failures: Mutex::default() }
     }
 
-    /// Whether anything can be changed at all.
-    pub(super) fn has_token(&self) -> bool {
-        self.token.is_some()
+    /// Why nothing can be changed at all; `None` if it can.
+    pub(super) fn read_only(&self) -> Option<&str> {
+        self.read_only.as_deref()
     }
 
     /// Whether the page is asked for under a name that it may have. A bare address is always one: what

@@ -88,7 +88,7 @@ async fn give(
     order: impl FnOnce() -> Result<Order, String>,
 ) -> Response {
     if let Err(denied) = hall.access.check(headers, peer.0.ip()) {
-        return deny(denied);
+        return deny(denied, hall.access.read_only());
     }
     let order = match order() {
         Ok(order) => order,
@@ -103,10 +103,11 @@ async fn give(
     }
 }
 
-fn deny(denied: Denied) -> Response {
+fn deny(denied: Denied, read_only: Option<&str>) -> Response {
     match denied {
         Denied::Disabled => {
-            fault(StatusCode::FORBIDDEN, "nothing can be changed here: no token is configured")
+            let why = read_only.unwrap_or_default();
+            fault(StatusCode::FORBIDDEN, &format!("nothing can be changed here: {why}"))
         }
         Denied::WrongToken => {
             let text = "a token is needed: Authorization: Bearer TOKEN";

@@ -5,11 +5,12 @@ use std::sync::atomic::Ordering;
 
 use axum::Json;
 use axum::body::{Body, Bytes};
-use axum::extract::State;
+use axum::extract::{Query, State};
 use axum::http::StatusCode;
 use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse, Response};
 
+use serde::Deserialize;
 use serde_json::json;
 
 use super::guard::fault;
@@ -30,13 +31,24 @@ pub(super) async fn track(State(hall): State<Arc<Hall>>) -> Response {
     body(JSON, hall.track())
 }
 
-pub(super) async fn history(State(hall): State<Arc<Hall>>) -> Response {
-    body(JSON, hall.history())
+/// Which history is asked for: `step` is the time between its rows, s.
+#[derive(Debug, Deserialize)]
+pub(super) struct Past {
+    step: Option<u32>,
 }
 
-/// Whether anything can be changed here, with a token.
+pub(super) async fn history(State(hall): State<Arc<Hall>>, Query(past): Query<Past>) -> Response {
+    match past.step {
+        None | Some(1) => body(JSON, hall.history(false)),
+        Some(10) => body(JSON, hall.history(true)),
+        Some(_) => fault(StatusCode::BAD_REQUEST, "step: 1 or 10"),
+    }
+}
+
+/// Whether anything can be changed here, with a token, and why not.
 pub(super) async fn orders(State(hall): State<Arc<Hall>>) -> Response {
-    Json(json!({ "enabled": hall.access.has_token() })).into_response()
+    let why = hall.access.read_only();
+    Json(json!({ "enabled": why.is_none(), "why": why })).into_response()
 }
 
 pub(super) async fn schema() -> Response {

@@ -1,11 +1,10 @@
 //! A snapshot as it leaves: each form is made once, when the first client asks for it, and shared by all.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use axum::body::Bytes;
 use serde::Serialize;
 
-use crate::channel::Numbered;
 use crate::snapshot::{Alignment, Mode, Motion, Snapshot, TimeInfo};
 
 use super::metrics;
@@ -13,7 +12,8 @@ use super::metrics;
 /// A snapshot and its forms.
 #[derive(Debug)]
 pub(super) struct Frame {
-    source: Arc<Numbered>,
+    number: u64,
+    snapshot: Snapshot,
     json: OnceLock<Bytes>,
     whole: OnceLock<Bytes>,
     live: OnceLock<Bytes>,
@@ -31,9 +31,11 @@ struct Live<'a> {
 }
 
 impl Frame {
-    pub(super) fn new(source: Arc<Numbered>) -> Self {
+    /// A snapshot as it is to be shown now, and its number.
+    pub(super) fn new(number: u64, snapshot: Snapshot) -> Self {
         Frame {
-            source,
+            number,
+            snapshot,
             json: OnceLock::new(),
             whole: OnceLock::new(),
             live: OnceLock::new(),
@@ -42,11 +44,11 @@ impl Frame {
     }
 
     pub(super) fn number(&self) -> u64 {
-        self.source.number
+        self.number
     }
 
     pub(super) fn snapshot(&self) -> &Snapshot {
-        &self.source.snapshot
+        &self.snapshot
     }
 
     /// All of it as JSON.

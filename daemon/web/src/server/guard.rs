@@ -19,6 +19,9 @@ use super::hall::Hall;
 /// How long an answer may take; the stream's begins at once.
 const PATIENCE: Duration = Duration::from_secs(10);
 
+/// What is said to who asks for the page under another name; `hosts` is a key of the configuration.
+const UNKNOWN_HOST: &str = "unknown host name: the page is served under names that the key `hosts` of the section [web] lists";
+
 /// Scripts, styles and pictures come from here and nowhere else, and nobody puts the page in a frame.
 const POLICY: &str = "default-src 'self'; base-uri 'none'; form-action 'none'; \
     frame-ancestors 'none'; object-src 'none'";
@@ -40,7 +43,7 @@ pub(super) async fn guard(State(hall): State<Arc<Hall>>, request: Request, next:
         let answer = tokio::time::timeout(PATIENCE, next.run(request)).await;
         answer.unwrap_or_else(|_| fault(StatusCode::REQUEST_TIMEOUT, "the request took too long"))
     } else {
-        fault(StatusCode::MISDIRECTED_REQUEST, "unknown host name; see allowed_hosts")
+        fault(StatusCode::MISDIRECTED_REQUEST, UNKNOWN_HOST)
     };
     let headers = response.headers_mut();
     headers.extend(HEADERS);

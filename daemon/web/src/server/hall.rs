@@ -6,9 +6,9 @@ use std::time::Duration;
 
 use axum::body::Bytes;
 use tokio::sync::watch;
-use tokio::time::{MissedTickBehavior, interval};
+use tokio::time::{Instant, MissedTickBehavior, interval};
 
-use crate::channel::Viewer;
+use crate::channel::{Numbered, Viewer};
 use crate::orders::OrderSender;
 use crate::snapshot::Snapshot;
 
@@ -19,8 +19,11 @@ use super::track::Track;
 
 /// How often it is looked whether there is a new snapshot.
 const LOOK: Duration = Duration::from_millis(50);
-/// Looks without anything new after which the engine is taken as dead: 2 s.
-const PATIENCE: u32 = 40;
+/// Time without anything new after which the engine is taken as dead.
+const PATIENCE: Duration = Duration::from_secs(2);
+/// Time without anything new after which what is there is shown again, older, and then again and again.
+const SOON: Duration = Duration::from_millis(250);
+const AGAIN: Duration = Duration::from_millis(100);
 /// Looks after which one wrong token of each client is forgotten: 6 s.
 const FORGET: u32 = 120;
 
@@ -35,10 +38,10 @@ pub(super) struct Hall {
     pub(super) orders: OrderSender,
 }
 
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Past {
     track: Track,
-    history: History,
+    histories: [History; 2],
 }
 
 impl Hall {
@@ -46,7 +49,7 @@ impl Hall {
         Hall {
             frames: watch::Sender::new(None),
             alive: AtomicBool::new(false),
-            past: Mutex::default(),
+            past: Mutex::new(Past { track: Track::default(), histories: History::both() }),
             clients: AtomicUsize::new(0),
             access: Access::new(token, hosts),
             orders,
@@ -72,14 +75,23 @@ impl Hall {
         self.past().track.json()
     }
 
-    pub(super) fn history(&self) -> Bytes {
-        self.past().history.json()
+    /// The finer history, or the coarser one.
+    pub(super) fn history(&self, is_coarse: bool) -> Bytes {
+        let [fine, coarse] = &mut self.past().histories;
+        if is_coarse { coarse.json() } else { fine.json() }
+    }
+
+    /// Shows what was seen as it is now.
+    fn show(&self, seen: &Seen, now: Instant) {
+        let snapshot = seen.source.snapshot.after((now - seen.at).as_secs_f64());
+        self.note(&snapshot);
+        self.frames.send_replace(Some(Arc::new(Frame::new(seen.source.number, snapshot))));
     }
 
     fn note(&self, snapshot: &Snapshot) {
         let mut past = self.past();
         past.track.note(snapshot);
-        past.history.note(snapshot);
+        past.histories.iter_mut().for_each(|history| history.note(snapshot));
     }
 
     /// Only this thread ever takes it, and never across a wait.
@@ -88,25 +100,37 @@ impl Hall {
     }
 }
 
+/// The newest snapshot, when it was seen first, and when it was shown last.
+struct Seen {
+    source: Arc<Numbered>,
+    at: Instant,
+    shown: Instant,
+}
+
 /// Looks for new snapshots for ever. It looks rather than being woken, so that the engine need not wake
-/// anybody.
+/// anybody. When none comes the last one is shown again and again, each time older.
 pub(super) async fn pump(viewer: &Viewer, hall: &Hall) {
     let mut ticks = interval(LOOK);
     ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
-    let (mut number, mut idle, mut looks) = (None, PATIENCE, 0_u32);
+    let (mut seen, mut looks): (Option<Seen>, u32) = (None, 0);
     loop {
-        ticks.tick().await;
+        let now = ticks.tick().await;
         looks = (looks + 1) % FORGET;
         if looks == 0 {
             hall.access.forget();
         }
+        let number = seen.as_ref().map(|seen| seen.source.number);
         let latest = viewer.latest().filter(|latest| Some(latest.number) != number);
-        idle = if latest.is_some() { 0 } else { idle.saturating_add(1) };
-        hall.alive.store(idle < PATIENCE, Ordering::Relaxed);
-        if let Some(latest) = latest {
-            number = Some(latest.number);
-            hall.note(&latest.snapshot);
-            hall.frames.send_replace(Some(Arc::new(Frame::new(latest))));
+        if let Some(source) = latest {
+            hall.show(seen.insert(Seen { source, at: now, shown: now }), now);
         }
+        if let Some(own) =
+            seen.as_mut().filter(|own| now - own.at >= SOON && now - own.shown >= AGAIN)
+        {
+            own.shown = now;
+            hall.show(own, now);
+        }
+        let is_alive = seen.as_ref().is_some_and(|seen| now - seen.at < PATIENCE);
+        hall.alive.store(is_alive, Ordering::Relaxed);
     }
 }

@@ -26,7 +26,7 @@ use tokio::runtime::{Builder, Runtime};
 use tokio::sync::watch;
 
 use crate::channel::Viewer;
-use crate::config::{Listen, MIN_TOKEN, WebConfig, WebError};
+use crate::config::{Listen, WebConfig, WebError};
 use crate::orders::OrderSender;
 
 use hall::Hall;
@@ -63,15 +63,12 @@ impl Drop for WebHandle {
 /// Starts the page on a thread of its own.
 ///
 /// # Errors
-/// The address cannot be listened at, the token is too short, or the system grants no thread.
+/// The address cannot be listened at, or the system grants no thread.
 pub fn start(
     config: WebConfig,
     viewer: Viewer,
     orders: OrderSender,
 ) -> Result<WebHandle, WebError> {
-    if let Some(length) = config.token.as_ref().map(String::len).filter(|l| *l < MIN_TOKEN) {
-        return Err(WebError::ShortToken(length));
-    }
     let listener = match config.listen {
         Listen::Inherited(listener) => listener,
         Listen::Address(address) => {

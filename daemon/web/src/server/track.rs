@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::snapshot::Snapshot;
 
 use super::frame::json;
+use super::history::BACK;
 
 /// Most points: five and a half hours under way, days at the berth.
 const POINTS: usize = 4000;
@@ -46,7 +47,7 @@ struct Columns {
 impl Track {
     /// Takes note of a snapshot, if the ship has moved or time has gone.
     pub(super) fn note(&mut self, snapshot: &Snapshot) {
-        let place = snapshot.motion.as_ref().and_then(|motion| motion.lat_deg.zip(motion.lon_deg));
+        let place = snapshot.present().and_then(|motion| motion.lat_deg.zip(motion.lon_deg));
         let Some((lat, lon)) = place.filter(|(lat, lon)| lat.is_finite() && lon.is_finite()) else {
             return;
         };
@@ -82,7 +83,7 @@ impl Track {
 /// Time that goes back is that of another start: it counts as gone.
 fn is_due(last: &Point, next: &Point) -> bool {
     let passed = next.at - last.at;
-    !(0.0..LATE).contains(&passed) || (passed >= SOON && way(last, next) >= STEP)
+    !(BACK..LATE).contains(&passed) || (passed >= SOON && way(last, next) >= STEP)
 }
 
 /// Way between two points close by, m, as if the Earth were flat there.

@@ -7,8 +7,11 @@
 //! too. UTC is text as of RFC 3339 with milliseconds (`2026-11-21T12:00:00.000Z`). `_at_s` is an instant of
 //! the ship's own time line: seconds since the program started, which never step.
 //!
+//! Everything that is told has an age, and what is too old is not told: [`Snapshot::after`].
+//!
 //! Within [`VERSION`] fields and words are only ever added; readers ignore what they do not know.
 
+mod age;
 mod aids;
 mod alerts;
 mod alignment;
@@ -17,6 +20,7 @@ mod program;
 mod sensors;
 mod ship;
 
+pub use age::{Freshness, GONE, OLD};
 pub use aids::{Aid, Cause, Rejected, Samples};
 pub use alerts::{Alert, AlertPriority, AlertState, Event, Severity};
 pub use alignment::{Alignment, Disturbance, DisturbanceAxis};

@@ -36,6 +36,8 @@ pub struct Program {
 pub struct TimeInfo {
     /// Now, on the ship's time line, s.
     pub at_s: f64,
+    /// How long ago the navigator told what stands here, s; close to zero while it runs.
+    pub told_ago_s: f64,
     /// UTC now, if it is known.
     pub utc: Option<String>,
     /// UTC as the computer's own clock has it.
@@ -89,6 +91,8 @@ pub struct Engine {
     pub in_use: bool,
     /// Whether it takes part in the comparison.
     pub healthy: bool,
+    /// Time of validity of its heading, on the ship's time line, s.
+    pub valid_at_s: Option<f64>,
     /// Its heading, deg.
     pub heading_deg: Option<f64>,
     /// 1-sigma of that, deg.

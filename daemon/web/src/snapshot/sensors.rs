@@ -42,6 +42,8 @@ pub struct Sensor {
     pub age_s: Option<f64>,
     /// Its status word, if its format has one.
     pub status_word: Option<u32>,
+    /// What that word says, one entry for each thing that is worth telling; empty where it is not known.
+    pub status: Vec<String>,
     /// Temperature, deg C, if it tells.
     pub temperature_c: Option<f64>,
     /// Quantities that it is used for: `inertial`, `gnss`, `bottom_velocity`, `water_velocity`,

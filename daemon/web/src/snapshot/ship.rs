@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::age::Freshness;
+
 /// Where the ship is, how she moves and lies, at the IMU or the point named, and how sure that is. All
 /// sigmas are 1-sigma.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
@@ -9,6 +11,8 @@ use serde::{Deserialize, Serialize};
 pub struct Motion {
     /// Time of validity, on the ship's time line, s.
     pub valid_at_s: f64,
+    /// Whether that may be taken as the present: `fresh`, or `old` for a moment before it is gone.
+    pub freshness: Freshness,
     /// The same in UTC, if it is known.
     pub valid_utc: Option<String>,
     /// The point that it is told of; `None` for the IMU.
@@ -78,12 +82,18 @@ pub struct Motion {
     /// How GGA would judge the position: `rtk_fixed`, `rtk_float`, `differential`, `autonomous`,
     /// `estimated`, `invalid`, `simulated`.
     pub position_quality: Option<String>,
+    /// How VTG would judge course and speed: `autonomous`, `differential`, ..., `not_valid`.
+    pub velocity_quality: Option<String>,
+    /// Whether roll and pitch are good enough to be sent: `valid`, `not_valid`.
+    pub level_quality: Option<String>,
 }
 
 /// Heave: its mean over many waves is zero.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Heave {
+    /// Time of validity of the heave in real time, on the ship's time line, s.
+    pub valid_at_s: f64,
     /// In real time, m, up positive.
     pub heave_m: Option<f64>,
     /// 1-sigma, m.

@@ -10,6 +10,7 @@
 
 mod driver;
 mod live;
+mod look;
 mod pictures;
 #[path = "../scene/mod.rs"]
 mod scene;
@@ -18,6 +19,17 @@ use driver::Browser;
 use live::{Live, TOKEN};
 use scene::Scene;
 use serde_json::Value;
+
+/// From the brightest to the dimmest.
+const LIGHTS: [&str; 3] = ["day", "dusk", "night"];
+
+/// Chooses an option.
+fn choose(browser: &Browser, select: &str, option: &str) {
+    browser.run(&format!(
+        "const s = document.getElementById('{select}'); s.value = '{option}';
+         s.dispatchEvent(new Event('change'))"
+    ));
+}
 
 /// A browser that looks at a scene.
 fn looking_at(scene: Scene) -> (Live, Browser) {
@@ -83,7 +95,9 @@ fn what_is_old_never_looks_as_if_it_were_new() {
     browser.until("the silence is told", || browser.text("#link") == "no new data");
     let faded = "return getComputedStyle(document.querySelector('main')).filter";
     assert_eq!(browser.run(faded), Value::String("grayscale(1)".to_owned()));
-    assert!(browser.text("#lost").contains("is old"));
+    assert!(browser.text("#lost").contains("Nothing below is the present"));
+    assert_eq!(browser.text("#rose .big"), "–");
+    assert!(browser.text("#mode-chip strong").contains("fault"));
     live.be_still(false);
     browser.until("it is new again", || browser.text("#link") == "live");
     assert_eq!(browser.run(faded), Value::String("none".to_owned()));
@@ -94,7 +108,7 @@ fn what_is_old_never_looks_as_if_it_were_new() {
 fn nobody_else_is_asked_for_anything_and_nothing_is_complained_of() {
     for scene in [Scene::Alignment, Scene::Underway, Scene::Fault] {
         let (live, browser) = looking_at(scene);
-        for theme in ["night", "dusk", "day"] {
+        for theme in LIGHTS {
             browser.run(&format!(
                 "const s = document.getElementById('theme'); s.value = '{theme}';
                  s.dispatchEvent(new Event('change'))"
@@ -160,10 +174,13 @@ fn nothing_goes_beyond_the_edge_of_any_screen() {
 fn words_can_be_told_from_their_ground_in_every_light() {
     let (_live, browser) = looking_at(Scene::Fault);
     browser.until("alerts", || !browser.elements(".alert .acknowledge").is_empty());
-    for theme in ["day", "night", "dusk"] {
-        browser.run(&format!("document.documentElement.dataset.theme = '{theme}'"));
-        let faint = browser.run(include_str!("contrast.js"));
-        assert_eq!(faint, serde_json::json!([]), "{theme}: contrast below 4.5");
+    for view in ["page", "bridge"] {
+        choose(&browser, "view", view);
+        for light in LIGHTS {
+            choose(&browser, "theme", light);
+            let faint = browser.run(include_str!("contrast.js"));
+            assert_eq!(faint, serde_json::json!([]), "{light}, {view}: contrast below 4.5");
+        }
     }
 }
 
@@ -176,10 +193,13 @@ fn unknown_is_a_dash() {
     let listen = insd_web::Listen::Inherited(listener);
     let config = insd_web::WebConfig { listen, ..Default::default() };
     let page = insd_web::start(config, viewer, sender).unwrap();
-    publisher.publish(insd_web::snapshot::Snapshot::default());
+    let publish = || publisher.publish(insd_web::snapshot::Snapshot::default());
     let browser = Browser::start();
     browser.go(&format!("http://{}/", page.address()));
-    browser.until("data come", || browser.text("#link") == "live");
+    browser.until("data come", || {
+        publish();
+        browser.text("#link") == "no motion"
+    });
     let known = "return [...document.querySelectorAll('#ship [data-bind].num')]
         .map((node) => node.textContent).filter((text) => text !== '–')";
     browser.until("a picture", || browser.text("#rose .big") == "–");

@@ -8,19 +8,21 @@ use crate::live::Live;
 use crate::scene::{Scene, Show};
 
 /// Largest picture, bytes.
-const LARGEST: usize = 250_000;
+const LARGEST: usize = 300_000;
 
 /// Name, scene, size, light, and how far down.
 type Picture = (&'static str, Scene, [u32; 2], &'static str, &'static str);
 
-const PICTURES: [Picture; 7] = [
-    ("underway", Scene::Underway, [1600, 900], "day", "#ship"),
+const PICTURES: [Picture; 9] = [
+    ("underway", Scene::Underway, [1920, 1080], "day", "#ship"),
+    ("underway-dusk", Scene::Underway, [1600, 900], "dusk", "#ship"),
     ("underway-night", Scene::Underway, [1600, 900], "night", "#ship"),
+    ("bridge", Scene::Underway, [1920, 1080], "day", "#bridge"),
+    ("bridge-night", Scene::Fault, [1920, 1080], "night", "#bridge"),
     ("alignment", Scene::Alignment, [1280, 800], "day", "#alignment"),
-    ("fault", Scene::Fault, [1280, 860], "night", "#alerts"),
-    ("fault-dusk", Scene::Fault, [1280, 800], "dusk", "#ship"),
-    ("phone", Scene::Underway, [360, 780], "day", "#ship"),
-    ("phone-fault", Scene::Fault, [360, 780], "night", "#alerts"),
+    ("fault", Scene::Fault, [1280, 860], "dusk", "#alerts"),
+    ("phone", Scene::Underway, [390, 844], "day", "#ship"),
+    ("phone-sensors", Scene::Fault, [390, 844], "night", "#sensors"),
 ];
 
 #[test]
@@ -39,10 +41,13 @@ fn pictures() {
         let live = lives.iter().find(|(own, _)| *own == scene).map(|(_, live)| live).unwrap();
         browser.size(width, height);
         browser.go(&live.url());
-        browser.run(&format!("localStorage.setItem('theme', '{theme}')"));
+        let view = if place == "#bridge" { "bridge" } else { "page" };
+        browser.run(&format!(
+            "localStorage.setItem('theme', '{theme}'); localStorage.setItem('view', '{view}')"
+        ));
         browser.go(&live.url());
         browser.until("data come", || browser.text("#link") == "live");
-        let down = "if ('PLACE' !== '#ship') document.querySelector('PLACE').scrollIntoView()";
+        let down = "if (!['#ship', '#bridge'].includes('PLACE')) document.querySelector('PLACE').scrollIntoView()";
         browser.run(&down.replace("PLACE", place));
         std::thread::sleep(Duration::from_millis(2500));
         let png = browser.picture();

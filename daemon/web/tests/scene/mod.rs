@@ -3,6 +3,7 @@
 
 #![allow(dead_code)] // each test uses a part of it
 
+pub(crate) mod faults;
 mod plumbing;
 mod ship;
 
@@ -171,6 +172,7 @@ impl Show {
             mode: self.mode(t).name,
             in_use,
             healthy: off == 0.0,
+            valid_at_s: Some(motion.valid_at_s),
             heading_deg: motion.heading_deg.map(|heading| heading + off),
             sigma_heading_deg: motion.sigma_heading_deg,
             differs: if off == 0.0 { Vec::new() } else { vec!["heading".to_owned()] },
@@ -299,6 +301,7 @@ fn time(t: f64, scene: Scene) -> TimeInfo {
     let pulses = scene != Scene::Fault;
     TimeInfo {
         at_s: t,
+        told_ago_s: 0.0,
         utc: Some(utc(t)),
         system_utc: Some(utc(t + 0.012)),
         quality: if pulses { "pulses" } else { "messages" }.to_owned(),

@@ -41,7 +41,8 @@ fn sensors(t: f64, scene: Scene) -> Vec<Sensor> {
     };
     let mut imu = sensor("imu", "sbg", "imu", 200.0, &["inertial"]);
     imu.temperature_c = Some(41.3);
-    imu.status_word = Some(0x7F);
+    imu.status_word = Some(0x03FF);
+    imu.status = vec!["self-tests passed".to_owned()];
     let mut gnss = sensor("gnss", "ubx", "gnss", 5.0, &["gnss"]);
     gnss.fix = Some("differential".to_owned());
     gnss.satellites = Some(17);

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use insd_web::snapshot::{
-    Alignment, Disturbance, DisturbanceAxis, Estimate, Estimates, Heave, Motion,
+    Alignment, Disturbance, DisturbanceAxis, Estimate, Estimates, Freshness, Heave, Motion,
 };
 
 use super::{Scene, utc};
@@ -87,12 +87,16 @@ pub(super) fn motion(t: f64, scene: Scene) -> Motion {
         sigma_pitch_deg: Some(0.011),
         sigma_heading_deg: Some(sigma_heading),
         heading_quality: Some(if moored { "not_valid" } else { "autonomous" }.to_owned()),
+        freshness: Freshness::Fresh,
+        velocity_quality: Some("autonomous".to_owned()),
+        level_quality: Some("valid".to_owned()),
         position_quality: Some(if fault { "estimated" } else { "differential" }.to_owned()),
     }
 }
 
 fn heave(t: f64, scale: f64) -> Heave {
     Heave {
+        valid_at_s: t - 0.004,
         heave_m: Some(swell(t, 0.72 * scale, 9.0, 0.0)),
         sigma_heave_m: Some(0.03),
         quality: "settled".to_owned(),

@@ -21,7 +21,8 @@ pub enum Condition {
     HeadingDegraded,
     /// The position was valid and is not any more: GGA says 0.
     PositionLost,
-    /// The position is estimated: GGA says 6.
+    /// The position is estimated: GGA says 6. While she aligns at her berth that is so by design, and only a
+    /// position of little certainty raises it.
     PositionEstimated,
     /// UTC is not known.
     NoUtc,
@@ -166,6 +167,12 @@ impl Watch {
         self.had_heading |= heading.is_some_and(|mode| mode != HeadingMode::NotValid);
         self.had_position |= quality.is_some_and(|quality| quality != FixQuality::Invalid);
         let (had_heading, had_position) = (self.had_heading, self.had_position);
+        let by_sigma = Policy { estimated_without_gnss: false, ..*policy };
+        let is_estimated = usable.is_some_and(|solution| {
+            let at_berth = matches!(solution.mode, Mode::CoarseAlignment | Mode::FineAlignment);
+            let own = if at_berth { &by_sigma } else { policy };
+            own.quality(&solution) == FixQuality::Estimated
+        });
         let holds = |condition| match condition {
             Condition::SystemFault => {
                 usable.is_none_or(|solution| solution.mode == Mode::Standby)
@@ -174,7 +181,7 @@ impl Watch {
             Condition::HeadingLost => had_heading && heading == Some(HeadingMode::NotValid),
             Condition::HeadingDegraded => heading == Some(HeadingMode::Estimated),
             Condition::PositionLost => had_position && quality == Some(FixQuality::Invalid),
-            Condition::PositionEstimated => quality == Some(FixQuality::Estimated),
+            Condition::PositionEstimated => is_estimated,
             Condition::NoUtc => epoch.utc.is_none(),
             Condition::Simulated => simulated,
             Condition::EnginesDiffer => epoch.engines_differ,

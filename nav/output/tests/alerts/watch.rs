@@ -86,8 +86,20 @@ fn engines_that_differ_are_told_at_once_and_as_long_as_they_do() {
 #[test]
 fn a_heading_that_was_never_valid_is_not_lost() {
     let aligning = with(|solution| solution.mode = Mode::FineAlignment);
-    let found = Look::new().at(600.0, aligning);
-    assert_eq!(found, [PositionEstimated], "no GNSS is in use at the berth");
+    assert_eq!(Look::new().at(600.0, aligning), []);
+}
+
+#[test]
+fn a_ship_that_aligns_at_her_berth_has_an_estimated_position_only_if_it_is_little_certain() {
+    for mode in [Mode::CoarseAlignment, Mode::FineAlignment] {
+        let sure = with(|solution| solution.mode = mode);
+        assert_eq!(Look::new().at(600.0, sure), []);
+        let vague = with(|solution| {
+            solution.mode = mode;
+            solution.sigma.position = Ned::new(20.0, 20.0, 20.0);
+        });
+        assert_eq!(Look::new().at(60.0, vague), [PositionEstimated]);
+    }
 }
 
 #[test]

@@ -31,7 +31,8 @@ const READINGS: [Reading; 17] = [
 
 /// Enters all of it.
 pub(super) fn write(sheet: &mut Sheet, snapshot: &Snapshot) {
-    if let Some(motion) = &snapshot.motion {
+    // a metric cannot be marked as old
+    if let Some(motion) = snapshot.present() {
         for (name, help, of) in READINGS {
             sheet.value(name, help, of(motion));
         }
@@ -60,6 +61,11 @@ fn program(sheet: &mut Sheet, snapshot: &Snapshot) {
     sheet.value("memory_bytes", "Resident memory", memory);
     sheet.value("processor_seconds", "Processor time used", program.processor_s);
     sheet.gauge("mode", "What the system is doing: 1", ["mode"]).set(&[&snapshot.mode.name], 1.0);
+    sheet.value(
+        "told_ago_seconds",
+        "How long ago the navigator told all this",
+        snapshot.time.told_ago_s,
+    );
     let navigating = f64::from(u8::from(snapshot.is_navigating()));
     sheet.value("navigating", "Whether the heading is good enough to navigate by", navigating);
     let time = &snapshot.time;

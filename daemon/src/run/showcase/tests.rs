@@ -1,0 +1,67 @@
+use insd_base::{
+    Attitude, Body, Geodetic, Mode, ModeReason, Motion, Ned, Solution, SolutionSigma, Stamp,
+};
+use insd_web::snapshot::Freshness;
+
+use super::*;
+use crate::clock::HostClock;
+
+const SHIPPED: &str = include_str!("../../../../systemd/examples/simulated.toml");
+
+fn showcase() -> Showcase {
+    let clock = HostClock::start();
+    let (hash, configuration) = (String::new(), None);
+    let origin = Origin { clock, started: clock.now(), configuration, hash };
+    let (publisher, _) = insd_web::channel();
+    let config = Config::of_text(SHIPPED).unwrap();
+    Showcase::new(publisher, Log::silent(), &config, origin)
+}
+
+/// A ship that navigates, at an instant; her IMU was heard last at another, s.
+fn report(now: f64, heard: f64) -> Report {
+    let system = UtcTime::from_nanos(1_800_000_000_000_000_000);
+    let solution = Solution {
+        time: Time::from_seconds(heard),
+        position: Geodetic::from_degrees(53.5, 8.2, 40.0),
+        velocity: Ned::new(5.0, 0.0, 0.0),
+        attitude: Attitude { roll: 0.0, pitch: 0.0, heading: 1.0 },
+        rate: Body::default(),
+        sigma: SolutionSigma::default(),
+        mode: Mode::Aided,
+    };
+    let motion =
+        Motion { solution, acceleration: None, covariance_north_east: None, current: None };
+    Report {
+        stamp: Stamp { monotonic: Time::from_seconds(now), system },
+        utc: None,
+        mode: Mode::Aided,
+        motion: Some(motion),
+        heave: None,
+        alignment: None,
+        alerts: Vec::new(),
+        engines: Vec::new(),
+        heard: Vec::new(),
+        slow: None,
+    }
+}
+
+#[test]
+fn an_imu_that_falls_silent_and_comes_back_is_told_as_changes_of_the_mode() {
+    let mut showcase = showcase();
+    showcase.see(&report(0.5, 0.5));
+    assert!(showcase.shown.modes.is_empty(), "the engine has not said a word yet");
+    let (time, to, why) = (Time::from_seconds(1.0), Mode::Aided, ModeReason::GnssInUse);
+    showcase.hear_event(&Event::ModeChanged { time, from: None, to, why });
+    showcase.see(&report(10.0, 9.99));
+    assert!(showcase.shown.after(0.0).is_navigating());
+    for now in [10.3, 10.6, 10.9, 11.2] {
+        showcase.see(&report(now, 10.0));
+    }
+    assert_eq!(showcase.shown.after(0.0).motion, None);
+    assert_eq!(showcase.shown.motion.as_ref().unwrap().freshness, Freshness::Fresh);
+    showcase.see(&report(12.0, 11.99));
+    let told: Vec<(&str, f64)> =
+        showcase.shown.modes.iter().map(|own| (own.to.as_str(), own.at_s)).collect();
+    assert_eq!(told, [("aided", 1.0), ("standby", 10.0), ("aided", 12.0)]);
+    assert_eq!(showcase.shown.modes[1].reason.as_deref(), Some("the IMU is silent"));
+}

@@ -1,0 +1,330 @@
+//! How old something may be that is shown: the one place that decides it, for the page, the interface,
+//! the metrics and the monitor.
+//!
+//! Every group of the snapshot carries its time of validity, and the snapshot the time at which it is
+//! shown. [`Snapshot::after`] lets time go on: what grows old is marked, and a moment later it is gone.
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    Aid, Alignment, BusState, Engine, Input, Mode, Motion, Output, PortState, RecordingState,
+    Sensor, SensorState, Snapshot, TimeInfo,
+};
+
+/// Age beyond which a value is not the present any more, s.
+pub const OLD: f64 = 0.5;
+/// Age beyond which a value is not told any more, s.
+pub const GONE: f64 = 1.0;
+/// What the alignment says is repeated every 10 s; when it is older than this nobody aligns, s.
+const ALIGNMENT_GONE: f64 = 15.0;
+/// Measurements that a sensor may leave out before its row is called silent.
+const LEFT_OUT: f64 = 3.0;
+
+/// Whether a value may be taken as the present.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Freshness {
+    /// It may.
+    #[default]
+    Fresh,
+    /// It is a moment old: shown as such, and not to be used.
+    Old,
+    /// It is so old that it is not told at all; a word that this version does not know is taken so, too.
+    #[serde(other)]
+    Gone,
+}
+
+impl Freshness {
+    /// That of a value of an age, s. What is not a number is gone.
+    #[must_use]
+    pub fn of_age(age_s: f64) -> Self {
+        if age_s <= OLD {
+            Freshness::Fresh
+        } else if age_s <= GONE {
+            Freshness::Old
+        } else {
+            Freshness::Gone
+        }
+    }
+}
+
+impl Snapshot {
+    /// What is to be shown of it so long after it was published or came, s. Letting time go on in two steps
+    /// is as good as in one; ages of what was already taken away do not come back.
+    #[must_use]
+    pub fn after(&self, passed_s: f64) -> Self {
+        let passed = if passed_s > 0.0 { passed_s } else { 0.0 };
+        let mut shown = self.clone();
+        shown.time.at_s += passed;
+        shown.time.told_ago_s += passed;
+        shown.mode.since_s += passed;
+        shown.program.uptime_s += passed;
+        let now = shown.time.at_s;
+        let navigator = Freshness::of_age(shown.time.told_ago_s);
+        shown.sensors.iter_mut().for_each(|sensor| sensor.grow_older(passed, navigator));
+        shown.aids.iter_mut().for_each(|aid| aid.grow_older(passed, navigator));
+        shown.inputs.iter_mut().for_each(|port| port.grow_older(passed, navigator));
+        for alert in &mut shown.alerts {
+            alert.since_s = alert.since_s.map(|since| since + passed);
+        }
+        shown.judge_ship(now, navigator);
+        if navigator == Freshness::Gone {
+            shown.forget_the_program();
+        }
+        shown
+    }
+
+    /// The motion, if it may be taken as the present.
+    #[must_use]
+    pub fn present(&self) -> Option<&Motion> {
+        self.motion.as_ref().filter(|motion| motion.freshness == Freshness::Fresh)
+    }
+
+    /// Motion, alignment, engines and the mode: all hang on the samples of an IMU.
+    fn judge_ship(&mut self, now: f64, navigator: Freshness) {
+        let inertial = self.inertial_age(now);
+        let own = inertial.map_or(Freshness::Fresh, Freshness::of_age).max(navigator);
+        if let Some(motion) = &mut self.motion {
+            motion.grow_older(now, own);
+        }
+        self.motion = self.motion.take().filter(|motion| motion.freshness != Freshness::Gone);
+        for engine in &mut self.engines {
+            engine.grow_older(now, navigator);
+        }
+        if own == Freshness::Gone {
+            self.estimates = None;
+            self.disturbance = None;
+        }
+        let told = |alignment: &Alignment| now - alignment.told_at_s <= ALIGNMENT_GONE;
+        self.alignment = self.alignment.take().filter(told).filter(|_| own != Freshness::Gone);
+        if own != Freshness::Fresh {
+            let age = if navigator == Freshness::Fresh { inertial } else { None };
+            self.mode.give_way(age.unwrap_or(self.time.told_ago_s), navigator);
+        }
+    }
+
+    /// How old what the IMU says is, s; `None` while none has been heard.
+    fn inertial_age(&self, now: f64) -> Option<f64> {
+        let of_motion = self.motion.as_ref().map(|motion| now - motion.valid_at_s);
+        let is_inertial = |sensor: &&Sensor| sensor.used_for.iter().any(|own| own == "inertial");
+        let of_sensor = || {
+            let silent = |sensor: &Sensor| sensor.state == SensorState::Silent;
+            let own = self.sensors.iter().filter(is_inertial).filter(|own| silent(own));
+            own.filter_map(|sensor| sensor.age_s).reduce(f64::min)
+        };
+        of_motion.or_else(of_sensor)
+    }
+
+    /// What is told of the program and its ports when nothing has come of it for too long. Counts stay: they
+    /// are of the past anyway.
+    fn forget_the_program(&mut self) {
+        let TimeInfo { at_s, told_ago_s, .. } = self.time;
+        self.time =
+            TimeInfo { at_s, told_ago_s, quality: "unknown".to_owned(), ..TimeInfo::default() };
+        self.program.memory_bytes = None;
+        self.program.processor_s = None;
+        self.outputs.iter_mut().for_each(Output::forget);
+        for bus in &mut self.buses {
+            (bus.state, bus.rate_hz, bus.load) = (BusState::Unknown, None, None);
+            bus.node_state = None;
+        }
+        if let Some(recording) = &mut self.recording {
+            recording.state = RecordingState::Unknown;
+        }
+    }
+}
+
+impl Motion {
+    fn grow_older(&mut self, now: f64, least: Freshness) {
+        self.freshness = Freshness::of_age(now - self.valid_at_s).max(least);
+        let is_gone = |at: f64| Freshness::of_age(now - at) == Freshness::Gone;
+        self.heave = self.heave.take().filter(|heave| !is_gone(heave.valid_at_s));
+    }
+}
+
+impl Engine {
+    fn grow_older(&mut self, now: f64, navigator: Freshness) {
+        let age = self.valid_at_s.map(|at| now - at);
+        let own = age.map_or(Freshness::Fresh, Freshness::of_age).max(navigator);
+        if own == Freshness::Fresh {
+            return;
+        }
+        (self.heading_deg, self.sigma_heading_deg) = (None, None);
+        self.healthy = false;
+        let mut mode = Mode { name: std::mem::take(&mut self.mode), ..Mode::default() };
+        mode.give_way(0.0, navigator);
+        self.mode = mode.name;
+    }
+}
+
+impl Mode {
+    /// What is true where no solution is made any more.
+    fn give_way(&mut self, age_s: f64, navigator: Freshness) {
+        let (name, reason) = match navigator {
+            Freshness::Fresh => ("standby", "the IMU is silent"),
+            _ => ("fault", "the navigator tells nothing any more"),
+        };
+        let is_so = self.name == name || self.name == "fault" || self.name.is_empty();
+        if !is_so {
+            *self = Mode { name: name.to_owned(), since_s: age_s, reason: Some(reason.to_owned()) };
+        }
+    }
+}
+
+impl Sensor {
+    fn grow_older(&mut self, passed: f64, navigator: Freshness) {
+        self.age_s = self.age_s.map(|age| age + passed);
+        let patience = self.rate_hz.filter(|rate| *rate > 0.0).map_or(0.0, |rate| LEFT_OUT / rate);
+        let is_late = self.age_s.is_some_and(|age| age > patience.max(GONE));
+        if navigator == Freshness::Gone {
+            self.state = SensorState::Unknown;
+        } else if is_late && matches!(self.state, SensorState::Valid | SensorState::Received) {
+            self.state = SensorState::Silent;
+        }
+        if matches!(self.state, SensorState::Unknown | SensorState::Silent) {
+            (self.rate_hz, self.temperature_c, self.status_word) = (None, None, None);
+            (self.fix, self.satellites) = (None, None);
+            self.status.clear();
+        }
+    }
+}
+
+impl Aid {
+    fn grow_older(&mut self, passed: f64, navigator: Freshness) {
+        self.age_s = self.age_s.map(|age| age + passed);
+        self.in_use &= navigator != Freshness::Gone;
+        if !self.in_use {
+            self.last_normalised_innovation = None;
+        }
+    }
+}
+
+impl Input {
+    fn grow_older(&mut self, passed: f64, navigator: Freshness) {
+        self.age_s = self.age_s.map(|age| age + passed);
+        if navigator == Freshness::Gone {
+            (self.state, self.rate_bytes_s) = (PortState::Unknown, None);
+        } else if self.state != PortState::Open {
+            self.rate_bytes_s = None;
+        }
+    }
+}
+
+impl Output {
+    fn forget(&mut self) {
+        (self.state, self.rate_bytes_s, self.age_ms) = (PortState::Unknown, None, None);
+        self.messages.iter_mut().for_each(|message| message.age_ms = None);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Heave;
+    use super::*;
+
+    /// A ship that sails, told at once.
+    fn sailing() -> Snapshot {
+        let heave = Heave { valid_at_s: 99.98, heave_m: Some(0.4), ..Heave::default() };
+        let motion = Motion {
+            valid_at_s: 99.98,
+            heading_deg: Some(62.0),
+            heave: Some(heave),
+            ..Motion::default()
+        };
+        let imu = Sensor {
+            state: SensorState::Valid,
+            rate_hz: Some(200.0),
+            age_s: Some(0.02),
+            used_for: vec!["inertial".to_owned()],
+            temperature_c: Some(41.0),
+            ..Sensor::default()
+        };
+        let log = Sensor { rate_hz: Some(1.0), age_s: Some(0.9), ..imu.clone() };
+        let log = Sensor { used_for: vec!["bottom_velocity".to_owned()], ..log };
+        let aligned = Alignment { told_at_s: 91.0, ..Alignment::default() };
+        let engine =
+            Engine { mode: "aided".to_owned(), valid_at_s: Some(99.98), ..Engine::default() };
+        let mut snapshot = Snapshot {
+            motion: Some(motion),
+            sensors: vec![imu, log],
+            alignment: Some(aligned),
+            engines: vec![engine],
+            ..Snapshot::default()
+        };
+        (snapshot.time.at_s, snapshot.time.utc) = (100.0, Some("noon".to_owned()));
+        snapshot.mode.name = "aided".to_owned();
+        snapshot
+    }
+
+    /// The same, published so long after the last sample of the IMU.
+    fn without_imu(silent_s: f64) -> Snapshot {
+        let mut snapshot = sailing();
+        snapshot.time.at_s += silent_s;
+        snapshot.sensors[0].age_s = Some(silent_s);
+        snapshot
+    }
+
+    #[test]
+    fn what_is_new_is_shown_as_it_is() {
+        let snapshot = sailing();
+        assert!(snapshot.after(0.0) == snapshot);
+        assert!(snapshot.after(0.3).present().is_some() && snapshot.after(0.3).is_navigating());
+    }
+
+    #[test]
+    fn a_silent_imu_makes_her_heading_old_then_gone_and_her_mode_standby() {
+        let old = without_imu(0.7).after(0.0);
+        assert_eq!(old.motion.as_ref().unwrap().freshness, Freshness::Old);
+        assert!(old.present().is_none() && !old.is_navigating());
+        let gone = without_imu(1.1).after(0.0);
+        assert_eq!((&gone.motion, gone.mode.name.as_str()), (&None, "standby"));
+        assert_eq!(gone.mode.reason.as_deref(), Some("the IMU is silent"));
+        assert!((gone.mode.since_s - 1.12).abs() < 1e-9);
+        assert_eq!(gone.engines[0].mode, "standby");
+        assert_eq!(gone.sensors[0].state, SensorState::Silent);
+        assert_eq!((gone.sensors[0].temperature_c, gone.sensors[0].rate_hz), (None, None));
+        assert_eq!(gone.sensors[1].state, SensorState::Valid, "a slow log is not silent");
+        assert_eq!(gone.alignment, None);
+        assert!(gone.time.utc.is_some());
+    }
+
+    #[test]
+    fn an_imu_that_falls_silent_while_levelling_ends_the_alignment() {
+        let mut levelling = Snapshot { motion: None, ..without_imu(1.2) };
+        levelling.mode.name = "coarse_alignment".to_owned();
+        let shown = levelling.after(0.0);
+        assert_eq!((shown.mode.name.as_str(), shown.alignment), ("standby", None));
+    }
+
+    #[test]
+    fn a_navigator_that_tells_nothing_is_in_fault_and_knows_no_time() {
+        let old = sailing().after(0.8);
+        assert_eq!((old.mode.name.as_str(), old.time.utc.is_some()), ("fault", true));
+        let gone = sailing().after(1.2);
+        assert_eq!((&gone.motion, gone.mode.name.as_str()), (&None, "fault"));
+        assert_eq!((gone.time.utc, gone.time.told_ago_s), (None, 1.2));
+        assert!(gone.sensors.iter().all(|sensor| sensor.state == SensorState::Unknown));
+    }
+
+    #[test]
+    fn two_steps_in_time_are_as_one() {
+        for snapshot in [sailing(), without_imu(0.4), without_imu(3.0)] {
+            for (first, second) in [(0.25, 0.25), (0.5, 1.0), (2.0, 2.0)] {
+                let (twice, once) =
+                    (snapshot.after(first).after(second), snapshot.after(first + second));
+                assert_eq!((twice.mode.name, twice.motion), (once.mode.name, once.motion));
+                assert_eq!((twice.sensors, twice.time), (once.sensors, once.time));
+            }
+        }
+    }
+
+    #[test]
+    fn an_age_that_is_no_number_is_gone_and_one_ahead_of_its_time_is_fresh() {
+        assert_eq!(Freshness::of_age(f64::NAN), Freshness::Gone);
+        assert_eq!(Freshness::of_age(-0.01), Freshness::Fresh);
+        assert_eq!(
+            (Freshness::of_age(OLD), Freshness::of_age(GONE)),
+            (Freshness::Fresh, Freshness::Old)
+        );
+    }
+}

@@ -1,0 +1,145 @@
+//! What the page looks like: light, size, and what fits.
+
+use serde_json::{Value, json};
+
+use crate::driver::Browser;
+use crate::scene::Scene;
+use crate::{LIGHTS, choose, looking_at};
+
+/// Mean and greatest luminance of what the style gives to grounds and letters, 0 to 1.
+const BRIGHTNESS: &str = "
+    const luminance = (text) => {
+        const [r, g, b] = text.match(/[\\d.]+/g).map(Number).map((part) => part / 255)
+            .map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const all = [...document.querySelectorAll('main *:not(svg *)')].filter((node) => node.offsetParent);
+    const letters = all.map((node) => luminance(getComputedStyle(node).color));
+    const card = luminance(getComputedStyle(document.querySelector('.card')).backgroundColor);
+    return [card, Math.max(card, ...letters)]";
+
+#[test]
+#[ignore = "needs chromium and chromedriver"]
+fn night_is_the_dimmest_day_the_brightest_and_dusk_is_between() {
+    let (_live, browser) = looking_at(Scene::Underway);
+    let [day, dusk, night] = LIGHTS.map(|light| {
+        choose(&browser, "theme", light);
+        let found = browser.run(BRIGHTNESS);
+        [0, 1].map(|index| found[index].as_f64().unwrap())
+    });
+    for index in [0, 1] {
+        assert!(day[index] > 1.5 * dusk[index], "{day:?} {dusk:?}");
+        assert!(dusk[index] > 1.5 * night[index], "{dusk:?} {night:?}");
+    }
+    assert!(night[1] < 0.25, "{night:?}");
+}
+
+#[test]
+#[ignore = "needs chromium and chromedriver"]
+fn the_dimmer_darkens_all_and_never_wholly() {
+    let (_live, browser) = looking_at(Scene::Underway);
+    let shade = "return Number(getComputedStyle(document.querySelector('.shade')).opacity)";
+    assert_eq!(browser.run(shade).as_f64(), Some(0.0));
+    browser.run(
+        "const d = document.getElementById('dimmer'); d.value = 0; d.dispatchEvent(new Event('input'))",
+    );
+    assert_eq!(browser.run(shade).as_f64(), Some(0.85));
+    // it is remembered, and what lies under it can still be pressed
+    browser.press("#zoom-in");
+    browser.run("location.reload()");
+    browser.until("it is dim again", || browser.run(shade).as_f64() == Some(0.85));
+}
+
+/// Height of the letters of an element, pixels on the screen.
+fn height(browser: &Browser, selector: &str) -> f64 {
+    let script = format!(
+        "const node = document.querySelector('{selector}');
+         const scale = node.ownerSVGElement ? node.ownerSVGElement.getScreenCTM().a : 1;
+         return parseFloat(getComputedStyle(node).fontSize) * scale"
+    );
+    browser.run(&script).as_f64().unwrap()
+}
+
+const LARGE: [&str; 6] = ["lat_deg", "lon_deg", "speed_kn", "course_deg", "roll_deg", "pitch_deg"];
+
+#[test]
+#[ignore = "needs chromium and chromedriver"]
+fn on_a_screen_of_the_bridge_position_speed_and_level_are_as_large_as_the_heading() {
+    let (_live, browser) = looking_at(Scene::Underway);
+    browser.size(1920, 1080);
+    for (view, root) in [("page", "#ship"), ("bridge", "#bridge")] {
+        choose(&browser, "view", view);
+        browser.until("a picture", || browser.text("#rose .big").ends_with('°'));
+        let heading = height(&browser, &format!("{root} .big"));
+        for name in LARGE {
+            let own = height(&browser, &format!("{root} [data-bind=\"motion.{name}\"]"));
+            assert!(own >= 46.0 && own > 0.6 * heading, "{view}, {name}: {own} of {heading}");
+        }
+        let beyond = "return [...document.querySelectorAll('.b-value dd, .large dd')].filter((node) =>
+            node.offsetParent && node.scrollWidth > node.clientWidth + 1).map((node) => node.textContent)";
+        assert_eq!(browser.run(beyond), json!([]), "{view}: cut off");
+    }
+}
+
+#[test]
+#[ignore = "needs chromium and chromedriver"]
+fn a_value_that_is_not_valid_is_never_large() {
+    let (_live, browser) = looking_at(Scene::Alignment);
+    browser.size(1920, 1080);
+    browser.until("a heading", || browser.text("#rose .big").ends_with('°'));
+    assert_eq!(browser.text("#heading-quality"), "not valid");
+    assert!(height(&browser, "#rose .big") < 24.0);
+    choose(&browser, "view", "bridge");
+    assert!(height(&browser, "#b-rose .big") < 40.0);
+    // the same for the others, whatever they say of themselves
+    for (view, root) in [("bridge", "#bridge"), ("page", "#ship")] {
+        choose(&browser, "view", view);
+        let largest = browser.run(&format!(
+            "document.body.className = 'position-not-valid velocity-not-valid level-not-valid';
+             return Math.max(...{LARGE:?}.map((name) => parseFloat(getComputedStyle(
+                 document.querySelector(`{root} [data-bind=\"motion.${{name}}\"]`)).fontSize)))"
+        ));
+        assert!(largest.as_f64().unwrap() < 24.0, "{view}: {largest}");
+    }
+}
+
+#[test]
+#[ignore = "needs chromium and chromedriver"]
+fn the_view_for_the_bridge_is_one_screen() {
+    for scene in [Scene::Underway, Scene::Fault] {
+        let (_live, browser) = looking_at(scene);
+        choose(&browser, "view", "bridge");
+        for (width, height) in [(1920, 1080), (1280, 720), (1024, 768)] {
+            browser.size(width, height);
+            let whole = browser.run(
+                "const root = document.documentElement;
+                 const low = [...document.querySelectorAll('.b-tile')].map((node) => node.getBoundingClientRect().bottom);
+                 return [root.scrollWidth, root.scrollHeight, Math.max(...low)]",
+            );
+            let whole = [0, 1, 2].map(|index| whole[index].as_f64().unwrap());
+            assert!(whole[0] <= f64::from(width) && whole[1] <= f64::from(height), "{whole:?}");
+            assert!(whole[2] <= f64::from(height), "{whole:?} at {width} x {height}");
+        }
+        if scene == Scene::Fault {
+            browser.until("alerts", || browser.text("#b-alerts").contains("Position lost"));
+        }
+    }
+}
+
+#[test]
+#[ignore = "needs chromium and chromedriver"]
+fn on_a_phone_no_table_is_cut_off() {
+    for scene in [Scene::Alignment, Scene::Fault] {
+        let (_live, browser) = looking_at(scene);
+        browser.size(390, 844);
+        browser.until("rows", || !browser.elements("#sensor-table tbody tr").is_empty());
+        let cut = browser.run(
+            "return [...document.querySelectorAll('.scroll')].filter((node) =>
+                node.clientWidth > 0 && node.scrollWidth > node.clientWidth + 1)
+                .map((node) => node.firstElementChild.id)",
+        );
+        assert_eq!(cut, json!([]), "{scene:?}");
+        let head = browser.run("return document.querySelector('#sensor-table td').dataset.head");
+        assert_eq!(head, Value::String("State".to_owned()));
+    }
+}
