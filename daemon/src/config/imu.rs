@@ -1,10 +1,11 @@
 //! Error model of the IMU as its data sheet states it.
 
 use insd_base::{ImuSpec, Triad};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Keys and units as in a voyage's `[imu]`.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ImuModel {
     /// Turn-on bias of the gyros, 1-sigma, deg/h.
