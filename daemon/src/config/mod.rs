@@ -12,6 +12,7 @@ mod lan;
 mod node;
 mod output;
 mod policy;
+pub mod reference;
 mod service;
 mod spare;
 mod succession;
@@ -210,12 +211,19 @@ impl Config {
     /// # Errors
     /// [`BadInput`] with all faults and their places.
     pub fn load(path: &Path) -> anyhow::Result<(Self, String)> {
-        let text = std::fs::read_to_string(path)
-            .with_context(|| format!("{}: cannot be read", path.display()))?;
-        let text = environment::written_below(&text);
+        let text =
+            Self::text_of(path).with_context(|| format!("{}: cannot be read", path.display()))?;
         let config = Self::of_text(&text)
             .map_err(|fault| BadInput(format!("{}: {fault}", path.display())))?;
         Ok((config, text))
+    }
+
+    /// The text of a file, with the environment's overrides written below it.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn text_of(path: &Path) -> std::io::Result<String> {
+        std::fs::read_to_string(path).map(|text| environment::written_below(&text))
     }
 
     /// The configuration of a text alone, as [`Config::load`] gives it and a recording holds it: with the

@@ -4,7 +4,7 @@
 mod document;
 mod finding;
 mod lint;
-mod nearest;
+pub(crate) mod nearest;
 pub mod shape;
 mod told;
 pub mod uses;
@@ -88,6 +88,12 @@ fn deeper(config: &Config, document: &Document<'_>) -> Vec<Finding> {
         }
     }
     all
+}
+
+/// Puts lines and values of a text into the places of findings.
+pub(crate) fn locate(findings: &mut [Finding], text: &str) {
+    let document = Document::read(text, environment::keys(text));
+    findings.iter_mut().for_each(|finding| document.locate(finding, 0));
 }
 
 fn unreadable(text: &str, line: Option<usize>) -> Finding {
