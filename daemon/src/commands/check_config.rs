@@ -1,7 +1,6 @@
 //! `insd check-config`: what is wrong with a configuration, and what it amounts to.
 
 use std::fmt::Write as _;
-use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use insd_drivers::ports::{Destination, Transport};
@@ -59,19 +58,19 @@ impl Outcome<'_> {
     /// Prints what was found and, for people, a summary below it.
     pub(super) fn tell(&self, diagnosis: &Diagnosis, summary: &str) -> anyhow::Result<()> {
         let (file, sum) = (self.file.display(), text::sum(diagnosis));
-        let mut out = io::stdout().lock();
-        if self.json {
-            writeln!(out, "{}", serde_json::to_string_pretty(diagnosis)?)?;
+        // what was found counts, whether it is read or not
+        let printed = super::print(&if self.json {
+            serde_json::to_string_pretty(diagnosis)? + "\n"
         } else {
-            write!(out, "{}{file}: {sum}\n{summary}", text::report(diagnosis))?;
-        }
+            format!("{}{file}: {sum}\n{summary}", text::report(diagnosis))
+        });
         if diagnosis.count(Severity::Error) > 0 {
             return Err(BadInput(format!("{file}: {sum}")).into());
         }
         if self.strict && diagnosis.count(Severity::Warning) > 0 {
             return Err(Warned(format!("{file}: {sum}")).into());
         }
-        Ok(())
+        Ok(printed?)
     }
 }
 

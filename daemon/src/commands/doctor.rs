@@ -57,6 +57,7 @@ pub fn run(args: &DoctorArgs) -> anyhow::Result<()> {
             args.seconds
         )?;
     }
-    let diagnosis = Diagnosis::of_ship(&text, &Extent { listen, person })?;
+    let extent = Extent { listen, person, file: Some(args.file.clone()) };
+    let diagnosis = Diagnosis::of_ship(&text, &extent)?;
     Outcome { file: &args.file, json: args.json, strict: args.strict }.tell(&diagnosis, "")
 }

@@ -121,7 +121,12 @@ fn below(page: &mut String, shape: &Shape, name: &str) {
         Shape::Kinds(tag, kinds) => {
             for (word, keys) in kinds {
                 let doc = escaped(&word.doc);
-                let _ = writeln!(page, ".TP\n.B {}, {tag} = \"{}\"\n{doc}", escaped(name), escaped(&word.name));
+                let _ = writeln!(
+                    page,
+                    ".TP\n.B {}, {tag} = \"{}\"\n{doc}",
+                    escaped(name),
+                    escaped(&word.name)
+                );
                 keys.iter().for_each(|key| entry(page, key, &format!("{name}.")));
             }
         }
@@ -149,8 +154,9 @@ fn short(shape: &Shape) -> String {
 
 /// A default as the file would write it; none of a table that is empty.
 fn default(value: &serde_json::Value) -> Option<String> {
-    let empty = value.as_object().is_some_and(|table| table.values().all(serde_json::Value::is_null))
-        || value.as_array().is_some_and(Vec::is_empty);
+    let empty =
+        value.as_object().is_some_and(|table| table.values().all(serde_json::Value::is_null))
+            || value.as_array().is_some_and(Vec::is_empty);
     (!empty && !value.is_object()).then(|| value.to_string())
 }
 
@@ -168,7 +174,8 @@ mod tests {
     /// The keys that the reader of a table knows, from what it says to one that it does not.
     fn read(text: &str) -> Vec<String> {
         let fault = toml::from_str::<Config>(text).unwrap_err().to_string();
-        let (_, expected) = fault.split_once(", expected").unwrap_or_else(|| panic!("{text}: {fault}"));
+        let (_, expected) =
+            fault.split_once(", expected").unwrap_or_else(|| panic!("{text}: {fault}"));
         let mut keys: Vec<String> =
             expected.split('`').skip(1).step_by(2).map(str::to_owned).collect();
         keys.sort();

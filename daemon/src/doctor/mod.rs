@@ -12,6 +12,7 @@ mod places;
 mod processes;
 pub mod text;
 
+use std::path::PathBuf;
 use std::time::Duration;
 
 use serde::Serialize;
@@ -40,6 +41,8 @@ pub struct Extent {
     pub listen: Duration,
     /// As whom the daemon runs.
     pub person: Person,
+    /// The file, to know whether a daemon runs with it.
+    pub file: Option<PathBuf>,
 }
 
 impl Diagnosis {
@@ -56,12 +59,13 @@ impl Diagnosis {
     pub fn of_ship(text: &str, extent: &Extent) -> std::io::Result<Self> {
         let (mut diagnosis, config) = Self::of(examine(text));
         let Some(config) = config else { return Ok(diagnosis) };
-        let running = processes::daemon();
+        let running = extent.file.as_deref().and_then(processes::daemon);
         let mut found = places::look(&config, &extent.person, running.is_some());
         found.extend(files::look(&config, &extent.person));
         if let Some(number) = running {
-            let text =
-                format!("insd runs already, as process {number}: its ports are not listened to");
+            let text = format!(
+                "insd runs with this file, as process {number}: its ports are not listened to"
+            );
             let finding = Finding::new(Severity::Note, "daemon-running", Place::default(), &text);
             found.push(
                 finding.advise("its page shows what arrives; `systemctl stop insd` to listen here"),
@@ -90,6 +94,13 @@ impl Diagnosis {
     fn add(&mut self, found: Vec<Finding>, text: &str) {
         let mut found = found;
         crate::config::check::locate(&mut found, text);
+        // what cannot be read was replaced, and says nothing of the world
+        let same = |own: &Place, other: &Place| {
+            (&own.section, &own.name, &own.key) == (&other.section, &other.name, &other.key)
+        };
+        let refused: Vec<Place> =
+            self.findings.iter().filter(|own| own.refused).map(|own| own.place.clone()).collect();
+        found.retain(|own| !refused.iter().any(|place| same(place, &own.place)));
         self.findings.extend(found);
         self.findings
             .sort_by_key(|finding| (std::cmp::Reverse(finding.severity), finding.place.line));

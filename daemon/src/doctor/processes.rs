@@ -3,6 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// What the daemon reads if it is not told otherwise.
+const INSTALLED: &str = "/etc/insd/insd.toml";
+
 /// A program that has something open.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Holder {
@@ -19,13 +22,21 @@ fn processes() -> impl Iterator<Item = (u32, PathBuf)> {
     })
 }
 
-/// The number of an `insd run` that is there already.
-pub(super) fn daemon() -> Option<u32> {
+/// The number of an `insd run` with this configuration that is there already.
+pub(super) fn daemon(config: &Path) -> Option<u32> {
+    let config = fs::canonicalize(config).ok()?;
     let runs = |folder: &Path| {
         let line = fs::read(folder.join("cmdline")).unwrap_or_default();
-        let mut words = line.split(|byte| *byte == 0);
-        let program = words.next().and_then(|word| word.rsplit(|byte| *byte == b'/').next());
-        program == Some(b"insd") && words.next() == Some(b"run")
+        let words: Vec<&str> = line
+            .split(|byte| *byte == 0)
+            .filter_map(|word| std::str::from_utf8(word).ok())
+            .collect();
+        let program = words.first().and_then(|word| word.rsplit('/').next());
+        let is_run = program == Some("insd") && words.get(1) == Some(&"run");
+        let given = words.iter().position(|word| *word == "--config");
+        let own = given.and_then(|at| words.get(at + 1)).copied().unwrap_or(INSTALLED);
+        let path = folder.join("cwd").join(own);
+        is_run && fs::canonicalize(path).ok().as_ref() == Some(&config)
     };
     processes().find(|(_, folder)| runs(folder)).map(|(number, _)| number)
 }

@@ -13,6 +13,9 @@ use insd::doctor::{Diagnosis, Extent, Person};
 pub(crate) const ROWS: &[(&str, Severity, &str)] = &[
     ("device that is not there", Error, "device-absent"),
     ("file where a device should be", Error, "device-kind"),
+    ("device of a group that the user is not in", Error, "device-denied"),
+    ("device that another program has open", Error, "device-busy"),
+    ("one device under two names", Error, "device-twice"),
     ("CAN interface that is not there", Error, "interface-absent"),
     ("address of another computer", Error, "address-foreign"),
     ("port of another program", Error, "address-busy"),
@@ -32,8 +35,12 @@ const SHIP: &str = include_str!("../../../systemd/examples/minimal.toml");
 
 /// Causes of a configuration on this computer.
 fn causes(text: &str, listen: f64) -> Vec<(Severity, &'static str, String)> {
-    let extent = Extent { listen: Duration::from_secs_f64(listen), person: Person::here() };
-    let diagnosis = Diagnosis::of_ship(text, &extent).unwrap();
+    causes_for(text, listen, Person::here())
+}
+
+fn causes_for(text: &str, listen: f64, person: Person) -> Vec<(Severity, &'static str, String)> {
+    let listen = Duration::from_secs_f64(listen);
+    let diagnosis = Diagnosis::of_ship(text, &Extent { listen, person, file: None }).unwrap();
     let told = |own: &insd::config::Finding| (own.severity, own.cause, own.to_string());
     diagnosis.findings.iter().map(told).collect()
 }
@@ -58,6 +65,40 @@ fn devices_interfaces_and_addresses_that_are_not_there_are_told() {
         [[port]]\nname = \"far\"\ntransport = { kind = \"udp\", bind = \"203.0.113.7:60004\" }\n";
     let expected = ["device-absent", "device-kind", "interface-absent", "address-foreign"];
     assert_told(&format!("{text}\n{more}"), 0.0, &expected);
+}
+
+/// A pseudo terminal: its master, which keeps it, and its path.
+fn terminal() -> (std::os::fd::OwnedFd, String) {
+    use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+    let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
+    grantpt(&master).unwrap();
+    unlockpt(&master).unwrap();
+    let path = ptsname(&master, Vec::new()).unwrap().into_string().unwrap();
+    (master, path)
+}
+
+#[test]
+fn a_device_that_is_denied_or_open_elsewhere_or_known_by_two_names_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_master, device) = terminal();
+    let link = folder.path().join("imu");
+    std::os::unix::fs::symlink(&device, &link).unwrap();
+    let text =
+        SHIP.replace("/dev/ttyUSB0", &device).replace("/dev/ttyUSB1", &link.display().to_string());
+    let has = |told: &[(Severity, &'static str, String)], cause: &str| {
+        told.iter().any(|own| own.1 == cause)
+    };
+    let told = causes(&text, 0.0);
+    assert!(has(&told, "device-twice") && !has(&told, "device-busy"), "{told:#?}");
+    let stranger = Person::named("nobody").unwrap();
+    assert!(has(&causes_for(&text, 0.0, stranger), "device-denied"));
+    let open = fs::File::options().read(true).write(true).open(&device).unwrap();
+    let mut other = std::process::Command::new("sleep").arg("60").stdin(open).spawn().unwrap();
+    let told = causes(&text, 0.0);
+    other.kill().unwrap();
+    other.wait().unwrap();
+    let busy = with("device-busy", &told);
+    assert!(busy.contains("sleep"), "{busy}");
 }
 
 #[test]

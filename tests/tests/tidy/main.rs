@@ -30,7 +30,7 @@ const PURE: [&str; 9] = [
 ];
 
 /// What a pure crate may depend on beside the house's own crates: all of it without side effects.
-const PURE_DEPENDENCIES: [&str; 11] = [
+const PURE_DEPENDENCIES: [&str; 12] = [
     "crc",
     "fast-float2",
     "kinavis-kernel",
@@ -38,6 +38,7 @@ const PURE_DEPENDENCIES: [&str; 11] = [
     "nalgebra",
     "nmea",
     "postcard",
+    "schemars",
     "serde",
     "statrs",
     "thiserror",

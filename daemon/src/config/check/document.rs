@@ -36,12 +36,18 @@ impl<'a> Document<'a> {
             let line = fault.span().map(|span| document.line(span.start));
             let place = Place { line, ..Place::default() };
             let finding = Finding::new(Severity::Error, "syntax", place, fault.message());
+            let finding = match line.and_then(|line| text.lines().nth(line - 1)) {
+                Some(own) if has_comma(own) => finding.advise("a decimal point, not a comma?"),
+                Some(own) => finding.advise(format!("the line is `{}`", own.trim())),
+                None => finding,
+            };
             let same = |other: &Finding| other.place.line == line && line.is_some();
             // one slip makes several faults of one line
             if !document.syntax.iter().any(same) {
                 document.syntax.push(finding.refused());
             }
         }
+        document.syntax.sort_by_key(|finding| finding.place.line);
         document
     }
 
@@ -127,6 +133,16 @@ impl<'a> Document<'a> {
             }
         }
     }
+}
+
+/// Whether a number in a line has a comma in it, and no bracket that would make a list of it.
+fn has_comma(line: &str) -> bool {
+    let Some((_, value)) = line.split_once('=') else { return false };
+    let digit = |c: char| c.is_ascii_digit();
+    let mut parts = value.trim().splitn(2, ',');
+    let around = parts.next().zip(parts.next());
+    around.is_some_and(|(before, after)| before.ends_with(digit) && after.starts_with(digit))
+        && !value.trim().starts_with('[')
 }
 
 /// A member of a table: where its key begins, and its value.

@@ -40,7 +40,7 @@ mod tests {
             ("rate", Some("rate_hz")),
             ("patiense_s", Some("patience_s")),
             ("Heading-std-deg", Some("heading_std_deg")),
-            ("wind", None),
+            ("weather", None),
             ("colour", None),
         ] {
             assert_eq!(nearest(word, keys), meant, "{word}");

@@ -12,7 +12,7 @@ use super::nearest::{advice, nearest};
 use crate::config::Config;
 
 /// Tables in which a section's own keys may lie.
-const INSIDE: [&str; 3] = ["transport", "destination", "lan"];
+const INSIDE: [&str; 5] = ["transport", "destination", "lan", "messages", "talkers"];
 
 /// Each fault begins with its section (`[ship]`, `[[sensor]] "gnss"`) and mostly its key.
 pub(super) fn findings(
@@ -124,6 +124,10 @@ fn advise(finding: &mut Finding, config: &Config) {
         ("unknown-word", _) => kind_of_message(&key),
         _ => None,
     };
+    let is_message = ["messages.", "talkers."].iter().any(|table| key.starts_with(table));
+    if is_message && finding.cause == "unknown-word" && finding.advice.is_some() {
+        "no such message".clone_into(&mut finding.text);
+    }
 }
 
 /// Latitude and longitude in each other's place.

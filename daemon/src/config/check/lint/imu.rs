@@ -30,21 +30,21 @@ const RANGES: [Range; 8] = [
         least: 1e-5,
         most: 2000.0,
         unit: "deg/h",
-        others: &[("rad/s", RAD_S), ("deg/s", 3600.0)],
+        others: &[("in rad/s", RAD_S), ("in deg/s", 3600.0)],
     },
     Range {
         key: "gyro_bias_instability_deg_h",
         least: 1e-5,
         most: 500.0,
         unit: "deg/h",
-        others: &[("rad/s", RAD_S), ("deg/s", 3600.0)],
+        others: &[("in rad/s", RAD_S), ("in deg/s", 3600.0)],
     },
     Range {
         key: "angle_random_walk_deg_sqrt_h",
         least: 1e-5,
         most: 5.0,
         unit: "deg/sqrt(h)",
-        others: &[("rad/sqrt(s)", RAD_SQRT_S), ("deg/h/sqrt(Hz)", 1.0 / 60.0)],
+        others: &[("in rad/sqrt(s)", RAD_SQRT_S), ("in deg/h/sqrt(Hz)", 1.0 / 60.0)],
     },
     Range {
         key: "gyro_scale_factor_std_ppm",
@@ -58,21 +58,21 @@ const RANGES: [Range; 8] = [
         least: 0.5,
         most: 100_000.0,
         unit: "micro-g",
-        others: &[("m/s^2", 1e6 / 9.806_65), ("mg", 1000.0)],
+        others: &[("in mg", 1000.0), ("in m/s^2", 1e6 / 9.806_65)],
     },
     Range {
         key: "accel_bias_instability_ug",
         least: 0.05,
         most: 20_000.0,
         unit: "micro-g",
-        others: &[("m/s^2", 1e6 / 9.806_65), ("mg", 1000.0)],
+        others: &[("in mg", 1000.0), ("in m/s^2", 1e6 / 9.806_65)],
     },
     Range {
         key: "velocity_random_walk_mps_sqrt_h",
         least: 1e-4,
         most: 5.0,
         unit: "(m/s)/sqrt(h)",
-        others: &[("micro-g/sqrt(Hz)", MG_SQRT_HZ / 1000.0), ("mg/sqrt(Hz)", MG_SQRT_HZ)],
+        others: &[("in micro-g/sqrt(Hz)", MG_SQRT_HZ / 1000.0), ("in mg/sqrt(Hz)", MG_SQRT_HZ)],
     },
     Range {
         key: "accel_scale_factor_std_ppm",
@@ -128,8 +128,10 @@ fn model(place: &Place, inside: &str, model: &ImuModel, found: &mut Found) {
             found.warn("imu-zero", at(), text, "write what the data sheet says");
         } else if !(range.least..=range.most).contains(&value) {
             let unit = range.unit;
-            let text =
-                format!("{value} {unit} is of no IMU: expected {} to {}", range.least, range.most);
+            let text = format!(
+                "{value:?} {unit} is of no IMU: real ones have {:?} to {:?}",
+                range.least, range.most
+            );
             found.error("imu-spec", at(), &text, &range.other(value));
         }
     }
@@ -142,7 +144,7 @@ impl Range {
             |(_, factor): &&(&str, f64)| (self.least..=self.most).contains(&(value * factor));
         match self.others.iter().find(sound) {
             Some((unit, factor)) => {
-                format!("if it is in {unit}: {}", significant(value * factor))
+                format!("if it is {unit}: {}", significant(value * factor))
             }
             None => format!("the unit is {}", self.unit),
         }

@@ -42,7 +42,7 @@ fn mounting(sensor: &SensorConfig, found: &mut Found) {
         found.error(
             "mounting-angle",
             place(),
-            &format!("{worst} deg is no angle of a mounting: expected -180 to 180"),
+            &format!("{worst} deg is no angle of a mounting, which is within 180"),
             &format!("{near:?}?"),
         );
     } else if worst.abs() > LEFT {
