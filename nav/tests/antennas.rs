@@ -9,7 +9,9 @@ use insd_base::{
 };
 use insd_nav::error_state::{ATTITUDE, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
-use insd_nav::{AidReport, Estimator, Filter, Increment, InitialState, NavConfig, Nominal, Outcome};
+use insd_nav::{
+    AidReport, Estimator, Filter, Increment, InitialState, NavConfig, Nominal, Outcome,
+};
 use nalgebra::{Matrix3, Vector3};
 
 const IMU: ImuSpec = ImuSpec {

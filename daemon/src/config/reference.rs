@@ -123,7 +123,7 @@ fn below(page: &mut String, shape: &Shape, name: &str) {
                 let doc = escaped(&word.doc);
                 let _ = writeln!(
                     page,
-                    ".TP\n.B {}, {tag} = \"{}\"\n{doc}",
+                    ".TP\n.B {}, {tag} = \\(dq{}\\(dq\n{doc}",
                     escaped(name),
                     escaped(&word.name)
                 );
@@ -137,7 +137,7 @@ fn below(page: &mut String, shape: &Shape, name: &str) {
 /// Words that are explained.
 fn list(page: &mut String, all: &[Word]) {
     for word in all.iter().filter(|word| !word.doc.is_empty()) {
-        let _ = writeln!(page, ".br\n\"{}\": {}", escaped(&word.name), escaped(&word.doc));
+        let _ = writeln!(page, ".br\n\\(dq{}\\(dq: {}", escaped(&word.name), escaped(&word.doc));
     }
 }
 
@@ -162,7 +162,12 @@ fn default(value: &serde_json::Value) -> Option<String> {
 
 /// Safe from being read as commands of the page.
 fn escaped(text: &str) -> String {
-    let text = text.replace('\\', "\\e").replace('-', "\\-").replace("[`", "`").replace("`]", "`");
+    let text = text
+        .replace('\\', "\\e")
+        .replace('-', "\\-")
+        .replace('"', "\\(dq")
+        .replace("[`", "`")
+        .replace("`]", "`");
     if text.starts_with(['.', '\'']) { format!("\\&{text}") } else { text }
 }
 
