@@ -57,8 +57,11 @@ pub fn examine(text: &str) -> Examined {
             let sound =
                 |finding: &Finding| finding.place.line.is_none_or(|line| !slips.contains(&line));
             findings.extend(walk.findings.into_iter().filter(sound));
-            let read = if is_whole { read(text, text) } else { mended(&table, text) };
-            read.map_err(|fault| findings.extend(fault.filter(|_| is_whole))).ok()
+            if is_whole {
+                read(text, text).map_err(|fault| findings.push(*fault)).ok()
+            } else {
+                mended(&table, text)
+            }
         }
         Err(fault) => {
             findings.push(unreadable(fault.message(), None));
@@ -102,11 +105,11 @@ fn unreadable(text: &str, line: Option<usize>) -> Finding {
 }
 
 /// Reads strictly, and again with the environment laid over it.
-fn read(text: &str, with: &str) -> Result<Config, Option<Finding>> {
+fn read(text: &str, with: &str) -> Result<Config, Box<Finding>> {
     toml::from_str::<Config>(text).map_err(|fault| {
         let document = Document::read(text, Vec::new());
         let line = fault.span().map(|span| document.line(span.start));
-        Some(unreadable(fault.message(), line))
+        Box::new(unreadable(fault.message(), line))
     })?;
     config::Config::builder()
         .add_source(config::File::from_str(text, config::FileFormat::Toml))
@@ -116,12 +119,12 @@ fn read(text: &str, with: &str) -> Result<Config, Option<Finding>> {
         .map_err(|fault| {
             let text = format!("with the environment laid over it: {fault}");
             let finding = Finding::new(Severity::Error, "environment", Place::default(), &text);
-            Some(finding.refused())
+            Box::new(finding.refused())
         })
 }
 
 /// What is left of a text after all that is wrong was taken out.
-fn mended(table: &Table, with: &str) -> Result<Config, Option<Finding>> {
-    Config::deserialize(table.clone()).map_err(|_| None)?;
-    read(&table.to_string(), with)
+fn mended(table: &Table, with: &str) -> Option<Config> {
+    let config = Config::deserialize(table.clone()).ok()?;
+    Some(read(&table.to_string(), with).unwrap_or(config))
 }
