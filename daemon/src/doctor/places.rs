@@ -102,10 +102,6 @@ fn meant(device: &Device, here: &[FoundPort]) -> String {
         .filter_map(|port| port.stable.first().or(port.device.as_ref()))
         .map(|path| path.display().to_string())
         .collect();
-    let own = device.path.display().to_string();
-    if let Some(near) = nearest(&own, names.iter().map(String::as_str)) {
-        return format!("did you mean `{near}`?");
-    }
     if names.is_empty() {
         return "is it plugged in? `insd ports` finds none of the kind".to_owned();
     }

@@ -13,8 +13,8 @@ pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
     };
     known
         .into_iter()
-        .map(|known| (steps(known), known))
-        .filter(|(steps, known)| *steps <= far || begun(known))
+        .map(|known| (if begun(known) { 1 } else { steps(known) }, known))
+        .filter(|(steps, _)| *steps <= far)
         .min_by_key(|(steps, _)| *steps)
         .map(|(_, known)| known)
 }
@@ -34,7 +34,7 @@ mod tests {
 
     #[test]
     fn a_slip_of_the_finger_is_known_and_another_word_is_not() {
-        let keys = ["rate_hz", "patience_s", "heading_std_deg", "kind"];
+        let keys = ["name", "rate_hz", "patience_s", "heading_std_deg", "kind"];
         for (word, meant) in [
             ("rate_herz", Some("rate_hz")),
             ("rate", Some("rate_hz")),
