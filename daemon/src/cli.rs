@@ -1,13 +1,14 @@
 //! The command line.
 
+use std::io;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use insd_drivers::recording::RecordingError;
 
 use crate::commands::{
-    campaign, check_config, convert, evaluate, example_config, feed, generate, limit, monitor,
-    ports, replay, report, run, simulate, sniff,
+    campaign, check_config, convert, doctor, evaluate, example_config, feed, generate, limit,
+    monitor, ports, replay, report, run, simulate, sniff,
 };
 use crate::demo;
 use crate::logging::Log;
@@ -49,6 +50,8 @@ enum Command {
     Limit(limit::LimitArgs),
     /// Look for faults in a configuration: tells all of them, and what it amounts to
     CheckConfig(check_config::CheckConfigArgs),
+    /// Look at a configuration and at this computer: devices, permissions, what arrives at each port
+    Doctor(doctor::DoctorArgs),
     /// Print a commented configuration to start from
     ExampleConfig(example_config::ExampleConfigArgs),
     /// Be the sensors of a simulated ship, in real time, each on a pseudo terminal
@@ -66,6 +69,11 @@ enum Command {
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct BadInput(pub String);
+
+/// There are warnings, and they count: ends with exit status 1.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct Warned(pub String);
 
 impl Cli {
     /// What is logged where the environment (`RUST_LOG`) says nothing: the daemon tells what happens,
@@ -92,6 +100,7 @@ impl Cli {
             Command::Campaign(args) => campaign::run(&args),
             Command::Limit(args) => limit::run(&args),
             Command::CheckConfig(args) => check_config::run(&args),
+            Command::Doctor(args) => doctor::run(&args),
             Command::ExampleConfig(args) => example_config::run(&args),
             Command::Feed(args) => feed::run(&args),
             Command::Generate(args) => generate::run(&args),
@@ -99,6 +108,15 @@ impl Cli {
             Command::Sniff(args) => sniff::run(&args),
         }
     }
+}
+
+/// Whether a reader of standard output has seen enough: `insd ... | head`. That is nobody's fault.
+#[must_use]
+pub fn is_enough(fault: &anyhow::Error) -> bool {
+    fault.chain().any(|cause| {
+        let io = cause.downcast_ref::<io::Error>();
+        io.is_some_and(|fault| fault.kind() == io::ErrorKind::BrokenPipe)
+    })
 }
 
 /// 2 for bad input, 1 for everything else.

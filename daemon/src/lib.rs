@@ -3,12 +3,15 @@
 //! The engine and all below it are pure. Here are the files, the terminal, the threads and the one
 //! clock ([`clock`]).
 
+#![warn(clippy::print_stdout)] // it panics when the reader has gone: `commands::print` does not
+
 mod calendar;
 pub mod cli;
 pub mod clock;
 pub mod commands;
 pub mod config;
 pub mod demo;
+pub mod doctor;
 mod ears;
 pub mod evaluation;
 pub mod logging;

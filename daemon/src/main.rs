@@ -11,6 +11,7 @@ fn main() -> ExitCode {
     let log = Log::start(cli.log_level());
     match cli.run(&log) {
         Ok(()) => ExitCode::SUCCESS,
+        Err(fault) if insd::cli::is_enough(&fault) => ExitCode::SUCCESS,
         Err(fault) => {
             eprintln!("insd: {fault:#}");
             insd::cli::exit_code(&fault)

@@ -273,8 +273,9 @@ fn a_stored_state_is_saved_confirmed_and_dropped_after_a_turn() {
     assert!(message.contains("state.toml:") && message.contains("from 0 to 360"), "{message}");
     assert!(told(&[&warm[..5], &["none.toml"]].concat(), 2).contains("none.toml"));
     let under_way = Desk::with_voyage();
-    let summary = under_way.replay("nav.csv", &["--save-state", &under_way.name("s.toml")]);
-    assert!(summary.contains("no state stored") && !under_way.path("s.toml").exists());
+    let (dir, nav) = (under_way.voyage(), under_way.name("nav.csv"));
+    let told = told(&["replay", &dir, "--out", &nav, "--save-state", &under_way.name("s.toml")], 1);
+    assert!(told.contains("no state stored") && !under_way.path("s.toml").exists());
 }
 
 #[test]
@@ -314,4 +315,54 @@ fn a_report_of_a_voyage_is_one_page_and_one_of_nothing_is_refused() {
     let page = fs::read_to_string(desk.path("page.html")).unwrap();
     assert!(page.contains("<h1>voyage</h1>") && page.ends_with("</html>\n"));
     assert!(page.contains("not known: a voyage directory") && !page.contains("NaN"));
+}
+
+/// How a command ends whose reader has gone before it says a word, and what it complains of.
+fn unread(arguments: &[&str]) -> (Option<i32>, String) {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_insd"));
+    let output = command
+        .args(arguments)
+        .stdout(writer)
+        .stderr(std::process::Stdio::piped())
+        .output()
+        .unwrap();
+    (output.status.code(), text(&output.stderr))
+}
+
+#[test]
+fn a_reader_that_has_seen_enough_ends_every_command_quietly() {
+    let desk = Desk::with_voyage();
+    let (file, nav) = (desk.name("insd.toml"), desk.name("nav.csv"));
+    fs::write(&file, printed(&["example-config"])).unwrap();
+    desk.replay("nav.csv", &[]);
+    let truth = desk.name("voyage/truth.csv");
+    let scenario = desk.name("short.toml");
+    for arguments in [
+        &["check-config", &file][..],
+        &["doctor", &file, "--json", "--seconds", "0"],
+        &["example-config"],
+        &["example-config", "--list"],
+        &["simulate", "--list"],
+        &["ports"],
+        &["limit", "7"],
+        &["evaluate", &nav, &truth],
+        &["campaign", &scenario, "--seeds", "1..2"],
+    ] {
+        let (status, said) = unread(arguments);
+        let quiet = !said.contains("panicked") && !said.contains("Broken pipe");
+        assert!(quiet, "{arguments:?}: {said}");
+        // what was found counts, whether it is read or not
+        let expected = if arguments[0] == "doctor" { 2 } else { 0 };
+        assert_eq!(status, Some(expected), "{arguments:?}: {said}");
+    }
+}
+
+#[test]
+fn the_shipped_scenarios_are_listed_with_what_they_are_for() {
+    let list = printed(&["simulate", "--list"]);
+    assert_eq!(list.lines().count(), insd_simulator::shipped().len(), "{list}");
+    assert!(list.contains("02  coastal-2h-navigation  Departs after ten minutes"), "{list}");
+    assert_eq!(insd(&["simulate"]).output().unwrap().status.code(), Some(2));
 }

@@ -8,6 +8,7 @@ use std::path::Path;
 use assert_cmd::Command;
 use insd::commands::example_config::EXAMPLES;
 use insd::config::Config;
+use insd::config::check::shape::{Key, Shape, sections};
 use insd_base::Voyage;
 use insd_intake::config::Kind;
 use insd_simulator::feed::{Encoding, FeedConfig};
@@ -37,11 +38,17 @@ fn uncommented(text: &str) -> String {
     text.lines().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// The keys that a section may have, from what the reader says about one that it has not.
+/// The keys of a section, or all sections.
 fn keys(section: &str) -> Vec<String> {
-    let fault = Config::of_text(&format!("{section}\nno_such_key = 1\n")).unwrap_err();
-    let (_, expected) = fault.split_once("expected one of").unwrap();
-    expected.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+    let sections = sections();
+    let names = |keys: &[Key]| keys.iter().map(|key| key.name.clone()).collect();
+    if section.is_empty() {
+        return names(&sections);
+    }
+    match &sections.iter().find(|own| own.name == section).unwrap().shape {
+        Shape::Table(keys) => names(keys),
+        shape => panic!("{section}: {shape:?}"),
+    }
 }
 
 /// All keys of a table and of those below it, but for the sections themselves.
@@ -111,7 +118,7 @@ fn the_installed_file_shows_every_section_there_is_and_all_of_the_ship() {
         });
         assert!(shown, "[{section}] is not in the installed file");
     }
-    for key in keys("[ship]") {
+    for key in keys("ship") {
         assert!(text.lines().any(|line| line.starts_with(&format!("{key} = "))), "{key}");
     }
 }
@@ -165,17 +172,42 @@ fn a_check_says_what_a_file_amounts_to_or_all_that_is_wrong() {
     let mut command = insd();
     command.arg("check-config").arg(&file);
     let told = text_of(command);
-    assert!(told.starts_with(&format!("{}: no faults\n", file.display())), "{told}");
+    assert!(told.contains(&format!("{}: 1 note\n", file.display())), "{told}");
     assert!(told.contains("  sensor    gnss: ubx on gnss\n"), "{told}");
 
     let wrong = installed().replace("rate_hz = 10.0", "rate_hz = -1.0");
     fs::write(&file, wrong.replace("port = \"gnss\"", "port = \"gps\"")).unwrap();
     let outcome = insd().arg("check-config").arg(&file).assert().code(2);
-    let told = String::from_utf8(outcome.get_output().stderr.clone()).unwrap();
-    assert!(
-        told.contains("2 faults") && told.contains("rate_hz") && told.contains("gnss"),
-        "{told}"
-    );
+    let told = String::from_utf8(outcome.get_output().stdout.clone()).unwrap();
+    for part in ["line 18: [ship]: rate_hz: expected", "port: expected the name", "2 errors"] {
+        assert!(told.contains(part), "{part} is not in: {told}");
+    }
+}
+
+#[test]
+fn a_check_for_programs_has_severity_cause_place_value_and_advice() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("insd.toml");
+    fs::write(&file, installed().replace("kind = \"ubx\"", "kind = \"ublox\"")).unwrap();
+    let outcome = insd().args(["check-config", "--json"]).arg(&file).assert().code(2);
+    let told: serde_json::Value = serde_json::from_slice(&outcome.get_output().stdout).unwrap();
+    assert_eq!(told["accepted"], false);
+    let finding = &told["findings"][0];
+    for (key, value) in [("severity", "error"), ("cause", "unknown-word"), ("value", "\"ublox\"")] {
+        assert_eq!(finding[key], value, "{told}");
+    }
+    assert_eq!(finding["place"]["name"], "gnss", "{told}");
+    assert_eq!(finding["advice"], "did you mean `ubx`?", "{told}");
+}
+
+#[test]
+fn warnings_end_a_check_only_where_it_is_strict() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("insd.toml");
+    let lever = "gnss_lever_m = [0.0, 0.0, 18.0]";
+    fs::write(&file, installed().replace("gnss_lever_m = [0.0, 0.0, 0.0]", lever)).unwrap();
+    insd().arg("check-config").arg(&file).assert().code(0);
+    insd().args(["check-config", "--strict"]).arg(&file).assert().code(1);
 }
 
 #[test]
@@ -187,6 +219,7 @@ fn every_command_has_a_manual_page_and_completions() {
     let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
     assert!(read("insd.1").contains("check\\-config"));
     assert!(read("insd-feed.1").contains("insd\\-sensors"));
+    assert!(read("insd.toml.5").contains("heading_offset_deg"));
     for name in ["insd.bash", "_insd", "insd.fish"] {
         assert!(read(name).contains("example-config"), "{name}");
     }

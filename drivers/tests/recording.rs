@@ -69,6 +69,7 @@ fn gnss(index: usize) -> Stamped<GnssFix> {
             hdop: Some(0.9),
             satellites: Some(12),
             quality: FixQuality::RtkFixed,
+            lever: None,
         },
         arrival: Some(Time::from_seconds(index as f64 + delay)),
     }

@@ -96,6 +96,7 @@ fn fix(seconds: f64) -> Received {
         hdop: Some(0.9),
         satellites: Some(14),
         quality: FixQuality::Differential,
+        lever: None,
     });
     Received { receipt: time, source: Source::Gnss(0), message }
 }

@@ -53,6 +53,8 @@ pub struct Filter {
     sway: Option<Sway>,
     navigating: bool,
     antenna: AntennaMotion,
+    /// Stated lever arm of the antenna that was heard last, body axes, m.
+    antenna_arm: Vector3<f64>,
     last_relative: Option<Time>,
     last_water: Option<Time>,
     turned: Vector3<f64>,
@@ -108,6 +110,7 @@ impl Filter {
             sway: None,
             navigating: false,
             antenna: AntennaMotion::default(),
+            antenna_arm: config.lever_arms.gnss.0,
             last_relative: None,
             last_water: None,
             turned: Vector3::zeros(),

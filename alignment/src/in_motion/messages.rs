@@ -3,6 +3,7 @@
 use insd_base::{
     ExternalReference, FixQuality, Geodetic, GnssFix, LogReference, LogVelocity, Rejection, Source,
 };
+use insd_nav::antenna::AntennaMotion;
 use insd_nav::floors::{self, Believable};
 use insd_nav::{AidReport, Outcome, Report};
 use nalgebra::{Vector2, Vector3};
@@ -24,7 +25,7 @@ impl EightState {
         }
         self.settle();
         self.note_quality(fix.quality);
-        let lever = self.config.lever_arms.gnss.0;
+        let lever = self.note_arm(fix);
         let mut passed = Vec::new();
         if let Some(velocity) = fix.velocity {
             let std = floors::vector(fix.velocity_std, &floors::gnss_velocity());
@@ -158,6 +159,16 @@ impl EightState {
         passes
     }
 
+    /// The lever arm of the antenna that speaks now, m.
+    fn note_arm(&mut self, fix: &GnssFix) -> Vector3<f64> {
+        let arm = fix.lever.unwrap_or(self.config.lever_arms.gnss).0;
+        if arm != self.antenna_arm {
+            self.antenna = AntennaMotion::default();
+            self.antenna_arm = arm;
+        }
+        arm
+    }
+
     /// A filter that refuses its receiver for long is itself in error: it starts again from the
     /// receiver's word, with the heading unknown.
     fn consider_restart(&mut self, fix: &GnssFix, passed: &[bool], report: &mut Report) {
@@ -171,7 +182,7 @@ impl EightState {
             return;
         }
         let spread = |std: Vector3<f64>, arm: f64| std.xy().norm() + arm;
-        let lever = self.config.lever_arms.gnss.0;
+        let lever = self.antenna_arm;
         let place_std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality)).value;
         let speed_std = floors::vector(fix.velocity_std, &floors::gnss_velocity()).value;
         let swing = self.scene().swing(&lever).norm();

@@ -67,6 +67,8 @@ pub struct EightState {
     /// Integral of the force, computed frame, m/s: only its changes are used.
     push: Vector3<f64>,
     antenna: AntennaMotion,
+    /// Lever arm of the antenna that was heard last, body axes, m.
+    antenna_arm: Vector3<f64>,
     rtk: Option<bool>,
     heard_height: Time,
     refused_since: Option<Time>,
@@ -126,6 +128,7 @@ impl EightState {
             rate: level.rate,
             push: Vector3::zeros(),
             antenna: AntennaMotion::default(),
+            antenna_arm: config.lever_arms.gnss.0,
             rtk: None,
             heard_height: level.time,
             refused_since: None,
@@ -230,7 +233,7 @@ impl EightState {
 
     /// Notes the antenna's velocity but for a constant, for its acceleration.
     fn note_antenna(&mut self) {
-        let swing = self.motion.attitude * self.rate.cross(&self.config.lever_arms.gnss.0);
+        let swing = self.motion.attitude * self.rate.cross(&self.antenna_arm);
         self.antenna.note(self.time, &(self.push + swing));
     }
 

@@ -75,9 +75,9 @@ pub fn run(args: &CampaignArgs) -> anyhow::Result<()> {
     bar.finish_and_clear();
     let report = CampaignReport::new(&scenario.name, runs, yardstick.as_ref());
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&report)?);
+        super::print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
     } else {
-        print!("{report}");
+        super::print(&report.to_string())?;
     }
     if report.seeds.is_empty() {
         return Err(BadInput(format!("{}: no seed gave a solution", scenario.name)).into());

@@ -1,28 +1,77 @@
 //! `insd check-config`: what is wrong with a configuration, and what it amounts to.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use insd_drivers::ports::{Destination, Transport};
 
-use crate::config::{Config, OutputSection};
+use crate::cli::{BadInput, Warned};
+use crate::config::{Config, OutputSection, Severity, check};
+use crate::doctor::{Diagnosis, text};
 
 /// Options of `insd check-config`.
 #[derive(Clone, Debug, clap::Args)]
+#[command(
+    after_help = "Ends with 0, with 2 if there are errors, and with 1 if there are warnings and --strict is given."
+)]
 pub struct CheckConfigArgs {
     /// Configuration file
     #[arg(value_name = "FILE", default_value = "/etc/insd/insd.toml")]
     file: PathBuf,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+    /// Warnings count as errors do
+    #[arg(long)]
+    strict: bool,
 }
 
 /// Runs the command.
 ///
 /// # Errors
-/// [`crate::cli::BadInput`] with all faults, and if the file cannot be read.
+/// [`BadInput`] if there are errors, and if the file cannot be read.
 pub fn run(args: &CheckConfigArgs) -> anyhow::Result<()> {
-    let (config, _) = Config::load(&args.file)?;
-    print!("{}: no faults\n{}", args.file.display(), summary(&config));
-    Ok(())
+    let text = read(&args.file)?;
+    let diagnosis = Diagnosis::of_text(&text);
+    let config = check::examine(&text).config.filter(|_| diagnosis.accepted);
+    let summary = config.as_ref().map(summary).unwrap_or_default();
+    Outcome { file: &args.file, json: args.json, strict: args.strict }.tell(&diagnosis, &summary)
+}
+
+/// The text of a configuration, with the overrides of the environment.
+///
+/// # Errors
+/// [`BadInput`] if it cannot be read.
+pub(super) fn read(file: &Path) -> anyhow::Result<String> {
+    let text = Config::text_of(file);
+    text.map_err(|error| BadInput(format!("{}: cannot be read: {error}", file.display())).into())
+}
+
+/// How a diagnosis is told, and how the command ends.
+pub(super) struct Outcome<'a> {
+    pub(super) file: &'a Path,
+    pub(super) json: bool,
+    pub(super) strict: bool,
+}
+
+impl Outcome<'_> {
+    /// Prints what was found and, for people, a summary below it.
+    pub(super) fn tell(&self, diagnosis: &Diagnosis, summary: &str) -> anyhow::Result<()> {
+        let (file, sum) = (self.file.display(), text::sum(diagnosis));
+        // what was found counts, whether it is read or not
+        let printed = super::print(&if self.json {
+            serde_json::to_string_pretty(diagnosis)? + "\n"
+        } else {
+            format!("{}{file}: {sum}\n{summary}", text::report(diagnosis))
+        });
+        if diagnosis.count(Severity::Error) > 0 {
+            return Err(BadInput(format!("{file}: {sum}")).into());
+        }
+        if self.strict && diagnosis.count(Severity::Warning) > 0 {
+            return Err(Warned(format!("{file}: {sum}")).into());
+        }
+        Ok(printed?)
+    }
 }
 
 /// What a configuration amounts to, a line for each thing in it.

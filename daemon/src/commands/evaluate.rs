@@ -55,9 +55,9 @@ pub fn run(args: &EvaluateArgs) -> anyhow::Result<()> {
         ..Report::new(&found, drifts(&outages(&nav.rows), &found.epochs))
     };
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&report)?);
+        super::print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
     } else {
-        print!("{report}");
+        super::print(&report.to_string())?;
     }
     let Some(file) = &args.plot else { return Ok(()) };
     let innovations = args.innovations.as_deref().map(read_rows).transpose()?;

@@ -1,7 +1,5 @@
 //! `insd example-config`: commented configurations to start from.
 
-use std::io::{self, Write as _};
-
 use crate::cli::BadInput;
 
 /// Options of `insd example-config`.
@@ -60,18 +58,14 @@ pub const EXAMPLES: [Example; 5] = [
 /// # Errors
 /// [`BadInput`] if there is no such profile, or what standard output says.
 pub fn run(args: &ExampleConfigArgs) -> anyhow::Result<()> {
-    let mut out = io::stdout().lock();
     if args.list {
-        for Example { name, what, .. } in EXAMPLES {
-            writeln!(out, "{name:<10} {what}")?;
-        }
-        return Ok(());
+        let line = |example: Example| format!("{:<10} {}\n", example.name, example.what);
+        return Ok(super::print(&EXAMPLES.map(line).concat())?);
     }
     let found = EXAMPLES.iter().find(|example| example.name == args.profile);
     let example = found.ok_or_else(|| {
         let names = EXAMPLES.map(|example| example.name).join(", ");
         BadInput(format!("{}: expected one of {names}", args.profile))
     })?;
-    out.write_all(example.text.as_bytes())?;
-    Ok(())
+    Ok(super::print(example.text)?)
 }

@@ -9,6 +9,7 @@ use clap::{CommandFactory, ValueEnum};
 use clap_complete::Shell;
 
 use crate::cli::Cli;
+use crate::config::reference;
 
 /// Options of `insd generate`.
 #[derive(Clone, Debug, clap::Args)]
@@ -22,7 +23,7 @@ pub struct GenerateArgs {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum What {
-    /// A manual page for the program and each of its commands
+    /// A manual page for the program, for each of its commands, and for its configuration
     Man,
     /// Completions for bash, zsh and fish
     Completions,
@@ -36,6 +37,7 @@ pub fn run(args: &GenerateArgs) -> anyhow::Result<()> {
     fs::create_dir_all(&args.folder).with_context(|| format!("{}", args.folder.display()))?;
     match args.what {
         What::Man => clap_mangen::generate_to(Cli::command(), &args.folder)
+            .and_then(|()| fs::write(args.folder.join("insd.toml.5"), reference::manual_page()))
             .with_context(|| format!("{}", args.folder.display())),
         What::Completions => [Shell::Bash, Shell::Zsh, Shell::Fish]
             .into_iter()

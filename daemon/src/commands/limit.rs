@@ -59,10 +59,10 @@ pub fn run(args: &LimitArgs) -> anyhow::Result<()> {
     let report =
         LimitReport { scenario: named.name, limits: limits.iter().map(Row::new).collect() };
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&report)?);
+        super::print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
     } else {
-        println!("{}: 1-sigma of the optimal filter\n", report.scenario);
-        print!("{}", table(&report.limits));
+        let head = format!("{}: 1-sigma of the optimal filter\n\n", report.scenario);
+        super::print(&(head + &table(&report.limits).to_string()))?;
     }
     Ok(())
 }

@@ -4,6 +4,7 @@ pub mod alignment;
 pub mod campaign;
 pub mod check_config;
 pub mod convert;
+pub mod doctor;
 pub mod evaluate;
 pub mod example_config;
 pub mod feed;
@@ -23,7 +24,15 @@ mod summary;
 
 pub use outage::SensorOutage;
 
+use std::io::{self, Write as _};
 use std::path::PathBuf;
+
+/// Writes to standard output. A reader that has seen enough (`| head`) is an error like any other, which
+/// ends the program quietly: [`crate::cli::is_enough`].
+fn print(text: &str) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes()).and_then(|()| out.flush())
+}
 
 /// The rate that a command line may ask for, Hz.
 fn rate(text: &str) -> Result<f64, String> {

@@ -39,7 +39,7 @@ pub struct MonitorArgs {
 pub fn run(args: &MonitorArgs) -> anyhow::Result<()> {
     let client = Client::new(&args.url);
     if args.json {
-        println!("{}", client.fetch()?);
+        super::print(&format!("{}\n", client.fetch()?))?;
         return Ok(());
     }
     if args.once {
@@ -57,7 +57,7 @@ pub fn run(args: &MonitorArgs) -> anyhow::Result<()> {
 fn once(client: &Client) -> anyhow::Result<()> {
     let snapshot: Snapshot =
         serde_json::from_str(&client.fetch()?).context("this is no status of insd")?;
-    print!("{}", monitor::summary(&snapshot));
+    super::print(&monitor::summary(&snapshot).to_string())?;
     if !snapshot.is_navigating() {
         bail!("not navigating: {}", snapshot.mode.name.replace('_', " "));
     }

@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::io::{self, Write as _};
 use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 
@@ -47,10 +46,7 @@ struct Shown {
 pub fn run(args: &PortsArgs) -> anyhow::Result<()> {
     let ports: Vec<Shown> = list(Path::new("/")).iter().map(shown).collect();
     let text = if args.json { serde_json::to_string_pretty(&ports)? + "\n" } else { table(&ports) };
-    match io::stdout().lock().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
-        _ => Ok(()),
-    }
+    Ok(super::print(&text)?)
 }
 
 fn shown(port: &FoundPort) -> Shown {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::cli::BadInput;
-use crate::config::Config;
+use crate::config::{Config, Severity, check};
 use crate::logging::Log;
 use crate::run::{self, RunOptions};
 
@@ -29,6 +29,11 @@ pub fn run(args: &RunArgs, log: &Log) -> anyhow::Result<()> {
     let (config, text) = Config::load(&args.config)?;
     if !log.is_told_by_environment {
         log.set(&config.log.level).map_err(BadInput)?;
+    }
+    for finding in check::examine(&text).findings {
+        if finding.severity == Severity::Warning || finding.severity == Severity::Error {
+            tracing::warn!(cause = finding.cause, "configuration: {finding}");
+        }
     }
     let options = RunOptions {
         nav: args.nav.clone(),

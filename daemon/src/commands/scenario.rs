@@ -50,6 +50,17 @@ fn answers_to(full: &str, word: &str) -> bool {
     word == full || word == name || is_number
 }
 
+/// The shipped scenarios, a line for each: number, name and what it is for.
+pub(crate) fn list() -> String {
+    let line = |(file, text): &(&str, &str)| {
+        let (number, name) = stem(file).split_once('-').unwrap_or(("", stem(file)));
+        let table = text.parse::<toml::Table>().unwrap_or_default();
+        let what = table.get("description").and_then(toml::Value::as_str).unwrap_or_default();
+        format!("{number}  {name:<22} {}\n", what.trim())
+    };
+    shipped().iter().map(line).collect()
+}
+
 fn unknown(word: &str) -> String {
     let names: Vec<&str> = shipped().iter().map(|(file, _)| stem(file)).collect();
     format!("{word}: no such file; shipped scenarios are\n  {}", names.join("\n  "))

@@ -12,13 +12,17 @@ use super::scenario;
 #[derive(Clone, Debug, clap::Args)]
 pub struct SimulateArgs {
     /// Scenario file, or name or number of a shipped scenario
-    scenario: String,
+    #[arg(required_unless_present = "list")]
+    scenario: Option<String>,
+    /// Tell which scenarios are shipped
+    #[arg(long, conflicts_with_all = ["scenario", "seed", "out", "sets", "compress"])]
+    list: bool,
     /// Seed of all random streams
-    #[arg(long, value_name = "N")]
-    seed: u64,
+    #[arg(long, value_name = "N", required_unless_present = "list")]
+    seed: Option<u64>,
     /// Directory to write
-    #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    #[arg(long, value_name = "DIR", required_unless_present = "list")]
+    out: Option<PathBuf>,
     /// Set a key of the scenario to another value, as start.lat_deg=60; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     sets: Vec<Override>,
@@ -32,20 +36,23 @@ pub struct SimulateArgs {
 /// # Errors
 /// The scenario is faulty or the directory cannot be written.
 pub fn run(args: &SimulateArgs) -> anyhow::Result<()> {
-    let scenario = scenario::find(&args.scenario, &args.sets)?;
-    let voyage = simulate(&scenario.scenario, args.seed);
+    let SimulateArgs { scenario: Some(word), seed: Some(seed), out: Some(out), .. } = args else {
+        return Ok(super::print(&scenario::list())?);
+    };
+    let scenario = scenario::find(word, &args.sets)?;
+    let voyage = simulate(&scenario.scenario, *seed);
     let compression = if args.compress { Compression::Zstd } else { Compression::None };
-    write_voyage(&args.out, &voyage, compression).context("cannot write the voyage")?;
+    write_voyage(out, &voyage, compression).context("cannot write the voyage")?;
     eprintln!(
         "{}, seed {}: {} imu, {} gnss, {} log, {} reference, {} truth rows in {}",
         scenario.name,
-        args.seed,
+        seed,
         voyage.imu.len(),
         voyage.gnss.len(),
         voyage.log.len(),
         voyage.reference.len(),
         voyage.truth.len(),
-        args.out.display()
+        out.display()
     );
     Ok(())
 }

@@ -23,11 +23,20 @@ pub(super) fn written_below(text: &str) -> String {
     format!("{}\n{}", own.join("\n"), overrides.concat())
 }
 
+fn written(text: &str) -> impl Iterator<Item = (&str, &str)> {
+    text.lines().filter_map(|line| line.strip_prefix(MARK)?.split_once('='))
+}
+
+/// The keys that are overridden below a text, step by step, with what they are set to.
+pub(super) fn keys(text: &str) -> Vec<(Vec<String>, String)> {
+    let steps = |key: &str| key.split("__").skip(1).map(str::to_lowercase).collect();
+    written(text).map(|(key, value)| (steps(key), value.to_owned())).collect()
+}
+
 /// The overrides that are written below a text.
 pub(super) fn of(text: &str) -> Environment {
-    let lines = text.lines().filter_map(|line| line.strip_prefix(MARK)?.split_once('='));
     let pairs: Map<String, String> =
-        lines.map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
+        written(text).map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
     Environment::with_prefix(PREFIX)
         .prefix_separator("__")
         .separator("__")

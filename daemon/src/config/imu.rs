@@ -1,17 +1,18 @@
 //! Error model of the IMU as its data sheet states it.
 
 use insd_base::{ImuSpec, Triad};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Keys and units as in a voyage's `[imu]`.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ImuModel {
     /// Turn-on bias of the gyros, 1-sigma, deg/h.
     pub gyro_bias_std_deg_h: f64,
     /// In-run bias of the gyros, 1-sigma, deg/h.
     pub gyro_bias_instability_deg_h: f64,
-    /// Its time constant, s.
+    /// Time constant of the gyros' in-run bias, s.
     pub gyro_bias_time_constant_s: f64,
     /// Angle random walk, deg/sqrt(h).
     pub angle_random_walk_deg_sqrt_h: f64,
@@ -21,7 +22,7 @@ pub struct ImuModel {
     pub accel_bias_std_ug: f64,
     /// In-run bias of the accelerometers, 1-sigma, micro-g.
     pub accel_bias_instability_ug: f64,
-    /// Its time constant, s.
+    /// Time constant of the accelerometers' in-run bias, s.
     pub accel_bias_time_constant_s: f64,
     /// Velocity random walk, (m/s)/sqrt(h).
     pub velocity_random_walk_mps_sqrt_h: f64,

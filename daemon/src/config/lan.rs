@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 use std::net::Ipv4Addr;
 
 use insd_output::{LanConfig, MessageKind, Sfi, TransmissionGroup};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Routers that a datagram may pass, and one.
 const TTL: std::ops::RangeInclusive<u32> = 1..=255;
 
 /// How a port speaks on the ship's network.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LanSection {
     /// Who sends: two letters and four digits.

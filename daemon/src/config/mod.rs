@@ -1,8 +1,9 @@
 //! The configuration file: TOML with environment overrides, typed, checked, all faults at once.
 //!
-//! The text is read twice: first strictly by `toml`, whose errors show line and caret and which bends no
-//! type into another; then by `config`, which lays `INSD__SECTION__KEY` of the environment over it.
+//! The text is held against what it may say ([`check`]) and read twice: first strictly by `toml`, which
+//! bends no type into another; then by `config`, which lays `INSD__SECTION__KEY` of the environment over it.
 
+pub mod check;
 mod environment;
 mod faults;
 mod filters;
@@ -10,8 +11,8 @@ mod imu;
 mod lan;
 mod node;
 mod output;
-mod place;
 mod policy;
+pub mod reference;
 mod service;
 mod spare;
 mod succession;
@@ -27,11 +28,13 @@ use insd_intake::config::{IntakeConfig, PortSpec, Role, SensorConfig};
 use insd_intake::port::Link;
 use insd_intake::sensor::TimeBase;
 use insd_output::{Rate, Station};
-use serde::Deserialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::cli::BadInput;
 use crate::speaker::Speaker;
 
+pub use check::{Examined, Finding, Place, Severity};
 pub use imu::ImuModel;
 pub use lan::LanSection;
 pub use node::{NodeMemory, NodeSection};
@@ -49,7 +52,7 @@ const BITRATE: u32 = 250_000;
 const GROUPS_RATE: f64 = 100.0;
 
 /// Everything that the daemon is told.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Config {
     /// Ship and start.
@@ -90,7 +93,7 @@ pub struct Config {
 }
 
 /// Ship and start.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ship {
     /// What is known of her motion at the start: at the berth, or under way.
@@ -126,7 +129,7 @@ pub struct Ship {
 }
 
 /// What is known of the ship's motion at the start.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Start {
     /// At the berth.
@@ -137,7 +140,7 @@ pub enum Start {
 }
 
 /// One port that is listened to.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PortSection {
     /// Its name.
@@ -161,7 +164,7 @@ pub struct PortSection {
 }
 
 /// Recording of all that arrives.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Recording {
     /// Where the files go.
@@ -180,7 +183,7 @@ pub struct Recording {
 }
 
 /// Where chronyd listens for time.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Chrony {
     /// The socket of its `refclock SOCK`.
@@ -215,12 +218,19 @@ impl Config {
     /// # Errors
     /// [`BadInput`] with all faults and their places.
     pub fn load(path: &Path) -> anyhow::Result<(Self, String)> {
-        let text = std::fs::read_to_string(path)
-            .with_context(|| format!("{}: cannot be read", path.display()))?;
-        let text = environment::written_below(&text);
+        let text =
+            Self::text_of(path).with_context(|| format!("{}: cannot be read", path.display()))?;
         let config = Self::of_text(&text)
             .map_err(|fault| BadInput(format!("{}: {fault}", path.display())))?;
         Ok((config, text))
+    }
+
+    /// The text of a file, with the environment's overrides written below it.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn text_of(path: &Path) -> std::io::Result<String> {
+        std::fs::read_to_string(path).map(|text| environment::written_below(&text))
     }
 
     /// The configuration of a text alone, as [`Config::load`] gives it and a recording holds it: with the
@@ -229,21 +239,12 @@ impl Config {
     /// # Errors
     /// All faults as one text.
     pub fn of_text(text: &str) -> Result<Self, String> {
-        let environment = environment::of(text);
-        toml::from_str::<Config>(text).map_err(|fault| fault.to_string())?;
-        let layered = config::Config::builder()
-            .add_source(config::File::from_str(text, config::FileFormat::Toml))
-            .add_source(environment)
-            .build()
-            .and_then(config::Config::try_deserialize::<Config>)
-            .map_err(|fault| format!("with the environment laid over it: {fault}"))?;
-        let faults = faults::of(&layered);
-        if faults.is_empty() {
-            Ok(layered)
-        } else {
-            let faults: Vec<String> =
-                faults.iter().map(|fault| place::with_line(text, fault)).collect();
-            Err(format!("{} faults\n  {}", faults.len(), faults.join("\n  ")))
+        let Examined { config, findings } = check::examine(text);
+        let refused: Vec<String> =
+            findings.iter().filter(|finding| finding.refused).map(ToString::to_string).collect();
+        match config {
+            Some(config) if refused.is_empty() => Ok(config),
+            _ => Err(listed(&refused)),
         }
     }
 
@@ -263,7 +264,8 @@ impl Config {
     pub fn engine(&self) -> EngineConfig {
         let ship = &self.ship;
         let [gnss, log] = [ship.gnss_lever_m, ship.log_lever_m]
-            .map(|[forward, starboard, down]| insd_base::Body::new(forward, starboard, down));
+            .map(|[forward, starboard, down]| Body::new(forward, starboard, down));
+        let gnss = if gnss == Body::default() { self.own_lever().unwrap_or(gnss) } else { gnss };
         let rate = self.imu(None).map_or(100.0, |sensor| sensor.rate_hz);
         let start = match ship.start {
             Start::Moored => StartCondition::Moored,
@@ -282,6 +284,12 @@ impl Config {
             time_std: ship.time_std_s.or_else(|| self.time_std(None)),
             relay: ship.relay,
         }
+    }
+
+    /// The lever arm of the best receiver that has one of its own.
+    fn own_lever(&self) -> Option<Body> {
+        let own = self.sensors.iter().filter(|sensor| sensor.lever().is_some());
+        own.min_by_key(|sensor| sensor.priority).and_then(SensorConfig::lever)
     }
 
     /// The monitoring points: the IMU, then those that have a name.
@@ -348,6 +356,12 @@ impl Config {
             self.sensors.iter().any(|sensor| is_own(sensor) && sensor.time == TimeBase::Utc);
         (!pulse && !synchronised).then_some(TIME_STD)
     }
+}
+
+/// Faults below each other, with their number in front.
+fn listed(faults: &[String]) -> String {
+    let s = if faults.len() == 1 { "" } else { "s" };
+    format!("{} fault{s}\n  {}", faults.len(), faults.join("\n  "))
 }
 
 fn link(transport: &Transport) -> Link {

@@ -8,6 +8,7 @@ use insd_n2k::pgn::Known;
 use insd_n2k::{LAST_ADDRESS, Name, NameParts};
 use insd_output::Manner;
 use insd_output::n2k::N2kGroups;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What a node keeps from one run to the next: what others on the bus have decided.
@@ -32,7 +33,7 @@ const NO_CODE: u16 = 0xFFFF;
 const NO_LEVEL: u8 = 0xFF;
 
 /// A node on a CAN port. Without one a port is only listened to.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NodeSection {
     /// Name of its port.

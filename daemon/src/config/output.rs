@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use insd_base::Body;
 use insd_drivers::ports::{Destination, OutputConfig};
 use insd_output::{Manner, MessageKind, Port, PortConfig, Profile, Rate, Talker};
-use serde::Deserialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::Config;
 use super::lan::LanSection;
@@ -17,7 +18,7 @@ const RATES: std::ops::RangeInclusive<f64> = 0.001..=200.0;
 const USUAL: &str = "bridge";
 
 /// A point of the ship that a port speaks of.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PointSection {
     /// Its name.
@@ -27,7 +28,7 @@ pub struct PointSection {
 }
 
 /// What happens to a port that is asked for more than it can carry.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Overfull {
     /// It is told, and the newest of each message replaces the one that still waits.
@@ -38,7 +39,7 @@ pub enum Overfull {
 }
 
 /// One port that is written to.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutputSection {
     /// Its name.
@@ -52,6 +53,7 @@ pub struct OutputSection {
     /// Messages per second of each kind. With a profile: what differs from it, 0 for none. Without both:
     /// those of a bridge.
     #[serde(alias = "sentences")]
+    #[schemars(extend("x-alias" = "sentences"))]
     pub messages: Option<BTreeMap<String, f64>>,
     /// Talker of all sentences that have one.
     pub talker: Option<String>,
@@ -115,9 +117,15 @@ impl OutputSection {
     /// line that its longest messages would take, if that is more than all of them.
     #[must_use]
     pub fn overload(&self) -> Option<f64> {
+        self.share().filter(|share| *share > 1.0)
+    }
+
+    /// The share of the bytes per second of its line that its longest messages take; `None` if its
+    /// carrier has no pace of its own.
+    #[must_use]
+    pub fn share(&self) -> Option<f64> {
         let capacity = self.carrier()?.capacity()?;
-        let share = Port::new(self.port(0)).bytes_per_second() / capacity;
-        (share > 1.0).then_some(share)
+        Some(Port::new(self.port(0)).bytes_per_second() / capacity)
     }
 
     fn named_profile(&self) -> Option<&'static Profile> {

@@ -2,10 +2,11 @@
 
 use insd_base::units::DEG;
 use insd_output::Policy;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Limits of a port that differ from the usual ones, all of them 1-sigma; see [`Policy`].
-#[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PolicySection {
     /// Position: RTK fixed (4, R), m.

@@ -3,10 +3,11 @@
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Where it is kept what the next start goes on from.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct StateSection {
     /// Whether anything is kept at all.
@@ -51,12 +52,13 @@ fn made_by_systemd(variable: &str) -> Option<PathBuf> {
 }
 
 /// The status page.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct WebSection {
     /// Whether there is one.
     pub enabled: bool,
     /// Where it is served. Beyond this computer only if that is wanted.
+    #[schemars(extend("format" = "socket"))]
     pub listen: SocketAddr,
     /// Names by which browsers reach it, beside those of this computer and the address itself.
     pub hosts: Vec<String>,
@@ -76,7 +78,7 @@ impl Default for WebSection {
 }
 
 /// What is logged.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LogSection {
     /// The least severe level that is logged, or directives as `RUST_LOG` has them.

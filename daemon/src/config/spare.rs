@@ -5,6 +5,7 @@ use insd_base::{Body, LeverArms};
 use insd_engine::EngineConfig;
 use insd_engine::vote::Voice;
 use insd_intake::config::{IntakeConfig, Role, SensorConfig};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Config, ImuModel, faults};
@@ -14,7 +15,7 @@ use crate::redundancy::{FIRST, Spare};
 const MOST: usize = 2;
 
 /// An engine that runs beside the first.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpareSection {
     /// Its name in the journal.
@@ -48,7 +49,7 @@ impl Config {
         let imu = section.imu.as_deref().or(self.ship.imu.as_deref());
         Spare {
             name: section.name.clone(),
-            intake: self.intake_with(imu),
+            intake: self.intake_with(imu, &section.offset_m),
             engine: self.spare_engine(section, first, &offset),
             offset,
             voice: self.voice(section),
@@ -56,8 +57,14 @@ impl Config {
     }
 
     /// What plugs are there for an engine with this IMU.
-    fn intake_with(&self, imu: Option<&str>) -> IntakeConfig {
+    fn intake_with(&self, imu: Option<&str>, offset: &[f64; 3]) -> IntakeConfig {
         let mut intake = self.intake();
+        for arm in intake.sensors.iter_mut().filter_map(|sensor| sensor.lever_m.as_mut()) {
+            // zeros stand for what was not measured
+            if *arm != [0.0; 3] {
+                arm.iter_mut().zip(offset).for_each(|(length, offset)| *length -= offset);
+            }
+        }
         intake.imu = imu.map(str::to_owned);
         let is_other = |sensor: &SensorConfig| {
             sensor.kind.role() == Role::Imu && imu.is_some_and(|imu| sensor.name != imu)

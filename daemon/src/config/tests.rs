@@ -61,6 +61,27 @@ fn without_pulse_and_utc_receiver_and_imu_are_tied_by_receipts_alone() {
     assert_eq!(Config::of_text(&text).unwrap().engine().time_std, Some(TIME_STD));
 }
 
+#[test]
+fn a_receiver_may_have_an_antenna_of_its_own_seen_from_each_engines_imu() {
+    let own = "kind = \"ubx\"\nlever_m = [5.0, 1.0, -9.0]";
+    let text = SHIPPED.replace("kind = \"ubx\"", own);
+    let config = Config::of_text(&text).unwrap();
+    let lever = |intake: &IntakeConfig| intake.sensors.iter().find_map(SensorConfig::lever);
+    assert_eq!(lever(&config.intake()), Some(Body::new(5.0, 1.0, -9.0)));
+    assert_eq!(config.engine().lever_arms.gnss, Body::new(-3.0, 0.5, -18.0));
+    let spare = "#imu = \"imu\"";
+    let second = "[[sensor]]\nname = \"imu-2\"\nport = \"imu-2\"\nkind = \"sbg\"\n[[port]]\nname = \"imu-2\"\n\
+        transport = { kind = \"serial\", device = \"/dev/ttyS9\", baud = 921600 }\n[[spare]]\nname = \"s\"\n\
+        imu = \"imu-2\"\noffset_m = [2.0, 0.0, 1.0]\n";
+    let text = format!("{}\n{second}", text.replace(spare, "imu = \"imu\""));
+    let config = Config::of_text(&text).unwrap();
+    let spares = config.spares(&config.engine());
+    assert_eq!(lever(&spares[0].intake), Some(Body::new(3.0, 1.0, -10.0)));
+    let unsaid = text.replace("gnss_lever_m = [-3.0, 0.5, -18.0]", "");
+    let engine = Config::of_text(&unsaid).unwrap().engine();
+    assert_eq!(engine.lever_arms.gnss, Body::new(5.0, 1.0, -9.0), "better than unmeasured");
+}
+
 /// The shipped file with the example of a node that it holds as comments.
 fn with_node() -> String {
     let (own, example) = SHIPPED.split_once("# An NMEA 2000 backbone").unwrap();
@@ -121,7 +142,7 @@ fn a_node_needs_a_can_port_of_its_own() {
         assert!(message.contains(part), "{part} is not in: {message}");
     }
     let group = with_node().replace("interval_ms = 100", "interval_ms = 1");
-    assert!(Config::of_text(&group).unwrap_err().contains("groups: attitude: interval_ms"));
+    assert!(Config::of_text(&group).unwrap_err().contains("groups.attitude.interval_ms"));
 }
 
 #[derive(Debug, Deserialize)]

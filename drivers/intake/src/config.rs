@@ -1,10 +1,12 @@
 //! What is plugged in: ports by their link, sensors by their format and place.
 
+use insd_base::Body;
 use insd_wire::imu::can::LayoutChoice;
 use insd_wire::imu::kvh::{KvhFormat, KvhLinear, KvhRotation, KvhTemperature};
 use insd_wire::imu::stim::{StimFormat, StimKind, StimRange};
 pub use insd_wire::nmea::PashrDialect as Dialect;
 use insd_wire::stream::Protocol;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::device::DeviceFilter;
@@ -13,7 +15,7 @@ use crate::port::Link;
 use crate::sensor::TimeBase;
 
 /// The format of a sensor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// SBG sbgECom: IMU.
@@ -80,7 +82,7 @@ pub enum Role {
 }
 
 /// What a KVH unit was told to send.
-#[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct KvhSettings {
     /// Rates (`true`) or differences (`false`) of rotation.
@@ -94,7 +96,7 @@ pub struct KvhSettings {
 }
 
 /// What a STIM unit was told to send; it need not be said if the unit sends its configuration.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct StimSettings {
     /// Gyros send increments instead of rates.
@@ -106,7 +108,7 @@ pub struct StimSettings {
 }
 
 /// One sensor as the installer describes it.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SensorConfig {
     /// Its name in tables and events.
@@ -124,6 +126,13 @@ pub struct SensorConfig {
     /// Time from the measurement to the first byte on the wire, beyond what the device tells, s.
     #[serde(default)]
     pub latency_s: f64,
+    /// Of a receiver: its antenna from the IMU: forward, starboard, down, m. Left out, or zeros:
+    /// `gnss_lever_m` of `[ship]`.
+    #[serde(default)]
+    pub lever_m: Option<[f64; 3]>,
+    /// Of a receiver: by how much its fixes are older than the time they carry, s.
+    #[serde(default)]
+    pub delay_s: f64,
     /// Samples per second of an IMU.
     #[serde(default = "hundred")]
     pub rate_hz: f64,
@@ -383,6 +392,8 @@ impl SensorConfig {
             priority: one(),
             patience_s: patience(),
             latency_s: 0.0,
+            lever_m: None,
+            delay_s: 0.0,
             rate_hz: hundred(),
             time: TimeBase::default(),
             mounting: Mounting::default(),
@@ -404,6 +415,13 @@ impl SensorConfig {
         }
     }
 
+    /// From the IMU to a receiver's own antenna, if that was measured.
+    #[must_use]
+    pub fn lever(&self) -> Option<Body> {
+        let [forward, starboard, down] = self.lever_m.filter(|arm| *arm != [0.0; 3])?;
+        Some(Body::new(forward, starboard, down))
+    }
+
     fn look(&self, config: &IntakeConfig, faults: &mut Vec<ConfigFault>) {
         let mut expect = |good: bool, key, expected: &str| {
             if !good {
@@ -422,6 +440,12 @@ impl SensorConfig {
         expect(fits, "kind", "a kind of sensor that the port can carry: CAN frames, or bytes");
         expect((0.1..=600.0).contains(&self.patience_s), "patience_s", "0.1 to 600 s");
         expect((0.0..=2.0).contains(&self.latency_s), "latency_s", "0 to 2 s");
+        let is_receiver = self.kind.role() == Role::Gnss;
+        let lever = self.lever_m.iter().flatten().all(|length| length.abs() <= 1000.0);
+        expect(lever, "lever_m", "[forward, starboard, down] in m, each within +-1000");
+        expect(self.lever_m.is_none() || is_receiver, "lever_m", "a GNSS receiver");
+        expect((0.0..=2.0).contains(&self.delay_s), "delay_s", "0 to 2 s");
+        expect(self.delay_s == 0.0 || is_receiver, "delay_s", "a GNSS receiver");
         expect((1.0..=10_000.0).contains(&self.rate_hz), "rate_hz", "1 to 10000");
         let mounted = self.mounting.c_bd().is_some();
         expect(mounted, "mounting", "three directions that make a right-handed set, finite angles");

@@ -7,15 +7,17 @@
 
 use insd_base::{Span, Time};
 use insd_n2k::Name;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::decode::Role;
 
 /// What the NAME of a sensor's device must be, as far as it is told.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DeviceFilter {
     /// The whole NAME, 16 hexadecimal digits.
+    #[schemars(with = "Option<String>")]
     pub name: Option<Name>,
     /// Unique number.
     pub unique: Option<u32>,

@@ -2,10 +2,11 @@
 
 use insd_base::Body;
 use nalgebra::{Matrix3, Rotation3, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A direction of the hull.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Direction {
     /// Towards the bow.
@@ -23,7 +24,7 @@ pub enum Direction {
 }
 
 /// How a device sits: where its axes point, and by how much that is off.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Mounting {
     /// Where the device's x, y and z axes point, to the nearest right angle.

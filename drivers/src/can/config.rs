@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use insd_base::CanId;
 use insd_n2k::text::slcan;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::ports::{PortConfig, Transport};
@@ -39,7 +40,7 @@ pub enum CanTransport {
 }
 
 /// An interface of the kernel.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Socketcan {
     /// Its name, for example `can0`. Bit rate and restart are the system's affair.
@@ -47,7 +48,7 @@ pub struct Socketcan {
 }
 
 /// An adapter at a serial line that speaks LAWICEL's language.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Slcan {
     /// Path of the device, best a stable one below `/dev/serial/by-id`.
@@ -61,7 +62,7 @@ pub struct Slcan {
 }
 
 /// A gateway that is called.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GatewayTcp {
     /// Host and port, for example `192.168.4.1:1457`.
@@ -71,20 +72,22 @@ pub struct GatewayTcp {
 }
 
 /// A gateway that sends datagrams.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GatewayUdp {
     /// Local address and port.
+    #[schemars(extend("format" = "socket"))]
     pub bind: SocketAddr,
     /// Where it listens; without this nothing can be sent.
     #[serde(default)]
+    #[schemars(extend("format" = "socket"))]
     pub to: Option<SocketAddr>,
     /// What it speaks.
     pub format: GatewayFormat,
 }
 
 /// The lines of a gateway, see [`insd_n2k::text`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum GatewayFormat {
     /// Lines of a log of candump.
@@ -100,7 +103,7 @@ pub enum GatewayFormat {
 }
 
 /// A log of candump.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Candump {
     /// Where it is.
@@ -108,7 +111,7 @@ pub struct Candump {
 }
 
 /// Frames that count: those whose identifier has the same bits as this one where the mask has ones.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CanFilter {
     /// Bits of the identifier.
@@ -151,7 +154,7 @@ impl CanConfig {
         };
         let valid = |filter: &CanFilter| filter.can_id(filter.id | filter.mask).is_valid();
         if !self.filters.iter().all(valid) {
-            faults.push("a filter has 29 bits, or 11 if it is a standard one".to_owned());
+            faults.push("filters: expected 29 bits, or 11 of a standard one".to_owned());
         }
         faults
     }
@@ -161,7 +164,7 @@ impl Socketcan {
     fn faults(&self) -> Vec<String> {
         let name = &self.interface;
         let good = (1..=15).contains(&name.len()) && !name.contains('/');
-        let fault = (!good).then(|| "interface must be the name of one, such as can0".to_owned());
+        let fault = (!good).then(|| "interface: expected the name of one, such as can0".to_owned());
         fault.into_iter().collect()
     }
 }
@@ -169,10 +172,10 @@ impl Socketcan {
 impl Slcan {
     fn faults(&self) -> Vec<String> {
         let checks = [
-            (self.baud > 0, "a baud rate must not be 0".to_owned()),
+            (self.baud > 0, "baud: expected more than 0".to_owned()),
             (
                 slcan::BITRATES.contains(&self.bitrate),
-                format!("bitrate must be one of {:?}", slcan::BITRATES),
+                format!("bitrate: expected one of {:?}", slcan::BITRATES),
             ),
         ];
         checks.into_iter().filter(|(good, _)| !good).map(|(_, fault)| fault).collect()

@@ -4,7 +4,8 @@
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 
-use serde::Deserialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::can::{CanConfig, CanFilter, Candump, GatewayTcp, GatewayUdp, Slcan, Socketcan};
 
@@ -28,7 +29,7 @@ pub struct PortConfig {
 }
 
 /// What a port listens to.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Transport {
     /// A serial line.
@@ -59,7 +60,7 @@ pub enum Transport {
 }
 
 /// A serial line.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Serial {
     /// Path of the device, best a stable one below `/dev/serial/by-id`.
@@ -93,7 +94,7 @@ pub struct Serial {
 }
 
 /// The parity bit of a character.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Parity {
     /// There is none.
@@ -106,7 +107,7 @@ pub enum Parity {
 }
 
 /// Flow control of a serial line.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum FlowControl {
     /// There is none.
@@ -119,7 +120,7 @@ pub enum FlowControl {
 }
 
 /// Electrical standard of a serial line.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SerialMode {
     /// RS-232.
@@ -132,10 +133,11 @@ pub enum SerialMode {
 }
 
 /// UDP datagrams to listen to.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Udp {
     /// Local address and port.
+    #[schemars(extend("format" = "socket"))]
     pub bind: SocketAddr,
     /// Group to join.
     #[serde(default)]
@@ -149,7 +151,7 @@ pub struct Udp {
 }
 
 /// A TCP server to call.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TcpClient {
     /// Host and port, for example `192.168.1.20:10110`.
@@ -157,10 +159,11 @@ pub struct TcpClient {
 }
 
 /// A TCP server to be.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TcpServer {
     /// Local address and port.
+    #[schemars(extend("format" = "socket"))]
     pub bind: SocketAddr,
     /// Clients at one time; more are turned away.
     #[serde(default = "default_clients")]
@@ -168,7 +171,7 @@ pub struct TcpServer {
 }
 
 /// A file or named pipe.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct File {
     /// Where it is.
@@ -176,7 +179,7 @@ pub struct File {
 }
 
 /// A pulse per second.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pps {
     /// The kernel's device, for example `/dev/pps0`.
@@ -187,7 +190,7 @@ pub struct Pps {
 }
 
 /// An edge of a pulse, as the kernel names them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Edge {
     /// The line becomes active.
@@ -210,7 +213,7 @@ pub struct OutputConfig {
 }
 
 /// Where messages are written.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Destination {
     /// A serial line.
@@ -226,7 +229,7 @@ pub enum Destination {
 }
 
 /// A pseudo terminal to make.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pty {
     /// Path of the symbolic link to it.
@@ -238,10 +241,11 @@ pub struct Pty {
 }
 
 /// Where datagrams are sent.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UdpOutput {
     /// Address and port of a host, a group, or a network's broadcast.
+    #[schemars(extend("format" = "socket"))]
     pub to: SocketAddr,
     /// Routers that a datagram to a group may pass, and one.
     #[serde(default = "default_ttl")]
@@ -266,7 +270,7 @@ impl PortConfig {
     pub fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         if !(self.patience_s > 0.0 && self.patience_s <= MAX_SECONDS) {
-            faults.push(format!("patience_s must be above 0 and at most {MAX_SECONDS}"));
+            faults.push(format!("patience_s: expected more than 0 and at most {MAX_SECONDS}"));
         }
         match &self.transport {
             Transport::Serial(serial) => faults.extend(serial.faults()),
@@ -277,7 +281,7 @@ impl PortConfig {
         match CanConfig::of(self) {
             Some(can) => faults.extend(can.faults()),
             None if !self.filters.is_empty() => {
-                faults.push("only a CAN port has filters".to_owned());
+                faults.push("filters: expected a CAN port, for only that has filters".to_owned());
             }
             None => {}
         }
@@ -289,7 +293,9 @@ impl PortConfig {
                 | Transport::Slcan(_)
         );
         if self.write && !writable {
-            faults.push("only a serial or TCP port can be written to".to_owned());
+            faults.push(
+                "write: expected a serial or TCP port, for only those can be written to".to_owned(),
+            );
         }
         faults
     }
@@ -309,12 +315,12 @@ impl OutputConfig {
             Destination::Serial(serial) => serial.faults(),
             Destination::TcpServer(server) => server.faults().into_iter().collect(),
             Destination::Pty(Pty { baud: Some(0), .. }) => {
-                vec!["a baud rate must not be 0".to_owned()]
+                vec!["baud: expected more than 0".to_owned()]
             }
             Destination::Udp(_) | Destination::File(_) | Destination::Pty(_) => Vec::new(),
         };
         if self.waiting_bytes == Some(0) {
-            faults.push("waiting_bytes must not be 0".to_owned());
+            faults.push("waiting_bytes: expected more than 0".to_owned());
         }
         faults
     }
@@ -378,10 +384,10 @@ impl Serial {
 
     fn faults(&self) -> Vec<String> {
         let checks = [
-            ((5..=8).contains(&self.data_bits), "data_bits must be 5, 6, 7 or 8"),
-            ((1..=2).contains(&self.stop_bits), "stop_bits must be 1 or 2"),
-            (self.baud > 0 && !self.probe_bauds.contains(&0), "a baud rate must not be 0"),
-            (self.probe_s >= 0.1 && self.probe_s <= 60.0, "probe_s must be from 0.1 to 60"),
+            ((5..=8).contains(&self.data_bits), "data_bits: expected 5, 6, 7 or 8"),
+            ((1..=2).contains(&self.stop_bits), "stop_bits: expected 1 or 2"),
+            (self.baud > 0 && !self.probe_bauds.contains(&0), "baud: expected more than 0"),
+            (self.probe_s >= 0.1 && self.probe_s <= 60.0, "probe_s: expected 0.1 to 60"),
         ];
         checks.iter().filter(|(good, _)| !good).map(|(_, fault)| (*fault).to_owned()).collect()
     }
@@ -389,7 +395,7 @@ impl Serial {
 
 impl TcpServer {
     fn faults(&self) -> Option<String> {
-        (self.max_clients == 0).then(|| "max_clients must not be 0".to_owned())
+        (self.max_clients == 0).then(|| "max_clients: expected more than 0".to_owned())
     }
 }
 
@@ -397,7 +403,8 @@ impl Udp {
     fn faults(&self) -> Option<String> {
         let group = self.multicast?;
         let fits = group.is_multicast() && self.bind.is_ipv4();
-        (!fits).then(|| format!("{group} is no multicast group for {}", self.bind))
+        (!fits)
+            .then(|| format!("multicast: expected a multicast group that goes with {}", self.bind))
     }
 }
 

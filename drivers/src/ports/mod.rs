@@ -32,6 +32,7 @@
 //! The time of receipt is that of the return of a read, by the given [`Clock`]; of pulses and of frames of
 //! the kernel's CAN interfaces it is the kernel's.
 
+mod cable;
 mod chrony;
 mod clock;
 mod config;
@@ -55,6 +56,7 @@ mod teller;
 mod udp;
 mod waiting;
 
+pub use cable::{Cable, cable};
 pub use chrony::{ChronySock, Leap, SAMPLE_LENGTH, Sample};
 pub use clock::Clock;
 pub use config::{

@@ -1,6 +1,6 @@
 //! What a GNSS receiver says of itself.
 
-use crate::frames::{Geodetic, Ned};
+use crate::frames::{Body, Geodetic, Ned};
 use crate::time::Time;
 
 /// The receiver's own word on its fix, as in field 6 of an NMEA GGA sentence.
@@ -79,6 +79,8 @@ pub struct GnssFix {
     pub satellites: Option<u16>,
     /// Fix quality.
     pub quality: FixQuality,
+    /// Lever arm from the IMU to this receiver's antenna, body axes, m; `None`: that of the ship.
+    pub lever: Option<Body>,
 }
 
 #[cfg(test)]

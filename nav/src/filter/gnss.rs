@@ -8,7 +8,10 @@ use super::{Filter, Judged, NO_INNOVATION, enter, imu_position};
 use crate::aids::View;
 use crate::aids::gnss_position::{self, PositionFix};
 use crate::aids::gnss_velocity::{self, VelocityFix};
-use crate::error_state::{ATTITUDE, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, POSITION, VELOCITY};
+use crate::antenna::AntennaMotion;
+use crate::error_state::{
+    ATTITUDE, GNSS_LEVER, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, POSITION, VELOCITY,
+};
 use crate::filter::ahead::VelocityEpoch;
 use crate::floors;
 use crate::gate::dop_limit;
@@ -38,10 +41,23 @@ impl Filter {
             enter(report, fix.time, source, POSITION_AID, &none);
             return;
         }
+        self.note_antenna(fix);
         self.note_quality(fix.quality);
         self.mend_installation(report);
         let velocity = self.apply_velocity(fix, source, report);
         self.apply_position(fix, velocity.as_ref(), source, report);
+    }
+
+    /// Another receiver has another antenna: what was learnt of the last one's lever arm is not its.
+    fn note_antenna(&mut self, fix: &GnssFix) {
+        let arm = fix.lever.unwrap_or(self.config.lever_arms.gnss).0;
+        if arm != self.antenna_arm {
+            let variance = self.config.gnss.lever_std.powi(2);
+            GNSS_LEVER.renew(&mut self.covariance, &Matrix3::from_diagonal_element(variance));
+            self.nominal.gnss_lever = Vector3::zeros();
+            self.antenna = AntennaMotion::default();
+            self.antenna_arm = arm;
+        }
     }
 
     /// The slow errors of code and carrier solutions have nothing to do with each other.
@@ -103,7 +119,7 @@ impl Filter {
 
     /// Lever arm from the IMU to the antenna as now known, body axes, m.
     pub(super) fn antenna_lever(&self) -> Vector3<f64> {
-        self.config.lever_arms.gnss.0 + self.nominal.gnss_lever
+        self.antenna_arm + self.nominal.gnss_lever
     }
 
     /// Velocity of the antenna, ECEF axes, m/s.

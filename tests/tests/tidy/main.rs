@@ -30,7 +30,7 @@ const PURE: [&str; 9] = [
 ];
 
 /// What a pure crate may depend on beside the house's own crates: all of it without side effects.
-const PURE_DEPENDENCIES: [&str; 13] = [
+const PURE_DEPENDENCIES: [&str; 14] = [
     "crc",
     "fast-float2",
     "igrf",
@@ -39,6 +39,7 @@ const PURE_DEPENDENCIES: [&str; 13] = [
     "nalgebra",
     "nmea",
     "postcard",
+    "schemars",
     "serde",
     "statrs",
     "thiserror",

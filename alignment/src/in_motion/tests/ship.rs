@@ -296,6 +296,7 @@ impl Run {
             hdop: Some(1.0),
             satellites: Some(12),
             quality: FixQuality::Differential,
+            lever: None,
         };
         self.filter.gnss(&fix, Source::Gnss(0));
     }

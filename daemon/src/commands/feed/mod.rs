@@ -58,7 +58,8 @@ pub fn run(args: &FeedArgs) -> anyhow::Result<()> {
     let sensors = sensors::chosen(&args.sensors, &voyage);
     let mut lines = Lines::open(&args.folder, sensors.iter().map(|sensor| sensor.name.as_str()))?;
     for sensor in &sensors {
-        println!("{} {}", args.folder.join(&sensor.name).display(), sensor.word);
+        let path = args.folder.join(&sensor.name);
+        super::print(&format!("{} {}\n", path.display(), sensor.word))?;
     }
     sail(args, &voyage, &sensors, &mut lines);
     Ok(())

@@ -93,8 +93,8 @@ impl Ports {
 
 fn save(path: &Path, engine: &Engine, start_utc: &str) -> anyhow::Result<()> {
     let Some(state) = engine.stored_state() else {
-        eprintln!("no state stored: the ship is not aligned, or not at her berth");
-        return Ok(());
+        let path = path.display();
+        anyhow::bail!("{path}: no state stored, as the ship is not aligned, or not at her berth");
     };
     stored::write(path, &state, start_utc)
 }

@@ -1,6 +1,6 @@
 //! Epochs of receivers, and what else they say of time.
 
-use insd_base::{ExternalReference, GpsTime, Message, Source, Span, Stamp, Time};
+use insd_base::{ExternalReference, GnssFix, GpsTime, Message, Source, Span, Stamp, Time};
 use insd_wire::gnss::{EpochTime, GnssPart, PulseOrder, PulseTime};
 
 use super::{Came, Core, WAITING};
@@ -71,7 +71,8 @@ impl Core {
             (sensor.number, sensor.config.kind.role(), sensor.config.heading);
         let (std, offset) = (sensor.config.heading_std_deg, sensor.config.heading_offset_deg);
         let default_std = sensor.config.position_std_m;
-        let fix = epoch.fix(time);
+        let time = time - Span::from_seconds(sensor.config.delay_s);
+        let fix = GnssFix { lever: sensor.config.lever(), ..epoch.fix(time) };
         self.validity(index, now, epoch.is_valid(), 0);
         if let Some(position) = fix.position.filter(|_| epoch.is_valid()) {
             self.variation.here(position, self.utc.utc_at(time));

@@ -201,6 +201,7 @@ impl Epoch {
             hdop: part.hdop,
             satellites: part.satellites,
             quality: if self.is_valid() { self.quality() } else { FixQuality::Invalid },
+            lever: None,
         }
     }
 }

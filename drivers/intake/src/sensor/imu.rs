@@ -7,6 +7,7 @@
 use insd_base::{ImuSample, Span, Time};
 use insd_wire::imu::{ImuReading, Motion};
 use nalgebra::Matrix3;
+use schemars::JsonSchema;
 
 use crate::clock::{ClockMap, MapChange, Observed, ShipUtc, Unwrap};
 use crate::mounting::turned;
@@ -25,7 +26,9 @@ const RATE_STD: f64 = 5e-3;
 const HELD: usize = 20_000;
 
 /// Whose time is believed for the samples.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, serde::Deserialize, serde::Serialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Default, serde::Deserialize, serde::Serialize, JsonSchema,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum TimeBase {
     /// The device's clock, or its sample counter where it has no clock.

@@ -121,6 +121,7 @@ impl Receiver {
             hdop: Some(hdop),
             satellites: Some(satellites),
             quality: self.quality,
+            lever: None,
         }
     }
 }

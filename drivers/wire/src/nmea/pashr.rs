@@ -26,6 +26,7 @@
 use insd_base::FixQuality;
 
 use super::civil::TimeOfDay;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::decimal::Form;
@@ -39,7 +40,7 @@ const HEAVE: Form = Form { decimals: 2, width: 3, limit: 999.9 };
 const SIGMA: Form = Form { decimals: 3, width: 1, limit: 360.0 };
 
 /// Whose PASHR it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PashrDialect {
     /// SBG Systems: heave down; quality 0 none, 1 fix without RTK, 2 RTK; status 0 good, 1 error.

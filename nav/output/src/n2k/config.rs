@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use insd_base::Span;
 use insd_n2k::node::Transmit;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::load::{BITS_PER_SECOND, BusLoad};
@@ -17,7 +18,7 @@ const MILLISECOND: i64 = 1_000_000;
 const LARGEST_SHARE: f64 = 0.5;
 
 /// The groups that are sent otherwise than by default, by name or number.
-#[derive(Clone, Debug, PartialEq, Eq, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(transparent)]
 pub struct N2kGroups {
     /// Name (`heading`) or number (`127250`) of a group, and what is special about it.
@@ -25,7 +26,7 @@ pub struct N2kGroups {
 }
 
 /// What is special about one group; what is left out is as by default.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GroupSection {
     /// Time from one message to the next, ms.

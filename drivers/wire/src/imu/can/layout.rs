@@ -1,10 +1,11 @@
 //! The table.
 
 use insd_base::can::CanId;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// All frames of a device.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Layout {
     /// In the order in which the device sends those of one sample.
@@ -12,7 +13,7 @@ pub struct Layout {
 }
 
 /// One frame.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FrameLayout {
     /// Its identifier.
@@ -28,7 +29,7 @@ pub struct FrameLayout {
 }
 
 /// One number in a frame. Its value is `(number * scale + offset) / 2^exponent`.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Field {
     /// What it tells.
@@ -69,7 +70,7 @@ pub struct Field {
 }
 
 /// The order of the bytes of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Order {
     /// The lowest first (Intel).
@@ -80,7 +81,7 @@ pub enum Order {
 }
 
 /// What a field tells. Axes are the device's own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum What {
     /// Angular rate about x, rad/s.

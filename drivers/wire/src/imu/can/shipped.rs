@@ -28,6 +28,7 @@
 //! heading from the rotation of the Earth is beyond it. The serial line of the same device has none of
 //! it and is to be preferred; the maker of the latter says so too.
 
+use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, de};
@@ -35,7 +36,7 @@ use serde::{Deserialize, Deserializer, Serialize, de};
 use super::layout::{ACCEL, Field, FrameLayout, Layout, Order, RATE, TURN, VELOCITY, What};
 
 /// A table of a maker.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Shipped {
     /// Xsens: SampleTime, RateOfTurn, Acceleration.
@@ -47,7 +48,7 @@ pub enum Shipped {
 }
 
 /// A table of a maker by its name, or one of one's own.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum LayoutChoice {
     /// Of a maker.
