@@ -180,6 +180,7 @@ mod tests {
             modes: &[(Time::from_seconds(12.0), Mode::Aided)],
             departures: &[Time::from_seconds(77.0)],
             resets: &[],
+            findings: &[],
             stored: None,
             counts: &counts,
             dropped: 2,

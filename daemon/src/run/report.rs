@@ -1,7 +1,8 @@
 //! How everything stands, gathered by the engine's thread for whoever looks on.
 
 use insd_base::{
-    AlignmentStatus, Counts, Disturbance, Estimates, Heave, Mode, Motion, Stamp, Time, UtcTime,
+    AlignmentStatus, Counts, Disturbance, Estimates, Finding, Heave, Mode, Motion, Stamp, Time,
+    UtcTime,
 };
 use insd_drivers::raw::RecorderState;
 use insd_intake::status::IntakeStatus;
@@ -42,6 +43,8 @@ pub(super) struct Slow {
     pub(super) saver: Option<SaverState>,
     pub(super) disputes: Vec<Dispute>,
     pub(super) estimates: Option<Estimates>,
+    /// What of the installation is found to be otherwise than configured.
+    pub(super) findings: Vec<Finding>,
     /// What moves the ship: looked at every ten seconds.
     pub(super) disturbance: Option<Disturbance>,
     /// Epochs of the outputs, those that began late, and those that were skipped.

@@ -212,6 +212,7 @@ impl Worker {
             saver: self.saver.as_ref().map(Saver::state),
             disputes: self.pipeline.disputes(),
             estimates: self.pipeline.engine_in_use().estimates(),
+            findings: self.pipeline.engine_in_use().findings().to_vec(),
             disturbance: with_sea.then(|| self.pipeline.engine_in_use().disturbance()).flatten(),
             epochs: [epochs, late, self.pipeline.speaker().station().skipped()],
             untold: self.journal.lost(),

@@ -126,12 +126,26 @@ export function system(data) {
   setText(node, recording ? `${words(recording.state)}${recording.last_error ? `: ${recording.last_error}` : ""}` : "off");
   setClass(node, recording?.state === "failing" ? "is-bad" : "");
   estimates(data.estimates);
+  installation(data.installation ?? []);
   fill(byId("events"), [...data.events].reverse().map((event) => [
     event.utc ? clock(event.utc) : `${fixed(event.at_s, 1)} s`, state(event.severity, SEVERITIES), { text: event.text, cls: "wrap" },
   ]));
 }
 
 const AXES = ["forward", "starboard", "down"];
+
+function installation(findings) {
+  const list = byId("findings");
+  const key = JSON.stringify(findings);
+  if (list.dataset.shown === key) return;
+  list.dataset.shown = key;
+  list.replaceChildren(...findings.map((found) => {
+    const item = document.createElement("li");
+    item.textContent = found.text;
+    return item;
+  }));
+  show(byId("found"), findings.length > 0);
+}
 
 function estimates(found) {
   const rows = [];

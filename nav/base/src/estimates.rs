@@ -31,6 +31,8 @@ pub struct Estimates {
     pub log_heading: Estimate,
     /// Velocity of the water, while a log tells the speed through it.
     pub current: Option<Current>,
+    /// Lever arm from the IMU to the GNSS antenna in use as configured, body axes, m.
+    pub gnss_lever_configured: Body,
     /// Lever arm from the IMU to the GNSS antenna as now known, body axes, m.
     pub gnss_lever: Body,
     /// 1-sigma of the same.

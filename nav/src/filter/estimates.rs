@@ -25,6 +25,7 @@ impl Filter {
             log_pitch: estimate(nominal.log_misalignment.x, misalignment),
             log_heading: estimate(nominal.log_misalignment.y, misalignment + 1),
             current: self.current(),
+            gnss_lever_configured: Body(self.antenna_arm),
             gnss_lever: Body(self.antenna_lever()),
             gnss_lever_sigma: Body(Vector3::from_fn(|i, _| self.std(lever + i))),
             gnss_delay: estimate(nominal.gnss_delay, GNSS_DELAY.start()),

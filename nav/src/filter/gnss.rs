@@ -57,6 +57,8 @@ impl Filter {
             self.nominal.gnss_lever = Vector3::zeros();
             self.antenna = AntennaMotion::default();
             self.antenna_arm = arm;
+            let begun = SeparateBias::new(&self.view());
+            self.bias.iter_mut().for_each(|bias| *bias = begun);
         }
     }
 

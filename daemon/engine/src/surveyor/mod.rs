@@ -145,7 +145,7 @@ impl Surveyor {
 
     fn lever(&self, estimates: &Estimates) -> Option<Finding> {
         let (found, sigma) = (estimates.gnss_lever, estimates.gnss_lever_sigma);
-        let configured = self.arms.gnss;
+        let configured = estimates.gnss_lever_configured;
         if configured.0.norm() == 0.0 {
             let known = sigma.0.max() < KNOWN;
             return known.then_some(Finding::GnssLeverUnmeasured { found, sigma });

@@ -2,7 +2,7 @@
 
 use insd_base::units::{DEG, DEG_PER_HOUR, MICRO_G};
 use insd_base::{self as base, Body};
-use insd_web::snapshot::{Disturbance, DisturbanceAxis, Engine, Estimate, Estimates};
+use insd_web::snapshot::{Disturbance, DisturbanceAxis, Engine, Estimate, Estimates, Found};
 
 use super::super::report::Report;
 use crate::redundancy::{Dispute, EngineStatus};
@@ -43,6 +43,17 @@ pub(super) fn estimates(found: &base::Estimates) -> Estimates {
         gnss_lever_m: triad(&found.gnss_lever, &found.gnss_lever_sigma, 1.0),
         gnss_delay_s: Some(estimate(&found.gnss_delay, 1.0)),
     }
+}
+
+/// What of the installation is found to be otherwise than configured.
+pub(super) fn installation(findings: &[base::Finding]) -> Vec<Found> {
+    let found = |finding: &base::Finding| Found {
+        name: finding.as_str().to_owned(),
+        text: finding.to_string(),
+        paste: finding.to_paste(),
+        fault: finding.is_fault(),
+    };
+    findings.iter().map(found).collect()
 }
 
 fn triad(value: &Body, sigma: &Body, unit: f64) -> Vec<Estimate> {

@@ -1,7 +1,9 @@
 //! Where the ship is, how she moves and lies.
 
+use std::f64::consts::PI;
+
 use insd_base::units::{DEG, KNOT, wrap_two_pi};
-use insd_base::{HeaveQuality, Motion, Solution, Time};
+use insd_base::{HeaveQuality, Mode, Motion, Solution, Time};
 use insd_output::{Ellipse, Policy};
 use insd_web::snapshot::{Freshness, Heave, Motion as Shown};
 
@@ -16,6 +18,8 @@ pub(super) fn motion(
         (&solution.position, &solution.velocity.0, &solution.attitude);
     let sigma = &solution.sigma;
     let policy = Policy::default();
+    // what receivers and compass say in place of an IMU knows nothing of these
+    let inertial = |value: f64| (solution.mode != Mode::Standby).then_some(value);
     let course = policy.has_course(solution).then(|| solution.course() / DEG);
     let speed = solution.speed();
     let speed_sigma = sigma.velocity.0.x.hypot(sigma.velocity.0.y) / std::f64::consts::SQRT_2;
@@ -41,10 +45,10 @@ pub(super) fn motion(
         water_speed_kn: ahead.map(|ahead| ahead / KNOT),
         current_speed_kn: current.map(|current| current.x.hypot(current.y) / KNOT),
         current_set_deg: current.map(|current| wrap_two_pi(current.y.atan2(current.x)) / DEG),
-        roll_deg: Some(attitude.roll / DEG),
-        pitch_deg: Some(attitude.pitch / DEG),
-        heading_deg: Some(attitude.heading / DEG),
-        rate_of_turn_deg_min: Some(solution.rate_of_turn() / DEG * 60.0),
+        roll_deg: inertial(attitude.roll / DEG),
+        pitch_deg: inertial(attitude.pitch / DEG),
+        heading_deg: (sigma.heading < PI).then_some(attitude.heading / DEG),
+        rate_of_turn_deg_min: inertial(solution.rate_of_turn() / DEG * 60.0),
         heave: heave.map(|heave| shown_heave(&heave)),
         sigma_north_m: Some(sigma.position.0.x),
         sigma_east_m: Some(sigma.position.0.y),
@@ -57,9 +61,9 @@ pub(super) fn motion(
         sigma_velocity_down_mps: Some(sigma.velocity.0.z),
         sigma_speed_kn: Some(speed_sigma / KNOT),
         sigma_course_deg: course.map(|_| (speed_sigma / speed).atan() / DEG),
-        sigma_roll_deg: Some(sigma.roll / DEG),
-        sigma_pitch_deg: Some(sigma.pitch / DEG),
-        sigma_heading_deg: Some(sigma.heading / DEG),
+        sigma_roll_deg: inertial(sigma.roll / DEG),
+        sigma_pitch_deg: inertial(sigma.pitch / DEG),
+        sigma_heading_deg: (sigma.heading < PI).then_some(sigma.heading / DEG),
         heading_quality: Some(word(&policy.heading(solution))),
         position_quality: Some(word(&policy.quality(solution))),
         velocity_quality: Some(word(&policy.velocity(solution))),

@@ -29,7 +29,7 @@ pub use program::{
     Engine, Log, Mode, Program, Recording, RecordingState, Saving, TimeInfo, Transition,
 };
 pub use sensors::{Choice, Sensor, SensorState};
-pub use ship::{Estimate, Estimates, Heave, Motion};
+pub use ship::{Estimate, Estimates, Found, Heave, Motion};
 
 use serde::{Deserialize, Serialize};
 
@@ -65,6 +65,8 @@ pub struct Snapshot {
     pub engines: Vec<Engine>,
     /// What the filter has found out about the sensors; `None` while there is no filter.
     pub estimates: Option<Estimates>,
+    /// What of the installation is found to be otherwise than configured.
+    pub installation: Vec<Found>,
     /// Sensors, in the order of the configuration.
     pub sensors: Vec<Sensor>,
     /// Which sensor is used for what, and why.
@@ -109,6 +111,7 @@ impl Default for Snapshot {
             alignment: None,
             engines: Vec::new(),
             estimates: None,
+            installation: Vec::new(),
             sensors: Vec::new(),
             choices: Vec::new(),
             inputs: Vec::new(),

@@ -135,3 +135,17 @@ pub struct Estimate {
     /// 1-sigma, in the same unit.
     pub sigma: Option<f64>,
 }
+
+/// Something of the installation that is found to be otherwise than configured.
+#[derive(Clone, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Found {
+    /// Its short name: `gnss_lever`, `mounting_tilted`, ...
+    pub name: String,
+    /// What seems to be so.
+    pub text: String,
+    /// What to write into the configuration, if that follows from it.
+    pub paste: Option<String>,
+    /// Whether the configuration is wrong, and not merely incomplete.
+    pub fault: bool,
+}
