@@ -96,6 +96,15 @@ heave-chain grade="navigation":
         rm -r sailed sent
     done
 
+# installations that are not as configured, through simulated voyages: errors, and whether they are told
+installation seeds="20" *voyage:
+    cargo run --release -p insd-engine --example installation -- {{seeds}} {{voyage}}
+
+# the recipes of docs/connect.md with gpsd, chrony and, where it is installed, Signal K
+conformance-connect *options:
+    cargo build --release -p insd
+    tests/conformance/connect.py target/release/insd {{options}}
+
 # what the daemon costs at 200 samples a second with ten outputs, and how soon it speaks
 footprint seconds="60":
     cargo build --release

@@ -66,12 +66,21 @@ fn json_is_what_the_page_is_given() {
 
 #[test]
 fn plain_tells_a_line_a_second_and_notices_when_nothing_new_comes() {
-    let (page, _publisher) = serving("aided");
+    let (page, publisher) = serving("aided");
+    // what is older than a second is not told: the ship goes on for a while, and then says no more
+    let ship = std::thread::spawn(move || {
+        for _ in 0..60 {
+            publisher.publish(snapshot("aided"));
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        publisher
+    });
     let mut child = monitor(&page, "--plain").stdout(Stdio::piped()).spawn().unwrap();
     let lines = BufReader::new(child.stdout.take().unwrap()).lines();
-    let lines: Vec<String> = lines.take(5).map_while(Result::ok).collect();
+    let lines: Vec<String> = lines.take(6).map_while(Result::ok).collect();
     child.kill().unwrap();
     child.wait().unwrap();
+    drop(ship.join().unwrap());
     assert!(lines.iter().any(|line| line.contains("aided  - -  heading 62.04 deg")), "{lines:?}");
-    assert_eq!(lines[4], "no new data", "{lines:?}");
+    assert_eq!(lines[5], "no new data", "{lines:?}");
 }

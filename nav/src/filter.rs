@@ -3,14 +3,13 @@
 use insd_base::{
     Body, Ecef, Message, Mode, Ned, Received, Rejection, Solution, Source, Time, earth,
 };
-use nalgebra::{Matrix2, Matrix3, Matrix4, SMatrix, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, Matrix4, UnitQuaternion, Vector2, Vector3};
 
-use crate::aids::{View, sea_level};
+use crate::aids::View;
 use crate::antenna::AntennaMotion;
 use crate::config::NavConfig;
 use crate::error_state::{
-    ATTITUDE, BERTH_OFFSET, Covariance, ErrorState, POSITION, SEA_LEVEL, STATES, SWAY,
-    SWAY_VELOCITY, VELOCITY,
+    ATTITUDE, BERTH_OFFSET, Covariance, ErrorState, SWAY, SWAY_VELOCITY, VELOCITY,
 };
 use crate::gate::ChiSquareGate;
 use crate::increments::Increment;
@@ -32,7 +31,9 @@ use ahead::VelocityEpoch;
 pub mod ahead;
 mod estimates;
 mod gnss;
+mod installation;
 pub mod kept;
+mod level;
 mod motion;
 mod others;
 
@@ -243,13 +244,6 @@ impl Filter {
         Judged { outcome, log_likelihood, innovation: detail(&weighed) }
     }
 
-    /// What an update takes from the effect of the constants of the installation.
-    fn pass_on<const M: usize>(&mut self, weighed: &Weighed<M>, gain: &SMatrix<f64, STATES, M>) {
-        if let Some(bias) = &mut self.bias {
-            weighed.pass_on(bias.response_mut(), gain);
-        }
-    }
-
     fn absorb<const M: usize>(&mut self, weighed: &Weighed<M>) {
         if self.bias.is_some() {
             self.pass_on(weighed, &weighed.gain());
@@ -344,41 +338,6 @@ impl Filter {
         self.rtk == Some(true)
     }
 
-    /// Holds the mean height over a window of waves against the sea level.
-    fn hold_sea_level(&mut self) {
-        let (mean, length) = self.level.take_mean();
-        let innovation = sea_level::innovation(&self.view(), mean, length, self.level.heave.std());
-        let Some(weighed) = innovation.weigh(&self.covariance) else { return };
-        let expected = weighed.sigma().x.powi(2) - innovation.r.x;
-        self.level.heave.learn(innovation.z.x, expected);
-        if weighed.nis() > self.gate.limit::<1>() {
-            return;
-        }
-        if self.mode() == Mode::Inertial {
-            self.absorb_vertically(&weighed);
-        } else {
-            self.absorb(&weighed);
-        }
-    }
-
-    /// Lets a height move the vertical channel only. Without any other aid tilt and heading errors
-    /// grow until their squares matter to the height, and the linear filter would take them for
-    /// knowledge of the horizontal.
-    fn absorb_vertically(&mut self, weighed: &Weighed<1>) {
-        let up = self.nominal.position.normalize();
-        let optimal = weighed.gain();
-        let mut gain = SMatrix::zeros();
-        for block in [POSITION, VELOCITY] {
-            let along = block.of(&optimal).dot(&up);
-            block.set(&mut gain, &(up * along));
-        }
-        SEA_LEVEL.set(&mut gain, &SEA_LEVEL.of(&optimal));
-        self.pass_on(weighed, &gain);
-        let error = weighed.update_with(&mut self.covariance, &gain);
-        self.nominal.inject(&error);
-        self.absorbed += VELOCITY.of(&error);
-    }
-
     /// Velocity as if it had never been corrected, ECEF axes, m/s: it drifts, but does not step.
     #[must_use]
     pub fn smooth_velocity(&self) -> Vector3<f64> {
@@ -402,19 +361,6 @@ impl Filter {
         } else {
             Mode::Inertial
         }
-    }
-
-    /// Mean square of the latest innovations of GNSS, of which one is expected, each counted as a fault at
-    /// most; `None` before enough of them are known.
-    #[must_use]
-    pub fn strain(&self) -> Option<f64> {
-        self.bias.as_ref().and_then(SeparateBias::strain)
-    }
-
-    /// Whether the motion of the ship has confirmed the configured lever arm of the antenna.
-    #[must_use]
-    pub fn is_lever_confirmed(&self) -> bool {
-        self.bias.as_ref().is_some_and(SeparateBias::is_confirmed)
     }
 
     /// Claimed 1-sigma of the heading, rad.

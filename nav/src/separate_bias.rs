@@ -253,3 +253,71 @@ impl Finding {
         (value.amax() > LEAST[LOG_AT]).then_some((value, sigma))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error_state::STATES;
+    use crate::innovation::Innovation;
+    use insd_base::{Geodetic, earth};
+    use nalgebra::Matrix3 as M3;
+
+    fn view(rate: Vector3<f64>) -> View {
+        let place = Geodetic::from_degrees(50.0, 5.0, 20.0);
+        let nominal = crate::Nominal::at(&place, &Vector3::new(5.0, 0.0, 0.0), &M3::identity());
+        let measured = rate + nominal.c_eb().transpose() * earth::rate_e();
+        View::new(&nominal, &measured, 0.0)
+    }
+
+    /// Velocities of an antenna that is `off` from where it is said to be, on a ship that rolls and yaws;
+    /// the filter's own errors are none.
+    fn rolling(off: &Vector3<f64>, noise: f64) -> SeparateBias {
+        let mut bias = SeparateBias::new(&view(Vector3::zeros()));
+        let mut scatter = 1.0_f64;
+        for second in 0..300 {
+            let phase = f64::from(second) * 0.7;
+            let view = view(Vector3::new(0.05 * phase.sin(), 0.01 * phase.cos(), 0.02));
+            let mut h = SMatrix::<f64, 3, STATES>::zeros();
+            let by_lever = view.c_nb() * skew(&view.rate);
+            GNSS_LEVER.set_columns(&mut h, &by_lever);
+            scatter = (scatter * 97.0 + 13.0) % 11.0;
+            let z =
+                by_lever * off + Vector3::new(scatter - 5.0, 5.0 - scatter, 0.0) * (noise / 3.3);
+            let innovation = Innovation { z, h, r: M3::from_diagonal_element(noise * noise) };
+            bias.hear(&innovation.weigh(&Covariance::identity().scale(1e-9)).unwrap());
+        }
+        bias
+    }
+
+    #[test]
+    fn a_lever_arm_that_explains_the_innovations_is_found() {
+        let off = Vector3::new(12.0, 0.0, -28.0);
+        let finding = rolling(&off, 0.05).finding().unwrap();
+        assert!((finding.value.fixed_rows::<3>(0) - off).amax() < 0.5, "{finding:?}");
+        assert!(finding.value[DELAY_AT].abs() < 1e-6 && finding.log_lever().is_none());
+    }
+
+    #[test]
+    fn innovations_that_no_lever_arm_explains_convict_none() {
+        assert_eq!(rolling(&Vector3::zeros(), 0.05).finding(), None);
+        let mut lying = rolling(&Vector3::zeros(), 0.05);
+        let view = view(Vector3::zeros());
+        for _ in 0..300 {
+            let h = SMatrix::<f64, 3, STATES>::zeros();
+            let innovation = Innovation {
+                z: view.c_nb() * Vector3::new(3.0, -2.0, 0.0),
+                h,
+                r: M3::from_diagonal_element(0.0025),
+            };
+            lying.hear(&innovation.weigh(&Covariance::identity().scale(1e-9)).unwrap());
+        }
+        assert_eq!(lying.finding(), None);
+        assert!(lying.strain().unwrap() > 20.0, "but the strain shows");
+    }
+
+    #[test]
+    fn a_lever_arm_is_confirmed_by_motion_in_all_directions_and_not_before() {
+        assert!(rolling(&Vector3::zeros(), 0.05).is_confirmed());
+        assert!(!SeparateBias::new(&view(Vector3::zeros())).is_confirmed());
+    }
+}

@@ -54,7 +54,9 @@ impl EightState {
             let share = self.config.gnss.position_slow_share_for(self.rtk == Some(true));
             let split = split(position, &std.value, share);
             let innovation = aids::gnss_position(&self.scene(), &split, &lever, &self.belief);
-            passed.push(self.judge(&innovation, fix.time, source, GNSS_POSITION, &mut report));
+            let used = self.judge(&innovation, fix.time, source, GNSS_POSITION, &mut report);
+            self.gnss_used = used.then_some(self.time).or(self.gnss_used);
+            passed.push(used);
             if std.value.z < floors::UNTOLD {
                 let above = (self.motion.c_pb() * lever).z;
                 let (white, slow) = shares(std.value.z, share);

@@ -71,6 +71,8 @@ pub struct EightState {
     antenna_arm: Vector3<f64>,
     rtk: Option<bool>,
     heard_height: Time,
+    /// When a position of GNSS was last used.
+    gnss_used: Option<Time>,
     refused_since: Option<Time>,
     heading: (f64, f64),
     centred: bool,
@@ -131,6 +133,7 @@ impl EightState {
             antenna_arm: config.lever_arms.gnss.0,
             rtk: None,
             heard_height: level.time,
+            gnss_used: None,
             refused_since: None,
             heading: (0.0, circle::UNKNOWN),
             centred: false,
@@ -164,6 +167,12 @@ impl EightState {
     #[must_use]
     pub fn time(&self) -> Time {
         self.time
+    }
+
+    /// When a position of GNSS was last used.
+    #[must_use]
+    pub fn gnss_used(&self) -> Option<Time> {
+        self.gnss_used
     }
 
     /// The estimate, for tests and tools.

@@ -8,6 +8,7 @@ mod checkpoint;
 mod checks;
 mod coarse;
 mod disturbance;
+mod doubts;
 mod epochs;
 mod herald;
 mod looks;
@@ -24,9 +25,9 @@ use std::collections::VecDeque;
 
 use insd_alignment::{AlignmentConfig, StoredState, Verdict};
 use insd_base::{
-    AlignmentStatus, Body, Counts, Event, Finding, Geodetic, ImuSample, ImuSpec, Innovation,
-    LeverArms, Message, Mode, ModeReason, Received, Rejection, Solution, Source, Span,
-    StartCondition, Time, VoyageHeader,
+    AlignmentStatus, Body, Counts, Event, Geodetic, ImuSample, ImuSpec, Innovation, LeverArms,
+    Message, Mode, ModeReason, Received, Rejection, Solution, Source, Span, StartCondition, Time,
+    VoyageHeader,
 };
 use insd_nav::{
     Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Outcome, Report,
@@ -145,8 +146,6 @@ fn heave_of(imu: &ImuSpec, points: &[Body]) -> Option<HeaveFilter> {
     Some(HeaveFilter::new(imu, others))
 }
 
-/// A lever arm of which nothing is known, 1-sigma of each component, m.
-const ANYWHERE: f64 = 50.0;
 /// A gap in the IMU data after which the ship's attitude is anyone's guess, s.
 const LOST: f64 = 60.0;
 /// While other sensors are heard, an IMU without a sample for so long is silent, s.
@@ -320,33 +319,6 @@ impl Engine {
         let (departure, status) = self.herald.look(line.estimator(), line.now());
         self.outputs.extend(departure.map(Output::Event));
         self.outputs.extend(status.map(Output::Alignment));
-    }
-
-    /// What an alignment that GNSS refutes was misled by is most likely the lever arm of the antenna: the
-    /// next one takes it as unknown. There is no third.
-    fn consider_another(&mut self) {
-        let Stage::Running(line) = &self.stage else { return };
-        if line.estimator().is_refuted() && self.nav.gnss.lever_std < ANYWHERE {
-            let time = line.now();
-            self.nav.gnss.lever_std = ANYWHERE;
-            self.start_over(time, ModeReason::HeadingRefuted);
-        }
-    }
-
-    fn tell_installation(&mut self, time: Time) {
-        let ship = match &self.stage {
-            Stage::Running(line) => Some(line.estimator()),
-            Stage::Levelling(_) => None,
-        };
-        for finding in self.surveyor.look(ship, time) {
-            self.tell(Event::InstallationFound { time, finding });
-        }
-    }
-
-    /// What of the installation is found to be otherwise than configured, as it is known now.
-    #[must_use]
-    pub fn findings(&self) -> &[Finding] {
-        self.surveyor.findings()
     }
 
     /// Starts the ship at the beginning of the levelling window and lets her sail through it.

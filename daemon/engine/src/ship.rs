@@ -135,9 +135,11 @@ impl Ship {
         let verdict = self.verdict();
         let found = match self {
             Ship::Aligning(bank) => bank.winner().cloned(),
-            Ship::InMotion { finder, config, berth } => finder
-                .initial_state()
-                .map(|initial| Fine::held(Filter::new(config, &initial), *berth)),
+            Ship::InMotion { finder, config, berth } => finder.initial_state().map(|initial| {
+                let mut filter = Filter::new(config, &initial);
+                finder.gnss_used().iter().for_each(|time| filter.note_gnss_used(*time));
+                Fine::held(filter, *berth)
+            }),
             Ship::Navigating { .. } => None,
         };
         if let Some(mut fine) = found {

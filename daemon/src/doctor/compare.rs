@@ -99,6 +99,9 @@ fn against(sensor: &SensorConfig, report: &PortReport) -> Option<Finding> {
     let suggested = suggested(report);
     let name = kind_name(sensor.kind);
     let place = |key: &str| Place::of("sensor", &sensor.name).key(key);
+    if own == Protocol::Nmea && reads(sensor, report) {
+        return bare(sensor, report);
+    }
     if let Some(same) = suggested.iter().find(|other| other.kind == name) {
         let rate = same.rate_hz.filter(|_| sensor.kind.role() == Role::Imu)?;
         if (rate / sensor.rate_hz - 1.0).abs() <= NEAR {
@@ -107,9 +110,6 @@ fn against(sensor: &SensorConfig, report: &PortReport) -> Option<Finding> {
         let text = format!("{rate} samples a second arrive, configured as {}", sensor.rate_hz);
         let finding = Finding::new(Severity::Error, "imu-rate-arrives", place("rate_hz"), &text);
         return Some(finding.advise(format!("rate_hz = {rate:?}")));
-    }
-    if own == Protocol::Nmea && reads(sensor, report) {
-        return bare(sensor, report);
     }
     let spoken = report.protocols();
     let names: Vec<&str> = spoken.iter().map(|protocol| protocol.name()).collect();

@@ -239,25 +239,4 @@ impl Filter {
         self.trust.used(self.time);
         report.position_reset = true;
     }
-
-    /// Where the innovations show that the antenna sits elsewhere than configured, or that its epochs come
-    /// later: takes the estimate to be what it would have been with that.
-    fn mend_installation(&mut self, report: &mut Report) {
-        let Some((bias, finding)) = self.bias.and_then(|bias| Some((bias, bias.finding()?))) else {
-            return;
-        };
-
-        let (error, unsure) = bias.correction(&finding);
-        self.covariance += unsure;
-        self.nominal.inject(&error);
-        self.corrected += error;
-        self.absorbed += VELOCITY.of(&error);
-        if let Some((off, sigma)) = finding.log_lever() {
-            self.config.lever_arms.log.0 += off;
-            self.log_lever_std = Some(sigma);
-        }
-        self.bias = Some(SeparateBias::new(&self.view()));
-        self.trust.clear();
-        report.installation_mended = true;
-    }
 }

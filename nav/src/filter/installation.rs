@@ -1,0 +1,62 @@
+//! Constants of the installation that are otherwise than configured: what the filter makes of them.
+
+use insd_base::Time;
+use nalgebra::SMatrix;
+
+use super::Filter;
+use crate::error_state::{STATES, VELOCITY};
+use crate::innovation::Weighed;
+use crate::report::Report;
+use crate::separate_bias::SeparateBias;
+
+impl Filter {
+    /// Whoever found the initial state used GNSS at this time: the filter that goes on from it is aided still.
+    pub fn note_gnss_used(&mut self, time: Time) {
+        self.trust.used(time);
+    }
+
+    /// Mean square of the latest innovations of GNSS, of which one is expected, each counted as a fault at
+    /// most; `None` before enough of them are known.
+    #[must_use]
+    pub fn strain(&self) -> Option<f64> {
+        self.bias.as_ref().and_then(SeparateBias::strain)
+    }
+
+    /// Whether the motion of the ship has confirmed the configured lever arm of the antenna.
+    #[must_use]
+    pub fn is_lever_confirmed(&self) -> bool {
+        self.bias.as_ref().is_some_and(SeparateBias::is_confirmed)
+    }
+
+    /// What an update takes from the effect of the constants of the installation.
+    pub(super) fn pass_on<const M: usize>(
+        &mut self,
+        weighed: &Weighed<M>,
+        gain: &SMatrix<f64, STATES, M>,
+    ) {
+        if let Some(bias) = &mut self.bias {
+            weighed.pass_on(bias.response_mut(), gain);
+        }
+    }
+
+    /// Where the innovations show that the antenna sits elsewhere than configured, or that its epochs come
+    /// later: takes the estimate to be what it would have been with that.
+    pub(super) fn mend_installation(&mut self, report: &mut Report) {
+        let Some((bias, finding)) = self.bias.and_then(|bias| Some((bias, bias.finding()?))) else {
+            return;
+        };
+
+        let (error, unsure) = bias.correction(&finding);
+        self.covariance += unsure;
+        self.nominal.inject(&error);
+        self.corrected += error;
+        self.absorbed += VELOCITY.of(&error);
+        if let Some((off, sigma)) = finding.log_lever() {
+            self.config.lever_arms.log.0 += off;
+            self.log_lever_std = Some(sigma);
+        }
+        self.bias = Some(SeparateBias::new(&self.view()));
+        self.trust.clear();
+        report.installation_mended = true;
+    }
+}
