@@ -68,6 +68,9 @@ const LEAST: Constants = hypothesis(1.0, 0.1, 1.0);
 const CONVINCING: f64 = 30.0;
 /// Mean square of the innovations (one is expected) that a hypothesis may leave unexplained.
 const UNEXPLAINED: f64 = 5.0;
+/// Share of what the innovations are off by that it must explain: the rest is somebody else's fault, and then
+/// most likely all of it is.
+const SHARE: f64 = 0.7;
 /// An error is one beyond so many of its sigmas.
 const SIGNIFICANT: f64 = 6.0;
 /// Quantities that must have been heard.
@@ -227,7 +230,9 @@ impl SeparateBias {
         let is_large = |i: usize| {
             value[i].abs() > LEAST[i].max(SIGNIFICANT * covariance[(i, i)].max(0.0).sqrt())
         };
-        let convinces = score > CONVINCING && left < UNEXPLAINED && (0..CONSTANTS).any(is_large);
+        let excess = self.misfit / self.heard - 1.0;
+        let explains = left < UNEXPLAINED && left - 1.0 < (1.0 - SHARE) * excess;
+        let convinces = score > CONVINCING && explains && (0..CONSTANTS).any(is_large);
         convinces.then_some((score, Finding { value, covariance }))
     }
 

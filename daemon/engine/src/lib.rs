@@ -65,6 +65,9 @@ pub struct EngineConfig {
     pub stored: Option<StoredState>,
     /// How well GNSS epochs and IMU samples agree in time, 1-sigma, s; `None`: by the grade of the IMU.
     pub time_std: Option<f64>,
+    /// Whether the mounting of the IMU is as the operator wants it, whatever gravity and course say: a ferry
+    /// with two bows.
+    pub accept_mounting: bool,
     /// Whether receivers and compass pass through while there are no data of the IMU.
     pub relay: bool,
     /// Monitoring points of which the heave is wanted, from the IMU, body axes, m. The first is the IMU
@@ -85,6 +88,7 @@ impl EngineConfig {
             alignment: AlignmentConfig::default(),
             stored: None,
             time_std: None,
+            accept_mounting: false,
             relay: true,
             points: Vec::new(),
         }
@@ -161,7 +165,7 @@ impl Engine {
             conditioner: Conditioner::new(&config.imu),
             stage: Stage::Levelling(Box::new(Coarse::new(&config))),
             herald: Herald::new(&config.imu, config.alignment.accuracy),
-            surveyor: Surveyor::new(&config.lever_arms),
+            surveyor: Surveyor::new(&config.lever_arms, config.accept_mounting),
             period: Span::from_seconds(1.0 / config.output_rate),
             recent: Recent::default(),
             relay: Relay::default(),

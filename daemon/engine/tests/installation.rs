@@ -20,7 +20,12 @@ struct Sailed {
 }
 
 fn sail(voyage: Voyage) -> Sailed {
-    let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
+    let config = EngineConfig::for_voyage(&voyage.header, 1.0);
+    sail_with(config, voyage)
+}
+
+fn sail_with(config: EngineConfig, voyage: Voyage) -> Sailed {
+    let mut engine = Engine::new(config);
     let (mut solutions, mut told) = (Vec::new(), Vec::new());
     for received in voyage.received() {
         engine.handle(&received);
@@ -115,6 +120,16 @@ fn an_imu_that_is_turned_about_the_vertical_is_named_and_its_heading_not_claimed
         assert!(sailed.names().contains(&"mounting_turned"), "{yaw}: {:?}", sailed.told);
         assert!(sailed.solutions.last().unwrap().sigma.heading > 80.0 * DEG);
     }
+}
+
+#[test]
+fn an_operator_who_accepts_the_mounting_has_his_heading() {
+    let voyage = turned(voyage(), 0.0, 0.0, 180.0);
+    let config =
+        EngineConfig { accept_mounting: true, ..EngineConfig::for_voyage(&voyage.header, 1.0) };
+    let sailed = sail_with(config, voyage);
+    assert!(!sailed.names().contains(&"mounting_turned"), "{:?}", sailed.told);
+    assert!(sailed.solutions.last().unwrap().sigma.heading < 1.0 * DEG);
 }
 
 #[test]

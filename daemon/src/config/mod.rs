@@ -114,6 +114,11 @@ pub struct Ship {
     pub log_lever_m: [f64; 3],
     /// Name of the first engine's IMU, where there are several. Left out: the best that is valid.
     pub imu: Option<String>,
+    /// Whether the mounting of the IMU is as it should be, whatever gravity and course say: then nothing of
+    /// its attitude is taken back. For ships that sail backwards as well as forwards, like double-ended
+    /// ferries.
+    #[serde(default)]
+    pub accept_mounting: bool,
     /// Whether position, course, speed and heading of receivers and compass pass through, marked, while
     /// there are no data of the IMU.
     #[serde(default = "yes")]
@@ -282,6 +287,7 @@ impl Config {
             alignment: insd_alignment::AlignmentConfig::default(),
             stored: None,
             time_std: ship.time_std_s.or_else(|| self.time_std(None)),
+            accept_mounting: ship.accept_mounting,
             relay: ship.relay,
         }
     }

@@ -33,6 +33,7 @@ const KNOWN: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub(crate) struct Surveyor {
     arms: LeverArms,
+    accepts: bool,
     imu: ImuWatch,
     mounting: Mounting,
     log: LogWatch,
@@ -42,9 +43,11 @@ pub(crate) struct Surveyor {
 }
 
 impl Surveyor {
-    pub(crate) fn new(arms: &LeverArms) -> Self {
+    /// `accepts` if the mounting of the IMU is as the operator wants it, whatever is found.
+    pub(crate) fn new(arms: &LeverArms, accepts: bool) -> Self {
         Surveyor {
             arms: *arms,
+            accepts,
             imu: ImuWatch::default(),
             mounting: Mounting::default(),
             log: LogWatch::default(),
@@ -135,7 +138,8 @@ impl Surveyor {
 
     /// What is found of the IMU alone.
     fn of_imu(&self) -> Vec<Finding> {
-        self.imu.finding().or_else(|| self.mounting.finding()).into_iter().collect()
+        let mounting = || self.mounting.finding().filter(|_| !self.accepts);
+        self.imu.finding().or_else(mounting).into_iter().collect()
     }
 
     fn log_lever(&self, estimates: &Estimates) -> Option<Finding> {

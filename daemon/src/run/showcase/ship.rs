@@ -5,6 +5,8 @@ use std::f64::consts::PI;
 use insd_base::units::{DEG, KNOT, wrap_two_pi};
 use insd_base::{HeaveQuality, Mode, Motion, Solution, Time};
 use insd_output::{Ellipse, Policy};
+use nalgebra::Vector3;
+
 use insd_web::snapshot::{Freshness, Heave, Motion as Shown};
 
 /// What is shown of a motion, at the IMU.
@@ -25,10 +27,7 @@ pub(super) fn motion(
     let speed_sigma = sigma.velocity.0.x.hypot(sigma.velocity.0.y) / std::f64::consts::SQRT_2;
     let ellipse = motion.covariance_north_east.and_then(|own| Ellipse::new(&sigma.position, own));
     let current = motion.current.map(|current| current.velocity.0);
-    let ahead = current.map(|current| {
-        let (sin, cos) = attitude.heading.sin_cos();
-        (velocity.x - current.x) * cos + (velocity.y - current.y) * sin
-    });
+    let ahead = current.map(|current| ahead(&(velocity - current), attitude.heading));
     Shown {
         valid_at_s: solution.time.as_seconds(),
         freshness: Freshness::Fresh,
@@ -69,6 +68,12 @@ pub(super) fn motion(
         velocity_quality: Some(word(&policy.velocity(solution))),
         level_quality: Some(level(&policy, solution)),
     }
+}
+
+/// The component of a velocity, north and east, along the bow.
+fn ahead(velocity: &Vector3<f64>, heading: f64) -> f64 {
+    let (sin, cos) = heading.sin_cos();
+    velocity.x * cos + velocity.y * sin
 }
 
 fn level(policy: &Policy, solution: &Solution) -> String {
