@@ -278,16 +278,14 @@ mod tests {
     /// the filter's own errors are none.
     fn rolling(off: &Vector3<f64>, noise: f64) -> SeparateBias {
         let mut bias = SeparateBias::new(&view(Vector3::zeros()));
-        let mut scatter = 1.0_f64;
         for second in 0..300 {
             let phase = f64::from(second) * 0.7;
             let view = view(Vector3::new(0.05 * phase.sin(), 0.01 * phase.cos(), 0.02));
             let mut h = SMatrix::<f64, 3, STATES>::zeros();
             let by_lever = view.c_nb() * skew(&view.rate);
             GNSS_LEVER.set_columns(&mut h, &by_lever);
-            scatter = (scatter * 97.0 + 13.0) % 11.0;
-            let z =
-                by_lever * off + Vector3::new(scatter - 5.0, 5.0 - scatter, 0.0) * (noise / 3.3);
+            let scatter = |k: i32| (f64::from(second * second + k) * 0.37).sin() * noise;
+            let z = by_lever * off + Vector3::new(scatter(0), scatter(5), scatter(11));
             let innovation = Innovation { z, h, r: M3::from_diagonal_element(noise * noise) };
             bias.hear(&innovation.weigh(&Covariance::identity().scale(1e-9)).unwrap());
         }

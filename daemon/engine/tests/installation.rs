@@ -1,5 +1,7 @@
 //! Installations that are not as configured: the ship stays where she is, and the cause is named.
 
+#![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
+
 use insd_base::units::DEG;
 use insd_base::{Body, Event, Finding, Solution, Truth, Voyage, earth};
 use insd_engine::{Engine, EngineConfig, Output};
