@@ -38,6 +38,4 @@ pub struct Report {
     pub log_likelihood: f64,
     /// The position was set anew.
     pub position_reset: bool,
-    /// The antenna was found to sit elsewhere than configured, or its epochs to come later.
-    pub installation_mended: bool,
 }

@@ -6,6 +6,7 @@ use crate::{Engine, Stage};
 
 /// A lever arm of which nothing is known, 1-sigma of each component, m.
 const ANYWHERE: f64 = 50.0;
+
 impl Engine {
     /// What an alignment that GNSS refutes was misled by is most likely the lever arm of the antenna: the
     /// next one takes it as unknown. There is no third.

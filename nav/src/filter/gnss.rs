@@ -43,7 +43,7 @@ impl Filter {
         }
         self.note_antenna(fix);
         self.note_quality(fix.quality);
-        self.mend_installation(report);
+        self.mend_installation();
         let velocity = self.apply_velocity(fix, source, report);
         self.apply_position(fix, velocity.as_ref(), source, report);
     }

@@ -6,7 +6,6 @@ use nalgebra::SMatrix;
 use super::Filter;
 use crate::error_state::{STATES, VELOCITY};
 use crate::innovation::Weighed;
-use crate::report::Report;
 use crate::separate_bias::SeparateBias;
 
 impl Filter {
@@ -41,11 +40,10 @@ impl Filter {
 
     /// Where the innovations show that the antenna sits elsewhere than configured, or that its epochs come
     /// later: takes the estimate to be what it would have been with that.
-    pub(super) fn mend_installation(&mut self, report: &mut Report) {
+    pub(super) fn mend_installation(&mut self) {
         let Some((bias, finding)) = self.bias.and_then(|bias| Some((bias, bias.finding()?))) else {
             return;
         };
-
         let (error, unsure) = bias.correction(&finding);
         self.covariance += unsure;
         self.nominal.inject(&error);
@@ -57,6 +55,5 @@ impl Filter {
         }
         self.bias = Some(SeparateBias::new(&self.view()));
         self.trust.clear();
-        report.installation_mended = true;
     }
 }

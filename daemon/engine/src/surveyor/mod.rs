@@ -8,14 +8,12 @@ mod log;
 mod mounting;
 
 use insd_base::{Estimates, Finding, LeverArms, LogVelocity, Mode, Solution, Span, Time};
-
-use imu::ImuWatch;
-use log::LogWatch;
-use mounting::Mounting;
-
 use insd_nav::Increment;
 
 use crate::ship::Ship;
+use imu::ImuWatch;
+use log::LogWatch;
+use mounting::Mounting;
 
 /// Spacing of looks.
 const LOOK: Span = Span::from_nanos(10_000_000_000);
