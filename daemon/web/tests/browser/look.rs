@@ -143,3 +143,19 @@ fn on_a_phone_no_table_is_cut_off() {
         assert_eq!(head, Value::String("State".to_owned()));
     }
 }
+
+#[test]
+#[ignore = "needs chromium and chromedriver"]
+fn what_is_found_of_the_installation_is_read_on_the_page_and_only_then() {
+    for (scene, told) in [(Scene::Fault, true), (Scene::Underway, false)] {
+        let (_live, browser) = looking_at(scene);
+        let text = "return document.getElementById('found').innerText";
+        let is_told = || browser.run(text).as_str().unwrap_or("").contains("28.0 m higher");
+        if told {
+            browser.until("the lever arm is told", is_told);
+        }
+        assert_eq!(is_told(), told);
+        let hidden = "return document.getElementById('found').hidden";
+        assert_eq!(browser.run(hidden), json!(!told));
+    }
+}

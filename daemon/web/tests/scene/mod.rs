@@ -86,6 +86,7 @@ impl Show {
             alignment: Some(ship::alignment(t, self.scene)),
             engines: self.engines(t),
             estimates: Some(ship::estimates(t)),
+            installation: ship::installation(self.scene),
             rejections: plumbing::rejections(t, self.scene),
             aids: plumbing::aids(t, self.scene),
             samples: plumbing::samples(t),

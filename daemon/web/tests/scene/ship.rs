@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use insd_web::snapshot::{
-    Alignment, Disturbance, DisturbanceAxis, Estimate, Estimates, Freshness, Heave, Motion,
+    Alignment, Disturbance, DisturbanceAxis, Estimate, Estimates, Found, Freshness, Heave, Motion,
 };
 
 use super::{Scene, utc};
@@ -196,4 +196,17 @@ pub(super) fn disturbance() -> Disturbance {
         radius: Some(0.973),
         axes: vec![axis("north", 0.114, 0.012), axis("east", 0.098, 0.021)],
     }
+}
+
+/// In the scene of a fault the antenna sits elsewhere than configured.
+pub(super) fn installation(scene: Scene) -> Vec<Found> {
+    let lever = Found {
+        name: "gnss_lever".to_owned(),
+        text: "the GNSS antenna seems 28.0 m higher than configured: gnss_lever_m = [-6.0, -0.8, -14.0], \
+               good to 0.2 m"
+            .to_owned(),
+        paste: Some("gnss_lever_m = [-6.0, -0.8, -14.0]".to_owned()),
+        fault: true,
+    };
+    if scene == Scene::Fault { vec![lever] } else { Vec::new() }
 }
