@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use house::{House, TOKEN, body, with_token};
-use insd_web::snapshot::{AlertState, Snapshot};
+use insd_web::snapshot::{AlertState, SensorState, Snapshot};
 use insd_web::{Listen, WebConfig, WebError};
 use scene::{Scene, Show};
 use serde_json::Value;
@@ -140,6 +140,25 @@ fn the_stream_begins_with_all_and_goes_on_with_what_changes() {
         assert!((20..=31).contains(&events.len()), "{events:?}");
     });
     assert!(house.get("/api/v1/stream?hz=50").starts_with("HTTP/1.1 400"));
+}
+
+#[test]
+fn the_stream_tells_at_once_that_a_sensor_has_fallen_silent() {
+    let mut house = House::open(WebConfig::default());
+    let stream = house.connect();
+    let mut asking = stream.try_clone().unwrap();
+    asking.write_all(b"GET /api/v1/stream?hz=10 HTTP/1.1\r\nhost: localhost\r\n\r\n").unwrap();
+    let mut events = BufReader::new(stream).lines().map_while(Result::ok);
+    let mut next = || events.find_map(|line| line.strip_prefix("event: ").map(str::to_owned));
+    assert_eq!(next().as_deref(), Some("snapshot"));
+    std::thread::sleep(Duration::from_millis(110));
+    house.publish();
+    assert_eq!(next().as_deref(), Some("live"), "nothing has changed");
+    std::thread::sleep(Duration::from_millis(110));
+    let mut silent = house.show.next();
+    silent.sensors[0].state = SensorState::Silent;
+    house.publisher.publish(silent);
+    assert_eq!(next().as_deref(), Some("snapshot"));
 }
 
 #[test]

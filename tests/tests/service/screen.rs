@@ -1,7 +1,7 @@
 //! Everything that shows the ship, through twelve faults: what is older than a second is shown by none of them
 //! as if it were the present.
 //!
-//! A made-up ship is published, something goes wrong, and after a second and a half it is looked what each of
+//! A made-up ship is published, something goes wrong, and after two seconds it is looked what each of
 //! them shows: the interface as JSON, its stream, the metrics, the terminal in its three forms, and the page
 //! in a browser. Her numbers change all the time: a number that is shown must be one of the last second.
 
@@ -23,8 +23,9 @@ use super::driver::Browser;
 use super::scene::faults::Trouble;
 use super::scene::{STEP, Scene, Show};
 
-/// How long after the beginning of a fault it is looked, s, and what the way to a screen may take, s.
-const LOOKED: f64 = 1.7;
+/// How long after the beginning of a fault it is looked, s: a log of 2 Hz is silent after a second and a half.
+/// And what the way to a screen may take, s.
+const LOOKED: f64 = 2.0;
 const WAY: f64 = 0.4;
 
 /// What one of them shows.

@@ -68,6 +68,20 @@ impl Frame {
         self.live.get_or_init(|| self.event("live", &json(&live))).clone()
     }
 
+    /// Whether a state differs from what it was in an earlier one: of the ship, a sensor, a port or an alert.
+    pub(super) fn has_news_since(&self, earlier: &Frame) -> bool {
+        let (now, before) = (self.snapshot(), earlier.snapshot());
+        let sensors = |of: &Snapshot| of.sensors.iter().map(|one| one.state).collect::<Vec<_>>();
+        let inputs = |of: &Snapshot| of.inputs.iter().map(|one| one.state).collect::<Vec<_>>();
+        let alerts = |of: &Snapshot| {
+            of.alerts.iter().map(|one| (one.id, one.instance, one.state)).collect::<Vec<_>>()
+        };
+        now.mode.name != before.mode.name
+            || sensors(now) != sensors(before)
+            || inputs(now) != inputs(before)
+            || alerts(now) != alerts(before)
+    }
+
     /// All of it as metrics.
     pub(super) fn metrics(&self) -> Bytes {
         self.metrics.get_or_init(|| metrics::text(self.snapshot()).into()).clone()

@@ -1,4 +1,4 @@
-//! Server-sent events: `snapshot` once a second and at the start, `live` in between.
+//! Server-sent events: `snapshot` at the start, once a second and when a state changes, `live` in between.
 //!
 //! A client is handed the newest whenever it has taken the one before: a slow one loses frames, and
 //! nothing piles up for it.
@@ -38,9 +38,10 @@ struct Client {
     frames: watch::Receiver<Option<Arc<Frame>>>,
     period: f64,
     greeted: bool,
-    /// When the last frames were, on the ship's time line: any, and a whole one.
+    /// When the last frame was sent, on the ship's time line.
     sent: Option<f64>,
-    whole: Option<f64>,
+    /// The last that was sent whole.
+    whole: Option<Arc<Frame>>,
 }
 
 pub(super) async fn stream(State(hall): State<Arc<Hall>>, Query(wish): Query<Wish>) -> Response {
@@ -78,27 +79,29 @@ impl Client {
                 Err(_) => return Some(Bytes::from_static(b": alive\n\n")),
             }
             let frame = self.frames.borrow_and_update().clone();
-            if let Some(chunk) = frame.and_then(|frame| self.due(&frame)) {
+            if let Some(chunk) = frame.and_then(|frame| self.due(frame)) {
                 return Some(chunk);
             }
         }
     }
 
     /// The frame as it is sent, if one is due.
-    fn due(&mut self, frame: &Frame) -> Option<Bytes> {
+    fn due(&mut self, frame: Arc<Frame>) -> Option<Bytes> {
         let now = frame.snapshot().time.at_s;
-        let is_due = |last: Option<f64>, period: f64| {
-            // time that goes back is that of another start
-            last.is_none_or(|last| now < last || now - last >= period - SLACK)
-        };
-        if !is_due(self.sent, self.period) {
+        // time that goes back is that of another start
+        let is_due = |last: f64, period: f64| now < last || now - last >= period - SLACK;
+        if self.sent.is_some_and(|sent| !is_due(sent, self.period)) {
             return None;
         }
         self.sent = Some(now);
-        if is_due(self.whole, WHOLE) {
-            self.whole = Some(now);
-            return Some(frame.whole());
+        let goes_on = |last: &Arc<Frame>| {
+            !is_due(last.snapshot().time.at_s, WHOLE) && !frame.has_news_since(last)
+        };
+        if self.whole.as_ref().is_some_and(goes_on) {
+            return Some(frame.live());
         }
-        Some(frame.live())
+        let event = frame.whole();
+        self.whole = Some(frame);
+        Some(event)
     }
 }
