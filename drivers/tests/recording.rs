@@ -70,6 +70,7 @@ fn gnss(index: usize) -> Stamped<GnssFix> {
             satellites: Some(12),
             quality: FixQuality::RtkFixed,
             lever: None,
+            redated: 0.0,
         },
         arrival: Some(Time::from_seconds(index as f64 + delay)),
     }

@@ -97,6 +97,7 @@ fn fix(seconds: f64) -> Received {
         satellites: Some(14),
         quality: FixQuality::Differential,
         lever: None,
+        redated: 0.0,
     });
     Received { receipt: time, source: Source::Gnss(0), message }
 }

@@ -1,7 +1,22 @@
 //! What the filter assumes of sensors and sea beyond the IMU's data sheet.
 
 use insd_base::units::{DEG, DEG_PER_HOUR};
-use insd_base::{ImuSpec, LeverArms};
+use insd_base::{Body, ImuSpec, LeverArms};
+use nalgebra::Vector3;
+
+/// A lever arm that was found to be otherwise than configured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeverFound {
+    /// From the IMU, body axes, m.
+    pub arm: Vector3<f64>,
+    /// 1-sigma of each component, m.
+    pub std: f64,
+}
+
+impl LeverFound {
+    /// Only that it is not as configured.
+    pub const UNKNOWN: Self = LeverFound { arm: Vector3::new(0.0, 0.0, 0.0), std: 50.0 };
+}
 
 /// Error model of GNSS positions and velocities.
 ///
@@ -26,8 +41,8 @@ pub struct GnssModel {
     pub delay_std: f64,
     /// Delay of the velocity behind the position, 1-sigma, s: receivers average or filter it.
     pub velocity_delay_std: f64,
-    /// Lever arm of the antenna, 1-sigma of each component, m.
-    pub lever_std: f64,
+    /// What was found of the lever arm of the antenna: it goes before what is configured.
+    pub lever_found: Option<LeverFound>,
 }
 
 impl GnssModel {
@@ -125,7 +140,7 @@ impl NavConfig {
                 velocity_time: 100.0,
                 delay_std: synchronisation_std(&imu),
                 velocity_delay_std: 0.1,
-                lever_std: lever_std(&lever_arms),
+                lever_found: None,
             },
             log: LogModel {
                 scale_std: 0.005,
@@ -158,12 +173,40 @@ fn synchronisation_std(imu: &ImuSpec) -> f64 {
     (imu.gyro.bias_std * SECONDS_PER_RATE).clamp(1e-6, 0.1)
 }
 
-/// How well the antenna's lever arm is known where nobody states it, 1-sigma, m.
-///
+/// 1-sigma of each component of a lever arm that was measured, m.
+const SURVEYED: f64 = 0.002;
 /// No antenna sits inside the IMU: a lever arm of exactly zero is one that was not measured. Then it is
-/// anywhere on a ship: masts are tens of metres high, and so far may the bridge be from the IMU.
-fn lever_std(arms: &LeverArms) -> f64 {
-    const SURVEYED: f64 = 0.002;
-    const UNMEASURED: f64 = 20.0;
-    if arms.gnss.0.norm() == 0.0 { UNMEASURED } else { SURVEYED }
+/// anywhere on a ship: masts are tens of metres high, and so far may the bridge be from the IMU, m.
+const UNMEASURED: f64 = 20.0;
+
+impl NavConfig {
+    /// How well the lever arm of the antenna is known, 1-sigma of each component, m.
+    #[must_use]
+    pub fn gnss_lever_std(&self) -> f64 {
+        let configured = if self.lever_arms.gnss.0.norm() == 0.0 { UNMEASURED } else { SURVEYED };
+        self.gnss.lever_found.map_or(configured, |found| found.std)
+    }
+
+    /// The lever arm of the antenna to begin with, body axes, m.
+    #[must_use]
+    pub fn gnss_lever(&self) -> Vector3<f64> {
+        self.gnss.lever_found.map_or(self.lever_arms.gnss.0, |found| found.arm)
+    }
+
+    /// Takes the lever arm of the antenna that speaks now; tells whether it is another than before, of which
+    /// nothing was found yet.
+    pub fn hear_antenna(&mut self, arm: Body) -> bool {
+        let is_other = arm != self.lever_arms.gnss;
+        if is_other {
+            self.lever_arms.gnss = arm;
+            self.gnss.lever_found = self.gnss.lever_found.filter(|_| self.is_gnss_lever_unknown());
+        }
+        is_other
+    }
+
+    /// Whether the antenna may be anywhere on board.
+    #[must_use]
+    pub fn is_gnss_lever_unknown(&self) -> bool {
+        self.gnss_lever_std() >= UNMEASURED
+    }
 }

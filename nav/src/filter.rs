@@ -54,8 +54,8 @@ pub struct Filter {
     sway: Option<Sway>,
     navigating: bool,
     antenna: AntennaMotion,
-    /// Stated lever arm of the antenna that was heard last, body axes, m.
-    antenna_arm: Vector3<f64>,
+    /// By how much the fixes of its receiver are set back, s; `None` before the first.
+    redated: Option<f64>,
     last_relative: Option<Time>,
     last_water: Option<Time>,
     turned: Vector3<f64>,
@@ -66,6 +66,8 @@ pub struct Filter {
     velocity_epoch: Option<VelocityEpoch>,
     /// What wrong constants of the installation would do, while the filter navigates.
     bias: Option<SeparateBias>,
+    /// Whether they told that the antenna sits elsewhere.
+    mended_lever: bool,
     /// 1-sigma of the lever arm of the log, m, if it was found to be otherwise than configured.
     log_lever_std: Option<Vector3<f64>>,
 }
@@ -111,7 +113,7 @@ impl Filter {
             sway: None,
             navigating: false,
             antenna: AntennaMotion::default(),
-            antenna_arm: config.lever_arms.gnss.0,
+            redated: None,
             last_relative: None,
             last_water: None,
             turned: Vector3::zeros(),
@@ -121,6 +123,7 @@ impl Filter {
             absorbed: Vector3::zeros(),
             velocity_epoch: None,
             bias: None,
+            mended_lever: false,
             log_lever_std: None,
         }
     }

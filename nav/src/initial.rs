@@ -45,7 +45,7 @@ pub fn sensor_covariance(config: &NavConfig) -> Covariance {
     let delay = Matrix1::new(config.gnss.velocity_delay_std.powi(2));
     GNSS_VELOCITY_DELAY.renew(&mut p, &delay);
     GNSS_DELAY.renew(&mut p, &Matrix1::new(config.gnss.delay_std.powi(2)));
-    GNSS_LEVER.renew(&mut p, &three(config.gnss.lever_std));
+    GNSS_LEVER.renew(&mut p, &three(config.gnss_lever_std()));
     let log = &config.log;
     CURRENT.renew(&mut p, &Matrix2::from_diagonal_element(log.current_std.powi(2)));
     LOG_SCALE.renew(&mut p, &Matrix1::new(log.scale_std.powi(2)));

@@ -202,10 +202,17 @@ impl SeparateBias {
         (self.heard >= FEWEST).then_some(self.strain)
     }
 
+    /// The same from the first innovation on, however few there are; zero before.
+    #[must_use]
+    pub fn early_strain(&self) -> f64 {
+        self.strain
+    }
+
     /// What is found to be wrong, if anything is.
     #[must_use]
     pub fn finding(&self) -> Option<Finding> {
-        if self.heard < FEWEST {
+        let fits = self.misfit <= self.heard;
+        if fits || self.heard < FEWEST {
             return None;
         }
         let weighed = HYPOTHESES.iter().filter_map(|prior| self.weigh(prior));
@@ -247,15 +254,22 @@ impl SeparateBias {
 }
 
 impl Finding {
-    /// What the lever arm of the log is found to be off by, m, with 1-sigma, if it is by much.
+    /// What the lever arm of the antenna is found to be off by, m, with 1-sigma, if it is by much.
+    #[must_use]
+    pub fn gnss_lever(&self) -> Option<(Vector3<f64>, Vector3<f64>)> {
+        self.lever(0)
+    }
+
+    /// The same of the log.
     #[must_use]
     pub fn log_lever(&self) -> Option<(Vector3<f64>, Vector3<f64>)> {
-        let value = self.value.fixed_rows::<3>(LOG_AT).into_owned();
-        let sigma = Vector3::from_fn(|i, _| {
-            let i = LOG_AT + i;
-            self.covariance[(i, i)].max(0.0).sqrt()
-        });
-        (value.amax() > LEAST[LOG_AT]).then_some((value, sigma))
+        self.lever(LOG_AT)
+    }
+
+    fn lever(&self, at: usize) -> Option<(Vector3<f64>, Vector3<f64>)> {
+        let value = self.value.fixed_rows::<3>(at).into_owned();
+        let variance = self.covariance.diagonal().fixed_rows::<3>(at).into_owned();
+        (value.amax() > LEAST[at]).then(|| (value, variance.map(|v| v.max(0.0).sqrt())))
     }
 }
 

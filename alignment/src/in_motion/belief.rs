@@ -139,7 +139,7 @@ impl Belief {
         put(k::GYRO, 3, gyro_variance);
         put(k::GYRO_SCALE_DOWN, 1, square(gyro.scale_std));
         put(k::ACCEL, 2, accel_variance);
-        put(k::LEVER, 2, square(config.gnss.lever_std));
+        put(k::LEVER, 2, square(config.gnss_lever_std()));
         put(k::DELAY, 1, square(config.gnss.delay_std));
         put(k::VELOCITY_DELAY, 1, square(config.gnss.velocity_delay_std));
         put(k::SLOW_POSITION, 4, 1.0);
@@ -159,9 +159,27 @@ impl Belief {
         }
     }
 
+    /// Takes the error of a pair as that of a considered pair times a matrix, and noise of a variance.
+    pub fn tie_pair(&mut self, at: usize, considered: usize, by: &Matrix2<f64>, variance: f64) {
+        let prior = self.prior[considered];
+        let with_others = by * self.cross.fixed_columns::<2>(considered).transpose();
+        self.renew_pair(at, 0.0);
+        let own = by * by.transpose() * prior + Matrix2::from_diagonal_element(variance);
+        self.own.fixed_rows_mut::<2>(at).copy_from(&with_others);
+        self.own.fixed_columns_mut::<2>(at).copy_from(&with_others.transpose());
+        self.own.fixed_view_mut::<2, 2>(at, at).copy_from(&own);
+        self.cross.fixed_view_mut::<2, 2>(at, considered).copy_from(&(by * prior));
+    }
+
     /// Forgets how the estimate depends on a considered pair, which is about to be another one.
     pub fn forget_considered_pair(&mut self, at: usize) {
         self.cross.columns_mut(at, 2).fill(0.0);
+    }
+
+    /// Another sensor has another considered pair, of this variance.
+    pub fn renew_considered_pair(&mut self, at: usize, variance: f64) {
+        self.forget_considered_pair(at);
+        self.prior.rows_mut(at, 2).fill(variance);
     }
 
     /// Carries the belief over a stretch of time.

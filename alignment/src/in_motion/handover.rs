@@ -123,7 +123,10 @@ impl EightState {
         let place = insd_base::Geodetic { height: own.vertical.height, ..own.motion.place };
         let v = own.motion.velocity;
         let v_n = Vector3::new(v.x, v.y, own.vertical.down);
-        let nominal = Nominal::at(&place, &v_n, &own.motion.c_pb());
+        let nominal = Nominal {
+            gnss_lever: own.config.gnss_lever() - own.config.lever_arms.gnss.0,
+            ..Nominal::at(&place, &v_n, &own.motion.c_pb())
+        };
         let c_en = earth::c_ne(&place).transpose();
         let into = own.errors_in_full(&c_en);
         let learnt = own.sensors_in_full();

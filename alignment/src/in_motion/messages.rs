@@ -10,7 +10,7 @@ use nalgebra::{Vector2, Vector3};
 
 use super::EightState;
 use super::aids::{self, LogReading, Split};
-use super::belief::{Innovation, considered as k};
+use super::belief::{Innovation, considered as k, state as x};
 
 const GNSS_VELOCITY: &str = "gnss_velocity";
 const GNSS_POSITION: &str = "gnss_position";
@@ -25,7 +25,8 @@ impl EightState {
         }
         self.settle();
         self.note_quality(fix.quality);
-        let lever = self.note_arm(fix);
+        self.note_arm(fix);
+        let lever = self.config.gnss_lever();
         let mut passed = Vec::new();
         if let Some(velocity) = fix.velocity {
             let std = floors::vector(fix.velocity_std, &floors::gnss_velocity());
@@ -57,6 +58,9 @@ impl EightState {
             let used = self.judge(&innovation, fix.time, source, GNSS_POSITION, &mut report);
             self.gnss_used = used.then_some(self.time).or(self.gnss_used);
             passed.push(used);
+            if self.config.is_gnss_lever_unknown() {
+                self.place(&position, &split.white.component_mul(&split.white));
+            }
             if std.value.z < floors::UNTOLD {
                 let above = (self.motion.c_pb() * lever).z;
                 let (white, slow) = shares(std.value.z, share);
@@ -161,14 +165,20 @@ impl EightState {
         passes
     }
 
-    /// The lever arm of the antenna that speaks now, m.
-    fn note_arm(&mut self, fix: &GnssFix) -> Vector3<f64> {
-        let arm = fix.lever.unwrap_or(self.config.lever_arms.gnss).0;
-        if arm != self.antenna_arm {
+    /// Another receiver has another antenna.
+    fn note_arm(&mut self, fix: &GnssFix) {
+        if fix.lever.is_some_and(|arm| self.config.hear_antenna(arm)) {
             self.antenna = AntennaMotion::default();
-            self.antenna_arm = arm;
+            self.belief.renew_considered_pair(k::LEVER, self.config.gnss_lever_std().powi(2));
         }
-        arm
+    }
+
+    /// Takes the position as that of the antenna, `white` the variance of the fix: nothing knows it better
+    /// while the lever arm is unknown. It is off by that, dr = -C_nb dl.
+    fn place(&mut self, antenna: &Geodetic, white: &Vector2<f64>) {
+        self.motion.place = Geodetic { height: self.vertical.height, ..*antenna };
+        let by_lever = -self.scene().hull;
+        self.belief.tie_pair(x::POSITION, k::LEVER, &by_lever, white.max());
     }
 
     /// A filter that refuses its receiver for long is itself in error: it starts again from the
@@ -184,7 +194,7 @@ impl EightState {
             return;
         }
         let spread = |std: Vector3<f64>, arm: f64| std.xy().norm() + arm;
-        let lever = self.antenna_arm;
+        let lever = self.config.gnss_lever();
         let place_std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality)).value;
         let speed_std = floors::vector(fix.velocity_std, &floors::gnss_velocity()).value;
         let swing = self.scene().swing(&lever).norm();

@@ -67,8 +67,6 @@ pub struct EightState {
     /// Integral of the force, computed frame, m/s: only its changes are used.
     push: Vector3<f64>,
     antenna: AntennaMotion,
-    /// Lever arm of the antenna that was heard last, body axes, m.
-    antenna_arm: Vector3<f64>,
     rtk: Option<bool>,
     heard_height: Time,
     /// When a position of GNSS was last used.
@@ -130,7 +128,6 @@ impl EightState {
             rate: level.rate,
             push: Vector3::zeros(),
             antenna: AntennaMotion::default(),
-            antenna_arm: config.lever_arms.gnss.0,
             rtk: None,
             heard_height: level.time,
             gnss_used: None,
@@ -194,6 +191,12 @@ impl EightState {
         self.heading.1 < GOAL
     }
 
+    /// What is assumed of sensors and sea; the lever arm is that of the antenna that was heard last.
+    #[must_use]
+    pub fn config(&self) -> &NavConfig {
+        &self.config
+    }
+
     fn assumed_heading(&self) -> f64 {
         let bow = self.motion.attitude * Vector3::x();
         bow.y.atan2(bow.x)
@@ -242,7 +245,7 @@ impl EightState {
 
     /// Notes the antenna's velocity but for a constant, for its acceleration.
     fn note_antenna(&mut self) {
-        let swing = self.motion.attitude * self.rate.cross(&self.antenna_arm);
+        let swing = self.motion.attitude * self.rate.cross(&self.config.gnss_lever());
         self.antenna.note(self.time, &(self.push + swing));
     }
 

@@ -1,20 +1,20 @@
 //! What is found to be otherwise than configured, and what follows from it.
 
 use insd_base::{Event, Finding, ModeReason, Time};
+use insd_nav::config::LeverFound;
 
 use crate::{Engine, Stage};
 
-/// A lever arm of which nothing is known, 1-sigma of each component, m.
-const ANYWHERE: f64 = 50.0;
-
 impl Engine {
     /// What an alignment that GNSS refutes was misled by is most likely the lever arm of the antenna: the
-    /// next one takes it as unknown. There is no third.
+    /// next one takes it as it was found, or as unknown. After that there is no other.
     pub(crate) fn consider_another(&mut self) {
         let Stage::Running(line) = &self.stage else { return };
-        if line.estimator().is_refuted() && self.nav.gnss.lever_std < ANYWHERE {
+        let Some(found) = line.estimator().refuted_by() else { return };
+        let known = self.nav.gnss.lever_found;
+        if known.is_none() || (known != Some(LeverFound::UNKNOWN) && found == LeverFound::UNKNOWN) {
             let time = line.now();
-            self.nav.gnss.lever_std = ANYWHERE;
+            self.nav.gnss.lever_found = Some(found);
             self.start_over(time, ModeReason::HeadingRefuted);
         }
     }

@@ -19,6 +19,7 @@ mod resume;
 mod resumption;
 mod ship;
 mod surveyor;
+mod trial;
 pub mod vote;
 
 use std::collections::VecDeque;
@@ -368,6 +369,7 @@ impl Engine {
         for aid in faults {
             self.reject(received, aid, Rejection::OutOfRange);
         }
+        let checked = self.surveyor.completed(&checked);
         self.herald.hear(&checked);
         self.relay.hear(&checked);
         if let Message::Log(log) = &checked.message {

@@ -5,20 +5,15 @@ use insd_alignment::{
     AlignmentConfig, Bank, EightState, Fine, InMotion, Level, Method, StoredState, Verdict,
 };
 use insd_base::alignment::{ACCURACY, heading_target};
-use insd_base::units::{DEG, DEG_PER_HOUR};
-use insd_base::{ImuSpec, Mode, Received, Solution, Span, StoredDoubt, Time};
+use insd_base::units::DEG;
+use insd_base::{ImuSpec, Mode, Received, Solution, StoredDoubt, Time};
+use insd_nav::config::LeverFound;
 use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
+
+use crate::trial::Trial;
 
 /// Heading sigma below which a ship can be steered by it for the first time.
 const STEERABLE: f64 = 1.0 * DEG;
-
-/// A heading that was found under way is on trial for so long, s; with gyros that do not find north on their
-/// own, of a larger turn-on bias than this, rad/s, until motion has confirmed the lever arm that it was found by, or for so long.
-const TRIAL: f64 = 300.0;
-const LONGEST_TRIAL: f64 = 7200.0;
-const BLIND: f64 = 1.0 * DEG_PER_HOUR;
-/// Mean square of the innovations, of which one is expected, that refutes what was handed over.
-const REFUTED: f64 = 8.0;
 
 /// Latitude beyond which north turns under the ship too fast for the filter of eight states.
 const POLAR: f64 = 88.0 * DEG;
@@ -30,9 +25,9 @@ pub(crate) enum Ship {
     Aligning(Box<Bank>),
     /// A receiver tells the velocity, the heading may be anything; `berth` is how the ship is held
     /// once it is found, if she is moored.
-    InMotion { finder: Box<EightState>, config: Box<NavConfig>, berth: Option<Method> },
+    InMotion { finder: Box<EightState>, berth: Option<Method> },
     /// One is known, `aligned` once well enough to steer by; `verdict` on a stored state.
-    Navigating { fine: Box<Fine>, aligned: bool, verdict: Option<Verdict>, trial: Option<Time> },
+    Navigating { fine: Box<Fine>, aligned: bool, verdict: Option<Verdict>, trial: Option<Trial> },
 }
 
 impl Ship {
@@ -48,7 +43,7 @@ impl Ship {
         if is_told && !is_polar && choice.in_motion == InMotion::EightState {
             let finder = Box::new(EightState::new(config, level, kinematics));
             let berth = kinematics.moored.then_some(choice.moored);
-            return Ship::InMotion { finder, config: Box::new(*config), berth };
+            return Ship::InMotion { finder, berth };
         }
         Ship::Aligning(Box::new(match stored {
             Some(stored) => Bank::with_stored(config, level, kinematics, choice, stored),
@@ -76,16 +71,12 @@ impl Ship {
         }
     }
 
-    /// Whether GNSS refutes what was handed over for navigation a while ago: on what the heading was found
-    /// by, something was not as configured.
-    pub(crate) fn is_refuted(&self) -> bool {
+    /// What the next alignment must know if GNSS refutes what was handed over for navigation a while ago: on
+    /// what the heading was found by, something was not as configured.
+    pub(crate) fn refuted_by(&self) -> Option<LeverFound> {
         match self {
-            Ship::Navigating { fine, trial: Some(end), .. } => {
-                let filter = fine.filter();
-                let on_trial = filter.time() < *end && !filter.is_lever_confirmed();
-                on_trial && filter.strain().is_some_and(|strain| strain > REFUTED)
-            }
-            _ => false,
+            Ship::Navigating { fine, trial: Some(trial), .. } => trial.refuted_by(fine.filter()),
+            _ => None,
         }
     }
 
@@ -118,6 +109,12 @@ impl Ship {
     }
 
     fn with_mode(&self, solution: Solution) -> Solution {
+        let solution = match self {
+            Ship::Navigating { fine, trial: Some(trial), .. } => {
+                trial.claim(fine.filter(), solution)
+            }
+            _ => solution,
+        };
         let aligned = heading_target(ACCURACY, solution.position.latitude);
         let mode = match self {
             _ if self.is_moored() && solution.sigma.heading > aligned => Mode::FineAlignment,
@@ -135,8 +132,8 @@ impl Ship {
         let verdict = self.verdict();
         let found = match self {
             Ship::Aligning(bank) => bank.winner().cloned(),
-            Ship::InMotion { finder, config, berth } => finder.initial_state().map(|initial| {
-                let mut filter = Filter::new(config, &initial);
+            Ship::InMotion { finder, berth } => finder.initial_state().map(|initial| {
+                let mut filter = Filter::new(finder.config(), &initial);
                 finder.gnss_used().iter().for_each(|time| filter.note_gnss_used(*time));
                 Fine::held(filter, *berth)
             }),
@@ -144,19 +141,12 @@ impl Ship {
         };
         if let Some(mut fine) = found {
             fine.filter_mut().begin_navigation();
-            let trial = self.trial(fine.filter().time());
+            let trial = match self {
+                Ship::InMotion { finder, .. } => Some(finder.config().imu.gyro.bias_std),
+                _ => None,
+            };
+            let trial = trial.map(|bias_std| Trial::begin(fine.filter().time(), bias_std));
             *self = Ship::Navigating { fine: Box::new(fine), aligned: false, verdict, trial };
-        }
-    }
-
-    /// Until when what is handed over now is on trial.
-    fn trial(&self, now: Time) -> Option<Time> {
-        match self {
-            Ship::InMotion { config, .. } if config.imu.gyro.bias_std < BLIND => {
-                Some(now + Span::from_seconds(TRIAL))
-            }
-            Ship::InMotion { .. } => Some(now + Span::from_seconds(LONGEST_TRIAL)),
-            _ => None,
         }
     }
 

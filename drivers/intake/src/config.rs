@@ -444,7 +444,7 @@ impl SensorConfig {
         let lever = self.lever_m.iter().flatten().all(|length| length.abs() <= 1000.0);
         expect(lever, "lever_m", "[forward, starboard, down] in m, each within +-1000");
         expect(self.lever_m.is_none() || is_receiver, "lever_m", "a GNSS receiver");
-        expect((0.0..=2.0).contains(&self.delay_s), "delay_s", "0 to 2 s");
+        expect(self.delay_s.abs() <= 2.0, "delay_s", "-2 to 2 s");
         expect(self.delay_s == 0.0 || is_receiver, "delay_s", "a GNSS receiver");
         expect((1.0..=10_000.0).contains(&self.rate_hz), "rate_hz", "1 to 10000");
         let mounted = self.mounting.c_bd().is_some();

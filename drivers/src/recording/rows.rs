@@ -126,6 +126,7 @@ fn gnss_fix(time: Time, fields: &Fields<'_>) -> Result<GnssFix, BadRow> {
         satellites: count(fields, 14)?.map(|satellites| satellites as u16),
         quality: quality(fields, 15, has_data)?,
         lever: None,
+        redated: 0.0,
     })
 }
 

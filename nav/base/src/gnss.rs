@@ -79,8 +79,11 @@ pub struct GnssFix {
     pub satellites: Option<u16>,
     /// Fix quality.
     pub quality: FixQuality,
-    /// Lever arm from the IMU to this receiver's antenna, body axes, m; `None`: that of the ship.
+    /// Lever arm from the IMU to this receiver's antenna, body axes, m; `None`: that of the ship, or of
+    /// the one that was heard before.
     pub lever: Option<Body>,
+    /// By how much its time of validity was set back because the receiver tags its epochs late, s.
+    pub redated: f64,
 }
 
 #[cfg(test)]

@@ -83,6 +83,20 @@ pub struct SolutionSigma {
     pub heading: f64,
 }
 
+impl SolutionSigma {
+    /// All of them by a factor.
+    #[must_use]
+    pub fn scaled(&self, by: f64) -> Self {
+        SolutionSigma {
+            position: Ned(self.position.0 * by),
+            velocity: Ned(self.velocity.0 * by),
+            roll: self.roll * by,
+            pitch: self.pitch * by,
+            heading: self.heading * by,
+        }
+    }
+}
+
 /// Where the ship is, how she moves and lies, at the IMU, and how sure that is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solution {

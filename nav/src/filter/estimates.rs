@@ -15,7 +15,7 @@ impl Filter {
     pub fn estimates(&self, moored: bool) -> Estimates {
         let (nominal, misalignment) = (&self.nominal, LOG_MISALIGNMENT.start());
         let estimate = |value: f64, state: usize| Estimate { value, sigma: self.std(state) };
-        let lever = GNSS_LEVER.start();
+        let (lever, redated) = (GNSS_LEVER.start(), self.redated.unwrap_or_default());
         Estimates {
             gyro_bias: Body(nominal.gyro_error().bias),
             gyro_bias_sigma: Body(self.std_of_sum(GYRO_BIAS.start(), GYRO_DRIFT.start())),
@@ -25,10 +25,10 @@ impl Filter {
             log_pitch: estimate(nominal.log_misalignment.x, misalignment),
             log_heading: estimate(nominal.log_misalignment.y, misalignment + 1),
             current: self.current(),
-            gnss_lever_configured: Body(self.antenna_arm),
+            gnss_lever_configured: self.config.lever_arms.gnss,
             gnss_lever: Body(self.antenna_lever()),
             gnss_lever_sigma: Body(Vector3::from_fn(|i, _| self.std(lever + i))),
-            gnss_delay: estimate(nominal.gnss_delay, GNSS_DELAY.start()),
+            gnss_delay: estimate(nominal.gnss_delay + redated, GNSS_DELAY.start()),
             log_lever: self.log_lever_std.map(|sigma| (self.config.lever_arms.log, Body(sigma))),
             moored,
         }

@@ -42,6 +42,7 @@ impl Filter {
             return;
         }
         self.note_antenna(fix);
+        self.note_redating(fix.redated);
         self.note_quality(fix.quality);
         self.mend_installation();
         let velocity = self.apply_velocity(fix, source, report);
@@ -50,16 +51,21 @@ impl Filter {
 
     /// Another receiver has another antenna: what was learnt of the last one's lever arm is not its.
     fn note_antenna(&mut self, fix: &GnssFix) {
-        let arm = fix.lever.unwrap_or(self.config.lever_arms.gnss).0;
-        if arm != self.antenna_arm {
-            let variance = self.config.gnss.lever_std.powi(2);
+        if fix.lever.is_some_and(|arm| self.config.hear_antenna(arm)) {
+            let variance = self.config.gnss_lever_std().powi(2);
             GNSS_LEVER.renew(&mut self.covariance, &Matrix3::from_diagonal_element(variance));
-            self.nominal.gnss_lever = Vector3::zeros();
+            self.nominal.gnss_lever = self.config.gnss_lever() - self.config.lever_arms.gnss.0;
             self.antenna = AntennaMotion::default();
-            self.antenna_arm = arm;
+            (self.nominal.gnss_delay, self.redated) = (0.0, None);
             let begun = SeparateBias::new(&self.view());
             self.bias.iter_mut().for_each(|bias| *bias = begun);
         }
+    }
+
+    /// What a fix was set back by is no delay any more.
+    fn note_redating(&mut self, redated: f64) {
+        self.nominal.gnss_delay -= self.redated.map_or(0.0, |before| redated - before);
+        self.redated = Some(redated);
     }
 
     /// The slow errors of code and carrier solutions have nothing to do with each other.
@@ -121,7 +127,7 @@ impl Filter {
 
     /// Lever arm from the IMU to the antenna as now known, body axes, m.
     pub(super) fn antenna_lever(&self) -> Vector3<f64> {
-        self.antenna_arm + self.nominal.gnss_lever
+        self.config.lever_arms.gnss.0 + self.nominal.gnss_lever
     }
 
     /// Velocity of the antenna, ECEF axes, m/s.

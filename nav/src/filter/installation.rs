@@ -21,6 +21,18 @@ impl Filter {
         self.bias.as_ref().and_then(SeparateBias::strain)
     }
 
+    /// The same from the first innovation on, however few there are; zero before.
+    #[must_use]
+    pub fn early_strain(&self) -> f64 {
+        self.bias.as_ref().map_or(0.0, SeparateBias::early_strain)
+    }
+
+    /// Whether the lever arm of the antenna was found to be otherwise than the filter began with.
+    #[must_use]
+    pub fn has_mended_lever(&self) -> bool {
+        self.mended_lever
+    }
+
     /// Whether the motion of the ship has confirmed the configured lever arm of the antenna.
     #[must_use]
     pub fn is_lever_confirmed(&self) -> bool {
@@ -46,6 +58,7 @@ impl Filter {
         };
         let (error, unsure) = bias.correction(&finding);
         self.covariance += unsure;
+        self.mended_lever |= finding.gnss_lever().is_some();
         self.nominal.inject(&error);
         self.corrected += error;
         self.absorbed += VELOCITY.of(&error);

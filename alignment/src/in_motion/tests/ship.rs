@@ -297,6 +297,7 @@ impl Run {
             satellites: Some(12),
             quality: FixQuality::Differential,
             lever: None,
+            redated: 0.0,
         };
         self.filter.gnss(&fix, Source::Gnss(0));
     }

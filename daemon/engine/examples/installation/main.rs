@@ -1,12 +1,13 @@
 //! Voyages with an installation that is not as configured: what it costs, and whether it is told.
 //!
-//! `installation [SEEDS]`: each mistake of the table on the shipped voyages, beside the same voyages with
-//! the right configuration. Errors are judged from fifteen minutes under way.
+//! `installation [SEEDS] [VOYAGE] [MISTAKE]`: each mistake of the table, or those whose name begins so, on the
+//! shipped voyages, beside the same voyages with the right configuration. Errors are judged from fifteen
+//! minutes under way.
 
 mod mistakes;
 mod outcome;
 
-use insd_simulator::{Scenario, shipped, simulate};
+use insd_simulator::{Override, Scenario, shipped, simulate};
 use rayon::prelude::*;
 
 use mistakes::{MISTAKES, Mistake};
@@ -19,25 +20,32 @@ const VOYAGES: [(&str, f64, f64); 4] =
 fn main() {
     let seeds: u64 = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(20);
     let only = std::env::args().nth(2);
-    for (number, duration, from) in VOYAGES {
+    let which = std::env::args().nth(3).unwrap_or_default();
+    for (number, until, from) in VOYAGES {
         if only.as_ref().is_some_and(|only| only != number) {
             continue;
         }
         let Some((name, text)) = shipped().iter().find(|(name, _)| name.starts_with(number)) else {
             continue;
         };
-        let scenario = match Scenario::from_toml(text) {
-            Ok(scenario) => scenario,
-            Err(fault) => return eprintln!("{name}: {fault}"),
-        };
-        let duration = duration.min(scenario.duration());
-        let scenario = scenario.with_duration(duration);
         println!("\n{name}, {seeds} seeds, judged from {from:.0} s");
         println!("{}", Outcome::HEAD);
-        for mistake in &MISTAKES {
-            println!("{}", campaign(&scenario, mistake, seeds, from));
+        for mistake in MISTAKES.iter().filter(|mistake| mistake.name.starts_with(&which)) {
+            match scenario(text, mistake, until) {
+                Ok(scenario) => println!("{}", campaign(&scenario, mistake, seeds, from)),
+                Err(fault) => eprintln!("{name}: {fault}"),
+            }
         }
     }
+}
+
+/// The voyage of the ship that the mistake is made on.
+fn scenario(text: &str, mistake: &Mistake, until: f64) -> Result<Scenario, String> {
+    let ship: Option<Override> = mistake.ship.map(str::parse).transpose()?;
+    let scenario =
+        Scenario::with_overrides(text, ship.as_slice()).map_err(|fault| fault.to_string())?;
+    let duration = scenario.duration().min(until);
+    Ok(scenario.with_duration(duration))
 }
 
 /// All seeds of one mistake.

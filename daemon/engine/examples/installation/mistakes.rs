@@ -9,6 +9,17 @@ pub(crate) struct Mistake {
     /// Short name of the finding that tells it; none where nothing is wrong.
     pub(crate) cause: &'static str,
     pub(crate) make: fn(&mut Voyage),
+    /// What of the scenario is another, `KEY=VALUE`.
+    pub(crate) ship: Option<&'static str>,
+}
+
+const fn mistake(name: &'static str, cause: &'static str, make: fn(&mut Voyage)) -> Mistake {
+    Mistake { name, cause, make, ship: None }
+}
+
+/// The same on a ship whose antenna is 33 m above her IMU.
+const fn high(mistake: Mistake) -> Mistake {
+    Mistake { ship: Some("gnss.lever_arm_m=[-6.0, -0.8, -33.0]"), ..mistake }
 }
 
 fn lever(voyage: &mut Voyage, change: impl Fn([f64; 3]) -> [f64; 3]) {
@@ -56,56 +67,37 @@ const TURNED: &str = "mounting_turned";
 const LOG: &str = "log_mounting";
 
 /// All of them; the first is none.
-pub(crate) const MISTAKES: [Mistake; 27] = [
-    Mistake { name: "as configured", cause: "", make: |_| {} },
-    Mistake { name: "down sign", cause: LEVER, make: |v| lever(v, |[x, y, z]| [x, y, -z]) },
-    Mistake { name: "forward sign", cause: LEVER, make: |v| lever(v, |[x, y, z]| [-x, y, z]) },
-    Mistake { name: "all signs", cause: LEVER, make: |v| lever(v, |[x, y, z]| [-x, -y, -z]) },
-    Mistake { name: "ten times", cause: LEVER, make: |v| lever(v, |arm| arm.map(|m| 10.0 * m)) },
-    Mistake { name: "axes swapped", cause: LEVER, make: |v| lever(v, |[x, y, z]| [y, x, z]) },
-    Mistake { name: "up for forward", cause: LEVER, make: |v| lever(v, |[x, y, z]| [-z, y, x]) },
-    Mistake {
-        name: "feet for metres",
-        cause: LEVER,
-        make: |v| lever(v, |arm| arm.map(|m| 3.28 * m)),
-    },
-    Mistake {
-        name: "from the keel",
-        cause: LEVER,
-        make: |v| lever(v, |[x, y, z]| [x, y, z - 9.0]),
-    },
-    Mistake {
-        name: "from the stern",
-        cause: LEVER,
-        make: |v| lever(v, |[x, y, z]| [x + 60.0, y, z]),
-    },
-    Mistake {
-        name: "not measured",
-        cause: "gnss_lever_unmeasured",
-        make: |v| lever(v, |_| [0.0; 3]),
-    },
-    Mistake {
-        name: "log lever sign",
-        cause: "log_lever",
-        make: |v| v.header.lever_arms.log.0 = -v.header.lever_arms.log.0,
-    },
-    Mistake { name: "IMU upside down", cause: TILTED, make: |v| turn(v, [180.0, 0.0, 0.0]) },
-    Mistake { name: "IMU down, aft", cause: TILTED, make: |v| turn(v, [0.0, 180.0, 0.0]) },
-    Mistake { name: "IMU on its side", cause: TILTED, make: |v| turn(v, [90.0, 0.0, 0.0]) },
-    Mistake { name: "IMU on its nose", cause: TILTED, make: |v| turn(v, [0.0, -90.0, 0.0]) },
-    Mistake { name: "IMU turned 90", cause: TURNED, make: |v| turn(v, [0.0, 0.0, 90.0]) },
-    Mistake { name: "IMU turned 180", cause: TURNED, make: |v| turn(v, [0.0, 0.0, 180.0]) },
-    Mistake { name: "IMU turned 270", cause: TURNED, make: |v| turn(v, [0.0, 0.0, 270.0]) },
-    Mistake { name: "accel in g", cause: "imu_force", make: |v| scale_imu(v, 1.0, 1.0 / 9.80665) },
-    Mistake { name: "gyro in deg", cause: "imu_rate", make: |v| scale_imu(v, 57.295_78, 1.0) },
-    Mistake { name: "log reversed", cause: LOG, make: |v| log(v, |u| -u) },
-    Mistake {
-        name: "log quarter turn",
-        cause: LOG,
-        make: |v| log(v, |u| Vector3::new(-u.y, u.x, u.z)),
-    },
-    Mistake { name: "log in knots", cause: LOG, make: |v| log(v, |u| u / 0.514_444) },
-    Mistake { name: "log in km/h", cause: LOG, make: |v| log(v, |u| u * 3.6) },
-    Mistake { name: "GNSS 0.5 s late", cause: "gnss_delay", make: |v| late(v, 0.5) },
-    Mistake { name: "GNSS 0.2 s late", cause: "gnss_delay", make: |v| late(v, 0.2) },
+pub(crate) const MISTAKES: [Mistake; 30] = [
+    mistake("as configured", "", |_| {}),
+    mistake("down sign", LEVER, |v| lever(v, |[x, y, z]| [x, y, -z])),
+    mistake("forward sign", LEVER, |v| lever(v, |[x, y, z]| [-x, y, z])),
+    mistake("all signs", LEVER, |v| lever(v, |[x, y, z]| [-x, -y, -z])),
+    mistake("ten times", LEVER, |v| lever(v, |arm| arm.map(|m| 10.0 * m))),
+    mistake("axes swapped", LEVER, |v| lever(v, |[x, y, z]| [y, x, z])),
+    mistake("up for forward", LEVER, |v| lever(v, |[x, y, z]| [-z, y, x])),
+    mistake("feet for metres", LEVER, |v| lever(v, |arm| arm.map(|m| 3.28 * m))),
+    mistake("from the keel", LEVER, |v| lever(v, |[x, y, z]| [x, y, z - 9.0])),
+    mistake("from the stern", LEVER, |v| lever(v, |[x, y, z]| [x + 60.0, y, z])),
+    mistake("not measured", "gnss_lever_unmeasured", |v| lever(v, |_| [0.0; 3])),
+    high(mistake("high mast", "", |_| {})),
+    high(mistake("high mast, sign", LEVER, |v| lever(v, |[x, y, z]| [x, y, -z]))),
+    high(mistake("high mast, zeros", "gnss_lever_unmeasured", |v| lever(v, |_| [0.0; 3]))),
+    mistake("log lever sign", "log_lever", |v| {
+        v.header.lever_arms.log.0 = -v.header.lever_arms.log.0
+    }),
+    mistake("IMU upside down", TILTED, |v| turn(v, [180.0, 0.0, 0.0])),
+    mistake("IMU down, aft", TILTED, |v| turn(v, [0.0, 180.0, 0.0])),
+    mistake("IMU on its side", TILTED, |v| turn(v, [90.0, 0.0, 0.0])),
+    mistake("IMU on its nose", TILTED, |v| turn(v, [0.0, -90.0, 0.0])),
+    mistake("IMU turned 90", TURNED, |v| turn(v, [0.0, 0.0, 90.0])),
+    mistake("IMU turned 180", TURNED, |v| turn(v, [0.0, 0.0, 180.0])),
+    mistake("IMU turned 270", TURNED, |v| turn(v, [0.0, 0.0, 270.0])),
+    mistake("accel in g", "imu_force", |v| scale_imu(v, 1.0, 1.0 / 9.80665)),
+    mistake("gyro in deg", "imu_rate", |v| scale_imu(v, 57.295_78, 1.0)),
+    mistake("log reversed", LOG, |v| log(v, |u| -u)),
+    mistake("log quarter turn", LOG, |v| log(v, |u| Vector3::new(-u.y, u.x, u.z))),
+    mistake("log in knots", LOG, |v| log(v, |u| u / 0.514_444)),
+    mistake("log in km/h", LOG, |v| log(v, |u| u * 3.6)),
+    mistake("GNSS 0.5 s late", "gnss_delay", |v| late(v, 0.5)),
+    mistake("GNSS 0.2 s late", "gnss_delay", |v| late(v, 0.2)),
 ];

@@ -18,14 +18,15 @@ pub(crate) struct Outcome {
     /// Greatest horizontal error while told valid, m, and in claimed sigmas, from the start.
     worst: f64,
     worst_sigmas: f64,
+    /// The greatest in claimed sigmas since it is judged.
+    late_sigmas: f64,
     told: Option<f64>,
     voyages: f64,
     told_in: f64,
 }
 
 impl Outcome {
-    pub(crate) const HEAD: &'static str =
-        "mistake            horiz. m  down m   NEES  hdg NEES  worst m  sigmas  told in   after s";
+    pub(crate) const HEAD: &'static str = "mistake            horiz. m  down m   NEES  hdg NEES  worst m  sigmas  judged  told in   after s";
 
     /// Mean squares over voyages, the worst of all.
     pub(crate) fn of(name: &str, all: &[Outcome]) -> Outcome {
@@ -42,6 +43,7 @@ impl Outcome {
             heading_nees: mean(|one| one.heading_nees),
             worst: worst(|one| one.worst),
             worst_sigmas: worst(|one| one.worst_sigmas),
+            late_sigmas: worst(|one| one.late_sigmas),
             told: told.last().copied(),
             voyages: n,
             told_in: told.len() as f64,
@@ -54,7 +56,7 @@ impl fmt::Display for Outcome {
         let told = self.told.map_or("-".to_owned(), |at| format!("{at:.0}"));
         write!(
             f,
-            "{:<18} {:>8.2} {:>7.2} {:>6.2} {:>9.2} {:>8.1} {:>7.1} {:>4}/{:<3} {:>8}",
+            "{:<18} {:>8.2} {:>7.2} {:>6.2} {:>9.2} {:>8.1} {:>7.1} {:>7.1} {:>4}/{:<3} {:>8}",
             self.name,
             self.horizontal,
             self.vertical,
@@ -62,6 +64,7 @@ impl fmt::Display for Outcome {
             self.heading_nees,
             self.worst,
             self.worst_sigmas,
+            self.late_sigmas,
             self.told_in,
             self.voyages,
             told
@@ -130,6 +133,9 @@ impl Judged {
         }
         if solution.time.as_seconds() < from {
             return;
+        }
+        if valid {
+            outcome.late_sigmas = outcome.late_sigmas.max(off / std.xy().norm());
         }
         self.n += 1.0;
         self.horizontal += off * off;

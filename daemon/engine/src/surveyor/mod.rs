@@ -7,7 +7,10 @@ mod imu;
 mod log;
 mod mounting;
 
-use insd_base::{Estimates, Finding, LeverArms, LogVelocity, Mode, Solution, Span, Time};
+use insd_base::{
+    Body, Estimates, Finding, GnssFix, LeverArms, LogVelocity, Message, Mode, Received, Solution,
+    Span, Time,
+};
 use insd_nav::Increment;
 
 use crate::ship::Ship;
@@ -22,6 +25,8 @@ const SIGNIFICANT: f64 = 5.0;
 /// and by so much: lever arm, m; delay, s.
 const LEVER: f64 = 0.5;
 const DELAY: f64 = 0.05;
+/// Epochs are set back by no more than this, s.
+const LATEST: f64 = 1.5;
 /// A log is compared with a solution at most so far from it in time, s.
 const LATE: f64 = 0.5;
 /// A lever arm that was not measured is told when it is known so well, each component, 1-sigma, m.
@@ -37,6 +42,8 @@ pub(crate) struct Surveyor {
     log: LogWatch,
     newest: Option<Solution>,
     next: Option<Time>,
+    /// Lever arm of a receiver that tags its epochs late, body axes, m, and by how much, s.
+    late: Option<(Body, f64)>,
     findings: Vec<Finding>,
 }
 
@@ -51,6 +58,7 @@ impl Surveyor {
             log: LogWatch::default(),
             newest: None,
             next: None,
+            late: None,
             findings: Vec::new(),
         }
     }
@@ -99,6 +107,17 @@ impl Surveyor {
         }
     }
 
+    /// A message with all that is known of its receiver: the lever arm of its antenna; and epochs that were
+    /// found to be tagged late are set back.
+    pub(crate) fn completed(&self, received: &Received) -> Received {
+        let Message::Gnss(fix) = received.message else { return *received };
+        let arm = fix.lever.unwrap_or(self.arms.gnss);
+        let redated = self.late.filter(|(own, _)| *own == arm).map_or(0.0, |(_, by)| by);
+        let time = fix.time - Span::from_seconds(redated);
+        let fix = GnssFix { time, redated, lever: Some(arm), ..fix };
+        Received { message: Message::Gnss(fix), ..*received }
+    }
+
     /// Looks, if it is time; gives what was not found before.
     pub(crate) fn look(&mut self, ship: Option<&Ship>, now: Time) -> Vec<Finding> {
         if self.next.is_some_and(|next| now < next) {
@@ -107,7 +126,11 @@ impl Surveyor {
         self.next = Some(now + LOOK);
         let navigating = ship.filter(|ship| ship.has_one_heading()).and_then(Ship::likeliest);
         let found: Vec<Finding> = match navigating {
-            Some(fine) => self.all(&fine.filter().estimates(fine.is_moored())),
+            Some(fine) => {
+                let estimates = fine.filter().estimates(fine.is_moored());
+                self.late = late(&estimates);
+                self.all(&estimates)
+            }
             None => self.of_imu(),
         };
         let is_new = |finding: &&Finding| {
@@ -156,6 +179,12 @@ impl Surveyor {
         let is_other = |i: usize| difference[i].abs() > LEVER.max(SIGNIFICANT * sigma.0[i]);
         (0..3).any(is_other).then_some(Finding::GnssLever { configured, found, sigma })
     }
+}
+
+/// Epochs that come later than the history reaches back, or as much too early, are not set back wholly.
+fn late(estimates: &Estimates) -> Option<(Body, f64)> {
+    let by = estimates.gnss_delay.value.clamp(-LATEST, LATEST);
+    delay(estimates).map(|_| (estimates.gnss_lever_configured, by))
 }
 
 fn delay(estimates: &Estimates) -> Option<Finding> {

@@ -202,6 +202,7 @@ impl Epoch {
             satellites: part.satellites,
             quality: if self.is_valid() { self.quality() } else { FixQuality::Invalid },
             lever: None,
+            redated: 0.0,
         }
     }
 }

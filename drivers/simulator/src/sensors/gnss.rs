@@ -122,6 +122,7 @@ impl Receiver {
             satellites: Some(satellites),
             quality: self.quality,
             lever: None,
+            redated: 0.0,
         }
     }
 }
