@@ -66,8 +66,8 @@ pub struct Filter {
     velocity_epoch: Option<VelocityEpoch>,
     /// What wrong constants of the installation would do, while the filter navigates.
     bias: Option<SeparateBias>,
-    /// Whether they told that the antenna sits elsewhere.
-    mended_lever: bool,
+    /// Whether they told that the antenna sits elsewhere, or speaks late.
+    mended: bool,
     /// 1-sigma of the lever arm of the log, m, if it was found to be otherwise than configured.
     log_lever_std: Option<Vector3<f64>>,
 }
@@ -123,7 +123,7 @@ impl Filter {
             absorbed: Vector3::zeros(),
             velocity_epoch: None,
             bias: None,
-            mended_lever: false,
+            mended: false,
             log_lever_std: None,
         }
     }

@@ -254,22 +254,24 @@ impl SeparateBias {
 }
 
 impl Finding {
-    /// What the lever arm of the antenna is found to be off by, m, with 1-sigma, if it is by much.
+    /// Whether lever arm or delay of GNSS are off by much.
     #[must_use]
-    pub fn gnss_lever(&self) -> Option<(Vector3<f64>, Vector3<f64>)> {
-        self.lever(0)
+    pub fn is_of_antenna(&self) -> bool {
+        (0..LOG_AT).any(|i| self.value[i].abs() > LEAST[i])
     }
 
-    /// The same of the log.
+    /// What the lever arm of the antenna is found to be off by, m.
+    #[must_use]
+    pub fn gnss_lever(&self) -> Vector3<f64> {
+        self.value.fixed_rows::<3>(0).into_owned()
+    }
+
+    /// What the lever arm of the log is found to be off by, m, with 1-sigma, if it is by much.
     #[must_use]
     pub fn log_lever(&self) -> Option<(Vector3<f64>, Vector3<f64>)> {
-        self.lever(LOG_AT)
-    }
-
-    fn lever(&self, at: usize) -> Option<(Vector3<f64>, Vector3<f64>)> {
-        let value = self.value.fixed_rows::<3>(at).into_owned();
-        let variance = self.covariance.diagonal().fixed_rows::<3>(at).into_owned();
-        (value.amax() > LEAST[at]).then(|| (value, variance.map(|v| v.max(0.0).sqrt())))
+        let value = self.value.fixed_rows::<3>(LOG_AT).into_owned();
+        let variance = self.covariance.diagonal().fixed_rows::<3>(LOG_AT).into_owned();
+        (value.amax() > LEAST[LOG_AT]).then(|| (value, variance.map(|v| v.max(0.0).sqrt())))
     }
 }
 

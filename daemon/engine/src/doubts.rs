@@ -1,22 +1,57 @@
 //! What is found to be otherwise than configured, and what follows from it.
 
-use insd_base::{Event, Finding, ModeReason, Time};
+use insd_base::{Estimates, Event, Finding, Mode, ModeReason, Time};
+use insd_nav::Estimator;
 use insd_nav::config::LeverFound;
 
+use crate::trial::Misled;
 use crate::{Engine, Stage};
 
+/// Alignments that are begun anew because GNSS refutes what they found.
+const RETRIES: u8 = 3;
+/// What was found of the lever arm is taken to be so many times as unsure for the next alignment, and by
+/// no less than this, m.
+const UNSURE: f64 = 2.0;
+const LEAST: f64 = 0.5;
+/// Once something of the antenna was found wrong its delay is no surer than this, s.
+const DELAY: f64 = 0.1;
+
+fn lever_found(estimates: &Estimates) -> LeverFound {
+    let std = (UNSURE * estimates.gnss_lever_sigma.0.max()).max(LEAST);
+    LeverFound { arm: estimates.gnss_lever.0, std }
+}
+
 impl Engine {
-    /// What an alignment that GNSS refutes was misled by is most likely the lever arm of the antenna: the
-    /// next one takes it as it was found, or as unknown. After that there is no other.
+    /// An alignment that GNSS refutes is begun anew, with what was found since. Where all are refuted it is
+    /// the IMU that is wrong, until one is not.
     pub(crate) fn consider_another(&mut self) {
         let Stage::Running(line) = &self.stage else { return };
-        let Some(found) = line.estimator().refuted_by() else { return };
-        let known = self.nav.gnss.lever_found;
-        if known.is_none() || (known != Some(LeverFound::UNKNOWN) && found == LeverFound::UNKNOWN) {
-            let time = line.now();
-            self.nav.gnss.lever_found = Some(found);
-            self.start_over(time, ModeReason::HeadingRefuted);
+        let time = line.now();
+        let Some(misled) = line.estimator().refuted_by() else {
+            self.surveyor.is_refuted &= !line.estimator().is_acquitted();
+            return;
+        };
+        let knows_nothing = self.nav.gnss.lever_found == Some(LeverFound::UNKNOWN);
+        match misled {
+            Misled::Found(_) if self.retried >= RETRIES => return,
+            Misled::Found(estimates) => self.learn_of(&estimates),
+            Misled::Unknown if knows_nothing || self.retried >= RETRIES => {
+                self.surveyor.is_refuted = true;
+                self.nav.gnss.lever_found = None;
+            }
+            Misled::Unknown => self.nav.gnss.lever_found = Some(LeverFound::UNKNOWN),
         }
+        self.retried = self.retried.saturating_add(1);
+        self.start_over(time, ModeReason::HeadingRefuted);
+    }
+
+    /// Takes what was found of the antenna for the next alignment. A delay goes first, as a lever arm that
+    /// is found beside it may stand for it.
+    fn learn_of(&mut self, estimates: &Estimates) {
+        if !self.surveyor.note_delay(estimates) {
+            self.nav.gnss.lever_found = Some(lever_found(estimates));
+        }
+        self.nav.gnss.delay_std = self.nav.gnss.delay_std.max(DELAY);
     }
 
     pub(crate) fn tell_installation(&mut self, time: Time) {
@@ -26,6 +61,24 @@ impl Engine {
         };
         for finding in self.surveyor.look(ship, time) {
             self.tell(Event::InstallationFound { time, finding });
+        }
+        self.judge_imu(time);
+    }
+
+    /// A ship whose IMU cannot be believed is as one without: receivers and compass pass through.
+    fn judge_imu(&mut self, time: Time) {
+        let before = std::mem::replace(&mut self.shunned, self.surveyor.doubt());
+        match (before, self.shunned) {
+            (None, Some(_)) => {
+                self.enter(time, Mode::Standby, self.facts(), Some(ModeReason::ImuDoubted));
+            }
+            (Some(Finding::MountingTurned { .. }), None) => {
+                let ship = self.ship().map(|ship| ship.solution().mode);
+                let to = ship.unwrap_or(Mode::CoarseAlignment);
+                self.enter(time, to, self.facts(), Some(ModeReason::ImuBelieved));
+            }
+            (Some(_), None) => self.start_over(time, ModeReason::ImuBelieved),
+            _ => {}
         }
     }
 

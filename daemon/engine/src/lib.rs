@@ -11,6 +11,7 @@ mod disturbance;
 mod doubts;
 mod epochs;
 mod herald;
+mod ledger;
 mod looks;
 mod mode;
 mod recent;
@@ -26,13 +27,12 @@ use std::collections::VecDeque;
 
 use insd_alignment::{AlignmentConfig, StoredState, Verdict};
 use insd_base::{
-    AlignmentStatus, Body, Counts, Event, Geodetic, ImuSample, ImuSpec, Innovation, LeverArms,
-    Message, Mode, ModeReason, Received, Rejection, Solution, Source, Span, StartCondition, Time,
-    VoyageHeader,
+    AlignmentStatus, Body, Counts, Event, Finding, Geodetic, ImuSample, ImuSpec, Innovation,
+    LeverArms, Message, Mode, ModeReason, Received, Rejection, Solution, Span, StartCondition,
+    Time, VoyageHeader,
 };
 use insd_nav::{
-    Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Outcome, Report,
-    Timeline,
+    Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Report, Timeline,
 };
 
 use coarse::Coarse;
@@ -128,6 +128,10 @@ pub struct Engine {
     stage: Stage,
     herald: Herald,
     surveyor: Surveyor,
+    /// What makes the IMU of no use, while something does.
+    shunned: Option<Finding>,
+    /// Alignments that were begun anew because GNSS refuted what they found.
+    retried: u8,
     recent: Recent,
     relay: Relay,
     period: Span,
@@ -168,6 +172,8 @@ impl Engine {
             herald: Herald::new(&config.imu, config.alignment.accuracy),
             surveyor: Surveyor::new(&config.lever_arms, config.accept_mounting),
             period: Span::from_seconds(1.0 / config.output_rate),
+            shunned: None,
+            retried: 0,
             recent: Recent::default(),
             relay: Relay::default(),
             next_epoch: None,
@@ -236,7 +242,7 @@ impl Engine {
         self.counts.imu_samples += 1;
         self.heard = Some(receipt);
         self.advance(&increment);
-        if self.machine.mode() == Mode::Standby {
+        if self.machine.mode() == Mode::Standby && self.shunned.is_none() {
             self.leave_standby(sample.time);
         }
     }
@@ -335,7 +341,7 @@ impl Engine {
             }
             return;
         };
-        if self.surveyor.refuses_imu() {
+        if self.surveyor.refuses_samples() {
             **coarse = Coarse::new(&self.config);
             return;
         }
@@ -374,6 +380,9 @@ impl Engine {
         self.relay.hear(&checked);
         if let Message::Log(log) = &checked.message {
             self.surveyor.hear(log);
+            if self.surveyor.refuses_log() {
+                return self.reject(received, received.source.name(), Rejection::NotUsable);
+            }
         }
         match &mut self.stage {
             Stage::Levelling(coarse) => coarse.observe(&checked),
@@ -393,49 +402,6 @@ impl Engine {
         }
     }
 
-    fn reject(&mut self, received: &Received, aid: &'static str, reason: Rejection) {
-        *self.counts.rejected.entry((aid, reason)).or_insert(0) += 1;
-        let time = received.message.time();
-        self.tell(Event::Rejected { time, source: received.source, aid, reason });
-    }
-
-    fn note(&mut self, report: &Report) {
-        self.resumption.iter_mut().for_each(|resumption| resumption.hear(report));
-        for aid in &report.floored {
-            *self.counts.floored.entry(aid).or_insert(0) += 1;
-        }
-        for aid in &report.aids {
-            let accepted = aid.outcome == Outcome::Accepted;
-            for (component, (innovation, sigma)) in (0..3_u8).zip(aid.innovation) {
-                if innovation.is_finite() {
-                    self.outputs.push_back(Output::Innovation(Innovation {
-                        time: aid.time,
-                        aid: aid.aid,
-                        component,
-                        innovation,
-                        sigma,
-                        accepted,
-                    }));
-                }
-            }
-            match aid.outcome {
-                Outcome::Accepted => *self.counts.accepted.entry(aid.aid).or_insert(0) += 1,
-                Outcome::Rejected(reason) => {
-                    self.note_rejection(aid.time, aid.source, aid.aid, reason);
-                }
-            }
-        }
-        if report.position_reset {
-            let time = report.aids.first().map_or(Time::START, |aid| aid.time);
-            self.tell(Event::PositionReset { time });
-        }
-    }
-
-    fn note_rejection(&mut self, time: Time, source: Source, aid: &'static str, reason: Rejection) {
-        *self.counts.rejected.entry((aid, reason)).or_insert(0) += 1;
-        self.tell(Event::Rejected { time, source, aid, reason });
-    }
-
     fn emit(&mut self, solution: Solution) {
         if !checks::is_sound(&solution) {
             self.enter(solution.time, Mode::Fault, Facts::default(), None);
@@ -444,11 +410,14 @@ impl Engine {
         }
         self.enter(solution.time, solution.mode, self.facts(), None);
         self.surveyor.see(&solution);
-        self.outputs.push_back(Output::Solution(self.surveyor.claim(solution)));
+        if self.shunned.is_none() {
+            self.outputs.push_back(Output::Solution(solution));
+        }
     }
 
     /// Takes the mode as it is now, and tells a change.
     fn enter(&mut self, time: Time, to: Mode, facts: Facts, why: Option<ModeReason>) {
+        let to = if self.shunned.is_some() { Mode::Standby } else { to };
         if let Some(event) = self.machine.enter(time, to, facts, why) {
             self.tell(event);
         }

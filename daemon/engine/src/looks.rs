@@ -20,15 +20,15 @@ impl Engine {
     #[must_use]
     pub fn motion(&self) -> Option<Motion> {
         if self.machine.mode() == Mode::Standby && !self.is_waiting() {
-            let lever = self.config.lever_arms.gnss;
-            return self.config.relay.then(|| self.relay.motion(&lever)).flatten();
+            let reach = self.nav.gnss_lever().norm() + self.nav.gnss_lever_std();
+            return self.config.relay.then(|| self.relay.motion(reach)).flatten();
         }
         let ship = self.ship()?;
         let solution = Some(ship.solution()).filter(checks::is_sound)?;
         let filter = ship.likeliest().map(Fine::filter);
         let acceleration = filter.zip(self.last.as_ref());
         Some(Motion {
-            solution: self.surveyor.claim(solution),
+            solution,
             acceleration: acceleration.map(|(filter, last)| filter.acceleration(last)),
             covariance_north_east: filter.map(Filter::covariance_north_east),
             current: filter.and_then(Filter::current),
@@ -65,7 +65,7 @@ impl Engine {
     }
 
     /// The ship on her time line, if the IMU has been heard since the engine was made.
-    fn ship(&self) -> Option<&Ship> {
+    pub(crate) fn ship(&self) -> Option<&Ship> {
         match &self.stage {
             Stage::Running(line) if !self.is_waiting() => Some(line.estimator()),
             _ => None,

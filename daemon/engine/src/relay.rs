@@ -8,8 +8,7 @@ use std::f64::consts::PI;
 
 use insd_base::units::DEG;
 use insd_base::{
-    Attitude, Body, Geodetic, GnssFix, Message, Mode, Motion, Ned, Received, Solution,
-    SolutionSigma, Time,
+    Attitude, Body, GnssFix, Message, Mode, Motion, Ned, Received, Solution, SolutionSigma, Time,
 };
 use insd_nav::floors;
 
@@ -49,19 +48,19 @@ impl Relay {
         }
     }
 
-    /// The ship as receivers and compass have her, carried on to the newest message; `lever` from the IMU
-    /// to the antenna, body axes, m. `None` without a fix of late.
-    pub(crate) fn motion(&self, lever: &Body) -> Option<Motion> {
+    /// The ship as receivers and compass have her, carried on to the newest message; `reach` from the IMU
+    /// to the antenna at most, m. `None` without a fix of late.
+    pub(crate) fn motion(&self, reach: f64) -> Option<Motion> {
         let fix = self.fix.filter(|fix| self.age(fix.time) < STALE)?;
         let (position, age) = (fix.position?, self.age(fix.time).max(0.0));
         let velocity = fix.velocity.map(level).unwrap_or_default();
         let speed_std = self.speed_std(&fix) + UNSEEN * age;
         let place_std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality)).value;
-        let across = lever.0.norm() + speed_std * age;
+        let across = reach + speed_std * age;
         let (heading, heading_std) = self.heading();
         let solution = Solution {
             time: fix.time,
-            position: Geodetic { height: position.height, ..position },
+            position,
             velocity,
             attitude: Attitude { roll: 0.0, pitch: 0.0, heading },
             rate: Body::default(),
@@ -109,7 +108,7 @@ fn level(velocity: Ned) -> Ned {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use insd_base::{ExternalReference, FixQuality, Source};
+    use insd_base::{ExternalReference, FixQuality, Geodetic, Source};
 
     fn at(receipt: f64, message: Message) -> Received {
         Received { receipt: Time::from_seconds(receipt), source: Source::Gnss(0), message }
@@ -139,7 +138,7 @@ mod tests {
         let mut relay = Relay::default();
         relay.hear(&at(10.2, fix(10.0)));
         relay.hear(&at(10.4, compass(10.3)));
-        let solution = relay.motion(&Body::new(3.0, 0.0, -4.0)).unwrap().solution;
+        let solution = relay.motion(5.0).unwrap().solution;
         assert_eq!((solution.mode, solution.time), (Mode::Standby, Time::from_seconds(10.4)));
         assert!((solution.attitude.heading - 1.5).abs() < 1e-9);
         assert!((solution.velocity.0.y - 5.0).abs() < 1e-9);
@@ -155,9 +154,9 @@ mod tests {
         relay.hear(&at(10.2, compass(10.2)));
         relay.hear(&at(12.0, fix(12.0)));
         relay.hear(&at(13.5, fix(13.5)));
-        let solution = relay.motion(&Body::default()).unwrap().solution;
+        let solution = relay.motion(0.0).unwrap().solution;
         assert!(solution.sigma.heading > 3.0, "the compass is silent");
         relay.hear(&at(16.6, compass(16.6)));
-        assert!(relay.motion(&Body::default()).is_none(), "the receiver is");
+        assert!(relay.motion(0.0).is_none(), "the receiver is");
     }
 }

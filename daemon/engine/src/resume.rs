@@ -26,7 +26,7 @@ impl Engine {
     pub fn checkpoint(&self) -> Option<Vec<u8>> {
         let Stage::Running(line) = &self.stage else { return None };
         let Ship::Navigating { fine, aligned, .. } = line.estimator() else { return None };
-        if self.is_waiting() {
+        if self.is_waiting() || self.shunned.is_some() {
             return None;
         }
         checkpoint::write(&Kept {

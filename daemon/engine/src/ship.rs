@@ -7,10 +7,9 @@ use insd_alignment::{
 use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::units::DEG;
 use insd_base::{ImuSpec, Mode, Received, Solution, StoredDoubt, Time};
-use insd_nav::config::LeverFound;
 use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
 
-use crate::trial::Trial;
+use crate::trial::{Misled, Trial};
 
 /// Heading sigma below which a ship can be steered by it for the first time.
 const STEERABLE: f64 = 1.0 * DEG;
@@ -71,12 +70,19 @@ impl Ship {
         }
     }
 
-    /// What the next alignment must know if GNSS refutes what was handed over for navigation a while ago: on
-    /// what the heading was found by, something was not as configured.
-    pub(crate) fn refuted_by(&self) -> Option<LeverFound> {
+    /// What the heading was misled by, if GNSS refutes what was handed over for navigation a while ago.
+    pub(crate) fn refuted_by(&self) -> Option<Misled> {
         match self {
             Ship::Navigating { fine, trial: Some(trial), .. } => trial.refuted_by(fine.filter()),
             _ => None,
+        }
+    }
+
+    /// Whether the trial of her heading is over and GNSS has borne it out.
+    pub(crate) fn is_acquitted(&self) -> bool {
+        match self {
+            Ship::Navigating { fine, trial: Some(trial), .. } => trial.acquits(fine.filter()),
+            _ => false,
         }
     }
 

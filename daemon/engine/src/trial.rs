@@ -3,9 +3,8 @@
 
 use insd_alignment::in_motion::GOAL;
 use insd_base::units::DEG_PER_HOUR;
-use insd_base::{Solution, Span, Time};
+use insd_base::{Estimates, Solution, Span, Time};
 use insd_nav::Filter;
-use insd_nav::config::LeverFound;
 
 /// It lasts so long, s; with gyros that do not find north on their own, of a larger turn-on bias than this,
 /// rad/s, until motion has confirmed the lever arm that it was found by, or for so long.
@@ -16,16 +15,19 @@ const BLIND: f64 = 1.0 * DEG_PER_HOUR;
 const REFUTED: f64 = 8.0;
 /// and up to which its claims stand as they are.
 const HONEST: f64 = 1.6;
-/// What was found of the lever arm is taken to be so many times as unsure for the next alignment, and by
-/// no less than this, m.
-const UNSURE: f64 = 2.0;
-const LEAST: f64 = 0.5;
-
 /// A heading on trial.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Trial {
     began: Time,
     end: Time,
+}
+
+/// What a heading was misled by.
+pub(crate) enum Misled {
+    /// By what was found since.
+    Found(Estimates),
+    /// Most likely by the lever arm of the antenna, of which nothing else is known.
+    Unknown,
 }
 
 impl Trial {
@@ -39,17 +41,19 @@ impl Trial {
         filter.time() >= self.end || filter.is_lever_confirmed()
     }
 
-    /// What the next alignment must know if this one was misled: by the lever arm that was found since, or
-    /// most likely by one of which only that is known.
-    pub(crate) fn refuted_by(&self, filter: &Filter) -> Option<LeverFound> {
+    /// What the heading was misled by, if GNSS refutes it.
+    pub(crate) fn refuted_by(&self, filter: &Filter) -> Option<Misled> {
         let is_early = (filter.time() - self.began).as_seconds() < USUAL;
-        if is_early && filter.has_mended_lever() {
-            let estimates = filter.estimates(false);
-            let std = (UNSURE * estimates.gnss_lever_sigma.0.max()).max(LEAST);
-            return Some(LeverFound { arm: estimates.gnss_lever.0, std });
+        if is_early && filter.has_mended_antenna() {
+            return Some(Misled::Found(filter.estimates(false)));
         }
         let is_off = filter.strain().is_some_and(|strain| strain > REFUTED);
-        (is_off && !self.is_over(filter)).then_some(LeverFound::UNKNOWN)
+        (is_off && !self.is_over(filter)).then_some(Misled::Unknown)
+    }
+
+    /// Whether it is over, and GNSS bears out what was found.
+    pub(crate) fn acquits(&self, filter: &Filter) -> bool {
+        self.is_over(filter) && filter.strain().is_some_and(|strain| strain < HONEST)
     }
 
     /// What is on trial claims no more than GNSS bears out, and no heading before GNSS has been heard for a

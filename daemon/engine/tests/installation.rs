@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
 
 use insd_base::units::DEG;
-use insd_base::{Body, Event, Finding, Solution, Truth, Voyage, earth};
+use insd_base::{Body, Event, Finding, Mode, Motion, Solution, Span, Truth, Voyage, earth};
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_simulator::{Scenario, shipped, simulate};
 use nalgebra::{Rotation3, Vector3};
@@ -105,22 +105,62 @@ fn a_lever_arm_that_was_not_measured_is_found_and_is_no_fault() {
     assert!(!sailed.told[0].is_fault());
 }
 
+/// The last motion that anyone is shown, with the truth at its time.
+fn shown_at_the_end(voyage: Voyage) -> (Motion, f64) {
+    let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
+    for received in voyage.received() {
+        engine.handle(&received);
+        while engine.poll_output().is_some() {}
+    }
+    let motion = engine.motion().unwrap();
+    let time = motion.solution.time;
+    let truth =
+        voyage.truth.iter().min_by_key(|truth| (truth.time - time).as_nanos().abs()).unwrap();
+    let apart = earth::ecef(&motion.solution.position).0 - earth::ecef(&truth.position).0;
+    (motion, apart.norm())
+}
+
 #[test]
-fn an_imu_that_is_upside_down_is_named_and_no_attitude_is_claimed() {
+fn an_imu_that_is_upside_down_is_named_and_not_used() {
     for (roll, pitch) in [(180.0, 0.0), (0.0, 180.0), (90.0, 0.0), (0.0, -90.0)] {
         let sailed = sail(turned(voyage(), roll, pitch, 0.0));
-        let sigma = sailed.solutions.last().unwrap().sigma;
-        assert!(sailed.names().contains(&"mounting_tilted"), "{:?}", sailed.told);
-        assert!(sigma.heading > 90.0 * DEG && sigma.roll > 90.0 * DEG, "{sigma:?}");
+        assert_eq!(sailed.names(), ["mounting_tilted"]);
+        assert_eq!(sailed.solutions, [], "before anyone could be misled");
+    }
+    let (motion, off) = shown_at_the_end(turned(voyage(), 180.0, 0.0, 0.0));
+    let sigma = motion.solution.sigma;
+    assert_eq!(motion.solution.mode, Mode::Standby, "receivers pass through");
+    assert!(off < 3.0 * sigma.position.0.norm() && off < 30.0, "{off} m, {sigma:?}");
+    assert!(sigma.heading > 90.0 * DEG && sigma.roll > 90.0 * DEG, "{sigma:?}");
+}
+
+#[test]
+fn an_imu_that_is_turned_about_the_vertical_is_named_and_not_used() {
+    for yaw in [90.0, 180.0, -90.0] {
+        let sailed = sail(turned(voyage(), 0.0, 0.0, yaw));
+        assert!(sailed.names().contains(&"mounting_turned"), "{yaw}: {:?}", sailed.told);
+        let (motion, off) = shown_at_the_end(turned(voyage(), 0.0, 0.0, yaw));
+        assert_eq!(motion.solution.mode, Mode::Standby);
+        assert!(motion.solution.sigma.heading > 90.0 * DEG && off < 30.0, "{off} m");
     }
 }
 
 #[test]
-fn an_imu_that_is_turned_about_the_vertical_is_named_and_its_heading_not_claimed() {
-    for yaw in [90.0, 180.0, -90.0] {
-        let sailed = sail(turned(voyage(), 0.0, 0.0, yaw));
-        assert!(sailed.names().contains(&"mounting_turned"), "{yaw}: {:?}", sailed.told);
-        assert!(sailed.solutions.last().unwrap().sigma.heading > 80.0 * DEG);
+fn epochs_that_are_tagged_late_are_set_back() {
+    let truth = sail(voyage()).end().0;
+    for late in [0.5, -0.5] {
+        let mut voyage = voyage();
+        for fix in &mut voyage.gnss {
+            fix.message.time = fix.message.time + Span::from_seconds(late);
+            fix.arrival = Some(fix.message.time);
+        }
+        let sailed = sail(voyage);
+        let (error, sigmas) = sailed.end();
+        assert!(error < 1.5 * truth.max(0.8) && sigmas < 3.0, "{late} s: {error} m, {sigmas}");
+        let Some(Finding::GnssDelay { found, .. }) = sailed.last.first() else {
+            panic!("{late} s: {:?}", sailed.last);
+        };
+        assert!((found - late).abs() < 0.1, "{late} s: {found}");
     }
 }
 

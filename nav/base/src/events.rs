@@ -172,6 +172,10 @@ pub enum ModeReason {
     GapTooLong,
     /// GNSS refutes the heading that was found.
     HeadingRefuted,
+    /// What the IMU says does not fit how it is said to be mounted, or what it is.
+    ImuDoubted,
+    /// It fits again.
+    ImuBelieved,
     /// After a fault it is begun anew.
     StartedOver,
 }
@@ -197,6 +201,8 @@ impl ModeReason {
             ModeReason::NotFinite => "not_finite",
             ModeReason::GapTooLong => "gap_too_long",
             ModeReason::HeadingRefuted => "heading_refuted",
+            ModeReason::ImuDoubted => "imu_doubted",
+            ModeReason::ImuBelieved => "imu_believed",
             ModeReason::StartedOver => "started_over",
         }
     }
@@ -222,6 +228,8 @@ impl fmt::Display for ModeReason {
             ModeReason::NotFinite => "the solution was not sound and is not given",
             ModeReason::GapTooLong => "the IMU was silent for too long",
             ModeReason::HeadingRefuted => "GNSS refutes the heading that was found",
+            ModeReason::ImuDoubted => "the IMU does not fit its configuration and is not used",
+            ModeReason::ImuBelieved => "the IMU fits its configuration",
             ModeReason::StartedOver => "it is begun anew",
         })
     }

@@ -46,11 +46,13 @@ pub enum Finding {
         /// Mean of the specific force, m/s^2.
         mean: f64,
     },
-    /// The gyros tell a rate that no ship has.
+    /// The gyros tell a rate that no ship has, or that gravity does not follow.
     ImuRate {
         /// Root mean square of the rate, rad/s.
         mean: f64,
     },
+    /// Every heading that was found with the IMU was refuted by GNSS.
+    ImuRefuted,
     /// The IMU is not the way up that it is said to be: the ship seems to lean for ever.
     MountingTilted {
         /// List to starboard that it says, rad.
@@ -83,6 +85,7 @@ impl Finding {
             Finding::GnssDelay { .. } => "gnss_delay",
             Finding::ImuForce { .. } => "imu_force",
             Finding::ImuRate { .. } => "imu_rate",
+            Finding::ImuRefuted => "imu_refuted",
             Finding::MountingTilted { .. } => "mounting_tilted",
             Finding::MountingTurned { .. } => "mounting_turned",
             Finding::LogMounting { .. } => "log_mounting",
@@ -95,16 +98,17 @@ impl Finding {
         !matches!(self, Finding::GnssLeverUnmeasured { .. })
     }
 
-    /// How far the attitude may be off by it, rad: heading, and roll and pitch.
+    /// Whether nothing can be made of an IMU of which that is so.
     #[must_use]
-    pub fn attitude_doubt(&self) -> Option<[f64; 2]> {
-        match self {
-            Finding::MountingTilted { .. } | Finding::ImuForce { .. } | Finding::ImuRate { .. } => {
-                Some([PI, PI])
-            }
-            Finding::MountingTurned { turn } => Some([turn.abs(), turn.abs().min(0.5 * PI)]),
-            _ => None,
-        }
+    pub fn doubts_imu(&self) -> bool {
+        matches!(
+            self,
+            Finding::ImuForce { .. }
+                | Finding::ImuRate { .. }
+                | Finding::ImuRefuted
+                | Finding::MountingTilted { .. }
+                | Finding::MountingTurned { .. }
+        )
     }
 
     /// What to write into the configuration, a line of TOML, where that follows from what was found.
@@ -239,8 +243,13 @@ impl fmt::Display for Finding {
             ),
             Finding::ImuRate { mean } => write!(
                 f,
-                "the gyros say {:.0} deg/s on the mean: do they tell degrees where radians are expected?",
+                "the gyros say {:.1} deg/s on the mean, which no ship does or gravity does not follow: do they \
+                 tell degrees where radians are expected?",
                 mean.to_degrees()
+            ),
+            Finding::ImuRefuted => f.write_str(
+                "GNSS refutes every heading that is found with the IMU: are its axes, signs and units as \
+                 configured, or is the receiver wrong?",
             ),
             Finding::MountingTilted { roll, pitch } => write!(
                 f,

@@ -63,12 +63,9 @@ impl Doubts {
     /// Those of a list of findings.
     #[must_use]
     pub fn of(findings: &[Finding]) -> Self {
-        let is_mounting = |finding: &&Finding| finding.attitude_doubt().is_some();
         Doubts {
-            mounting: findings.iter().any(|finding| is_mounting(&finding)),
-            installation: findings
-                .iter()
-                .any(|finding| finding.is_fault() && !is_mounting(&finding)),
+            mounting: findings.iter().any(Finding::doubts_imu),
+            installation: findings.iter().any(|it| it.is_fault() && !it.doubts_imu()),
         }
     }
 }

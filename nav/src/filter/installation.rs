@@ -1,12 +1,19 @@
 //! Constants of the installation that are otherwise than configured: what the filter makes of them.
 
 use insd_base::Time;
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, Vector3};
 
 use super::Filter;
 use crate::error_state::{STATES, VELOCITY};
 use crate::innovation::Weighed;
 use crate::separate_bias::SeparateBias;
+
+/// The ends of the longest ships, and the tops of their masts, from an IMU anywhere on board, m.
+const ON_BOARD: Vector3<f64> = Vector3::new(400.0, 70.0, 90.0);
+
+fn is_on_board(arm: &Vector3<f64>) -> bool {
+    (0..3).all(|i| arm[i].abs() < ON_BOARD[i])
+}
 
 impl Filter {
     /// Whoever found the initial state used GNSS at this time: the filter that goes on from it is aided still.
@@ -27,10 +34,10 @@ impl Filter {
         self.bias.as_ref().map_or(0.0, SeparateBias::early_strain)
     }
 
-    /// Whether the lever arm of the antenna was found to be otherwise than the filter began with.
+    /// Whether lever arm or delay of GNSS were found to be otherwise than the filter began with.
     #[must_use]
-    pub fn has_mended_lever(&self) -> bool {
-        self.mended_lever
+    pub fn has_mended_antenna(&self) -> bool {
+        self.mended
     }
 
     /// Whether the motion of the ship has confirmed the configured lever arm of the antenna.
@@ -56,9 +63,13 @@ impl Filter {
         let Some((bias, finding)) = self.bias.and_then(|bias| Some((bias, bias.finding()?))) else {
             return;
         };
+        let arm = self.antenna_lever() + finding.gnss_lever();
+        if !is_on_board(&arm) {
+            return;
+        }
         let (error, unsure) = bias.correction(&finding);
         self.covariance += unsure;
-        self.mended_lever |= finding.gnss_lever().is_some();
+        self.mended |= finding.is_of_antenna();
         self.nominal.inject(&error);
         self.corrected += error;
         self.absorbed += VELOCITY.of(&error);

@@ -44,6 +44,14 @@ fn scale_imu(voyage: &mut Voyage, rotation: f64, velocity: f64) {
     }
 }
 
+/// An axis of the gyros, and of the accelerometers as well if their factor is -1, of the wrong sign.
+fn mirror(voyage: &mut Voyage, axis: usize, accel: f64) {
+    for sample in &mut voyage.imu {
+        sample.message.delta_theta.0[axis] *= -1.0;
+        sample.message.delta_velocity.0[axis] *= accel;
+    }
+}
+
 fn log(voyage: &mut Voyage, change: impl Fn(Vector3<f64>) -> Vector3<f64>) {
     for log in &mut voyage.log {
         let told = [log.message.u, log.message.v, log.message.w].map(Option::unwrap_or_default);
@@ -64,10 +72,11 @@ fn late(voyage: &mut Voyage, by: f64) {
 const LEVER: &str = "gnss_lever";
 const TILTED: &str = "mounting_tilted";
 const TURNED: &str = "mounting_turned";
+const REFUTED: &str = "imu_refuted";
 const LOG: &str = "log_mounting";
 
 /// All of them; the first is none.
-pub(crate) const MISTAKES: [Mistake; 30] = [
+pub(crate) const MISTAKES: [Mistake; 33] = [
     mistake("as configured", "", |_| {}),
     mistake("down sign", LEVER, |v| lever(v, |[x, y, z]| [x, y, -z])),
     mistake("forward sign", LEVER, |v| lever(v, |[x, y, z]| [-x, y, z])),
@@ -94,6 +103,9 @@ pub(crate) const MISTAKES: [Mistake; 30] = [
     mistake("IMU turned 270", TURNED, |v| turn(v, [0.0, 0.0, 270.0])),
     mistake("accel in g", "imu_force", |v| scale_imu(v, 1.0, 1.0 / 9.80665)),
     mistake("gyro in deg", "imu_rate", |v| scale_imu(v, 57.295_78, 1.0)),
+    mistake("gyro x mirrored", REFUTED, |v| mirror(v, 0, 1.0)),
+    mistake("gyro z mirrored", REFUTED, |v| mirror(v, 2, 1.0)),
+    mistake("y mirrored", REFUTED, |v| mirror(v, 1, -1.0)),
     mistake("log reversed", LOG, |v| log(v, |u| -u)),
     mistake("log quarter turn", LOG, |v| log(v, |u| Vector3::new(-u.y, u.x, u.z))),
     mistake("log in knots", LOG, |v| log(v, |u| u / 0.514_444)),

@@ -1,14 +1,20 @@
-//! Whether the IMU tells what its configuration says it does: gravity is known, and ships do not spin.
+//! Whether the IMU tells what its configuration says it does: gravity is known, ships do not spin, and they
+//! stand upright.
 
 use insd_base::Finding;
 use insd_base::units::DEG;
 use insd_nav::Increment;
+use nalgebra::Vector3;
+
+use super::swing::Swing;
 
 /// Gravity at sea, m/s^2, and by how much of it the mean force may differ: a rough sea, a short window.
 const GRAVITY: f64 = 9.81;
 const OFF: f64 = 0.05;
 /// Root mean square of a ship's rate of turn, all axes, that is beyond any sea, rad/s.
 const SPIN: f64 = 25.0 * DEG;
+/// No ship lists like this on the mean, rad; one that was found to is upright below half of it.
+const LIST: f64 = 25.0 * DEG;
 /// Time constant of the means, and how long must have been seen, s.
 const SPAN: f64 = 20.0;
 const SEEN: f64 = 9.0;
@@ -23,7 +29,11 @@ const RIGHT: f64 = 60.0;
 pub(super) struct ImuWatch {
     force: f64,
     rate_square: f64,
+    /// Mean of the specific force, axes of the ship as configured, m/s^2.
+    upwards: Vector3<f64>,
     seen: f64,
+    is_tilted: bool,
+    swing: Swing,
     /// What was found, and for how long it has been right since, s.
     found: Option<Finding>,
     right: f64,
@@ -39,21 +49,26 @@ impl ImuWatch {
         self.seen += duration;
         let share = duration / self.seen.min(SPAN);
         self.force += (increment.velocity.norm() / duration - self.force) * share;
+        self.upwards += (increment.velocity / duration - self.upwards) * share;
         let rate = increment.rotation.norm() / duration;
         self.rate_square += (rate * rate - self.rate_square) * share;
+        self.swing.see(increment, duration);
         self.judge(duration);
     }
 
     fn judge(&mut self, duration: f64) {
         let off = (self.force / GRAVITY - 1.0).abs() / OFF;
         let spin = self.rate_square.sqrt() / SPIN;
-        self.right = if off.max(spin) < CALM { self.right + duration } else { 0.0 };
+        let is_right = off.max(spin) < CALM && !self.swing.is_wrong();
+        self.right = if is_right { self.right + duration } else { 0.0 };
         if self.seen < SEEN {
             return;
         }
+        let limit = if self.is_tilted { 0.5 * LIST } else { LIST };
+        self.is_tilted = -self.upwards.z < limit.cos() * self.upwards.norm();
         if off > 1.0 {
             self.found = Some(Finding::ImuForce { mean: self.force });
-        } else if spin > 1.0 {
+        } else if spin > 1.0 || self.swing.is_wrong() {
             self.found = Some(Finding::ImuRate { mean: self.rate_square.sqrt() });
         } else if self.right > RIGHT {
             self.found = None;
@@ -63,5 +78,12 @@ impl ImuWatch {
     /// What it gets wrong, if anything.
     pub(super) fn finding(&self) -> Option<Finding> {
         self.found
+    }
+
+    /// How the ship would list and trim for ever if it sat as configured, if that is beyond any ship.
+    pub(super) fn tilted(&self) -> Option<Finding> {
+        let down = -self.upwards.try_normalize(1e-9)?;
+        let (roll, pitch) = (down.y.atan2(down.z), -down.x.clamp(-1.0, 1.0).asin());
+        self.is_tilted.then_some(Finding::MountingTilted { roll, pitch })
     }
 }

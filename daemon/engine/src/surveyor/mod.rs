@@ -6,6 +6,7 @@
 mod imu;
 mod log;
 mod mounting;
+mod swing;
 
 use insd_base::{
     Body, Estimates, Finding, GnssFix, LeverArms, LogVelocity, Message, Mode, Received, Solution,
@@ -45,6 +46,8 @@ pub(crate) struct Surveyor {
     /// Lever arm of a receiver that tags its epochs late, body axes, m, and by how much, s.
     late: Option<(Body, f64)>,
     findings: Vec<Finding>,
+    /// Whether GNSS has refuted every heading that was found with the IMU.
+    pub(crate) is_refuted: bool,
 }
 
 impl Surveyor {
@@ -60,6 +63,7 @@ impl Surveyor {
             next: None,
             late: None,
             findings: Vec::new(),
+            is_refuted: false,
         }
     }
 
@@ -73,27 +77,25 @@ impl Surveyor {
         self.imu.see(increment);
     }
 
-    /// Whether nothing can be made of what the IMU says.
-    pub(crate) fn refuses_imu(&self) -> bool {
-        self.imu.finding().is_some()
+    /// Whether nothing can be made of what the IMU says, however the ship lies.
+    pub(crate) fn refuses_samples(&self) -> bool {
+        self.samples().is_some()
+    }
+
+    /// What makes the IMU of no use, if anything does.
+    pub(crate) fn doubt(&self) -> Option<Finding> {
+        self.findings.iter().copied().find(Finding::doubts_imu)
+    }
+
+    /// Whether the log does not fit how it is said to be mounted, and in what it is said to tell.
+    pub(crate) fn refuses_log(&self) -> bool {
+        self.findings.iter().any(|found| matches!(found, Finding::LogMounting { .. }))
     }
 
     /// Sees a solution.
     pub(crate) fn see(&mut self, solution: &Solution) {
         self.mounting.see(solution);
         self.newest = Some(*solution);
-    }
-
-    /// A solution that claims no more than the mounting allows.
-    pub(crate) fn claim(&self, solution: Solution) -> Solution {
-        let mut doubted = solution;
-        for [heading, level] in self.findings.iter().filter_map(Finding::attitude_doubt) {
-            let sigma = &mut doubted.sigma;
-            sigma.heading = sigma.heading.max(heading);
-            sigma.roll = sigma.roll.max(level);
-            sigma.pitch = sigma.pitch.max(level);
-        }
-        doubted
     }
 
     /// Hears a log, which is compared with a solution that does not live by it.
@@ -128,7 +130,7 @@ impl Surveyor {
         let found: Vec<Finding> = match navigating {
             Some(fine) => {
                 let estimates = fine.filter().estimates(fine.is_moored());
-                self.late = late(&estimates);
+                self.note_delay(&estimates);
                 self.all(&estimates)
             }
             None => self.of_imu(),
@@ -139,6 +141,14 @@ impl Surveyor {
         let told = found.iter().filter(is_new).copied().collect();
         self.findings = found;
         told
+    }
+
+    /// Takes what the filter has of the delay; tells whether the next epochs are set back otherwise than
+    /// these.
+    pub(crate) fn note_delay(&mut self, estimates: &Estimates) -> bool {
+        let before = std::mem::replace(&mut self.late, late(estimates));
+        let by = |late: Option<(Body, f64)>| late.map_or(0.0, |(_, by)| by);
+        (by(self.late) - by(before)).abs() > DELAY
     }
 
     /// A lever arm in the axes of an IMU that is not mounted as configured means nothing; a ship that a
@@ -159,8 +169,15 @@ impl Surveyor {
 
     /// What is found of the IMU alone.
     fn of_imu(&self) -> Vec<Finding> {
-        let mounting = || self.mounting.finding().filter(|_| !self.accepts);
-        self.imu.finding().or_else(mounting).into_iter().collect()
+        let turned = || self.mounting.finding().filter(|_| !self.accepts);
+        let refuted = || self.is_refuted.then_some(Finding::ImuRefuted);
+        self.samples().or_else(turned).or_else(refuted).into_iter().collect()
+    }
+
+    /// What is found of its samples.
+    fn samples(&self) -> Option<Finding> {
+        let tilted = || self.imu.tilted().filter(|_| !self.accepts);
+        self.imu.finding().or_else(tilted)
     }
 
     fn log_lever(&self, estimates: &Estimates) -> Option<Finding> {

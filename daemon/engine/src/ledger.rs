@@ -1,0 +1,51 @@
+//! What became of the measurements: counted, and told.
+
+use insd_base::{Event, Innovation, Received, Rejection, Source, Time};
+use insd_nav::{Outcome, Report};
+
+use crate::{Engine, Output};
+
+impl Engine {
+    pub(crate) fn reject(&mut self, received: &Received, aid: &'static str, reason: Rejection) {
+        *self.counts.rejected.entry((aid, reason)).or_insert(0) += 1;
+        let time = received.message.time();
+        self.tell(Event::Rejected { time, source: received.source, aid, reason });
+    }
+
+    pub(crate) fn note(&mut self, report: &Report) {
+        self.resumption.iter_mut().for_each(|resumption| resumption.hear(report));
+        for aid in &report.floored {
+            *self.counts.floored.entry(aid).or_insert(0) += 1;
+        }
+        for aid in &report.aids {
+            let accepted = aid.outcome == Outcome::Accepted;
+            for (component, (innovation, sigma)) in (0..3_u8).zip(aid.innovation) {
+                if innovation.is_finite() {
+                    self.outputs.push_back(Output::Innovation(Innovation {
+                        time: aid.time,
+                        aid: aid.aid,
+                        component,
+                        innovation,
+                        sigma,
+                        accepted,
+                    }));
+                }
+            }
+            match aid.outcome {
+                Outcome::Accepted => *self.counts.accepted.entry(aid.aid).or_insert(0) += 1,
+                Outcome::Rejected(reason) => {
+                    self.note_rejection(aid.time, aid.source, aid.aid, reason);
+                }
+            }
+        }
+        if report.position_reset {
+            let time = report.aids.first().map_or(Time::START, |aid| aid.time);
+            self.tell(Event::PositionReset { time });
+        }
+    }
+
+    fn note_rejection(&mut self, time: Time, source: Source, aid: &'static str, reason: Rejection) {
+        *self.counts.rejected.entry((aid, reason)).or_insert(0) += 1;
+        self.tell(Event::Rejected { time, source, aid, reason });
+    }
+}
