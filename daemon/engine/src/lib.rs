@@ -378,11 +378,15 @@ impl Engine {
         let checked = self.surveyor.completed(&checked);
         self.herald.hear(&checked);
         self.relay.hear(&checked);
-        if let Message::Log(log) = &checked.message {
-            self.surveyor.hear(log);
-            if self.surveyor.refuses_log() {
-                return self.reject(received, received.source.name(), Rejection::NotUsable);
+        match &checked.message {
+            Message::Gnss(fix) => self.surveyor.hear_fix(fix),
+            Message::Log(log) => {
+                self.surveyor.hear_log(log);
+                if self.surveyor.refuses_log() {
+                    return self.reject(received, source.name(), Rejection::NotUsable);
+                }
             }
+            _ => {}
         }
         match &mut self.stage {
             Stage::Levelling(coarse) => coarse.observe(&checked),

@@ -51,6 +51,11 @@ pub enum Finding {
         /// Root mean square of the rate, rad/s.
         mean: f64,
     },
+    /// The gyros do not turn as she does.
+    ImuTurns {
+        /// What they tell of a turn over what her course says.
+        ratio: Estimate,
+    },
     /// Every heading that was found with the IMU was refuted by GNSS.
     ImuRefuted,
     /// The IMU is not the way up that it is said to be: the ship seems to lean for ever.
@@ -85,6 +90,7 @@ impl Finding {
             Finding::GnssDelay { .. } => "gnss_delay",
             Finding::ImuForce { .. } => "imu_force",
             Finding::ImuRate { .. } => "imu_rate",
+            Finding::ImuTurns { .. } => "imu_turns",
             Finding::ImuRefuted => "imu_refuted",
             Finding::MountingTilted { .. } => "mounting_tilted",
             Finding::MountingTurned { .. } => "mounting_turned",
@@ -105,6 +111,7 @@ impl Finding {
             self,
             Finding::ImuForce { .. }
                 | Finding::ImuRate { .. }
+                | Finding::ImuTurns { .. }
                 | Finding::ImuRefuted
                 | Finding::MountingTilted { .. }
                 | Finding::MountingTurned { .. }
@@ -246,6 +253,12 @@ impl fmt::Display for Finding {
                 "the gyros say {:.1} deg/s on the mean, which no ship does or gravity does not follow: do they \
                  tell degrees where radians are expected?",
                 mean.to_degrees()
+            ),
+            Finding::ImuTurns { ratio } => write!(
+                f,
+                "the gyros say {:.1} times the turns that her course makes: is the axis that points down \
+                 mirrored, swapped, or in another unit?",
+                ratio.value
             ),
             Finding::ImuRefuted => f.write_str(
                 "GNSS refutes every heading that is found with the IMU: are its axes, signs and units as \

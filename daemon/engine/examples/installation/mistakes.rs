@@ -104,7 +104,7 @@ pub(crate) const MISTAKES: [Mistake; 33] = [
     mistake("accel in g", "imu_force", |v| scale_imu(v, 1.0, 1.0 / 9.80665)),
     mistake("gyro in deg", "imu_rate", |v| scale_imu(v, 57.295_78, 1.0)),
     mistake("gyro x mirrored", REFUTED, |v| mirror(v, 0, 1.0)),
-    mistake("gyro z mirrored", REFUTED, |v| mirror(v, 2, 1.0)),
+    mistake("gyro z mirrored", "imu_turns", |v| mirror(v, 2, 1.0)),
     mistake("y mirrored", REFUTED, |v| mirror(v, 1, -1.0)),
     mistake("log reversed", LOG, |v| log(v, |u| -u)),
     mistake("log quarter turn", LOG, |v| log(v, |u| Vector3::new(-u.y, u.x, u.z))),

@@ -7,6 +7,7 @@ mod imu;
 mod log;
 mod mounting;
 mod swing;
+mod turns;
 
 use insd_base::{
     Body, Estimates, Finding, GnssFix, LeverArms, LogVelocity, Message, Mode, Received, Solution,
@@ -18,6 +19,7 @@ use crate::ship::Ship;
 use imu::ImuWatch;
 use log::LogWatch;
 use mounting::Mounting;
+use turns::Turns;
 
 /// Spacing of looks.
 const LOOK: Span = Span::from_nanos(10_000_000_000);
@@ -40,6 +42,7 @@ pub(crate) struct Surveyor {
     accepts: bool,
     imu: ImuWatch,
     mounting: Mounting,
+    turns: Turns,
     log: LogWatch,
     newest: Option<Solution>,
     next: Option<Time>,
@@ -58,6 +61,7 @@ impl Surveyor {
             accepts,
             imu: ImuWatch::default(),
             mounting: Mounting::default(),
+            turns: Turns::default(),
             log: LogWatch::default(),
             newest: None,
             next: None,
@@ -75,6 +79,7 @@ impl Surveyor {
     /// Sees an increment of the IMU.
     pub(crate) fn measure(&mut self, increment: &Increment) {
         self.imu.see(increment);
+        self.turns.see(increment);
     }
 
     /// Whether nothing can be made of what the IMU says, however the ship lies.
@@ -98,8 +103,13 @@ impl Surveyor {
         self.newest = Some(*solution);
     }
 
+    /// Hears a receiver.
+    pub(crate) fn hear_fix(&mut self, fix: &GnssFix) {
+        self.turns.hear(fix);
+    }
+
     /// Hears a log, which is compared with a solution that does not live by it.
-    pub(crate) fn hear(&mut self, log: &LogVelocity) {
+    pub(crate) fn hear_log(&mut self, log: &LogVelocity) {
         let aided = |solution: &Solution| {
             matches!(solution.mode, Mode::Aided | Mode::InMotionAlignment)
                 && (log.time - solution.time).as_seconds().abs() < LATE
@@ -171,7 +181,8 @@ impl Surveyor {
     fn of_imu(&self) -> Vec<Finding> {
         let turned = || self.mounting.finding().filter(|_| !self.accepts);
         let refuted = || self.is_refuted.then_some(Finding::ImuRefuted);
-        self.samples().or_else(turned).or_else(refuted).into_iter().collect()
+        let turns = || self.turns.finding();
+        self.samples().or_else(turns).or_else(turned).or_else(refuted).into_iter().collect()
     }
 
     /// What is found of its samples.
