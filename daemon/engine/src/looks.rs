@@ -52,7 +52,8 @@ impl Engine {
     #[must_use]
     pub fn estimates(&self) -> Option<Estimates> {
         let ship = self.ship()?;
-        ship.likeliest().map(|fine| fine.filter().estimates(ship.is_moored()))
+        let estimates = ship.likeliest()?.filter().estimates(ship.is_moored());
+        Some(Estimates { course_less_heading: self.surveyor.course_less_heading(), ..estimates })
     }
 
     /// The sea as a model of the velocity that it gives the ship; `None` until half a minute of it has

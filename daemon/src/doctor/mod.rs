@@ -11,6 +11,7 @@ mod people;
 mod places;
 mod processes;
 pub mod text;
+mod under_way;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -70,6 +71,7 @@ impl Diagnosis {
             found.push(
                 finding.advise("its page shows what arrives; `systemctl stop insd` to listen here"),
             );
+            found.extend(under_way::look(&config));
         } else if !extent.listen.is_zero() {
             let taken: Vec<&Place> = found
                 .iter()

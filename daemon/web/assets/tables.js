@@ -158,5 +158,6 @@ function estimates(found) {
   add("misalignment of the log", found?.log_misalignment_deg, "°", 2);
   found?.gnss_lever_m.forEach((one, k) => add(`GNSS lever arm ${AXES[k]}`, one, "m", 2));
   add("delay of the GNSS", found?.gnss_delay_s, "s", 3);
+  add("course less heading", found?.course_less_heading_deg, "°", 1);
   fill(byId("estimates"), rows);
 }

@@ -42,6 +42,9 @@ pub struct Estimates {
     /// Lever arm from the IMU to the log, body axes, m, and its 1-sigma, if it is found to be otherwise than
     /// configured.
     pub log_lever: Option<(Body, Body)>,
+    /// Course less heading on the mean while she went straight on, rad: leeway and current, and what the IMU is
+    /// turned by. `None` before she has done so for two minutes.
+    pub course_less_heading: Option<Estimate>,
     /// Whether the ship is taken as lying at her berth.
     pub moored: bool,
 }

@@ -30,6 +30,7 @@ impl Filter {
             gnss_lever_sigma: Body(Vector3::from_fn(|i, _| self.std(lever + i))),
             gnss_delay: estimate(nominal.gnss_delay + redated, GNSS_DELAY.start()),
             log_lever: self.log_lever_std.map(|sigma| (self.config.lever_arms.log, Body(sigma))),
+            course_less_heading: None,
             moored,
         }
     }

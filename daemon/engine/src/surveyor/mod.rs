@@ -10,8 +10,8 @@ mod swing;
 mod turns;
 
 use insd_base::{
-    Body, Estimates, Finding, GnssFix, LeverArms, LogVelocity, Message, Mode, Received, Solution,
-    Span, Time,
+    Body, Estimate, Estimates, Finding, GnssFix, LeverArms, LogVelocity, Message, Mode, Received,
+    Solution, Span, Time,
 };
 use insd_nav::Increment;
 
@@ -74,6 +74,11 @@ impl Surveyor {
     /// What is found to be otherwise than configured, as it is known now.
     pub(crate) fn findings(&self) -> &[Finding] {
         &self.findings
+    }
+
+    /// Course less heading on the mean, rad.
+    pub(crate) fn course_less_heading(&self) -> Option<Estimate> {
+        self.mounting.drift()
     }
 
     /// Sees an increment of the IMU.

@@ -1,7 +1,7 @@
 //! Whether the IMU's bow is hers: by which way she goes.
 
 use insd_base::units::{DEG, wrap_pi};
-use insd_base::{Finding, Solution, Time};
+use insd_base::{Estimate, Finding, Solution, Time};
 use nalgebra::Vector2;
 
 /// Course and heading are compared above this speed, m/s, below this rate of turn, rad/s, and with a
@@ -58,6 +58,16 @@ impl Mounting {
         } else if persists && turn < AHEAD {
             self.is_turned = false;
         }
+    }
+
+    /// Course less heading on the mean, rad; its sigma as if it were another one every minute.
+    pub(super) fn drift(&self) -> Option<Estimate> {
+        let length = self.drift.norm().clamp(f64::MIN_POSITIVE, 1.0);
+        let scatter = (-2.0 * length.ln()).sqrt();
+        let minutes = (self.compared.min(2.0 * COMPARED) / 60.0).max(1.0);
+        let value = self.drift.y.atan2(self.drift.x);
+        let known = self.compared >= COMPARED;
+        known.then(|| Estimate { value, sigma: scatter / minutes.sqrt() })
     }
 
     /// How it seems to sit, if otherwise than configured.

@@ -42,6 +42,7 @@ pub(super) fn estimates(found: &base::Estimates) -> Estimates {
         log_misalignment_deg: Some(estimate(&found.log_heading, DEG)),
         gnss_lever_m: triad(&found.gnss_lever, &found.gnss_lever_sigma, 1.0),
         gnss_delay_s: Some(estimate(&found.gnss_delay, 1.0)),
+        course_less_heading_deg: found.course_less_heading.map(|own| estimate(&own, DEG)),
     }
 }
 

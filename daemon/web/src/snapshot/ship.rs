@@ -124,6 +124,9 @@ pub struct Estimates {
     pub gnss_lever_m: Vec<Estimate>,
     /// Delay of the GNSS, s.
     pub gnss_delay_s: Option<Estimate>,
+    /// Course less heading on the mean while she went straight on, deg: leeway and current, and what the IMU is
+    /// turned by.
+    pub course_less_heading_deg: Option<Estimate>,
 }
 
 /// A value and how sure it is.

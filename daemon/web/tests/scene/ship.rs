@@ -163,6 +163,7 @@ pub(super) fn estimates(t: f64) -> Estimates {
         log_misalignment_deg: Some(estimate(0.34, 0.08)),
         gnss_lever_m: Vec::new(),
         gnss_delay_s: Some(estimate(0.004, 0.006)),
+        course_less_heading_deg: Some(estimate(-1.2, 0.2)),
     }
 }
 
