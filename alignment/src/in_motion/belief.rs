@@ -262,3 +262,38 @@ fn scaled<const M: usize>(
 ) -> SMatrix<f64, M, CONSIDERED> {
     SMatrix::from_fn(|row, column| m[(row, column)] * by[column])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use insd_base::{ImuSpec, LeverArms, Triad};
+
+    /// Both together, and how it is after a pair was tied to the lever arm.
+    #[test]
+    fn a_pair_that_is_tied_to_a_considered_one_leaves_a_covariance() {
+        let triad = Triad {
+            bias_std: 1e-7,
+            instability_std: 1e-8,
+            instability_time: 100.0,
+            random_walk: 1e-6,
+            scale_std: 1e-5,
+        };
+        let imu = ImuSpec { rate: 100.0, gyro: triad, accel: triad };
+        let mut belief = Belief::new(&NavConfig::new(imu, LeverArms::default()));
+        let lever = considered::LEVER;
+        belief.renew_pair(state::VELOCITY, 0.01);
+        belief.cross[(state::VELOCITY, lever)] = 1.5;
+        belief.cross[(state::VELOCITY + 1, lever + 1)] = -1.5;
+        let by = Matrix2::new(0.6, -0.8, 0.8, 0.6);
+        belief.tie_pair(state::POSITION, lever, &by, 0.25);
+        let prior = belief.prior[lever];
+        assert!((belief.own[(state::POSITION, state::POSITION)] - prior - 0.25).abs() < 1e-9);
+        let (p, v) = (state::POSITION, state::VELOCITY);
+        assert!((belief.own[(p, v)] - 0.6 * 1.5).abs() < 1e-12);
+        assert_eq!(belief.own, belief.own.transpose());
+        // what is left of the position, its tie taken away, is the noise alone
+        let tied = by * belief.cross.fixed_view::<2, 2>(p, lever).transpose();
+        let left = belief.own.fixed_view::<2, 2>(p, p) - tied;
+        assert!((left - Matrix2::from_diagonal_element(0.25)).amax() < 1e-6, "{left}");
+    }
+}

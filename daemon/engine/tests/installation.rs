@@ -2,8 +2,10 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
 
-use insd_base::units::DEG;
-use insd_base::{Body, Event, Finding, Mode, Motion, Solution, Span, Truth, Voyage, earth};
+use insd_base::units::{DEG, wrap_pi};
+use insd_base::{
+    Body, Event, Finding, Mode, Motion, Rejection, Solution, Span, Truth, Voyage, earth,
+};
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_simulator::{Scenario, shipped, simulate};
 use nalgebra::{Rotation3, Vector3};
@@ -19,6 +21,8 @@ struct Sailed {
     truth: Vec<Truth>,
     told: Vec<Finding>,
     last: Vec<Finding>,
+    /// Measurements that were refused as not usable.
+    unusable: u64,
 }
 
 fn sail(voyage: Voyage) -> Sailed {
@@ -39,7 +43,10 @@ fn sail_with(config: EngineConfig, voyage: Voyage) -> Sailed {
             }
         }
     }
-    Sailed { solutions, truth: voyage.truth, told, last: engine.findings().to_vec() }
+    let refused = engine.counts().rejected.iter();
+    let unusable =
+        refused.filter(|((_, why), _)| *why == Rejection::NotUsable).map(|(_, n)| n).sum();
+    Sailed { solutions, truth: voyage.truth, told, last: engine.findings().to_vec(), unusable }
 }
 
 impl Sailed {
@@ -93,6 +100,52 @@ fn a_lever_arm_of_the_wrong_sign_costs_a_ship_nothing_and_is_told() {
         let off = found.0 - Vector3::new(-6.0, -0.8, -14.0);
         assert!(off.amax() < 2.5, "{wrong:?}: {found:?}");
     }
+}
+
+/// What is told as a heading to steer by, while what it was found by is wrong.
+#[test]
+fn a_heading_that_a_wrong_lever_arm_tells_is_not_told_to_anyone() {
+    for wrong in [[-6.0, -0.8, 14.0], [-60.0, -8.0, -140.0]] {
+        let mut voyage = voyage();
+        voyage.header.lever_arms.gnss = Body(Vector3::from(wrong));
+        let sailed = sail(voyage);
+        for solution in &sailed.solutions {
+            let truth = sailed.truth.iter().find(|truth| truth.time >= solution.time).unwrap();
+            let heading = truth.attitude.unwrap().heading;
+            let off = wrap_pi(solution.attitude.heading - heading).abs();
+            let told = solution.sigma.heading < 2.5 * DEG;
+            assert!(!told || off < 5.0 * solution.sigma.heading, "{wrong:?}: {off} {solution:?}");
+        }
+    }
+}
+
+/// A ship that leaves her berth with a log.
+fn departure() -> Voyage {
+    let (_, text) = shipped().iter().find(|(name, _)| name.starts_with("01")).unwrap();
+    simulate(&Scenario::from_toml(text).unwrap().with_duration(1100.0), 2)
+}
+
+#[test]
+fn a_log_that_tells_other_units_is_named_and_not_used() {
+    let mut voyage = departure();
+    for log in &mut voyage.log {
+        log.message.u = log.message.u.map(|u| u / 0.514_444);
+        log.message.v = log.message.v.map(|v| v / 0.514_444);
+    }
+    let sailed = sail(voyage);
+    let named = sailed.told.iter().map(Finding::to_string).find(|words| words.contains("knots"));
+    assert!(named.is_some(), "{:?}", sailed.told);
+    assert!(sailed.end().0 < 3.0 && sailed.end().1 < 3.0, "{:?}", sailed.end());
+    assert!(sailed.unusable > 50, "{} of the log were refused", sailed.unusable);
+}
+
+#[test]
+fn gyros_that_are_mirrored_are_named_and_the_imu_is_not_used() {
+    let mut voyage = voyage();
+    voyage.imu.iter_mut().for_each(|imu| imu.message.delta_theta.0.z *= -1.0);
+    let sailed = sail(voyage);
+    assert!(sailed.names().contains(&"imu_turns"), "{:?}", sailed.told);
+    assert!(sailed.last.iter().any(Finding::doubts_imu), "{:?}", sailed.last);
 }
 
 #[test]

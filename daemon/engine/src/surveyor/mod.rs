@@ -1,7 +1,7 @@
 //! What of the installation is otherwise than configured: read off what the filter has found.
 //!
-//! It looks every ten seconds at the newest state, as the herald does, and is no part of what the time
-//! line takes back.
+//! It looks every ten seconds at the newest state, as the herald does, or when samples of the IMU are found to
+//! make no sense, and is no part of what the time line takes back.
 
 mod imu;
 mod log;
@@ -137,7 +137,8 @@ impl Surveyor {
 
     /// Looks, if it is time; gives what was not found before.
     pub(crate) fn look(&mut self, ship: Option<&Ship>, now: Time) -> Vec<Finding> {
-        if self.next.is_some_and(|next| now < next) {
+        let is_urgent = self.doubt().is_none() && self.samples().is_some();
+        if !is_urgent && self.next.is_some_and(|next| now < next) {
             return Vec::new();
         }
         self.next = Some(now + LOOK);
