@@ -25,7 +25,7 @@ pub(crate) struct Trial {
 /// What a heading was misled by.
 pub(crate) enum Misled {
     /// By what was found since.
-    Found(Estimates),
+    Found(Box<Estimates>),
     /// Most likely by the lever arm of the antenna, of which nothing else is known.
     Unknown,
 }
@@ -45,7 +45,7 @@ impl Trial {
     pub(crate) fn refuted_by(&self, filter: &Filter) -> Option<Misled> {
         let is_early = (filter.time() - self.began).as_seconds() < USUAL;
         if is_early && filter.has_mended_antenna() {
-            return Some(Misled::Found(filter.estimates(false)));
+            return Some(Misled::Found(Box::new(filter.estimates(false))));
         }
         let is_off = filter.strain().is_some_and(|strain| strain > REFUTED);
         (is_off && !self.is_over(filter)).then_some(Misled::Unknown)

@@ -159,7 +159,7 @@ fn a_lever_arm_that_was_not_measured_is_found_and_is_no_fault() {
 }
 
 /// The last motion that anyone is shown, with the truth at its time.
-fn shown_at_the_end(voyage: Voyage) -> (Motion, f64) {
+fn shown_at_the_end(voyage: &Voyage) -> (Motion, f64) {
     let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
     for received in voyage.received() {
         engine.handle(&received);
@@ -180,7 +180,7 @@ fn an_imu_that_is_upside_down_is_named_and_not_used() {
         assert_eq!(sailed.names(), ["mounting_tilted"]);
         assert_eq!(sailed.solutions, [], "before anyone could be misled");
     }
-    let (motion, off) = shown_at_the_end(turned(voyage(), 180.0, 0.0, 0.0));
+    let (motion, off) = shown_at_the_end(&turned(voyage(), 180.0, 0.0, 0.0));
     let sigma = motion.solution.sigma;
     assert_eq!(motion.solution.mode, Mode::Standby, "receivers pass through");
     assert!(off < 3.0 * sigma.position.0.norm() && off < 30.0, "{off} m, {sigma:?}");
@@ -192,7 +192,7 @@ fn an_imu_that_is_turned_about_the_vertical_is_named_and_not_used() {
     for yaw in [90.0, 180.0, -90.0] {
         let sailed = sail(turned(voyage(), 0.0, 0.0, yaw));
         assert!(sailed.names().contains(&"mounting_turned"), "{yaw}: {:?}", sailed.told);
-        let (motion, off) = shown_at_the_end(turned(voyage(), 0.0, 0.0, yaw));
+        let (motion, off) = shown_at_the_end(&turned(voyage(), 0.0, 0.0, yaw));
         assert_eq!(motion.solution.mode, Mode::Standby);
         assert!(motion.solution.sigma.heading > 90.0 * DEG && off < 30.0, "{off} m");
     }

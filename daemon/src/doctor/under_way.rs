@@ -180,7 +180,7 @@ mod tests {
         };
         let told: Vec<String> = of(&config, &snapshot).iter().map(ToString::to_string).collect();
         let has = |words: &str| {
-            assert!(told.iter().any(|line| line.contains(words)), "{words}: {told:#?}")
+            assert!(told.iter().any(|line| line.contains(words)), "{words}: {told:#?}");
         };
         has("the log seems elsewhere; write `log_lever_m = [1.0, 2.0, 3.0]`");
         has(&format!("write `gnss_lever_m = [{:.2},", forward + 0.5));

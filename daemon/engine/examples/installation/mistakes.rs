@@ -4,6 +4,7 @@ use insd_base::{Body, Span, Voyage};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// A configuration that is wrong, or a device that is not what it is said to be.
+#[derive(Clone, Copy)]
 pub(crate) struct Mistake {
     pub(crate) name: &'static str,
     /// Short name of the finding that tells it; none where nothing is wrong.
@@ -92,7 +93,7 @@ pub(crate) const MISTAKES: [Mistake; 33] = [
     high(mistake("high mast, sign", LEVER, |v| lever(v, |[x, y, z]| [x, y, -z]))),
     high(mistake("high mast, zeros", "gnss_lever_unmeasured", |v| lever(v, |_| [0.0; 3]))),
     mistake("log lever sign", "log_lever", |v| {
-        v.header.lever_arms.log.0 = -v.header.lever_arms.log.0
+        v.header.lever_arms.log.0 = -v.header.lever_arms.log.0;
     }),
     mistake("IMU upside down", TILTED, |v| turn(v, [180.0, 0.0, 0.0])),
     mistake("IMU down, aft", TILTED, |v| turn(v, [0.0, 180.0, 0.0])),
