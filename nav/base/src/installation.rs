@@ -243,6 +243,22 @@ impl fmt::Display for Finding {
                     "GNSS epochs seem to be tagged {by:.2} s {word} their time, good to {sigma:.2} s"
                 )
             }
+            Finding::LogMounting { scale, turn } => write!(
+                f,
+                "the log says {:.2} times her speed, {:.0} deg off: {}",
+                scale.value,
+                turn.to_degrees(),
+                log_cause(scale.value, *turn)
+            ),
+            _ => self.fmt_of_imu(f),
+        }
+    }
+}
+
+impl Finding {
+    /// What of the IMU there is to be said.
+    fn fmt_of_imu(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Finding::ImuForce { mean } => write!(
                 f,
                 "the accelerometers say {mean:.2} m/s2 where gravity is 9.81: {}",
@@ -278,13 +294,7 @@ impl fmt::Display for Finding {
                 turn.to_degrees(),
                 if turn.abs() > 0.75 * PI { "astern" } else { "sideways" }
             ),
-            Finding::LogMounting { scale, turn } => write!(
-                f,
-                "the log says {:.2} times her speed, {:.0} deg off: {}",
-                scale.value,
-                turn.to_degrees(),
-                log_cause(scale.value, *turn)
-            ),
+            _ => Ok(()),
         }
     }
 }
