@@ -100,6 +100,10 @@ heave-chain grade="navigation":
 installation seeds="20" *voyage:
     cargo run --release -p insd-engine --example installation -- {{seeds}} {{voyage}}
 
+# voyages with a sensor that lies, all kinds, both grades, every suite of sensors: what it costs, who is told and named
+faults draws="5" *kind:
+    cargo run --release -p insd-engine --example faults -- {{draws}} {{kind}}
+
 # the recipes of docs/connect.md with gpsd, chrony and, where it is installed, Signal K
 conformance-connect *options:
     cargo build --release -p insd

@@ -240,6 +240,7 @@ impl Engine {
             Conditioned::Rejected(reason) => return self.count_imu(reason),
         };
         self.counts.imu_samples += 1;
+        self.surveyor.see_raw(sample, increment.duration());
         self.heard = Some(receipt);
         self.advance(&increment);
         if self.machine.mode() == Mode::Standby && self.shunned.is_none() {

@@ -10,6 +10,7 @@
 //! error in its mechanisation cannot hide here as well.
 
 pub mod feed;
+pub mod lies;
 mod limit;
 mod motion;
 mod quadrature;

@@ -41,6 +41,10 @@ pub(crate) enum Purpose {
     Current,
     ReferenceNoise,
     ImuLosses,
+    Lies,
+    Lying,
+    Compass,
+    SecondReceiver,
 }
 
 /// The stream of one purpose in the voyage of one seed.

@@ -6,6 +6,37 @@ use std::fmt;
 use crate::estimates::Estimate;
 use crate::frames::Body;
 
+/// Axes of an IMU.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Axes {
+    /// Gyros about forward, starboard, down.
+    pub gyro: [bool; 3],
+    /// Accelerometers along the same.
+    pub accel: [bool; 3],
+}
+
+impl Axes {
+    /// Whether it is any.
+    #[must_use]
+    pub fn any(&self) -> bool {
+        self.gyro.iter().chain(&self.accel).any(|one| *one)
+    }
+}
+
+impl fmt::Display for Axes {
+    /// `gyro down, accelerometer forward`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        const ALONG: [&str; 3] = ["forward", "starboard", "down"];
+        let of = |kind: &'static str, axes: &[bool; 3]| {
+            let own = ALONG.into_iter().zip(*axes).filter(|(_, is)| *is);
+            own.map(|(along, _)| format!("{kind} {along}")).collect::<Vec<_>>()
+        };
+        let mut all = of("gyro", &self.gyro);
+        all.extend(of("accelerometer", &self.accel));
+        f.write_str(&all.join(", "))
+    }
+}
+
 /// One thing that is not as configured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finding {
@@ -51,6 +82,11 @@ pub enum Finding {
         /// Root mean square of the rate, rad/s.
         mean: f64,
     },
+    /// Axes of the IMU stand still.
+    ImuStuck {
+        /// Which.
+        axes: Axes,
+    },
     /// The gyros do not turn as she does.
     ImuTurns {
         /// What they tell of a turn over what her course says.
@@ -90,6 +126,7 @@ impl Finding {
             Finding::GnssDelay { .. } => "gnss_delay",
             Finding::ImuForce { .. } => "imu_force",
             Finding::ImuRate { .. } => "imu_rate",
+            Finding::ImuStuck { .. } => "imu_stuck",
             Finding::ImuTurns { .. } => "imu_turns",
             Finding::ImuRefuted => "imu_refuted",
             Finding::MountingTilted { .. } => "mounting_tilted",
@@ -111,6 +148,7 @@ impl Finding {
             self,
             Finding::ImuForce { .. }
                 | Finding::ImuRate { .. }
+                | Finding::ImuStuck { .. }
                 | Finding::ImuTurns { .. }
                 | Finding::ImuRefuted
                 | Finding::MountingTilted { .. }
@@ -270,6 +308,9 @@ impl Finding {
                  tell degrees where radians are expected?",
                 mean.to_degrees()
             ),
+            Finding::ImuStuck { axes } => {
+                write!(f, "the IMU tells the same number again and again: {axes}")
+            }
             Finding::ImuTurns { ratio } => write!(
                 f,
                 "the gyros say {:.1} times the turns that her course makes: is the axis that points down \

@@ -1,11 +1,12 @@
 //! Whether the IMU tells what its configuration says it does: gravity is known, ships do not spin, and they
 //! stand upright.
 
-use insd_base::Finding;
 use insd_base::units::DEG;
+use insd_base::{Finding, ImuSample};
 use insd_nav::Increment;
 use nalgebra::Vector3;
 
+use super::stuck::Stuck;
 use super::swing::Swing;
 
 /// Gravity at sea, m/s^2, and by how much of it the mean force may differ: a rough sea, a short window.
@@ -34,6 +35,7 @@ pub(super) struct ImuWatch {
     seen: f64,
     is_tilted: bool,
     swing: Swing,
+    stuck: Stuck,
     /// What was found, and for how long it has been right since, s.
     found: Option<Finding>,
     right: f64,
@@ -54,6 +56,11 @@ impl ImuWatch {
         self.rate_square += (rate * rate - self.rate_square) * share;
         self.swing.see(increment, duration);
         self.judge(duration);
+    }
+
+    /// Sees a sample as it came, and its duration, s.
+    pub(super) fn see_raw(&mut self, sample: &ImuSample, duration: f64) {
+        self.stuck.see(sample, duration);
     }
 
     fn judge(&mut self, duration: f64) {
@@ -77,7 +84,7 @@ impl ImuWatch {
 
     /// What it gets wrong, if anything.
     pub(super) fn finding(&self) -> Option<Finding> {
-        self.found
+        self.stuck.axes().map(|axes| Finding::ImuStuck { axes }).or(self.found)
     }
 
     /// How the ship would list and trim for ever if it sat as configured, if that is beyond any ship.

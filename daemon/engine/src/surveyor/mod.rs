@@ -6,12 +6,13 @@
 mod imu;
 mod log;
 mod mounting;
+mod stuck;
 mod swing;
 mod turns;
 
 use insd_base::{
-    Body, Estimate, Estimates, Finding, GnssFix, LeverArms, LogVelocity, Message, Mode, Received,
-    Solution, Span, Time,
+    Body, Estimate, Estimates, Finding, GnssFix, ImuSample, LeverArms, LogVelocity, Message, Mode,
+    Received, Solution, Span, Time,
 };
 use insd_nav::Increment;
 
@@ -79,6 +80,11 @@ impl Surveyor {
     /// Course less heading on the mean, rad.
     pub(crate) fn course_less_heading(&self) -> Option<Estimate> {
         self.mounting.drift()
+    }
+
+    /// Sees a sample of the IMU as it came, and its duration, s.
+    pub(crate) fn see_raw(&mut self, sample: &ImuSample, duration: f64) {
+        self.imu.see_raw(sample, duration);
     }
 
     /// Sees an increment of the IMU.

@@ -1,0 +1,201 @@
+//! A case: the voyage, the lie that was drawn for it, and what is asked.
+
+use insd_base::units::{DEG, wrap_two_pi};
+use insd_base::{ExternalReference, Stamped, Voyage};
+use nalgebra::{Vector2, Vector3};
+use rand::RngExt;
+use rand_pcg::Pcg64;
+
+use super::evidence::shown_after;
+use super::gnss::moved;
+use super::kinds::{Asked, Kind, Strike};
+use super::{Class, Culprit, Grade, Lie, Suite, Told, Window};
+use crate::random::{GaussMarkov, Purpose, normal, normal3, stream, uniform};
+use crate::{Scenario, ScenarioError, simulate};
+
+/// The voyage of all cases, s; she sails after five minutes.
+const LASTS: f64 = 3600.0;
+/// When a lie begins at the earliest and at the latest, s.
+const ONSET: [f64; 2] = [1200.0, 2400.0];
+/// For how long one lasts that heals, s.
+const HEALS: [f64; 2] = [20.0, 300.0];
+/// 1-sigma of a compass that tells the truth, rad.
+const COMPASS: f64 = 0.3 * DEG;
+/// The second receiver's slow and white errors, 1-sigma of each component, m, and the slow one's time
+/// constant, s.
+const SECOND: [f64; 3] = [1.0, 0.5, 100.0];
+
+/// The scenario, but for the grade of the IMU and whether there is a log.
+const SCENARIO: &str = include_str!("voyage.toml");
+
+/// What was drawn, and what is asked.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Its kind.
+    pub kind: &'static str,
+    /// Of the IMU.
+    pub grade: Grade,
+    /// The sensors beside it.
+    pub suite: Suite,
+    /// What was drawn, for people.
+    pub size: String,
+    /// Everything that is told wrongly.
+    pub told: Vec<Told>,
+    /// What is asked.
+    pub class: Class,
+    /// Whether the liar must be named.
+    pub is_named: bool,
+    /// When the others can show it, s.
+    pub shown_at: Option<f64>,
+    /// From when on it is judged, s.
+    pub judged_from: f64,
+    seed: u64,
+}
+
+/// Draws numbers for a case.
+pub(super) struct Draw {
+    pub(super) rng: Pcg64,
+    pub(super) grade: Grade,
+    pub(super) suite: Suite,
+}
+
+impl Draw {
+    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+        uniform(&mut self.rng, low, high)
+    }
+
+    /// Evenly in the logarithm.
+    pub(super) fn size(&mut self, low: f64, high: f64) -> f64 {
+        self.between(low.ln(), high.ln()).exp()
+    }
+
+    pub(super) fn signed(&mut self, low: f64, high: f64) -> f64 {
+        let size = self.size(low, high);
+        if self.rng.random::<bool>() { size } else { -size }
+    }
+
+    /// Of such a length, in any direction.
+    pub(super) fn vector(&mut self, low: f64, high: f64) -> Vector2<f64> {
+        let (length, angle) = (self.size(low, high), self.between(0.0, std::f64::consts::TAU));
+        Vector2::new(length * angle.cos(), length * angle.sin())
+    }
+
+    pub(super) fn axis(&mut self) -> usize {
+        self.rng.random_range(0..3)
+    }
+
+    /// Along one axis.
+    pub(super) fn along(&mut self, low: f64, high: f64) -> Vector3<f64> {
+        let (axis, size) = (self.axis(), self.signed(low, high));
+        Vector3::from_fn(|i, _| if i == axis { size } else { 0.0 })
+    }
+
+    /// To the end.
+    pub(super) fn onset(&mut self) -> Window {
+        Window { from: self.between(ONSET[0], ONSET[1]).round(), until: f64::INFINITY }
+    }
+
+    /// It heals.
+    pub(super) fn moment(&mut self) -> Window {
+        let window = self.onset();
+        Window { until: window.from + self.size(HEALS[0], HEALS[1]).round(), ..window }
+    }
+}
+
+/// The case of a kind with these sensors that a seed draws.
+#[must_use]
+pub fn case(kind: &Kind, grade: Grade, suite: Suite, seed: u64) -> Case {
+    let own = kind.name.bytes().fold(seed, |sum, byte| sum.wrapping_mul(31) ^ u64::from(byte));
+    let mut draw = Draw { rng: stream(own, Purpose::Lies), grade, suite };
+    let Strike { told, size, asked, judged_from } = (kind.draw)(&mut draw);
+    let first = told.iter().map(|told| told.window.from).fold(f64::INFINITY, f64::min);
+    let (class, shown_at, is_named) = match asked {
+        Asked::ByEvidence { off, velocity_is_honest } => {
+            let lasts = told.iter().map(|told| told.window.until.min(LASTS) - first);
+            let lasts = lasts.fold(0.0, f64::max);
+            let after = shown_after(grade, suite, velocity_is_honest, off, lasts);
+            let carried = if suite.has_log() { Class::Required } else { Class::Told };
+            let class = after.map_or(Class::Bounded, |_| carried);
+            (class, after.map(|after| first + after), true)
+        }
+        Asked::Of { class, is_named } => (class, Some(first), is_named),
+    };
+    Case { kind: kind.name, grade, suite, size, told, class, is_named, shown_at, judged_from, seed }
+}
+
+impl Case {
+    /// The voyage with honest sensors.
+    ///
+    /// # Errors
+    /// The scenario of this module is not one.
+    pub fn honest(&self) -> Result<Voyage, ScenarioError> {
+        let grade = match self.grade {
+            Grade::Navigation => "navigation",
+            Grade::Mems => "mems",
+        };
+        let log = if self.suite.has_log() { "\n[log]\n" } else { "" };
+        let text = SCENARIO.replace("GRADE", grade) + log;
+        let mut voyage = simulate(&Scenario::from_toml(&text)?, self.seed);
+        if self.suite.has_compass() {
+            voyage.reference = compass(&voyage, self.seed);
+        }
+        if self.suite.has_second() {
+            voyage.reference = second(&voyage, self.seed);
+        }
+        Ok(voyage)
+    }
+
+    /// The same with everything in it that is told wrongly.
+    #[must_use]
+    pub fn spoilt(&self, honest: &Voyage) -> Voyage {
+        let mut voyage = honest.clone();
+        let mut rng = stream(self.seed, Purpose::Lying);
+        self.told.iter().for_each(|told| told.spoil(&mut voyage, &mut rng));
+        voyage
+    }
+
+    /// Everybody who tells something wrong.
+    #[must_use]
+    pub fn culprits(&self) -> Vec<Culprit> {
+        self.told.iter().filter(|told| told.lie != Lie::Outage).map(Told::culprit).collect()
+    }
+
+    /// When the last of it has healed, s, if it does.
+    #[must_use]
+    pub fn healed_at(&self) -> Option<f64> {
+        let until = self.told.iter().map(|told| told.window.until).fold(0.0, f64::max);
+        until.is_finite().then_some(until)
+    }
+}
+
+fn compass(voyage: &Voyage, seed: u64) -> Vec<Stamped<ExternalReference>> {
+    let mut rng = stream(seed, Purpose::Compass);
+    let rows = voyage.truth.iter().filter_map(|truth| Some((truth.time, truth.attitude?)));
+    let told = rows.map(|(time, attitude)| ExternalReference {
+        time,
+        heading: Some(wrap_two_pi(attitude.heading + COMPASS * normal(&mut rng))),
+        heading_std: Some(COMPASS),
+        ..ExternalReference::default()
+    });
+    told.map(Stamped::prompt).collect()
+}
+
+fn second(voyage: &Voyage, seed: u64) -> Vec<Stamped<ExternalReference>> {
+    let mut rng = stream(seed, Purpose::SecondReceiver);
+    let [slow, white, time] = SECOND;
+    let own = stream(seed ^ 1, Purpose::SecondReceiver);
+    let mut drifting = GaussMarkov::new(Vector3::repeat(slow), time, own);
+    let mut before: Option<insd_base::Time> = None;
+    let told = voyage.truth.iter().map(|truth| {
+        let elapsed = before.map_or(0.0, |before| (truth.time - before).as_seconds());
+        before = Some(truth.time);
+        let off = drifting.advance(elapsed) + normal3(&mut rng) * white;
+        ExternalReference {
+            time: truth.time,
+            position: Some(moved(&truth.position, &Vector3::new(off.x, off.y, 0.0))),
+            position_std: Some(slow.hypot(white)),
+            ..ExternalReference::default()
+        }
+    });
+    told.map(Stamped::prompt).collect()
+}

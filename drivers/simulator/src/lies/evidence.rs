@@ -1,0 +1,93 @@
+//! When the other sensors can show that a position is false.
+//!
+//! A monitor predicts the position from the moment before the lie on, with sigma^2 = s^2 + (v t)^2 +
+//! (a t^2 / 2)^2 after t seconds; the lie is shown when it exceeds six of them.
+
+use super::{Grade, Suite};
+
+/// Sigmas beyond which a lie is shown.
+const SHOWN: f64 = 6.0;
+/// Error of a position that everybody has, 1-sigma, m, and of two receivers against each other.
+const RECEIVER: f64 = 1.5;
+const RECEIVERS: f64 = 2.0;
+/// From look to look, s.
+const LOOK: f64 = 0.5;
+
+/// How fast a prediction loses the position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Monitor {
+    floor: f64,
+    velocity: f64,
+    acceleration: f64,
+}
+
+impl Monitor {
+    const fn new(floor: f64, velocity: f64, acceleration: f64) -> Self {
+        Monitor { floor, velocity, acceleration }
+    }
+
+    fn sigma(&self, t: f64) -> f64 {
+        let drift = self.velocity * t;
+        self.floor.hypot(drift).hypot(0.5 * self.acceleration * t * t)
+    }
+}
+
+fn monitors(grade: Grade, suite: Suite, velocity_is_honest: bool) -> Vec<Monitor> {
+    let by_log = match grade {
+        Grade::Navigation => 0.008,
+        Grade::Mems if suite.has_compass() => 0.02,
+        Grade::Mems => 0.04,
+    };
+    let mut all = vec![match grade {
+        Grade::Navigation => Monitor::new(RECEIVER, 0.01, 2.2e-4),
+        Grade::Mems => Monitor::new(RECEIVER, 0.02, 6e-3),
+    }];
+    if suite.has_log() {
+        all.push(Monitor::new(RECEIVER, by_log, 0.0));
+    }
+    if velocity_is_honest {
+        all.push(Monitor::new(RECEIVER, 0.015, 0.0));
+    }
+    if suite.has_second() {
+        all.push(Monitor::new(RECEIVERS, 0.0, 0.0));
+    }
+    all
+}
+
+/// Seconds after a lie began at which the others can show it, if it is so far off after each of them, m;
+/// `None` if they cannot before it ends.
+pub fn shown_after(
+    grade: Grade,
+    suite: Suite,
+    velocity_is_honest: bool,
+    off: impl Fn(f64) -> f64,
+    lasts: f64,
+) -> Option<f64> {
+    let all = monitors(grade, suite, velocity_is_honest);
+    let looks = (lasts / LOOK).min(1e5) as u32;
+    let is_shown = |t: &f64| all.iter().any(|monitor| off(*t) > SHOWN * monitor.sigma(*t));
+    (0..=looks).map(|look| f64::from(look) * LOOK).find(is_shown)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_jump_is_shown_at_once_and_a_small_one_never() {
+        let shown = |size: f64| shown_after(Grade::Navigation, Suite::Gnss, false, |_| size, 600.0);
+        assert_eq!(shown(30.0), Some(0.0));
+        assert_eq!(shown(5.0), None);
+    }
+
+    #[test]
+    fn a_slow_drag_is_shown_by_a_log_and_not_by_a_mems_imu_alone() {
+        let shown = |suite| shown_after(Grade::Mems, suite, false, |t| 0.1 * t, 2400.0);
+        assert_eq!(shown(Suite::Gnss), None);
+        assert_eq!(shown(Suite::Log), None, "0.1 m/s is below six of 0.04");
+        let by_both = shown(Suite::Both);
+        assert_eq!(by_both, None, "and of 0.02");
+        let faster = shown_after(Grade::Mems, Suite::Both, false, |t| 0.5 * t, 2400.0);
+        assert!(faster.is_some_and(|t| (15.0..25.0).contains(&t)), "{faster:?}");
+    }
+}
