@@ -1,6 +1,6 @@
 //! What is found to be otherwise than configured, and what follows from it.
 
-use insd_base::{Estimates, Event, Finding, Mode, ModeReason, Time};
+use insd_base::{Estimates, Event, Finding, Mode, ModeReason, Received, Time};
 use insd_nav::Estimator;
 use insd_nav::config::LeverFound;
 
@@ -52,6 +52,15 @@ impl Engine {
             self.nav.gnss.lever_found = Some(lever_found(estimates));
         }
         self.nav.gnss.delay_std = self.nav.gnss.delay_std.max(DELAY);
+    }
+
+    /// What is left of a message without what a sensor is known to tell wrongly.
+    pub(crate) fn believed(&mut self, received: &Received, checked: &Received) -> Option<Received> {
+        let (left, refused) = self.surveyor.believed(checked);
+        if let Some((aid, why)) = refused {
+            self.reject(received, aid, why);
+        }
+        left
     }
 
     pub(crate) fn tell_installation(&mut self, time: Time) {

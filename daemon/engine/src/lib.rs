@@ -379,16 +379,8 @@ impl Engine {
         let checked = self.surveyor.completed(&checked);
         self.herald.hear(&checked);
         self.relay.hear(&checked);
-        match &checked.message {
-            Message::Gnss(fix) => self.surveyor.hear_fix(fix),
-            Message::Log(log) => {
-                self.surveyor.hear_log(log);
-                if self.surveyor.refuses_log() {
-                    return self.reject(received, source.name(), Rejection::NotUsable);
-                }
-            }
-            _ => {}
-        }
+        self.surveyor.hear(&checked);
+        let Some(checked) = self.believed(received, &checked) else { return };
         match &mut self.stage {
             Stage::Levelling(coarse) => coarse.observe(&checked),
             Stage::Running(line) => {

@@ -35,6 +35,7 @@ pub fn reason(reason: Rejection) -> &'static str {
         Rejection::TooLate => "too late",
         Rejection::Duplicate => "repeated",
         Rejection::OutOfOrder => "out of order",
+        Rejection::Frozen => "frozen",
         Rejection::NotUsable => "not usable yet",
     }
 }

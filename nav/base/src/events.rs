@@ -27,6 +27,8 @@ pub enum Rejection {
     Duplicate,
     /// Time of validity before that of the sample before.
     OutOfOrder,
+    /// It tells the same number again and again while the ship moves.
+    Frozen,
     /// Not usable in the present mode (for example a log before any alignment).
     NotUsable,
 }
@@ -44,6 +46,7 @@ impl Rejection {
             Rejection::TooLate => "too_late",
             Rejection::Duplicate => "duplicate",
             Rejection::OutOfOrder => "out_of_order",
+            Rejection::Frozen => "frozen",
             Rejection::NotUsable => "not_usable",
         }
     }

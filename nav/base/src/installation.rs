@@ -37,6 +37,19 @@ impl fmt::Display for Axes {
     }
 }
 
+/// What tells the same number again and again while the ship moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frozen {
+    /// The position of the receiver.
+    Position,
+    /// Its velocity.
+    Velocity,
+    /// The log.
+    Log,
+    /// The compass.
+    Heading,
+}
+
 /// One thing that is not as configured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finding {
@@ -81,6 +94,11 @@ pub enum Finding {
     ImuRate {
         /// Root mean square of the rate, rad/s.
         mean: f64,
+    },
+    /// A sensor tells the same number again and again while the ship moves.
+    Frozen {
+        /// Which.
+        what: Frozen,
     },
     /// Axes of the IMU stand still.
     ImuStuck {
@@ -127,6 +145,10 @@ impl Finding {
             Finding::ImuForce { .. } => "imu_force",
             Finding::ImuRate { .. } => "imu_rate",
             Finding::ImuStuck { .. } => "imu_stuck",
+            Finding::Frozen { what: Frozen::Position } => "gnss_position_frozen",
+            Finding::Frozen { what: Frozen::Velocity } => "gnss_velocity_frozen",
+            Finding::Frozen { what: Frozen::Log } => "log_frozen",
+            Finding::Frozen { what: Frozen::Heading } => "heading_frozen",
             Finding::ImuTurns { .. } => "imu_turns",
             Finding::ImuRefuted => "imu_refuted",
             Finding::MountingTilted { .. } => "mounting_tilted",
@@ -139,6 +161,12 @@ impl Finding {
     #[must_use]
     pub fn is_fault(&self) -> bool {
         !matches!(self, Finding::GnssLeverUnmeasured { .. })
+    }
+
+    /// Whether a sensor tells nonsense, which no configuration mends.
+    #[must_use]
+    pub fn is_bad_data(&self) -> bool {
+        matches!(self, Finding::Frozen { .. } | Finding::ImuStuck { .. })
     }
 
     /// Whether nothing can be made of an IMU of which that is so.
@@ -287,6 +315,16 @@ impl fmt::Display for Finding {
                 scale.value,
                 turn.to_degrees(),
                 log_cause(scale.value, *turn)
+            ),
+            Finding::Frozen { what } => write!(
+                f,
+                "{} tells the same number again and again while she moves, and is not used",
+                match what {
+                    Frozen::Position => "the position of GNSS",
+                    Frozen::Velocity => "the velocity of GNSS",
+                    Frozen::Log => "the log",
+                    Frozen::Heading => "the compass",
+                }
             ),
             _ => self.fmt_of_imu(f),
         }

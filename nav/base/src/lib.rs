@@ -38,7 +38,7 @@ pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
 pub use heave::{DelayedHeave, Heave, HeaveQuality};
 pub use input::{AlertOrder, Arrival, Input, Order, PortId, PortState, Pulse, Stamp};
-pub use installation::{Axes, Finding};
+pub use installation::{Axes, Finding, Frozen};
 pub use messages::{
     ExternalReference, ImuSample, LogReference, LogVelocity, Message, Received, Source,
 };

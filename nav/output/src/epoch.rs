@@ -57,6 +57,8 @@ pub struct Doubts {
     pub mounting: bool,
     /// Lever arms, delays, logs.
     pub installation: bool,
+    /// Sensors that stand still.
+    pub bad_data: bool,
 }
 
 impl Doubts {
@@ -65,7 +67,10 @@ impl Doubts {
     pub fn of(findings: &[Finding]) -> Self {
         Doubts {
             mounting: findings.iter().any(Finding::doubts_imu),
-            installation: findings.iter().any(|it| it.is_fault() && !it.doubts_imu()),
+            installation: findings
+                .iter()
+                .any(|it| it.is_fault() && !it.doubts_imu() && !it.is_bad_data()),
+            bad_data: findings.iter().any(Finding::is_bad_data),
         }
     }
 }

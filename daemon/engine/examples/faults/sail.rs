@@ -1,6 +1,6 @@
 //! A voyage as rows: how far off she was, what she claimed, and whom she named.
 
-use insd_base::{Finding, GnssFix, Mode, Stamped, Truth, Voyage, earth};
+use insd_base::{Finding, Frozen, GnssFix, Mode, Stamped, Truth, Voyage, earth};
 use insd_engine::{Engine, EngineConfig, Output};
 
 /// Once a second.
@@ -75,7 +75,9 @@ fn row(solution: &insd_base::Solution, truth: &Truth) -> Row {
 /// The words of what is found wrong.
 fn named(engine: &Engine) -> Vec<&'static str> {
     let word = |finding: &Finding| match finding {
-        Finding::LogMounting { .. } => Some("log"),
+        Finding::LogMounting { .. } | Finding::Frozen { what: Frozen::Log } => Some("log"),
+        Finding::Frozen { what: Frozen::Heading } => Some("heading"),
+        Finding::Frozen { .. } => Some("gnss"),
         finding if finding.doubts_imu() => Some("imu"),
         _ => None,
     };

@@ -90,8 +90,8 @@ fn named(case: &Case, rows: &[&Row]) -> Option<bool> {
 /// Whether somebody honest was named for long.
 fn innocent(case: &Case, rows: &[&Row]) -> bool {
     let culprits = case.culprits();
-    let is_honest = |word: &&str| !culprits.iter().any(|culprit| culprit.is_meant_by(word));
-    pieces(rows, |row| row.excluded.iter().any(|word| is_honest(&word))).0 > WRONGLY
+    let is_honest = |word: &str| !culprits.iter().any(|culprit| culprit.is_meant_by(word));
+    pieces(rows, |row| row.excluded.iter().any(|word| is_honest(word))).0 > WRONGLY
 }
 
 /// Whether she navigates with the rest, within the budget, and is back after it healed.

@@ -5,7 +5,7 @@
 //! |sum m p*|^2 / (sum |m|^2 sum |p|^2) says how much of m it explains.
 
 use insd_base::units::DEG;
-use insd_base::{Body, Estimate, Finding, LogVelocity, Solution};
+use insd_base::{Estimate, Finding, LogVelocity};
 use nalgebra::{Complex, Vector3};
 
 /// Below this speed, m/s, a log is not compared.
@@ -29,11 +29,9 @@ pub(super) struct LogWatch {
 }
 
 impl LogWatch {
-    /// Compares a velocity with the newest solution; `lever` from the IMU to the log, body axes, m.
-    pub(super) fn hear(&mut self, log: &LogVelocity, solution: &Solution, lever: &Body) {
+    /// Compares a velocity with what it should be by the solution, body axes, m/s.
+    pub(super) fn hear(&mut self, log: &LogVelocity, at_log: &Vector3<f64>) {
         let (Some(u), Some(v)) = (log.u, log.v.or(Some(0.0))) else { return };
-        let at_imu = solution.attitude.c_nb().transpose() * solution.velocity.0;
-        let at_log: Vector3<f64> = at_imu + solution.rate.0.cross(&lever.0);
         if at_log.xy().norm() < MOVING || !(u.is_finite() && v.is_finite()) {
             return;
         }

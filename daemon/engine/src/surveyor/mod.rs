@@ -3,6 +3,7 @@
 //! It looks every ten seconds at the newest state, as the herald does, or when samples of the IMU are found to
 //! make no sense, and is no part of what the time line takes back.
 
+mod frozen;
 mod imu;
 mod log;
 mod mounting;
@@ -11,12 +12,13 @@ mod swing;
 mod turns;
 
 use insd_base::{
-    Body, Estimate, Estimates, Finding, GnssFix, ImuSample, LeverArms, LogVelocity, Message, Mode,
-    Received, Solution, Span, Time,
+    Body, Estimate, Estimates, ExternalReference, Finding, GnssFix, ImuSample, LeverArms,
+    LogVelocity, Message, Mode, Received, Rejection, Solution, Span, Time,
 };
 use insd_nav::Increment;
 
 use crate::ship::Ship;
+use frozen::StandingStill;
 use imu::ImuWatch;
 use log::LogWatch;
 use mounting::Mounting;
@@ -44,6 +46,7 @@ pub(crate) struct Surveyor {
     imu: ImuWatch,
     mounting: Mounting,
     turns: Turns,
+    still: StandingStill,
     log: LogWatch,
     newest: Option<Solution>,
     next: Option<Time>,
@@ -63,6 +66,7 @@ impl Surveyor {
             imu: ImuWatch::default(),
             mounting: Mounting::default(),
             turns: Turns::default(),
+            still: StandingStill::default(),
             log: LogWatch::default(),
             newest: None,
             next: None,
@@ -103,30 +107,65 @@ impl Surveyor {
         self.findings.iter().copied().find(Finding::doubts_imu)
     }
 
-    /// Whether the log does not fit how it is said to be mounted, and in what it is said to tell.
-    pub(crate) fn refuses_log(&self) -> bool {
-        self.findings.iter().any(|found| matches!(found, Finding::LogMounting { .. }))
-    }
-
     /// Sees a solution.
     pub(crate) fn see(&mut self, solution: &Solution) {
         self.mounting.see(solution);
         self.newest = Some(*solution);
     }
 
-    /// Hears a receiver.
-    pub(crate) fn hear_fix(&mut self, fix: &GnssFix) {
-        self.turns.hear(fix);
+    /// Hears everybody but the IMU.
+    pub(crate) fn hear(&mut self, received: &Received) {
+        let newest = self.newest;
+        match &received.message {
+            Message::Gnss(fix) => {
+                self.turns.hear(fix);
+                self.still.hear_fix(fix, newest.as_ref());
+            }
+            Message::Log(log) => self.hear_log(log),
+            Message::Reference(told) => self.still.hear_heading(told, newest.as_ref()),
+            Message::Imu(_) => {}
+        }
     }
 
-    /// Hears a log, which is compared with a solution that does not live by it.
-    pub(crate) fn hear_log(&mut self, log: &LogVelocity) {
+    /// A log is compared with a solution that does not live by it.
+    fn hear_log(&mut self, log: &LogVelocity) {
+        let at_log = self.newest.map(|solution| {
+            let at_imu = solution.attitude.c_nb().transpose() * solution.velocity.0;
+            at_imu + solution.rate.0.cross(&self.arms.log.0)
+        });
+        self.still.hear_log(log, at_log, self.newest.as_ref());
         let aided = |solution: &Solution| {
             matches!(solution.mode, Mode::Aided | Mode::InMotionAlignment)
                 && (log.time - solution.time).as_seconds().abs() < LATE
         };
-        if let Some(solution) = self.newest.filter(aided) {
-            self.log.hear(log, &solution, &self.arms.log);
+        if let Some(at_log) = at_log.filter(|_| self.newest.as_ref().is_some_and(aided)) {
+            self.log.hear(log, &at_log);
+        }
+    }
+
+    /// What is left of a message without what its sensor is known to tell wrongly, and what that is.
+    pub(crate) fn believed(
+        &self,
+        received: &Received,
+    ) -> (Option<Received>, Option<(&'static str, Rejection)>) {
+        let with = |message: Message| Some(Received { message, ..*received });
+        let is_wrong = |found: &Finding| matches!(found, Finding::LogMounting { .. });
+        match received.message {
+            Message::Gnss(fix) => {
+                let (left, refused) = self.still.fix(&fix);
+                (left.map(Message::Gnss).and_then(with), refused)
+            }
+            Message::Log(_) if self.still.is_log_frozen() => {
+                (None, Some((received.source.name(), Rejection::Frozen)))
+            }
+            Message::Log(_) if self.findings.iter().any(is_wrong) => {
+                (None, Some((received.source.name(), Rejection::NotUsable)))
+            }
+            Message::Reference(told) if self.still.is_heading_frozen() => {
+                let left = ExternalReference { heading: None, heading_std: None, ..told };
+                (with(Message::Reference(left)), Some(("reference_heading", Rejection::Frozen)))
+            }
+            _ => (Some(*received), None),
         }
     }
 
@@ -186,6 +225,7 @@ impl Surveyor {
             found.extend(levers.into_iter().flatten());
         }
         found.extend(delay(estimates).into_iter().chain(self.log.finding()));
+        found.extend(self.still.all().map(|what| Finding::Frozen { what }));
         found
     }
 

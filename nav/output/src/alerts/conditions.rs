@@ -35,6 +35,8 @@ pub enum Condition {
     MountingDoubt,
     /// Something else of the installation is found to be otherwise than configured, such as a lever arm.
     Installation,
+    /// A sensor tells nonsense, such as the same number again and again.
+    BadData,
 }
 
 /// An alert that there can be.
@@ -51,7 +53,7 @@ struct Definition {
 
 impl Condition {
     /// All of them, those that matter most first.
-    pub const ALL: [Condition; 10] = [
+    pub const ALL: [Condition; 11] = [
         Condition::SystemFault,
         Condition::HeadingLost,
         Condition::PositionLost,
@@ -59,6 +61,7 @@ impl Condition {
         Condition::EnginesDiffer,
         Condition::HeadingDegraded,
         Condition::PositionEstimated,
+        Condition::BadData,
         Condition::Installation,
         Condition::NoUtc,
         Condition::Simulated,
@@ -124,6 +127,9 @@ impl Condition {
             Condition::MountingDoubt => {
                 own(10_020, Warning, ["Mounting doubt", "IMU not as configured. See page"], [0, 10])
             }
+            Condition::BadData => {
+                own(10_018, Caution, ["Bad data", "A sensor stands still. See page"], [0, 10])
+            }
             Condition::Installation => {
                 own(10_021, Caution, ["Installation", "Not as configured. See page"], [0, 10])
             }
@@ -186,6 +192,7 @@ impl Watch {
             Condition::Simulated => simulated,
             Condition::EnginesDiffer => epoch.engines_differ,
             Condition::MountingDoubt => epoch.doubts.mounting,
+            Condition::BadData => epoch.doubts.bad_data,
             Condition::Installation => epoch.doubts.installation,
         };
         let mut found = Condition::ALL.map(|condition| (condition, holds(condition)));
