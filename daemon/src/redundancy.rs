@@ -5,8 +5,7 @@
 use std::sync::Arc;
 
 use insd_base::{
-    AlignmentStatus, Arrival, Body, Finding, Heave, Message, Mode, Motion, Received, Solution,
-    Span, Time,
+    AlignmentStatus, Arrival, Body, Heave, Message, Mode, Motion, Received, Solution, Span, Time,
 };
 use insd_engine::vote::{
     Difference, Disagreement, Doubt, Record, Testimony, Voice, VoteEvent, Voter,
@@ -15,6 +14,7 @@ use insd_engine::{Engine, EngineConfig, Output};
 use insd_intake::choice::Quantity;
 use insd_intake::config::IntakeConfig;
 use insd_intake::{Intake, Intaken};
+use insd_output::Doubts;
 
 use crate::speaker::Knows;
 use crate::state::Checkpoints;
@@ -360,8 +360,18 @@ impl Knows for InUse<'_> {
         self.spare().map_or_else(|| self.first.heaves(), of_spare)
     }
 
-    fn findings(&self) -> &[Finding] {
-        self.engine().findings()
+    /// Those of the engine in use, and of the IMUs of all: one that is wrong is, whoever is believed.
+    fn doubts(&self) -> Doubts {
+        let spares = self.redundancy.iter().flat_map(|own| &own.spares).map(|spare| &spare.engine);
+        let all = std::iter::once(self.first).chain(spares);
+        let of_imus = all.flat_map(Engine::findings).filter(|found| found.doubts_imu());
+        let of_imus = Doubts::of(&of_imus.copied().collect::<Vec<_>>());
+        let own = Doubts::of(self.engine().findings());
+        Doubts {
+            mounting: own.mounting || of_imus.mounting,
+            bad_data: own.bad_data || of_imus.bad_data,
+            ..own
+        }
     }
 
     fn engines_differ(&self) -> bool {

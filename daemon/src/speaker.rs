@@ -2,8 +2,8 @@
 //! a recording replays to the bytes that were sent.
 
 use insd_base::{
-    AlignmentStatus, Arrival, Finding, Geodetic, Heave, Message as Measurement, Motion, PortId,
-    Received, Span, Time, UtcTime,
+    AlignmentStatus, Arrival, Geodetic, Heave, Message as Measurement, Motion, PortId, Received,
+    Span, Time, UtcTime,
 };
 use insd_engine::{Engine, Output};
 use insd_n2k::pgn::TimeSource;
@@ -29,8 +29,8 @@ pub trait Knows {
     fn engines_differ(&self) -> bool {
         false
     }
-    /// What of the installation is found to be otherwise than configured.
-    fn findings(&self) -> &[Finding];
+    /// What is doubted of installation and sensors.
+    fn doubts(&self) -> Doubts;
 }
 
 impl Knows for Engine {
@@ -42,8 +42,8 @@ impl Knows for Engine {
         Engine::heaves(self)
     }
 
-    fn findings(&self) -> &[Finding] {
-        Engine::findings(self)
+    fn doubts(&self) -> Doubts {
+        Doubts::of(self.findings())
     }
 }
 
@@ -178,7 +178,7 @@ impl Speaker {
             receiver: receiver.map(|(_, receiver)| receiver),
             alignment: self.alignment,
             engines_differ: engine.engines_differ(),
-            doubts: Doubts::of(engine.findings()),
+            doubts: engine.doubts(),
         }
     }
 

@@ -49,7 +49,7 @@ pub struct Told {
     pub heading_error: Option<f64>,
     /// Error of its horizontal position, m.
     pub position_error: Option<f64>,
-    /// Whether the alert is up that engines differ.
+    /// Whether the alert is up that engines differ, or that an IMU is found wrong.
     pub alert: bool,
 }
 
@@ -287,7 +287,11 @@ impl Fleet {
         if log.used.last() != Some(&used) {
             log.used.push(used);
         }
-        let state = pipeline.speaker().station().alerts().state(Condition::EnginesDiffer);
+        let alerts = pipeline.speaker().station().alerts();
+        let is_up = |condition| {
+            !matches!(alerts.state(condition), AlertState::Normal | AlertState::Rectified)
+        };
+        let alert = is_up(Condition::EnginesDiffer) || is_up(Condition::MountingDoubt);
         log.told.extend(epochs.into_iter().map(|epoch| {
             let at = when(epoch.time);
             let both = epoch.solution.zip(truth_at(&self.voyage.truth, at));
@@ -300,7 +304,7 @@ impl Fleet {
                     let apart = earth::ecef(&own.position).0 - place;
                     (earth::c_ne(&own.position) * apart).xy().norm()
                 }),
-                alert: !matches!(state, AlertState::Normal | AlertState::Rectified),
+                alert,
             }
         }));
     }
