@@ -126,7 +126,10 @@ impl ImuLie {
                 *theta *= gyro;
                 *force *= accel;
             }
-            ImuLie::Clipped(rate) => *theta = theta.map(|x| x.clamp(-rate, rate) * 1.0),
+            ImuLie::Clipped(rate) => {
+                let most = rate * interval;
+                *theta = theta.map(|x| x.clamp(-most, most));
+            }
             ImuLie::Noise { gyro, accel } => {
                 *theta += normal3(rng) * gyro;
                 *force += normal3(rng) * accel;

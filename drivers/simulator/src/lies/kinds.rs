@@ -126,7 +126,7 @@ const CATALOGUE: &[Kind] = kinds! {
     "accelerometer bias" ALL |d| { let by = d.along(0.005, 0.05); bounded(d, Lie::Imu(ImuLie::AccelStep(by))) };
     "imu scale" ALL |d| { let [gyro, accel] = [d.signed(0.01, 0.1), d.signed(0.001, 0.01)]; bounded(d, Lie::Imu(ImuLie::Scale { gyro: 1.0 + gyro, accel: 1.0 + accel })) };
     "imu spikes" ALL |d| bounded(d, Lie::Imu(ImuLie::Spikes));
-    "imu clipped" ALL |d| { let by = d.between(0.05, 0.5); bounded(d, Lie::Imu(ImuLie::Clipped(by * DEG))) };
+    "imu clipped" ALL |d| { let by = d.between(0.1, 1.0); bounded(d, Lie::Imu(ImuLie::Clipped(by * DEG))) };
     "imu lost" ALL |d| { let by = d.between(0.01, 0.4); bounded(d, Lie::Imu(ImuLie::Lost(by))) };
     "imu gap" ALL |d| { let by = d.size(0.2, 5.0); bounded(d, Lie::Imu(ImuLie::Gap(by))) };
     "imu not a number" ALL |d| { let by = d.between(0.01, 0.2); bounded(d, Lie::Imu(ImuLie::NotANumber(by))) };
