@@ -49,8 +49,10 @@ pub struct Told {
     pub heading_error: Option<f64>,
     /// Error of its horizontal position, m.
     pub position_error: Option<f64>,
-    /// Whether the alert is up that engines differ, or that an IMU is found wrong.
+    /// Whether the alert is up that engines differ.
     pub alert: bool,
+    /// Whether the one is that an IMU is found wrong.
+    pub doubt: bool,
 }
 
 /// What came of it.
@@ -291,7 +293,7 @@ impl Fleet {
         let is_up = |condition| {
             !matches!(alerts.state(condition), AlertState::Normal | AlertState::Rectified)
         };
-        let alert = is_up(Condition::EnginesDiffer) || is_up(Condition::MountingDoubt);
+        let (alert, doubt) = (is_up(Condition::EnginesDiffer), is_up(Condition::MountingDoubt));
         log.told.extend(epochs.into_iter().map(|epoch| {
             let at = when(epoch.time);
             let both = epoch.solution.zip(truth_at(&self.voyage.truth, at));
@@ -305,6 +307,7 @@ impl Fleet {
                     (earth::c_ne(&own.position) * apart).xy().norm()
                 }),
                 alert,
+                doubt,
             }
         }));
     }

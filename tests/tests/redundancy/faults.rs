@@ -19,7 +19,7 @@ const FAULTS: [(Fault, f64, f64); 7] = [
 fn a_wrong_second_imu_is_noticed_and_the_outputs_stay_right() {
     FAULTS.into_par_iter().for_each(|(fault, within, until)| {
         let log = faulty(2, 1, fault, until).sail();
-        let alert = alert(&log);
+        let alert = alert(&log, fault);
         println!("second {fault:?}: alert {alert:?}, {:?}", log.votes);
         assert_eq!(log.used, [0], "{fault:?}");
         assert!(alert.is_some_and(|at| at <= within), "{fault:?}: {alert:?}");
@@ -32,7 +32,7 @@ fn a_wrong_second_imu_is_noticed_and_the_outputs_stay_right() {
 fn a_wrong_first_imu_is_noticed_and_left_where_something_tells_that_it_is_the_wrong_one() {
     FAULTS.into_par_iter().for_each(|(fault, within, until)| {
         let log = faulty(2, 0, fault, until).sail();
-        let (alert, switch) = (alert(&log), switch(&log));
+        let (alert, switch) = (alert(&log, fault), switch(&log));
         let (most, _) = heading(&log, FAULT);
         println!("first {fault:?}: alert {alert:?}, switch {switch:?}, {most:.2} deg");
         println!("   {:?}", log.votes);
@@ -52,7 +52,7 @@ fn of_three_the_wrong_one_is_voted_out_whichever_it_is() {
     let cases: Vec<_> = (0..3).flat_map(|wrong| FAULTS.map(|fault| (wrong, fault))).collect();
     cases.into_par_iter().for_each(|(wrong, (fault, within, until))| {
         let log = faulty(3, wrong, fault, until).sail();
-        let (alert, switch) = (alert(&log), switch(&log));
+        let (alert, switch) = (alert(&log, fault), switch(&log));
         println!("{wrong} of three {fault:?}: alert {alert:?}, switch {switch:?}");
         println!("   {:?}", log.votes);
         assert!(alert.is_some_and(|at| at <= within), "{wrong} {fault:?}: {alert:?}");

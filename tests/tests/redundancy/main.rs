@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 use insd_base::Body;
 use insd_base::units::DEG;
 use insd_engine::vote::VoteEvent;
-use insd_tests::engines::{Fleet, Log};
+use insd_tests::engines::{Fleet, Log, Told};
 
 /// When something goes wrong, s.
 const FAULT: f64 = 240.0;
@@ -61,9 +61,11 @@ enum Fault {
     Force(f64),
 }
 
-/// When the alert is first up, s after the fault.
-fn alert(log: &Log) -> Option<f64> {
-    log.told.iter().find(|told| told.alert).map(|told| told.at - FAULT)
+/// When the alert is first up, s after the fault: that engines differ, but gyros that stand still are found by
+/// their own engine.
+fn alert(log: &Log, fault: Fault) -> Option<f64> {
+    let is_up = |told: &&Told| if matches!(fault, Fault::Stuck) { told.doubt } else { told.alert };
+    log.told.iter().find(is_up).map(|told| told.at - FAULT)
 }
 
 /// When the engine in use is changed first, s after the fault.

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use axum::body::Bytes;
 use serde::Serialize;
 
-use crate::snapshot::{Alignment, Mode, Motion, Snapshot, TimeInfo};
+use crate::snapshot::{Alert, Alignment, Mode, Motion, Snapshot, TimeInfo};
 
 use super::metrics;
 
@@ -71,15 +71,15 @@ impl Frame {
     /// Whether a state differs from what it was in an earlier one: of the ship, a sensor, a port or an alert.
     pub(super) fn has_news_since(&self, earlier: &Frame) -> bool {
         let (now, before) = (self.snapshot(), earlier.snapshot());
-        let sensors = |of: &Snapshot| of.sensors.iter().map(|one| one.state).collect::<Vec<_>>();
-        let inputs = |of: &Snapshot| of.inputs.iter().map(|one| one.state).collect::<Vec<_>>();
-        let alerts = |of: &Snapshot| {
-            of.alerts.iter().map(|one| (one.id, one.instance, one.state)).collect::<Vec<_>>()
-        };
+        let alert = |one: &Alert| (one.id, one.instance, one.state);
         now.mode.name != before.mode.name
-            || sensors(now) != sensors(before)
-            || inputs(now) != inputs(before)
-            || alerts(now) != alerts(before)
+            || now
+                .sensors
+                .iter()
+                .map(|one| one.state)
+                .ne(before.sensors.iter().map(|one| one.state))
+            || now.inputs.iter().map(|one| one.state).ne(before.inputs.iter().map(|one| one.state))
+            || now.alerts.iter().map(alert).ne(before.alerts.iter().map(alert))
     }
 
     /// All of it as metrics.
