@@ -15,7 +15,7 @@ use insd_wire::nmea::AlertCommand;
 
 use crate::config::{Change, Config};
 use crate::redundancy::{Dispute, EngineStatus, FIRST, InUse, Redundancy, Said, Spare, Vote};
-use crate::speaker::{Knows, Speaker, Spoken};
+use crate::speaker::{Commanded, Knows, Speaker, Spoken};
 use crate::state::Checkpoints;
 use crate::stored;
 
@@ -34,6 +34,8 @@ pub enum Product {
     Spare(Arc<str>, Output),
     /// Something about which engine is believed.
     Vote(Vote),
+    /// What became of a command of the bridge.
+    Command(Commanded),
 }
 
 /// What became of an order.
@@ -137,8 +139,11 @@ impl Pipeline {
             }
         }
         self.handle_spares(arrival, &mut product);
+        if let Input::Storage(faults) = arrival.input {
+            self.speaker.note_storage(faults);
+        }
         let utc = self.intake.utc_at(now);
-        self.speaker.overhear(arrival, utc);
+        self.speaker.overhear(arrival, utc, |own| product(Product::Command(own)));
         if arrival.input == Input::Tick {
             let known = InUse { first: &self.engine, redundancy: self.redundancy.as_ref() };
             self.speaker.speak(&known, now, utc, |spoken| product(Product::Spoken(spoken)));

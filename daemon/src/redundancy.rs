@@ -5,7 +5,8 @@
 use std::sync::Arc;
 
 use insd_base::{
-    AlignmentStatus, Arrival, Body, Heave, Message, Mode, Motion, Received, Solution, Span, Time,
+    AlignmentStatus, Arrival, Body, Heave, Message, Mode, Motion, Party, Received, Solution, Span,
+    Time,
 };
 use insd_engine::vote::{
     Difference, Disagreement, Doubt, Record, Testimony, Voice, VoteEvent, Voter,
@@ -367,9 +368,15 @@ impl Knows for InUse<'_> {
         let of_imus = all.flat_map(Engine::findings).filter(|found| found.doubts_imu());
         let of_imus = Doubts::of(&of_imus.copied().collect::<Vec<_>>());
         let own = Doubts::of(self.engine().findings());
+        let spares = self.redundancy.iter().flat_map(|own| &own.spares).map(|spare| &spare.engine);
+        let all: Vec<&Engine> = std::iter::once(self.first).chain(spares).collect();
+        // all hear the same but for their IMUs: what one finds contradicted and another does not is the IMU
+        let in_doubt = all.iter().filter(|engine| engine.is_in_doubt()).count();
+        let is_found = all.iter().any(|engine| engine.excluded().contains(Party::Imu));
         Doubts {
             mounting: own.mounting || of_imus.mounting,
             bad_data: own.bad_data || of_imus.bad_data,
+            imu: is_found || (1..all.len()).contains(&in_doubt),
             ..own
         }
     }

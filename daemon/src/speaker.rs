@@ -3,14 +3,15 @@
 
 use insd_base::{
     AlignmentStatus, Arrival, Geodetic, Heave, Message as Measurement, Motion, PortId, Received,
-    Span, Time, UtcTime,
+    Span, StorageFaults, Time, UtcTime,
 };
 use insd_engine::{Engine, Output};
 use insd_n2k::pgn::TimeSource;
 use insd_output::{Doubts, Epoch, Message, Moment, Receiver, Station, Variation};
-use insd_wire::nmea::{AlertCommand, Sentence};
+use insd_wire::nmea::{Acn, AlertCommand, Sentence};
 
 use crate::ears::Ears;
+pub use crate::ears::Who;
 
 /// The year of the World Magnetic Model in use.
 const MODEL: u16 = 2025;
@@ -18,6 +19,22 @@ const MODEL: u16 = 2025;
 const VARIATION_SPAN: Span = Span::from_nanos(60_000_000_000);
 /// What a receiver said of its fix holds for so long.
 const RECEIVER_SPAN: Span = Span::from_nanos(5_000_000_000);
+
+/// Of those who may not command one is answered in this time: they do not fill the bridge's line.
+const REFUSAL_SPAN: Span = Span::from_nanos(1_000_000_000);
+
+/// A command of the bridge about an alert, and what became of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Commanded {
+    /// Who gave it.
+    pub who: Who,
+    /// What it was.
+    pub command: Acn,
+    /// Whether it was obeyed. Where the sender may not command it never is.
+    pub obeyed: bool,
+    /// Commands of senders who may not command, at all ports since the start.
+    pub strangers: u64,
+}
 
 /// Who knows how the ship moves.
 pub trait Knows {
@@ -64,6 +81,9 @@ pub struct Speaker {
     alignment: Option<AlignmentStatus>,
     receiver: Option<(Time, Receiver)>,
     variation: Option<(Time, Variation)>,
+    storage: StorageFaults,
+    /// Commands of those who may not command, and when one of them was answered last.
+    strangers: (u64, Option<Time>),
 }
 
 impl Speaker {
@@ -71,7 +91,15 @@ impl Speaker {
     #[must_use]
     pub fn new(station: Station) -> Self {
         let ears = Ears::default();
-        Speaker { station, ears, alignment: None, receiver: None, variation: None }
+        Speaker {
+            station,
+            ears,
+            alignment: None,
+            receiver: None,
+            variation: None,
+            storage: StorageFaults::default(),
+            strangers: (0, None),
+        }
     }
 
     /// The same, obeying the alert management of the bridge on these ports.
@@ -80,16 +108,47 @@ impl Speaker {
         Speaker { ears: Ears::new(ports), ..self }
     }
 
-    /// Takes note of what arrived: commands about alerts, and the heartbeat of who gives them.
-    pub fn overhear(&mut self, arrival: &Arrival, utc: Option<UtcTime>) {
+    /// Takes note of what arrived: commands about alerts, and the heartbeat of who gives them. Tells what
+    /// became of each command; those that follow a refused one of a stranger at once are only counted.
+    pub fn overhear(
+        &mut self,
+        arrival: &Arrival,
+        utc: Option<UtcTime>,
+        mut tell: impl FnMut(Commanded),
+    ) {
         let now = arrival.stamp.monotonic;
-        for sentence in self.ears.hear(arrival) {
+        let Some((who, sentences)) = self.ears.hear(arrival) else { return };
+        for sentence in sentences {
             match sentence {
-                Sentence::Acn(command) => self.station.acknowledge(&command, now, utc),
-                Sentence::Hbt(heartbeat) => self.station.hear(&heartbeat, now),
+                Sentence::Acn(command) => {
+                    let obeyed = if who.may_command {
+                        self.station.acknowledge(&command, now, utc)
+                    } else if self.is_to_be_answered(now) {
+                        self.station.refuse(&command, now, utc);
+                        false
+                    } else {
+                        continue;
+                    };
+                    let (who, strangers) = (who.clone(), self.strangers.0);
+                    tell(Commanded { who, command, obeyed, strangers });
+                }
+                Sentence::Hbt(heartbeat) if who.may_command => self.station.hear(&heartbeat, now),
                 _ => {}
             }
         }
+    }
+
+    /// Counts a command of somebody who may not command; whether it is answered.
+    fn is_to_be_answered(&mut self, now: Time) -> bool {
+        let (count, last) = self.strangers;
+        let answered = last.is_none_or(|last| now - last >= REFUSAL_SPAN);
+        self.strangers = (count + 1, if answered { Some(now) } else { last });
+        answered
+    }
+
+    /// Takes note of what cannot be written on the disk.
+    pub fn note_storage(&mut self, faults: StorageFaults) {
+        self.storage = faults;
     }
 
     /// Obeys the operator about an alert; whether it could.
@@ -179,6 +238,7 @@ impl Speaker {
             alignment: self.alignment,
             engines_differ: engine.engines_differ(),
             doubts: engine.doubts(),
+            storage: self.storage,
         }
     }
 
@@ -196,7 +256,7 @@ impl Speaker {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use insd_base::{Body, Input, Stamp};
+    use insd_base::{Body, Input, Sent, Stamp};
     use insd_engine::EngineConfig;
     use insd_output::{Manner, MessageKind, PortConfig, Rate};
     use insd_wire::nmea::{Acn, AlertCommand, AlertId, Manufacturer, Talker, TimeOfDay};
@@ -231,14 +291,27 @@ mod tests {
         formatters
     }
 
-    fn command(port: PortId) -> Arrival {
+    fn acn() -> Vec<u8> {
         let manufacturer = Manufacturer::new("INS");
         let alert = AlertId { manufacturer, identifier: 10_006, instance: None };
         let time = TimeOfDay::from_nanos(0);
         let line = Acn { time, alert, command: AlertCommand::Acknowledge }.write(Talker::IN);
+        line.as_bytes().to_vec()
+    }
+
+    fn arrival(port: PortId, input: Input) -> Arrival {
         let monotonic = Time::from_seconds(5.0);
         let stamp = Stamp { monotonic, system: UtcTime::from_nanos(0) };
-        Arrival { stamp, port, input: Input::Bytes(line.as_bytes().to_vec()) }
+        Arrival { stamp, port, input }
+    }
+
+    fn command(port: PortId) -> Arrival {
+        arrival(port, Input::Bytes(acn()))
+    }
+
+    fn sent(host: &str, may_command: bool, bytes: &[u8]) -> Arrival {
+        let (host, bytes) = (host.to_owned(), bytes.to_vec());
+        arrival(BRIDGE, Input::Sent(Sent { host, may_command, bytes }))
     }
 
     #[test]
@@ -246,10 +319,49 @@ mod tests {
         let station = Station::new([simulated()], vec![Body::default()], None);
         let mut speaker = Speaker::new(station).obeying([BRIDGE]);
         assert!(told(&mut speaker, 0..5).contains(&"ALF".to_owned()));
-        speaker.overhear(&command(PortId(2)), None);
+        speaker.overhear(&command(PortId(2)), None, |_| {});
         assert_eq!(told(&mut speaker, 5..8), Vec::<String>::new());
         // a caution has nothing to acknowledge, so the command is refused
-        speaker.overhear(&command(BRIDGE), None);
+        speaker.overhear(&command(BRIDGE), None, |_| {});
         assert_eq!(told(&mut speaker, 8..11), ["ARC"]);
+    }
+
+    /// What is told of a command when it arrives.
+    fn heard(speaker: &mut Speaker, arrival: &Arrival) -> Vec<(Option<String>, bool, u64)> {
+        let mut all = Vec::new();
+        speaker.overhear(arrival, None, |own| {
+            all.push((own.who.host, own.who.may_command, own.strangers));
+        });
+        all
+    }
+
+    #[test]
+    fn a_command_of_a_host_that_is_not_listed_is_refused_counted_and_told() {
+        let station = Station::new([simulated()], vec![Body::default()], None);
+        let mut speaker = Speaker::new(station).obeying([BRIDGE]);
+        told(&mut speaker, 0..5);
+        let stranger = sent("10.0.0.9", false, &acn());
+        let name = Some("10.0.0.9".to_owned());
+        assert_eq!(heard(&mut speaker, &stranger), [(name, false, 1)]);
+        // however many follow, the bridge's line is not filled with refusals
+        (0..100).for_each(|_| assert_eq!(heard(&mut speaker, &stranger), []));
+        assert_eq!(told(&mut speaker, 5..8), ["ARC"]);
+        let bridge = sent("10.0.0.2", true, &acn());
+        assert_eq!(heard(&mut speaker, &bridge), [(Some("10.0.0.2".to_owned()), true, 101)]);
+    }
+
+    #[test]
+    fn what_two_hosts_say_is_not_put_together() {
+        let station = Station::new([simulated()], vec![Body::default()], None);
+        let mut speaker = Speaker::new(station).obeying([BRIDGE]);
+        let line = acn();
+        let (first, second) = line.split_at(10);
+        assert_eq!(heard(&mut speaker, &sent("10.0.0.9", false, first)), []);
+        assert_eq!(heard(&mut speaker, &sent("10.0.0.2", true, second)), []);
+        for stranger in 0..100 {
+            heard(&mut speaker, &sent(&format!("10.0.1.{stranger}"), false, b"$"));
+        }
+        assert_eq!(heard(&mut speaker, &sent("10.0.0.2", true, first)), []);
+        assert_eq!(heard(&mut speaker, &sent("10.0.0.2", true, second)).len(), 1);
     }
 }

@@ -258,3 +258,46 @@ fn a_fed_log_is_heard_in_real_time_on_its_terminal() {
     assert!(feed.wait().unwrap().success());
     assert!(!folder.path().join("log").is_symlink());
 }
+
+/// A backbone behind a gateway: its transport, and the hosts that may command.
+fn gateway(transport: &str, commanders: &str) -> Config {
+    let mut text = installed().to_owned();
+    text += &format!("[[port]]\nname = \"bus\"\ntransport = {{ {transport} }}\n{commanders}\n");
+    text += "[[node]]\nport = \"bus\"\n";
+    Config::of_text(&text).unwrap()
+}
+
+#[test]
+fn a_node_behind_a_gateway_obeys_only_if_all_who_can_send_there_are_listed() {
+    let udp = "kind = \"gateway-udp\", bind = \"0.0.0.0:1456\", format = \"ydwg\"";
+    let known = format!("{udp}, from = [\"10.0.0.7\"]");
+    let tcp = |host: &str| {
+        format!("kind = \"gateway-tcp\", address = \"{host}:1457\", format = \"ydwg\"")
+    };
+    let list = "commands_from = [\"10.0.0.7\"]";
+    for (transport, commanders, obeys) in [
+        (udp, "", false),
+        (udp, list, false),
+        (known.as_str(), "", false),
+        (known.as_str(), list, true),
+        (&tcp("10.0.0.7"), list, true),
+        (&tcp("10.0.0.7"), "", false),
+        (&tcp("10.0.0.8"), list, false),
+        (&tcp("gateway"), list, false),
+        ("kind = \"socketcan\", interface = \"can0\"", "", true),
+    ] {
+        let config = gateway(transport, commanders);
+        let bus = config.ports.iter().find(|port| port.name == "bus").unwrap();
+        assert_eq!(bus.obeys_bus(), obeys, "{transport} {commanders}");
+    }
+}
+
+#[test]
+fn hosts_and_levels_that_make_no_sense_are_told_with_their_line_and_what_was_expected() {
+    let mut text = installed().replace("level = \"info\"", "level = \"info,security=off\"");
+    text += "[[port]]\nname = \"own\"\ntransport = { kind = \"udp\", bind = \"0.0.0.0:1456\", from = [\"bridge\"] }\n";
+    let fault = Config::of_text(&text).unwrap_err();
+    for part in ["line ", "transport.from", "a network like \"10.0.0.0/24\"", "always written"] {
+        assert!(fault.contains(part), "{part}: {fault}");
+    }
+}

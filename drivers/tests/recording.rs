@@ -43,6 +43,8 @@ fn header() -> VoyageHeader {
             },
         },
         lever_arms: LeverArms { gnss: Body::new(-6.0, 0.5, -14.0), log: Body::new(1.0, 2.0, 3.0) },
+        vessel: insd_base::VesselKind::Boat,
+        time_std: Some(0.02),
     }
 }
 

@@ -1,8 +1,10 @@
 //! What the filter assumes of sensors and sea beyond the IMU's data sheet.
 
 use insd_base::units::{DEG, DEG_PER_HOUR};
-use insd_base::{Body, ImuSpec, LeverArms};
+use insd_base::{Body, ImuSpec, LeverArms, VesselKind};
 use nalgebra::Vector3;
+
+use crate::judge::Docket;
 
 /// A lever arm that was found to be otherwise than configured.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,6 +114,8 @@ pub struct NavConfig {
     pub imu: ImuSpec,
     /// Where the sensors sit.
     pub lever_arms: LeverArms,
+    /// What carries them.
+    pub vessel: VesselKind,
     /// GNSS errors.
     pub gnss: GnssModel,
     /// Log errors.
@@ -122,6 +126,8 @@ pub struct NavConfig {
     pub gate: GateModel,
     /// Longest interval between propagations of the covariance, s.
     pub covariance_interval: f64,
+    /// How far everybody is believed at the begin.
+    pub docket: Docket,
 }
 
 impl NavConfig {
@@ -131,6 +137,7 @@ impl NavConfig {
         NavConfig {
             imu,
             lever_arms,
+            vessel: VesselKind::default(),
             gnss: GnssModel {
                 position_slow_share: 0.72,
                 rtk_slow_share: 0.5,
@@ -160,6 +167,7 @@ impl NavConfig {
                 judged_reset_time: 300.0,
             },
             covariance_interval: 0.1,
+            docket: Docket::default(),
         }
     }
 }
@@ -175,15 +183,16 @@ fn synchronisation_std(imu: &ImuSpec) -> f64 {
 
 /// 1-sigma of each component of a lever arm that was measured, m.
 const SURVEYED: f64 = 0.002;
-/// No antenna sits inside the IMU: a lever arm of exactly zero is one that was not measured. Then it is
-/// anywhere on a ship: masts are tens of metres high, and so far may the bridge be from the IMU, m.
-const UNMEASURED: f64 = 20.0;
+/// An antenna of which no more is known may be anywhere on a ship, 1-sigma of each component, m.
+const ANYWHERE: f64 = 20.0;
 
 impl NavConfig {
     /// How well the lever arm of the antenna is known, 1-sigma of each component, m.
     #[must_use]
     pub fn gnss_lever_std(&self) -> f64 {
-        let configured = if self.lever_arms.gnss.0.norm() == 0.0 { UNMEASURED } else { SURVEYED };
+        // no antenna sits inside the IMU: zeros are a lever arm that was not measured
+        let is_measured = self.lever_arms.gnss.0.norm() > 0.0;
+        let configured = if is_measured { SURVEYED } else { self.vessel.unmeasured_lever() };
         self.gnss.lever_found.map_or(configured, |found| found.std)
     }
 
@@ -207,6 +216,6 @@ impl NavConfig {
     /// Whether the antenna may be anywhere on board.
     #[must_use]
     pub fn is_gnss_lever_unknown(&self) -> bool {
-        self.gnss_lever_std() >= UNMEASURED
+        self.gnss_lever_std() >= ANYWHERE
     }
 }

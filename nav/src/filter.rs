@@ -1,23 +1,27 @@
 //! The error-state Kalman filter around the strapdown: blocks 23-32 of JP3375720B2.
 
+use std::sync::Arc;
+
 use insd_base::{
-    Body, Ecef, Message, Mode, Ned, Received, Rejection, Solution, Source, Time, earth,
+    Body, Ecef, Judgement, Message, Ned, Received, Rejection, Solution, SolutionSigma, Time, earth,
 };
-use nalgebra::{Matrix2, Matrix3, Matrix4, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, Matrix4, RowSVector, UnitQuaternion, Vector2, Vector3};
 
 use crate::aids::View;
 use crate::antenna::AntennaMotion;
 use crate::config::NavConfig;
 use crate::error_state::{
-    ATTITUDE, BERTH_OFFSET, Covariance, ErrorState, SWAY, SWAY_VELOCITY, VELOCITY,
+    ATTITUDE, BERTH_OFFSET, Covariance, ErrorState, STATES, SWAY, SWAY_VELOCITY, VELOCITY,
 };
 use crate::gate::ChiSquareGate;
 use crate::increments::Increment;
 use crate::initial::InitialState;
 use crate::innovation::{Innovation, Weighed};
+use crate::judge::{Judge, agitate};
 use crate::nominal::Nominal;
+use crate::pace::Pace;
 use crate::propagation::{self, Regime, Stretch, markov_decay};
-use crate::report::{AidReport, Outcome, Report};
+use crate::report::{Outcome, Report};
 use crate::sea_window::LevelWindow;
 use crate::separate_bias::SeparateBias;
 use crate::solution_sigma::solution_sigma;
@@ -27,15 +31,22 @@ use crate::symmetry::{keep_turn_unknown, turn_biases};
 use crate::timeline::Estimator;
 use crate::trust::Trust;
 use ahead::VelocityEpoch;
+pub use entry::Judged;
+pub(crate) use entry::NO_INNOVATION;
+use entry::detail;
 
 pub mod ahead;
+mod entry;
 mod estimates;
 mod gnss;
 mod installation;
+pub mod judged;
 pub mod kept;
 mod level;
+mod mode;
 mod motion;
 mod others;
+mod sideways;
 
 /// An estimate, its covariance and what is needed to carry both on.
 #[derive(Clone, Debug)]
@@ -58,12 +69,28 @@ pub struct Filter {
     redated: Option<f64>,
     last_relative: Option<Time>,
     last_water: Option<Time>,
+    /// When the motion across was last assumed, and when a log last told it.
+    held: Option<Time>,
+    told_across: Option<Time>,
+    pace: Pace,
+    /// When another reference last told a position.
+    last_reference: Option<Time>,
     turned: Vector3<f64>,
     corrected: ErrorState,
     interval: f64,
     unswayed: f64,
     absorbed: Vector3<f64>,
     velocity_epoch: Option<VelocityEpoch>,
+    /// Who is to be believed, while the filter navigates and nothing holds the ship; what it has not been told
+    /// yet: the way since, and corrections.
+    judge: Option<Arc<Judge>>,
+    judged_since: Time,
+    /// The heading was found with a reference that nothing bears out yet.
+    heading_doubted: bool,
+    unjudged: Stretch,
+    owed: RowSVector<f64, STATES>,
+    /// Sigmas that cover all that may be, while somebody may lie.
+    covered: Option<SolutionSigma>,
     /// What wrong constants of the installation would do, while the filter navigates.
     bias: Option<SeparateBias>,
     /// Whether they told that the antenna sits elsewhere, or speaks late.
@@ -72,27 +99,11 @@ pub struct Filter {
     log_lever_std: Option<Vector3<f64>>,
 }
 
-/// What the gates said of an innovation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Judged {
-    /// Whether it was absorbed, or why not.
-    pub outcome: Outcome,
-    /// Logarithm of its likelihood, bounded by the gate.
-    pub log_likelihood: f64,
-    /// Value and expected sigma of each component; NaN where there is none.
-    pub innovation: [(f64, f64); 3],
-}
-
 /// Correction of the attitude after which the knowledge of the biases is turned with it, rad.
 const TURN: f64 = 2e-4;
 
 /// Gap over which the heights are not the ship's: their mean begins anew, s.
 const UNSEEN: f64 = 0.5;
-
-/// After this long without GNSS the solution no longer counts as aided by it, s.
-const GNSS_TIMEOUT: f64 = 5.0;
-/// The same for logs and references, which may be slower, s.
-const RELATIVE_TIMEOUT: f64 = 15.0;
 
 impl Filter {
     /// A filter from an initial state.
@@ -116,12 +127,22 @@ impl Filter {
             redated: None,
             last_relative: None,
             last_water: None,
+            held: None,
+            told_across: None,
+            pace: Pace::default(),
+            last_reference: None,
             turned: Vector3::zeros(),
             corrected: ErrorState::zeros(),
             interval: config.covariance_interval,
             unswayed: 0.0,
             absorbed: Vector3::zeros(),
             velocity_epoch: None,
+            judge: None,
+            judged_since: initial.time,
+            heading_doubted: false,
+            unjudged: Stretch::new(),
+            owed: RowSVector::zeros(),
+            covered: None,
             bias: None,
             mended: false,
             log_lever_std: None,
@@ -152,6 +173,7 @@ impl Filter {
         self.navigating = true;
         self.interval = self.config.covariance_interval;
         self.bias = Some(SeparateBias::new(&self.view()));
+        self.be_judged();
     }
 
     /// Propagates the covariance only every so many seconds until navigation begins: for searches
@@ -192,6 +214,13 @@ impl Filter {
             let response = bias.response_mut();
             propagation::carry(response, &self.stretch, gradient, &self.config, &regime);
         }
+        if self.is_restless() {
+            agitate(&mut self.covariance, self.stretch.duration);
+        }
+        if self.judge.is_some() {
+            let gradient = self.gravity.gradient();
+            propagation::carry(&mut self.owed, &self.stretch, gradient, &self.config, &regime);
+        }
         self.relax_nominal(self.stretch.duration);
         self.nominal.attitude.renormalize();
         self.antenna.note(self.time, &self.antenna_velocity());
@@ -228,7 +257,7 @@ impl Filter {
 
     /// Applies an innovation if it passes the chi-square gate and nothing else speaks against it.
     /// The covariance must be settled.
-    fn judge<const M: usize>(
+    fn gated<const M: usize>(
         &mut self,
         innovation: &Innovation<M>,
         refused: Option<Rejection>,
@@ -254,6 +283,7 @@ impl Filter {
         let error = weighed.update(&mut self.covariance);
         self.nominal.inject(&error);
         self.corrected += error;
+        self.owed += error.transpose();
         self.absorbed += VELOCITY.of(&error);
         if self.sway.is_some() {
             let down = -self.nominal.position.normalize();
@@ -284,7 +314,7 @@ impl Filter {
     /// absorbed as a measurement.
     pub fn impose<const M: usize>(&mut self, innovation: &Innovation<M>) -> Judged {
         self.settle_sway();
-        let judged = self.judge(innovation, None);
+        let judged = self.gated(innovation, None);
         self.note(judged.outcome);
         judged
     }
@@ -303,6 +333,7 @@ impl Filter {
         let offset = Matrix2::from_diagonal_element(offset_std * offset_std);
         BERTH_OFFSET.renew(&mut self.covariance, &offset);
         self.sway = Some(sway);
+        self.be_judged();
     }
 
     /// How the ship sways, as far as she is taken as moored.
@@ -330,6 +361,7 @@ impl Filter {
         BERTH_OFFSET.renew(&mut self.covariance, &Matrix2::zeros());
         SWAY.renew(&mut self.covariance, &Matrix4::zeros());
         SWAY_VELOCITY.renew(&mut self.covariance, &Matrix4::zeros());
+        self.be_judged();
     }
 
     fn bounded_likelihood<const M: usize>(&self, weighed: &Weighed<M>) -> f64 {
@@ -347,25 +379,6 @@ impl Filter {
         self.nominal.velocity - self.absorbed
     }
 
-    fn gnss_is_fresh(&self) -> bool {
-        self.trust.last_used().is_some_and(|last| (self.time - last).as_seconds() < GNSS_TIMEOUT)
-    }
-
-    /// Which aids carry the solution.
-    #[must_use]
-    pub fn mode(&self) -> Mode {
-        let relative = self
-            .last_relative
-            .is_some_and(|last| (self.time - last).as_seconds() < RELATIVE_TIMEOUT);
-        if self.gnss_is_fresh() {
-            Mode::Aided
-        } else if relative {
-            Mode::DeadReckoning
-        } else {
-            Mode::Inertial
-        }
-    }
-
     /// Claimed 1-sigma of the heading, rad.
     #[must_use]
     pub fn heading_std(&self) -> f64 {
@@ -373,21 +386,22 @@ impl Filter {
     }
 }
 
-fn detail<const M: usize>(weighed: &Weighed<M>) -> [(f64, f64); 3] {
-    let sigma = weighed.sigma();
-    std::array::from_fn(|i| if i < M { (weighed.z()[i], sigma[i]) } else { (f64::NAN, f64::NAN) })
-}
-
 impl Estimator for Filter {
     fn advance(&mut self, increment: &Increment) {
         let step = strapdown::integrate(&mut self.nominal, &self.gravity, increment);
         self.stretch.add(&step);
         self.stretch.add_noise(increment);
+        if self.judge.is_some() {
+            self.unjudged.add(&step);
+            self.unjudged.add_noise(increment);
+        }
         self.rate = increment.end_rate;
         self.time = increment.to;
         if self.stretch.duration >= self.interval - 1e-6 {
             self.settle();
         }
+        self.hold_to_wheels();
+        self.look_at_pace();
         if self.level.is_full() {
             self.settle();
             self.hold_sea_level();
@@ -403,6 +417,7 @@ impl Estimator for Filter {
             Message::Log(log) => self.apply_log(log, received.source, &mut report),
             Message::Reference(r) => self.apply_reference(r, received.source, &mut report),
         }
+        self.heed();
         report
     }
 
@@ -410,6 +425,7 @@ impl Estimator for Filter {
         let acceleration = self.antenna.acceleration(self.time, &self.antenna_velocity());
         let view = self.view().at_gnss_time(&acceleration);
         let sigma = solution_sigma(&view, &acceleration, &self.covariance);
+        let sigma = self.covered.map_or(sigma, |covered| sigma.greatest(&covered));
         let v_n = view.v_n();
         let turn_of_n = view.c_nb().transpose() * earth::transport_rate(&view.geodetic, &v_n);
         Solution {
@@ -420,6 +436,10 @@ impl Estimator for Filter {
             rate: Body(view.rate - turn_of_n),
             sigma,
             mode: self.mode(),
+            judgement: self
+                .judge
+                .as_ref()
+                .map_or_else(Judgement::default, |judge| judge.judgement()),
         }
     }
 
@@ -444,26 +464,4 @@ impl Estimator for Filter {
 /// The position of the IMU that a fix of its antenna means, ECEF, m.
 fn imu_position(view: &View, antenna: &insd_base::Geodetic, lever: &Vector3<f64>) -> Ecef {
     Ecef(earth::ecef(antenna).0 - view.c_eb * lever)
-}
-
-/// Where there is no innovation to tell of.
-pub(crate) const NO_INNOVATION: [(f64, f64); 3] = [(f64::NAN, f64::NAN); 3];
-
-/// Enters a judgement in the report of a message.
-fn enter(
-    report: &mut Report,
-    time: Time,
-    source: Source,
-    aid: &'static str,
-    judged: &Judged,
-) -> Outcome {
-    report.log_likelihood += judged.log_likelihood;
-    report.aids.push(AidReport {
-        time,
-        source,
-        aid,
-        outcome: judged.outcome,
-        innovation: judged.innovation,
-    });
-    judged.outcome
 }

@@ -39,6 +39,21 @@ impl<const M: usize> Innovation<M> {
     }
 }
 
+impl Innovation<3> {
+    /// Two of one instant together.
+    #[must_use]
+    pub fn beside(&self, other: &Innovation<3>) -> Innovation<6> {
+        let mut both =
+            Innovation::<6> { z: SVector::zeros(), h: SMatrix::zeros(), r: SMatrix::zeros() };
+        for (at, own) in [(0, self), (3, other)] {
+            both.z.fixed_rows_mut::<3>(at).copy_from(&own.z);
+            both.h.fixed_rows_mut::<3>(at).copy_from(&own.h);
+            both.r.fixed_view_mut::<3, 3>(at, at).copy_from(&own.r);
+        }
+        both
+    }
+}
+
 impl<const M: usize> Weighed<M> {
     /// Normalised innovation squared, z^T S^-1 z: chi-square with M degrees of freedom.
     #[must_use]
@@ -92,6 +107,28 @@ impl<const M: usize> Weighed<M> {
         let mut effect = self.innovation.h * response.transpose() + direct;
         self.factor.l_dirty().solve_lower_triangular_mut(&mut effect);
         (effect.transpose(), self.whitened())
+    }
+
+    /// What an effect on the errors (a row for each cause) and `direct` do to the innovation, H U + D
+    /// transposed, as it is and whitened, and the innovation itself, whitened.
+    #[must_use]
+    pub fn effect_of<const W: usize>(
+        &self,
+        response: &SMatrix<f64, W, STATES>,
+        direct: &SMatrix<f64, W, M>,
+    ) -> (SMatrix<f64, W, M>, SMatrix<f64, W, M>, SVector<f64, M>) {
+        let mut effect = *direct;
+        for state in 0..STATES {
+            for row in 0..M {
+                let weight = self.innovation.h[(row, state)];
+                if weight != 0.0 {
+                    effect.column_mut(row).axpy(weight, &response.column(state), 1.0);
+                }
+            }
+        }
+        let mut whitened = effect.transpose();
+        self.factor.l_dirty().solve_lower_triangular_mut(&mut whitened);
+        (effect, whitened.transpose(), self.whitened())
     }
 
     /// Takes from an effect on the errors what an update with this gain takes from it:

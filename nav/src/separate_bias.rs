@@ -6,11 +6,11 @@
 //! carried along beside it. With b the error of the constants, true minus configured, and U its effect
 //! on the errors of the estimate,
 //!
-//! E\[x\] = U b,   U <- Phi U,   U <- U - K H U,   E\[z\] = G b,   G = H U,
+//! E\[x\] = U b,   U <- Phi U,   E\[z\] = G b,   G = H U + D,   U <- U - K G,
 //!
-//! with the gains that were really used, K = 0 where a measurement was refused. The filter's innovations
-//! then tell b by least squares, the information growing by G^T S^-1 G and the evidence by G^T S^-1 z,
-//! and the estimate that another b would have led to is x + U b (Friedland, Treatment of Bias in
+//! D what the constants do to a measurement itself, with the gains that were really used, K = 0 where a
+//! measurement was refused. The filter's innovations then tell b by least squares, the information growing by
+//! G^T S^-1 G and the evidence by G^T S^-1 z, and the estimate that another b would have led to is x + U b (Friedland, Treatment of Bias in
 //! Recursive Filtering, IEEE Transactions on Automatic Control AC-14 (1969), eqs. (13)-(27); as a test:
 //! Willsky and Jones, A Generalized Likelihood Ratio Approach, AC-21 (1976)).
 //!
@@ -141,6 +141,15 @@ impl SeparateBias {
         self.set(VELOCITY.start(), &by_lever, &acceleration.transpose());
     }
 
+    /// What was heard of late is somebody else's fault, and the estimate is another now: what is known of the
+    /// constants stays, and nothing speaks against them.
+    pub fn excuse(&mut self, view: &View) {
+        let before = *self;
+        *self = SeparateBias::new(view);
+        self.information = before.information;
+        (self.heard, self.misfit, self.strain) = (before.heard, before.heard, 1.0);
+    }
+
     fn set(&mut self, state: usize, by_lever: &Matrix3<f64>, by_delay: &SMatrix<f64, 1, 3>) {
         self.response.fixed_view_mut::<3, 3>(0, state).copy_from(by_lever);
         self.response.fixed_view_mut::<1, 3>(DELAY_AT, state).copy_from(by_delay);
@@ -151,9 +160,12 @@ impl SeparateBias {
         &mut self.response
     }
 
-    /// Hears an innovation of GNSS, used or not, before it is absorbed.
-    pub fn hear<const M: usize>(&mut self, weighed: &Weighed<M>) {
-        let mean_square = weighed.nis() / M as f64;
+    /// Hears an innovation of GNSS, used or not, before it is absorbed. What it is off by below `least` strains
+    /// nothing, 1-sigma of each component: receivers state what they resolve, and clocks and masts are not that stiff.
+    pub fn hear<const M: usize>(&mut self, weighed: &Weighed<M>, least: f64) {
+        let sigma = weighed.sigma().map(|sigma| sigma.hypot(least));
+        let strains = weighed.z().component_div(&sigma).norm_squared() / M as f64;
+        let mean_square = strains.min(weighed.nis() / M as f64);
         self.weigh_in(weighed, &SMatrix::zeros());
         self.strain += (mean_square.min(FAULT) - self.strain) * (M as f64 / self.heard.min(MOMENT));
     }
@@ -168,6 +180,16 @@ impl SeparateBias {
         let mut direct = SMatrix::<f64, M, CONSTANTS>::zeros();
         direct.fixed_columns_mut::<3>(LOG_AT).copy_from(by_lever);
         self.weigh_in(weighed, &direct);
+    }
+
+    /// The log was absorbed with a gain: the error of its lever arm came with it.
+    pub fn absorb_log<const M: usize>(
+        &mut self,
+        gain: &SMatrix<f64, STATES, M>,
+        by_lever: &SMatrix<f64, M, 3>,
+    ) {
+        let mut own = self.response.fixed_rows_mut::<3>(LOG_AT);
+        own -= by_lever.transpose() * gain.transpose();
     }
 
     fn weigh_in<const M: usize>(
@@ -303,7 +325,7 @@ mod tests {
             let scatter = |k: i32| (f64::from(second * second + k) * 0.37).sin() * noise;
             let z = by_lever * off + Vector3::new(scatter(0), scatter(5), scatter(11));
             let innovation = Innovation { z, h, r: M3::from_diagonal_element(noise * noise) };
-            bias.hear(&innovation.weigh(&Covariance::identity().scale(1e-9)).unwrap());
+            bias.hear(&innovation.weigh(&Covariance::identity().scale(1e-9)).unwrap(), 0.0);
         }
         bias
     }
@@ -328,7 +350,7 @@ mod tests {
                 h,
                 r: M3::from_diagonal_element(0.0025),
             };
-            lying.hear(&innovation.weigh(&Covariance::identity().scale(1e-9)).unwrap());
+            lying.hear(&innovation.weigh(&Covariance::identity().scale(1e-9)).unwrap(), 0.0);
         }
         assert_eq!(lying.finding(), None);
         assert!(lying.strain().unwrap() > 20.0, "but the strain shows");

@@ -5,7 +5,9 @@ use insd_base::{Geodetic, Ned, SolutionSigma, earth};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use crate::aids::View;
-use crate::error_state::{ATTITUDE, Covariance, GNSS_DELAY, POSITION, STRAPDOWN_STATES, VELOCITY};
+use crate::error_state::{
+    ATTITUDE, Covariance, ErrorState, GNSS_DELAY, POSITION, STRAPDOWN_STATES, VELOCITY,
+};
 
 type Rows = SMatrix<f64, 3, STRAPDOWN_STATES>;
 
@@ -41,6 +43,21 @@ pub fn solution_sigma(view: &View, acceleration: &Vector3<f64>, p: &Covariance) 
     SolutionSigma {
         position: Ned(std(&position, &-view.v_n())),
         velocity: Ned(std(&velocity, &-(view.c_ne * acceleration))),
+        roll: euler.x,
+        pitch: euler.y,
+        heading: euler.z,
+    }
+}
+
+/// What an error of the estimate does to each component of a solution, as its size.
+#[must_use]
+pub fn difference(view: &View, error: &ErrorState) -> SolutionSigma {
+    let own = error.fixed_rows::<STRAPDOWN_STATES>(0).into_owned();
+    let (velocity, angles) = rows(view);
+    let euler = (angles * own).abs();
+    SolutionSigma {
+        position: Ned((view.c_ne * POSITION.of(error)).abs()),
+        velocity: Ned((velocity * own).abs()),
         roll: euler.x,
         pitch: euler.y,
         heading: euler.z,

@@ -293,7 +293,8 @@ impl Fleet {
         let is_up = |condition| {
             !matches!(alerts.state(condition), AlertState::Normal | AlertState::Rectified)
         };
-        let (alert, doubt) = (is_up(Condition::EnginesDiffer), is_up(Condition::MountingDoubt));
+        let alert = is_up(Condition::EnginesDiffer);
+        let doubt = is_up(Condition::MountingDoubt) || is_up(Condition::ImuDoubt);
         log.told.extend(epochs.into_iter().map(|epoch| {
             let at = when(epoch.time);
             let both = epoch.solution.zip(truth_at(&self.voyage.truth, at));

@@ -12,6 +12,9 @@ use super::EightState;
 use super::aids::{self, LogReading, Split};
 use super::belief::{Innovation, considered as k, state as x};
 
+/// Attitude that a levelled ship under way is unsure of from moment to moment, rad: it carries the antenna, and where only
+/// positions tell how she moves nothing else may be taken from it.
+const UNLEVEL: f64 = 0.01;
 const GNSS_VELOCITY: &str = "gnss_velocity";
 const GNSS_POSITION: &str = "gnss_position";
 
@@ -53,7 +56,10 @@ impl EightState {
                 report.floored.push(GNSS_POSITION);
             }
             let share = self.config.gnss.position_slow_share_for(self.rtk == Some(true));
-            let split = split(position, &std.value, share);
+            let mut split = split(position, &std.value, share);
+            if fix.velocity.is_none() {
+                split.white = split.white.map(|white| white.hypot(UNLEVEL * lever.norm()));
+            }
             let innovation = aids::gnss_position(&self.scene(), &split, &lever, &self.belief);
             let used = self.judge(&innovation, fix.time, source, GNSS_POSITION, &mut report);
             self.gnss_used = used.then_some(self.time).or(self.gnss_used);

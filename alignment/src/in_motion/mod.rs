@@ -311,6 +311,7 @@ impl Estimator for EightState {
                 heading: self.heading.1,
             },
             mode: Mode::InMotionAlignment,
+            judgement: insd_base::Judgement::default(),
         }
     }
 

@@ -1,37 +1,34 @@
 //! Plausibility of messages and of our own solution: what is not finite or not physical never
 //! reaches the filter and never leaves it.
 
-use insd_base::{Geodetic, Message, Ned, Received, Solution};
+use insd_base::{Geodetic, Message, Ned, Received, Solution, VesselKind};
 
-/// Speeds beyond this are no ship's, m/s.
+/// Speeds beyond this are no craft's, m/s.
 const MAX_SPEED: f64 = 500.0;
 /// Heights beyond this are no ship's, m.
 const MAX_HEIGHT: f64 = 20_000.0;
 
 /// The message without its implausible parts, and the names of the aids they belonged to.
-pub(crate) fn checked(received: &Received) -> (Received, Vec<&'static str>) {
+pub(crate) fn checked(received: &Received, vessel: VesselKind) -> (Received, Vec<&'static str>) {
     let mut faults = Vec::new();
+    let fastest = vessel.greatest_speed();
+    let is_speed = |speed: &f64| speed.abs() < fastest;
     let mut clean = *received;
     match &mut clean.message {
         Message::Imu(_) => {}
         Message::Gnss(fix) => {
             keep(&mut fix.position, is_place, "gnss_position", &mut faults);
-            keep(&mut fix.velocity, is_velocity, "gnss_velocity", &mut faults);
+            keep(&mut fix.velocity, |v| v.0.iter().all(is_speed), "gnss_velocity", &mut faults);
         }
         Message::Log(log) => {
             for component in [&mut log.u, &mut log.v, &mut log.w] {
-                keep(component, |speed| speed.abs() < MAX_SPEED, "log", &mut faults);
+                keep(component, is_speed, "log", &mut faults);
             }
         }
         Message::Reference(reference) => {
             keep(&mut reference.position, is_place, "reference_position", &mut faults);
-            keep(
-                &mut reference.v_north,
-                |v| v.abs() < MAX_SPEED,
-                "reference_velocity",
-                &mut faults,
-            );
-            keep(&mut reference.v_east, |v| v.abs() < MAX_SPEED, "reference_velocity", &mut faults);
+            keep(&mut reference.v_north, is_speed, "reference_velocity", &mut faults);
+            keep(&mut reference.v_east, is_speed, "reference_velocity", &mut faults);
             let is_angle = |angle: &f64| angle.abs() < 10.0;
             keep(&mut reference.heading, is_angle, "reference_heading", &mut faults);
         }

@@ -1,14 +1,20 @@
 //! What is found to be otherwise than configured, and what follows from it.
 
-use insd_base::{Estimates, Event, Finding, Mode, ModeReason, Received, Time};
+use insd_base::{
+    Estimates, Event, Fault, Finding, GnssFix, Message, Mode, ModeReason, Received, Time,
+};
 use insd_nav::Estimator;
 use insd_nav::config::LeverFound;
+use insd_nav::filter::judged::ImuState;
+use insd_nav::judge::Aid;
 
 use crate::trial::Misled;
 use crate::{Engine, Stage};
 
 /// Alignments that are begun anew because GNSS refutes what they found.
 const RETRIES: u8 = 3;
+/// An IMU that the judge found to be of no use is not believed again before this, s.
+const SENTENCE: f64 = 1800.0;
 /// What was found of the lever arm is taken to be so many times as unsure for the next alignment, and by
 /// no less than this, m.
 const UNSURE: f64 = 2.0;
@@ -27,14 +33,31 @@ impl Engine {
     pub(crate) fn consider_another(&mut self) {
         let Stage::Running(line) = &self.stage else { return };
         let time = line.now();
+        match line.estimator().imu_state() {
+            ImuState::Believed => {}
+            ImuState::Disturbed => return self.start_over(time, ModeReason::HeadingRefuted),
+            ImuState::Wrong => {
+                self.surveyor.is_refuted = true;
+                self.surveyor.condemned = Some(time);
+                return self.start_over(time, ModeReason::HeadingRefuted);
+            }
+        }
         let Some(misled) = line.estimator().refuted_by() else {
-            self.surveyor.is_refuted &= !line.estimator().is_acquitted();
+            let condemned = self.surveyor.condemned;
+            let is_served = condemned.is_none_or(|at| (time - at).as_seconds() > SENTENCE);
+            self.surveyor.is_refuted &= !(is_served && line.estimator().is_acquitted());
             return;
         };
         let knows_nothing = self.nav.gnss.lever_found == Some(LeverFound::UNKNOWN);
         match misled {
             Misled::Found(_) if self.retried >= RETRIES => return,
             Misled::Found(estimates) => self.learn_of(&estimates),
+            Misled::Unknown if line.estimator().is_heading_unchecked() => {
+                let docket = self.nav.docket.without(Fault::HeadingOffset, time);
+                self.start_over(time, ModeReason::HeadingRefuted);
+                self.nav.docket = docket;
+                return;
+            }
             Misled::Unknown if knows_nothing || self.retried >= RETRIES => {
                 self.surveyor.is_refuted = true;
                 self.nav.gnss.lever_found = None;
@@ -61,6 +84,18 @@ impl Engine {
             self.reject(received, aid, why);
         }
         left
+    }
+
+    /// A message without a velocity that the others refute: nobody is measured by it.
+    pub(crate) fn unrefuted(&self, received: &Received) -> Received {
+        let is_refuted = self.judge().is_some_and(|judge| judge.withholds(Aid::GnssVelocity));
+        let message = match received.message {
+            Message::Gnss(fix) if is_refuted => {
+                Message::Gnss(GnssFix { velocity: None, velocity_std: None, ..fix })
+            }
+            other => other,
+        };
+        Received { message, ..*received }
     }
 
     pub(crate) fn tell_installation(&mut self, time: Time) {

@@ -4,6 +4,7 @@
 //! Sans-I/O: [`Engine::handle`] takes one message; then [`Engine::poll_output`] is drained. Pure: no
 //! I/O, no clock, no thread, no randomness.
 
+mod blind;
 mod checkpoint;
 mod checks;
 mod coarse;
@@ -19,6 +20,7 @@ mod relay;
 mod resume;
 mod resumption;
 mod ship;
+mod standings;
 mod surveyor;
 mod trial;
 pub mod vote;
@@ -29,7 +31,7 @@ use insd_alignment::{AlignmentConfig, StoredState, Verdict};
 use insd_base::{
     AlignmentStatus, Body, Counts, Event, Finding, Geodetic, ImuSample, ImuSpec, Innovation,
     LeverArms, Message, Mode, ModeReason, Received, Rejection, Solution, Span, StartCondition,
-    Time, VoyageHeader,
+    Time, VesselKind, VoyageHeader,
 };
 use insd_nav::{
     Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Report, Timeline,
@@ -44,6 +46,7 @@ use recent::Recent;
 use relay::Relay;
 use resumption::Resumption;
 use ship::Ship;
+use standings::Told;
 use surveyor::Surveyor;
 
 /// What the engine must know before the first message.
@@ -66,6 +69,8 @@ pub struct EngineConfig {
     pub stored: Option<StoredState>,
     /// How well GNSS epochs and IMU samples agree in time, 1-sigma, s; `None`: by the grade of the IMU.
     pub time_std: Option<f64>,
+    /// What carries the sensors.
+    pub vessel: VesselKind,
     /// Whether the mounting of the IMU is as the operator wants it, whatever gravity and course say: a ferry
     /// with two bows.
     pub accept_mounting: bool,
@@ -88,7 +93,8 @@ impl EngineConfig {
             output_rate,
             alignment: AlignmentConfig::default(),
             stored: None,
-            time_std: None,
+            time_std: header.time_std,
+            vessel: header.vessel,
             accept_mounting: false,
             relay: true,
             points: Vec::new(),
@@ -130,6 +136,8 @@ pub struct Engine {
     surveyor: Surveyor,
     /// What makes the IMU of no use, while something does.
     shunned: Option<Finding>,
+    /// What was told of how everybody stands.
+    told: Told,
     /// Alignments that were begun anew because GNSS refuted what they found.
     retried: u8,
     recent: Recent,
@@ -165,6 +173,7 @@ impl Engine {
     #[must_use]
     pub fn new(config: EngineConfig) -> Self {
         let mut nav = NavConfig::new(config.imu, config.lever_arms);
+        nav.vessel = config.vessel;
         nav.gnss.delay_std = config.time_std.unwrap_or(nav.gnss.delay_std);
         Engine {
             conditioner: Conditioner::new(&config.imu),
@@ -173,6 +182,7 @@ impl Engine {
             surveyor: Surveyor::new(&config.lever_arms, config.accept_mounting),
             period: Span::from_seconds(1.0 / config.output_rate),
             shunned: None,
+            told: Told::default(),
             retried: 0,
             recent: Recent::default(),
             relay: Relay::default(),
@@ -270,6 +280,9 @@ impl Engine {
 
     /// Levels anew, as if nothing had been.
     fn start_over(&mut self, time: Time, why: ModeReason) {
+        if let Some(judge) = self.judge() {
+            self.nav.docket = judge.docket().begun_anew(time);
+        }
         self.stage = Stage::Levelling(Box::new(Coarse::new(&self.config)));
         self.herald = Herald::new(&self.config.imu, self.config.alignment.accuracy);
         self.next_epoch = None;
@@ -311,6 +324,7 @@ impl Engine {
                     self.emit(solution);
                 }
                 self.tell_alignment();
+                self.tell_standings();
                 self.tell_installation(increment.to);
                 self.consider_another();
                 self.tell_of_stored();
@@ -372,14 +386,14 @@ impl Engine {
             self.reject(received, source.name(), reason);
             return;
         }
-        let (checked, faults) = checks::checked(received);
+        let (checked, faults) = checks::checked(received, self.config.vessel);
         for aid in faults {
             self.reject(received, aid, Rejection::OutOfRange);
         }
         let checked = self.surveyor.completed(&checked);
         self.herald.hear(&checked);
         self.relay.hear(&checked);
-        self.surveyor.hear(&checked);
+        self.surveyor.hear(&self.unrefuted(&checked));
         let Some(checked) = self.believed(received, &checked) else { return };
         match &mut self.stage {
             Stage::Levelling(coarse) => coarse.observe(&checked),
@@ -408,7 +422,8 @@ impl Engine {
         self.enter(solution.time, solution.mode, self.facts(), None);
         self.surveyor.see(&solution);
         if self.shunned.is_none() {
-            self.outputs.push_back(Output::Solution(solution));
+            let judged = self.judged(solution);
+            self.outputs.push_back(Output::Solution(judged));
         }
     }
 

@@ -1,7 +1,10 @@
 //! What those who look on are told of the engine, whenever they ask.
 
 use insd_alignment::{Fine, StoredState};
-use insd_base::{Disturbance, Estimates, Heave, Mode, Motion};
+use insd_base::{
+    Disturbance, Estimates, Heave, Integrity, Judgement, Mode, Motion, Parties, Solution, Stands,
+};
+use insd_nav::judge::Judge;
 use insd_nav::{Estimator, Filter, Increment};
 
 use crate::ship::Ship;
@@ -24,7 +27,7 @@ impl Engine {
             return self.config.relay.then(|| self.relay.motion(reach)).flatten();
         }
         let ship = self.ship()?;
-        let solution = Some(ship.solution()).filter(checks::is_sound)?;
+        let solution = Some(self.judged(ship.solution())).filter(checks::is_sound)?;
         let filter = ship.likeliest().map(Fine::filter);
         let acceleration = filter.zip(self.last.as_ref());
         Some(Motion {
@@ -63,6 +66,38 @@ impl Engine {
     pub fn disturbance(&self) -> Option<Disturbance> {
         let fine = self.ship().filter(|ship| ship.has_one_heading())?.likeliest()?;
         self.trace.disturbance(fine)
+    }
+
+    /// Who is left out, or doubted and cannot be left out, as it is known now.
+    #[must_use]
+    pub fn excluded(&self) -> Parties {
+        let judged = self.judge().map(|judge| judge.judgement().excluded).unwrap_or_default();
+        judged.and(self.surveyor.excluded())
+    }
+
+    /// Whether sensors contradict each other, and it is not known who is wrong.
+    #[must_use]
+    pub fn is_in_doubt(&self) -> bool {
+        let integrity = self.judge().map(|judge| judge.judgement().integrity);
+        integrity == Some(Integrity::Contradiction)
+    }
+
+    /// How all stand with whom the ship is navigated by; none before she is.
+    pub fn standings(&self) -> impl Iterator<Item = Stands> {
+        self.judge().into_iter().flat_map(|judge| judge.docket().all())
+    }
+
+    /// A solution with all that is found of the sensors.
+    pub(crate) fn judged(&self, solution: Solution) -> Solution {
+        let Judgement { integrity, excluded } = solution.judgement;
+        let excluded = excluded.and(self.surveyor.excluded());
+        Solution { judgement: Judgement { integrity, excluded }, ..solution }
+    }
+
+    /// The judge of the navigator, if there is one.
+    #[must_use]
+    pub fn judge(&self) -> Option<&Judge> {
+        self.ship()?.likeliest()?.filter().judge()
     }
 
     /// The ship on her time line, if the IMU has been heard since the engine was made.

@@ -72,6 +72,7 @@ impl Relay {
                 heading: heading_std,
             },
             mode: Mode::Standby,
+            judgement: insd_base::Judgement::default(),
         };
         let motion =
             Motion { solution, acceleration: None, covariance_north_east: None, current: None };

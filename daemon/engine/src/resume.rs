@@ -71,7 +71,7 @@ impl Engine {
         }
         let start = fine.filter().time();
         let (fine, aligned) = (Box::new(fine), kept.aligned);
-        let ship = Ship::Navigating { fine, aligned, verdict: None, trial: None };
+        let ship = Ship::Navigating { fine, aligned, verdict: None, trial: None, blind: None };
         self.stage = Stage::Running(Box::new(Timeline::new(ship, start)));
         self.conditioner = conditioner;
         self.herald.take_up(&kept.herald, by);
@@ -101,9 +101,15 @@ impl Engine {
 
     /// Ends the trial of a resumption once the sensors have spoken.
     pub(crate) fn judge_resumption(&mut self) {
-        let (Some(resumption), Stage::Running(line)) = (&self.resumption, &self.stage) else {
+        if self.resumption.is_none() {
+            return;
+        }
+        let is_in_doubt =
+            self.judge().is_some_and(|judge| judge.is_in_doubt() || judge.docket().is_restless());
+        let (Some(resumption), Stage::Running(line)) = (&mut self.resumption, &self.stage) else {
             return;
         };
+        resumption.note_doubt(is_in_doubt);
         let time = line.now();
         match resumption.finding(time) {
             None => {}

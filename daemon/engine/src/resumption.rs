@@ -27,6 +27,8 @@ pub(crate) struct Resumption {
     gravity: Gravity,
     /// The filter has taken itself as lost.
     lost: bool,
+    /// Somebody contradicts the others, or the IMU is not believed.
+    contradicted: bool,
 }
 
 /// What became of it.
@@ -87,6 +89,7 @@ impl Resumption {
             heading: Witness::default(),
             gravity: Gravity::default(),
             lost: false,
+            contradicted: false,
         }
     }
 
@@ -112,6 +115,11 @@ impl Resumption {
             };
             witness.hear(aid.time, &aid.innovation);
         }
+    }
+
+    /// Takes whether the judge finds that somebody contradicts the others, or does not believe the IMU.
+    pub(crate) fn note_doubt(&mut self, is_in_doubt: bool) {
+        self.contradicted |= is_in_doubt;
     }
 
     /// Takes an increment that the filter has just moved over.
@@ -141,6 +149,9 @@ impl Resumption {
         }
         if self.gravity.refutes() {
             return Some(Finding::Refuted(ResumeDoubt::Level));
+        }
+        if self.contradicted {
+            return Some(Finding::Refuted(ResumeDoubt::Velocity));
         }
         let off = of.iter().find(|(witness, _)| witness.is_off());
         Some(off.map_or(Finding::Confirmed, |(_, doubt)| Finding::Refuted(*doubt)))

@@ -6,9 +6,11 @@ use insd_alignment::{
 };
 use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::units::DEG;
-use insd_base::{ImuSpec, Mode, Received, Solution, StoredDoubt, Time};
+use insd_base::{Fault, ImuSpec, Mode, Party, Received, Solution, StoredDoubt, Time};
+use insd_nav::filter::judged::ImuState;
 use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
 
+use crate::blind::{Blind, Word, tells_heading, unchecked, without_heading};
 use crate::trial::{Misled, Trial};
 
 /// Heading sigma below which a ship can be steered by it for the first time.
@@ -24,9 +26,17 @@ pub(crate) enum Ship {
     Aligning(Box<Bank>),
     /// A receiver tells the velocity, the heading may be anything; `berth` is how the ship is held
     /// once it is found, if she is moored.
-    InMotion { finder: Box<EightState>, berth: Option<Method> },
-    /// One is known, `aligned` once well enough to steer by; `verdict` on a stored state.
-    Navigating { fine: Box<Fine>, aligned: bool, verdict: Option<Verdict>, trial: Option<Trial> },
+    /// `blind` finds it without a heading reference, where one is heard.
+    InMotion { finder: Box<EightState>, blind: Option<Blind>, berth: Option<Method> },
+    /// One is known, `aligned` once well enough to steer by; `verdict` on a stored state; `blind` while a heading
+    /// reference that it was found with is not borne out.
+    Navigating {
+        fine: Box<Fine>,
+        aligned: bool,
+        verdict: Option<Verdict>,
+        trial: Option<Trial>,
+        blind: Option<Blind>,
+    },
 }
 
 impl Ship {
@@ -42,7 +52,7 @@ impl Ship {
         if is_told && !is_polar && choice.in_motion == InMotion::EightState {
             let finder = Box::new(EightState::new(config, level, kinematics));
             let berth = kinematics.moored.then_some(choice.moored);
-            return Ship::InMotion { finder, berth };
+            return Ship::InMotion { finder, blind: None, berth };
         }
         Ship::Aligning(Box::new(match stored {
             Some(stored) => Bank::with_stored(config, level, kinematics, choice, stored),
@@ -78,12 +88,25 @@ impl Ship {
         }
     }
 
+    /// What is to be done about the IMU.
+    pub(crate) fn imu_state(&self) -> ImuState {
+        match self {
+            Ship::Navigating { fine, .. } => fine.filter().imu_state(),
+            _ => ImuState::Believed,
+        }
+    }
+
     /// Whether the trial of her heading is over and GNSS has borne it out.
     pub(crate) fn is_acquitted(&self) -> bool {
         match self {
             Ship::Navigating { fine, trial: Some(trial), .. } => trial.acquits(fine.filter()),
             _ => false,
         }
+    }
+
+    /// Whether her heading was found with a reference that nothing has borne out.
+    pub(crate) fn is_heading_unchecked(&self) -> bool {
+        matches!(self, Ship::Navigating { blind: Some(_), .. })
     }
 
     /// Whether she is taken as lying at her berth.
@@ -121,6 +144,12 @@ impl Ship {
             }
             _ => solution,
         };
+        let solution = match self {
+            Ship::InMotion { blind: Some(_), .. } | Ship::Navigating { blind: Some(_), .. } => {
+                unchecked(solution)
+            }
+            _ => solution,
+        };
         let aligned = heading_target(ACCURACY, solution.position.latitude);
         let mode = match self {
             _ if self.is_moored() && solution.sigma.heading > aligned => Mode::FineAlignment,
@@ -138,7 +167,7 @@ impl Ship {
         let verdict = self.verdict();
         let found = match self {
             Ship::Aligning(bank) => bank.winner().cloned(),
-            Ship::InMotion { finder, berth } => finder.initial_state().map(|initial| {
+            Ship::InMotion { finder, berth, .. } => finder.initial_state().map(|initial| {
                 let mut filter = Filter::new(finder.config(), &initial);
                 finder.gnss_used().iter().for_each(|time| filter.note_gnss_used(*time));
                 Fine::held(filter, *berth)
@@ -152,7 +181,44 @@ impl Ship {
                 _ => None,
             };
             let trial = trial.map(|bias_std| Trial::begin(fine.filter().time(), bias_std));
-            *self = Ship::Navigating { fine: Box::new(fine), aligned: false, verdict, trial };
+            let blind = match self {
+                Ship::InMotion { blind, .. } => blind.take(),
+                _ => None,
+            };
+            fine.filter_mut().doubt_heading(blind.is_some());
+            *self =
+                Ship::Navigating { fine: Box::new(fine), aligned: false, verdict, trial, blind };
+        }
+    }
+
+    /// Does as whoever is blind to the heading reference says: nothing more while it bears out, and the heading that
+    /// it found once it refutes.
+    fn hear_blind(&mut self) {
+        let Ship::Navigating { fine, aligned, trial, blind: own, .. } = self else { return };
+        let Some(blind) = own else { return };
+        let solution = fine.filter().is_settled().then(|| fine.filter().solution());
+        let word = solution.map(|it| blind.judge(it.attitude.heading, it.sigma.heading));
+        match word {
+            Some(Word::BornOut) => {
+                fine.filter_mut().doubt_heading(false);
+                *own = None;
+            }
+            Some(Word::Refuted) if fine.filter().docket().imu_doubted_since().is_some() => {
+                fine.filter_mut().condemn_imu();
+            }
+            Some(Word::Refuted) => {
+                let finder = blind.finder();
+                let Some(initial) = finder.initial_state() else { return };
+                let docket = fine.filter().docket().without(Fault::HeadingOffset, finder.time());
+                let config = NavConfig { docket, ..*finder.config() };
+                let mut filter = Filter::new(&config, &initial);
+                finder.gnss_used().iter().for_each(|time| filter.note_gnss_used(*time));
+                filter.begin_navigation();
+                *trial = Some(Trial::begin(finder.time(), config.imu.gyro.bias_std));
+                let method = fine.is_moored().then_some(Method::Moorings);
+                (**fine, *aligned, *own) = (Fine::held(filter, method), false, None);
+            }
+            _ => {}
         }
     }
 
@@ -194,9 +260,13 @@ impl Estimator for Ship {
                 bank.advance(increment);
                 self.hand_over();
             }
-            Ship::InMotion { finder, .. } => finder.advance(increment),
-            Ship::Navigating { fine, aligned, .. } => {
+            Ship::InMotion { finder, blind, .. } => {
+                finder.advance(increment);
+                blind.iter_mut().for_each(|blind| blind.advance(increment));
+            }
+            Ship::Navigating { fine, aligned, blind, .. } => {
                 fine.advance(increment);
+                blind.iter_mut().for_each(|blind| blind.advance(increment));
                 if fine.seems_to_leave() {
                     fine.cast_off();
                 }
@@ -208,14 +278,22 @@ impl Estimator for Ship {
     fn apply(&mut self, received: &Received) -> Report {
         match self {
             Ship::Aligning(bank) => bank.apply(received),
-            Ship::InMotion { finder, .. } => {
-                let report = finder.apply(received);
+            Ship::InMotion { finder, blind, .. } => {
+                let is_left_out = finder.config().docket.is_excluded(Party::Heading);
+                if blind.is_none() && tells_heading(received) && !is_left_out {
+                    *blind = Some(Blind::beside(finder));
+                }
+                blind.iter_mut().for_each(|blind| blind.apply(received));
+                let heard = if is_left_out { without_heading(received) } else { *received };
+                let report = finder.apply(&heard);
                 self.hand_over();
                 report
             }
-            Ship::Navigating { fine, aligned, .. } => {
+            Ship::Navigating { fine, aligned, blind, .. } => {
                 let report = fine.apply(received);
                 *aligned = *aligned || is_steerable(fine);
+                blind.iter_mut().for_each(|blind| blind.apply(received));
+                self.hear_blind();
                 report
             }
         }

@@ -55,6 +55,8 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
             initial: engine.initial,
             imu: engine.imu,
             lever_arms: engine.lever_arms,
+            vessel: engine.vessel,
+            time_std: engine.time_std,
         },
         imu: Vec::new(),
         gnss: Vec::new(),

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use insd_base::{AlignmentStatus, Counts, Event, Finding, Forecast, Mode, Time};
+use insd_base::{AlignmentStatus, Counts, Event, Finding, Forecast, Mode, Stands, Time};
 use insd_drivers::recording::FileReport;
 
 use crate::evaluation::{Align, Table};
@@ -22,6 +22,7 @@ pub(super) struct Summary<'a> {
     pub(super) departures: &'a [Time],
     pub(super) resets: &'a [Time],
     pub(super) findings: &'a [(Time, Finding)],
+    pub(super) standings: &'a [Stands],
     pub(super) stored: Option<&'a Event>,
     pub(super) counts: &'a Counts,
     pub(super) dropped: u64,
@@ -72,6 +73,12 @@ impl Summary<'_> {
         }
         for (time, finding) in self.findings {
             writeln!(f, "  {:>10.1} s  {finding}", time.as_seconds())?;
+        }
+        for stands in self.standings.iter().take(MODES_TOLD) {
+            writeln!(f, "  {:>10.1} s  {stands}", stands.since.as_seconds())?;
+        }
+        if self.standings.len() > MODES_TOLD {
+            writeln!(f, "  ... and {} more of the sensors", self.standings.len() - MODES_TOLD)?;
         }
         match self.stored {
             Some(Event::StoredStateUsed { time }) => {
@@ -181,6 +188,7 @@ mod tests {
             departures: &[Time::from_seconds(77.0)],
             resets: &[],
             findings: &[],
+            standings: &[],
             stored: None,
             counts: &counts,
             dropped: 2,

@@ -21,7 +21,7 @@ pub(super) fn of(config: &Config) -> Vec<String> {
     }
     outputs(config, &mut faults);
     nodes(config, &mut faults);
-    faults.extend(config.state.faults().chain(config.log.faults()));
+    faults.extend(config.state.faults().chain(config.web.faults()).chain(config.log.faults()));
     faults
 }
 

@@ -20,9 +20,9 @@ mod succession;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use insd_base::{Body, Geodetic, LeverArms, PortId, StartCondition};
+use insd_base::{Body, Geodetic, LeverArms, PortId, StartCondition, VesselKind};
 use insd_drivers::can::CanFilter;
-use insd_drivers::ports::{PortConfig, Transport};
+use insd_drivers::ports::{Hosts, PortConfig, Transport};
 use insd_engine::EngineConfig;
 use insd_intake::config::{IntakeConfig, PortSpec, Role, SensorConfig};
 use insd_intake::port::Link;
@@ -126,11 +126,39 @@ pub struct Ship {
     /// Solutions per second.
     #[serde(default = "ten")]
     pub rate_hz: f64,
+    /// What carries the sensors: `ship`, `boat` or `car`.
+    #[serde(default)]
+    pub kind: Kind,
     /// How well receiver and IMU agree in time, 1-sigma, s. Left out: by what ties them.
+    #[serde(alias = "gnss_delay_std_s")]
+    #[schemars(extend("x-alias" = "gnss_delay_std_s"))]
     pub time_std_s: Option<f64>,
     /// Real-time priority of the engine's thread, 1 to 99; that of the ports is one less. 0 for none.
     #[serde(default = "twenty")]
     pub priority: Option<u8>,
+}
+
+/// What carries the sensors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// A displacement ship.
+    #[default]
+    Ship,
+    /// A fast boat that planes.
+    Boat,
+    /// A car, on trials ashore.
+    Car,
+}
+
+impl From<Kind> for VesselKind {
+    fn from(kind: Kind) -> Self {
+        match kind {
+            Kind::Ship => VesselKind::Ship,
+            Kind::Boat => VesselKind::Boat,
+            Kind::Car => VesselKind::Car,
+        }
+    }
 }
 
 /// What is known of the ship's motion at the start.
@@ -163,6 +191,10 @@ pub struct PortSection {
     /// management.
     #[serde(default)]
     pub alerts: bool,
+    /// Of a network port: the hosts whose commands are obeyed, addresses and networks like `10.0.0.0/24`:
+    /// those about our alerts, and of a gateway those to our node. Left out: nobody's. A serial line needs
+    /// no list.
+    pub commands_from: Option<Hosts>,
     /// Of a CAN port: which frames count. Left out: those that its sensors and its node need, on an
     /// interface of the kernel.
     pub filters: Option<Vec<CanFilter>>,
@@ -215,6 +247,34 @@ fn hour() -> f64 {
 }
 fn insd() -> String {
     "insd".to_owned()
+}
+
+impl PortSection {
+    /// The hosts whose commands are obeyed, if it is a network port that is listened to for commands.
+    fn commanders(&self) -> Option<Hosts> {
+        let is_asked = self.alerts && self.transport.is_network();
+        self.commands_from.clone().or(is_asked.then(Hosts::default))
+    }
+
+    /// Whether the node on it obeys commands of the bus: over a gateway only if all who can send there are
+    /// listed.
+    #[must_use]
+    pub fn obeys_bus(&self) -> bool {
+        let listed = self.commands_from.as_ref();
+        match &self.transport {
+            Transport::GatewayUdp(gateway) => {
+                let from = gateway.from.as_ref();
+                listed.zip(from).is_some_and(|(listed, from)| listed.covers(from))
+            }
+            Transport::GatewayTcp(gateway) => {
+                let host = gateway.address.rsplit_once(':').and_then(|(host, _)| {
+                    host.trim_start_matches('[').trim_end_matches(']').parse().ok()
+                });
+                listed.zip(host).is_some_and(|(listed, host)| listed.contains(host))
+            }
+            _ => true,
+        }
+    }
 }
 
 impl Config {
@@ -286,6 +346,7 @@ impl Config {
             output_rate: ship.rate_hz,
             alignment: insd_alignment::AlignmentConfig::default(),
             stored: None,
+            vessel: ship.kind.into(),
             time_std: ship.time_std_s.or_else(|| self.time_std(None)),
             accept_mounting: ship.accept_mounting,
             relay: ship.relay,
@@ -334,6 +395,7 @@ impl Config {
             let opened = PortConfig {
                 patience_s: port.patience_s,
                 write: port.write,
+                commands_from: port.commanders(),
                 ..PortConfig::new(port.transport.clone())
             };
             let filters = port.filters.clone();

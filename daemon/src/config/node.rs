@@ -127,6 +127,7 @@ impl NodeSection {
             manufacturer_info: "insd, https://github.com/insd-marine/insd".to_owned(),
             transmit: self.groups.transmit(),
             receive: Known::PGNS.to_vec(),
+            commands: true,
         }
     }
 

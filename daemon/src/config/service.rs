@@ -62,6 +62,8 @@ pub struct WebSection {
     pub listen: SocketAddr,
     /// Names by which browsers reach it, beside those of this computer and the address itself.
     pub hosts: Vec<String>,
+    /// Connections that one address may have at a time. Behind a reverse proxy all have its address.
+    pub max_per_address: usize,
     /// File with the word that allows changes. Left out: nothing can be changed.
     pub token_file: Option<PathBuf>,
 }
@@ -72,8 +74,17 @@ impl Default for WebSection {
             enabled: true,
             listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 8470)),
             hosts: Vec::new(),
+            max_per_address: 16,
             token_file: None,
         }
+    }
+}
+
+impl WebSection {
+    pub(super) fn faults(&self) -> impl Iterator<Item = String> {
+        let fault = (self.max_per_address == 0)
+            .then(|| "[web]: max_per_address: expected 1 or more".to_owned());
+        fault.into_iter()
     }
 }
 
@@ -93,7 +104,7 @@ impl Default for LogSection {
 
 impl LogSection {
     pub(super) fn faults(&self) -> impl Iterator<Item = String> {
-        let fault = tracing_subscriber::EnvFilter::try_new(&self.level).err();
+        let fault = crate::logging::filter(&self.level).err();
         fault.map(|fault| format!("[log]: level: {fault}")).into_iter()
     }
 }

@@ -60,6 +60,7 @@ pub(crate) mod testing {
                 heading: 1e-2,
             },
             mode: Mode::Aided,
+            judgement: insd_base::Judgement::default(),
         }
     }
 

@@ -2,9 +2,12 @@
 
 mod recent;
 mod repeats;
+#[cfg(test)]
+pub(crate) mod sink;
 
 use std::io::{self, IsTerminal};
 
+use insd_web::SECURITY;
 use insd_web::snapshot::Event as Line;
 use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::util::SubscriberInitExt;
@@ -27,9 +30,9 @@ impl Log {
     /// Begins to log. `level` holds where the environment says nothing.
     #[must_use]
     pub fn start(level: &str) -> Self {
-        let told = EnvFilter::try_from_default_env().ok();
+        let told = std::env::var(EnvFilter::DEFAULT_ENV).ok().and_then(|text| filter(&text).ok());
         let is_told_by_environment = told.is_some();
-        let (filter, handle) = reload::Layer::new(told.unwrap_or_else(|| EnvFilter::new(level)));
+        let (filter, handle) = reload::Layer::new(told.unwrap_or_else(|| own(level)));
         let (repeats, recent) = (Repeats::default(), Recent::default());
         let registry = tracing_subscriber::registry().with(filter).with(repeats.clone());
         let journal = journal();
@@ -51,7 +54,7 @@ impl Log {
     /// # Errors
     /// They are not understood.
     pub fn set(&self, directives: &str) -> Result<(), String> {
-        let filter = EnvFilter::try_new(directives).map_err(|fault| fault.to_string())?;
+        let filter = filter(directives)?;
         self.filter.reload(filter).map_err(|fault| fault.to_string())
     }
 
@@ -74,6 +77,31 @@ impl Log {
     }
 }
 
+/// A filter of a level or of directives as `RUST_LOG` has them. What is about security passes it whatever
+/// they say.
+///
+/// # Errors
+/// They are not understood, or are about security.
+pub(crate) fn filter(directives: &str) -> Result<EnvFilter, String> {
+    if directives.to_ascii_lowercase().contains(SECURITY) {
+        return Err(format!("`{SECURITY}` cannot be filtered: those lines are always written"));
+    }
+    // the longest target counts, so that no directive without it or for fields alone comes before this
+    EnvFilter::try_new(directives).map(always_told).map_err(|fault| fault.to_string())
+}
+
+/// A level that is understood in any case.
+fn own(level: &str) -> EnvFilter {
+    filter(level).unwrap_or_else(|_| always_told(EnvFilter::new("info")))
+}
+
+fn always_told(filter: EnvFilter) -> EnvFilter {
+    match format!("{SECURITY}=info").parse() {
+        Ok(directive) => filter.add_directive(directive),
+        Err(_) => filter,
+    }
+}
+
 /// The journal, if our standard error goes there (systemd.exec(5), `$JOURNAL_STREAM`).
 fn journal() -> Option<tracing_journald::Layer> {
     std::env::var_os("JOURNAL_STREAM")?;
@@ -86,4 +114,34 @@ where
     S: tracing::Subscriber + for<'a> tracing_subscriber::registry::LookupSpan<'a>,
 {
     fmt::layer().with_ansi(io::stderr().is_terminal()).with_writer(io::stderr)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sink::Sink;
+    use super::*;
+
+    #[test]
+    fn no_level_and_no_directive_silences_what_is_about_security() {
+        for text in ["off", "error", "insd=off", "[{host}]=off", "info,[{host}]=off,x=trace"] {
+            let sink = Sink::default();
+            let own = sink.clone();
+            let lines = fmt::layer().with_ansi(false).with_writer(move || own.clone());
+            let subscriber = tracing_subscriber::registry().with(filter(text).unwrap()).with(lines);
+            tracing::subscriber::with_default(subscriber, || {
+                tracing::warn!(target: SECURITY, host = "10.0.0.9", why = "no token", "refused");
+                tracing::debug!(target: SECURITY, "chatter");
+            });
+            let told = sink.told();
+            assert!(told.contains("refused") && !told.contains("chatter"), "{text}: {told}");
+        }
+    }
+
+    #[test]
+    fn a_directive_about_security_is_refused() {
+        for text in ["security=off", "info,SECURITY=error", "security[{host}]=off", "info,security"]
+        {
+            assert!(filter(text).unwrap_err().contains("always written"), "{text}");
+        }
+    }
 }

@@ -111,7 +111,7 @@ struct About(String);
 
 impl Visit for About {
     fn record_debug(&mut self, field: &Field, value: &dyn fmt::Debug) {
-        if matches!(field.name(), "port" | "sensor" | "output" | "message_kind") {
+        if matches!(field.name(), "port" | "sensor" | "output" | "message_kind" | "host") {
             // a text takes all that is written to it
             let _ = write!(self.0, "{value:?} ");
         }

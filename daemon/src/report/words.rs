@@ -6,12 +6,13 @@ use insd_intake::choice::{Chosen, Quantity, Why};
 use insd_intake::clock::{PulseFault, TimeChange, TimeQuality};
 use insd_intake::event::{Happening, IntakeEvent};
 use insd_output::alerts::AlertView;
-use insd_wire::nmea::{AlertPriority, AlertState};
+use insd_wire::nmea::{Acn, AlertCommand, AlertPriority, AlertState};
 
 use crate::demo::words::mode_short;
 use crate::pipeline::Obeyed;
 use crate::redundancy::Vote;
 use crate::run::Names;
+use crate::speaker::Commanded;
 
 /// An event of the engine: its kind, and its words unless it is only counted.
 pub(crate) fn engine(event: &Event) -> (&'static str, Option<String>) {
@@ -41,11 +42,24 @@ pub(crate) fn engine(event: &Event) -> (&'static str, Option<String>) {
             ("restart", Some(format!("the sensors refute the state before the restart: {reason}")))
         }
         Event::InstallationFound { finding, .. } => ("installation", Some(finding.to_string())),
+        Event::Judged { stands, .. } => ("sensors", Some(stands.to_string())),
         Event::PositionReset { .. } => {
             let words = "the position was set anew from a source that was kept out for too long";
             ("position reset", Some(words.to_owned()))
         }
     }
+}
+
+/// A command of the bridge about an alert.
+pub(crate) fn command(commanded: &Commanded) -> String {
+    let Acn { alert, command, .. } = &commanded.command;
+    let what = match command {
+        AlertCommand::Acknowledge => "acknowledge",
+        AlertCommand::Request => "tell again",
+        AlertCommand::Transfer => "take over",
+        AlertCommand::Silence => "silence",
+    };
+    format!("{what} alert {}", alert.identifier)
 }
 
 /// What became of an order.

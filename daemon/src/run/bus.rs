@@ -9,8 +9,9 @@ use insd_drivers::can::SharedSpeaker;
 use insd_n2k::node::{Node, NodeEvent, NodeStatus};
 use insd_output::Epoch;
 use insd_output::n2k::Voice;
+use insd_web::SECURITY;
 
-use crate::config::{Config, NodeMemory, NodeSection};
+use crate::config::{Config, NodeMemory, NodeSection, PortSection};
 use crate::output_file;
 
 /// Time between two looks at what became of a node.
@@ -53,6 +54,15 @@ impl Buses {
         });
         let buses = Buses { buses: buses.collect() };
         (buses, named)
+    }
+
+    /// Nodes obey commands of the bus where this configuration lets them.
+    pub(super) fn configure(&self, config: &Config) {
+        for bus in &self.buses {
+            let port = config.ports.iter().find(|port| port.name == bus.port);
+            let allowed = port.is_none_or(PortSection::obeys_bus);
+            bus.node.with(|node| node.allow_commands(allowed));
+        }
     }
 
     /// How each node is, by the name of its port.
@@ -116,6 +126,16 @@ fn tell(port: &str, event: &NodeEvent) {
         }
         NodeEvent::AddressUsed { address } => {
             tracing::warn!(port, address, "node: another one sends from its address");
+        }
+        NodeEvent::CommandRefused { pgn, by } => {
+            let by = by.address;
+            tracing::warn!(target: SECURITY, port, pgn, by, "a command to the node is refused");
+        }
+        NodeEvent::Commanded { .. }
+        | NodeEvent::IntervalChanged { .. }
+        | NodeEvent::PriorityChanged { .. }
+        | NodeEvent::InstallationChanged { .. } => {
+            tracing::info!(target: SECURITY, port, ?event, "a command to the node is obeyed");
         }
         NodeEvent::NoneFree => tracing::warn!(port, "node: no address is free, it is quiet"),
         _ => tracing::info!(port, ?event, "node"),

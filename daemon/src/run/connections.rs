@@ -80,6 +80,7 @@ impl Connections {
     /// Opens what is not open yet.
     pub(super) fn reopen(&mut self, config: &Config, made: &[Port]) {
         let _guard = self.runtime.enter();
+        self.buses.configure(config);
         let open = self.inputs.len();
         let sections = config.ports.iter().zip(config.port_configs());
         for ((section, port), id) in sections.zip((0..).map(PortId)).skip(open) {

@@ -29,6 +29,7 @@ use insd_base::{PortId, Span};
 use insd_drivers::ports::{self, Surroundings};
 use insd_drivers::raw::{RawHeader, RawWriter, Recorder, RecordingConfig};
 use insd_drivers::recording::NavWriter;
+use insd_web::SECURITY;
 use tokio::sync::oneshot;
 
 use crate::clock::{HostClock, boot_now};
@@ -85,6 +86,9 @@ pub fn run(config: &Config, text: &str, options: &RunOptions, log: &Log) -> anyh
     let (commander, controls) = control::channel();
     let (headline, status) = Headline::new();
     let (configuration, hash) = (options.config.clone(), showcase::hash(text));
+    let (version, file) =
+        (env!("CARGO_PKG_VERSION"), configuration.as_ref().map(|own| own.display()));
+    tracing::info!(target: SECURITY, version, file = file.map(tracing::field::display), hash, "insd starts");
     let page = page::open(config, Origin { clock, started: clock.now(), configuration, hash }, log);
     let (showcase, orders, _page) = match page {
         Some(page) => (Some(page.showcase), Some(page.orders), Some(page.handle)),

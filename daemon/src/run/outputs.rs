@@ -1,11 +1,12 @@
 //! The ports that are written to.
 
-use insd_base::{Arrival, Input, PortId, Span};
+use insd_base::{Arrival, Input, PortId, PortState, Span};
 use insd_drivers::ports::{
     self, AgeStatus, Destination, Outgoing, OutputConfig, OutputPort, OutputStatus, Surroundings,
     UdpOutput,
 };
 use insd_output::{Lan, Message, MessageKind, Port};
+use insd_web::SECURITY;
 use insd_wire::nmea::TransmissionGroup;
 
 use crate::config::{Config, LanSection, OutputSection};
@@ -139,7 +140,11 @@ impl Outputs {
     pub(super) fn note(&self, arrival: &Arrival) {
         let index = usize::from(arrival.port.0.saturating_sub(self.first));
         if let (Some(name), Input::State(state)) = (self.names.get(index), &arrival.input) {
-            tracing::info!(output = name, "{state}");
+            if let PortState::Refused { host, .. } = state {
+                tracing::warn!(target: SECURITY, output = name, host, "{state}");
+            } else {
+                tracing::info!(output = name, "{state}");
+            }
         }
     }
 

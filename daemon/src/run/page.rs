@@ -40,6 +40,7 @@ fn web_config(section: &WebSection) -> WebConfig {
         listen: Listen::Address(section.listen),
         token: section.token_file.as_deref().and_then(token),
         allowed_hosts: section.hosts.clone(),
+        max_per_address: section.max_per_address,
         ..WebConfig::default()
     }
 }

@@ -1,8 +1,8 @@
 //! How everything stands, gathered by the engine's thread for whoever looks on.
 
 use insd_base::{
-    AlignmentStatus, Counts, Disturbance, Estimates, Finding, Heave, Mode, Motion, Stamp, Time,
-    UtcTime,
+    AlignmentStatus, Counts, Disturbance, Estimates, Finding, Heave, Mode, Motion, Stamp, Stands,
+    Time, UtcTime,
 };
 use insd_drivers::raw::RecorderState;
 use insd_intake::status::IntakeStatus;
@@ -43,6 +43,8 @@ pub(super) struct Slow {
     pub(super) saver: Option<SaverState>,
     pub(super) disputes: Vec<Dispute>,
     pub(super) estimates: Option<Estimates>,
+    /// How all stand with whom she is navigated by.
+    pub(super) standings: Vec<Stands>,
     /// What of the installation is found to be otherwise than configured.
     pub(super) findings: Vec<Finding>,
     /// What moves the ship: looked at every ten seconds.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use insd_base::{AlertOrder, Order};
-use insd_web::{OrderReceiver, Request};
+use insd_web::{OrderReceiver, Request, SECURITY};
 use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::{oneshot, watch};
 
@@ -49,17 +49,18 @@ impl Service {
         tokio::pin!(limit);
         let mut beats = self.heart.beats();
         self.manager.tell([Word::Ready]);
-        loop {
+        let why = loop {
             tokio::select! {
-                _ = interrupt.recv() => break tracing::info!("interrupted"),
-                _ = terminate.recv() => break tracing::info!("told to stop"),
-                () = &mut limit => break tracing::info!("time is up"),
-                _ = &mut self.ended => break,
+                _ = interrupt.recv() => break "interrupted",
+                _ = terminate.recv() => break "told to stop",
+                () = &mut limit => break "time is up",
+                _ = &mut self.ended => break "the engine has ended",
                 _ = hangup.recv() => self.read_again().await,
                 Some(request) = next(&mut self.orders) => self.obey(request),
                 _ = look.tick() => self.look(&mut beats),
             }
-        }
+        };
+        tracing::info!(target: SECURITY, why, "insd stops");
         self.manager.tell([Word::Stopping]);
         Ok(())
     }
@@ -85,7 +86,7 @@ impl Service {
             insd_web::Order::Acknowledge { id, .. } => order(*id, AlertOrder::Acknowledge),
             insd_web::Order::Silence { id, .. } => order(*id, AlertOrder::Silence),
             insd_web::Order::LogLevel(level) => {
-                tracing::info!(level, "what is logged is changed on the page");
+                tracing::info!(target: SECURITY, level, "what is logged is changed on the page");
                 let outcome = self.log.set(level);
                 return request.answer(outcome);
             }
@@ -104,12 +105,14 @@ impl Service {
     async fn read_again(&self) {
         let Some(path) = self.config.clone() else { return };
         self.manager.tell([Word::Reloading]);
-        tracing::info!(file = %path.display(), "told to read the configuration again");
+        let file = path.display().to_string();
+        tracing::info!(target: SECURITY, file, "told to read the configuration again");
         let read = tokio::task::spawn_blocking(move || Config::load(&path)).await;
         let status = match read {
             Ok(Ok((config, text))) => self.take_over(&config, text).await,
             Ok(Err(faults)) => {
-                tracing::error!("the configuration is not taken, the old one holds: {faults:#}");
+                let text = "the configuration is not taken, the old one holds";
+                tracing::error!(target: SECURITY, "{text}: {faults:#}");
                 "configuration has faults: the old one holds".to_owned()
             }
             Err(error) => error.to_string(),

@@ -1,17 +1,19 @@
 //! Events in words, for the journal.
 
 use insd_base::units::DEG;
-use insd_base::{Event, Mode, PortId, PortState};
+use insd_base::{Event, Fault, Mode, PortId, PortState};
 use insd_drivers::ports::{Judge, Judgement};
 use insd_engine::Output;
 use insd_engine::vote::{Doubt, VoteEvent};
 use insd_intake::event::{Happening, IntakeEvent};
+use insd_web::SECURITY;
 use insd_wire::stream::{Cutter, Protocol};
 
 use crate::config::{Change, Config};
 use crate::pipeline::{Obeyed, Product};
 use crate::redundancy::Vote;
 use crate::report::words;
+use crate::speaker::Commanded;
 
 /// Good frames at which a baud rate is taken as right.
 const CONVINCED: usize = 3;
@@ -59,24 +61,40 @@ pub fn tell(names: &Names, product: &Product) {
         }
         Product::Spare(name, Output::Event(event)) => tracing::debug!(engine = %name, ?event),
         Product::Vote(vote) => tell_vote(vote),
+        Product::Command(commanded) => tell_command(names, commanded),
         Product::Engine(_) | Product::Spoken(_) | Product::Spare(..) => {}
+    }
+}
+
+fn tell_command(names: &Names, commanded: &Commanded) {
+    let Commanded { who, obeyed, strangers, .. } = commanded;
+    let (port, host) =
+        (names.port(who.port), who.host.as_deref().unwrap_or("on a line of its own"));
+    let command = words::command(commanded);
+    if who.may_command {
+        tracing::info!(target: SECURITY, port, host, command, obeyed, "a command of the bridge");
+    } else {
+        let text = "a command is refused: its sender is not listed";
+        tracing::warn!(target: SECURITY, port, host, command, strangers, "{text}");
     }
 }
 
 fn tell_order(obeyed: &Obeyed) {
     match obeyed {
-        Obeyed::Alert { .. } => tracing::info!("{}", words::order(obeyed)),
+        Obeyed::Alert { .. } => tracing::info!(target: SECURITY, "{}", words::order(obeyed)),
         Obeyed::Configured(change) if change.is_nothing() => {
-            tracing::info!("the configuration is as it was");
+            tracing::info!(target: SECURITY, "the configuration is as it was");
         }
         Obeyed::Configured(Change { inputs, outputs, waiting }) => {
-            tracing::info!(inputs, outputs, "another configuration holds; navigation goes on");
+            let text = "another configuration holds; navigation goes on";
+            tracing::info!(target: SECURITY, inputs, outputs, "{text}");
             for section in waiting {
                 tracing::warn!(section, "changed in the file, and waits for the next start");
             }
         }
         Obeyed::ConfigurationRefused(faults) => {
-            tracing::error!("the configuration is not taken, the old one holds: {faults}");
+            let text = "the configuration is not taken, the old one holds";
+            tracing::error!(target: SECURITY, "{text}: {faults}");
         }
         Obeyed::Resumed => tracing::info!("navigation goes on from where the run before ended"),
         Obeyed::NotResumed(doubt) => {
@@ -113,6 +131,12 @@ fn tell_engine(event: &Event) {
         Event::InstallationFound { time, finding } => {
             let (at, paste) = (time.as_seconds(), finding.to_paste());
             tracing::warn!(at, finding = finding.as_str(), paste, "{finding}");
+        }
+        Event::Judged { time, stands } => {
+            let (at, party, standing) =
+                (time.as_seconds(), stands.party.as_str(), stands.standing.as_str());
+            let fault = stands.fault.map(Fault::as_str);
+            tracing::warn!(at, party, standing, fault, "{stands}");
         }
         Event::PositionReset { .. } | Event::StoredStateDropped { .. } => {
             let (what, text) = words::engine(event);
@@ -168,6 +192,9 @@ fn tell_event(names: &Names, event: &IntakeEvent) {
                 | PortState::Lost { .. }
                 | PortState::Silent { .. }
                 | PortState::Overrun { .. } => tracing::warn!(at, port, "{state}"),
+                PortState::Refused { host, .. } => {
+                    tracing::warn!(target: SECURITY, at, port, host, "{state}");
+                }
             }
         }
         Happening::Bus { port, event } => {
@@ -224,27 +251,12 @@ pub(super) fn judge() -> Judge {
 
 #[cfg(test)]
 mod tests {
-    use std::io::{self, Write};
-    use std::sync::{Arc, Mutex};
-
     use insd_base::{PortState, Time};
     use insd_intake::choice::{Chosen, Quantity, Why};
     use insd_intake::clock::{TimeChange, TimeQuality};
 
     use super::*;
-
-    #[derive(Clone, Default)]
-    struct Sink(Arc<Mutex<Vec<u8>>>);
-
-    impl Write for Sink {
-        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-            self.0.lock().unwrap().write(bytes)
-        }
-
-        fn flush(&mut self) -> io::Result<()> {
-            Ok(())
-        }
-    }
+    use crate::logging::sink::Sink;
 
     /// The line that is written of something that happened.
     fn line(what: Happening) -> String {
@@ -256,7 +268,7 @@ mod tests {
         tracing::subscriber::with_default(writer.finish(), || {
             tell(&names, &Product::Intake(event));
         });
-        String::from_utf8(sink.0.lock().unwrap().clone()).unwrap()
+        sink.told()
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 
 use anyhow::Context;
-use insd_base::{Arrival, Input, Order, Span, Stamp, Time};
+use insd_base::{Arrival, Input, Order, Span, Stamp, StorageFaults, Time};
 use insd_drivers::ports::Receiver;
 use insd_drivers::raw::Recorder;
 use insd_drivers::recording::NavWriter;
@@ -69,6 +69,8 @@ pub(super) struct Agenda {
     ticked: Option<Time>,
     sea: Option<Time>,
     accounted: Option<Time>,
+    /// What could not be written at the last look.
+    storage: StorageFaults,
     /// Epochs of the outputs, and how many of them began more than a millisecond late.
     epochs: (u64, u64),
 }
@@ -104,7 +106,7 @@ impl Worker {
             while let Ok(control) = self.controls.try_recv() {
                 self.obey(control)?;
             }
-            self.attend(&now);
+            self.attend(&now)?;
         }
         self.finish()
     }
@@ -133,7 +135,7 @@ impl Worker {
     }
 
     /// What is done now and then.
-    fn attend(&mut self, now: &Stamp) {
+    fn attend(&mut self, now: &Stamp) -> anyhow::Result<()> {
         let time = now.monotonic;
         if self.agenda.progress.is_sound(time) {
             self.heart.beat();
@@ -141,6 +143,7 @@ impl Worker {
         let is_second = is_due(&mut self.agenda.ticked, time, SECOND);
         if is_second {
             self.tick(now);
+            self.look_at_disk(now)?;
         }
         if is_due(&mut self.agenda.saved, time, SAVED) {
             self.save(now);
@@ -153,6 +156,20 @@ impl Worker {
         if is_due(&mut self.agenda.accounted, time, ACCOUNT) {
             self.connections.outputs.tell();
         }
+        Ok(())
+    }
+
+    /// Tells the pipeline when something cannot be written any more, or can again.
+    fn look_at_disk(&mut self, now: &Stamp) -> anyhow::Result<()> {
+        let faults = StorageFaults {
+            recording: self.recorder.as_ref().is_some_and(|own| own.state().is_failing()),
+            state: self.saver.as_ref().is_some_and(|own| own.state().fault.is_some()),
+        };
+        if faults == self.agenda.storage {
+            return Ok(());
+        }
+        self.agenda.storage = faults;
+        self.take(&Arrival { stamp: *now, port: NOWHERE, input: Input::Storage(faults) })
     }
 
     fn tick(&mut self, now: &Stamp) {
@@ -212,6 +229,7 @@ impl Worker {
             saver: self.saver.as_ref().map(Saver::state),
             disputes: self.pipeline.disputes(),
             estimates: self.pipeline.engine_in_use().estimates(),
+            standings: self.pipeline.engine_in_use().standings().collect(),
             findings: self.pipeline.engine_in_use().findings().to_vec(),
             disturbance: with_sea.then(|| self.pipeline.engine_in_use().disturbance()).flatten(),
             epochs: [epochs, late, self.pipeline.speaker().station().skipped()],

@@ -133,7 +133,7 @@ impl Sniffed {
     /// Takes one arrival, and shows what it brings.
     pub fn take_and_show(&mut self, arrival: &Arrival, mut show: impl FnMut(&Seen<'_>)) {
         self.now = self.now.max(Some(arrival.stamp.monotonic));
-        if matches!(arrival.input, Input::Tick | Input::Order(_)) {
+        if matches!(arrival.input, Input::Tick | Input::Order(_) | Input::Storage(_)) {
             return; // it came to no port
         }
         if !self.ports.contains_key(&arrival.port) {

@@ -1,6 +1,6 @@
 //! Statistics of one port.
 
-use insd_base::{Input, PortState, Stamp, Time};
+use insd_base::{Input, PortState, Sent, Stamp, Time};
 use insd_intake::port::{Frame, Link, PortCounts, PortIntake};
 use insd_wire::stream::Protocol;
 
@@ -112,7 +112,7 @@ impl Port {
 
     pub(super) fn take(&mut self, stamp: &Stamp, input: &Input, show: &mut impl FnMut(&Seen<'_>)) {
         match input {
-            Input::Bytes(bytes) => self.bytes(stamp, bytes, show),
+            Input::Bytes(bytes) | Input::Sent(Sent { bytes, .. }) => self.bytes(stamp, bytes, show),
             Input::Can(frame) => {
                 self.speaks(stamp);
                 self.bus.frame(stamp, frame);
@@ -133,7 +133,7 @@ impl Port {
                 let what = SeenWhat::State(state);
                 show(&Seen { port: &self.plan.name, stamp: *stamp, what });
             }
-            Input::Tick | Input::Order(_) => {}
+            Input::Tick | Input::Order(_) | Input::Storage(_) => {}
         }
     }
 
@@ -183,7 +183,7 @@ impl Port {
                 self.told = Told::Ended;
                 self.interrupt(stamp, show);
             }
-            PortState::Silent { .. } | PortState::Speaking => {}
+            PortState::Silent { .. } | PortState::Speaking | PortState::Refused { .. } => {}
         }
     }
 

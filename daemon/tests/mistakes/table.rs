@@ -41,6 +41,7 @@ const AXES: &str = "axes = [\"forward\", \"starboard\", \"down\"]";
 const IMU: &str = "\"/dev/serial/by-id/usb-FTDI_IMU-if00-port0\", baud = 921600";
 const GNSS: &str = "\"/dev/serial/by-id/usb-u-blox_GNSS-if00\"";
 const BRIDGE: &str = "\"/dev/serial/by-id/usb-FTDI_bridge-if00-port0\", baud = 38400";
+const UDP_PORT: &str = "transport = { kind = \"udp\"";
 const UDP: &str = "kind = \"udp\", bind = \"0.0.0.0:60004\", multicast = \"239.192.0.4\"";
 
 pub(crate) const TABLE: &[Mistake] = &[
@@ -351,6 +352,26 @@ pub(crate) const TABLE: &[Mistake] = &[
         Error,
         "address",
         Write(UDP, "kind = \"udp\", bind = \"0.0.0:60004\""),
+    ),
+    row(
+        "host that is neither an address nor a network",
+        Error,
+        "address",
+        Write("multicast = \"239.192.0.4\"", "from = [\"192.168.1.0/33\"]"),
+    ),
+    row(
+        "commands about alerts over a network, and nobody may give them",
+        Warning,
+        "commands-nobody",
+        Add(
+            "[[port]]\nname = \"bam\"\nalerts = true\ntransport = { kind = \"udp\", bind = \"0.0.0.0:60010\" }",
+        ),
+    ),
+    row(
+        "hosts that may command a port that hears no commands",
+        Warning,
+        "commands-unheard",
+        Write(UDP_PORT, "commands_from = [\"192.168.1.30\"]\ntransport = { kind = \"udp\""),
     ),
     row(
         "server without a port",

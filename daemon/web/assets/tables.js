@@ -54,7 +54,7 @@ export function ports(data) {
     { text: port.name, sub: `${port.transport} · ${port.what}` },
     state(port.state, PORT_TONES),
     right(rate(port.rate_bytes_s)), right(age(port.age_s)), right(bytes(port.bytes)), right(count(port.frames)),
-    bad(port.damaged), bad(port.skipped_bytes), bad(port.overrun_bytes), bad(port.reopened),
+    bad(port.damaged), bad(port.skipped_bytes), bad(port.overrun_bytes), bad(port.refused), bad(port.reopened),
     { text: port.last_error ?? DASH, cls: "wrap" },
   ]));
   fill(byId("outputs"), data.outputs.map(output));
@@ -126,6 +126,7 @@ export function system(data) {
   setText(node, recording ? `${words(recording.state)}${recording.last_error ? `: ${recording.last_error}` : ""}` : "off");
   setClass(node, recording?.state === "failing" ? "is-bad" : "");
   estimates(data.estimates);
+  standings(data.standings ?? []);
   installation(data.installation ?? []);
   fill(byId("events"), [...data.events].reverse().map((event) => [
     event.utc ? clock(event.utc) : `${fixed(event.at_s, 1)} s`, state(event.severity, SEVERITIES), { text: event.text, cls: "wrap" },
@@ -133,6 +134,25 @@ export function system(data) {
 }
 
 const AXES = ["forward", "starboard", "down"];
+
+const STANDINGS = { doubtful: "is-bad", excluded: "is-bad" };
+const PARTIES = { gnss: "GNSS", log: "log", heading: "compass", reference: "second position", imu: "IMU" };
+
+function standings(all) {
+  const list = byId("standings");
+  const key = JSON.stringify(all);
+  if (list.dataset.shown === key) return;
+  list.dataset.shown = key;
+  list.replaceChildren(...all.map((one) => {
+    const item = document.createElement("li");
+    item.className = STANDINGS[one.standing] ?? "";
+    const told = one.standing === "trusted" && !one.text ? "believed" : one.text;
+    const advice = one.advice ? ` ${one.advice}` : "";
+    item.textContent = `${PARTIES[one.name] ?? one.name}: ${told}.${advice}`;
+    return item;
+  }));
+  show(byId("believed"), all.some((one) => one.standing !== "trusted"));
+}
 
 function installation(findings) {
   const list = byId("findings");

@@ -28,6 +28,8 @@ pub struct WebConfig {
     pub allowed_hosts: Vec<String>,
     /// Most connections at a time; further ones are told that it is too many (503).
     pub max_clients: usize,
+    /// Most connections of one address at a time, likewise. Behind a reverse proxy all have one address.
+    pub max_per_address: usize,
 }
 
 impl Default for WebConfig {
@@ -38,6 +40,7 @@ impl Default for WebConfig {
             token: None,
             allowed_hosts: Vec::new(),
             max_clients: 600,
+            max_per_address: 16,
         }
     }
 }

@@ -15,5 +15,8 @@ pub mod snapshot;
 
 pub use channel::{Publisher, Viewer, channel};
 pub use config::{Listen, MIN_TOKEN, WebConfig, WebError};
+
+/// Target of the lines of the journal that are about security: no level switches them off.
+pub const SECURITY: &str = "security";
 pub use orders::{Order, OrderReceiver, OrderSender, Request};
 pub use server::{WebHandle, start};

@@ -1,6 +1,7 @@
 //! From the page back to the engine's thread: the few things that may be changed, if a token is
 //! configured and was sent.
 
+use std::fmt;
 use std::time::Duration;
 
 use tokio::sync::mpsc::{self, Receiver, Sender};
@@ -30,6 +31,16 @@ pub enum Order {
     },
     /// What the journal tells from now on: a level, or a filter by module.
     LogLevel(String),
+}
+
+impl fmt::Display for Order {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Order::Acknowledge { id, .. } => write!(f, "acknowledge alert {id}"),
+            Order::Silence { id, .. } => write!(f, "silence alert {id}"),
+            Order::LogLevel(level) => write!(f, "log at level {level}"),
+        }
+    }
 }
 
 /// An order that waits for its answer.

@@ -23,7 +23,7 @@ mod magnetic;
 
 pub use magnetic::variation;
 
-use insd_base::{Arrival, Input, PortState, Received, Stamp, Time, UtcTime};
+use insd_base::{Arrival, Input, PortState, Received, Sent, Stamp, Time, UtcTime};
 
 use crate::can::CanIntake;
 use crate::choice::Quantity;
@@ -84,7 +84,7 @@ impl Intake {
         if let Some(port) = self.ports.get_mut(index) {
             let core = &mut self.core;
             match &arrival.input {
-                Input::Bytes(bytes) => {
+                Input::Bytes(bytes) | Input::Sent(Sent { bytes, .. }) => {
                     port.heard = Some(stamp.monotonic);
                     port.intake.take(stamp, bytes, |frame| core.frame(index, stamp, frame));
                 }
@@ -100,7 +100,7 @@ impl Intake {
                     port.heard = Some(stamp.monotonic);
                     core.utc.pulse(*pulse);
                 }
-                Input::Tick | Input::Order(_) => {}
+                Input::Tick | Input::Order(_) | Input::Storage(_) => {}
                 Input::State(state) => {
                     if matches!(state, PortState::Lost { .. } | PortState::Ended) {
                         port.intake.interrupt(stamp, |frame| core.frame(index, stamp, frame));

@@ -40,6 +40,8 @@ pub struct PortTold {
     pub trouble: Option<String>,
     /// Bytes dropped because more came than could be taken.
     pub overrun: u64,
+    /// Datagrams and calls of hosts that were not let in.
+    pub refused: u64,
 }
 
 impl PortTold {
@@ -52,6 +54,10 @@ impl PortTold {
             }
             PortState::Overrun { bytes } => {
                 self.overrun = self.overrun.saturating_add(*bytes);
+                return;
+            }
+            PortState::Refused { count, .. } => {
+                self.refused = self.refused.saturating_add(*count);
                 return;
             }
             PortState::Silent { .. } | PortState::Speaking | PortState::Ended => {}

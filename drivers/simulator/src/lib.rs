@@ -21,7 +21,9 @@ mod shipped;
 mod track;
 
 use insd_base::earth::{c_ne, ecef, geodetic};
-use insd_base::{Body, Ecef, Geodetic, ImuSample, LeverArms, Stamped, Truth, Voyage, VoyageHeader};
+use insd_base::{
+    Body, Ecef, Geodetic, ImuSample, LeverArms, Stamped, Truth, VesselKind, Voyage, VoyageHeader,
+};
 use nalgebra::Vector3;
 
 use random::{Purpose, normal3, stream};
@@ -79,6 +81,8 @@ fn header(scenario: &Scenario, seed: u64) -> VoyageHeader {
         initial: Some(stated_start(scenario, seed)),
         imu: scenario.imu.stated(),
         lever_arms: LeverArms { gnss: Body(Vector3::from(gnss)), log: Body(Vector3::from(log)) },
+        vessel: VesselKind::default(),
+        time_std: None,
     }
 }
 

@@ -8,7 +8,7 @@ use insd_n2k::text::slcan;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::ports::{PortConfig, Transport};
+use crate::ports::{Hosts, PortConfig, Transport};
 
 /// A CAN port.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,6 +82,9 @@ pub struct GatewayUdp {
     #[serde(default)]
     #[schemars(extend("format" = "socket"))]
     pub to: Option<SocketAddr>,
+    /// Hosts whose datagrams count: addresses, and networks like `10.0.0.0/24`. Left out: all.
+    #[serde(default)]
+    pub from: Option<Hosts>,
     /// What it speaks.
     pub format: GatewayFormat,
 }

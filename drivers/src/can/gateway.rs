@@ -12,7 +12,7 @@ use super::config::{GatewayTcp, GatewayUdp};
 use super::stream::TextBus;
 use super::words::{Tongue, Words};
 use super::{CanBus, Heard, Opener, Sending};
-use crate::ports::{CALLING, Clock, keep_alive};
+use crate::ports::{CALLING, Clock, Hosts, keep_alive};
 
 /// Longest datagram there can be.
 const DATAGRAM: usize = 65_536;
@@ -61,12 +61,13 @@ impl Opener for Datagrams {
     type Bus = DatagramBus;
 
     async fn open(&mut self) -> Result<(Self::Bus, String), String> {
-        let GatewayUdp { bind, to, format } = self.config;
+        let GatewayUdp { bind, to, format, .. } = self.config;
         let what = format!("gateway udp {bind}");
         let socket = open(bind).await.map_err(|error| format!("{what}: {error}"))?;
         let bus = DatagramBus {
             socket,
             to,
+            from: self.config.from.clone(),
             words: Words::new(Tongue::Gateway(format)),
             unsent: None,
             read_at: self.clock.now(),
@@ -89,6 +90,7 @@ async fn open(bind: SocketAddr) -> io::Result<UdpSocket> {
 pub(super) struct DatagramBus {
     socket: UdpSocket,
     to: Option<SocketAddr>,
+    from: Option<Hosts>,
     words: Words,
     /// A line for which there was no room.
     unsent: Option<String>,
@@ -115,7 +117,10 @@ impl CanBus for DatagramBus {
                 }
             };
             self.read_at = self.clock.now();
-            let (length, _) = read.map_err(|error| error.to_string())?;
+            let (length, peer) = read.map_err(|error| error.to_string())?;
+            if self.from.as_ref().is_some_and(|from| !from.contains(peer.ip())) {
+                return Ok(Heard::Stranger(peer.ip()));
+            }
             self.words.take(self.datagram.get(..length).unwrap_or_default());
             self.words.end();
         }

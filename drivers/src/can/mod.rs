@@ -34,6 +34,7 @@ mod tests;
 mod words;
 
 use std::future::Future;
+use std::net::IpAddr;
 use std::time::Duration;
 
 use insd_base::{BusEvent, CanFrame, Stamp};
@@ -88,6 +89,8 @@ pub enum Heard {
     Frame(Stamp, CanFrame),
     /// Something that the controller says.
     Event(Stamp, BusEvent),
+    /// A host on the network that is not listed sent something.
+    Stranger(IpAddr),
     /// There may be room for a frame again.
     Room,
     /// The log is at its end.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use insd_base::{BusEvent, CanFrame, PortId, Span, Stamp, Time};
+use insd_base::{BusEvent, CanFrame, Closed, PortId, Span, Stamp, Time};
 use tokio::time::sleep;
 
 use super::config::{CanConfig, CanFilter, CanTransport};
@@ -143,6 +143,7 @@ impl Port {
             match heard {
                 Ok(Heard::Frame(stamp, frame)) => self.hear(stamp, frame),
                 Ok(Heard::Event(stamp, event)) => self.bus_event(stamp, event),
+                Ok(Heard::Stranger(host)) => self.teller.refuse(host, Closed::NotListed),
                 Ok(Heard::Room) => self.refused = false,
                 Ok(Heard::End) => return Outcome::Ended,
                 Err(reason) => return Outcome::Lost(reason),

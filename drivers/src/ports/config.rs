@@ -1,13 +1,17 @@
 //! What a port is: plain types, readable from a configuration file. Unknown keys are refused; what a
 //! type cannot refuse is found by [`PortConfig::faults`] and [`OutputConfig::faults`].
 
-use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+mod faults;
+
+use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::can::{CanConfig, CanFilter, Candump, GatewayTcp, GatewayUdp, Slcan, Socketcan};
+use super::hosts::Hosts;
+
+use crate::can::{CanFilter, Candump, GatewayTcp, GatewayUdp, Slcan, Socketcan};
 
 /// A port that is listened to.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -26,6 +30,10 @@ pub struct PortConfig {
     /// Of a CAN port: which frames count; all if there is none.
     #[serde(default)]
     pub filters: Vec<CanFilter>,
+    /// Of a network port that is listened to for commands: the hosts whose commands are obeyed. Then it is
+    /// told of all bytes who sent them.
+    #[serde(default)]
+    pub commands_from: Option<Hosts>,
 }
 
 /// What a port listens to.
@@ -145,9 +153,9 @@ pub struct Udp {
     /// Address of the interface on which to join it; the system's choice if left out.
     #[serde(default)]
     pub interface: Option<Ipv4Addr>,
-    /// The only sender whose datagrams count.
+    /// Hosts whose datagrams count: addresses, and networks like `10.0.0.0/24`. Left out: all.
     #[serde(default)]
-    pub from: Option<IpAddr>,
+    pub from: Option<Hosts>,
 }
 
 /// A TCP server to call.
@@ -165,9 +173,16 @@ pub struct TcpServer {
     /// Local address and port.
     #[schemars(extend("format" = "socket"))]
     pub bind: SocketAddr,
+    /// Hosts that are let in: addresses, and networks like `10.0.0.0/24`. Left out: all.
+    #[serde(default)]
+    pub from: Option<Hosts>,
     /// Clients at one time; more are turned away.
     #[serde(default = "default_clients")]
     pub max_clients: usize,
+    /// Clients of one address at one time. The last place of all is never given to an address that has
+    /// others.
+    #[serde(default = "default_clients_per_address")]
+    pub max_per_address: usize,
 }
 
 /// A file or named pipe.
@@ -262,42 +277,28 @@ impl PortConfig {
     /// A port as it is if nothing else is said: told silent after 3 s, never written to.
     #[must_use]
     pub fn new(transport: Transport) -> Self {
-        PortConfig { transport, patience_s: default_patience(), write: false, filters: Vec::new() }
+        PortConfig {
+            transport,
+            patience_s: default_patience(),
+            write: false,
+            filters: Vec::new(),
+            commands_from: None,
+        }
     }
+}
 
-    /// All that is wrong with it, in words.
+impl Transport {
+    /// Whether hosts on a network can send to it.
     #[must_use]
-    pub fn faults(&self) -> Vec<String> {
-        let mut faults = Vec::new();
-        if !(self.patience_s > 0.0 && self.patience_s <= MAX_SECONDS) {
-            faults.push(format!("patience_s: expected more than 0 and at most {MAX_SECONDS}"));
-        }
-        match &self.transport {
-            Transport::Serial(serial) => faults.extend(serial.faults()),
-            Transport::TcpServer(server) => faults.extend(server.faults()),
-            Transport::Udp(udp) => faults.extend(udp.faults()),
-            _ => {}
-        }
-        match CanConfig::of(self) {
-            Some(can) => faults.extend(can.faults()),
-            None if !self.filters.is_empty() => {
-                faults.push("filters: expected a CAN port, for only that has filters".to_owned());
-            }
-            None => {}
-        }
-        let writable = matches!(
-            self.transport,
-            Transport::Serial(_)
+    pub fn is_network(&self) -> bool {
+        matches!(
+            self,
+            Transport::Udp(_)
                 | Transport::TcpClient(_)
                 | Transport::TcpServer(_)
-                | Transport::Slcan(_)
-        );
-        if self.write && !writable {
-            faults.push(
-                "write: expected a serial or TCP port, for only those can be written to".to_owned(),
-            );
-        }
-        faults
+                | Transport::GatewayTcp(_)
+                | Transport::GatewayUdp(_)
+        )
     }
 }
 
@@ -306,23 +307,6 @@ impl OutputConfig {
     #[must_use]
     pub fn new(destination: Destination) -> Self {
         OutputConfig { destination, waiting_bytes: None }
-    }
-
-    /// All that is wrong with it, in words.
-    #[must_use]
-    pub fn faults(&self) -> Vec<String> {
-        let mut faults = match &self.destination {
-            Destination::Serial(serial) => serial.faults(),
-            Destination::TcpServer(server) => server.faults().into_iter().collect(),
-            Destination::Pty(Pty { baud: Some(0), .. }) => {
-                vec!["baud: expected more than 0".to_owned()]
-            }
-            Destination::Udp(_) | Destination::File(_) | Destination::Pty(_) => Vec::new(),
-        };
-        if self.waiting_bytes == Some(0) {
-            faults.push("waiting_bytes: expected more than 0".to_owned());
-        }
-        faults
     }
 
     /// Bytes per second that the destination can carry; `None` if it has no pace of its own.
@@ -381,35 +365,26 @@ impl Serial {
         let parity = u32::from(self.parity != Parity::None);
         1 + u32::from(self.data_bits) + parity + u32::from(self.stop_bits)
     }
-
-    fn faults(&self) -> Vec<String> {
-        let checks = [
-            ((5..=8).contains(&self.data_bits), "data_bits: expected 5, 6, 7 or 8"),
-            ((1..=2).contains(&self.stop_bits), "stop_bits: expected 1 or 2"),
-            (self.baud > 0 && !self.probe_bauds.contains(&0), "baud: expected more than 0"),
-            (self.probe_s >= 0.1 && self.probe_s <= 60.0, "probe_s: expected 0.1 to 60"),
-        ];
-        checks.iter().filter(|(good, _)| !good).map(|(_, fault)| (*fault).to_owned()).collect()
-    }
 }
 
 impl TcpServer {
-    fn faults(&self) -> Option<String> {
-        (self.max_clients == 0).then(|| "max_clients: expected more than 0".to_owned())
+    /// A server at this address, with the usual limits.
+    #[must_use]
+    pub fn new(bind: SocketAddr) -> Self {
+        TcpServer {
+            bind,
+            from: None,
+            max_clients: default_clients(),
+            max_per_address: default_clients_per_address(),
+        }
+    }
+
+    /// Clients that one host may have: of several places one is left for another host.
+    #[must_use]
+    pub fn share(&self) -> usize {
+        self.max_per_address.min(self.max_clients.saturating_sub(1).max(1))
     }
 }
-
-impl Udp {
-    fn faults(&self) -> Option<String> {
-        let group = self.multicast?;
-        let fits = group.is_multicast() && self.bind.is_ipv4();
-        (!fits)
-            .then(|| format!("multicast: expected a multicast group that goes with {}", self.bind))
-    }
-}
-
-/// Longest patience, seconds: a day.
-const MAX_SECONDS: f64 = 86_400.0;
 
 fn default_patience() -> f64 {
     3.0
@@ -428,6 +403,10 @@ fn default_probe() -> f64 {
 }
 
 fn default_clients() -> usize {
+    32
+}
+
+fn default_clients_per_address() -> usize {
     8
 }
 

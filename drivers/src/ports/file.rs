@@ -42,7 +42,7 @@ pub(super) async fn listen(config: &File, teller: &mut Teller) -> Outcome {
         Err(error) => return Outcome::Absent(format!("{path}: {error}")),
     };
     teller.open(path.to_string());
-    Outcome::Lost(listen_to(receiver, teller, None).await)
+    Outcome::Lost(listen_to(receiver, teller, None, None).await)
 }
 
 /// Writes messages at the end of a file until it fails: a full disk, for example. Then the last

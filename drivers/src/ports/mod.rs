@@ -16,6 +16,9 @@
 //! Nothing is ever written to a port that is not configured for writing; no baud rate is searched by
 //! writing.
 //!
+//! Who is not let in, because the configuration does not list it or because it has enough connections, is
+//! told as `Refused`: at once, then once a minute with a count.
+//!
 //! [`spawn_output`] starts a port that is only written to. What it is handed is data that grow old:
 //!
 //! | trouble | what is done |
@@ -36,9 +39,11 @@ mod cable;
 mod chrony;
 mod clock;
 mod config;
+mod doorman;
 mod file;
 mod found;
 mod histogram;
+mod hosts;
 mod low_latency;
 mod outbox;
 mod outgoing;
@@ -64,6 +69,7 @@ pub use config::{
     SerialMode, TcpClient, TcpServer, Transport, Udp, UdpOutput,
 };
 pub use found::{FoundKind, FoundPort, list};
+pub use hosts::{Hosts, Network, NoNetwork};
 pub use outgoing::{AgeStatus, Outgoing, OutputStatus, SlotStatus};
 pub use probe::{Judge, Judgement};
 pub use queue::{FRAME, Queue, Receiver, WAITING_LIMIT, queue};

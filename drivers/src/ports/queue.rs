@@ -219,9 +219,10 @@ impl Lane {
 fn length(arrival: &Arrival) -> usize {
     match &arrival.input {
         Input::Bytes(bytes) => bytes.len(),
+        Input::Sent(sent) => sent.bytes.len(),
         Input::Can(_) | Input::Bus(_) => FRAME,
         Input::Order(order) => order.length(),
-        Input::Pulse(_) | Input::State(_) | Input::Tick => 0,
+        Input::Pulse(_) | Input::State(_) | Input::Storage(_) | Input::Tick => 0,
     }
 }
 

@@ -108,7 +108,8 @@ pub fn spawn(port: PortId, config: PortConfig, surroundings: Surroundings) -> Po
     let outlet = config
         .write
         .then(|| Outlet::new(Keeping::All, limit_of_input(&config.transport), Arc::clone(&clock)));
-    let teller = Teller::new(port, clock, queue, patience);
+    let teller =
+        Teller::new(port, clock, queue, patience).commanded_by(config.commands_from.clone());
     let attempts = Arc::<AtomicU64>::default();
     let work = match config.transport {
         Transport::Pps(pps) => Work::Thread(pps::spawn(pps, teller, Arc::clone(&attempts))),

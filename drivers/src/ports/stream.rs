@@ -1,6 +1,7 @@
 //! Listening and talking on anything that is a stream of bytes.
 
 use std::io;
+use std::net::IpAddr;
 use std::pin::Pin;
 
 use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt};
@@ -25,15 +26,16 @@ pub(super) async fn converse<R: AsyncRead + Unpin, W: AsyncWrite + Unpin>(
     doubt: Option<Doubt>,
 ) -> String {
     tokio::select! {
-        reason = listen(reader, teller, doubt) => reason,
+        reason = listen(reader, teller, None, doubt) => reason,
         reason = talk(writer, outbox, pace) => reason,
     }
 }
 
-/// Tells what a stream says, until it is lost.
+/// Tells what a stream says, and which host says it if it comes from one, until it is lost.
 pub(super) async fn listen<R: AsyncRead + Unpin>(
     mut reader: R,
     teller: &mut Teller,
+    host: Option<IpAddr>,
     mut doubt: Option<Doubt>,
 ) -> String {
     let mut bytes = Vec::with_capacity(READ);
@@ -43,7 +45,10 @@ pub(super) async fn listen<R: AsyncRead + Unpin>(
             Ok(Err(reason)) => return reason,
             Ok(Ok(())) => {
                 let stamp = teller.now();
-                teller.bytes(stamp, &bytes);
+                match host {
+                    Some(host) => teller.bytes_of(host, stamp, &bytes),
+                    None => teller.bytes(stamp, &bytes),
+                }
                 let given_up = doubt.as_mut().and_then(|doubt| doubt.hear(stamp.monotonic, &bytes));
                 if let Some(reason) = given_up {
                     return reason;

@@ -1,10 +1,11 @@
 //! TCP, calling and being called.
 
 use std::io;
+use std::net::IpAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
-use insd_base::Stamp;
+use insd_base::{Closed, Stamp};
 use socket2::{SockRef, TcpKeepalive};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::mpsc;
@@ -15,7 +16,7 @@ use super::clock::Clock;
 use super::config::{TcpClient, TcpServer};
 use super::outbox::{Outbox, Outlet};
 use super::run::Outcome;
-use super::stream::{converse, read, talk};
+use super::stream::{listen, read, talk};
 use super::teller::Teller;
 
 /// How long a call may take.
@@ -51,7 +52,12 @@ pub(super) async fn call(
         outbox.clear();
     }
     teller.open(format!("tcp {address}"));
-    Outcome::Lost(converse(tokio::io::split(stream), teller, outbox, None, None).await)
+    let host = stream.peer_addr().ok().map(|peer| peer.ip());
+    let (reader, writer) = tokio::io::split(stream);
+    Outcome::Lost(tokio::select! {
+        reason = listen(reader, teller, host, None) => reason,
+        reason = talk(writer, outbox, None) => reason,
+    })
 }
 
 /// Takes calls, listens and talks to all who call: each client has an outbox of its own, from the moment
@@ -67,17 +73,19 @@ pub(super) async fn serve(
     };
     let local = listener.local_addr().unwrap_or(config.bind);
     let (speaking, mut heard) = mpsc::channel(READS);
-    let mut clients = Clients { limit: config.max_clients, ..Clients::default() };
+    let mut clients = Clients::default();
     let mut counting = tokio::time::interval(COUNTING);
     loop {
         tokio::select! {
             accepted = listener.accept() => match accepted {
-                Ok((stream, _)) => clients.add(stream, teller.clock(), &speaking, outlet),
+                Ok((stream, peer)) => match clients.refusal(config, peer.ip()) {
+                    Some(why) => teller.refuse(peer.ip(), why),
+                    None => clients.add((stream, peer.ip()), teller.clock(), &speaking, outlet),
+                },
                 Err(_) => sleep(ACCEPTING).await,
             },
-            Some((stamp, bytes)) = heard.recv() => {
-                let bytes: Vec<u8> = bytes;
-                teller.bytes(stamp, &bytes);
+            Some(Heard { host, stamp, bytes }) = heard.recv() => {
+                teller.bytes_of(host, stamp, &bytes);
             }
             _ = clients.tasks.join_next_with_id(), if !clients.tasks.is_empty() => {
                 clients.forget_gone();
@@ -92,40 +100,52 @@ pub(super) async fn serve(
 
 #[derive(Default)]
 struct Clients {
-    limit: usize,
     tasks: JoinSet<()>,
-    open: Vec<AbortHandle>,
+    open: Vec<(IpAddr, AbortHandle)>,
 }
 
-type Heard = (Stamp, Vec<u8>);
+/// What a client said.
+struct Heard {
+    host: IpAddr,
+    stamp: Stamp,
+    bytes: Vec<u8>,
+}
 
 impl Clients {
-    /// Lets a client in, if there is room: otherwise the connection is closed at once.
+    /// Why a host is not let in: then the connection is closed at once.
+    fn refusal(&mut self, config: &TcpServer, host: IpAddr) -> Option<Closed> {
+        self.forget_gone();
+        let own = self.open.iter().filter(|(other, _)| *other == host).count();
+        if config.from.as_ref().is_some_and(|from| !from.contains(host)) {
+            Some(Closed::NotListed)
+        } else if own >= config.share() {
+            Some(Closed::HostFull)
+        } else {
+            (self.open.len() >= config.max_clients).then_some(Closed::Full)
+        }
+    }
+
     fn add(
         &mut self,
-        stream: TcpStream,
+        (stream, host): (TcpStream, IpAddr),
         clock: Arc<dyn Clock>,
         speaking: &mpsc::Sender<Heard>,
         outlet: Option<&Outlet>,
     ) {
-        self.forget_gone();
-        if self.open.len() >= self.limit {
-            return;
-        }
         keep_alive(&stream);
         hold_little(&stream);
-        let client =
-            converse_with_client(stream, clock, speaking.clone(), outlet.map(Outlet::outbox));
-        self.open.push(self.tasks.spawn(client));
+        let outbox = outlet.map(Outlet::outbox);
+        let client = converse_with_client((stream, host), clock, speaking.clone(), outbox);
+        self.open.push((host, self.tasks.spawn(client)));
     }
 
     fn forget_gone(&mut self) {
-        self.open.retain(|task| !task.is_finished());
+        self.open.retain(|(_, task)| !task.is_finished());
     }
 }
 
 async fn converse_with_client(
-    stream: TcpStream,
+    (stream, host): (TcpStream, IpAddr),
     clock: Arc<dyn Clock>,
     speaking: mpsc::Sender<Heard>,
     outbox: Option<Outbox>,
@@ -134,7 +154,8 @@ async fn converse_with_client(
     let listen = async {
         let mut bytes = Vec::new();
         while read(&mut reader, &mut bytes).await.is_ok() {
-            if speaking.send((clock.now(), bytes.clone())).await.is_err() {
+            let heard = Heard { host, stamp: clock.now(), bytes: bytes.clone() };
+            if speaking.send(heard).await.is_err() {
                 return;
             }
         }

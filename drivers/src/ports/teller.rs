@@ -1,12 +1,15 @@
 //! Tells what becomes of a port: bytes and frames with their stamp, and each change of state once.
 
+use std::net::IpAddr;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use insd_base::input::{Arrival, Input, PortId, PortState, Pulse, Stamp};
-use insd_base::{BusEvent, CanFrame, Span, Time};
+use insd_base::{BusEvent, CanFrame, Closed, Sent, Span, Time};
 
 use super::clock::Clock;
+use super::doorman::Doorman;
+use super::hosts::Hosts;
 use super::queue::Queue;
 
 /// Least time between two reports of an overrun.
@@ -38,6 +41,9 @@ pub(crate) struct Teller {
     /// Bytes dropped and not told.
     untold: u64,
     overrun_told: Option<Time>,
+    /// Hosts whose commands are obeyed, where commands are listened to.
+    commands_from: Option<Hosts>,
+    doorman: Doorman,
 }
 
 impl Teller {
@@ -61,7 +67,16 @@ impl Teller {
             silent: false,
             untold: 0,
             overrun_told: None,
+            commands_from: None,
+            doorman: Doorman::default(),
         }
+    }
+
+    /// The same, telling of all bytes of hosts on the network who sent them and whether that is one of
+    /// these.
+    pub(crate) fn commanded_by(mut self, commands_from: Option<Hosts>) -> Self {
+        self.commands_from = commands_from;
+        self
     }
 
     /// Both clocks, now.
@@ -132,6 +147,25 @@ impl Teller {
         self.overrun(stamp);
     }
 
+    /// Bytes came from a host on the network.
+    pub(crate) fn bytes_of(&mut self, host: IpAddr, stamp: Stamp, bytes: &[u8]) {
+        let Some(list) = &self.commands_from else { return self.bytes(stamp, bytes) };
+        if self.patience.is_some() && !bytes.is_empty() {
+            let (host, may_command) = (host.to_canonical().to_string(), list.contains(host));
+            self.speaks(stamp);
+            self.push(stamp, Input::Sent(Sent { host, may_command, bytes: bytes.to_vec() }));
+        }
+        self.overrun(stamp);
+    }
+
+    /// A host on the network was not let in.
+    pub(crate) fn refuse(&mut self, host: IpAddr, why: Closed) {
+        let now = self.now();
+        if let Some(state) = self.doorman.refuse(host, why, now.monotonic) {
+            self.push(now, Input::State(state));
+        }
+    }
+
     /// A frame came.
     pub(crate) fn frame(&mut self, stamp: Stamp, frame: CanFrame) {
         self.speaks(stamp);
@@ -163,15 +197,19 @@ impl Teller {
         let silence = self.heard.zip(self.patience).map(|(heard, patience)| heard + patience);
         let overrun = self.overrun_told.filter(|_| self.untold > 0);
         let overrun = overrun.map(|told| told + OVERRUN_PERIOD);
-        let next = silence.into_iter().chain(overrun).map(until).min();
+        let all = silence.into_iter().chain(overrun).chain(self.doorman.due_at());
+        let next = all.map(until).min();
         // a millisecond more, so that it is due when the sleeper wakes
         next.map_or(REST, |wait| wait.min(REST) + Duration::from_millis(1))
     }
 
-    /// Tells the silence and the overrun that are due.
+    /// Tells the silence, the overrun and the strangers that are due.
     pub(crate) fn tick(&mut self) {
         let now = self.now();
         self.overrun(now);
+        while let Some(state) = self.doorman.next(now.monotonic) {
+            self.push(now, Input::State(state));
+        }
         let span = self.heard.map_or(Span::ZERO, |heard| now.monotonic - heard);
         if self.patience.is_some_and(|patience| span >= patience) {
             self.heard = None;

@@ -4,6 +4,7 @@ use std::io;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::time::Duration;
 
+use insd_base::Closed;
 use socket2::{Domain, Protocol, Socket, Type};
 use tokio::net::UdpSocket;
 use tokio::time::timeout;
@@ -38,8 +39,11 @@ pub(super) async fn listen(config: &Udp, teller: &mut Teller) -> Outcome {
         match timeout(rest, socket.recv_from(&mut datagram)).await {
             Ok(Ok((length, from))) => {
                 let stamp = teller.now();
-                if config.from.is_none_or(|wanted| wanted == plain(from)) {
-                    teller.bytes(stamp, datagram.get(..length).unwrap_or_default());
+                if config.from.as_ref().is_none_or(|wanted| wanted.contains(from.ip())) {
+                    let bytes = datagram.get(..length).unwrap_or_default();
+                    teller.bytes_of(from.ip(), stamp, bytes);
+                } else {
+                    teller.refuse(from.ip(), Closed::NotListed);
                 }
             }
             Ok(Err(error)) => return Outcome::Lost(error.to_string()),
@@ -125,11 +129,6 @@ fn new_socket(address: SocketAddr) -> io::Result<Socket> {
 
 fn interface(configured: Option<Ipv4Addr>) -> Ipv4Addr {
     configured.unwrap_or(Ipv4Addr::UNSPECIFIED)
-}
-
-/// The sender, in IPv4 if it is one in the disguise of IPv6.
-fn plain(from: SocketAddr) -> IpAddr {
-    from.ip().to_canonical()
 }
 
 #[cfg(test)]

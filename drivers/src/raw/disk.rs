@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
+use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 
 /// A place for files.
@@ -20,6 +21,8 @@ pub(crate) trait Output: Debug + Send {
     fn append(&mut self, bytes: &[u8]) -> io::Result<()>;
     /// Takes back what a failed append left beyond a length.
     fn cut(&mut self, length: u64) -> io::Result<()>;
+    /// Whether nobody has deleted it: what is appended then is lost, and the system says nothing.
+    fn is_there(&self) -> bool;
 }
 
 /// The disk of the computer.
@@ -52,5 +55,9 @@ impl Output for File {
 
     fn cut(&mut self, length: u64) -> io::Result<()> {
         self.set_len(length)
+    }
+
+    fn is_there(&self) -> bool {
+        self.metadata().is_ok_and(|about| about.nlink() > 0)
     }
 }

@@ -32,6 +32,13 @@ pub enum RawWriteError {
         /// What the system said.
         source: io::Error,
     },
+    /// The folder was there and is not any more: deleted, or its disk was taken out. It is not made
+    /// anew, as what is written would go to another disk.
+    #[error("{}: the folder is gone", .folder.display())]
+    Gone {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// An arrival with more bytes than a block may have.
     #[error("an arrival of {bytes} bytes is not recorded, the limit is {LONGEST_PAYLOAD}")]
     TooLong {

@@ -1,8 +1,8 @@
 //! One arrival as a record of a block.
 
 use insd_base::{
-    AlertOrder, Arrival, BusEvent, CanFrame, CanId, Input, Order, PortId, PortState, Pulse, Span,
-    Stamp, Time, UtcTime,
+    AlertOrder, Arrival, BusEvent, CanFrame, CanId, Closed, Input, Order, PortId, PortState, Pulse,
+    Sent, Span, Stamp, StorageFaults, Time, UtcTime,
 };
 
 use super::varint::{put, put_signed, take, take_signed};
@@ -25,7 +25,16 @@ mod kind {
     pub(super) const BUS: u8 = 10;
     pub(super) const TICK: u8 = 11;
     pub(super) const ORDER: u8 = 12;
+    /// All that came later: what it is stands in the number behind the clocks.
+    pub(super) const MORE: u8 = 13;
     pub(super) const GAP: u8 = 15;
+}
+
+/// The kinds of records of [`kind::MORE`].
+mod more {
+    pub(super) const SENT: u64 = 0;
+    pub(super) const REFUSED: u64 = 1;
+    pub(super) const STORAGE: u64 = 2;
 }
 
 /// What a block holds.
@@ -82,6 +91,11 @@ impl Encoder {
             }
             Input::State(state) => put_state(bytes, state),
             Input::Order(order) => put_order(bytes, order),
+            Input::Sent(sent) => put_sent(bytes, sent),
+            Input::Storage(faults) => {
+                put(bytes, more::STORAGE);
+                put(bytes, u64::from(faults.recording) | u64::from(faults.state) << 1);
+            }
             Input::Tick => {}
         }
     }
@@ -95,6 +109,7 @@ fn kind_of(input: &Input) -> u8 {
         Input::Pulse(_) => kind::PULSE,
         Input::Tick => kind::TICK,
         Input::Order(_) => kind::ORDER,
+        Input::Sent(_) | Input::Storage(_) => kind::MORE,
         Input::State(state) => match state {
             PortState::Open { .. } => kind::OPEN,
             PortState::Absent { .. } => kind::ABSENT,
@@ -103,6 +118,7 @@ fn kind_of(input: &Input) -> u8 {
             PortState::Speaking => kind::SPEAKING,
             PortState::Overrun { .. } => kind::OVERRUN,
             PortState::Ended => kind::ENDED,
+            PortState::Refused { .. } => kind::MORE,
         },
     }
 }
@@ -114,8 +130,28 @@ fn put_state(bytes: &mut Vec<u8>, state: &PortState) {
         | PortState::Lost { reason: text } => put_bytes(bytes, text.as_bytes()),
         PortState::Silent { span } => put_signed(bytes, span.as_nanos()),
         PortState::Overrun { bytes: dropped } => put(bytes, *dropped),
+        PortState::Refused { host, why, count } => {
+            put(bytes, more::REFUSED);
+            put_bytes(bytes, host.as_bytes());
+            put(
+                bytes,
+                match why {
+                    Closed::NotListed => 0,
+                    Closed::HostFull => 1,
+                    Closed::Full => 2,
+                },
+            );
+            put(bytes, *count);
+        }
         PortState::Speaking | PortState::Ended => {}
     }
+}
+
+fn put_sent(bytes: &mut Vec<u8>, sent: &Sent) {
+    put(bytes, more::SENT);
+    put_bytes(bytes, sent.host.as_bytes());
+    put(bytes, u64::from(sent.may_command));
+    put_bytes(bytes, &sent.bytes);
 }
 
 /// The identifier with its kind in the lowest bit, then the data.
@@ -220,9 +256,44 @@ fn input(kind: u8, bytes: &mut &[u8], monotonic: i64) -> Option<Input> {
         kind::ENDED => PortState::Ended,
         kind::TICK => return Some(Input::Tick),
         kind::ORDER => return take_order(bytes).map(Input::Order),
+        kind::MORE => return take_more(bytes),
         _ => return None,
     };
     Some(Input::State(state))
+}
+
+fn take_more(bytes: &mut &[u8]) -> Option<Input> {
+    Some(match take(bytes)? {
+        more::SENT => {
+            let host = take_text(bytes)?;
+            let may_command = take_flag(bytes)?;
+            Input::Sent(Sent { host, may_command, bytes: take_bytes(bytes)?.to_vec() })
+        }
+        more::REFUSED => {
+            let host = take_text(bytes)?;
+            let why = match take(bytes)? {
+                0 => Closed::NotListed,
+                1 => Closed::HostFull,
+                2 => Closed::Full,
+                _ => return None,
+            };
+            Input::State(PortState::Refused { host, why, count: take(bytes)? })
+        }
+        more::STORAGE => {
+            let faults = take(bytes)?;
+            let [recording, state] = [1, 2].map(|bit| faults & bit != 0);
+            (faults <= 3).then_some(Input::Storage(StorageFaults { recording, state }))?
+        }
+        _ => return None,
+    })
+}
+
+fn take_flag(bytes: &mut &[u8]) -> Option<bool> {
+    match take(bytes)? {
+        0 => Some(false),
+        1 => Some(true),
+        _ => None,
+    }
 }
 
 fn take_frame(bytes: &mut &[u8]) -> Option<CanFrame> {

@@ -40,6 +40,14 @@ pub struct RecorderState {
     pub fault: Option<Arc<RawWriteError>>,
 }
 
+impl RecorderState {
+    /// Whether the disk does not take what arrives.
+    #[must_use]
+    pub fn is_failing(&self) -> bool {
+        self.fault.as_deref().is_some_and(|fault| !matches!(fault, RawWriteError::TooLong { .. }))
+    }
+}
+
 #[derive(Debug)]
 enum Message {
     /// An arrival, and how many before it were left out.

@@ -63,6 +63,10 @@ impl Output for MoodyFile {
         // what stands there stays: the reader has to cope
         Err(io::ErrorKind::ReadOnlyFilesystem.into())
     }
+
+    fn is_there(&self) -> bool {
+        self.1.is_there()
+    }
 }
 
 fn writer() -> (TempDir, MoodyDisk, RawWriter) {
@@ -102,7 +106,8 @@ fn numbers(folder: &Path) -> Vec<i64> {
             other => panic!("{other:?}"),
         },
         Err(RawFault::NotRecorded { arrivals, .. }) => Some(-(arrivals as i64)),
-        Err(RawFault::CutShort { .. }) => None,
+        Err(RawFault::CutShort { .. } | RawFault::FilesMissing { .. }) => None,
+        Err(RawFault::Missing { .. }) => None,
         Err(fault) => panic!("{fault}"),
     });
     items.collect()
@@ -126,6 +131,45 @@ fn a_full_disk_costs_what_was_waiting_and_the_recording_tells() {
     assert_eq!(numbers(folder.path()), [0, 1, 2, 3, -7, 11, 12]);
     let written = writer.written();
     assert_eq!((written.arrivals, written.dropped, written.files), (6, 7, 2));
+}
+
+#[test]
+fn a_folder_that_is_deleted_is_told_and_recording_goes_on_when_it_is_there_again() {
+    let (folder, _, writer) = writer();
+    let mut recorder = Recorder::start(writer).unwrap();
+    let mut next = 0;
+    let mut until = |recorder: &mut Recorder, wanted: &dyn Fn(&RecorderState) -> bool| {
+        while !wanted(&recorder.state()) {
+            recorder.record(&arrival(next));
+            next += 1;
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+    };
+    until(&mut recorder, &|state| state.written.records > 0);
+    assert!(!recorder.state().is_failing());
+    std::fs::remove_dir_all(folder.path()).unwrap();
+    until(&mut recorder, &RecorderState::is_failing);
+    let fault = recorder.state().fault.unwrap();
+    assert!(matches!(*fault, RawWriteError::Gone { .. }), "{fault}");
+    assert!(!folder.path().exists(), "it is not made anew");
+    std::fs::create_dir(folder.path()).unwrap();
+    until(&mut recorder, &|state| !state.is_failing());
+    assert!(recorder.finish().written.dropped > 0);
+    assert!(numbers(folder.path())[0] < 0, "what was not recorded is counted");
+}
+
+#[test]
+fn a_file_that_is_deleted_is_followed_by_another() {
+    let (folder, _, mut writer) = writer();
+    writer.record(&arrival(0)).unwrap();
+    writer.flush().unwrap();
+    for file in std::fs::read_dir(folder.path()).unwrap() {
+        std::fs::remove_file(file.unwrap().path()).unwrap();
+    }
+    writer.record(&arrival(1)).unwrap();
+    writer.flush().unwrap();
+    assert_eq!(writer.written().files, 2);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
 #[test]

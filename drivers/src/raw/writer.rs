@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use insd_base::{Arrival, Input, PortState, Span, Stamp, Time};
+use insd_base::{Arrival, Input, PortState, Sent, Span, Stamp, Time};
 
 use super::block::{LONGEST_PAYLOAD, Open};
 use super::disk::{Disk, LocalDisk, Output};
@@ -220,7 +220,8 @@ impl RawWriter {
             current.length + length > self.config.rotate_bytes
                 || first.monotonic - current.since > self.config.rotate_span
         };
-        let current = match self.current.take().filter(|current| !full(current)) {
+        let open = self.current.take().filter(|own| !full(own) && own.output.is_there());
+        let current = match open {
             Some(current) => self.append(current, block)?,
             None => self.new_file(first, block)?,
         };
@@ -243,6 +244,9 @@ impl RawWriter {
 
     /// Makes a file with a header and a block, or none.
     fn new_file(&mut self, first: Stamp, block: &[u8]) -> Result<Current, RawWriteError> {
+        if self.run.is_some() && !self.folder.is_dir() {
+            return Err(RawWriteError::Gone { folder: self.folder.clone() });
+        }
         self.older = self.members()?;
         let newest = self.older.last().map_or(0, |member| member.serial);
         let serial = newest.max(self.serial).saturating_add(1);
@@ -313,12 +317,19 @@ impl Drop for RawWriter {
 pub(crate) fn payload(input: &Input) -> usize {
     match input {
         Input::Bytes(bytes) => bytes.len(),
+        Input::Sent(Sent { host, bytes, .. }) => host.len() + bytes.len(),
         Input::State(
             PortState::Open { what: text }
             | PortState::Absent { reason: text }
-            | PortState::Lost { reason: text },
+            | PortState::Lost { reason: text }
+            | PortState::Refused { host: text, .. },
         ) => text.len(),
         Input::Order(order) => order.length(),
-        Input::Can(_) | Input::Bus(_) | Input::Pulse(_) | Input::State(_) | Input::Tick => 0,
+        Input::Can(_)
+        | Input::Bus(_)
+        | Input::Pulse(_)
+        | Input::State(_)
+        | Input::Storage(_)
+        | Input::Tick => 0,
     }
 }

@@ -5,7 +5,9 @@ use std::io::Read;
 use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 
-use insd_base::{Body, Geodetic, ImuSpec, LeverArms, StartCondition, Triad, VoyageHeader};
+use insd_base::{
+    Body, Geodetic, ImuSpec, LeverArms, StartCondition, Triad, VesselKind, VoyageHeader,
+};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -76,6 +78,9 @@ fn header(root: &Section<'_, '_>, faults: &mut Vec<String>) -> Option<VoyageHead
             None
         }
     };
+    let ship = root.section("ship", faults);
+    let vessel = ship.as_ref().and_then(|section| vessel(section, faults));
+    let time_std = ship.and_then(|section| time_std(&section, faults));
     let arms = root.section("lever_arms_m", faults);
     let lever_arms = arms.map(|section| LeverArms {
         gnss: section.lever_arm("gnss", faults),
@@ -87,7 +92,23 @@ fn header(root: &Section<'_, '_>, faults: &mut Vec<String>) -> Option<VoyageHead
         initial: initial.flatten(),
         imu: imu?,
         lever_arms: lever_arms.unwrap_or_default(),
+        vessel: vessel.unwrap_or_default(),
+        time_std,
     })
+}
+
+fn vessel(section: &Section<'_, '_>, faults: &mut Vec<String>) -> Option<VesselKind> {
+    section.get("kind")?;
+    let kind = VesselKind::of_word(&section.word("kind", faults)?);
+    if kind.is_none() {
+        faults.push(section.fault("kind", "expected \"ship\", \"boat\" or \"car\""));
+    }
+    kind
+}
+
+fn time_std(section: &Section<'_, '_>, faults: &mut Vec<String>) -> Option<f64> {
+    section.get("gnss_delay_std_s")?;
+    section.number("gnss_delay_std_s", 1e-9..=1.0, faults)
 }
 
 fn start_utc(root: &Section<'_, '_>, faults: &mut Vec<String>) -> Option<String> {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use insd_base::units::{DEG_PER_HOUR, DEG_PER_SQRT_HOUR, MICRO_G, MPS_PER_SQRT_HOUR, PPM};
-use insd_base::{Body, StartCondition, VoyageHeader};
+use insd_base::{Body, StartCondition, VesselKind, VoyageHeader};
 
 /// The text of `voyage.toml`.
 pub(super) fn header_text(header: &VoyageHeader) -> String {
@@ -18,6 +18,10 @@ pub(super) fn header_text(header: &VoyageHeader) -> String {
         push_number(&mut text, "lon_deg", initial.longitude.to_degrees());
         push_number(&mut text, "height_m", initial.height);
     }
+    if header.vessel != VesselKind::default() || header.time_std.is_some() {
+        let _ = writeln!(text, "\n[ship]\nkind = \"{}\"", header.vessel.as_str());
+    }
+    header.time_std.iter().for_each(|std| push_number(&mut text, "gnss_delay_std_s", *std));
     text.push_str("\n[imu]\n");
     let (gyro, accel) = (&header.imu.gyro, &header.imu.accel);
     for (key, value) in [

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::io::{self, Write};
 use std::path::Path;
 
-use insd_base::{Ned, Solution};
+use insd_base::{Integrity, Ned, Solution};
 
 use super::error::RecordingError;
 use super::number::{Zeros, push_fixed, push_time};
@@ -14,6 +14,14 @@ use super::table::Row;
 const DEGREE_PLACES: usize = 10;
 const METRE_PLACES: usize = 5;
 const ANGLE_PLACES: usize = 6;
+/// The columns behind the mode.
+const FURTHER: [&str; 4] = ["hpl_m", "vpl_m", "integrity", "excluded"];
+/// Sigmas that are a protection level, for a risk of 1e-5 in three hours of errors that last five minutes: 2.8e-7
+/// each. The horizontal one is of the sum of both components, which is no less than that along any direction.
+const HORIZONTAL: f64 = 5.5;
+const VERTICAL: f64 = 5.2;
+/// Horizontal alert limit of general navigation, m (IMO A.915(22), appendix 2).
+const ALERT_LIMIT: f64 = 25.0;
 /// Claimed where a standard deviation is not finite or larger, in the unit of the column.
 const MAX_SIGMA: f64 = 1e6;
 
@@ -33,7 +41,7 @@ impl<W: Write> NavWriter<W> {
     /// # Errors
     /// The target cannot be written.
     pub fn new(mut target: W) -> io::Result<Self> {
-        writeln!(target, "{}", Solution::COLUMNS.join(","))?;
+        writeln!(target, "{},{}", Solution::COLUMNS.join(","), FURTHER.join(","))?;
         Ok(NavWriter { target, row: Vec::with_capacity(256), left_out: 0 })
     }
 
@@ -51,6 +59,7 @@ impl<W: Write> NavWriter<W> {
         push_sigmas(&mut self.row, solution);
         self.row.push(b',');
         self.row.extend_from_slice(solution.mode.as_str().as_bytes());
+        push_judgement(&mut self.row, solution);
         self.row.push(b'\n');
         self.target.write_all(&self.row)
     }
@@ -104,6 +113,28 @@ fn push_state(row: &mut Vec<u8>, solution: &Solution) {
     push(row, if heading >= 360.0 - 0.5e-6 { 0.0 } else { heading }, ANGLE_PLACES);
 }
 
+/// Protection levels, whether they may be relied on, and who is left out.
+fn push_judgement(row: &mut Vec<u8>, solution: &Solution) {
+    let sigma = &solution.sigma.position.0;
+    let horizontal = HORIZONTAL * sigma.xy().norm();
+    push_sigma(row, horizontal, METRE_PLACES);
+    push_sigma(row, VERTICAL * sigma.z, METRE_PLACES);
+    let integrity = match solution.judgement.integrity {
+        Integrity::Contradiction => "fault",
+        Integrity::Consistent if horizontal <= ALERT_LIMIT => "available",
+        _ => "unavailable",
+    };
+    row.push(b',');
+    row.extend_from_slice(integrity.as_bytes());
+    row.push(b',');
+    for (at, party) in solution.judgement.excluded.iter().enumerate() {
+        if at > 0 {
+            row.push(b' ');
+        }
+        row.extend_from_slice(party.as_str().as_bytes());
+    }
+}
+
 fn push_sigmas(row: &mut Vec<u8>, solution: &Solution) {
     let sigma = &solution.sigma;
     for position in &sigma.position.0 {
@@ -140,7 +171,9 @@ fn is_finite(solution: &Solution) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use insd_base::{Attitude, Body, Geodetic, Mode, SolutionSigma, Time};
+    use insd_base::{
+        Attitude, Body, Geodetic, Judgement, Mode, Parties, Party, SolutionSigma, Time,
+    };
 
     fn solution() -> Solution {
         Solution {
@@ -157,6 +190,7 @@ mod tests {
                 heading: -0.0,
             },
             mode: Mode::DeadReckoning,
+            judgement: insd_base::Judgement::default(),
         }
     }
 
@@ -176,14 +210,29 @@ mod tests {
             lines.next().unwrap(),
             "t_s,lat_deg,lon_deg,height_m,vn_mps,ve_mps,vd_mps,roll_deg,pitch_deg,heading_deg,\
              std_n_m,std_e_m,std_d_m,std_vn_mps,std_ve_mps,std_vd_mps,std_roll_deg,std_pitch_deg,\
-             std_heading_deg,mode"
+             std_heading_deg,mode,hpl_m,vpl_m,integrity,excluded"
         );
         assert_eq!(
             lines.next().unwrap(),
             "12.3,-35.1234567890,180.0000000000,-3.25000,1.00000,-2.50000,0.00001,-0.572958,\
              1.145916,0.000000,1000000.00000,0.00001,1000000.00000,0.010000,0.010000,0.020000,\
-             0.000573,0.000573,0.000001,dead_reckoning"
+             0.000573,0.000573,0.000001,dead_reckoning,1000000.00000,1000000.00000,unavailable,"
         );
+    }
+
+    #[test]
+    fn whoever_is_left_out_is_named_and_a_contradiction_is_a_fault() {
+        let excluded: Parties = [Party::Gnss, Party::Log].into_iter().collect();
+        let row = |integrity| {
+            let judgement = Judgement { integrity, excluded };
+            let mut sigma = solution().sigma;
+            sigma.position = Ned::new(1.0, 1.0, 1.0);
+            let text = text(&[Solution { judgement, sigma, ..solution() }]);
+            text.lines().nth(1).unwrap().split(',').skip(20).collect::<Vec<_>>().join(",")
+        };
+        assert_eq!(row(Integrity::Consistent), "7.77817,5.20000,available,gnss log");
+        assert!(row(Integrity::Unproven).ends_with(",unavailable,gnss log"));
+        assert!(row(Integrity::Contradiction).ends_with(",fault,gnss log"));
     }
 
     #[test]

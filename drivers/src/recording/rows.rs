@@ -239,6 +239,7 @@ impl Row for Solution {
                 heading: fields.required(18)?.to_radians(),
             },
             mode: mode.ok_or_else(|| fields.bad(19, RowFault::UnknownWord))?,
+            judgement: insd_base::Judgement::default(),
         })
     }
 

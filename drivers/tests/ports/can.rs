@@ -217,7 +217,7 @@ async fn a_gateway_sends_datagrams_of_several_lines() {
     let own = std::net::UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
     let mut host = Host::new();
     let to = Some(gateway.local_addr().unwrap());
-    let config = GatewayUdp { bind: own, to, format: GatewayFormat::Ydwg };
+    let config = GatewayUdp { bind: own, to, from: None, format: GatewayFormat::Ydwg };
     let _port = can_port(&host, Transport::GatewayUdp(config), Some(saying(frame(&[7]))));
     let mut bytes = [0; 64];
     let count = gateway.recv(&mut bytes).await.unwrap();

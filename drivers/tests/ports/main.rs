@@ -13,3 +13,4 @@ mod node;
 mod output;
 mod pace;
 mod serial;
+mod strangers;

@@ -61,6 +61,7 @@ fn node(unique_number: u32) -> Node {
         manufacturer_info: String::new(),
         transmit: vec![heading],
         receive: Vec::new(),
+        commands: true,
     };
     Node::new(config, u64::from(unique_number))
 }

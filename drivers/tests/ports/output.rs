@@ -114,7 +114,11 @@ async fn a_server_writes_to_all_clients_and_one_that_stalls_costs_the_others_not
     const BURST: u32 = 200;
     let bind = free_address();
     let mut host = Host::new();
-    let destination = Destination::TcpServer(TcpServer { bind, max_clients: 4 });
+    let destination = Destination::TcpServer(TcpServer {
+        max_clients: 5,
+        max_per_address: 4,
+        ..TcpServer::new(bind)
+    });
     let output = host.spawn_output(1, OutputConfig::new(destination));
     host.opened(1).await;
     output.send(host.message(0, line(999)));

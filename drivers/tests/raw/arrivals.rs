@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use insd_base::{
-    AlertOrder, Arrival, BusEvent, CanFrame, CanId, Input, Order, PortId, PortState, Pulse, Span,
-    Stamp, Time, UtcTime,
+    AlertOrder, Arrival, BusEvent, CanFrame, CanId, Closed, Input, Order, PortId, PortState, Pulse,
+    Sent, Span, Stamp, StorageFaults, Time, UtcTime,
 };
 use insd_drivers::raw::{RawFault, RawHeader, RawReader, RawWriter, RecordingConfig};
 use proptest::collection::vec;
@@ -41,6 +41,10 @@ fn input() -> impl Strategy<Value = Input> {
         1 => state().prop_map(Input::State),
         1 => Just(Input::Tick),
         1 => order().prop_map(Input::Order),
+        1 => (".{0,20}", any::<bool>(), vec(any::<u8>(), 0..60))
+            .prop_map(|(host, may_command, bytes)| Input::Sent(Sent { host, may_command, bytes })),
+        1 => any::<(bool, bool)>()
+            .prop_map(|(recording, state)| Input::Storage(StorageFaults { recording, state })),
     ]
 }
 
@@ -88,6 +92,10 @@ fn state() -> impl Strategy<Value = PortState> {
         Just(PortState::Speaking),
         any::<u64>().prop_map(|bytes| PortState::Overrun { bytes }),
         Just(PortState::Ended),
+        (".{0,20}", 0_usize..3, any::<u64>()).prop_map(|(host, why, count)| {
+            let why = [Closed::NotListed, Closed::HostFull, Closed::Full][why];
+            PortState::Refused { host, why, count }
+        }),
     ]
 }
 

@@ -5,6 +5,7 @@ use std::fmt;
 
 use crate::installation::Finding;
 use crate::messages::Source;
+use crate::party::Stands;
 use crate::solution::Mode;
 use crate::time::Time;
 
@@ -312,6 +313,13 @@ pub enum Event {
         time: Time,
         /// What.
         finding: Finding,
+    },
+    /// Somebody is believed otherwise than before.
+    Judged {
+        /// When.
+        time: Time,
+        /// Who, and how.
+        stands: Stands,
     },
     /// The position was set anew from a source that the gate had kept out for too long.
     PositionReset {

@@ -54,6 +54,37 @@ pub enum PortState {
     },
     /// A file or recording has been read to its end.
     Ended,
+    /// Somebody on the network was not let in.
+    Refused {
+        /// Address of the host.
+        host: String,
+        /// Why.
+        why: Closed,
+        /// Datagrams or calls of it since the last such report.
+        count: u64,
+    },
+}
+
+/// Why a host on the network is not let in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Closed {
+    /// It is not one of those from whom the port takes anything.
+    NotListed,
+    /// It has as many connections as a host may have.
+    HostFull,
+    /// All connections that the port can have are taken.
+    Full,
+}
+
+/// Bytes of which it is known who on the network sent them, and whether it may give commands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sent {
+    /// Address of the host.
+    pub host: String,
+    /// Whether its commands are obeyed.
+    pub may_command: bool,
+    /// The bytes: of a stream as one read gave them, or one datagram.
+    pub bytes: Vec<u8>,
 }
 
 /// A pulse per second.
@@ -70,6 +101,8 @@ pub struct Pulse {
 pub enum Input {
     /// Bytes of a stream as one read gave them, or one datagram.
     Bytes(Vec<u8>),
+    /// The same from the network, at a port that is listened to for commands.
+    Sent(Sent),
     /// A frame of a CAN bus.
     Can(CanFrame),
     /// What the controller says of its CAN bus.
@@ -84,6 +117,17 @@ pub enum Input {
     /// What the operator orders, or the run before has left. Recorded like all that arrives: what comes
     /// after depends on it.
     Order(Order),
+    /// What cannot be written on the disk from here on. Recorded like all that arrives: alerts depend on it.
+    Storage(StorageFaults),
+}
+
+/// What cannot be written on the disk at present.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct StorageFaults {
+    /// The recording.
+    pub recording: bool,
+    /// What the next start goes on from.
+    pub state: bool,
 }
 
 /// What is not measured but ordered.
@@ -129,6 +173,17 @@ pub struct Arrival {
     pub input: Input,
 }
 
+impl Input {
+    /// The bytes that it holds, whoever sent them.
+    #[must_use]
+    pub fn bytes(&self) -> Option<&[u8]> {
+        match self {
+            Input::Bytes(bytes) | Input::Sent(Sent { bytes, .. }) => Some(bytes),
+            _ => None,
+        }
+    }
+}
+
 impl Order {
     /// Bytes of what has no fixed length.
     #[must_use]
@@ -151,6 +206,19 @@ impl fmt::Display for PortState {
             PortState::Speaking => f.write_str("speaking again"),
             PortState::Overrun { bytes } => write!(f, "overrun: {bytes} bytes dropped"),
             PortState::Ended => f.write_str("ended"),
+            PortState::Refused { host, why, count } => {
+                write!(f, "refused: {host}, {why} (count {count})")
+            }
         }
+    }
+}
+
+impl fmt::Display for Closed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Closed::NotListed => "which is not listed",
+            Closed::HostFull => "which has as many connections as one host may have",
+            Closed::Full => "for whom there is no connection left",
+        })
     }
 }

@@ -5,6 +5,7 @@ use std::fmt;
 
 use crate::estimates::Estimate;
 use crate::frames::Body;
+use crate::party::Party;
 
 /// Axes of an IMU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -182,6 +183,18 @@ impl Finding {
                 | Finding::MountingTilted { .. }
                 | Finding::MountingTurned { .. }
         )
+    }
+
+    /// Who is not used where that is so, wholly or in part.
+    #[must_use]
+    pub fn excludes(&self) -> Option<Party> {
+        match self {
+            Finding::LogMounting { .. } | Finding::Frozen { what: Frozen::Log } => Some(Party::Log),
+            Finding::Frozen { what: Frozen::Heading } => Some(Party::Heading),
+            Finding::Frozen { .. } => Some(Party::Gnss),
+            finding if finding.doubts_imu() => Some(Party::Imu),
+            _ => None,
+        }
     }
 
     /// What to write into the configuration, a line of TOML, where that follows from what was found.

@@ -19,12 +19,14 @@ pub mod input;
 pub mod installation;
 pub mod messages;
 pub mod motion;
+pub mod party;
 pub mod sensor;
 pub mod solution;
 pub mod time;
 pub mod units;
 pub mod utc;
 pub mod utm;
+pub mod vessel;
 pub mod voyage;
 
 pub use alignment::{
@@ -37,15 +39,19 @@ pub use events::{Counts, Event, Innovation, ModeReason, Rejection, ResumeDoubt, 
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
 pub use heave::{DelayedHeave, Heave, HeaveQuality};
-pub use input::{AlertOrder, Arrival, Input, Order, PortId, PortState, Pulse, Stamp};
+pub use input::{
+    AlertOrder, Arrival, Closed, Input, Order, PortId, PortState, Pulse, Sent, Stamp, StorageFaults,
+};
 pub use installation::{Axes, Finding, Frozen};
 pub use messages::{
     ExternalReference, ImuSample, LogReference, LogVelocity, Message, Received, Source,
 };
 pub use motion::{Current, Motion};
+pub use party::{Fault, Integrity, Judgement, Parties, Party, Standing, Stands};
 pub use sensor::{ImuSpec, LeverArms, Triad};
 pub use solution::{Mode, Solution, SolutionSigma};
 pub use time::{Span, Time};
 pub use utc::{GpsTime, UtcTime};
 pub use utm::Utm;
+pub use vessel::{Sideways, VesselKind};
 pub use voyage::{Stamped, StartCondition, Truth, Voyage, VoyageHeader};

@@ -106,6 +106,7 @@ mod tests {
                 rate: Body::new(0.0, 0.0, 20_f64.to_radians()),
                 sigma: SolutionSigma { heading: 0.01, ..SolutionSigma::default() },
                 mode: Mode::Aided,
+                judgement: crate::Judgement::default(),
             },
             acceleration: Some(Ned::new(-3.0, 0.0, 0.0)),
             covariance_north_east: Some(0.0),

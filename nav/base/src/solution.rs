@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
 use crate::frames::{Body, Geodetic, Ned};
+use crate::party::Judgement;
 use crate::time::Time;
 
 /// What the system is doing, as in the last column of `nav.csv`.
@@ -84,6 +85,28 @@ pub struct SolutionSigma {
 }
 
 impl SolutionSigma {
+    fn zip(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        SolutionSigma {
+            position: Ned(self.position.0.zip_map(&other.position.0, &of)),
+            velocity: Ned(self.velocity.0.zip_map(&other.velocity.0, &of)),
+            roll: of(self.roll, other.roll),
+            pitch: of(self.pitch, other.pitch),
+            heading: of(self.heading, other.heading),
+        }
+    }
+
+    /// The greater one of each component.
+    #[must_use]
+    pub fn greatest(&self, other: &Self) -> Self {
+        self.zip(other, f64::max)
+    }
+
+    /// The sum of each component.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+
     /// All of them by a factor.
     #[must_use]
     pub fn scaled(&self, by: f64) -> Self {
@@ -114,6 +137,8 @@ pub struct Solution {
     pub sigma: SolutionSigma,
     /// What the system is doing.
     pub mode: Mode,
+    /// What is made of the sensors' words.
+    pub judgement: Judgement,
 }
 
 impl Solution {

@@ -6,6 +6,7 @@ use crate::frames::{Geodetic, Ned};
 use crate::messages::{ExternalReference, ImuSample, LogVelocity, Message, Received, Source};
 use crate::sensor::{ImuSpec, LeverArms};
 use crate::time::Time;
+use crate::vessel::VesselKind;
 
 /// What is known of the ship when the voyage starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -30,6 +31,10 @@ pub struct VoyageHeader {
     pub imu: ImuSpec,
     /// Where the sensors sit.
     pub lever_arms: LeverArms,
+    /// What carries them.
+    pub vessel: VesselKind,
+    /// How well GNSS epochs and IMU samples agree in time, 1-sigma, s, where it is known.
+    pub time_std: Option<f64>,
 }
 
 /// A message and when it reached the computer; `arrival` is absent where it is the time of validity.

@@ -1,7 +1,8 @@
 //! What is known at one instant of one point of the ship.
 
 use insd_base::{
-    AlignmentPhase, AlignmentStatus, Finding, Heave, Ned, Solution, Span, Time, UtcTime,
+    AlignmentPhase, AlignmentStatus, Finding, Heave, Ned, Solution, Span, StorageFaults, Time,
+    UtcTime,
 };
 use insd_n2k::pgn::TimeSource;
 
@@ -48,6 +49,8 @@ pub struct Epoch {
     pub engines_differ: bool,
     /// What of the installation is found to be otherwise than configured.
     pub doubts: Doubts,
+    /// What cannot be written on the disk.
+    pub storage: StorageFaults,
 }
 
 /// What of the installation is found to be otherwise than configured.
@@ -59,6 +62,8 @@ pub struct Doubts {
     pub installation: bool,
     /// Sensors that stand still.
     pub bad_data: bool,
+    /// An IMU that contradicts the others, whichever engine has it.
+    pub imu: bool,
 }
 
 impl Doubts {
@@ -71,6 +76,7 @@ impl Doubts {
                 .iter()
                 .any(|it| it.is_fault() && !it.doubts_imu() && !it.is_bad_data()),
             bad_data: findings.iter().any(Finding::is_bad_data),
+            imu: false,
         }
     }
 }
@@ -137,6 +143,7 @@ impl Epoch {
             alignment: None,
             engines_differ: false,
             doubts: Doubts::default(),
+            storage: StorageFaults::default(),
         }
     }
     /// Whether it is being found which way is down: there cannot be a solution yet.

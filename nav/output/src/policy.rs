@@ -5,7 +5,7 @@
 //! letter always follows from the solution's own sigma and mode, never from that of a GNSS fix.
 
 use insd_base::units::DEG;
-use insd_base::{FixQuality, Mode, Solution};
+use insd_base::{FixQuality, Integrity, Mode, Solution};
 use insd_wire::nmea::{HeadingMode, PositionMode};
 
 /// Horizontal 1-sigma (root sum square of north and east), m, below which a quality is claimed.
@@ -106,6 +106,9 @@ impl Policy {
         match quality {
             None => FixQuality::Invalid,
             Some(_) if solution.mode == Mode::Fault => FixQuality::Invalid,
+            Some(_) if solution.judgement.integrity != Integrity::Consistent => {
+                FixQuality::Estimated
+            }
             Some(_) if self.estimated_without_gnss && !uses_gnss(solution.mode) => {
                 FixQuality::Estimated
             }
@@ -122,7 +125,7 @@ impl Policy {
             HeadingMode::Estimated
         } else if !solution.mode.is_navigating() {
             HeadingMode::NotValid
-        } else if sigma <= self.heading_autonomous {
+        } else if sigma <= self.heading_autonomous && !is_contradicted(solution) {
             HeadingMode::Autonomous
         } else if sigma <= self.heading_estimated {
             HeadingMode::Estimated
@@ -172,6 +175,11 @@ impl Policy {
         let speed = solution.speed();
         speed >= self.least_speed && sigma <= speed * self.course
     }
+}
+
+/// Whether sensors contradict each other.
+fn is_contradicted(solution: &Solution) -> bool {
+    solution.judgement.integrity == Integrity::Contradiction
 }
 
 /// The letter of a quality.

@@ -1,6 +1,6 @@
 //! All ports together: when something is due, and the epoch of each port's monitoring point.
 
-use insd_base::{AlignmentStatus, Body, Heave, Mode, Motion, Span, Time, UtcTime};
+use insd_base::{AlignmentStatus, Body, Heave, Mode, Motion, Span, StorageFaults, Time, UtcTime};
 use insd_n2k::pgn::TimeSource;
 use insd_wire::nmea::{Acn, AlertCommand, Hbt};
 
@@ -40,6 +40,8 @@ pub struct Moment {
     pub engines_differ: bool,
     /// What of the installation is found to be otherwise than configured.
     pub doubts: Doubts,
+    /// What cannot be written on the disk.
+    pub storage: StorageFaults,
 }
 
 /// All ports of a ship.
@@ -96,9 +98,14 @@ impl Station {
     }
 
     /// Obeys a command of the bridge about an alert. What comes of it, an ALF or the refusal, leaves all
-    /// ports that send ALF with their next one.
-    pub fn acknowledge(&mut self, command: &Acn, now: Time, utc: Option<UtcTime>) {
-        self.board.handle(command, &Boundary { time: now, utc });
+    /// ports that send ALF with their next one. Whether it could be obeyed.
+    pub fn acknowledge(&mut self, command: &Acn, now: Time, utc: Option<UtcTime>) -> bool {
+        self.board.handle(command, &Boundary { time: now, utc }).is_none()
+    }
+
+    /// Refuses a command about an alert of somebody who may not give any; the refusal leaves as above.
+    pub fn refuse(&mut self, command: &Acn, now: Time, utc: Option<UtcTime>) {
+        self.board.refuse(command, &Boundary { time: now, utc });
     }
 
     /// Obeys the operator at our own page about an alert; whether it could.
@@ -234,6 +241,7 @@ fn epoch(boundary: &Boundary, moment: &Moment, point: usize, lever: &Body) -> Ep
         alignment: moment.alignment,
         engines_differ: moment.engines_differ,
         doubts: moment.doubts,
+        storage: moment.storage,
         ..Epoch::unknown(boundary.time)
     }
 }

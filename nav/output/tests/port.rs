@@ -41,6 +41,7 @@ fn solution() -> Solution {
             heading: 0.02 * DEG,
         },
         mode: Mode::Aided,
+        judgement: insd_base::Judgement::default(),
     }
 }
 
@@ -249,6 +250,7 @@ proptest! {
                 roll: 0.0, pitch: 0.0, heading: sh,
             },
             mode,
+            judgement: insd_base::Judgement::default(),
         };
         let manner = Manner { simulated, ..Manner::default() };
         let config = PortConfig { manner, geoid_separation: Some(sn), ..bridge() };

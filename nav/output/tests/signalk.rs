@@ -31,6 +31,7 @@ fn solution(side: f64) -> Solution {
             ..SolutionSigma::default()
         },
         mode: Mode::Aided,
+        judgement: insd_base::Judgement::default(),
     }
 }
 

@@ -30,6 +30,7 @@ fn turning(time: Time) -> Moment {
                 ..SolutionSigma::default()
             },
             mode: Mode::Aided,
+            judgement: insd_base::Judgement::default(),
         },
         acceleration: Some(Ned::new(-3.49 * sin, 3.49 * cos, 0.0)),
         covariance_north_east: Some(0.0),

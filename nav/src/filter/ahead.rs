@@ -131,8 +131,9 @@ impl Ahead<'_> {
     /// tells of that is a heading of variance (sigma / speed)^2 of its own.
     pub fn observe_gnss_velocity(&mut self, speed: f64, dt: f64) {
         let filter = self.filter;
-        let fresh =
-            |epoch: &VelocityEpoch| (filter.time - epoch.time).as_seconds() < super::GNSS_TIMEOUT;
+        let fresh = |epoch: &VelocityEpoch| {
+            (filter.time - epoch.time).as_seconds() < super::mode::GNSS_TIMEOUT
+        };
         let Some(epoch) = filter.velocity_epoch.filter(fresh) else { return };
         let fix = VelocityFix { acceleration: Vector3::zeros(), ..epoch.fix };
         let mut sample = gnss_velocity::innovation(&self.view, &fix, &filter.antenna_lever());

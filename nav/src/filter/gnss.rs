@@ -4,11 +4,13 @@ use insd_base::units::DEG_PER_HOUR;
 use insd_base::{FixQuality, GnssFix, Rejection, Source, earth};
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Filter, Judged, NO_INNOVATION, enter, imu_position};
+use super::entry::{Judged, NO_INNOVATION, enter};
+use super::{Filter, imu_position};
 use crate::aids::View;
 use crate::aids::gnss_position::{self, PositionFix};
 use crate::aids::gnss_velocity::{self, VelocityFix};
 use crate::antenna::AntennaMotion;
+use crate::block::Block;
 use crate::error_state::{
     ATTITUDE, GNSS_LEVER, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, POSITION, VELOCITY,
 };
@@ -16,11 +18,12 @@ use crate::filter::ahead::VelocityEpoch;
 use crate::floors;
 use crate::gate::dop_limit;
 use crate::innovation::Innovation;
+use crate::judge::{Aid, rows};
 use crate::report::{Outcome, Report};
 use crate::separate_bias::SeparateBias;
 use crate::solution_sigma::axes_turn;
 use crate::strapdown::earth_relative_rate;
-use crate::trust::{Agreement, FAULT};
+use crate::trust::FAULT;
 
 const POSITION_AID: &str = "gnss_position";
 const VELOCITY_AID: &str = "gnss_velocity";
@@ -30,6 +33,14 @@ const VOUCHED: f64 = 5.0;
 const JUDGING_GYRO: f64 = 1.0 * DEG_PER_HOUR;
 /// A receiver that is off on the mean is refused for at least this long, s.
 const OFF_HOLD: f64 = 10.0;
+/// Fixes that scatter by so much more than they say, as variances, have no carrier ambiguities fixed.
+const DISHONEST: f64 = 25.0;
+/// Velocity that the product of the errors of velocity and attitude makes, which no linear filter knows of, 1-sigma
+/// of a filter that is lost, m/s.
+const LOST: f64 = 1.0;
+/// How stiff clocks and masts are taken to be, 1-sigma, m and m/s.
+const SLACK: f64 = 0.3;
+const SLACK_VELOCITY: f64 = 0.05;
 /// Attitude that a filter found to be lost is unsure of, 1-sigma, rad.
 const LOST_ATTITUDE: f64 = 0.05;
 
@@ -45,6 +56,9 @@ impl Filter {
         self.note_redating(fix.redated);
         self.note_quality(fix.quality);
         self.mend_installation();
+        if self.is_lost() {
+            self.find(fix, report);
+        }
         let velocity = self.apply_velocity(fix, source, report);
         self.apply_position(fix, velocity.as_ref(), source, report);
     }
@@ -59,6 +73,7 @@ impl Filter {
             (self.nominal.gnss_delay, self.redated) = (0.0, None);
             let begun = SeparateBias::new(&self.view());
             self.bias.iter_mut().for_each(|bias| *bias = begun);
+            self.restart_judge();
         }
     }
 
@@ -70,12 +85,14 @@ impl Filter {
 
     /// The slow errors of code and carrier solutions have nothing to do with each other.
     fn note_quality(&mut self, quality: FixQuality) {
-        let rtk = quality == FixQuality::RtkFixed;
+        let is_honest = self.noise_of(Aid::GnssPosition) < DISHONEST;
+        let rtk = quality == FixQuality::RtkFixed && is_honest;
         if self.rtk.is_some_and(|before| before != rtk) {
             GNSS_POSITION_ERROR.renew(&mut self.covariance, &Matrix3::identity());
             GNSS_VELOCITY_ERROR.renew(&mut self.covariance, &Matrix3::identity());
             self.nominal.gnss_position_error = Vector3::zeros();
             self.nominal.gnss_velocity_error = Vector3::zeros();
+            self.renew_judged();
         }
         self.rtk = Some(rtk);
     }
@@ -86,21 +103,23 @@ impl Filter {
         fix: &GnssFix,
         source: Source,
         report: &mut Report,
-    ) -> Option<VelocityFix> {
+    ) -> Option<(VelocityFix, Innovation<3>)> {
         let view = self.view();
         let measured = self.velocity_fix(&view, fix, report)?;
         let innovation = gnss_velocity::innovation(&view, &measured, &self.antenna_lever());
-        let fault = self.agreement(&innovation, |filter| &mut filter.trust.velocity);
+        self.consult(Aid::GnssVelocity, &innovation, rows::of_gnss_velocity);
+        let fault = self.agreement(Aid::GnssVelocity, &innovation);
         if fault && self.can_judge() {
             self.trust.suspect(self.time, self.config.gate.suspect_time);
         }
-        let suspect = self.is_receiver_refused().then_some(Rejection::SourceSuspect);
-        let judged = self.judge(&innovation, suspect);
+        let suspect =
+            self.is_receiver_refused(Aid::GnssVelocity).then_some(Rejection::SourceSuspect);
+        let judged = self.gated(&innovation, suspect);
         if enter(report, fix.time, source, VELOCITY_AID, &judged) == Outcome::Accepted {
             let before = self.velocity_epoch;
             self.velocity_epoch = Some(VelocityEpoch::after(before, self.time, &measured));
         }
-        Some(measured)
+        Some((measured, innovation))
     }
 
     fn velocity_fix(&self, view: &View, fix: &GnssFix, report: &mut Report) -> Option<VelocityFix> {
@@ -110,7 +129,8 @@ impl Filter {
             report.floored.push(VELOCITY_AID);
         }
         let share = self.config.gnss.velocity_slow_share;
-        let factor = self.trust.velocity.variance_factor();
+        let noise = self.noise_of(Aid::GnssVelocity);
+        let factor = self.trust.velocity.variance_factor().max(noise);
         // near a pole north at the antenna is not north at the IMU, and is known no better than the fix
         let c_ne = fix.position.map_or(view.c_ne, |antenna| earth::c_ne(&antenna));
         let place = floors::vector(fix.position_std, &floors::gnss_position(fix.quality)).value;
@@ -119,7 +139,7 @@ impl Filter {
         Some(VelocityFix {
             velocity: view.c_ne * c_ne.transpose() * velocity.0,
             white: std.value.map(|s| (s * s * (1.0 - share) * factor + by_north).sqrt()),
-            slow: floors::slow_part(&std.value, share),
+            slow: floors::slow_part(&(std.value * noise.sqrt()), share),
             acceleration: view.c_ne
                 * self.antenna.acceleration(self.time, &self.antenna_velocity()),
         })
@@ -140,23 +160,27 @@ impl Filter {
     fn apply_position(
         &mut self,
         fix: &GnssFix,
-        velocity: Option<&VelocityFix>,
+        velocity: Option<&(VelocityFix, Innovation<3>)>,
         source: Source,
         report: &mut Report,
     ) {
         let view = self.view();
         let Some(measured) = self.position_fix(&view, fix, report) else { return };
         let innovation = gnss_position::innovation(&view, &measured, &self.antenna_lever());
-        self.agreement(&innovation, |filter| &mut filter.trust.position);
-        let refused = if self.is_receiver_refused() {
+        self.consult(Aid::GnssPosition, &innovation, rows::of_gnss_position);
+        self.follow(&innovation, velocity.map(|(_, innovation)| innovation));
+        self.agreement(Aid::GnssPosition, &innovation);
+        let refused = if self.is_receiver_refused(Aid::GnssPosition) {
             Some(Rejection::SourceSuspect)
         } else {
             self.exceeds_dop_limit(fix, &innovation).then_some(Rejection::DopTest)
         };
-        let judged = self.judge(&innovation, refused);
+        let judged = self.gated(&innovation, refused);
         match enter(report, fix.time, source, POSITION_AID, &judged) {
             Outcome::Accepted => self.trust.used(self.time),
-            Outcome::Rejected(_) => self.consider_reset(&measured, velocity, report),
+            Outcome::Rejected(_) => {
+                self.consider_reset(&measured, velocity.map(|(fix, _)| fix), report);
+            }
         }
     }
 
@@ -167,25 +191,29 @@ impl Filter {
             report.floored.push(POSITION_AID);
         }
         let share = self.config.gnss.position_slow_share_for(self.is_rtk());
-        let factor = self.trust.position.variance_factor();
+        let noise = self.noise_of(Aid::GnssPosition);
+        let factor = self.trust.position.variance_factor().max(noise);
         Some(PositionFix {
             position,
             white: std.value * ((1.0 - share) * factor).sqrt(),
-            slow: floors::slow_part(&std.value, share),
+            slow: floors::slow_part(&(std.value * noise.sqrt()), share),
             velocity: view.c_ne * self.antenna_velocity(),
         })
     }
 
     /// Enters an innovation in the statistics of its quantity; tells whether it is a fault.
-    fn agreement(
-        &mut self,
-        innovation: &Innovation<3>,
-        of: impl Fn(&mut Filter) -> &mut Agreement,
-    ) -> bool {
+    fn agreement(&mut self, aid: Aid, innovation: &Innovation<3>) -> bool {
         let Some(weighed) = innovation.weigh(&self.covariance) else { return true };
-        self.bias.iter_mut().for_each(|bias| bias.hear(&weighed));
+        if !self.is_in_court(aid) {
+            let least = if aid == Aid::GnssVelocity { SLACK_VELOCITY } else { SLACK };
+            self.bias.iter_mut().for_each(|bias| bias.hear(&weighed, least));
+        }
         let mean_square = weighed.nis() / 3.0;
-        of(self).learn(&innovation.z.component_div(&weighed.sigma()), mean_square);
+        let agreement = match aid {
+            Aid::GnssVelocity => &mut self.trust.velocity,
+            _ => &mut self.trust.position,
+        };
+        agreement.learn(&innovation.z.component_div(&weighed.sigma()), mean_square);
         mean_square > FAULT
     }
 
@@ -197,7 +225,10 @@ impl Filter {
         self.navigating && (vouched || self.config.imu.gyro.bias_std < JUDGING_GYRO)
     }
 
-    fn is_receiver_refused(&mut self) -> bool {
+    fn is_receiver_refused(&mut self, aid: Aid) -> bool {
+        if self.judge.is_some() {
+            return self.withholds(aid);
+        }
         self.can_judge() && self.trust.is_refused(self.time, OFF_HOLD)
     }
 
@@ -218,11 +249,43 @@ impl Filter {
         velocity: Option<&VelocityFix>,
         report: &mut Report,
     ) {
+        if self.consider_rejoining() {
+            return;
+        }
         let gate = &self.config.gate;
         let patience = if self.can_judge() { gate.judged_reset_time } else { gate.reset_time };
         if !self.navigating || self.trust.refused(self.time) < patience {
             return;
         }
+        self.place_anew(measured, velocity, report);
+    }
+
+    /// Whether velocity and attitude are so vague that nothing is linear in their errors, and a receiver that nothing
+    /// speaks against tells where she is.
+    fn is_lost(&self) -> bool {
+        let sigma = |block: Block<3>| block.covariance(&self.covariance).trace().max(0.0).sqrt();
+        let left_out = sigma(VELOCITY) * sigma(ATTITUDE);
+        self.navigating && left_out > LOST && !self.withholds(Aid::GnssPosition)
+    }
+
+    /// Takes position and velocity from a fix that tells both.
+    fn find(&mut self, fix: &GnssFix, report: &mut Report) {
+        let view = self.view();
+        // what is floored is counted when the fix is applied
+        let mut uncounted = Report::default();
+        let velocity = self.velocity_fix(&view, fix, &mut uncounted);
+        let position = self.position_fix(&view, fix, &mut uncounted);
+        if let Some((position, velocity)) = position.zip(velocity) {
+            self.place_anew(&position, Some(&velocity), report);
+        }
+    }
+
+    fn place_anew(
+        &mut self,
+        measured: &PositionFix,
+        velocity: Option<&VelocityFix>,
+        report: &mut Report,
+    ) {
         let lever = self.antenna_lever();
         let view = self.view();
         let place = imu_position(&view, &measured.position, &lever);
@@ -238,11 +301,13 @@ impl Filter {
         ATTITUDE.inflate(&mut self.covariance, LOST_ATTITUDE * LOST_ATTITUDE);
         let acceleration = velocity.map(|fix| view.c_ne.transpose() * fix.acceleration);
         if let Some(bias) = &mut self.bias {
-            bias.place(&view);
+            bias.excuse(&view);
             acceleration.iter().for_each(|acceleration| bias.start(&view, acceleration));
         }
         self.trust.clear();
         self.trust.used(self.time);
+        self.pace.restart();
+        self.restart_judge();
         report.position_reset = true;
     }
 }

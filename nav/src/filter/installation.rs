@@ -4,12 +4,15 @@ use insd_base::Time;
 use nalgebra::{SMatrix, Vector3};
 
 use super::Filter;
-use crate::error_state::{STATES, VELOCITY};
+use crate::error_state::{ATTITUDE, STATES, VELOCITY};
 use crate::innovation::Weighed;
 use crate::separate_bias::SeparateBias;
 
 /// The ends of the longest ships, and the tops of their masts, from an IMU anywhere on board, m.
 const ON_BOARD: Vector3<f64> = Vector3::new(400.0, 70.0, 90.0);
+
+/// A correction of the attitude, rad, that is more than linear: whoever found it found it by a wrong lever arm.
+const FAR: f64 = 0.03;
 
 fn is_on_board(arm: &Vector3<f64>) -> bool {
     (0..3).all(|i| arm[i].abs() < ON_BOARD[i])
@@ -34,7 +37,8 @@ impl Filter {
         self.bias.as_ref().map_or(0.0, SeparateBias::early_strain)
     }
 
-    /// Whether lever arm or delay of GNSS were found to be otherwise than the filter began with.
+    /// Whether lever arm or delay of GNSS were found to be otherwise than the filter began with, by so much that its
+    /// heading was wrong.
     #[must_use]
     pub fn has_mended_antenna(&self) -> bool {
         self.mended
@@ -69,7 +73,8 @@ impl Filter {
         }
         let (error, unsure) = bias.correction(&finding);
         self.covariance += unsure;
-        self.mended |= finding.is_of_antenna();
+        let is_far = ATTITUDE.of(&error).norm() > FAR;
+        self.mended |= finding.is_of_antenna() && is_far;
         self.nominal.inject(&error);
         self.corrected += error;
         self.absorbed += VELOCITY.of(&error);
@@ -79,5 +84,6 @@ impl Filter {
         }
         self.bias = Some(SeparateBias::new(&self.view()));
         self.trust.clear();
+        self.restart_judge();
     }
 }

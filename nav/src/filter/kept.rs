@@ -8,6 +8,7 @@ use super::Filter;
 use crate::config::NavConfig;
 use crate::error_state::{Covariance, STATES};
 use crate::initial::InitialState;
+use crate::judge::Docket;
 use crate::nominal::Nominal;
 use crate::sea_window::LevelWindow;
 use crate::sway::Sway;
@@ -30,6 +31,7 @@ pub struct KeptFilter {
     last_water: Option<Time>,
     turned: Vector3<f64>,
     unswayed: f64,
+    docket: Docket,
 }
 
 /// A correlation may be beyond one by so much: rounding.
@@ -97,6 +99,7 @@ impl Filter {
             last_water: self.last_water,
             turned: self.turned,
             unswayed: self.unswayed,
+            docket: self.docket(),
         }
     }
 
@@ -112,6 +115,7 @@ impl Filter {
             rate: kept.rate,
         };
         let later = |time: Option<Time>| time.map(|time| time + by);
+        let config = NavConfig { docket: kept.docket.shifted(by), ..*config };
         let mut filter = Filter {
             trust: kept.trust.shifted(by),
             rtk: kept.rtk,
@@ -121,7 +125,7 @@ impl Filter {
             last_water: later(kept.last_water),
             turned: kept.turned,
             unswayed: kept.unswayed,
-            ..Filter::new(config, &initial)
+            ..Filter::new(&config, &initial)
         };
         filter.begin_navigation();
         (kept.nominal.is_sound() && kept.rate.iter().all(|x| x.is_finite())).then_some(filter)

@@ -7,6 +7,7 @@ use super::Filter;
 use crate::aids::sea_level;
 use crate::error_state::{POSITION, SEA_LEVEL, VELOCITY};
 use crate::innovation::Weighed;
+use crate::judge::{Aid, untouched};
 
 impl Filter {
     /// Holds the mean height over a window of waves against the sea level.
@@ -14,6 +15,9 @@ impl Filter {
         let (mean, length) = self.level.take_mean();
         let innovation = sea_level::innovation(&self.view(), mean, length, self.level.heave.std());
         let Some(weighed) = innovation.weigh(&self.covariance) else { return };
+        if self.mode() != Mode::Inertial {
+            self.consult(Aid::SeaLevel, &innovation, untouched::<1>);
+        }
         let expected = weighed.sigma().x.powi(2) - innovation.r.x;
         self.level.heave.learn(innovation.z.x, expected);
         if weighed.nis() > self.gate.limit::<1>() {
@@ -41,6 +45,7 @@ impl Filter {
         self.pass_on(weighed, &gain);
         let error = weighed.update_with(&mut self.covariance, &gain);
         self.nominal.inject(&error);
+        self.owed += error.transpose();
         self.absorbed += VELOCITY.of(&error);
     }
 }

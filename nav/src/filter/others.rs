@@ -1,14 +1,20 @@
 //! Log and external reference.
 
-use insd_base::{ExternalReference, LogReference, LogVelocity, Source};
+use insd_base::{ExternalReference, LogReference, LogVelocity, Rejection, Source};
 use nalgebra::{Matrix3, SMatrix, Vector2};
 
-use super::{Filter, enter};
+use super::Filter;
+use super::entry::enter;
 use crate::aids::log_velocity::Prediction;
 use crate::aids::{log_velocity, reference_heading, reference_position, reference_velocity};
+use crate::error_state::STATES;
 use crate::floors::{self, Believable, Floored};
 use crate::innovation::Innovation;
+use crate::judge::{Aid, rows};
 use crate::report::{Outcome, Report};
+
+/// Time of the slow errors of another reference's position, s.
+const SHARED: f64 = 60.0;
 
 impl Filter {
     pub(super) fn apply_log(&mut self, log: &LogVelocity, source: Source, report: &mut Report) {
@@ -18,22 +24,37 @@ impl Filter {
         };
         let default = self.config.log.default_std;
         let range = Believable { least: 0.002, greatest: 10.0, default };
-        let std = floored(log.std, &range, aid, report);
+        let noise = self.noise_of(Aid::Log);
+        let std = floored(log.std, &range, aid, report) * noise.sqrt();
         let prediction = self.predict_log(log);
         if let Some(measured) = log_velocity::all_components(log) {
             let innovation = log_velocity::complete(&prediction, &measured, std);
-            self.hear_log(&innovation, &prediction.by_lever);
-            let judged = self.judge(&innovation, None);
-            self.note_log(log, enter(report, log.time, source, aid, &judged));
+            let by_lever = prediction.by_lever;
+            let gain = self.hear_log(&innovation, &by_lever);
+            let direct = rows::of_log(&prediction.velocity, &self.view().c_nb());
+            self.consult(Aid::Log, &innovation, |_| direct);
+            let judged = self.gated(&innovation, self.withheld(Aid::Log));
+            self.note_log(log, enter(report, log.time, source, aid, &judged), gain, &by_lever);
+            self.told_across = Some(self.time);
             return;
+        }
+        if log.v.is_some() {
+            self.told_across = Some(self.time);
+        } else if log.u.is_some() && !self.withholds(Aid::Log) {
+            self.hold_leeway(log);
         }
         for (axis, measured) in [log.u, log.v, log.w].into_iter().enumerate() {
             let Some(measured) = measured else { continue };
             let prediction = self.predict_log(log);
             let innovation = log_velocity::component(&prediction, axis, measured, std);
-            self.hear_log(&innovation, &prediction.by_lever.fixed_rows::<1>(axis).into_owned());
-            let judged = self.judge(&innovation, None);
-            self.note_log(log, enter(report, log.time, source, aid, &judged));
+            let by_lever = prediction.by_lever.fixed_rows::<1>(axis).into_owned();
+            let gain = self.hear_log(&innovation, &by_lever);
+            let direct = rows::of_log(&prediction.velocity, &self.view().c_nb());
+            let aid_heard = [Aid::Log, Aid::LogStarboard, Aid::LogDown][axis];
+            let own = direct.fixed_columns::<1>(axis).into_owned();
+            self.consult(aid_heard, &innovation, |_| own);
+            let judged = self.gated(&innovation, self.withheld(Aid::Log));
+            self.note_log(log, enter(report, log.time, source, aid, &judged), gain, &by_lever);
         }
     }
 
@@ -45,28 +66,51 @@ impl Filter {
     ) {
         if let Some(velocity) = reference.velocity() {
             let range = Believable { least: 0.005, greatest: 50.0, default: 0.5 };
-            let std = floored(reference.velocity_std, &range, "reference_velocity", report);
+            let stated = floored(reference.velocity_std, &range, "reference_velocity", report);
+            let std = stated * self.noise_of(Aid::ReferenceVelocity).sqrt();
             let v_ne = Vector2::new(velocity.0.x, velocity.0.y);
-            let judged =
-                self.judge(&reference_velocity::innovation(&self.view(), &v_ne, std), None);
+            let innovation = reference_velocity::innovation(&self.view(), &v_ne, std);
+            let direct = rows::of_reference_velocity();
+            let aid = Aid::ReferenceVelocity;
+            self.consult(aid, &innovation, |_| direct);
+            let judged = self.gated(&innovation, self.withheld(aid));
             self.note(enter(report, reference.time, source, "reference_velocity", &judged));
         }
         if let Some(position) = reference.position {
             let range = Believable { least: 0.01, greatest: 1e4, default: 20.0 };
-            let std = floored(reference.position_std, &range, "reference_position", report);
-            let judged =
-                self.judge(&reference_position::innovation(&self.view(), &position, std), None);
+            let stated = floored(reference.position_std, &range, "reference_position", report);
+            let std =
+                stated * self.noise_of(Aid::ReferencePosition).sqrt() * self.repeats(reference);
+            let innovation = reference_position::innovation(&self.view(), &position, std);
+            let aid = Aid::ReferencePosition;
+            self.consult(aid, &innovation, rows::of_reference_position);
+            let judged = self.gated(&innovation, self.withheld(aid));
             self.note(enter(report, reference.time, source, "reference_position", &judged));
         }
         if let Some(heading) = reference.heading {
             let degree = insd_base::units::DEG;
             let range =
                 Believable { least: 0.01 * degree, greatest: 180.0 * degree, default: degree };
-            let std = floored(reference.heading_std, &range, "reference_heading", report);
-            let judged =
-                self.judge(&reference_heading::innovation(&self.view(), heading, std), None);
+            let stated = floored(reference.heading_std, &range, "reference_heading", report);
+            let std = stated * self.noise_of(Aid::Heading).sqrt();
+            let innovation = reference_heading::innovation(&self.view(), heading, std);
+            self.consult(Aid::Heading, &innovation, rows::of_heading);
+            let judged = self.gated(&innovation, self.withheld(Aid::Heading));
             self.note(enter(report, reference.time, source, "reference_heading", &judged));
         }
+    }
+
+    /// By how much the sigma of a position is larger for what it shares with the ones before it: n positions within
+    /// the time of their slow errors are worth one. That of the one before is taken note of.
+    fn repeats(&mut self, reference: &ExternalReference) -> f64 {
+        let before = self.last_reference.replace(reference.time);
+        let apart = before.map_or(SHARED, |before| (reference.time - before).as_seconds());
+        (2.0 * SHARED / apart.clamp(0.1, 2.0 * SHARED)).sqrt()
+    }
+
+    /// Why somebody is not used, if he is not.
+    fn withheld(&self, aid: Aid) -> Option<Rejection> {
+        self.withholds(aid).then_some(Rejection::SourceSuspect)
     }
 
     /// A lever arm that was found here, and not measured, makes noise as the ship turns.
@@ -80,19 +124,29 @@ impl Filter {
         prediction
     }
 
-    /// What a log says of the lever arms, whether it is used or not.
+    /// What a log says of the lever arms, whether it is used or not; gives the gain with which it would be.
     fn hear_log<const M: usize>(
         &mut self,
         innovation: &Innovation<M>,
         by_lever: &SMatrix<f64, M, 3>,
-    ) {
-        let Some(bias) = &mut self.bias else { return };
-        if let Some(weighed) = innovation.weigh(&self.covariance) {
-            bias.hear_log(&weighed, by_lever);
-        }
+    ) -> Option<SMatrix<f64, STATES, M>> {
+        let bias = self.bias.as_mut()?;
+        let weighed = innovation.weigh(&self.covariance)?;
+        bias.hear_log(&weighed, by_lever);
+        Some(weighed.gain())
     }
 
-    fn note_log(&mut self, log: &LogVelocity, outcome: Outcome) {
+    fn note_log<const M: usize>(
+        &mut self,
+        log: &LogVelocity,
+        outcome: Outcome,
+        gain: Option<SMatrix<f64, STATES, M>>,
+        by_lever: &SMatrix<f64, M, 3>,
+    ) {
+        let used = gain.filter(|_| outcome == Outcome::Accepted);
+        if let Some((bias, gain)) = self.bias.as_mut().zip(used) {
+            bias.absorb_log(&gain, by_lever);
+        }
         if outcome == Outcome::Accepted && log.reference == LogReference::Water {
             self.last_water = Some(self.time);
         }

@@ -35,6 +35,7 @@ impl Estimator for Scribe {
             rate: Body::default(),
             sigma: SolutionSigma::default(),
             mode: Mode::Inertial,
+            judgement: insd_base::Judgement::default(),
         }
     }
 

@@ -61,10 +61,11 @@ enum Fault {
     Force(f64),
 }
 
-/// When the alert is first up, s after the fault: that engines differ, but gyros that stand still are found by
-/// their own engine.
+/// When an alert is first up, s after the fault: that engines differ, or that an engine has found its own IMU
+/// wrong. Gyros that stand still are found by their own engine.
 fn alert(log: &Log, fault: Fault) -> Option<f64> {
-    let is_up = |told: &&Told| if matches!(fault, Fault::Stuck) { told.doubt } else { told.alert };
+    let is_stuck = matches!(fault, Fault::Stuck);
+    let is_up = |told: &&Told| told.doubt || (told.alert && !is_stuck);
     log.told.iter().find(is_up).map(|told| told.at - FAULT)
 }
 

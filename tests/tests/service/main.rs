@@ -10,6 +10,7 @@ mod daemon;
 #[path = "../../../daemon/web/tests/browser/driver.rs"]
 #[allow(dead_code)] // the page's own tests need more of it
 mod driver;
+mod guards;
 mod heard;
 mod kill;
 mod manners;

@@ -35,7 +35,7 @@ pub(crate) struct Ship {
 }
 
 /// Ports that nobody else has at the moment.
-fn free_ports<const COUNT: usize>() -> [SocketAddr; COUNT] {
+pub(crate) fn free_ports<const COUNT: usize>() -> [SocketAddr; COUNT] {
     let sockets = [(); COUNT].map(|()| UdpSocket::bind((Ipv4Addr::LOCALHOST, 0)).unwrap());
     std::array::from_fn(|index| sockets[index].local_addr().unwrap())
 }
@@ -88,7 +88,7 @@ impl Ship {
             arm(&arms.log),
             &shipped[imu]
         );
-        text += &format!("[web]\nlisten = {:?}\n", self.page.to_string());
+        text += &format!("[web]\nlisten = {:?}\nmax_per_address = 600\n", self.page.to_string());
         for (port, sensor) in self.feeds.intake(&self.voyage).sensors.iter().enumerate() {
             let (name, bind) = (&sensor.port, self.sensors[port].to_string());
             let transport = format!("{{ kind = \"udp\", bind = {bind:?} }}");

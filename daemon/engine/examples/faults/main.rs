@@ -1,7 +1,9 @@
 //! Voyages with a sensor that lies: what it costs, who is told, and whether the right one is named.
 //!
 //! `faults [DRAWS] [KIND]`: each kind of `insd_simulator::lies`, or those whose name begins so, with both
-//! grades of IMU and every suite of sensors, so many times; then the same hours with honest sensors.
+//! grades of IMU and every suite of sensors, so many times; then, or of the kind `honest` alone, the same hours with honest
+//! sensors. In the environment
+//! `CASES=1` tells each case, `ONLY="Mems log"` takes one grade and suite, `TRACE=1` tells each second.
 
 mod sail;
 mod score;
@@ -32,7 +34,7 @@ fn main() {
         all.extend(&sum);
     }
     println!("{:<28}{all}", "all");
-    if which.is_empty() {
+    if which.is_empty() || which == "honest" {
         honest(draws * HONEST);
     }
 }
@@ -40,7 +42,10 @@ fn main() {
 fn cases(kind: &Kind, draws: u64) -> Vec<Case> {
     let grades = [Grade::Navigation, Grade::Mems];
     let of_grade = |grade| kind.suites.iter().map(move |suite| (grade, *suite));
+    let only = std::env::var("ONLY").unwrap_or_default();
     let places = grades.into_iter().flat_map(of_grade);
+    let places =
+        places.filter(|(grade, suite)| only.is_empty() || format!("{grade:?} {suite}") == only);
     places
         .flat_map(|(grade, suite)| (1..=draws).map(move |seed| case(kind, grade, suite, seed)))
         .collect()

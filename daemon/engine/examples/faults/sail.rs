@@ -1,7 +1,8 @@
 //! A voyage as rows: how far off she was, what she claimed, and whom she named.
 
-use insd_base::{Finding, Frozen, GnssFix, Mode, Stamped, Truth, Voyage, earth};
+use insd_base::{Event, GnssFix, Integrity, Mode, Party, Stamped, Truth, Voyage, earth};
 use insd_engine::{Engine, EngineConfig, Output};
+use insd_nav::judge::Judge;
 
 /// Once a second.
 #[derive(Clone, Debug)]
@@ -37,17 +38,53 @@ pub(crate) fn sail(voyage: &Voyage, honest: &Voyage) -> Vec<Row> {
     for received in voyage.received() {
         engine.handle(&received);
         while let Some(output) = engine.poll_output() {
+            trace_event(&output);
             let Output::Solution(solution) = output else { continue };
             while truth.next_if(|truth| truth.time < solution.time).is_some() {}
             let Some(truth) = truth.peek().filter(|row| row.time == solution.time) else {
                 continue;
             };
             let run = run_since(&mut last, truth) + rows.last().map_or(0.0, |row| row.run);
+            let excluded: Vec<&'static str> =
+                solution.judgement.excluded.iter().map(Party::as_str).collect();
             let lie = lies.at(solution.time.as_seconds());
-            rows.push(Row { run, lie, excluded: named(&engine), ..row(&solution, truth) });
+            rows.push(Row { run, lie, excluded, ..row(&solution, truth) });
+            if let Some(row) = rows.last() {
+                trace(row, &engine);
+            }
         }
     }
     rows
+}
+
+/// Whether every second is told.
+fn is_traced() -> bool {
+    std::env::var_os("TRACE").is_some()
+}
+
+fn trace(row: &Row, engine: &Engine) {
+    if is_traced() {
+        let (off, sigma) = row.heading;
+        let evidence = engine.judge().map(Judge::evidence).unwrap_or_default();
+        println!(
+            "{:.0} s off {:.1} m level {:.1} m heading {:.2} of {:.2} deg {:?} {evidence}",
+            row.time,
+            row.off,
+            row.level,
+            off.to_degrees(),
+            sigma.to_degrees(),
+            row.excluded
+        );
+    }
+}
+
+fn trace_event(output: &Output) {
+    if let Output::Event(event) = output
+        && is_traced()
+        && !matches!(event, Event::Rejected { .. })
+    {
+        println!("{event:?}");
+    }
 }
 
 fn run_since(last: &mut Option<Truth>, now: &Truth) -> f64 {
@@ -65,23 +102,12 @@ fn row(solution: &insd_base::Solution, truth: &Truth) -> Row {
         off,
         level: LEVEL * solution.sigma.position.0.xy().norm(),
         heading: (heading, solution.sigma.heading),
-        told: !matches!(solution.mode, Mode::Fault | Mode::Standby | Mode::CoarseAlignment),
+        told: !matches!(solution.mode, Mode::Fault | Mode::Standby | Mode::CoarseAlignment)
+            && solution.judgement.integrity != Integrity::Contradiction,
         lie: 0.0,
         excluded: Vec::new(),
         run: 0.0,
     }
-}
-
-/// The words of what is found wrong.
-fn named(engine: &Engine) -> Vec<&'static str> {
-    let word = |finding: &Finding| match finding {
-        Finding::LogMounting { .. } | Finding::Frozen { what: Frozen::Log } => Some("log"),
-        Finding::Frozen { what: Frozen::Heading } => Some("heading"),
-        Finding::Frozen { .. } => Some("gnss"),
-        finding if finding.doubts_imu() => Some("imu"),
-        _ => None,
-    };
-    engine.findings().iter().filter_map(word).collect()
 }
 
 /// How far the fixes of one voyage are from those of another.
@@ -101,11 +127,13 @@ impl Lies {
         Lies { off: told.iter().filter_map(apart).collect(), next: 0 }
     }
 
-    /// The last one until an instant.
+    /// The greater one of those about an instant.
     fn at(&mut self, time: f64) -> f64 {
         while self.off.get(self.next).is_some_and(|(at, _)| *at <= time) {
             self.next += 1;
         }
-        self.next.checked_sub(1).and_then(|last| self.off.get(last)).map_or(0.0, |(_, off)| *off)
+        let before = self.next.checked_sub(1).and_then(|last| self.off.get(last));
+        let about = [before, self.off.get(self.next)];
+        about.into_iter().flatten().map(|(_, off)| *off).fold(0.0, f64::max)
     }
 }

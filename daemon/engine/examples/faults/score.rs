@@ -7,7 +7,7 @@
 
 use std::fmt;
 
-use insd_simulator::lies::{Case, Class, Culprit, Grade};
+use insd_simulator::lies::{Case, Class, Culprit, Grade, ImuLie, Lie, Told};
 
 use crate::sail::Row;
 
@@ -15,6 +15,10 @@ const LIMITS: [f64; 2] = [10.0, 100.0];
 /// Longest piece and longest sum of misleading, s.
 const PIECE: f64 = 10.0;
 const SUM: f64 = 60.0;
+/// What a position is off by beside a lie that it follows, m.
+const OWN: f64 = 3.0;
+/// What a heading may be off by, rad, and for how long, s, where side-slip is its only witness.
+const BLIND: (f64, f64) = (10.0 * DEG, 60.0);
 /// A lie is told, and named, so long after it was shown, s.
 const TOLD: f64 = 10.0;
 const NAMED: f64 = 60.0;
@@ -43,16 +47,23 @@ pub(crate) fn score(case: &Case, rows: &[Row]) -> Score {
     let from = first.max(case.judged_from);
     let judged: Vec<&Row> = rows.iter().filter(|row| row.time >= from).collect();
     let allowed_until = case.shown_at.map_or(f64::INFINITY, |at| at + TOLD);
-    let allowed = |row: &Row| if row.time <= allowed_until { row.lie } else { 0.0 };
+    let allowed = |row: &Row| match row.lie {
+        lie if lie > 0.0 && row.time <= allowed_until => lie + OWN,
+        _ => 0.0,
+    };
     let beyond = |limit: f64| {
         pieces(&judged, |row| row.told && row.level <= limit && row.off > limit.max(allowed(row)))
     };
+    let (far, piece) = if only_slip_shows(case) { BLIND } else { (3.0 * DEG, PIECE) };
     let heading = pieces(&judged, |row| {
         let (off, sigma) = row.heading;
-        row.told && sigma < 2.0 * DEG && off > (3.0 * DEG).max(3.0 * sigma)
+        row.told && sigma < 2.0 * DEG && off > far.max(3.0 * sigma)
     });
     let all = [beyond(LIMITS[0]), beyond(LIMITS[1]), heading];
-    let hmi = all.iter().any(|(longest, sum)| *longest > PIECE || *sum > SUM);
+    let hmi = [PIECE, PIECE, piece]
+        .iter()
+        .zip(all)
+        .any(|(piece, (longest, sum))| longest > *piece || sum > SUM);
     let longest = all.iter().map(|(longest, _)| *longest).fold(0.0, f64::max);
     let (named, innocent) = (named(case, &judged), innocent(case, &judged));
     let is_right = match case.class {
@@ -62,6 +73,14 @@ pub(crate) fn score(case: &Case, rows: &[Row]) -> Score {
     };
     let worst = judged.iter().filter(|row| row.told).map(|row| row.off).fold(0.0, f64::max);
     Score { held: !hmi && !innocent && is_right, hmi, longest, named, innocent, worst }
+}
+
+/// Whether a gyro lies and neither log nor compass sees it.
+fn only_slip_shows(case: &Case) -> bool {
+    let is_stuck =
+        |told: &Told| matches!(told.lie, Lie::Imu(ImuLie::GyroStuck(_) | ImuLie::AllStuck));
+    let is_blind = !case.suite.has_log() && !case.suite.has_compass();
+    is_blind && case.culprits().contains(&Culprit::Imu) && !case.told.iter().any(is_stuck)
 }
 
 /// Longest piece and sum of the rows of which something holds, s.

@@ -90,6 +90,12 @@ pub(crate) fn sail(voyage: Voyage, mistake: &Mistake, from: f64) -> Outcome {
                         judged.judge(&solution, truth, from, &mut outcome);
                     }
                 }
+                Output::Event(Event::Judged { stands, .. })
+                    if std::env::var_os("WORDS").is_some() =>
+                {
+                    let since = stands.since.as_seconds();
+                    eprintln!("{}: {since:.0} s: {stands}", mistake.name);
+                }
                 Output::Event(Event::InstallationFound { time, finding }) => {
                     if std::env::var_os("WORDS").is_some() {
                         eprintln!("{}: {:.0} s: {finding}", mistake.name, time.as_seconds());

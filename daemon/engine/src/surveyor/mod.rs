@@ -13,7 +13,7 @@ mod turns;
 
 use insd_base::{
     Body, Estimate, Estimates, ExternalReference, Finding, GnssFix, ImuSample, LeverArms,
-    LogVelocity, Message, Mode, Received, Rejection, Solution, Span, Time,
+    LogVelocity, Message, Mode, Parties, Received, Rejection, Solution, Span, Time,
 };
 use insd_nav::Increment;
 
@@ -55,6 +55,8 @@ pub(crate) struct Surveyor {
     findings: Vec<Finding>,
     /// Whether GNSS has refuted every heading that was found with the IMU.
     pub(crate) is_refuted: bool,
+    /// When the judge found the IMU to be of no use.
+    pub(crate) condemned: Option<Time>,
 }
 
 impl Surveyor {
@@ -73,6 +75,7 @@ impl Surveyor {
             late: None,
             findings: Vec::new(),
             is_refuted: false,
+            condemned: None,
         }
     }
 
@@ -105,6 +108,11 @@ impl Surveyor {
     /// What makes the IMU of no use, if anything does.
     pub(crate) fn doubt(&self) -> Option<Finding> {
         self.findings.iter().copied().find(Finding::doubts_imu)
+    }
+
+    /// Who is left out for what is found of him alone.
+    pub(crate) fn excluded(&self) -> Parties {
+        self.findings.iter().filter_map(Finding::excludes).collect()
     }
 
     /// Sees a solution.

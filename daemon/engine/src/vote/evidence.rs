@@ -1,6 +1,6 @@
 //! What speaks against an engine beside its being different from another.
 
-use insd_base::{Mode, Motion, Solution, Span, Time};
+use insd_base::{Integrity, Mode, Motion, Party, Solution, Span, Time};
 
 use super::compare::vagueness;
 use crate::checks;
@@ -93,6 +93,14 @@ pub(super) fn rank(mode: Mode) -> u8 {
     }
 }
 
+/// Whether its IMU does not stand behind what an engine says, or the judge of the engine has found something that
+/// contradicts it. Engines hear the same but for their IMUs, so of two it is that.
+pub(super) fn is_imu_doubted(said: &Testimony, solution: &Solution) -> bool {
+    let judgement = solution.judgement;
+    let is_contradicted = judgement.integrity == Integrity::Contradiction;
+    !said.imu_valid || is_contradicted || judgement.excluded.contains(Party::Imu)
+}
+
 /// The strongest reason to doubt one of two engines rather than the other: whether it is the second, and
 /// why. Both have a motion.
 pub(super) fn suspect(
@@ -106,7 +114,7 @@ pub(super) fn suspect(
             && other.refused.is_some_and(|share| share <= TAKES)
     };
     let reasons = [
-        (Doubt::ImuInvalid, !one.imu_valid, !other.imu_valid),
+        (Doubt::ImuInvalid, is_imu_doubted(one, a), is_imu_doubted(other, b)),
         (Doubt::Aligning, !navigates(a), !navigates(b)),
         (Doubt::Refuses, refuses(one, other), refuses(other, one)),
         (Doubt::LesserMode, rank(a.mode) < rank(b.mode), rank(b.mode) < rank(a.mode)),

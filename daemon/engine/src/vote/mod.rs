@@ -16,13 +16,13 @@ mod evidence;
 mod pair;
 mod record;
 
-use insd_base::{Motion, Time};
+use insd_base::{Motion, Solution, Time};
 
 pub use compare::{Apart, Difference, Quantity, differences};
 pub use evidence::{Doubt, Testimony};
 pub use record::Record;
 
-use evidence::{is_vaguer, rank};
+use evidence::{is_imu_doubted, is_vaguer, rank};
 use pair::Pair;
 
 /// Another engine must have more behind it for so long to be used instead, s.
@@ -314,11 +314,13 @@ impl<'a> Round<'a> {
 
     /// Why there is less behind one engine than behind another, if there is.
     fn lesser(&self, own: usize, other: usize) -> Option<Doubt> {
-        let invalid = |engine: usize| self.testimony(engine).is_some_and(|said| !said.imu_valid);
         let (a, b) = (&self.motion(own)?.solution, &self.motion(other)?.solution);
+        let doubted = |engine: usize, solution: &Solution| {
+            self.testimony(engine).is_some_and(|said| is_imu_doubted(said, solution))
+        };
         let (rank, best) = (rank(a.mode), rank(b.mode));
         let reasons = [
-            (invalid(own) && !invalid(other), Doubt::ImuInvalid),
+            (doubted(own, a) && !doubted(other, b), Doubt::ImuInvalid),
             (!a.mode.is_navigating() && b.mode.is_navigating(), Doubt::Aligning),
             (rank < best, Doubt::LesserMode),
             (rank == best && is_vaguer(a, b), Doubt::LessCertain),

@@ -27,6 +27,7 @@ fn truth(seconds: f64) -> Motion {
                 heading: 0.08 * DEG,
             },
             mode: Mode::Aided,
+            judgement: insd_base::Judgement::default(),
         },
         acceleration: None,
         covariance_north_east: None,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use insd_base::{AlignmentStatus, Counts, Event, Finding, Innovation, Mode, Time};
+use insd_base::{AlignmentStatus, Counts, Event, Finding, Innovation, Mode, Stands, Time};
 use insd_drivers::recording::{FileReport, NavWriter};
 use insd_engine::Output;
 
@@ -22,6 +22,7 @@ pub(super) struct Sink {
     departures: Vec<Time>,
     resets: Vec<Time>,
     findings: Vec<(Time, Finding)>,
+    standings: Vec<Stands>,
     stored: Option<Event>,
     solutions: u64,
 }
@@ -39,6 +40,7 @@ impl Sink {
             departures: Vec::new(),
             resets: Vec::new(),
             findings: Vec::new(),
+            standings: Vec::new(),
             stored: None,
             solutions: 0,
         })
@@ -75,6 +77,7 @@ impl Sink {
             Event::LeftBerth { time } => self.departures.push(time),
             Event::PositionReset { time } => self.resets.push(time),
             Event::InstallationFound { time, finding } => self.findings.push((time, finding)),
+            Event::Judged { stands, .. } => self.standings.push(stands),
             Event::StoredStateUsed { .. } | Event::StoredStateDropped { .. } => {
                 self.stored = Some(*event);
             }
@@ -98,6 +101,7 @@ impl Sink {
             departures: &self.departures,
             resets: &self.resets,
             findings: &self.findings,
+            standings: &self.standings,
             stored: self.stored.as_ref(),
             counts,
             dropped,

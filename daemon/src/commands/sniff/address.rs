@@ -23,9 +23,6 @@ const PROBE_S: f64 = 1.3;
 /// Rates that a serial line may have.
 const RATES: std::ops::RangeInclusive<u32> = 50..=4_000_000;
 
-/// Callers that a TCP server takes.
-const CLIENTS: usize = 8;
-
 /// Something to listen to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Address {
@@ -123,7 +120,7 @@ fn tcp(rest: &str) -> Result<Opened, String> {
 fn tcp_listen(rest: &str) -> Result<Opened, String> {
     let bind = socket(rest)?;
     let table = format!("{{ kind = \"tcp-server\", bind = \"{bind}\" }}");
-    let server = TcpServer { bind, max_clients: CLIENTS };
+    let server = TcpServer::new(bind);
     Ok((Transport::TcpServer(server), true, Some(Suggested::Other(table))))
 }
 

@@ -51,7 +51,7 @@ pub(super) fn udp(rest: &str) -> Result<Opened, String> {
     let bind: SocketAddr =
         address.parse().map_err(|_| format!("`{address}` is no ADDRESS:PORT of this computer"))?;
     let table = format!("{{ kind = \"gateway-udp\", bind = \"{bind}\", format = \"{word}\" }}");
-    let transport = Transport::GatewayUdp(GatewayUdp { bind, to: None, format });
+    let transport = Transport::GatewayUdp(GatewayUdp { bind, to: None, from: None, format });
     Ok((transport, true, Some(Suggested::Other(table))))
 }
 

@@ -47,6 +47,8 @@ pub enum Form {
     Ip,
     /// An address with a port.
     Socket,
+    /// An address, or a network.
+    Host,
 }
 
 /// A word that a key may say.
@@ -164,6 +166,7 @@ fn form(schema: &Map<String, Value>) -> Form {
         Some("ipv4") => Form::Ipv4,
         Some("ip") => Form::Ip,
         Some("socket") => Form::Socket,
+        Some("host") => Form::Host,
         _ => Form::Free,
     }
 }

@@ -3,6 +3,7 @@
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 
+use insd_drivers::ports::Network;
 use toml::{Table, Value};
 
 use super::document::Document;
@@ -171,6 +172,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             Form::Ipv4 => text.parse::<Ipv4Addr>().is_ok(),
             Form::Ip => text.parse::<IpAddr>().is_ok(),
             Form::Socket => text.parse::<SocketAddr>().is_ok(),
+            Form::Host => text.parse::<Network>().is_ok(),
         };
         (!sound).then(|| self.wrong(spot, "address", &Shape::Text(form)))
     }
@@ -274,6 +276,9 @@ pub(crate) fn words(shape: &Shape) -> String {
         Shape::Text(Form::Ipv4) => "an address like \"192.168.1.20\"".to_owned(),
         Shape::Text(Form::Ip) => "an address like \"192.168.1.20\" or \"fd00::20\"".to_owned(),
         Shape::Text(Form::Socket) => "an address with its port, like \"127.0.0.1:8470\"".to_owned(),
+        Shape::Text(Form::Host) => {
+            "an address like \"192.168.1.20\" or a network like \"10.0.0.0/24\"".to_owned()
+        }
         Shape::Whole(Some(least), Some(most)) => format!("a whole number, {least} to {most}"),
         Shape::Whole(Some(least), None) => format!("a whole number from {least}"),
         Shape::Whole(..) => "a whole number".to_owned(),
@@ -293,7 +298,7 @@ pub(crate) fn words(shape: &Shape) -> String {
 /// Something that reads as the shape, where the text has nothing of the kind.
 fn stopgap(shape: &Shape) -> Value {
     match shape {
-        Shape::Text(Form::Ipv4 | Form::Ip) => Value::from("127.0.0.1"),
+        Shape::Text(Form::Ipv4 | Form::Ip | Form::Host) => Value::from("127.0.0.1"),
         Shape::Text(Form::Socket) => Value::from("127.0.0.1:1"),
         Shape::Any | Shape::Text(Form::Free) => Value::from(""),
         Shape::Whole(least, _) => Value::from(least.map_or(1, |least| (least as i64).max(1))),

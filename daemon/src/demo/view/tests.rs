@@ -27,6 +27,7 @@ fn solution(mode: Mode) -> Solution {
             heading: 0.05 * DEG,
         },
         mode,
+        judgement: insd_base::Judgement::default(),
     }
 }
 

@@ -128,6 +128,8 @@ impl Border {
             }
             PortState::Overrun { .. } => line.lane.mark(now, POOR),
             PortState::Ended => line.lane.last(now, 0),
+            // others are heard as before
+            PortState::Refused { .. } => {}
         }
     }
 

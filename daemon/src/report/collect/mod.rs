@@ -101,6 +101,12 @@ impl Collected {
             }
             Product::Order(obeyed) => self.journal.write(now, "order", words::order(obeyed)),
             Product::Vote(vote) => self.journal.write(now, "engines", words::vote(vote)),
+            Product::Command(own) => {
+                let host = own.who.host.as_deref().unwrap_or("the bridge");
+                let outcome = if own.obeyed { "" } else { ", which was refused" };
+                let line = format!("{host}: {}{outcome}", words::command(own));
+                self.journal.write(now, "command", line);
+            }
             Product::Spare(..) => {}
         }
     }

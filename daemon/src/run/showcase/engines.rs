@@ -1,8 +1,10 @@
 //! The engines, and what their filter has found out.
 
 use insd_base::units::{DEG, DEG_PER_HOUR, MICRO_G};
-use insd_base::{self as base, Body};
-use insd_web::snapshot::{Disturbance, DisturbanceAxis, Engine, Estimate, Estimates, Found};
+use insd_base::{self as base, Body, Party, Standing};
+use insd_web::snapshot::{
+    Disturbance, DisturbanceAxis, Engine, Estimate, Estimates, Found, Stands,
+};
 
 use super::super::report::Report;
 use crate::redundancy::{Dispute, EngineStatus};
@@ -43,6 +45,37 @@ pub(super) fn estimates(found: &base::Estimates) -> Estimates {
         gnss_lever_m: triad(&found.gnss_lever, &found.gnss_lever_sigma, 1.0),
         gnss_delay_s: Some(estimate(&found.gnss_delay, 1.0)),
         course_less_heading_deg: found.course_less_heading.map(|own| estimate(&own, DEG)),
+    }
+}
+
+/// How all stand with whom she is navigated by.
+pub(super) fn standings(all: &[base::Stands]) -> Vec<Stands> {
+    let shown = |stands: &base::Stands| Stands {
+        name: stands.party.as_str().to_owned(),
+        standing: stands.standing.as_str().to_owned(),
+        since_s: stands.fault.map(|_| stands.since.as_seconds()),
+        fault: stands.fault.map(|fault| fault.as_str().to_owned()),
+        text: stands.fault.map(|_| stands.to_string()),
+        advice: advice(stands).map(str::to_owned),
+    };
+    all.iter().map(shown).collect()
+}
+
+/// What the mate may do about somebody who is not believed.
+fn advice(stands: &base::Stands) -> Option<&'static str> {
+    match (stands.standing, stands.party) {
+        (Standing::Trusted, _) => None,
+        (_, Party::Gnss) => {
+            Some("Fix by radar, bearings and depth. Do not steer by track control.")
+        }
+        (_, Party::Log) => Some("Compare the speed with GNSS. Look at the log."),
+        (_, Party::Heading) => {
+            Some("Compare with the magnetic compass, and the course on a leading line.")
+        }
+        (_, Party::Reference) => Some("Look at its receiver and its antenna."),
+        (_, Party::Imu) => {
+            Some("Use another heading, roll and pitch. Look at the IMU's cable and mounting.")
+        }
     }
 }
 

@@ -150,6 +150,7 @@ impl Showcase {
         shown.recording = program::recording(&self.config, slow);
         self.disputes.clone_from(&slow.disputes);
         shown.estimates = slow.estimates.as_ref().map(engines::estimates);
+        shown.standings = engines::standings(&slow.standings);
         shown.installation = engines::installation(&slow.findings);
         if let Some(disturbance) = &slow.disturbance {
             shown.disturbance = Some(engines::disturbance(disturbance));

@@ -29,6 +29,7 @@ pub(super) fn inputs(config: &Config, slow: &Slow, rates: &Rates, now: Time) -> 
             damaged: status.counts.damaged,
             skipped_bytes: status.counts.skipped,
             overrun_bytes: status.told.overrun,
+            refused: status.told.refused,
             reopened: attempts.saturating_sub(1),
             last_error: status.told.trouble.clone(),
         }
@@ -176,7 +177,9 @@ fn transport_out(destination: &Destination) -> &'static str {
 fn state(state: Option<&State>) -> PortState {
     match state {
         None => PortState::Waiting,
-        Some(State::Open { .. } | State::Speaking | State::Overrun { .. }) => PortState::Open,
+        Some(
+            State::Open { .. } | State::Speaking | State::Overrun { .. } | State::Refused { .. },
+        ) => PortState::Open,
         Some(State::Absent { .. }) => PortState::Absent,
         Some(State::Lost { .. }) => PortState::Lost,
         Some(State::Silent { .. }) => PortState::Silent,

@@ -28,6 +28,7 @@ fn report(now: f64, heard: f64) -> Report {
         rate: Body::default(),
         sigma: SolutionSigma::default(),
         mode: Mode::Aided,
+        judgement: insd_base::Judgement::default(),
     };
     let motion =
         Motion { solution, acceleration: None, covariance_north_east: None, current: None };

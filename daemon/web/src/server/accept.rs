@@ -1,4 +1,4 @@
-//! Takes connections, so many at a time and none for ever.
+//! Takes connections, so many at a time, so many of one address, and none for ever.
 
 use std::io;
 use std::net::{SocketAddr, TcpListener as StdListener};
@@ -19,10 +19,12 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 
 use super::hall::Hall;
+use super::room::{Place, Room};
 use super::stall::Stall;
+use crate::SECURITY;
 
 /// How long a client may take for the head of a request, and say nothing between two.
-const HEAD: Duration = Duration::from_secs(10);
+const HEAD: Duration = Duration::from_secs(5);
 /// Bytes of a request's head, and those that wait for a slow client.
 const BUFFER: usize = 16 * 1024;
 /// Lines of a request's head.
@@ -46,31 +48,30 @@ pub(super) async fn accept(
     listener: StdListener,
     router: Router,
     hall: &Arc<Hall>,
-    max_clients: usize,
+    room: &Room,
 ) -> io::Result<()> {
     let listener = TcpListener::from_std(listener)?;
-    let room = Arc::new(Semaphore::new(max_clients.max(1)));
     let porch = Arc::new(Semaphore::new(TURNED_AWAY));
     loop {
         let Ok((stream, peer)) = listener.accept().await else {
             tokio::time::sleep(PAUSE).await;
             continue;
         };
-        if let Ok(permit) = Arc::clone(&room).try_acquire_owned() {
-            tokio::spawn(serve(stream, Peer(peer), router.clone(), Arc::clone(hall), permit));
-        } else if let Ok(permit) = Arc::clone(&porch).try_acquire_owned() {
+        let why = match room.enter(peer.ip()) {
+            Ok(place) => {
+                tokio::spawn(serve(stream, Peer(peer), router.clone(), Arc::clone(hall), place));
+                continue;
+            }
+            Err(why) => why,
+        };
+        tracing::warn!(target: SECURITY, host = %peer.ip().to_canonical(), why, "a connection to the page is refused");
+        if let Ok(permit) = Arc::clone(&porch).try_acquire_owned() {
             tokio::spawn(turn_away(stream, permit));
         }
     }
 }
 
-async fn serve(
-    stream: TcpStream,
-    peer: Peer,
-    router: Router,
-    hall: Arc<Hall>,
-    _permit: OwnedSemaphorePermit,
-) {
+async fn serve(stream: TcpStream, peer: Peer, router: Router, hall: Arc<Hall>, _place: Place) {
     // a client that is slower for the lack of either is served all the same
     let _ = stream.set_nodelay(true);
     let _ = SockRef::from(&stream).set_send_buffer_size(SEND_BUFFER);

@@ -36,6 +36,17 @@ pub(super) enum Denied {
     TooMany,
 }
 
+impl Denied {
+    /// The same in words.
+    pub(super) fn as_str(self) -> &'static str {
+        match self {
+            Denied::Disabled => "nothing can be changed on the page",
+            Denied::WrongToken => "no token, or a wrong one",
+            Denied::TooMany => "too many wrong tokens",
+        }
+    }
+}
+
 impl Access {
     pub(super) fn new(token: Option<String>, hosts: &[String]) -> Self {
         let hosts = hosts.iter().map(|host| host.to_ascii_lowercase()).collect();

@@ -16,6 +16,7 @@ use super::accept::Peer;
 use super::access::Denied;
 use super::guard::fault;
 use super::hall::Hall;
+use crate::SECURITY;
 
 /// Longest filter of the journal, characters.
 const LONGEST_LEVEL: usize = 200;
@@ -87,15 +88,20 @@ async fn give(
     peer: Peer,
     order: impl FnOnce() -> Result<Order, String>,
 ) -> Response {
+    let host = peer.0.ip().to_canonical();
     if let Err(denied) = hall.access.check(headers, peer.0.ip()) {
+        tracing::warn!(target: SECURITY, %host, why = denied.as_str(), "an order over the network is refused");
         return deny(denied, hall.access.read_only());
     }
     let order = match order() {
         Ok(order) => order,
         Err(text) => return fault(StatusCode::BAD_REQUEST, &text),
     };
-    tracing::info!(?order, peer = %peer.0, "an order over the network");
-    match hall.orders.send(order).await {
+    let words = order.to_string();
+    let outcome = hall.orders.send(order).await;
+    let obeyed = outcome.is_ok();
+    tracing::info!(target: SECURITY, %host, order = words, obeyed, "an order over the network");
+    match outcome {
         Ok(()) => StatusCode::NO_CONTENT.into_response(),
         Err(Failure::Refused(reason)) => fault(StatusCode::CONFLICT, &reason),
         Err(Failure::Busy) => fault(StatusCode::SERVICE_UNAVAILABLE, "too many orders wait"),

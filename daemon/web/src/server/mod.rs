@@ -10,6 +10,7 @@ mod hall;
 mod history;
 mod metrics;
 mod page;
+mod room;
 mod stall;
 mod stream;
 mod track;
@@ -30,6 +31,7 @@ use crate::config::{Listen, WebConfig, WebError};
 use crate::orders::OrderSender;
 
 use hall::Hall;
+use room::Room;
 
 /// Longest body of a request, bytes.
 const MAX_BODY: usize = 4096;
@@ -80,8 +82,8 @@ pub fn start(
     let runtime = Builder::new_current_thread().enable_all().build()?;
     let hall = Arc::new(Hall::new(config.token, &config.allowed_hosts, orders));
     let (stop, stopped) = watch::channel(false);
-    let max_clients = config.max_clients;
-    let run = move || run(runtime, listener, &viewer, &hall, max_clients, stopped);
+    let room = Room::new(config.max_clients, config.max_per_address);
+    let run = move || run(runtime, listener, &viewer, &hall, &room, stopped);
     let thread = std::thread::Builder::new().name("web".to_owned()).spawn(run)?;
     Ok(WebHandle { address, stop, thread: Some(thread) })
 }
@@ -91,14 +93,14 @@ fn run(
     listener: TcpListener,
     viewer: &Viewer,
     hall: &Arc<Hall>,
-    max_clients: usize,
+    room: &Room,
     mut stopped: watch::Receiver<bool>,
 ) {
     let router = router(hall);
     runtime.block_on(async {
         tokio::select! {
             () = hall::pump(viewer, hall) => {}
-            ended = accept::accept(listener, router, hall, max_clients) => {
+            ended = accept::accept(listener, router, hall, room) => {
                 if let Err(fault) = ended {
                     tracing::warn!(%fault, "the status page cannot be served");
                 }

@@ -29,7 +29,7 @@ pub use program::{
     Engine, Log, Mode, Program, Recording, RecordingState, Saving, TimeInfo, Transition,
 };
 pub use sensors::{Choice, Sensor, SensorState};
-pub use ship::{Estimate, Estimates, Found, Heave, Motion};
+pub use ship::{Estimate, Estimates, Found, Heave, Motion, Stands};
 
 use serde::{Deserialize, Serialize};
 
@@ -65,6 +65,8 @@ pub struct Snapshot {
     pub engines: Vec<Engine>,
     /// What the filter has found out about the sensors; `None` while there is no filter.
     pub estimates: Option<Estimates>,
+    /// Whom the navigator believes; nobody before it navigates.
+    pub standings: Vec<Stands>,
     /// What of the installation is found to be otherwise than configured.
     pub installation: Vec<Found>,
     /// Sensors, in the order of the configuration.
@@ -111,6 +113,7 @@ impl Default for Snapshot {
             alignment: None,
             engines: Vec::new(),
             estimates: None,
+            standings: Vec::new(),
             installation: Vec::new(),
             sensors: Vec::new(),
             choices: Vec::new(),

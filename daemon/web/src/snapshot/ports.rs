@@ -50,6 +50,8 @@ pub struct Input {
     pub skipped_bytes: u64,
     /// Bytes that were dropped because more came than could be taken.
     pub overrun_bytes: u64,
+    /// Datagrams and calls of hosts on the network that were not let in.
+    pub refused: u64,
     /// How often it was opened again.
     pub reopened: u64,
     /// What the system said last when something was wrong.

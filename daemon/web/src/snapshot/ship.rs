@@ -139,6 +139,24 @@ pub struct Estimate {
     pub sigma: Option<f64>,
 }
 
+/// How somebody of the sensors stands.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Stands {
+    /// Who: `gnss`, `log`, `heading`, `reference`, `imu`.
+    pub name: String,
+    /// How far it is believed: `trusted`, `doubtful`, `excluded`, `probation`.
+    pub standing: String,
+    /// Since when, s on the ship's time line.
+    pub since_s: Option<f64>,
+    /// What it was found to do, or is suspected of: `jump`, `drag`, ...
+    pub fault: Option<String>,
+    /// That in words; nothing of who was never doubted.
+    pub text: Option<String>,
+    /// What the mate may do about it.
+    pub advice: Option<String>,
+}
+
 /// Something of the installation that is found to be otherwise than configured.
 #[derive(Clone, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]

@@ -11,7 +11,7 @@ use insd_n2k::groups::{
     Acknowledge, Command, Configuration, GroupFunction, GroupRequest, INTERVAL_DEFAULT,
     INTERVAL_KEEP, OFFSET_KEEP,
 };
-use insd_n2k::node::{NodeEvent, Peer};
+use insd_n2k::node::{Node, NodeEvent, Peer};
 use insd_n2k::pgn::Group;
 use insd_n2k::{N2kId, NameParts};
 
@@ -100,6 +100,30 @@ fn the_interval_of_a_stream_can_be_changed_switched_off_and_set_back() {
     assert_eq!(interval_of(&bus, 127_250), Some(Span::from_seconds(0.1)));
     let offset = Some(Span::from_seconds(0.2));
     assert!(bus.happened(0, &changed(Some(Span::from_seconds(0.1)), offset)));
+}
+
+#[test]
+fn a_node_that_nobody_may_command_denies_and_changes_nothing() {
+    let mut config = common::config(name(1000), 40);
+    config.commands = false;
+    let mut bus = Bus::started(vec![Node::new(config, 1)]);
+    bus.run(0.5);
+    bus.take_messages();
+    let before = bus.nodes[0].config().clone();
+    let refused = |pgn| NodeEvent::CommandRefused { pgn, by: BY };
+    for (pgn, function, answer) in [
+        (127_250, request(127_250, 0, OFFSET_KEEP), acknowledge(127_250, 3, 0, &[])),
+        (126_993, request(126_993, 5000, OFFSET_KEEP), acknowledge(126_993, 3, 0, &[])),
+        (127_250, command(127_250, 1, 0, &[]), acknowledge(127_250, 3, 0, &[])),
+        (60_928, command(60_928, 8, 1, &[3, 1]), acknowledge(60_928, 3, 0, &[2])),
+    ] {
+        assert_eq!(tell(&mut bus, &function, 40), answer, "{pgn}");
+        assert!(bus.happened(0, &refused(pgn)), "{pgn}");
+    }
+    // to be sent something once is no command
+    let answer = tell(&mut bus, &request(126_993, INTERVAL_KEEP, OFFSET_KEEP), 40);
+    assert_eq!(answer[0].0, 126_993);
+    assert_eq!(*bus.nodes[0].config(), before);
 }
 
 #[test]

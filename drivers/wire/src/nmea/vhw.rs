@@ -17,7 +17,7 @@ use super::decimal::Form;
 use super::fault::Fault;
 use super::frame::Frame;
 use super::line::{Line, Talker};
-use super::vtg::KMH;
+use super::vtg::{KMH, as_told};
 
 const SPEED: Form = Form { decimals: 2, width: 1, limit: 999.9 };
 
@@ -50,7 +50,7 @@ impl Vhw {
             line.letter(b'M');
             line.number(fits.map(|speed| speed / KNOT), SPEED);
             line.letter(b'N');
-            line.number(fits.map(|speed| speed / KMH), SPEED);
+            line.number(fits.map(|speed| as_told(speed) / KMH), SPEED);
             line.letter(b'K');
         })
     }

@@ -23,6 +23,11 @@ use super::mode::PositionMode;
 /// Metres per second in one kilometre per hour.
 pub(crate) const KMH: f64 = 1.0 / 3.6;
 
+/// A speed, m/s, as it is told in knots: that in km/h is the same.
+pub(crate) fn as_told(speed: f64) -> f64 {
+    (speed / KNOT * 100.0).round() / 100.0 * KNOT
+}
+
 const SPEED: Form = Form { decimals: 2, width: 1, limit: 9999.9 };
 
 /// Course and speed over ground.
@@ -56,7 +61,7 @@ impl Vtg {
             line.letter(b'M');
             line.magnitude(self.speed.map(|speed| speed / KNOT), SPEED);
             line.letter(b'N');
-            line.magnitude(self.speed.map(|speed| speed / KMH), SPEED);
+            line.magnitude(self.speed.map(|speed| as_told(speed) / KMH), SPEED);
             line.letter(b'K');
             line.letter(mode.letter());
         })

@@ -117,9 +117,11 @@ impl AlertBoard {
             let is_meant = alert.condition.alert() == command.alert;
             is_meant && alert.obey(command.command, supervised, now)
         });
-        if obeyed {
-            return None;
-        }
+        if obeyed { None } else { Some(self.refuse(command, now)) }
+    }
+
+    /// Refuses a command, whatever it is; gives the refusal, which is to be told.
+    pub fn refuse(&mut self, command: &Acn, now: &Boundary) -> Arc {
         let time = now.utc.and_then(CivilTime::from_utc).map(|utc| utc.time);
         let arc = Arc { time, alert: command.alert, command: command.command };
         self.stamp += 1;
@@ -128,7 +130,7 @@ impl AlertBoard {
         if self.refusals.len() > MAX_REFUSALS {
             self.refusals.pop_front();
         }
-        Some(arc)
+        arc
     }
 
     /// Obeys the operator at our own page; whether it could. Nothing is refused on the line.

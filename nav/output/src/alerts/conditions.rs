@@ -1,6 +1,6 @@
 //! Which alerts there are, and when each of them holds.
 
-use insd_base::{FixQuality, Mode, Span, Time};
+use insd_base::{FixQuality, Integrity, Judgement, Mode, Party, Span, Time};
 use insd_wire::nmea::{AlertId, AlertPriority, HeadingMode, Manufacturer};
 
 use crate::epoch::Epoch;
@@ -35,8 +35,26 @@ pub enum Condition {
     MountingDoubt,
     /// Something else of the installation is found to be otherwise than configured, such as a lever arm.
     Installation,
+    /// GNSS contradicts the others and is left out.
+    GnssExcluded,
+    /// Sensors contradict each other, and it is not known who is wrong.
+    PositionDoubt,
+    /// The heading reference contradicts the others and is left out.
+    HeadingExcluded,
+    /// The log contradicts the others and is left out.
+    LogExcluded,
+    /// Another reference of position contradicts the others and is left out.
+    ReferenceExcluded,
+    /// The IMU contradicts the others.
+    ImuDoubt,
+    /// GNSS is used again that was found to lie, and nothing shows that it does not any more.
+    OnTrial,
     /// A sensor tells nonsense, such as the same number again and again.
     BadData,
+    /// What arrives cannot be recorded: the disk is full, or the folder is gone or read-only.
+    NotRecording,
+    /// What the next start goes on from cannot be saved.
+    NotSaving,
 }
 
 /// An alert that there can be.
@@ -51,18 +69,38 @@ struct Definition {
     delays: [u8; 2],
 }
 
+/// An alert of our own.
+fn own(
+    identifier: u32,
+    priority: AlertPriority,
+    [title, description]: [&'static str; 2],
+    delays: [u8; 2],
+) -> Definition {
+    let manufacturer = Manufacturer::new(MANUFACTURER);
+    Definition { manufacturer, identifier, priority, title, description, delays }
+}
+
 impl Condition {
     /// All of them, those that matter most first.
-    pub const ALL: [Condition; 11] = [
+    pub const ALL: [Condition; 20] = [
         Condition::SystemFault,
         Condition::HeadingLost,
         Condition::PositionLost,
+        Condition::PositionDoubt,
         Condition::MountingDoubt,
+        Condition::ImuDoubt,
+        Condition::GnssExcluded,
         Condition::EnginesDiffer,
         Condition::HeadingDegraded,
         Condition::PositionEstimated,
+        Condition::HeadingExcluded,
+        Condition::LogExcluded,
+        Condition::ReferenceExcluded,
+        Condition::OnTrial,
         Condition::BadData,
         Condition::Installation,
+        Condition::NotRecording,
+        Condition::NotSaving,
         Condition::NoUtc,
         Condition::Simulated,
     ];
@@ -94,10 +132,6 @@ impl Condition {
 
     fn definition(self) -> Definition {
         use AlertPriority::{Caution, Warning};
-        let own = |identifier, priority, [title, description]: [&'static str; 2], delays| {
-            let manufacturer = Manufacturer::new(MANUFACTURER);
-            Definition { manufacturer, identifier, priority, title, description, delays }
-        };
         match self {
             Condition::SystemFault => Definition {
                 manufacturer: None,
@@ -119,6 +153,15 @@ impl Condition {
             Condition::Simulated => {
                 own(10_006, Caution, ["Simulated data", "Do not use for navigation"], [0, 0])
             }
+            Condition::NotRecording => own(
+                10_030,
+                Caution,
+                ["Not recording", "Disk full or folder gone. See page"],
+                [0, 10],
+            ),
+            Condition::NotSaving => {
+                own(10_031, Caution, ["State not saved", "A restart would align anew"], [0, 10])
+            }
             // the engines have already been apart, and close, for long enough
             Condition::EnginesDiffer => {
                 own(10_007, Warning, ["Engines differ", "Compare with another heading"], [0, 0])
@@ -133,6 +176,46 @@ impl Condition {
             Condition::Installation => {
                 own(10_021, Caution, ["Installation", "Not as configured. See page"], [0, 10])
             }
+            Condition::GnssExcluded
+            | Condition::PositionDoubt
+            | Condition::HeadingExcluded
+            | Condition::LogExcluded
+            | Condition::ImuDoubt
+            | Condition::OnTrial
+            | Condition::ReferenceExcluded => self.of_sensors(),
+        }
+    }
+
+    /// Those that the judge of the sensors raises, who has looked for long enough.
+    fn of_sensors(self) -> Definition {
+        use AlertPriority::{Caution, Warning};
+        match self {
+            Condition::GnssExcluded => {
+                own(10_008, Warning, ["GNSS excluded", "Contradicted. See page"], [0, 10])
+            }
+            Condition::PositionDoubt => own(
+                10_009,
+                Warning,
+                ["Position doubt", "Sources contradict. Fix by radar"],
+                [2, 10],
+            ),
+            Condition::HeadingExcluded => own(
+                10_010,
+                Caution,
+                ["Compass doubtful", "Contradicted. Compare headings"],
+                [0, 10],
+            ),
+            Condition::LogExcluded => {
+                own(10_011, Caution, ["Log doubtful", "Contradicted. Check speed"], [0, 10])
+            }
+            Condition::ImuDoubt => {
+                own(10_012, Warning, ["IMU doubtful", "Use other heading and attitude"], [0, 10])
+            }
+            Condition::OnTrial => {
+                own(10_015, Caution, ["Source on trial", "Was excluded. Not yet trusted"], [0, 10])
+            }
+            // another reference of position
+            _ => own(10_022, Caution, ["2nd pos. doubt", "Contradicted. See page"], [0, 10]),
         }
     }
 
@@ -179,6 +262,8 @@ impl Watch {
             let own = if at_berth { &by_sigma } else { policy };
             own.quality(&solution) == FixQuality::Estimated
         });
+        let Judgement { integrity, excluded } =
+            epoch.solution.map(|solution| solution.judgement).unwrap_or_default();
         let holds = |condition| match condition {
             Condition::SystemFault => {
                 usable.is_none_or(|solution| solution.mode == Mode::Standby)
@@ -192,8 +277,20 @@ impl Watch {
             Condition::Simulated => simulated,
             Condition::EnginesDiffer => epoch.engines_differ,
             Condition::MountingDoubt => epoch.doubts.mounting,
+            Condition::GnssExcluded => excluded.contains(Party::Gnss),
+            Condition::PositionDoubt => integrity == Integrity::Contradiction,
+            Condition::HeadingExcluded => excluded.contains(Party::Heading),
+            Condition::LogExcluded => excluded.contains(Party::Log),
+            Condition::ReferenceExcluded => excluded.contains(Party::Reference),
+            Condition::ImuDoubt => {
+                let is_doubted = excluded.contains(Party::Imu) || epoch.doubts.imu;
+                is_doubted && !epoch.doubts.mounting
+            }
+            Condition::OnTrial => integrity == Integrity::Unproven,
             Condition::BadData => epoch.doubts.bad_data,
             Condition::Installation => epoch.doubts.installation,
+            Condition::NotRecording => epoch.storage.recording,
+            Condition::NotSaving => epoch.storage.state,
         };
         let mut found = Condition::ALL.map(|condition| (condition, holds(condition)));
         for ((condition, holds), latch) in found.iter_mut().zip(&mut self.latches) {

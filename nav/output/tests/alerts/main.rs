@@ -38,5 +38,6 @@ fn solution(time: Time) -> Solution {
             ..SolutionSigma::default()
         },
         mode: Mode::Aided,
+        judgement: insd_base::Judgement::default(),
     }
 }

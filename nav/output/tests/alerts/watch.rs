@@ -1,7 +1,9 @@
 //! When which alert is raised.
 
 use insd_base::units::DEG;
-use insd_base::{AlignmentPhase, AlignmentStatus, Forecast, Lack, Mode, Ned, Solution, Time};
+use insd_base::{
+    AlignmentPhase, AlignmentStatus, Forecast, Lack, Mode, Ned, Solution, StorageFaults, Time,
+};
 use insd_output::alerts::{Condition, Watch};
 use insd_output::{Epoch, Policy};
 use insd_wire::nmea::Alf;
@@ -207,4 +209,18 @@ fn identifiers_are_our_own_or_those_of_a_standard_and_each_is_used_once() {
         assert!(Condition::ALL[..index].iter().all(|other| other.alert() != alert));
     }
     assert_eq!(SystemFault.alert().identifier, 3062);
+}
+
+#[test]
+fn what_cannot_be_written_is_told_at_once_and_no_more_when_it_can_be_for_a_while() {
+    let mut look = Look::of_a_sound_ship();
+    let faults = |recording, state| {
+        let storage = StorageFaults { recording, state };
+        move |epoch: Epoch| Epoch { storage, ..epoch }
+    };
+    assert_eq!(look.at(0.1, faults(true, false)), [Condition::NotRecording]);
+    assert_eq!(look.at(0.1, faults(true, true)), [Condition::NotRecording, Condition::NotSaving]);
+    assert_eq!(look.at(9.9, faults(false, true)), [Condition::NotRecording, Condition::NotSaving]);
+    assert_eq!(look.at(0.5, faults(false, true)), [Condition::NotSaving]);
+    assert_eq!(look.at(11.0, faults(false, false)), []);
 }

@@ -86,6 +86,7 @@ pub(crate) fn leaned(side: f64) -> Epoch {
             heading: 0.05 * DEG,
         },
         mode: Mode::Aided,
+        judgement: insd_base::Judgement::default(),
     };
     let heave = Heave {
         time: now(),

@@ -27,6 +27,7 @@ pub(crate) fn solution() -> Solution {
             heading: 0.05 * DEG,
         },
         mode: Mode::Aided,
+        judgement: insd_base::Judgement::default(),
     }
 }
 

@@ -34,6 +34,7 @@ pub(super) fn look(config: &Config, found: &mut Found) {
     echoes(config, &listeners, found);
     hosts(config, found);
     open_page(config, found);
+    commanders(config, found);
 }
 
 /// Servers that are called: do they have a port, and are they ourselves?
@@ -106,5 +107,26 @@ fn open_page(config: &Config, found: &mut Found) {
         let text = "no token: nobody can acknowledge an alert on the page";
         let advice = "token_file = \"/etc/insd/token\", if that is wanted";
         found.note("token-none", Place::one("web").key("token_file"), text, advice);
+    }
+}
+
+/// Ports that are listened to for commands, and nobody is listed whose commands are obeyed; and the other
+/// way round.
+fn commanders(config: &Config, found: &mut Found) {
+    for port in config.ports.iter().filter(|port| port.transport.is_network()) {
+        let place = || Place::of("port", &port.name).key("commands_from");
+        let has_node = config.nodes.iter().any(|node| node.port == port.name);
+        let listed = port.commands_from.as_ref().is_some_and(|hosts| !hosts.is_empty());
+        if port.alerts && !listed {
+            let text = "nobody is listed: commands about alerts that come from here are refused";
+            found.warn("commands-nobody", place(), text, "commands_from = [\"192.168.1.20\"]");
+        } else if listed && !port.alerts && !has_node {
+            let text = "it is not listened to for commands about alerts, and has no node";
+            found.warn("commands-unheard", place(), text, "alerts = true, if that is wanted");
+        } else if listed && has_node && !port.obeys_bus() {
+            let text = "others can send there, too: the node obeys nobody";
+            let advice = "the gateway's own address in transport, as an address and not as a name";
+            found.warn("commands-gateway", place(), text, advice);
+        }
     }
 }

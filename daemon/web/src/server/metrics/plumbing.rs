@@ -8,12 +8,13 @@ use super::ship::word;
 /// Name, help, and where it is found.
 type Count<T> = (&'static str, &'static str, fn(&T) -> u64);
 
-const INPUT_COUNTS: [Count<Input>; 6] = [
+const INPUT_COUNTS: [Count<Input>; 7] = [
     ("input_bytes", "Bytes taken", |port| port.bytes),
     ("input_frames", "Frames found", |port| port.frames),
     ("input_damaged_frames", "Frames with a wrong checksum", |port| port.damaged),
     ("input_skipped_bytes", "Bytes that belonged to no frame", |port| port.skipped_bytes),
     ("input_overrun_bytes", "Bytes dropped as too many came", |port| port.overrun_bytes),
+    ("input_refused", "Datagrams and calls of hosts that were not let in", |port| port.refused),
     ("input_reopened", "Times that the port was opened again", |port| port.reopened),
 ];
 

@@ -21,6 +21,8 @@ pub struct NodeConfig {
     pub transmit: Vec<Transmit>,
     /// Groups that it reads, beside those of network management.
     pub receive: Vec<u32>,
+    /// Whether others may command it: its address, its texts, and what it sends when.
+    pub commands: bool,
 }
 
 impl NodeConfig {

@@ -47,6 +47,13 @@ pub enum NodeEvent {
     },
     /// No address is free: the node is quiet.
     NoneFree,
+    /// A command was refused, as the node obeys none.
+    CommandRefused {
+        /// The group about which it was.
+        pgn: u32,
+        /// By whom.
+        by: Peer,
+    },
     /// The node was commanded to take another address, and claims it.
     Commanded {
         /// Which.

@@ -59,6 +59,13 @@ struct Wish {
     offset: Option<Span>,
 }
 
+impl Wish {
+    /// Whether it is more than to be sent the group once: a command in the form of a request.
+    fn changes(&self) -> bool {
+        self.interval.is_some() || self.offset.is_some()
+    }
+}
+
 impl Node {
     /// Takes a group function.
     pub(super) fn function(
@@ -75,6 +82,9 @@ impl Node {
                 return;
             }
             GroupFunction::Request(request) => self.request(request, source, now),
+            GroupFunction::Command(command) if addressed && !self.config.commands => {
+                Some(self.deny(pgn, command.count, source))
+            }
             GroupFunction::Command(command) if addressed => {
                 Some(self.command(command, source, now))
             }
@@ -92,6 +102,13 @@ impl Node {
         if addressed {
             self.acknowledge(pgn, verdict, answer_to(source), now);
         }
+    }
+
+    /// Refuses a command, as the node obeys none.
+    fn deny(&mut self, pgn: u32, count: u8, source: u8) -> Verdict {
+        let by = self.peer(source);
+        self.tell(NodeEvent::CommandRefused { pgn, by });
+        Verdict::refused(PgnError::Denied, count, ParameterError::Unable)
     }
 
     fn acknowledge(&mut self, pgn: u32, verdict: Verdict, to: u8, now: Time) {
@@ -194,6 +211,9 @@ impl Node {
         if request.count > 0 {
             return Some(no_fields(request));
         }
+        if wish.changes() && !self.config.commands {
+            return Some(self.deny(request.pgn, request.count, source));
+        }
         let interval = match wish.interval {
             None => self.pulse.interval(),
             Some(INTERVAL_DEFAULT) => PULSE,
@@ -223,6 +243,9 @@ impl Node {
         };
         if request.count > 0 {
             return Some(no_fields(request));
+        }
+        if wish.changes() && !self.config.commands {
+            return Some(self.deny(request.pgn, request.count, source));
         }
         let pgn = entry.pgn;
         let (interval, enabled) = match wish.interval {

@@ -249,6 +249,11 @@ impl Node {
         self.events.pop_front()
     }
 
+    /// Lets others command it from now on, or nobody.
+    pub fn allow_commands(&mut self, allowed: bool) {
+        self.config.commands = allowed;
+    }
+
     /// The address that the node holds.
     #[must_use]
     pub fn address(&self) -> Option<u8> {

@@ -147,6 +147,9 @@ impl Node {
         }
         self.requests.commanded += 1;
         let by = self.peer(source);
+        if !self.config.commands {
+            return self.tell(NodeEvent::CommandRefused { pgn: CommandedAddress::PGN, by });
+        }
         self.tell(NodeEvent::Commanded { address: command.address, by });
         self.claim.command(command.address, now);
         self.run_steps(now);

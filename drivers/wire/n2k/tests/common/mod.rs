@@ -157,6 +157,7 @@ pub(crate) fn config(name: Name, address: u8) -> NodeConfig {
         manufacturer_info: "insd".to_owned(),
         transmit: vec![stream(127_250, 2, 0.1), stream(129_029, 3, 1.0)],
         receive: vec![128_259],
+        commands: true,
     }
 }
 

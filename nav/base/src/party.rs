@@ -1,0 +1,319 @@
+//! Who may be wrong, and how far each is believed.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::time::Time;
+
+/// A sensor, or several that fall together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Party {
+    /// The GNSS receiver in use.
+    Gnss,
+    /// The velocity log.
+    Log,
+    /// A heading reference: gyrocompass, dual antenna.
+    Heading,
+    /// Another reference of position or velocity.
+    Reference,
+    /// The IMU.
+    Imu,
+}
+
+impl Party {
+    /// All of them.
+    pub const ALL: [Party; 5] =
+        [Party::Gnss, Party::Log, Party::Heading, Party::Reference, Party::Imu];
+
+    /// Its word, as in the column `excluded` of `nav.csv`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Party::Gnss => "gnss",
+            Party::Log => "log",
+            Party::Heading => "heading",
+            Party::Reference => "reference",
+            Party::Imu => "imu",
+        }
+    }
+}
+
+impl fmt::Display for Party {
+    /// The same in words.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Party::Gnss => "GNSS",
+            Party::Log => "the log",
+            Party::Heading => "the heading reference",
+            Party::Reference => "the other reference",
+            Party::Imu => "the IMU",
+        })
+    }
+}
+
+/// How far somebody is believed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Standing {
+    /// As it says.
+    Trusted,
+    /// Something contradicts it, and it is not known who is wrong: not used meanwhile.
+    Doubtful,
+    /// It contradicts the others and is left out.
+    Excluded,
+    /// It was excluded and agrees again, but nothing has shown that it is right: used, not vouched for.
+    Probation,
+}
+
+impl Standing {
+    /// Its word: `trusted`, ...
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Standing::Trusted => "trusted",
+            Standing::Doubtful => "doubtful",
+            Standing::Excluded => "excluded",
+            Standing::Probation => "probation",
+        }
+    }
+}
+
+/// What somebody is found to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Fault {
+    /// The receiver's position jumped.
+    Jump,
+    /// Its position and velocity are dragged away together.
+    Drag,
+    /// Its position drifts, its velocity does not.
+    Slide,
+    /// It is dragged away faster and faster.
+    Creep,
+    /// Its velocity is wrong.
+    Velocity,
+    /// Its fixes come later than they say.
+    Delay,
+    /// It scatters by more than it says.
+    GnssNoise,
+    /// The log has another scale, or is turned.
+    LogGain,
+    /// The log is off along or athwart.
+    LogOffset,
+    /// The log is off to the same side of the world, as if it tracked the water.
+    LogFlow,
+    /// It scatters by more than it says.
+    LogNoise,
+    /// The heading is off.
+    HeadingOffset,
+    /// The heading drifts.
+    HeadingDrift,
+    /// It scatters by more than it says.
+    HeadingNoise,
+    /// The other position jumped.
+    ReferenceJump,
+    /// The other position is dragged away.
+    ReferenceDrag,
+    /// It scatters by more than it says.
+    ReferenceNoise,
+    /// A gyro has another bias.
+    GyroBias,
+    /// An accelerometer has another bias.
+    AccelBias,
+    /// A gyro has another scale.
+    GyroScale,
+    /// What the IMU says has nothing to do with how the ship moves.
+    ImuUseless,
+}
+
+impl Fault {
+    /// Who does so.
+    #[must_use]
+    pub fn party(self) -> Party {
+        match self {
+            Fault::Jump | Fault::Drag | Fault::Slide | Fault::Creep => Party::Gnss,
+            Fault::Velocity | Fault::Delay | Fault::GnssNoise => Party::Gnss,
+            Fault::LogGain | Fault::LogOffset | Fault::LogFlow | Fault::LogNoise => Party::Log,
+            Fault::HeadingOffset | Fault::HeadingDrift | Fault::HeadingNoise => Party::Heading,
+            Fault::ReferenceJump | Fault::ReferenceDrag | Fault::ReferenceNoise => Party::Reference,
+            Fault::GyroBias | Fault::AccelBias | Fault::GyroScale | Fault::ImuUseless => Party::Imu,
+        }
+    }
+
+    /// Whether it is merely that somebody scatters by more than he says.
+    #[must_use]
+    pub fn is_noise(self) -> bool {
+        matches!(
+            self,
+            Fault::GnssNoise | Fault::LogNoise | Fault::HeadingNoise | Fault::ReferenceNoise
+        )
+    }
+
+    /// A short name: `jump`, `log_gain`, ...
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Fault::Jump => "jump",
+            Fault::Drag => "drag",
+            Fault::Slide => "slide",
+            Fault::Creep => "creep",
+            Fault::Velocity => "velocity",
+            Fault::Delay => "delay",
+            Fault::GnssNoise => "gnss_noise",
+            Fault::LogNoise => "log_noise",
+            Fault::HeadingNoise => "heading_noise",
+            Fault::ReferenceNoise => "reference_noise",
+            Fault::LogGain => "log_gain",
+            Fault::LogOffset => "log_offset",
+            Fault::LogFlow => "log_flow",
+            Fault::HeadingOffset => "heading_offset",
+            Fault::HeadingDrift => "heading_drift",
+            Fault::ReferenceJump => "reference_jump",
+            Fault::ReferenceDrag => "reference_drag",
+            Fault::GyroBias => "gyro_bias",
+            Fault::AccelBias => "accel_bias",
+            Fault::GyroScale => "gyro_scale",
+            Fault::ImuUseless => "imu_useless",
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    /// The same in words, to be read after the name of who does so.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Fault::Jump | Fault::ReferenceJump => "has jumped to another place",
+            Fault::Drag | Fault::ReferenceDrag => "drifts away",
+            Fault::Slide => "drifts away, and its velocity says that it does not",
+            Fault::Creep => "drifts away faster and faster",
+            Fault::Velocity => "tells a wrong velocity",
+            Fault::Delay => "tells fixes that are older than it says",
+            Fault::GnssNoise | Fault::LogNoise | Fault::HeadingNoise | Fault::ReferenceNoise => {
+                "scatters by more than it says"
+            }
+            Fault::LogGain => "has another scale than before, or is turned",
+            Fault::LogOffset => "is off along or athwart",
+            Fault::LogFlow => "is off as if it tracked the water",
+            Fault::HeadingOffset => "is off by an angle",
+            Fault::HeadingDrift => "drifts",
+            Fault::GyroBias => "has a gyro with another bias than before",
+            Fault::AccelBias => "has an accelerometer with another bias than before",
+            Fault::GyroScale => "has a gyro with another scale than before",
+            Fault::ImuUseless => "does not tell how the ship moves",
+        })
+    }
+}
+
+/// How somebody stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stands {
+    /// Who.
+    pub party: Party,
+    /// How far he is believed.
+    pub standing: Standing,
+    /// Since when.
+    pub since: Time,
+    /// What he was found to do, or is suspected of.
+    pub fault: Option<Fault>,
+}
+
+impl fmt::Display for Stands {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Stands { party, standing, fault, .. } = self;
+        match (standing, fault) {
+            (Standing::Trusted, _) => write!(f, "{party} is believed again"),
+            (Standing::Excluded, Some(fault)) => {
+                write!(f, "{party} {fault}, as the others show, and is left out")
+            }
+            (Standing::Excluded, None) => {
+                write!(f, "{party} contradicts the others and is left out")
+            }
+            (Standing::Doubtful, Some(fault)) if *party == Party::Imu => {
+                write!(f, "{party} {fault}: use another heading, roll and pitch")
+            }
+            (Standing::Doubtful, _) => {
+                write!(
+                    f,
+                    "{party} and the others contradict each other, and it is not known who is wrong"
+                )
+            }
+            (Standing::Probation, _) => {
+                write!(f, "{party} is used again, but nothing shows that it is right")
+            }
+        }
+    }
+}
+
+/// Some of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash)]
+pub struct Parties(u8);
+
+impl Parties {
+    /// With one more.
+    #[must_use]
+    pub fn with(self, party: Party) -> Self {
+        Parties(self.0 | 1 << party as u8)
+    }
+
+    /// Those of either.
+    #[must_use]
+    pub fn and(self, other: Parties) -> Self {
+        Parties(self.0 | other.0)
+    }
+
+    /// Whether one is among them.
+    #[must_use]
+    pub fn contains(self, party: Party) -> bool {
+        self.0 & 1 << party as u8 != 0
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Each of them.
+    pub fn iter(self) -> impl Iterator<Item = Party> {
+        Party::ALL.into_iter().filter(move |party| self.contains(*party))
+    }
+}
+
+impl FromIterator<Party> for Parties {
+    fn from_iter<I: IntoIterator<Item = Party>>(parties: I) -> Self {
+        parties.into_iter().fold(Parties::default(), Parties::with)
+    }
+}
+
+/// Whether the sensors bear out what is told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash)]
+pub enum Integrity {
+    /// Those that are used agree with each other.
+    #[default]
+    Consistent,
+    /// A receiver is used that was found to lie, and nothing shows that it does not any more.
+    Unproven,
+    /// They contradict each other, and it is not known who is wrong.
+    Contradiction,
+}
+
+/// What is made of the sensors' words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash)]
+pub struct Judgement {
+    /// Whether those that are used bear out what is told.
+    pub integrity: Integrity,
+    /// Who is left out, or is doubted and cannot be.
+    pub excluded: Parties,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_holds_what_was_put_in() {
+        let some: Parties = [Party::Imu, Party::Gnss].into_iter().collect();
+        assert_eq!(some.iter().collect::<Vec<_>>(), [Party::Gnss, Party::Imu]);
+        assert!(!some.contains(Party::Log) && Parties::default().is_empty());
+        assert_eq!(Parties::default().with(Party::Gnss).with(Party::Imu), some.and(some));
+    }
+}

@@ -1,0 +1,45 @@
+//! What the gates said, entered in the report of a message.
+
+use insd_base::{Source, Time};
+
+use crate::innovation::Weighed;
+use crate::report::{AidReport, Outcome, Report};
+
+/// What the gates said of an innovation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judged {
+    /// Whether it was absorbed, or why not.
+    pub outcome: Outcome,
+    /// Logarithm of its likelihood, bounded by the gate.
+    pub log_likelihood: f64,
+    /// Value and expected sigma of each component; NaN where there is none.
+    pub innovation: [(f64, f64); 3],
+}
+
+/// Where there is no innovation to tell of.
+pub(crate) const NO_INNOVATION: [(f64, f64); 3] = [(f64::NAN, f64::NAN); 3];
+
+/// Value and expected sigma of each component.
+pub(super) fn detail<const M: usize>(weighed: &Weighed<M>) -> [(f64, f64); 3] {
+    let sigma = weighed.sigma();
+    std::array::from_fn(|i| if i < M { (weighed.z()[i], sigma[i]) } else { (f64::NAN, f64::NAN) })
+}
+
+/// Enters a judgement in the report of a message.
+pub(super) fn enter(
+    report: &mut Report,
+    time: Time,
+    source: Source,
+    aid: &'static str,
+    judged: &Judged,
+) -> Outcome {
+    report.log_likelihood += judged.log_likelihood;
+    report.aids.push(AidReport {
+        time,
+        source,
+        aid,
+        outcome: judged.outcome,
+        innovation: judged.innovation,
+    });
+    judged.outcome
+}

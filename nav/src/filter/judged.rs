@@ -1,0 +1,288 @@
+//! The filter before its judge: who is heard, and what follows.
+
+use std::sync::Arc;
+
+use insd_base::units::DEG;
+use insd_base::{Mode, Parties, Party, SolutionSigma};
+use nalgebra::{Matrix3, SMatrix, Vector3};
+
+use super::Filter;
+use crate::error_state::{ErrorState, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, VELOCITY};
+use crate::innovation::Innovation;
+use crate::judge::rows::Direct;
+use crate::judge::{Aid, Alternative, Docket, Judge};
+use crate::propagation::{Regime, Stretch};
+use crate::solution_sigma::{difference, solution_sigma};
+
+/// A receiver that is refused for so long while nothing speaks against it is right, and the filter wrong, s.
+const LOCKED_OUT: f64 = 3.0;
+/// An IMU that goes on to be wrong for so long, s, is of no use.
+const PATIENCE: f64 = 60.0;
+/// A heading less sure than this is to be found anew, rad.
+const LOST_HEADING: f64 = 5.0 * DEG;
+/// Mistakes of the installation show within this, s.
+const SETTLED: f64 = 300.0;
+/// Sigmas of a radius, or of a single component, that hold 95 %.
+const RADIUS: f64 = 2.448;
+
+/// What is to be done about the IMU.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ImuState {
+    /// Nothing.
+    Believed,
+    /// It was wrong and is not any more, and the heading is lost.
+    Disturbed,
+    /// It goes on to be wrong.
+    Wrong,
+}
+
+impl Filter {
+    /// Has a judge from now on, if the filter navigates and nothing holds the ship.
+    pub(super) fn be_judged(&mut self) {
+        let is_free = self.navigating && self.sway.is_none();
+        let docket = self.docket();
+        self.judge = is_free.then(|| Arc::new(Judge::new(&self.covariance, docket)));
+        self.judged_since = self.time;
+        self.forget_unheard();
+    }
+
+    /// What the judge has not been told yet is of no account.
+    fn forget_unheard(&mut self) {
+        self.unjudged = Stretch::new();
+        self.owed = ErrorState::zeros().transpose();
+    }
+
+    /// The judge begins anew with the estimate as it is.
+    pub(super) fn restart_judge(&mut self) {
+        self.forget_unheard();
+        if let Some(judge) = &mut self.judge {
+            Arc::make_mut(judge).restart(&self.covariance);
+        }
+    }
+
+    /// Brings the judge up to the time of the estimate. It must be settled.
+    fn judge_now(&mut self) -> Option<&mut Judge> {
+        let regime = Regime { rtk: self.is_rtk() };
+        let judge = Arc::make_mut(self.judge.as_mut()?);
+        if self.unjudged.duration > 0.0 {
+            judge.propagate(&self.unjudged, self.gravity.gradient(), &self.config, &regime);
+            self.unjudged = Stretch::new();
+        }
+        judge.corrected(&self.owed.transpose());
+        self.owed = ErrorState::zeros().transpose();
+        Some(judge)
+    }
+
+    /// The slow errors of the receiver have been forgotten.
+    pub(super) fn renew_judged(&mut self) {
+        if let Some(judge) = self.judge_now() {
+            for block in [GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR] {
+                judge.renew(block, &Matrix3::identity());
+            }
+        }
+    }
+
+    /// Lets the judge hear an innovation before it is absorbed: of somebody who is left out, whether he agrees.
+    pub(super) fn consult<const M: usize>(
+        &mut self,
+        aid: Aid,
+        innovation: &Innovation<M>,
+        direct: impl Fn(f64) -> Direct<M>,
+    ) {
+        let now = self.time;
+        if self.judge.as_ref().is_none_or(|judge| !judge.is_due(aid, now)) {
+            return;
+        }
+        let attitude = self.nominal.attitude;
+        let weighed = innovation.weigh(&self.covariance);
+        let Some(judge) = self.judge_now() else { return };
+        match aid.party().filter(|_| judge.docket().leaves_out(aid)) {
+            Some(Party::Gnss) if judge.docket().leaves_out_gnss() => {}
+            Some(party) => {
+                weighed.iter().for_each(|weighed| judge.watch(party, aid, now, weighed));
+            }
+            None => judge.hear(aid, now, innovation, &attitude, direct),
+        }
+    }
+
+    /// Lets the judge follow what a receiver that is left out is off by: its position beside the velocity of the
+    /// same epoch.
+    pub(super) fn follow(&mut self, position: &Innovation<3>, velocity: Option<&Innovation<3>>) {
+        let (now, covariance) = (self.time, self.covariance);
+        if self.judge.as_ref().is_none_or(|judge| !judge.docket().leaves_out_gnss()) {
+            return;
+        }
+        let silent =
+            Innovation { z: Vector3::zeros(), h: SMatrix::zeros(), r: Matrix3::identity() };
+        let both = position.beside(velocity.unwrap_or(&silent));
+        let noise = position.r.diagonal().xy().max().sqrt();
+        let weighed = both.weigh(&covariance);
+        if let Some((weighed, judge)) = weighed.zip(self.judge_now()) {
+            judge.follow(now, &weighed, noise, &covariance);
+        }
+    }
+
+    /// Whether what a receiver says now may be somebody's lie, and not the installer's mistake, which is there from
+    /// the begin.
+    pub(super) fn is_in_court(&self, aid: Aid) -> bool {
+        let judge = self.judge.as_ref().filter(|_| !self.is_early());
+        judge.is_some_and(|judge| judge.is_in_doubt() || judge.withholds(aid))
+    }
+
+    /// By how much the variance of an aid's noise is larger than stated.
+    pub(super) fn noise_of(&self, aid: Aid) -> f64 {
+        self.judge.as_ref().map_or(1.0, |judge| judge.noise(aid))
+    }
+
+    /// Whether what somebody says with an aid is not to be used now.
+    pub(super) fn withholds(&self, aid: Aid) -> bool {
+        self.judge.as_ref().is_some_and(|judge| judge.withholds(aid))
+    }
+
+    /// The heading was found with a reference that nothing bears out yet, or is borne out now.
+    pub fn doubt_heading(&mut self, is_doubted: bool) {
+        self.heading_doubted = is_doubted;
+    }
+
+    /// The IMU is of no use.
+    pub fn condemn_imu(&mut self) {
+        let now = self.time;
+        if let Some(judge) = &mut self.judge {
+            Arc::make_mut(judge).condemn_imu(now);
+        }
+    }
+
+    fn excused(&self) -> Parties {
+        if self.heading_doubted {
+            Party::ALL.into_iter().collect()
+        } else if self.is_early() {
+            Parties::default().with(Party::Gnss).with(Party::Imu)
+        } else {
+            Parties::default()
+        }
+    }
+
+    fn is_early(&self) -> bool {
+        (self.time - self.judged_since).as_seconds() < SETTLED
+    }
+
+    /// Whether the IMU is not believed.
+    pub(super) fn is_restless(&self) -> bool {
+        self.judge.as_ref().is_some_and(|judge| judge.docket().is_restless())
+    }
+
+    /// What is to be done about an IMU that was found wrong.
+    #[must_use]
+    pub fn imu_state(&self) -> ImuState {
+        let Some(judge) = &self.judge else { return ImuState::Believed };
+        let docket = judge.docket();
+        let is_heading_lost = || self.is_settled() && self.heading_std() > LOST_HEADING;
+        let is_doubted = docket.imu_doubted_since().is_some_and(|at| at >= self.judged_since);
+        if docket.is_imu_condemned() || docket.wrong_imu_for() > PATIENCE {
+            ImuState::Wrong
+        } else if is_doubted && !docket.is_restless() && is_heading_lost() {
+            ImuState::Disturbed
+        } else {
+            ImuState::Believed
+        }
+    }
+
+    /// Does as the judge says, after a message.
+    pub(super) fn heed(&mut self) {
+        let now = self.time;
+        let excused = self.excused();
+        if self.judge.as_ref().is_none_or(|judge| !judge.is_look_due(now)) {
+            return;
+        }
+        let Some(judge) = self.judge_now() else { return };
+        if let Some(verdict) = judge.look(now, excused) {
+            verdict.mended.iter().for_each(|mended| self.become_other(mended));
+            self.restart_judge();
+        }
+        self.covered = self.cover();
+    }
+
+    /// Without GNSS the estimate does what no craft of its kind can, and this one never did: the IMU is not believed.
+    pub(super) fn look_at_pace(&mut self) {
+        if !self.pace.is_due(self.time) {
+            return;
+        }
+        let (now, speed) = (self.time, self.nominal.velocity.norm());
+        let change = self.pace.see(now, speed);
+        if self.mode() == Mode::Aided {
+            self.pace.learn(change);
+        } else if change > self.pace.limit(&self.config.vessel) && !self.is_restless() {
+            self.settle();
+            let verdict = self.judge_now().map(|judge| judge.disbelieve_imu(now));
+            if let Some(mended) = verdict.and_then(|verdict| verdict.mended) {
+                self.become_other(&mended);
+                self.restart_judge();
+            }
+            self.pace.restart();
+        }
+    }
+
+    /// A filter that refuses a receiver against whom nothing speaks is wrong itself: it becomes what it would be
+    /// had it believed everybody. Tells whether it has a judge at all.
+    pub(super) fn consider_rejoining(&mut self) -> bool {
+        let refused = self.trust.refused(self.time);
+        let withheld = self.withholds(Aid::GnssPosition);
+        let is_early = self.is_early();
+        let Some(judge) = self.judge_now() else { return false };
+        if is_early && judge.is_in_doubt() {
+            return false;
+        }
+        if refused >= LOCKED_OUT && !withheld && !judge.is_in_doubt() {
+            let shadow = judge.shadow();
+            self.become_other(&shadow);
+            self.owed += shadow.error.transpose();
+        }
+        true
+    }
+
+    fn become_other(&mut self, other: &Alternative) {
+        let Alternative { error, covariance } = other;
+        self.nominal.inject(error);
+        self.covariance = *covariance;
+        self.corrected += error;
+        self.absorbed += VELOCITY.of(error);
+        self.turned = Vector3::zeros();
+        self.pace.restart();
+        let view = self.view();
+        self.bias.iter_mut().for_each(|bias| bias.excuse(&view));
+        self.trust.clear();
+    }
+
+    /// Sigmas that cover all that the estimate may be instead.
+    fn cover(&self) -> Option<SolutionSigma> {
+        let judge = self.judge.as_ref()?;
+        let acceleration = self.antenna.acceleration(self.time, &self.antenna_velocity());
+        let view = self.view().at_gnss_time(&acceleration);
+        let of = |other: &Alternative| {
+            let apart = difference(&view, &other.error);
+            let own = solution_sigma(&view, &acceleration, &other.covariance);
+            apart.scaled(0.5).plus(&own)
+        };
+        let mut all = judge.claims().iter().map(of).reduce(|a, b| a.greatest(&b));
+        let unproven = judge.docket().unproven(self.time) / RADIUS;
+        if unproven > 0.0 {
+            let mut floor = all.unwrap_or_default();
+            floor.position.0.x = floor.position.0.x.max(unproven);
+            floor.position.0.y = floor.position.0.y.max(unproven);
+            all = Some(floor);
+        }
+        all
+    }
+
+    /// How far everybody is believed.
+    #[must_use]
+    pub fn docket(&self) -> Docket {
+        self.judge.as_ref().map_or(self.config.docket, |judge| *judge.docket())
+    }
+
+    /// The judge, if there is one.
+    #[must_use]
+    pub fn judge(&self) -> Option<&Judge> {
+        self.judge.as_deref()
+    }
+}

@@ -1,0 +1,31 @@
+//! Which aids carry the solution.
+
+use insd_base::Mode;
+
+use super::Filter;
+
+/// After this long without GNSS the solution no longer counts as aided by it, s.
+pub(super) const GNSS_TIMEOUT: f64 = 5.0;
+/// The same for logs and references, which may be slower, s.
+const RELATIVE_TIMEOUT: f64 = 15.0;
+
+impl Filter {
+    fn gnss_is_fresh(&self) -> bool {
+        self.trust.last_used().is_some_and(|last| (self.time - last).as_seconds() < GNSS_TIMEOUT)
+    }
+
+    /// Which aids carry the solution.
+    #[must_use]
+    pub fn mode(&self) -> Mode {
+        let relative = self
+            .last_relative
+            .is_some_and(|last| (self.time - last).as_seconds() < RELATIVE_TIMEOUT);
+        if self.gnss_is_fresh() {
+            Mode::Aided
+        } else if relative {
+            Mode::DeadReckoning
+        } else {
+            Mode::Inertial
+        }
+    }
+}

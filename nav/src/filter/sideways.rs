@@ -1,0 +1,72 @@
+//! That a craft hardly moves sideways, as weak knowledge where nothing measures it.
+
+use insd_base::{LogReference, LogVelocity, Sideways};
+use nalgebra::Vector3;
+
+use super::Filter;
+use crate::aids::log_velocity;
+
+/// A car is held to its course so often, s.
+const EVERY: f64 = 1.0;
+/// A log that gave the component across within this time, s, knows better.
+const TOLD: f64 = 5.0;
+/// How fast a car bounces on its springs and climbs, 1-sigma, m/s.
+const BOUNCE: f64 = 0.2;
+/// Longest time for which one look stands, s.
+const LONGEST: f64 = 5.0;
+
+impl Filter {
+    /// A log without a component across: the ship makes little leeway.
+    pub(super) fn hold_leeway(&mut self, log: &LogVelocity) {
+        if self.navigating && self.sway.is_none() {
+            let lever = self.config.lever_arms.log.0;
+            self.hold_across(log.reference, &lever);
+        }
+    }
+
+    /// A car goes where its wheels let it, whatever else is heard.
+    pub(super) fn hold_to_wheels(&mut self) {
+        let since = self.held.map_or(f64::INFINITY, |last| (self.time - last).as_seconds());
+        if !self.config.vessel.has_wheels() || !self.navigating || since < EVERY {
+            return;
+        }
+        self.settle();
+        let at_imu = Vector3::zeros();
+        self.hold_across(LogReference::Bottom, &at_imu);
+        let spacing = since.min(LONGEST);
+        self.hold(LogReference::Bottom, &at_imu, 2, BOUNCE, spacing);
+    }
+
+    fn hold_across(&mut self, reference: LogReference, lever: &Vector3<f64>) {
+        let is_told = self.told_across.is_some_and(|at| (self.time - at).as_seconds() < TOLD);
+        let since = self.held.replace(self.time);
+        if is_told {
+            return;
+        }
+        let Sideways { drift, pivot, .. } = self.config.vessel.sideways();
+        let spacing = since.map_or(EVERY, |since| (self.time - since).as_seconds());
+        let turning = pivot * self.rate.z;
+        self.hold(reference, lever, 1, drift.hypot(turning), spacing.min(LONGEST));
+    }
+
+    /// A component is zero but for an error with a sigma, m/s, that lasts for the time of a drift: what is told of it at
+    /// intervals of `spacing` seconds is worth no more than that.
+    fn hold(
+        &mut self,
+        reference: LogReference,
+        lever: &Vector3<f64>,
+        axis: usize,
+        sigma: f64,
+        spacing: f64,
+    ) {
+        let shared = (2.0 * self.config.vessel.sideways().time / spacing.max(0.05)).max(1.0);
+        let prediction = log_velocity::predict(&self.view(), reference, lever);
+        let std = sigma * shared.sqrt();
+        let innovation = log_velocity::component(&prediction, axis, 0.0, std);
+        if let Some(weighed) = innovation.weigh(&self.covariance)
+            && weighed.nis() <= self.gate.limit::<1>()
+        {
+            self.absorb(&weighed);
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! What the judge hears.
+
+use insd_base::{Party, Time};
+
+use super::scatter::Scatter;
+use crate::innovation::Innovation;
+
+/// An aid that is heard: each has noise and outliers of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aid {
+    /// GNSS position.
+    GnssPosition,
+    /// GNSS velocity.
+    GnssVelocity,
+    /// A complete log, or its forward component.
+    Log,
+    /// Its starboard component.
+    LogStarboard,
+    /// Its down component.
+    LogDown,
+    /// Heading.
+    Heading,
+    /// Position of another reference.
+    ReferencePosition,
+    /// Its velocity.
+    ReferenceVelocity,
+    /// Mean sea level.
+    SeaLevel,
+}
+
+/// How many there are.
+pub(super) const AIDS: usize = Aid::SeaLevel as usize + 1;
+
+/// Each aid is heard no more often than this, s: what is between tells little more.
+const SPACING: f64 = 0.95;
+/// How many outliers in a row are not heard.
+const SPIKES: u32 = 2;
+
+impl Aid {
+    /// Who says it.
+    #[must_use]
+    pub fn party(self) -> Option<Party> {
+        match self {
+            Aid::GnssPosition | Aid::GnssVelocity => Some(Party::Gnss),
+            Aid::Log | Aid::LogStarboard | Aid::LogDown => Some(Party::Log),
+            Aid::Heading => Some(Party::Heading),
+            Aid::ReferencePosition | Aid::ReferenceVelocity => Some(Party::Reference),
+            Aid::SeaLevel => None,
+        }
+    }
+}
+
+/// When an aid was heard last, its outliers in a row, and its noise.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Hearing {
+    last: Option<Time>,
+    outliers: u32,
+    scatter: Scatter,
+    noise: f64,
+}
+
+impl Hearing {
+    /// Whether it is time to hear it.
+    pub(super) fn is_due(&self, now: Time) -> bool {
+        self.last.is_none_or(|last| (now - last).as_seconds() >= SPACING)
+    }
+
+    /// It is heard now.
+    pub(super) fn note(&mut self, now: Time) {
+        self.last = Some(now);
+    }
+
+    /// Sees an innovation of which the variance of the noise has been raised by what it scatters. Tells whether it
+    /// is found to scatter much more than before.
+    pub(super) fn see<const M: usize>(&mut self, innovation: &Innovation<M>) -> bool {
+        let before = self.noise();
+        let of = |i: usize| innovation.z[i] / (innovation.r[(i, i)] / before).sqrt();
+        self.scatter.see(std::array::from_fn(|i| if i < M { of(i) } else { f64::NAN }));
+        self.noise = self.scatter.factor();
+        self.noise > 2.0 * before
+    }
+
+    /// By how much the variance of the noise is larger than stated.
+    pub(super) fn noise(&self) -> f64 {
+        self.noise.max(1.0)
+    }
+
+    /// Counts outliers; tells whether this one is the first, and whether it is to be heard.
+    pub(super) fn count(&mut self, is_outlier: bool) -> (bool, bool) {
+        self.outliers = if is_outlier { self.outliers + 1 } else { 0 };
+        (self.outliers == 1, !(1..=SPIKES).contains(&self.outliers))
+    }
+}

@@ -1,0 +1,242 @@
+//! Faults that may be, weighed against each other.
+
+use insd_base::{Fault, Party, Standing, Time};
+
+use super::onset::Sized;
+use super::rows::{ALL, Group};
+use super::{Alternative, CLOSE, Judge, SPAWN};
+
+/// Mean square of the innovations, of which one is expected, that a fault may leave unexplained.
+const UNEXPLAINED: f64 = 4.0;
+/// Logarithm of the odds against nobody lying beyond which it is in doubt, and against all others beyond which one
+/// is found to.
+pub(super) const DOUBT: f64 = 6.9;
+const CERTAIN: f64 = 6.9;
+/// No rival may explain so much of what the guilty one explains.
+const RIVAL: f64 = 0.95;
+/// What is less likely than this share of the likeliest fault, and this, as logarithms, is out of the question.
+const NEARLY: f64 = 0.95;
+const MUCH: f64 = 20.0;
+/// By how much likelier an IMU that was wrong a while ago is to be wrong again, as a logarithm.
+const RELAPSE: f64 = 10.0;
+/// Share of what the likeliest fault of an IMU explains that a plain one must.
+const PLAIN: f64 = 0.9;
+/// A scale factor that changes so much that it matters shows within this, s: what takes longer is how little the model
+/// knows of a ship in waves.
+const QUICK: f64 = 60.0;
+/// What no model knows adds up: after so long, s, evidence is worth half, and in the end so many times less.
+const LONG: f64 = 60.0;
+const WORST: f64 = 4.0;
+/// The same where a receiver contradicts itself, its position its velocity: no model of the ship stands between them.
+const OWN_WORD: f64 = 1.2;
+/// Logarithm of how often anybody does what has no shape, 1/s.
+const SHAPELESS: f64 = -17.4;
+
+/// What kind of a fault it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Kind {
+    /// One of a group, sized, that began then.
+    Shaped { group: usize, since: Time, sized: Sized },
+    /// Of no known shape.
+    Shapeless,
+}
+
+/// A fault that may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Charge {
+    pub(super) fault: Fault,
+    /// Logarithm of its weight; that of there being none is zero.
+    pub(super) weight: f64,
+    /// What of it the innovations tell, as if they were all as sure as stated.
+    evidence: f64,
+    /// When it began, or began to show.
+    begun: Time,
+    pub(super) kind: Kind,
+}
+
+/// What a look gave.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Assessment {
+    /// The likeliest fault of each group, likeliest first.
+    pub(super) charges: Vec<Charge>,
+    /// Logarithm of the weight of everything together.
+    pub(super) total: f64,
+}
+
+impl Charge {
+    pub(super) fn party(&self) -> Party {
+        self.fault.party()
+    }
+
+    /// Somebody is wrong in whatever way.
+    pub(super) fn shapeless(whom: Party, weight: f64) -> Self {
+        let fault = match whom {
+            Party::Imu => Fault::ImuUseless,
+            Party::Gnss => Fault::GnssNoise,
+            Party::Log => Fault::LogNoise,
+            Party::Heading => Fault::HeadingNoise,
+            Party::Reference => Fault::ReferenceNoise,
+        };
+        let (evidence, begun) = (0.0, Time::START);
+        Charge { fault, weight, evidence, begun, kind: Kind::Shapeless }
+    }
+
+    /// What it explains of the normalised squares, where that can be said.
+    fn explained(&self) -> Option<f64> {
+        match self.kind {
+            Kind::Shaped { sized, .. } => Some(sized.explained),
+            Kind::Shapeless => None,
+        }
+    }
+
+    /// How large it is, in the unit of its group; zero where it has no shape.
+    pub(super) fn size(&self) -> f64 {
+        match self.kind {
+            Kind::Shaped { sized, .. } => sized.value.norm(),
+            Kind::Shapeless => 0.0,
+        }
+    }
+
+    /// Since when, as far as is known.
+    pub(super) fn since(&self, now: Time) -> Time {
+        match self.kind {
+            Kind::Shaped { since, .. } => since,
+            Kind::Shapeless => now,
+        }
+    }
+}
+
+impl Judge {
+    /// Weighs all that may be, by what is known in common of how much evidence is worth: that of what has most of it.
+    pub(super) fn assess(&self, now: Time) -> Assessment {
+        let all = self.all_charges(now);
+        let is_relapse = self.docket.standing(Party::Imu) == Standing::Doubtful;
+        let relapse = if is_relapse { RELAPSE } else { 0.0 };
+        let most = all.iter().max_by(|a, b| a.evidence.total_cmp(&b.evidence));
+        let worth = most.map_or(1.0, |charge| unsure((now - charge.begun).as_seconds()));
+        let mut charges: Vec<Charge> = Vec::new();
+        let mut total = 0.0;
+        for mut charge in all {
+            let own = if charge.fault == Fault::Slide { worth.min(OWN_WORD) } else { worth };
+            charge.weight += charge.evidence / own;
+            charge.weight += if charge.party() == Party::Imu { relapse } else { 0.0 };
+            total = log_sum(total, charge.weight);
+            match charges.iter_mut().find(|known| known.fault == charge.fault) {
+                Some(known) if known.weight < charge.weight => *known = charge,
+                Some(_) => {}
+                None => charges.push(charge),
+            }
+        }
+        charges.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+        Assessment { charges, total }
+    }
+
+    /// Every fault that may be, its weight without the evidence.
+    fn all_charges(&self, now: Time) -> Vec<Charge> {
+        let mut all: Vec<Charge> = Vec::new();
+        for onset in &self.onsets {
+            let age = (now - onset.since).as_seconds();
+            let step = (age * CLOSE).max(1.0).ln();
+            let unsure = unsure(age);
+            for (group, Group { fault, least, log_rate, .. }) in ALL.iter().enumerate() {
+                let Some(sized) = onset.sized(group, unsure) else { continue };
+                let is_slow = *fault == Fault::GyroScale && age > QUICK;
+                if sized.value.norm() < *least || is_slow {
+                    continue;
+                }
+                let kind = Kind::Shaped { group, since: onset.since, sized };
+                let evidence = sized.log_factor * unsure;
+                let weight = log_rate + step;
+                all.push(Charge { fault: *fault, weight, evidence, begun: onset.since, kind });
+            }
+        }
+        let shapeless = self.dissenters.iter().map(|dissenter| Charge {
+            evidence: dissenter.gain,
+            begun: dissenter.since,
+            ..Charge::shapeless(dissenter.whom, SHAPELESS + SPAWN.ln())
+        });
+        all.extend(shapeless);
+        all
+    }
+
+    /// Whether a fault leaves nothing much unexplained.
+    fn explains(&self, charge: &Charge) -> bool {
+        let left = match charge.kind {
+            Kind::Shapeless => self.dissenter(charge.party()).map(|dissenter| dissenter.strain),
+            Kind::Shaped { since, sized, .. } => {
+                self.begun(since).map(|onset| onset.left(sized.explained))
+            }
+        };
+        left.is_some_and(|left| left < UNEXPLAINED)
+    }
+
+    /// Faults that are not much less likely than the likeliest: what began later explains what came later only.
+    fn nearly_likeliest(&self) -> impl Iterator<Item = &Charge> {
+        let all = &self.assessment.charges;
+        let least = all.first().map_or(0.0, |first| NEARLY * first.weight.max(0.0) - MUCH);
+        all.iter().take_while(move |charge| charge.weight > least)
+    }
+
+    /// The likeliest fault that explains what there is.
+    pub(super) fn likeliest(&self) -> Option<Charge> {
+        self.nearly_likeliest().copied().find(|charge| self.explains(charge))
+    }
+
+    /// The likeliest fault of somebody that has a shape and explains what there is; of the IMU only what is likeliest
+    /// of all, as its shapes are many.
+    pub(super) fn shaped(&self, whom: Party) -> Option<Charge> {
+        let is_of = |charge: &&Charge| charge.party() == whom && charge.kind != Kind::Shapeless;
+        let mut all = self.nearly_likeliest().filter(is_of);
+        all.find(|charge| whom != Party::Imu && charge.weight > DOUBT && self.explains(charge))
+            .copied()
+    }
+
+    /// The fault of the IMU that is to be mended where another is likeliest: what a gyro tells wrongly is a bias rather than a
+    /// scale factor of it, if that explains as much.
+    pub(super) fn plain_fault_of_imu(&self, likeliest: &Charge) -> Charge {
+        let needed = likeliest.explained().map_or(f64::INFINITY, |explained| PLAIN * explained);
+        let is_plain = |charge: &&Charge| {
+            charge.fault == Fault::GyroBias && charge.explained().is_some_and(|own| own > needed)
+        };
+        self.assessment.charges.iter().find(is_plain).copied().unwrap_or(*likeliest)
+    }
+
+    /// Whether no other sensor's fault explains it, too.
+    pub(super) fn is_certain(&self, first: &Charge) -> bool {
+        let is_no_rival = |other: &Charge| {
+            let is_less = match (first.explained(), other.explained()) {
+                (Some(own), Some(others)) => others < RIVAL * own,
+                _ => true,
+            };
+            other.weight < first.weight - CERTAIN && is_less
+        };
+        let of_others = |other: &&Charge| other.party() != first.party() && self.explains(other);
+        let mut others = self.assessment.charges.iter().filter(of_others);
+        first.weight > DOUBT && others.all(is_no_rival)
+    }
+
+    /// What the estimate would be with it.
+    pub(super) fn alternative(&self, charge: &Charge) -> Alternative {
+        match charge.kind {
+            Kind::Shapeless => self.dissenter(charge.party()).map(|own| own.shadow.alternative()),
+            Kind::Shaped { group, since, sized } => self.begun(since).map(|onset| {
+                let (error, unsure) = onset.correction(&ALL[group], &sized);
+                let shadow = self.shadow();
+                let covariance = shadow.covariance + unsure;
+                Alternative { error: shadow.error + error, covariance }
+            }),
+        }
+        .unwrap_or_else(|| self.shadow())
+    }
+}
+
+/// How many times as uncertain as stated innovations are that have added up for so long, s, as variances.
+fn unsure(age: f64) -> f64 {
+    (1.0 + age / LONG).min(WORST)
+}
+
+/// The logarithm of the sum of two numbers of which these are the logarithms.
+fn log_sum(a: f64, b: f64) -> f64 {
+    let (low, high) = if a < b { (a, b) } else { (b, a) };
+    high + (low - high).exp().ln_1p()
+}

@@ -1,0 +1,320 @@
+//! How far everybody is believed, and when somebody who was left out is believed again.
+//!
+//! Nobody is believed again because he waited. He has to agree with the others, and be seen to: a receiver whose
+//! lie is within what the navigator is unsure of by now agrees with anything. So the lie is followed. While it shows it
+//! is what the receiver and the navigator differ by; later only its steps are seen. If it went away, the receiver is
+//! trusted again; if it could still be there, the position is claimed to be no better than that.
+
+use insd_base::{Fault, Party, Span, Standing, Stands, Time};
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+
+use super::Aid;
+
+/// Who agrees for so long is heard again, s; each time he relapses for twice as long, up to this.
+const QUARANTINE: f64 = 60.0;
+const LONGEST: f64 = 3600.0;
+/// Relapses later than this are no relapses, s.
+const FORGOTTEN: f64 = 3600.0;
+/// A lie of so many sigmas of the navigator's position would show.
+const WOULD_SHOW: f64 = 8.0;
+/// A step of a position is one beyond so many sigmas of its noise, and this, m.
+const STEP: f64 = 6.0;
+const LEAST_STEP: f64 = 3.0;
+/// The navigator is vague of steps after so long without a fix, s.
+const SUCCESSIVE: f64 = 3.0;
+/// An IMU that was found wrong and mended is doubted for so long, s.
+const MENDED: f64 = 600.0;
+
+/// One of them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Entry {
+    standing: Standing,
+    since: Time,
+    fault: Option<Fault>,
+    agreeing_since: Option<Time>,
+    quarantine: f64,
+}
+
+impl Default for Entry {
+    fn default() -> Self {
+        Entry {
+            standing: Standing::Trusted,
+            since: Time::START,
+            fault: None,
+            agreeing_since: None,
+            quarantine: QUARANTINE,
+        }
+    }
+}
+
+/// What the receiver is off by, as far as it is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct LieOfGnss {
+    off: Vector2<f64>,
+    /// How fast it grew when it was found, m/s.
+    rate: f64,
+    seen: Option<Time>,
+    last: Option<(Time, Vector2<f64>)>,
+}
+
+/// The standing of all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Docket {
+    entries: [Entry; Party::ALL.len()],
+    lie: LieOfGnss,
+    /// The IMU is not believed since then, and has last been seen to be wrong then.
+    restless: Option<(Time, Time)>,
+    /// The IMU is of no use.
+    condemned: bool,
+    /// The position may be off by so much, though nothing shows it, m, and grow so fast, m/s, since then.
+    unproven: Option<(f64, f64, Time)>,
+}
+
+impl Docket {
+    /// How far somebody is believed.
+    #[must_use]
+    pub fn standing(&self, party: Party) -> Standing {
+        self.entries[party as usize].standing
+    }
+
+    /// With somebody left out for what he was found to do before.
+    #[must_use]
+    pub fn without(mut self, fault: Fault, now: Time) -> Self {
+        self.convict(fault, now, (Vector2::zeros(), 0.0));
+        self
+    }
+
+    /// How all stand.
+    pub fn all(&self) -> impl Iterator<Item = Stands> {
+        Party::ALL.into_iter().zip(self.entries).map(|(party, entry)| {
+            let Entry { standing, since, fault, .. } = entry;
+            Stands { party, standing, since, fault }
+        })
+    }
+
+    /// Whether somebody is left out.
+    #[must_use]
+    pub fn is_excluded(&self, party: Party) -> bool {
+        self.standing(party) == Standing::Excluded
+    }
+
+    /// Whether what somebody says with an aid is left out: of a receiver that is found to tell a wrong velocity, only
+    /// that is.
+    #[must_use]
+    pub fn leaves_out(&self, aid: Aid) -> bool {
+        let Some(party) = aid.party() else { return false };
+        let is_of_velocity = self.entries[party as usize].fault == Some(Fault::Velocity);
+        self.is_excluded(party) && !(is_of_velocity && aid == Aid::GnssPosition)
+    }
+
+    /// Whether a receiver is left out wholly.
+    #[must_use]
+    pub fn leaves_out_gnss(&self) -> bool {
+        self.leaves_out(Aid::GnssPosition)
+    }
+
+    /// The position may be off by so much though no sigma tells it, m.
+    #[must_use]
+    pub fn unproven(&self, now: Time) -> f64 {
+        self.unproven.map_or(0.0, |(off, rate, at)| off + rate * (now - at).as_seconds().max(0.0))
+    }
+
+    /// Whether the IMU is not believed, in whatever way it is wrong.
+    #[must_use]
+    pub fn is_restless(&self) -> bool {
+        self.restless.is_some()
+    }
+
+    /// When the IMU was last found wrong, if it is doubted for that.
+    #[must_use]
+    pub fn imu_doubted_since(&self) -> Option<Time> {
+        let imu = &self.entries[Party::Imu as usize];
+        (imu.standing == Standing::Doubtful).then_some(imu.since)
+    }
+
+    /// The IMU is of no use, as what it says was refuted again after it had been found wrong.
+    pub fn condemn_imu(&mut self, now: Time) {
+        self.disbelieve_imu(now);
+        self.condemned = true;
+    }
+
+    /// Whether it is.
+    #[must_use]
+    pub fn is_imu_condemned(&self) -> bool {
+        self.condemned
+    }
+
+    /// For how long the IMU has been seen to be wrong, in whatever way, s.
+    #[must_use]
+    pub fn wrong_imu_for(&self) -> f64 {
+        self.restless.map_or(0.0, |(since, last)| (last - since).as_seconds())
+    }
+
+    /// The IMU is found wrong now, in whatever way.
+    pub fn disbelieve_imu(&mut self, now: Time) {
+        self.restless = Some((self.restless.map_or(now, |(since, _)| since), now));
+        self.enter(Party::Imu, Standing::Doubtful, now);
+        let imu = &mut self.entries[Party::Imu as usize];
+        (imu.since, imu.fault) = (now, Some(Fault::ImuUseless));
+    }
+
+    /// The IMU is right as far as is seen now.
+    pub fn consider_imu(&mut self, now: Time) {
+        self.restless = self.restless.filter(|(_, last)| (now - *last).as_seconds() < QUARANTINE);
+    }
+
+    /// Nobody was heard for a time, s.
+    pub fn postpone(&mut self, unheard: f64) {
+        let later = |last: Time| last + Span::from_seconds(unheard);
+        self.restless = self.restless.map(|(since, last)| (later(since), later(last)));
+    }
+
+    fn enter(&mut self, party: Party, standing: Standing, now: Time) {
+        let entry = &mut self.entries[party as usize];
+        if entry.standing != standing {
+            (entry.standing, entry.since) = (standing, now);
+        }
+        entry.agreeing_since = None;
+    }
+
+    /// Leaves somebody out; the IMU, which cannot be, is doubted. A receiver is off by so much, m, which grows so
+    /// fast, m/s.
+    pub fn convict(&mut self, fault: Fault, now: Time, lie: (Vector2<f64>, f64)) {
+        let party = fault.party();
+        let entry = &mut self.entries[party as usize];
+        entry.fault = Some(fault);
+        let is_relapse = entry.since > Time::START && (now - entry.since).as_seconds() < FORGOTTEN;
+        entry.quarantine = if is_relapse && entry.standing != Standing::Doubtful {
+            (entry.quarantine * 2.0).min(LONGEST)
+        } else {
+            QUARANTINE
+        };
+        if party == Party::Imu {
+            self.enter(party, Standing::Doubtful, now);
+            self.entries[party as usize].since = now;
+            return;
+        }
+        self.enter(party, Standing::Excluded, now);
+        if party == Party::Gnss {
+            let (off, rate) = lie;
+            self.lie = LieOfGnss { off, rate, seen: Some(now), last: None };
+        }
+    }
+
+    /// Whoever is doubted, by what the last look gave.
+    pub fn doubt(&mut self, fault: Option<Fault>, now: Time) {
+        let party = fault.map(Fault::party);
+        for each in [Party::Gnss, Party::Log, Party::Heading, Party::Reference] {
+            match self.standing(each) {
+                Standing::Trusted if party == Some(each) => {
+                    self.enter(each, Standing::Doubtful, now);
+                    self.entries[each as usize].fault = fault;
+                }
+                Standing::Doubtful if party != Some(each) => {
+                    self.enter(each, Standing::Trusted, now);
+                }
+                _ => {}
+            }
+        }
+        let imu = &self.entries[Party::Imu as usize];
+        if imu.standing == Standing::Doubtful && (now - imu.since).as_seconds() > MENDED {
+            self.enter(Party::Imu, Standing::Trusted, now);
+        }
+    }
+
+    /// Sees whether somebody who is left out agrees with the navigator; who has for long enough is heard again.
+    pub fn watch(&mut self, party: Party, now: Time, agrees: bool) {
+        let entry = &mut self.entries[party as usize];
+        if !agrees {
+            entry.agreeing_since = None;
+            return;
+        }
+        let since = *entry.agreeing_since.get_or_insert(now);
+        if (now - since).as_seconds() >= entry.quarantine {
+            self.acquit(party, now);
+        }
+    }
+
+    fn acquit(&mut self, party: Party, now: Time) {
+        let left = self.lie.off.norm();
+        let standing = match party {
+            Party::Gnss if left > 0.0 => {
+                let seen = self.lie.seen.unwrap_or(now);
+                let before = self.unproven(seen);
+                self.unproven = Some((left.max(before), self.lie.rate, seen));
+                Standing::Probation
+            }
+            Party::Gnss if self.unproven.is_some() => Standing::Probation,
+            _ => Standing::Trusted,
+        };
+        self.enter(party, standing, now);
+    }
+
+    /// Follows the lie of a receiver that is left out: the innovation of its position, north and east, whether it
+    /// agrees with the navigator, the sigma that the navigator has of it, and that of its noise, m.
+    pub fn follow(&mut self, now: Time, z: &Vector2<f64>, agrees: bool, [sigma, noise]: [f64; 2]) {
+        let lie = &mut self.lie;
+        let last = lie.last.replace((now, *z));
+        if !agrees {
+            (lie.off, lie.seen) = (*z, Some(now));
+            return;
+        }
+        if lie.off.norm() > WOULD_SHOW * sigma {
+            (lie.off, lie.rate) = (Vector2::zeros(), 0.0);
+        }
+        let Some((before, z_before)) = last else { return };
+        let step = z - z_before;
+        let is_step = step.norm() > LEAST_STEP.max(STEP * noise * std::f64::consts::SQRT_2);
+        if is_step && (now - before).as_seconds() < SUCCESSIVE {
+            lie.off += step;
+            let unsure = LEAST_STEP.max(STEP * noise) + lie.grown(now);
+            if lie.off.norm() < unsure {
+                (lie.off, lie.rate) = (Vector2::zeros(), 0.0);
+            }
+        }
+    }
+}
+
+impl LieOfGnss {
+    fn grown(&self, now: Time) -> f64 {
+        self.seen.map_or(0.0, |seen| self.rate * (now - seen).as_seconds())
+    }
+}
+
+impl Docket {
+    /// What is left when the navigator begins anew on the word of a receiver that was not trusted.
+    #[must_use]
+    pub fn begun_anew(&self, now: Time) -> Self {
+        let mut anew = Docket { unproven: self.unproven, ..Docket::default() };
+        for party in [Party::Log, Party::Heading] {
+            if self.is_excluded(party) {
+                anew.entries[party as usize] = self.entries[party as usize];
+            }
+        }
+        if self.standing(Party::Imu) == Standing::Doubtful {
+            anew.entries[Party::Imu as usize] = self.entries[Party::Imu as usize];
+        }
+        if self.is_excluded(Party::Gnss) {
+            anew.lie = self.lie;
+            anew.acquit(Party::Gnss, now);
+        } else if anew.unproven.is_some() {
+            anew.enter(Party::Gnss, Standing::Probation, now);
+        }
+        anew.lie = LieOfGnss::default();
+        anew
+    }
+
+    /// The same on a time line that is later by a span.
+    #[must_use]
+    pub fn shifted(mut self, by: Span) -> Self {
+        for entry in &mut self.entries {
+            entry.since = entry.since + by;
+            entry.agreeing_since = None;
+        }
+        self.lie.seen = self.lie.seen.map(|seen| seen + by);
+        self.lie.last = None;
+        self.unproven = self.unproven.map(|(off, rate, at)| (off, rate, at + by));
+        self
+    }
+}

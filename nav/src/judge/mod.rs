@@ -1,0 +1,414 @@
+//! The judge: who of the sensors lies, by what all of them say together.
+//!
+//! Beside the navigator goes a [`Shadow`] that believes everybody. Faults of every sensor, the IMU among them, that may
+//! have begun at many instants ([`Onset`]) are sized from its innovations; [`Dissenter`]s do not believe one sensor,
+//! whatever it does. They are weighed against each other and against nobody lying ([`charge`]). Three things
+//! follow:
+//!
+//! - *A verdict*: one sensor's fault explains what nobody else's does, for some seconds on end. It is left out, and the
+//!   estimate becomes what it would have been without it.
+//! - *A doubt*: somebody lies, but who is not known. The claims cover all that may be ([`Judge::claims`]).
+//! - *Neither*: a navigator that refuses somebody then is wrong itself, and becomes its shadow.
+
+mod aid;
+mod charge;
+mod dissenter;
+mod docket;
+mod onset;
+pub mod rows;
+mod scatter;
+mod shadow;
+mod verdict;
+
+use insd_base::{Integrity, Judgement, Parties, Party, Standing, Stands, Time};
+use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector2};
+
+use crate::block::Block;
+use crate::config::NavConfig;
+use crate::error_state::{Covariance, ErrorState, POSITION};
+use crate::innovation::{Innovation, Weighed};
+use crate::propagation::{self, Regime, Stretch};
+pub use aid::Aid;
+use aid::{AIDS, Hearing};
+use charge::{Assessment, Charge, DOUBT, Kind};
+use dissenter::{Dissenter, log_likelihood};
+pub use docket::Docket;
+use onset::Onset;
+use rows::Direct;
+use shadow::Shadow;
+pub use shadow::agitate;
+pub use verdict::{Alternative, Verdict};
+
+/// Looks are so far apart, s.
+const LOOK: f64 = 0.95;
+/// What nobody was heard for longer is no time in which somebody was seen to be right, s.
+const UNHEARD: f64 = 5.0;
+/// Mean square of an innovation beyond which it is an outlier.
+const OUTLIER: f64 = 9.0;
+/// Spacing of onsets, s, and the least one where something has happened.
+const SPAWN: f64 = 5.0;
+const MARKED: f64 = 0.95;
+/// Onsets closer than this share of their age are one, from such an age on, s; none is older than this, s.
+const CLOSE: f64 = 0.5;
+const YOUNG: f64 = 16.0;
+const OLDEST: f64 = 2500.0;
+/// Somebody is guilty who was found to be at each look for so long, s.
+const PERSISTS: f64 = 4.0;
+/// the same of somebody who is wrong in no way that is known, and might only be found to scatter, s.
+const SCATTERS: f64 = 12.0;
+/// The claims cover what may be from such odds on, as a logarithm, that somebody lies;
+const LIKELY: f64 = 2.3;
+/// what is less likely than this, as a logarithm, is not covered by the claims.
+const COVERED: f64 = -9.2;
+
+/// All of it.
+#[derive(Clone, Debug)]
+pub struct Judge {
+    shadow: Shadow,
+    dissenters: Vec<Dissenter>,
+    onsets: Vec<Onset>,
+    spawned: Option<Time>,
+    looked: Option<Time>,
+    hearings: [Hearing; AIDS],
+    assessment: Assessment,
+    in_doubt: bool,
+    accused: Option<(Party, Time)>,
+    docket: Docket,
+    /// The IMU was not believed at all a while ago: where it and somebody else contradict each other it is at fault.
+    imu_on_trial: bool,
+}
+
+impl Judge {
+    /// A judge of a navigator with this covariance, to whom everybody is as before.
+    #[must_use]
+    pub fn new(covariance: &Covariance, docket: Docket) -> Self {
+        Judge {
+            shadow: Shadow::of(covariance),
+            dissenters: vec![Dissenter::new(Party::Imu, Shadow::of(covariance))],
+            onsets: Vec::new(),
+            spawned: None,
+            looked: None,
+            hearings: [Hearing::default(); AIDS],
+            assessment: Assessment::default(),
+            in_doubt: false,
+            accused: None,
+            imu_on_trial: docket.imu_doubted_since().is_some(),
+            docket,
+        }
+    }
+
+    /// The standing of all.
+    #[must_use]
+    pub fn docket(&self) -> &Docket {
+        &self.docket
+    }
+
+    /// Begins anew with a navigator; the standing of all stays.
+    pub fn restart(&mut self, covariance: &Covariance) {
+        self.shadow = Shadow::of(covariance);
+        for dissenter in &mut self.dissenters {
+            *dissenter = Dissenter::new(dissenter.whom, Shadow::of(covariance));
+        }
+        self.onsets.clear();
+        (self.spawned, self.accused, self.in_doubt) = (None, None, false);
+        self.assessment = Assessment::default();
+    }
+
+    fn shadows(&mut self) -> impl Iterator<Item = &mut Shadow> {
+        let others = self.dissenters.iter_mut().map(|dissenter| &mut dissenter.shadow);
+        std::iter::once(&mut self.shadow).chain(others)
+    }
+
+    /// The navigator's estimate was corrected.
+    pub fn corrected(&mut self, error: &ErrorState) {
+        self.shadows().for_each(|shadow| shadow.apart -= error);
+    }
+
+    /// The errors of a block of three states are no longer those of before, and known to a covariance.
+    pub fn renew(&mut self, block: Block<3>, covariance: &Matrix3<f64>) {
+        for shadow in self.shadows() {
+            block.renew(&mut shadow.covariance, covariance);
+            shadow.apart.fixed_rows_mut::<3>(block.start()).fill(0.0);
+        }
+        for onset in &mut self.onsets {
+            onset.effects_mut().fixed_columns_mut::<3>(block.start()).fill(0.0);
+        }
+    }
+
+    /// Carries everything over a stretch.
+    pub fn propagate(
+        &mut self,
+        stretch: &Stretch,
+        gradient: &Matrix3<f64>,
+        config: &NavConfig,
+        regime: &Regime,
+    ) {
+        for shadow in self.shadows() {
+            let mut apart = shadow.apart.transpose();
+            propagation::carry(&mut apart, stretch, gradient, config, regime);
+            shadow.apart = apart.transpose();
+            propagation::propagate(&mut shadow.covariance, stretch, gradient, config, regime);
+        }
+        self.dissenters.iter_mut().for_each(|dissenter| dissenter.agitate(stretch.duration));
+        for onset in &mut self.onsets {
+            propagation::carry(onset.effects_mut(), stretch, gradient, config, regime);
+        }
+    }
+
+    /// Whether it is time to hear an aid.
+    #[must_use]
+    pub fn is_due(&self, aid: Aid, now: Time) -> bool {
+        self.hearings[aid as usize].is_due(now)
+    }
+
+    /// By how much the variance of an aid's noise is larger than stated.
+    #[must_use]
+    pub fn noise(&self, aid: Aid) -> f64 {
+        self.hearings[aid as usize].noise()
+    }
+
+    /// Hears an innovation of the navigator before it is absorbed there, used or not, its noise raised by
+    /// [`Judge::noise`]; `direct` gives what a fault of such an age, s, adds to it, `attitude` is the navigator's.
+    pub fn hear<const M: usize>(
+        &mut self,
+        aid: Aid,
+        now: Time,
+        innovation: &Innovation<M>,
+        attitude: &UnitQuaternion<f64>,
+        direct: impl Fn(f64) -> Direct<M>,
+    ) {
+        let hearing = &mut self.hearings[aid as usize];
+        hearing.note(now);
+        if hearing.see(innovation) && self.is_noise_all(aid.party()) {
+            self.acquit_all(aid.party());
+        }
+        let Some(weighed) = self.shadow.weigh(innovation, 1.0) else { return };
+        let is_outlier = weighed.nis() > OUTLIER * M as f64;
+        let (is_first, is_heard) = self.hearings[aid as usize].count(is_outlier);
+        self.spawn(now, is_first);
+        if !is_heard {
+            return;
+        }
+        let gain = weighed.gain();
+        for onset in &mut self.onsets {
+            let age = (now - onset.since).as_seconds();
+            onset.hear(&weighed, &gain, &direct(age));
+        }
+        let party = aid.party();
+        self.admit(party);
+        let likelihood = log_likelihood(&weighed);
+        for dissenter in &mut self.dissenters {
+            dissenter.hear((party, now), innovation, attitude, likelihood);
+        }
+        self.shadow.absorb(&weighed, attitude);
+    }
+
+    /// Whether there is nothing worse than that somebody scatters.
+    fn is_noise_all(&self, party: Option<Party>) -> bool {
+        let first = self.likeliest().filter(|first| first.weight > 0.0);
+        first.is_none_or(|first| first.fault.is_noise() && Some(first.party()) == party)
+    }
+
+    /// What was taken for evidence was somebody's noise: who did not believe him goes on.
+    fn acquit_all(&mut self, noisy: Option<Party>) {
+        self.onsets.clear();
+        self.spawned = None;
+        let dissenter = noisy.and_then(|noisy| self.dissenter(noisy));
+        let now = dissenter.map_or(&self.shadow, |dissenter| &dissenter.shadow).clone();
+        self.shadow = now.clone();
+        self.dissenters.iter_mut().for_each(|dissenter| {
+            *dissenter = Dissenter::new(dissenter.whom, now.clone());
+        });
+    }
+
+    /// Whoever is heard for the first time may be disbelieved from then on.
+    fn admit(&mut self, party: Option<Party>) {
+        let Some(party) = party else { return };
+        if self.dissenter(party).is_none() {
+            self.dissenters.push(Dissenter::new(party, self.shadow.clone()));
+        }
+    }
+
+    fn dissenter(&self, whom: Party) -> Option<&Dissenter> {
+        self.dissenters.iter().find(|dissenter| dissenter.whom == whom)
+    }
+
+    /// Lets faults begin now, if it is time to, or something has happened.
+    fn spawn(&mut self, now: Time, is_marked: bool) {
+        let since = self.spawned.map_or(f64::INFINITY, |last| (now - last).as_seconds());
+        if since < MARKED || (since < SPAWN && !is_marked) {
+            return;
+        }
+        self.spawned = Some(now);
+        self.onsets.retain(|onset| (now - onset.since).as_seconds() < OLDEST);
+        let mut i = 1;
+        while i + 1 < self.onsets.len() {
+            let age = (now - self.onsets[i].since).as_seconds();
+            let apart = (self.onsets[i + 1].since - self.onsets[i - 1].since).as_seconds();
+            let is_accused = self.is_accused(self.onsets[i].since);
+            if age < YOUNG || apart > CLOSE * age || is_accused {
+                i += 1;
+            } else {
+                self.onsets.remove(i);
+            }
+        }
+        self.onsets.push(Onset::new(now));
+    }
+
+    /// Whether a fault that began then is what the last look found likeliest.
+    fn is_accused(&self, since: Time) -> bool {
+        let first = self.assessment.charges.first().filter(|charge| charge.weight > 0.0);
+        first.is_some_and(|charge| charge.since(Time::START) == since)
+    }
+
+    fn begun(&self, since: Time) -> Option<&Onset> {
+        self.onsets.iter().find(|onset| onset.since == since)
+    }
+
+    /// Whether it is time to look again.
+    #[must_use]
+    pub fn is_look_due(&self, now: Time) -> bool {
+        self.looked.is_none_or(|last| (now - last).as_seconds() >= LOOK)
+    }
+
+    /// Looks at the evidence, once a second; gives who is found to lie.
+    ///
+    /// Nobody of `excused` is judged: what looks like his lie may be a mistake of the installation, or of the heading.
+    pub fn look(&mut self, now: Time, excused: Parties) -> Option<Verdict> {
+        let unheard = self.looked.map_or(0.0, |last| (now - last).as_seconds());
+        if unheard > UNHEARD {
+            self.docket.postpone(unheard);
+        }
+        self.looked = Some(now);
+        self.assessment = self.assess(now);
+        if self.docket.is_restless() {
+            return self.look_at_imu(now);
+        }
+        let is_excused = |charge: &Charge| excused.contains(charge.party());
+        let first = self.likeliest().filter(|first| !is_excused(first));
+        self.in_doubt = self.assessment.total > DOUBT;
+        let suspect = first.filter(|_| self.in_doubt);
+        self.docket.doubt(suspect.map(|first| first.fault), now);
+        let certain = first.filter(|first| self.is_certain(first));
+        let before = self.accused.take();
+        let accused = certain?;
+        let whom = accused.party();
+        let since = before.filter(|(party, _)| *party == whom).map_or(now, |(_, since)| since);
+        self.accused = Some((whom, since));
+        let shaped = self.shaped(whom).unwrap_or(accused);
+        let needed = if shaped.fault.is_noise() { SCATTERS } else { PERSISTS };
+        let persists = (now - since).as_seconds() >= needed;
+        persists.then(|| self.convict(&shaped, now))
+    }
+
+    /// Whether somebody lies, whoever it is.
+    #[must_use]
+    pub fn is_in_doubt(&self) -> bool {
+        self.in_doubt
+    }
+
+    /// What the estimate may be if it is not the navigator's: nothing unless somebody may lie.
+    #[must_use]
+    pub fn claims(&self) -> Vec<Alternative> {
+        let total = self.assessment.total;
+        if total < LIKELY {
+            return Vec::new();
+        }
+        let stands = |weight: f64| weight - total > COVERED;
+        let faults = self.assessment.charges.iter().filter(|charge| stands(charge.weight));
+        let mut all: Vec<Alternative> = faults.map(|charge| self.alternative(charge)).collect();
+        if !all.is_empty() && stands(0.0) {
+            all.push(self.shadow());
+        }
+        all
+    }
+
+    /// The estimate of him who believes everybody.
+    #[must_use]
+    pub fn shadow(&self) -> Alternative {
+        self.shadow.alternative()
+    }
+
+    /// Sees an innovation of somebody who is left out, weighed by the navigator.
+    pub fn watch<const M: usize>(
+        &mut self,
+        party: Party,
+        aid: Aid,
+        now: Time,
+        weighed: &Weighed<M>,
+    ) {
+        self.hearings[aid as usize].note(now);
+        self.docket.watch(party, now, agrees(weighed));
+    }
+
+    /// Sees position and velocity of a receiver that is left out together, weighed by the navigator, which has a
+    /// covariance, and follows what the receiver is off by.
+    pub fn follow(&mut self, now: Time, weighed: &Weighed<6>, noise: f64, p: &Covariance) {
+        let own = POSITION.covariance(p).diagonal().max().max(0.0).sqrt();
+        let z = Vector2::new(weighed.z()[0], weighed.z()[1]);
+        let agrees = agrees(weighed);
+        self.docket.follow(now, &z, agrees, [own.hypot(noise), noise]);
+        self.docket.watch(Party::Gnss, now, agrees);
+    }
+
+    /// What is made of all that is said.
+    #[must_use]
+    pub fn judgement(&self) -> Judgement {
+        let is_doubted = |stands: &Stands| match stands.standing {
+            Standing::Excluded => true,
+            Standing::Doubtful => stands.party == Party::Imu,
+            Standing::Trusted | Standing::Probation => false,
+        };
+        let all = self.docket.all();
+        let excluded: Parties = all.filter(is_doubted).map(|stands| stands.party).collect();
+        let integrity = if self.assessment.total > DOUBT || self.docket.is_restless() {
+            Integrity::Contradiction
+        } else if self.docket.standing(Party::Gnss) == Standing::Probation {
+            Integrity::Unproven
+        } else {
+            Integrity::Consistent
+        };
+        Judgement { integrity, excluded }
+    }
+
+    /// Whether what somebody says with an aid is not to be used now.
+    #[must_use]
+    pub fn withholds(&self, aid: Aid) -> bool {
+        let is_doubted = |party| self.docket.standing(party) == Standing::Doubtful;
+        self.docket.leaves_out(aid) || aid.party().is_some_and(is_doubted)
+    }
+
+    /// The likeliest faults, for people who look into the evidence.
+    #[must_use]
+    pub fn evidence(&self) -> String {
+        let of = |charge: &Charge| match charge.kind {
+            Kind::Shaped { since, sized, .. } => {
+                let (since, size) = (since.as_seconds(), sized.value);
+                let [x, y, z] = [size.x, size.y, size.z];
+                let explained = sized.explained;
+                let (name, weight) = (charge.fault.as_str(), charge.weight);
+                format!("{name} {weight:.1} since {since:.0} ({explained:.0}) {x:.3} {y:.3} {z:.3}")
+            }
+            Kind::Shapeless => format!("{} {:.1}", charge.fault.as_str(), charge.weight),
+        };
+        let all: Vec<String> = self.assessment.charges.iter().take(5).map(of).collect();
+        all.join("; ")
+    }
+}
+
+/// Whether an innovation agrees: one in 10,000 honest ones does not.
+fn agrees<const M: usize>(weighed: &Weighed<M>) -> bool {
+    let limit = match M {
+        1 => 15.1,
+        2 => 18.4,
+        3 => 21.1,
+        _ => 27.9,
+    };
+    weighed.nis() <= limit
+}
+
+/// A measurement that no fault but one of the IMU touches.
+#[must_use]
+pub fn untouched<const M: usize>(_age: f64) -> Direct<M> {
+    SMatrix::zeros()
+}

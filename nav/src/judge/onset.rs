@@ -1,0 +1,120 @@
+//! Faults that may have begun at one instant, and what the innovations say of each.
+//!
+//! A fault of size b that began then does to the errors of the estimate, and to the innovations,
+//!
+//! E\[x\] = U b,   U <- Phi U,   G = H U + D,   U <- U - K G,   E\[nu\] = G b,
+//!
+//! D what it adds to a measurement itself. The innovations tell b by least squares, and how much likelier they are with
+//! it than without (Willsky and Jones, A Generalized Likelihood Ratio Approach to the Detection and Estimation
+//! of Jumps in Linear Systems, IEEE Transactions on Automatic Control AC-21 (1976), eqs. (9)-(22)). With a size of prior
+//! covariance s^2 I, information Lambda, evidence eta and A = I + s^2 Lambda:
+//!
+//! ln BF = (s eta)^T A^-1 (s eta) / 2 - ln(det A) / 2.
+
+use insd_base::Time;
+use nalgebra::{Cholesky, Matrix3, SMatrix, Vector3};
+
+use super::rows::{self, ALL, Direct, Effects, GROUPS, Group};
+use crate::error_state::{Covariance, ErrorState, STATES};
+use crate::innovation::Weighed;
+
+/// What may have begun at an instant.
+#[derive(Clone, Debug)]
+pub(super) struct Onset {
+    /// The instant.
+    pub(super) since: Time,
+    effects: Effects,
+    information: [Matrix3<f64>; GROUPS],
+    evidence: [Vector3<f64>; GROUPS],
+    /// Sum of the normalised squares since, and how many components there were.
+    misfit: f64,
+    heard: f64,
+}
+
+/// A fault of a group, sized.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Sized {
+    /// Logarithm of the ratio of likelihoods, with it over without.
+    pub(super) log_factor: f64,
+    /// What it explains of the normalised squares.
+    pub(super) explained: f64,
+    /// Its components.
+    pub(super) value: Vector3<f64>,
+    covariance: Matrix3<f64>,
+}
+
+impl Onset {
+    /// Everything may begin now.
+    #[must_use]
+    pub(super) fn new(since: Time) -> Self {
+        Onset {
+            since,
+            effects: rows::at_onset(),
+            information: [Matrix3::zeros(); GROUPS],
+            evidence: [Vector3::zeros(); GROUPS],
+            misfit: 0.0,
+            heard: 0.0,
+        }
+    }
+
+    /// The effects, to be carried along with the errors.
+    pub(super) fn effects_mut(&mut self) -> &mut Effects {
+        &mut self.effects
+    }
+
+    /// Hears an innovation before it is absorbed with a gain.
+    pub(super) fn hear<const M: usize>(
+        &mut self,
+        weighed: &Weighed<M>,
+        gain: &SMatrix<f64, STATES, M>,
+        direct: &Direct<M>,
+    ) {
+        let (effect, whitened, z) = weighed.effect_of(&self.effects, direct);
+        for (i, group) in ALL.iter().enumerate() {
+            let (start, width) = (group.rows.start, group.rows.len());
+            let own = whitened.rows(start, width);
+            let mut information = self.information[i].view_mut((0, 0), (width, width));
+            information += own * own.transpose();
+            let mut evidence = self.evidence[i].rows_mut(0, width);
+            evidence += own * z;
+        }
+        self.effects -= effect * gain.transpose();
+        self.misfit += z.norm_squared();
+        self.heard += M as f64;
+    }
+
+    /// Mean square of the innovations since, of which one is expected, that is left when so much is explained.
+    pub(super) fn left(&self, explained: f64) -> f64 {
+        (self.misfit - explained) / self.heard.max(1.0)
+    }
+
+    /// Sizes a fault of a group; `None` where the numbers are none. `unsure` is how many times as uncertain as
+    /// stated the innovations are, as variances.
+    #[must_use]
+    pub(super) fn sized(&self, group: usize, unsure: f64) -> Option<Sized> {
+        let s = ALL[group].size;
+        let (information, evidence) =
+            (self.information[group] / unsure, self.evidence[group] / unsure);
+        let factor = Cholesky::new(Matrix3::identity() + information * (s * s))?;
+        let value = factor.solve(&evidence) * (s * s);
+        let explained = value.dot(&self.evidence[group]);
+        let volume: f64 = factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
+        let covariance = factor.inverse() * (s * s);
+        Some(Sized {
+            log_factor: 0.5 * value.dot(&evidence) - volume,
+            explained,
+            value,
+            covariance,
+        })
+    }
+
+    /// What such a fault has done to the errors, and the covariance that not knowing its size adds to theirs.
+    #[must_use]
+    pub(super) fn correction(&self, group: &Group, sized: &Sized) -> (ErrorState, Covariance) {
+        let (start, width) = (group.rows.start, group.rows.len());
+        let own = self.effects.rows(start, width);
+        let error = own.transpose() * sized.value.rows(0, width);
+        let unsure = own.transpose() * sized.covariance.view((0, 0), (width, width)) * own;
+        (error, unsure)
+    }
+}

@@ -1,0 +1,191 @@
+//! What may be wrong, and what a unit of it does to the measurements.
+//!
+//! Each row of the effects is one fault of unit size that began at an onset. Rows that belong together, such as
+//! the two components of a drift, make a [`Group`]: they are sized together.
+
+use std::ops::Range;
+
+use insd_base::Fault;
+use nalgebra::{Matrix3, SMatrix, Vector3};
+
+use crate::error_state::{ACCEL_BIAS, ATTITUDE, GNSS_DELAY, GYRO_BIAS, GYRO_SCALE, STATES};
+
+const GNSS_JUMP: usize = 0;
+const GNSS_DRAG: usize = 3;
+const GNSS_SLIDE: usize = 5;
+const GNSS_CREEP: usize = 7;
+const GNSS_VELOCITY: usize = 9;
+const LOG_GAIN: usize = 12;
+const LOG_OFFSET: usize = 14;
+const LOG_FLOW: usize = 16;
+const HEADING_OFFSET: usize = 18;
+const HEADING_DRIFT: usize = 19;
+const REFERENCE_JUMP: usize = 20;
+const REFERENCE_DRAG: usize = 22;
+const GYRO: usize = 24;
+const ACCEL: usize = 27;
+const SCALE: usize = 30;
+const DELAY: usize = 33;
+const TURN: usize = 34;
+/// How many there are.
+pub const ROWS: usize = 37;
+
+/// Transposed: a row for each fault, its effect on the errors of the estimate.
+pub type Effects = SMatrix<f64, ROWS, STATES>;
+/// Transposed: what each fault adds to an innovation of itself.
+pub type Direct<const M: usize> = SMatrix<f64, ROWS, M>;
+
+/// Faults that are sized together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    /// What they are.
+    pub fault: Fault,
+    /// Their rows.
+    pub rows: Range<usize>,
+    /// How large together they must be to matter, in their unit.
+    pub least: f64,
+    /// How large each may be, 1-sigma.
+    pub size: f64,
+    /// Logarithm of how often they begin, 1/s.
+    pub log_rate: f64,
+}
+
+const fn group(
+    fault: Fault,
+    start: usize,
+    width: usize,
+    [least, size]: [f64; 2],
+    log_rate: f64,
+) -> Group {
+    Group { fault, rows: start..start + width, least, size, log_rate }
+}
+
+/// A receiver that is disturbed or deceived: once in a thousand hours.
+const DISTURBED: f64 = -15.1;
+/// A log that fouls, or a compass: once in a hundred.
+const FOULED: f64 = -12.8;
+/// A part that fails: once in some ten thousand.
+const FAILED: f64 = -17.4;
+
+/// How many groups there are.
+pub const GROUPS: usize = 17;
+
+/// All groups.
+pub const ALL: [Group; GROUPS] = [
+    group(Fault::Jump, GNSS_JUMP, 3, [3.0, 1e3], DISTURBED),
+    group(Fault::Drag, GNSS_DRAG, 2, [0.03, 3.0], DISTURBED),
+    group(Fault::Slide, GNSS_SLIDE, 2, [0.03, 3.0], DISTURBED),
+    group(Fault::Creep, GNSS_CREEP, 2, [3e-4, 0.02], DISTURBED),
+    group(Fault::Velocity, GNSS_VELOCITY, 3, [0.15, 10.0], DISTURBED),
+    group(Fault::LogGain, LOG_GAIN, 2, [0.03, 1.0], FOULED),
+    group(Fault::LogOffset, LOG_OFFSET, 2, [0.15, 3.0], FOULED),
+    group(Fault::LogFlow, LOG_FLOW, 2, [0.15, 2.0], FOULED),
+    group(Fault::HeadingOffset, HEADING_OFFSET, 1, [0.01, 1.0], FOULED),
+    group(Fault::HeadingDrift, HEADING_DRIFT, 1, [1e-5, 3e-4], FOULED),
+    group(Fault::ReferenceJump, REFERENCE_JUMP, 2, [3.0, 1e3], DISTURBED),
+    group(Fault::ReferenceDrag, REFERENCE_DRAG, 2, [0.05, 3.0], DISTURBED),
+    group(Fault::GyroBias, GYRO, 3, [2e-5, 0.02], FAILED),
+    group(Fault::GyroBias, TURN, 3, [0.005, 0.5], FAILED),
+    group(Fault::AccelBias, ACCEL, 3, [5e-3, 1.0], FAILED),
+    group(Fault::GyroScale, SCALE, 3, [0.05, 1.0], FAILED),
+    group(Fault::Delay, DELAY, 1, [0.1, 2.0], DISTURBED),
+];
+
+/// The effects at an onset: gyros and accelerometers have another bias or scale factor from then on, or gyros have
+/// told a turn that was none, and the receiver has another delay.
+#[must_use]
+pub fn at_onset() -> Effects {
+    let mut effects = Effects::zeros();
+    for (start, state) in [
+        (GYRO, GYRO_BIAS.start()),
+        (ACCEL, ACCEL_BIAS.start()),
+        (SCALE, GYRO_SCALE.start()),
+        (TURN, ATTITUDE.start()),
+    ] {
+        (0..3).for_each(|i| effects[(start + i, state + i)] = 1.0);
+    }
+    effects[(DELAY, GNSS_DELAY.start())] = 1.0;
+    effects
+}
+
+fn put<const M: usize, const W: usize>(
+    direct: &mut Direct<M>,
+    row: usize,
+    value: &SMatrix<f64, W, M>,
+) {
+    direct.fixed_view_mut::<W, M>(row, 0).copy_from(value);
+}
+
+/// Of a GNSS position, `age` seconds after the onset.
+#[must_use]
+pub fn of_gnss_position(age: f64) -> Direct<3> {
+    let mut direct = Direct::zeros();
+    let flat = SMatrix::<f64, 2, 3>::identity();
+    put(&mut direct, GNSS_JUMP, &Matrix3::identity());
+    put(&mut direct, GNSS_DRAG, &(flat * age));
+    put(&mut direct, GNSS_SLIDE, &(flat * age));
+    put(&mut direct, GNSS_CREEP, &(flat * (0.5 * age * age)));
+    direct
+}
+
+/// Of a GNSS velocity.
+#[must_use]
+pub fn of_gnss_velocity(age: f64) -> Direct<3> {
+    let mut direct = Direct::zeros();
+    let flat = SMatrix::<f64, 2, 3>::identity();
+    put(&mut direct, GNSS_DRAG, &flat);
+    put(&mut direct, GNSS_CREEP, &(flat * age));
+    put(&mut direct, GNSS_VELOCITY, &Matrix3::identity());
+    direct
+}
+
+/// Of all three components of a log that should say `through`, body axes, m/s; `c_nb` from body to NED axes.
+#[must_use]
+pub fn of_log(through: &Vector3<f64>, c_nb: &Matrix3<f64>) -> Direct<3> {
+    let mut direct = Direct::zeros();
+    let (u, v) = (through.x, through.y);
+    put(&mut direct, LOG_GAIN, &SMatrix::<f64, 2, 3>::new(u, v, 0.0, -v, u, 0.0));
+    put(&mut direct, LOG_OFFSET, &SMatrix::<f64, 2, 3>::identity());
+    put(&mut direct, LOG_FLOW, &c_nb.fixed_rows::<2>(0).into_owned());
+    direct
+}
+
+/// Of a heading.
+#[must_use]
+pub fn of_heading(age: f64) -> Direct<1> {
+    let mut direct = Direct::zeros();
+    direct[HEADING_OFFSET] = 1.0;
+    direct[HEADING_DRIFT] = age;
+    direct
+}
+
+/// Of the position of another reference, north and east.
+#[must_use]
+pub fn of_reference_position(age: f64) -> Direct<2> {
+    let mut direct = Direct::zeros();
+    let flat = SMatrix::<f64, 2, 2>::identity();
+    put(&mut direct, REFERENCE_JUMP, &flat);
+    put(&mut direct, REFERENCE_DRAG, &(flat * age));
+    direct
+}
+
+/// Of its velocity, north and east.
+#[must_use]
+pub fn of_reference_velocity() -> Direct<2> {
+    let mut direct = Direct::zeros();
+    put(&mut direct, REFERENCE_DRAG, &SMatrix::<f64, 2, 2>::identity());
+    direct
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_row_belongs_to_one_group() {
+        let mut rows: Vec<usize> = ALL.iter().flat_map(|group| group.rows.clone()).collect();
+        rows.sort_unstable();
+        assert_eq!(rows, (0..ROWS).collect::<Vec<_>>());
+        assert!(ALL.iter().all(|group| group.rows.len() <= 3));
+    }
+}

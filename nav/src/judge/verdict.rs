@@ -1,0 +1,127 @@
+//! What follows when somebody is found to lie.
+
+use insd_base::{Fault, Party, Time};
+use nalgebra::Vector2;
+
+use super::Judge;
+use super::charge::{Charge, DOUBT, Kind};
+use crate::error_state::{ATTITUDE, Covariance, ErrorState, GNSS_DELAY};
+
+/// Mean square of an innovation that only a lie explains.
+const BLATANT: f64 = 100.0;
+/// An attitude that is off by more than this is beyond mending, rad: nothing is linear any more.
+const MENDABLE: f64 = 0.2;
+/// The moment at which a gyro's bias changed is not known better than this, s.
+const UNTIMED: f64 = 1.0;
+/// Fixes that are later than this are left out, s; others are set back.
+const SET_BACK: f64 = 1.0;
+
+/// Somebody is found to lie.
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    /// What he does.
+    pub fault: Fault,
+    /// The estimate without it, where that is another.
+    pub mended: Option<Alternative>,
+}
+
+/// What the estimate may be instead.
+#[derive(Clone, Debug)]
+pub struct Alternative {
+    /// What the navigator's estimate lacks to it.
+    pub error: ErrorState,
+    /// The covariance of its errors.
+    pub covariance: Covariance,
+}
+
+impl Judge {
+    /// While the IMU is not believed nobody else is judged; it is again when its word has been good for a while.
+    pub(super) fn look_at_imu(&mut self, now: Time) -> Option<Verdict> {
+        let is_of_imu = |charge: &&Charge| charge.fault == Fault::ImuUseless;
+        let of_imu = self.assessment.charges.iter().find(is_of_imu).copied();
+        self.docket.consider_imu(now);
+        let wrong = of_imu.filter(|charge| charge.weight > 0.0)?;
+        Some(self.convict(&wrong, now))
+    }
+
+    pub(super) fn convict(&mut self, charge: &Charge, now: Time) -> Verdict {
+        if charge.party() == Party::Imu {
+            return self.convict_imu(charge, now);
+        }
+        if self.imu_on_trial && self.docket.imu_doubted_since().is_some() {
+            self.condemn_imu(now);
+            return self.disbelieve_imu(now);
+        }
+        let mut mended = self.alternative(charge);
+        if charge.kind == Kind::Shapeless && self.lies_another(charge.party()) {
+            self.docket.convict(charge.fault, now, lie_of_gnss(charge, 0.0));
+            return Verdict { fault: charge.fault, mended: None };
+        }
+        if let Some(late) = late(charge) {
+            let state = GNSS_DELAY.start();
+            if late.abs() < SET_BACK {
+                return Verdict { fault: charge.fault, mended: Some(mended) };
+            }
+            mended.error[state] = 0.0;
+            GNSS_DELAY
+                .renew(&mut mended.covariance, &GNSS_DELAY.covariance(&self.shadow.covariance));
+        }
+        let age = (now - charge.since(now)).as_seconds();
+        self.docket.convict(charge.fault, now, lie_of_gnss(charge, age));
+        Verdict { fault: charge.fault, mended: Some(mended) }
+    }
+
+    /// An IMU cannot be left out: where a fault of a shape explains it all the estimate is mended, and it is believed
+    /// with that; else it is not believed for a while.
+    fn convict_imu(&mut self, charge: &Charge, now: Time) -> Verdict {
+        let plain = self.plain_fault_of_imu(charge);
+        let mut mended = self.alternative(&plain);
+        let turned = ATTITUDE.of(&mended.error).norm();
+        if plain.kind == Kind::Shapeless || turned > MENDABLE {
+            return self.disbelieve_imu(now);
+        }
+        let when = plain.size() * UNTIMED;
+        ATTITUDE.inflate(&mut mended.covariance, (0.5 * turned * turned).powi(2) + when * when);
+        self.docket.convict(plain.fault, now, lie_of_gnss(&plain, 0.0));
+        Verdict { fault: plain.fault, mended: Some(mended) }
+    }
+
+    /// The IMU is of no use.
+    pub fn condemn_imu(&mut self, now: Time) {
+        self.docket.condemn_imu(now);
+    }
+
+    /// Whether somebody else lies beside him, as whoever does not believe him has found out: then what is made of the
+    /// others' word is no better than the navigator's estimate, which has refused them.
+    fn lies_another(&self, whom: Party) -> bool {
+        self.dissenter(whom).is_some_and(|dissenter| dissenter.worst > BLATANT)
+    }
+
+    /// The IMU is wrong, as what it says is not what any ship does; gives the estimate without it.
+    pub fn disbelieve_imu(&mut self, now: Time) -> Verdict {
+        self.imu_on_trial = true;
+        self.docket.disbelieve_imu(now);
+        let charge = Charge::shapeless(Party::Imu, DOUBT);
+        Verdict { fault: charge.fault, mended: Some(self.alternative(&charge)) }
+    }
+}
+
+/// By how much a receiver is found to be late, s.
+fn late(charge: &Charge) -> Option<f64> {
+    match charge.kind {
+        Kind::Shaped { sized, .. } if charge.fault == Fault::Delay => Some(sized.value.x),
+        _ => None,
+    }
+}
+
+/// What a receiver is off by after such an age, s: m, and how fast that grows, m/s.
+fn lie_of_gnss(charge: &Charge, age: f64) -> (Vector2<f64>, f64) {
+    let Kind::Shaped { sized, .. } = charge.kind else { return (Vector2::zeros(), 0.0) };
+    let value = Vector2::new(sized.value.x, sized.value.y);
+    match charge.fault {
+        Fault::Jump => (value, 0.0),
+        Fault::Drag | Fault::Slide => (value * age, value.norm()),
+        Fault::Creep => (value * (0.5 * age * age), value.norm() * age),
+        _ => (Vector2::zeros(), 0.0),
+    }
+}
