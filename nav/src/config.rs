@@ -181,6 +181,32 @@ fn synchronisation_std(imu: &ImuSpec) -> f64 {
     (imu.gyro.bias_std * SECONDS_PER_RATE).clamp(1e-6, 0.1)
 }
 
+/// How many times worse than its data sheet an IMU is taken to be with each step.
+pub const WORSE: f64 = 3.5;
+/// Most steps.
+pub const WORST: u8 = 4;
+
+impl NavConfig {
+    /// With everybody believed so far: an IMU that was found to be worse than its data sheet is so.
+    #[must_use]
+    pub fn with_docket(mut self, docket: Docket) -> Self {
+        let steps = i32::from(docket.worse()) - i32::from(self.docket.worse());
+        let factor = WORSE.powi(steps);
+        for triad in [&mut self.imu.gyro, &mut self.imu.accel] {
+            triad.instability_std *= factor;
+            triad.scale_std *= factor;
+        }
+        self.docket = docket;
+        self
+    }
+
+    /// With an IMU that is a step worse.
+    #[must_use]
+    pub fn with_worse_imu(&self) -> Self {
+        self.with_docket(self.docket.with_worse_imu())
+    }
+}
+
 /// 1-sigma of each component of a lever arm that was measured, m.
 const SURVEYED: f64 = 0.002;
 /// An antenna of which no more is known may be anywhere on a ship, 1-sigma of each component, m.

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bridging::{Bridging, Moment};
 use crate::noise::NoiseMonitor;
+use crate::spikes::Spikes;
 
 /// Compensated increments over an interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,6 +89,7 @@ pub struct Conditioner {
     random_walks: (f64, f64),
     rate: NoiseMonitor,
     force: NoiseMonitor,
+    spikes: Spikes,
     bridging: Bridging,
     /// Mean square of the stamps' departure from the nominal interval, s^2.
     jitter: f64,
@@ -137,6 +139,7 @@ impl Conditioner {
             random_walks: (imu.gyro.random_walk, imu.accel.random_walk),
             rate: NoiseMonitor::default(),
             force: NoiseMonitor::default(),
+            spikes: Spikes::default(),
             bridging: Bridging::default(),
             jitter: 0.0,
             last: None,
@@ -158,8 +161,7 @@ impl Conditioner {
             Some(last) => self.bridging.kept(last.time, &last.mean.moment()),
             None => Bridging::default(),
         };
-        let Conditioner { nominal, random_walks, rate, force, jitter, last, leap, .. } = *self;
-        Conditioner { nominal, random_walks, rate, force, bridging, jitter, last, leap }
+        Conditioner { bridging, ..self.clone() }
     }
 
     /// What has been learnt of bridging gaps.
@@ -202,6 +204,10 @@ impl Conditioner {
         let Some(mean) = mean_of(sample, duration) else {
             return Conditioned::Rejected(Rejection::OutOfRange);
         };
+        let changes = [mean.rate - last.mean.rate, mean.force - last.mean.force];
+        if self.spikes.see(changes) {
+            return Conditioned::Rejected(Rejection::Spike);
+        }
         self.last = Some(Last { time: sample.time, mean });
         if gap {
             self.rate.interrupt();

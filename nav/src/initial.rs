@@ -1,9 +1,9 @@
 //! The initial state: what alignment hands to navigation, and without which no filter can be built.
 
-use insd_base::Time;
+use insd_base::{ImuSpec, Time};
 use nalgebra::{Matrix1, Matrix2, Matrix3, Vector3};
 
-use crate::config::NavConfig;
+use crate::config::{NavConfig, WORSE};
 use crate::error_state::{
     ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, CURRENT, Covariance, GNSS_DELAY, GNSS_LEVER,
     GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT,
@@ -26,6 +26,24 @@ pub struct InitialState {
 
 /// 1-sigma of the mean height before anything is known of it, m.
 const SEA_LEVEL_UNKNOWN: f64 = 30.0;
+
+/// Admits that in-run biases and scale factors of an IMU are a step worse than its error model says, and that nothing was
+/// learnt of its turn-on biases.
+pub fn take_for_worse(p: &mut Covariance, imu: &ImuSpec) {
+    let more = WORSE * WORSE - 1.0;
+    let (gyro, accel) = (&imu.gyro, &imu.accel);
+    for (block, std) in [(GYRO_BIAS, gyro.bias_std), (ACCEL_BIAS, accel.bias_std)] {
+        block.inflate(p, std * std);
+    }
+    for (block, std) in [
+        (GYRO_DRIFT, gyro.instability_std),
+        (GYRO_SCALE, gyro.scale_std),
+        (ACCEL_DRIFT, accel.instability_std),
+        (ACCEL_SCALE, accel.scale_std),
+    ] {
+        block.inflate(p, more * std * std);
+    }
+}
 
 /// Covariance of all sensor errors before any measurement, from their error models; position,
 /// velocity and attitude are left at zero for the caller.

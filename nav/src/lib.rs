@@ -26,6 +26,7 @@ pub mod report;
 pub mod sea_window;
 pub mod separate_bias;
 pub mod solution_sigma;
+pub mod spikes;
 pub mod spread;
 pub mod strapdown;
 pub mod sway;

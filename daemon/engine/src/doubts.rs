@@ -55,7 +55,7 @@ impl Engine {
             Misled::Unknown if line.estimator().is_heading_unchecked() => {
                 let docket = self.nav.docket.without(Fault::HeadingOffset, time);
                 self.start_over(time, ModeReason::HeadingRefuted);
-                self.nav.docket = docket;
+                self.nav = self.nav.with_docket(docket);
                 return;
             }
             Misled::Unknown if knows_nothing || self.retried >= RETRIES => {

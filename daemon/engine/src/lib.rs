@@ -281,7 +281,7 @@ impl Engine {
     /// Levels anew, as if nothing had been.
     fn start_over(&mut self, time: Time, why: ModeReason) {
         if let Some(judge) = self.judge() {
-            self.nav.docket = judge.docket().begun_anew(time);
+            self.nav = self.nav.with_docket(judge.docket().begun_anew(time));
         }
         self.stage = Stage::Levelling(Box::new(Coarse::new(&self.config)));
         self.herald = Herald::new(&self.config.imu, self.config.alignment.accuracy);

@@ -210,7 +210,7 @@ impl Ship {
                 let finder = blind.finder();
                 let Some(initial) = finder.initial_state() else { return };
                 let docket = fine.filter().docket().without(Fault::HeadingOffset, finder.time());
-                let config = NavConfig { docket, ..*finder.config() };
+                let config = finder.config().with_docket(docket);
                 let mut filter = Filter::new(&config, &initial);
                 finder.gnss_used().iter().for_each(|time| filter.note_gnss_used(*time));
                 filter.begin_navigation();

@@ -36,6 +36,7 @@ pub fn reason(reason: Rejection) -> &'static str {
         Rejection::Duplicate => "repeated",
         Rejection::OutOfOrder => "out of order",
         Rejection::Frozen => "frozen",
+        Rejection::Spike => "a spike",
         Rejection::NotUsable => "not usable yet",
     }
 }

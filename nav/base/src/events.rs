@@ -30,6 +30,8 @@ pub enum Rejection {
     OutOfOrder,
     /// It tells the same number again and again while the ship moves.
     Frozen,
+    /// A single sample far from those before and after it.
+    Spike,
     /// Not usable in the present mode (for example a log before any alignment).
     NotUsable,
 }
@@ -48,6 +50,7 @@ impl Rejection {
             Rejection::Duplicate => "duplicate",
             Rejection::OutOfOrder => "out_of_order",
             Rejection::Frozen => "frozen",
+            Rejection::Spike => "spike",
             Rejection::NotUsable => "not_usable",
         }
     }

@@ -113,6 +113,11 @@ pub enum Finding {
     },
     /// Every heading that was found with the IMU was refuted by GNSS.
     ImuRefuted,
+    /// The IMU is worse than its data sheet.
+    ImuWorse {
+        /// In-run biases and scale factors are taken to be so many times as large.
+        times: f64,
+    },
     /// The IMU is not the way up that it is said to be: the ship seems to lean for ever.
     MountingTilted {
         /// List to starboard that it says, rad.
@@ -152,6 +157,7 @@ impl Finding {
             Finding::Frozen { what: Frozen::Heading } => "heading_frozen",
             Finding::ImuTurns { .. } => "imu_turns",
             Finding::ImuRefuted => "imu_refuted",
+            Finding::ImuWorse { .. } => "imu_worse",
             Finding::MountingTilted { .. } => "mounting_tilted",
             Finding::MountingTurned { .. } => "mounting_turned",
             Finding::LogMounting { .. } => "log_mounting",
@@ -371,6 +377,11 @@ impl Finding {
             Finding::ImuRefuted => f.write_str(
                 "GNSS refutes every heading that is found with the IMU: are its axes, signs and units as \
                  configured, or is the receiver wrong?",
+            ),
+            Finding::ImuWorse { times } => write!(
+                f,
+                "the IMU drifts by more than its data sheet says: its in-run biases and scale factors are taken to \
+                 be {times:.0} times as large"
             ),
             Finding::MountingTilted { roll, pitch } => write!(
                 f,

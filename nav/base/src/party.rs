@@ -123,6 +123,8 @@ pub enum Fault {
     GyroScale,
     /// What the IMU says has nothing to do with how the ship moves.
     ImuUseless,
+    /// The IMU is worse than its data sheet.
+    ImuWorse,
 }
 
 impl Fault {
@@ -135,7 +137,8 @@ impl Fault {
             Fault::LogGain | Fault::LogOffset | Fault::LogFlow | Fault::LogNoise => Party::Log,
             Fault::HeadingOffset | Fault::HeadingDrift | Fault::HeadingNoise => Party::Heading,
             Fault::ReferenceJump | Fault::ReferenceDrag | Fault::ReferenceNoise => Party::Reference,
-            Fault::GyroBias | Fault::AccelBias | Fault::GyroScale | Fault::ImuUseless => Party::Imu,
+            Fault::GyroBias | Fault::AccelBias | Fault::GyroScale => Party::Imu,
+            Fault::ImuUseless | Fault::ImuWorse => Party::Imu,
         }
     }
 
@@ -173,6 +176,7 @@ impl Fault {
             Fault::AccelBias => "accel_bias",
             Fault::GyroScale => "gyro_scale",
             Fault::ImuUseless => "imu_useless",
+            Fault::ImuWorse => "imu_worse",
         }
     }
 }
@@ -199,6 +203,7 @@ impl fmt::Display for Fault {
             Fault::AccelBias => "has an accelerometer with another bias than before",
             Fault::GyroScale => "has a gyro with another scale than before",
             Fault::ImuUseless => "does not tell how the ship moves",
+            Fault::ImuWorse => "is worse than its data sheet",
         })
     }
 }

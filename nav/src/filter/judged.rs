@@ -7,6 +7,7 @@ use insd_base::{Mode, Parties, Party, SolutionSigma};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use super::Filter;
+use crate::config::WORSE;
 use crate::error_state::{ErrorState, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, VELOCITY};
 use crate::innovation::Innovation;
 use crate::judge::rows::Direct;
@@ -41,7 +42,7 @@ impl Filter {
     pub(super) fn be_judged(&mut self) {
         let is_free = self.navigating && self.sway.is_none();
         let docket = self.docket();
-        self.judge = is_free.then(|| Arc::new(Judge::new(&self.covariance, docket)));
+        self.judge = is_free.then(|| Arc::new(Judge::new(&self.covariance, &self.config, docket)));
         self.judged_since = self.time;
         self.forget_unheard();
     }
@@ -56,7 +57,7 @@ impl Filter {
     pub(super) fn restart_judge(&mut self) {
         self.forget_unheard();
         if let Some(judge) = &mut self.judge {
-            Arc::make_mut(judge).restart(&self.covariance);
+            Arc::make_mut(judge).restart(&self.covariance, &self.config);
         }
     }
 
@@ -171,6 +172,12 @@ impl Filter {
         self.judge.as_ref().is_some_and(|judge| judge.docket().is_restless())
     }
 
+    /// How many times as large in-run biases and scale factors of the IMU are taken to be as its data sheet says.
+    #[must_use]
+    pub fn imu_is_worse_by(&self) -> f64 {
+        WORSE.powi(self.docket().worse().into())
+    }
+
     /// What is to be done about an IMU that was found wrong.
     #[must_use]
     pub fn imu_state(&self) -> ImuState {
@@ -197,6 +204,9 @@ impl Filter {
         let Some(judge) = self.judge_now() else { return };
         if let Some(verdict) = judge.look(now, excused) {
             verdict.mended.iter().for_each(|mended| self.become_other(mended));
+            if let Some(judge) = self.judge.as_ref() {
+                self.config = self.config.with_docket(*judge.docket());
+            }
             self.restart_judge();
         }
         self.covered = self.cover();

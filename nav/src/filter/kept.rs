@@ -115,7 +115,7 @@ impl Filter {
             rate: kept.rate,
         };
         let later = |time: Option<Time>| time.map(|time| time + by);
-        let config = NavConfig { docket: kept.docket.shifted(by), ..*config };
+        let config = config.with_docket(kept.docket.shifted(by));
         let mut filter = Filter {
             trust: kept.trust.shifted(by),
             rtk: kept.rtk,

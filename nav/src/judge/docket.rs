@@ -67,6 +67,8 @@ pub struct Docket {
     restless: Option<(Time, Time)>,
     /// The IMU is of no use.
     condemned: bool,
+    /// By how many steps the IMU was found to be worse than its data sheet.
+    worse: u8,
     /// The position may be off by so much, though nothing shows it, m, and grow so fast, m/s, since then.
     unproven: Option<(f64, f64, Time)>,
 }
@@ -118,6 +120,19 @@ impl Docket {
     #[must_use]
     pub fn unproven(&self, now: Time) -> f64 {
         self.unproven.map_or(0.0, |(off, rate, at)| off + rate * (now - at).as_seconds().max(0.0))
+    }
+
+    /// By how many steps the IMU was found to be worse than its data sheet.
+    #[must_use]
+    pub fn worse(&self) -> u8 {
+        self.worse
+    }
+
+    /// With an IMU that is a step worse.
+    #[must_use]
+    pub fn with_worse_imu(mut self) -> Self {
+        self.worse = self.worse.saturating_add(1);
+        self
     }
 
     /// Whether the IMU is not believed, in whatever way it is wrong.
@@ -286,7 +301,7 @@ impl Docket {
     /// What is left when the navigator begins anew on the word of a receiver that was not trusted.
     #[must_use]
     pub fn begun_anew(&self, now: Time) -> Self {
-        let mut anew = Docket { unproven: self.unproven, ..Docket::default() };
+        let mut anew = Docket { unproven: self.unproven, worse: self.worse, ..Docket::default() };
         for party in [Party::Log, Party::Heading] {
             if self.is_excluded(party) {
                 anew.entries[party as usize] = self.entries[party as usize];

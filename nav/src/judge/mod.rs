@@ -15,6 +15,7 @@ mod charge;
 mod dissenter;
 mod docket;
 mod onset;
+mod pessimist;
 pub mod rows;
 mod scatter;
 mod shadow;
@@ -34,6 +35,7 @@ use charge::{Assessment, Charge, DOUBT, Kind};
 use dissenter::{Dissenter, log_likelihood};
 pub use docket::Docket;
 use onset::Onset;
+use pessimist::Pessimist;
 use rows::Direct;
 use shadow::Shadow;
 pub use shadow::agitate;
@@ -66,6 +68,7 @@ const COVERED: f64 = -9.2;
 pub struct Judge {
     shadow: Shadow,
     dissenters: Vec<Dissenter>,
+    pessimist: Pessimist,
     onsets: Vec<Onset>,
     spawned: Option<Time>,
     looked: Option<Time>,
@@ -81,9 +84,10 @@ pub struct Judge {
 impl Judge {
     /// A judge of a navigator with this covariance, to whom everybody is as before.
     #[must_use]
-    pub fn new(covariance: &Covariance, docket: Docket) -> Self {
+    pub fn new(covariance: &Covariance, config: &NavConfig, docket: Docket) -> Self {
         Judge {
             shadow: Shadow::of(covariance),
+            pessimist: Pessimist::new(covariance, &config.imu),
             dissenters: vec![Dissenter::new(Party::Imu, Shadow::of(covariance))],
             onsets: Vec::new(),
             spawned: None,
@@ -104,8 +108,9 @@ impl Judge {
     }
 
     /// Begins anew with a navigator; the standing of all stays.
-    pub fn restart(&mut self, covariance: &Covariance) {
+    pub fn restart(&mut self, covariance: &Covariance, config: &NavConfig) {
         self.shadow = Shadow::of(covariance);
+        self.pessimist = Pessimist::new(covariance, &config.imu);
         for dissenter in &mut self.dissenters {
             *dissenter = Dissenter::new(dissenter.whom, Shadow::of(covariance));
         }
@@ -116,7 +121,7 @@ impl Judge {
 
     fn shadows(&mut self) -> impl Iterator<Item = &mut Shadow> {
         let others = self.dissenters.iter_mut().map(|dissenter| &mut dissenter.shadow);
-        std::iter::once(&mut self.shadow).chain(others)
+        [&mut self.shadow, &mut self.pessimist.shadow].into_iter().chain(others)
     }
 
     /// The navigator's estimate was corrected.
@@ -143,12 +148,11 @@ impl Judge {
         config: &NavConfig,
         regime: &Regime,
     ) {
-        for shadow in self.shadows() {
-            let mut apart = shadow.apart.transpose();
-            propagation::carry(&mut apart, stretch, gradient, config, regime);
-            shadow.apart = apart.transpose();
-            propagation::propagate(&mut shadow.covariance, stretch, gradient, config, regime);
+        let others = self.dissenters.iter_mut().map(|dissenter| &mut dissenter.shadow);
+        for shadow in std::iter::once(&mut self.shadow).chain(others) {
+            shadow.propagate(stretch, gradient, config, regime);
         }
+        self.pessimist.shadow.propagate(stretch, gradient, &config.with_worse_imu(), regime);
         self.dissenters.iter_mut().for_each(|dissenter| dissenter.agitate(stretch.duration));
         for onset in &mut self.onsets {
             propagation::carry(onset.effects_mut(), stretch, gradient, config, regime);
@@ -200,6 +204,7 @@ impl Judge {
         for dissenter in &mut self.dissenters {
             dissenter.hear((party, now), innovation, attitude, likelihood);
         }
+        self.pessimist.hear(innovation, attitude, likelihood);
         self.shadow.absorb(&weighed, attitude);
     }
 
@@ -283,6 +288,9 @@ impl Judge {
         self.assessment = self.assess(now);
         if self.docket.is_restless() {
             return self.look_at_imu(now);
+        }
+        if let Some(verdict) = self.look_at_pessimist() {
+            return Some(verdict);
         }
         let is_excused = |charge: &Charge| excused.contains(charge.party());
         let first = self.likeliest().filter(|first| !is_excused(first));
@@ -392,7 +400,7 @@ impl Judge {
             Kind::Shapeless => format!("{} {:.1}", charge.fault.as_str(), charge.weight),
         };
         let all: Vec<String> = self.assessment.charges.iter().take(5).map(of).collect();
-        all.join("; ")
+        format!("worse {} ({:.1}); {}", self.docket.worse(), self.pessimist.gain, all.join("; "))
     }
 }
 

@@ -7,8 +7,10 @@
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::Alternative;
+use crate::config::NavConfig;
 use crate::error_state::{ATTITUDE, Covariance, ErrorState, VELOCITY};
 use crate::innovation::{Innovation, Weighed};
+use crate::propagation::{self, Regime, Stretch};
 use crate::symmetry::turn_biases;
 
 /// Its estimate less the navigator's, and the covariance of its errors.
@@ -52,6 +54,20 @@ impl Shadow {
     /// Its estimate, as one that may be.
     pub(super) fn alternative(&self) -> Alternative {
         Alternative { error: self.apart, covariance: self.covariance }
+    }
+
+    /// Carries it over a stretch.
+    pub(super) fn propagate(
+        &mut self,
+        stretch: &Stretch,
+        gradient: &Matrix3<f64>,
+        config: &NavConfig,
+        regime: &Regime,
+    ) {
+        let mut apart = self.apart.transpose();
+        propagation::carry(&mut apart, stretch, gradient, config, regime);
+        self.apart = apart.transpose();
+        propagation::propagate(&mut self.covariance, stretch, gradient, config, regime);
     }
 
     /// An innovation of the navigator as it is here, with a variance of its noise that is so many times as

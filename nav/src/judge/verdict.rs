@@ -4,7 +4,8 @@ use insd_base::{Fault, Party, Time};
 use nalgebra::Vector2;
 
 use super::Judge;
-use super::charge::{Charge, DOUBT, Kind};
+use super::charge::{Charge, DOUBT, Kind, PLAIN};
+use crate::config::WORST;
 use crate::error_state::{ATTITUDE, Covariance, ErrorState, GNSS_DELAY};
 
 /// Mean square of an innovation that only a lie explains.
@@ -84,6 +85,18 @@ impl Judge {
         ATTITUDE.inflate(&mut mended.covariance, (0.5 * turned * turned).powi(2) + when * when);
         self.docket.convict(plain.fault, now, lie_of_gnss(&plain, 0.0));
         Verdict { fault: plain.fault, mended: Some(mended) }
+    }
+
+    /// Whether the IMU is worse than assumed, and that explains what a lie would.
+    pub(super) fn look_at_pessimist(&mut self) -> Option<Verdict> {
+        let needed = self.assessment.charges.first().map_or(0.0, Charge::evidence);
+        let gain = self.pessimist.gain;
+        if !self.pessimist.is_right() || gain < PLAIN * needed || self.docket.worse() >= WORST {
+            return None;
+        }
+        // a step is proven; what biases do that no aid sees, to the heading above all, asks for another
+        self.docket = self.docket.with_worse_imu().with_worse_imu();
+        Some(Verdict { fault: Fault::ImuWorse, mended: Some(self.pessimist.shadow.alternative()) })
     }
 
     /// The IMU is of no use.

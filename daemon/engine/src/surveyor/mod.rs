@@ -200,7 +200,7 @@ impl Surveyor {
             Some(fine) => {
                 let estimates = fine.filter().estimates(fine.is_moored());
                 self.note_delay(&estimates);
-                self.all(&estimates)
+                self.all(&estimates, fine.filter().imu_is_worse_by())
             }
             None => self.of_imu(),
         };
@@ -222,7 +222,7 @@ impl Surveyor {
 
     /// A lever arm in the axes of an IMU that is not mounted as configured means nothing; a ship that a
     /// log, too, sees going astern goes astern.
-    fn all(&self, estimates: &Estimates) -> Vec<Finding> {
+    fn all(&self, estimates: &Estimates, imu_is_worse_by: f64) -> Vec<Finding> {
         let astern = |finding: &Finding| {
             matches!(finding, Finding::MountingTurned { .. }) && self.log.agrees()
         };
@@ -232,6 +232,8 @@ impl Surveyor {
         if found.is_empty() {
             found.extend(levers.into_iter().flatten());
         }
+        let worse = (imu_is_worse_by > 1.0).then_some(Finding::ImuWorse { times: imu_is_worse_by });
+        found.extend(worse);
         found.extend(delay(estimates).into_iter().chain(self.log.finding()));
         found.extend(self.still.all().map(|what| Finding::Frozen { what }));
         found

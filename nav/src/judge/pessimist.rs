@@ -1,0 +1,52 @@
+//! How much worse the IMU is than assumed.
+//!
+//! A filter that believes everybody, as the judge's shadow does, but takes in-run biases and scale factors of the IMU to be a
+//! step worse. A data sheet does not tell how biases follow the temperature, or scale factors the rate: if for a long
+//! time the pessimist finds what is said likelier, he is right. The sum of his log-likelihoods less the
+//! shadow's is begun anew whenever it is negative (Page, Continuous Inspection Schemes, Biometrika 41 (1954)).
+
+use insd_base::ImuSpec;
+use nalgebra::UnitQuaternion;
+
+use super::dissenter::log_likelihood;
+use super::shadow::Shadow;
+use crate::error_state::Covariance;
+use crate::initial::take_for_worse;
+use crate::innovation::Innovation;
+
+/// By how much likelier he must be, as a logarithm.
+const CONVINCED: f64 = 25.0;
+
+/// One of them.
+#[derive(Clone, Debug)]
+pub(super) struct Pessimist {
+    pub(super) shadow: Shadow,
+    /// By how much likelier he finds what is said, as a logarithm.
+    pub(super) gain: f64,
+}
+
+impl Pessimist {
+    /// Of a navigator with a covariance that takes the IMU to be so.
+    pub(super) fn new(covariance: &Covariance, imu: &ImuSpec) -> Self {
+        let mut shadow = Shadow::of(covariance);
+        take_for_worse(&mut shadow.covariance, imu);
+        Pessimist { shadow, gain: 0.0 }
+    }
+
+    /// Hears an innovation of the navigator; `others` is how likely the shadow finds it, as a logarithm.
+    pub(super) fn hear<const M: usize>(
+        &mut self,
+        innovation: &Innovation<M>,
+        attitude: &UnitQuaternion<f64>,
+        others: f64,
+    ) {
+        let Some(weighed) = self.shadow.weigh(innovation, 1.0) else { return };
+        self.gain = (self.gain + log_likelihood(&weighed) - others).max(0.0);
+        self.shadow.absorb(&weighed, attitude);
+    }
+
+    /// Whether he is right.
+    pub(super) fn is_right(&self) -> bool {
+        self.gain > CONVINCED
+    }
+}
