@@ -119,6 +119,9 @@ fn a_voyage_is_simulated_replayed_and_scored() {
     let report: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert!(report["components"]["horizontal"]["rms"].as_f64().unwrap() < 20.0, "{json}");
     assert!(report["from_s"].as_f64().unwrap() >= 60.0);
+    assert!(table.contains("not hazardous"), "{table}");
+    assert_eq!(report["evidence"]["hazardous"], false, "{json}");
+    assert_eq!(report["evidence"]["excluded"], serde_json::json!([]), "{json}");
     assert!(fs::metadata(picture).unwrap().len() > 10_000);
 }
 
@@ -197,6 +200,17 @@ fn files_that_cannot_be_compared_are_refused() {
     assert!(told(&["evaluate", &truth, &truth], 2).contains("missing columns std_n_m"));
     assert!(told(&["evaluate", "none.csv", &truth], 2).contains("none.csv: no such file"));
     assert!(told(&["evaluate", &nav, &truth, "--plot", "a.gif"], 2).contains(".png or .svg"));
+}
+
+#[test]
+fn an_integrity_that_cannot_be_read_ends_with_status_2_and_its_place() {
+    let desk = Desk::with_voyage();
+    desk.replay("nav.csv", &[]);
+    let (nav, truth) = (desk.name("nav.csv"), format!("{}/truth.csv", desk.voyage()));
+    let text = fs::read_to_string(&nav).unwrap();
+    fs::write(&nav, text.replacen(",available,", ",perhaps,", 1)).unwrap();
+    let message = told(&["evaluate", &nav, &truth], 2);
+    assert!(message.contains(":integrity: unknown word \"perhaps\""), "{message}");
 }
 
 #[test]

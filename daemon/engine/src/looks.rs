@@ -24,7 +24,8 @@ impl Engine {
     pub fn motion(&self) -> Option<Motion> {
         if self.machine.mode() == Mode::Standby && !self.is_waiting() {
             let reach = self.nav.gnss_lever().norm() + self.nav.gnss_lever_std();
-            return self.config.relay.then(|| self.relay.motion(reach)).flatten();
+            let motion = self.config.relay.then(|| self.relay.motion(reach)).flatten()?;
+            return Some(Motion { solution: self.judged(motion.solution), ..motion });
         }
         let ship = self.ship()?;
         let solution = Some(self.judged(ship.solution())).filter(checks::is_sound)?;

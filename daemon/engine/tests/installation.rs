@@ -4,7 +4,7 @@
 
 use insd_base::units::{DEG, wrap_pi};
 use insd_base::{
-    Body, Event, Finding, Mode, Motion, Rejection, Solution, Span, Truth, Voyage, earth,
+    Body, Event, Finding, Mode, Motion, Party, Rejection, Solution, Span, Truth, Voyage, earth,
 };
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_simulator::{Scenario, shipped, simulate};
@@ -183,6 +183,7 @@ fn an_imu_that_is_upside_down_is_named_and_not_used() {
     let (motion, off) = shown_at_the_end(&turned(voyage(), 180.0, 0.0, 0.0));
     let sigma = motion.solution.sigma;
     assert_eq!(motion.solution.mode, Mode::Standby, "receivers pass through");
+    assert!(motion.solution.judgement.excluded.contains(Party::Imu), "and it says so");
     assert!(off < 3.0 * sigma.position.0.norm() && off < 30.0, "{off} m, {sigma:?}");
     assert!(sigma.heading > 90.0 * DEG && sigma.roll > 90.0 * DEG, "{sigma:?}");
 }

@@ -9,6 +9,7 @@ mod campaign;
 mod component;
 mod drift;
 mod errors;
+mod evidence;
 mod innovation;
 mod instants;
 mod interval;
@@ -29,6 +30,7 @@ pub use campaign::{CampaignReport, ComponentEstimates, OutageEstimates, Run, Yar
 pub use component::Component;
 pub use drift::{Drift, Outage, drifts, outages};
 pub use errors::{EpochError, Errors, LeftOut, errors, normalised};
+pub use evidence::{Evidence, Exclusion, Pieces, Share, Told, Use, Worst};
 pub use innovation::InnovationRow;
 pub use instants::{Instant, InstantEstimates, Moment, moments};
 pub use interval::Estimate;

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::component::Component;
 use super::drift::Drift;
 use super::errors::{Errors, LeftOut};
+use super::evidence::Evidence;
 use super::statistics::{Summary, summarise, summarise_horizontal};
 use super::table::{Align, Table, significant};
 
@@ -38,6 +39,8 @@ pub struct Report {
     pub components: BTreeMap<&'static str, Option<Summary>>,
     /// Errors in each stretch without GNSS.
     pub outages: Vec<Drift>,
+    /// What the solution said of how far it may be relied on, against truth.
+    pub evidence: Evidence,
 }
 
 /// Figures of all components and of the horizontal position.
@@ -58,7 +61,7 @@ pub(super) fn row_order() -> Vec<&'static str> {
 impl Report {
     /// The report on a comparison. File names and skipped rows are filled in by the caller.
     #[must_use]
-    pub fn new(errors: &Errors, outages: Vec<Drift>) -> Self {
+    pub fn new(errors: &Errors, outages: Vec<Drift>, evidence: Evidence) -> Self {
         let seconds = |epoch: Option<&super::EpochError>| {
             epoch.map_or(f64::NAN, |epoch| epoch.time.as_seconds())
         };
@@ -73,6 +76,7 @@ impl Report {
             skipped_truth_rows: 0,
             components: summaries(errors),
             outages,
+            evidence,
         }
     }
 
@@ -155,6 +159,7 @@ impl fmt::Display for Report {
             writeln!(f, "\nwithout GNSS")?;
             write!(f, "{}", outage_table(&self.outages))?;
         }
+        write!(f, "\n{}", self.evidence)?;
         let notes = self.notes();
         if !notes.is_empty() {
             writeln!(f)?;
@@ -169,6 +174,7 @@ mod tests {
     use super::super::testing::{solution, truth};
     use super::*;
     use insd_base::Geodetic;
+    use insd_drivers::recording::{FileReport, Rows};
 
     fn report(with_attitude: bool) -> Report {
         let point = Geodetic::from_degrees(1.0, 2.0, 3.0);
@@ -177,7 +183,10 @@ mod tests {
         if !with_attitude {
             true_rows.iter_mut().for_each(|row| row.attitude = None);
         }
-        Report::new(&errors(&nav, &true_rows, None), Vec::new())
+        let found = errors(&nav, &true_rows, None);
+        let file = Rows { rows: Vec::new(), report: FileReport::default(), columns: Vec::new() };
+        let evidence = Evidence::new(&file, &found, None);
+        Report::new(&found, Vec::new(), evidence)
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use super::report::FileReport;
+use super::report::{BadRow, FileReport};
 
 /// A recording that cannot be read or written. Every message names the file, and the line and
 /// column where there is one, and says what was expected.
@@ -77,6 +77,14 @@ pub enum RecordingError {
         file: PathBuf,
         /// Its name.
         column: &'static str,
+    },
+    /// A field that no row may be left out for.
+    #[error("{}:{bad}", .file.display())]
+    BadField {
+        /// The file.
+        file: PathBuf,
+        /// Line, column, and what was found.
+        bad: Box<BadRow>,
     },
     /// There is no row that can be used.
     #[error("{}:{}: {}", .file.display(), .report.lines, no_rows(.report))]

@@ -12,7 +12,7 @@
 //! - **of one row**: a field that is not a finite number, a missing field, a latitude of 91 deg.
 //!   The row is skipped and counted with its reason; the first few are kept with file, line and
 //!   column ([`FileReport`]). When more than 100 rows and more than 10 % of a file are faulty, that
-//!   is an error too.
+//!   is an error too. So is a row of `nav.csv` that says of its integrity what the format does not know.
 
 mod error;
 mod fields;
@@ -21,6 +21,7 @@ mod header_text;
 mod input;
 mod lines;
 mod nav;
+mod nav_row;
 mod number;
 mod reader;
 mod report;
@@ -33,6 +34,7 @@ pub use error::RecordingError;
 pub use header::read_header;
 pub use lines::MAX_LINE;
 pub use nav::{NavWriter, read_nav, read_nav_rows};
+pub use nav_row::NavRow;
 pub use reader::{Rows, VoyageReader, read_truth, read_truth_rows};
 pub use report::{BadRow, FileReport, RowFault};
 pub use writer::{Compression, write_voyage};

@@ -4,24 +4,17 @@ use std::f64::consts::TAU;
 use std::io::{self, Write};
 use std::path::Path;
 
-use insd_base::{Integrity, Ned, Solution};
+use insd_base::{Ned, Solution};
 
 use super::error::RecordingError;
+use super::nav_row::NavRow;
 use super::number::{Zeros, push_fixed, push_time};
 use super::reader::{Rows, read_all};
-use super::table::Row;
+use super::rows::NAV;
 
 const DEGREE_PLACES: usize = 10;
 const METRE_PLACES: usize = 5;
 const ANGLE_PLACES: usize = 6;
-/// The columns behind the mode.
-const FURTHER: [&str; 4] = ["hpl_m", "vpl_m", "integrity", "excluded"];
-/// Sigmas that are a protection level, for a risk of 1e-5 in three hours of errors that last five minutes: 2.8e-7
-/// each. The horizontal one is of the sum of both components, which is no less than that along any direction.
-const HORIZONTAL: f64 = 5.5;
-const VERTICAL: f64 = 5.2;
-/// Horizontal alert limit of general navigation, m (IMO A.915(22), appendix 2).
-const ALERT_LIMIT: f64 = 25.0;
 /// Claimed where a standard deviation is not finite or larger, in the unit of the column.
 const MAX_SIGMA: f64 = 1e6;
 
@@ -41,7 +34,7 @@ impl<W: Write> NavWriter<W> {
     /// # Errors
     /// The target cannot be written.
     pub fn new(mut target: W) -> io::Result<Self> {
-        writeln!(target, "{},{}", Solution::COLUMNS.join(","), FURTHER.join(","))?;
+        writeln!(target, "{}", NAV.join(","))?;
         Ok(NavWriter { target, row: Vec::with_capacity(256), left_out: 0 })
     }
 
@@ -80,21 +73,23 @@ impl<W: Write> NavWriter<W> {
     }
 }
 
-/// Reads a `nav.csv`, plain or compressed, with the count of its faulty rows. The angular rate,
-/// which it does not hold, is zero.
+/// Reads a `nav.csv`, plain or compressed, with what it says of how far it may be relied on and with the count of its
+/// faulty rows. The angular rate and what was made of the sensors' words, which it does not hold, are those of nobody
+/// knowing.
 ///
 /// # Errors
-/// The file is missing, its header is wrong, or it has no or too many faulty rows.
-pub fn read_nav_rows(path: &Path) -> Result<Rows<Solution>, RecordingError> {
+/// The file is missing, its header is wrong, it has no or too many faulty rows, or a row says of its integrity what
+/// the format does not know.
+pub fn read_nav_rows(path: &Path) -> Result<Rows<NavRow>, RecordingError> {
     read_all(path)
 }
 
-/// Reads a `nav.csv`, plain or compressed.
+/// Reads the solutions of a `nav.csv`, plain or compressed.
 ///
 /// # Errors
 /// As [`read_nav_rows`].
 pub fn read_nav(path: &Path) -> Result<Vec<Solution>, RecordingError> {
-    read_all(path).map(|all| all.rows)
+    read_nav_rows(path).map(|all| all.rows.into_iter().map(|row| row.solution).collect())
 }
 
 fn push_state(row: &mut Vec<u8>, solution: &Solution) {
@@ -115,17 +110,11 @@ fn push_state(row: &mut Vec<u8>, solution: &Solution) {
 
 /// Protection levels, whether they may be relied on, and who is left out.
 fn push_judgement(row: &mut Vec<u8>, solution: &Solution) {
-    let sigma = &solution.sigma.position.0;
-    let horizontal = HORIZONTAL * sigma.xy().norm();
-    push_sigma(row, horizontal, METRE_PLACES);
-    push_sigma(row, VERTICAL * sigma.z, METRE_PLACES);
-    let integrity = match solution.judgement.integrity {
-        Integrity::Contradiction => "fault",
-        Integrity::Consistent if horizontal <= ALERT_LIMIT => "available",
-        _ => "unavailable",
-    };
+    let levels = solution.protection();
+    push_sigma(row, levels.horizontal, METRE_PLACES);
+    push_sigma(row, levels.vertical, METRE_PLACES);
     row.push(b',');
-    row.extend_from_slice(integrity.as_bytes());
+    row.extend_from_slice(solution.availability().as_str().as_bytes());
     row.push(b',');
     for (at, party) in solution.judgement.excluded.iter().enumerate() {
         if at > 0 {
@@ -172,7 +161,8 @@ fn is_finite(solution: &Solution) -> bool {
 mod tests {
     use super::*;
     use insd_base::{
-        Attitude, Body, Geodetic, Judgement, Mode, Parties, Party, SolutionSigma, Time,
+        Attitude, Availability, Body, Geodetic, Integrity, Judgement, Mode, Parties, Party,
+        SolutionSigma, Time,
     };
 
     fn solution() -> Solution {
@@ -254,5 +244,60 @@ mod tests {
         assert_eq!((back.time, back.mode), (expected.time, expected.mode));
         assert!((back.position.latitude - expected.position.latitude).abs() < 1e-12);
         assert!((back.attitude.roll - expected.attitude.roll).abs() < 1e-8);
+    }
+
+    /// A solution that its sensors do not bear out, as a file.
+    fn doubted() -> String {
+        let excluded: Parties = [Party::Gnss, Party::Imu].into_iter().collect();
+        let judgement = Judgement { integrity: Integrity::Contradiction, excluded };
+        text(&[Solution { judgement, ..solution() }, solution()])
+    }
+
+    const FURTHER: [&str; 4] = ["hpl_m", "vpl_m", "integrity", "excluded"];
+
+    fn read(text: &str) -> Result<Rows<NavRow>, RecordingError> {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("nav.csv");
+        std::fs::write(&path, text).unwrap();
+        read_nav_rows(&path)
+    }
+
+    #[test]
+    fn what_a_row_says_of_its_integrity_reads_back() {
+        let all = read(&doubted()).unwrap();
+        assert!(FURTHER.iter().all(|column| all.has(column)));
+        let row = &all.rows[0];
+        assert_eq!((row.horizontal_level, row.vertical_level), (Some(1e6), Some(1e6)));
+        assert_eq!(row.integrity, Some(Availability::Fault));
+        assert_eq!(row.excluded, ["gnss", "imu"]);
+        assert!(all.rows[1].excluded.is_empty());
+    }
+
+    #[test]
+    fn columns_that_are_not_there_and_empty_fields_are_unknown() {
+        let cut = |keep: usize| {
+            let line = |line: &str| line.split(',').take(keep).collect::<Vec<_>>().join(",");
+            doubted().lines().map(line).collect::<Vec<_>>().join("\n")
+        };
+        let old = read(&cut(20)).unwrap();
+        assert!(!FURTHER.iter().any(|column| old.has(column)));
+        let row = &old.rows[0];
+        assert_eq!((row.horizontal_level, row.vertical_level, row.integrity), (None, None, None));
+        let empty = doubted().replace("1000000.00000,1000000.00000,fault,gnss imu", ",,,");
+        let row = &read(&empty).unwrap().rows[0];
+        assert_eq!((row.horizontal_level, row.vertical_level, row.integrity), (None, None, None));
+    }
+
+    #[test]
+    fn an_integrity_that_cannot_be_read_is_an_error_with_its_place() {
+        for (good, bad, said) in [
+            (",fault,", ",maybe,", ":2:integrity: unknown word \"maybe\""),
+            ("gnss imu", "gnss;imu", ":2:excluded: unknown word \"gnss;imu\""),
+            ("1000000.00000,1000000.00000,fault", "-1,2,fault", ":2:hpl_m: -1 is out of range"),
+            ("1000000.00000,fault", "x,fault", ":2:vpl_m: expected a number, found \"x\""),
+        ] {
+            let fault = read(&doubted().replacen(good, bad, 1)).unwrap_err().to_string();
+            assert!(fault.ends_with(&format!("nav.csv{said}")), "{fault}");
+        }
     }
 }

@@ -126,6 +126,16 @@ pub struct Rows<T> {
     pub rows: Vec<T>,
     /// What was read and skipped.
     pub report: FileReport,
+    /// Columns of the format that the file has, in the order of the format.
+    pub columns: Vec<&'static str>,
+}
+
+impl<T> Rows<T> {
+    /// Whether the file has a column.
+    #[must_use]
+    pub fn has(&self, column: &str) -> bool {
+        self.columns.contains(&column)
+    }
 }
 
 /// Reads a `truth.csv`, plain or compressed, with the count of its faulty rows.
@@ -156,7 +166,7 @@ pub(super) fn read_all<T: Row>(path: &Path) -> Result<Rows<T>, RecordingError> {
         let (file, report) = (table.path().to_owned(), Box::new(report));
         return Err(RecordingError::NoRows { file, report });
     }
-    Ok(Rows { rows, report })
+    Ok(Rows { rows, report, columns: table.columns() })
 }
 
 fn open_sensor<T: Copy>(dir: &Path, name: &str) -> Result<Option<Stream<T>>, RecordingError>

@@ -206,46 +206,45 @@ impl Row for Truth {
     }
 }
 
-impl Row for Solution {
-    const COLUMNS: &'static [&'static str] = state_columns!(
-        "std_n_m",
-        "std_e_m",
-        "std_d_m",
-        "std_vn_mps",
-        "std_ve_mps",
-        "std_vd_mps",
-        "std_roll_deg",
-        "std_pitch_deg",
-        "std_heading_deg",
-        "mode"
-    );
-    const REQUIRED: usize = Self::COLUMNS.len();
+/// The columns of `nav.csv`, those behind the mode last.
+pub(super) const NAV: &[&str] = state_columns!(
+    "std_n_m",
+    "std_e_m",
+    "std_d_m",
+    "std_vn_mps",
+    "std_ve_mps",
+    "std_vd_mps",
+    "std_roll_deg",
+    "std_pitch_deg",
+    "std_heading_deg",
+    "mode",
+    "hpl_m",
+    "vpl_m",
+    "integrity",
+    "excluded"
+);
 
-    fn parse(fields: &Fields<'_>) -> Result<Self, BadRow> {
-        let mode = std::str::from_utf8(fields.raw(19)).ok().and_then(Mode::from_word);
-        let must =
-            |value: Option<Ned>, column| value.ok_or_else(|| fields.bad(column, RowFault::Empty));
-        Ok(Solution {
-            time: fields.time(0)?,
-            position: position(fields)?,
-            velocity: must(fields.triple(4)?, 4)?,
-            attitude: attitude(fields)?.ok_or_else(|| fields.bad(7, RowFault::Empty))?,
-            rate: Body::default(),
-            sigma: SolutionSigma {
-                position: must(fields.triple(10)?, 10)?,
-                velocity: must(fields.triple(13)?, 13)?,
-                roll: fields.required(16)?.to_radians(),
-                pitch: fields.required(17)?.to_radians(),
-                heading: fields.required(18)?.to_radians(),
-            },
-            mode: mode.ok_or_else(|| fields.bad(19, RowFault::UnknownWord))?,
-            judgement: insd_base::Judgement::default(),
-        })
-    }
-
-    fn time(&self) -> Time {
-        self.time
-    }
+/// A solution from the columns of [`NAV`] up to the mode.
+pub(super) fn solution(fields: &Fields<'_>) -> Result<Solution, BadRow> {
+    let mode = std::str::from_utf8(fields.raw(19)).ok().and_then(Mode::from_word);
+    let must =
+        |value: Option<Ned>, column| value.ok_or_else(|| fields.bad(column, RowFault::Empty));
+    Ok(Solution {
+        time: fields.time(0)?,
+        position: position(fields)?,
+        velocity: must(fields.triple(4)?, 4)?,
+        attitude: attitude(fields)?.ok_or_else(|| fields.bad(7, RowFault::Empty))?,
+        rate: Body::default(),
+        sigma: SolutionSigma {
+            position: must(fields.triple(10)?, 10)?,
+            velocity: must(fields.triple(13)?, 13)?,
+            roll: fields.required(16)?.to_radians(),
+            pitch: fields.required(17)?.to_radians(),
+            heading: fields.required(18)?.to_radians(),
+        },
+        mode: mode.ok_or_else(|| fields.bad(19, RowFault::UnknownWord))?,
+        judgement: insd_base::Judgement::default(),
+    })
 }
 
 fn position(fields: &Fields<'_>) -> Result<Geodetic, BadRow> {

@@ -25,6 +25,11 @@ pub(super) trait Row: Sized {
 
     /// Time of validity.
     fn time(&self) -> Time;
+
+    /// Whether a fault of a row ends the reading, where others cost the row alone.
+    fn is_fatal(_: &BadRow) -> bool {
+        false
+    }
 }
 
 /// A file of rows of one kind.
@@ -70,6 +75,10 @@ impl<T: Row> Table<T> {
             let fields = Fields { columns: &self.columns, line, number, cuts: &self.cuts };
             match parse::<T>(&fields) {
                 Ok(row) => return Ok(Some((row, number))),
+                Err(bad) if T::is_fatal(&bad) => {
+                    let file = self.path.clone();
+                    return Err(RecordingError::BadField { file, bad: Box::new(bad) });
+                }
                 Err(bad) => self.report.record(bad),
             }
         }
@@ -87,6 +96,13 @@ impl<T: Row> Table<T> {
 
     pub(super) fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// The columns of the format that the file has.
+    pub(super) fn columns(&self) -> Vec<&'static str> {
+        let Columns { names, places, .. } = &self.columns;
+        let named = names.iter().zip(places).filter(|(_, place)| place.is_some());
+        named.map(|(name, _)| *name).collect()
     }
 
     /// An error if the whole file turned out to be bad.

@@ -6,10 +6,11 @@ mod common;
 
 use common::{perhaps, read, time_of_day};
 use insd_base::units::DEG;
-use insd_base::{FixQuality, HeaveQuality, Mode, Ned, SolutionSigma};
+use insd_base::{FixQuality, HeaveQuality, Mode, Ned, Parties, Party, SolutionSigma};
 use insd_wire::nmea::{
-    HeadingMode, MAX_LEN, Pinsd, PinsdAlignment, PinsdMode, PinsdPhase, PinsdProtection,
-    PinsdSigma, PinsdStatus, PinsdTime, ProtectionState, Sentence, Talker, TimeOfDay,
+    Fault, HeadingMode, MAX_LEN, Pinsd, PinsdAlignment, PinsdIntegrity, PinsdMode, PinsdPhase,
+    PinsdProtection, PinsdSigma, PinsdStatus, PinsdTime, ProtectionState, Sentence, Talker,
+    TimeOfDay, checksum,
 };
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -48,12 +49,20 @@ fn full_status() -> PinsdStatus {
         time_source: PinsdTime::Messages,
         simulated: false,
         alerts: Some(999),
+        integrity: Some(PinsdIntegrity::Agreed),
+        excluded: Some(Party::ALL.into_iter().collect()),
     }
 }
 
 #[test]
 fn each_of_our_sentences_is_written_as_its_page_says() {
-    let status = PinsdStatus { seconds_in_mode: Some(4210), alerts: Some(2), ..full_status() };
+    let excluded: Parties = [Party::Heading, Party::Gnss].into_iter().collect();
+    let status = PinsdStatus {
+        seconds_in_mode: Some(4210),
+        alerts: Some(2),
+        excluded: Some(excluded),
+        ..full_status()
+    };
     let sigma = SolutionSigma {
         position: Ned::new(0.42, 0.38, 1.17),
         velocity: Ned::new(0.012, 0.011, 0.02),
@@ -80,7 +89,7 @@ fn each_of_our_sentences_is_written_as_its_page_says() {
         gyrocompass: Some(12.5 * DEG),
     };
     for (pinsd, text) in [
-        (Pinsd::Status(status), "STA,235959.99,D,4210,E,6,2,M,0,2"),
+        (Pinsd::Status(status), "STA,235959.99,D,4210,E,6,2,M,0,2,A,GH"),
         (
             Pinsd::Sigma(PinsdSigma::of(TIME, &sigma, Some(0.05))),
             "SIG,235959.99,0.42,0.38,1.17,0.012,0.011,0.020,0.011,0.011,0.043,0.05",
@@ -121,6 +130,8 @@ fn what_is_unknown_is_empty() {
         time_source: PinsdTime::Unknown,
         simulated: true,
         alerts: None,
+        integrity: None,
+        excluded: None,
     };
     let alignment = PinsdAlignment {
         time: None,
@@ -132,7 +143,7 @@ fn what_is_unknown_is_empty() {
         gyrocompass: None,
     };
     for (pinsd, text) in [
-        (Pinsd::Status(status), "STA,,X,,V,0,,U,1,"),
+        (Pinsd::Status(status), "STA,,X,,V,0,,U,1,,,"),
         (Pinsd::Sigma(PinsdSigma::default()), "SIG,,,,,,,,,,,"),
         (Pinsd::Alignment(alignment), "ALI,,L,0,,,,"),
         (Pinsd::Protection(PinsdProtection::default()), "PRO,,,,,,,N"),
@@ -203,9 +214,43 @@ fn every_letter_comes_back() {
         let status = PinsdStatus { position, ..full_status() };
         assert_eq!(back(Pinsd::Status(status)), Pinsd::Status(status));
     }
+    for letter in b"AUVN" {
+        let integrity = PinsdIntegrity::from_letter(*letter);
+        let status = PinsdStatus { integrity, ..full_status() };
+        assert!(integrity.is_some());
+        assert_eq!(back(Pinsd::Status(status)), Pinsd::Status(status));
+    }
+    let each = Party::ALL.map(|party| Parties::default().with(party));
+    for excluded in each.into_iter().chain([Parties::default()]) {
+        let status = PinsdStatus { excluded: Some(excluded), ..full_status() };
+        assert_eq!(back(Pinsd::Status(status)), Pinsd::Status(status));
+    }
     for heave in [HeaveQuality::Unsettled, HeaveQuality::Reduced, HeaveQuality::Settled] {
         let status = PinsdStatus { heave: Some(heave), ..full_status() };
         assert_eq!(back(Pinsd::Status(status)), Pinsd::Status(status));
+    }
+}
+
+fn status_of(fields: &str) -> Result<PinsdStatus, Fault> {
+    let body = format!("PINSD,STA,235959.99,D,4210,E,6,2,M,0,2{fields}");
+    let line = format!("${body}*{:02X}", checksum(body.as_bytes()));
+    match Sentence::read(line.as_bytes())? {
+        (_, Sentence::Pinsd(Pinsd::Status(status))) => Ok(status),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_status_of_a_version_that_did_not_tell_integrity_is_read() {
+    let old = status_of("").unwrap();
+    assert_eq!((old.alerts, old.integrity, old.excluded), (Some(2), None, None));
+    let nobody = status_of(",A,N").unwrap();
+    assert_eq!(nobody.excluded, Some(Parties::default()));
+    let newer = status_of(",V,IG,whatever,2").unwrap();
+    assert_eq!(newer.integrity, Some(PinsdIntegrity::Contradicted));
+    assert_eq!(newer.excluded, Some([Party::Gnss, Party::Imu].into_iter().collect()));
+    for bad in [",X,N", ",AA,N", ",A,GX", ",A,NG"] {
+        assert!(matches!(status_of(bad), Err(Fault::Malformed { .. })), "{bad}");
     }
 }
 

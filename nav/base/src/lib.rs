@@ -20,6 +20,7 @@ pub mod installation;
 pub mod messages;
 pub mod motion;
 pub mod party;
+pub mod protection;
 pub mod sensor;
 pub mod solution;
 pub mod time;
@@ -48,6 +49,7 @@ pub use messages::{
 };
 pub use motion::{Current, Motion};
 pub use party::{Fault, Integrity, Judgement, Parties, Party, Standing, Stands};
+pub use protection::{Availability, Protection};
 pub use sensor::{ImuSpec, LeverArms, Triad};
 pub use solution::{Mode, Solution, SolutionSigma};
 pub use time::{Span, Time};

@@ -292,8 +292,10 @@ impl FromIterator<Party> for Parties {
 /// Whether the sensors bear out what is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash)]
 pub enum Integrity {
-    /// Those that are used agree with each other.
+    /// Nobody compares them: before she navigates, at the berth, and while receivers and compass pass through.
     #[default]
+    Unwatched,
+    /// Those that are used agree with each other.
     Consistent,
     /// A receiver is used that was found to lie, and nothing shows that it does not any more.
     Unproven,

@@ -1,11 +1,8 @@
 //! What kind of craft carries the sensors, and what follows from it: how fast she can be, and whether she can
 //! move sideways.
 
-use serde::{Deserialize, Serialize};
-
 /// The kind of craft.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum VesselKind {
     /// A displacement ship.
     #[default]

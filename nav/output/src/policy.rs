@@ -106,9 +106,7 @@ impl Policy {
         match quality {
             None => FixQuality::Invalid,
             Some(_) if solution.mode == Mode::Fault => FixQuality::Invalid,
-            Some(_) if solution.judgement.integrity != Integrity::Consistent => {
-                FixQuality::Estimated
-            }
+            Some(_) if is_doubted(solution) => FixQuality::Estimated,
             Some(_) if self.estimated_without_gnss && !uses_gnss(solution.mode) => {
                 FixQuality::Estimated
             }
@@ -175,6 +173,11 @@ impl Policy {
         let speed = solution.speed();
         speed >= self.least_speed && sigma <= speed * self.course
     }
+}
+
+/// Whether something speaks against the position.
+fn is_doubted(solution: &Solution) -> bool {
+    matches!(solution.judgement.integrity, Integrity::Unproven | Integrity::Contradiction)
 }
 
 /// Whether sensors contradict each other.

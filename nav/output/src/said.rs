@@ -2,8 +2,8 @@
 
 use insd_base::geoid::undulation;
 use insd_base::{
-    AlignmentStatus, Attitude, Body, DelayedHeave, FixQuality, Geodetic, Heave, HeaveQuality, Mode,
-    Ned, Solution, SolutionSigma, Span, Time, UtcTime,
+    AlignmentStatus, Attitude, Body, DelayedHeave, FixQuality, Geodetic, Heave, HeaveQuality,
+    Judgement, Mode, Ned, Solution, SolutionSigma, Span, Time, UtcTime,
 };
 use insd_n2k::pgn::{Sid, TimeSource};
 use insd_wire::nmea::{AlertEntry, CivilTime, HeadingMode, PositionMode};
@@ -126,6 +126,11 @@ impl<'a> Said<'a> {
     /// What the system is doing.
     pub(crate) fn mode(&self) -> Option<Mode> {
         self.told.solution.map(|solution| solution.mode)
+    }
+
+    /// What is made of the sensors' words.
+    pub(crate) fn judgement(&self) -> Option<Judgement> {
+        self.told.solution.map(|solution| solution.judgement)
     }
 
     /// True heading, rad.

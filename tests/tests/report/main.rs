@@ -57,12 +57,13 @@ simulated = true
 destination = { kind = "file", path = "/var/lib/insd/ecdis" }
 "#;
 
-const HEADINGS: [&str; 14] = [
+const HEADINGS: [&str; 15] = [
     "Key figures",
     "Modes",
     "Track",
     "Attitude and motion",
     "Errors claimed",
+    "Whom she believed",
     "Aids used and rejected",
     "Alerts",
     "Ports and sensors",

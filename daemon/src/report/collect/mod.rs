@@ -8,6 +8,7 @@ pub(crate) mod lane;
 pub(crate) mod modes;
 pub(crate) mod motion;
 pub(crate) mod said;
+pub(crate) mod trust;
 
 use insd_base::{Arrival, Event, Input, Span, Time};
 use insd_engine::Output;
@@ -19,6 +20,7 @@ use self::journal::Journal;
 use self::modes::Modes;
 use self::motion::Motion;
 use self::said::Said;
+use self::trust::Trust;
 use super::statistics::Statistics;
 use super::times::Times;
 use super::words;
@@ -35,6 +37,7 @@ pub(crate) struct Collected {
     pub(crate) times: Times,
     pub(crate) motion: Motion,
     pub(crate) modes: Modes,
+    pub(crate) trust: Trust,
     pub(crate) aids: Aids,
     pub(crate) alerts: Alerts,
     pub(crate) border: Border,
@@ -54,6 +57,7 @@ impl Collected {
             times: Times::new(start),
             motion: Motion::new(start, rate),
             modes: Modes::new(start),
+            trust: Trust::new(),
             aids: Aids::new(start),
             alerts: Alerts::new(start),
             border: Border::new(start),
@@ -117,6 +121,7 @@ impl Collected {
             Output::Solution(solution) => {
                 let passed = self.motion.solution(solution);
                 self.modes.solution(solution.time, solution.mode, passed);
+                self.trust.solution(solution, passed);
             }
             Output::Innovation(innovation) => {
                 self.aids.innovation(now, innovation);
@@ -139,6 +144,7 @@ impl Collected {
             _ => {}
         }
         self.modes.event(event);
+        self.trust.event(event);
     }
 
     /// The recording ends.

@@ -6,6 +6,7 @@ mod border;
 mod head;
 pub(crate) mod html;
 mod record;
+mod trust;
 mod voyage;
 
 use std::fmt::Write as _;
@@ -23,6 +24,7 @@ pub(crate) fn page(report: &Report) -> String {
         ("track", "Track", voyage::track(report)),
         ("motion", "Attitude and motion", voyage::motion(report)),
         ("errors", "Errors claimed", voyage::errors(report)),
+        ("trust", "Whom she believed", trust::trust(report)),
         ("aids", "Aids used and rejected", aids::aids(report)),
         ("alerts", "Alerts", alerts::alerts(report)),
         ("ports", "Ports and sensors", border::ports(report)),

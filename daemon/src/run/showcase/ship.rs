@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use insd_base::units::{DEG, KNOT, wrap_two_pi};
-use insd_base::{HeaveQuality, Mode, Motion, Solution, Time};
+use insd_base::{HeaveQuality, Integrity, Judgement, Mode, Motion, Solution, Time};
 use insd_output::{Ellipse, Policy};
 use nalgebra::Vector3;
 
@@ -67,6 +67,21 @@ pub(super) fn motion(
         position_quality: Some(word(&policy.quality(solution))),
         velocity_quality: Some(word(&policy.velocity(solution))),
         level_quality: Some(level(&policy, solution)),
+        ..reliance(solution)
+    }
+}
+
+/// How far the position may be relied on, and who is left out.
+fn reliance(solution: &Solution) -> Shown {
+    let Judgement { integrity, excluded } = solution.judgement;
+    let is_watched = integrity != Integrity::Unwatched;
+    let levels = solution.protection();
+    Shown {
+        integrity: is_watched.then(|| solution.availability().as_str().to_owned()),
+        excluded: excluded.iter().map(|party| party.as_str().to_owned()).collect(),
+        hpl_m: Some(levels.horizontal),
+        vpl_m: Some(levels.vertical),
+        ..Shown::default()
     }
 }
 

@@ -1,5 +1,6 @@
 use insd_base::{
-    Attitude, Body, Geodetic, Mode, ModeReason, Motion, Ned, Solution, SolutionSigma, Stamp,
+    Attitude, Body, Geodetic, Integrity, Judgement, Mode, ModeReason, Motion, Ned, Party, Solution,
+    SolutionSigma, Stamp,
 };
 use insd_web::snapshot::Freshness;
 
@@ -43,6 +44,33 @@ fn report(now: f64, heard: f64) -> Report {
         engines: Vec::new(),
         heard: Vec::new(),
         slow: None,
+    }
+}
+
+#[test]
+fn the_motion_says_whether_it_may_be_relied_on_and_who_is_left_out() {
+    let mut showcase = showcase();
+    let mut told = |integrity, position| {
+        let mut report = report(1.0, 1.0);
+        let solution = &mut report.motion.as_mut().unwrap().solution;
+        let excluded = [Party::Log, Party::Gnss].into_iter().collect();
+        solution.judgement = Judgement { integrity, excluded };
+        solution.sigma.position = position;
+        showcase.see(&report);
+        showcase.shown.motion.clone().unwrap()
+    };
+    let vague = told(Integrity::Consistent, Ned::new(3.0, 4.0, 2.0));
+    assert_eq!((vague.hpl_m, vague.vpl_m), (Some(27.5), Some(10.4)));
+    assert_eq!(vague.integrity.as_deref(), Some("unavailable"));
+    assert_eq!(vague.excluded, ["gnss", "log"]);
+    let good = Ned::new(0.3, 0.4, 2.0);
+    for (integrity, word) in [
+        (Integrity::Consistent, Some("available")),
+        (Integrity::Unproven, Some("unavailable")),
+        (Integrity::Contradiction, Some("fault")),
+        (Integrity::Unwatched, None),
+    ] {
+        assert_eq!(told(integrity, good).integrity.as_deref(), word);
     }
 }
 

@@ -86,6 +86,15 @@ pub struct Motion {
     pub velocity_quality: Option<String>,
     /// Whether roll and pitch are good enough to be sent: `valid`, `not_valid`.
     pub level_quality: Option<String>,
+    /// Whether the position may be relied on, as in `nav.csv`: `available`, `unavailable`, `fault`; `None` while
+    /// nobody compares the sensors.
+    pub integrity: Option<String>,
+    /// Who is left out: `gnss`, `log`, `heading`, `reference`, `imu`.
+    pub excluded: Vec<String>,
+    /// Protection level of the horizontal position, m.
+    pub hpl_m: Option<f64>,
+    /// Of the height, m.
+    pub vpl_m: Option<f64>,
 }
 
 /// Heave: its mean over many waves is zero.

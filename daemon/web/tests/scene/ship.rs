@@ -90,6 +90,10 @@ pub(super) fn motion(t: f64, scene: Scene) -> Motion {
         freshness: Freshness::Fresh,
         velocity_quality: Some("autonomous".to_owned()),
         level_quality: Some("valid".to_owned()),
+        integrity: (!moored).then(|| if fault { "unavailable" } else { "available" }.to_owned()),
+        excluded: if fault { vec!["gnss".to_owned()] } else { Vec::new() },
+        hpl_m: Some(5.5 * sigma),
+        vpl_m: Some(5.7),
         position_quality: Some(if fault { "estimated" } else { "differential" }.to_owned()),
     }
 }

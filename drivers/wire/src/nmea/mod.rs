@@ -118,8 +118,8 @@ pub use phlin::{Phlin, Phspd};
 pub use phoct::{Marked, Phoct, PhoctState, WaveMotion};
 pub use phtro::Phtro;
 pub use pinsd::{
-    Pinsd, PinsdAlignment, PinsdMode, PinsdPhase, PinsdProtection, PinsdSigma, PinsdStatus,
-    PinsdTime, ProtectionState,
+    Pinsd, PinsdAlignment, PinsdIntegrity, PinsdMode, PinsdPhase, PinsdProtection, PinsdSigma,
+    PinsdStatus, PinsdTime, ProtectionState,
 };
 pub use pixse::{Pixse, PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus};
 pub use pnorbt::{NortekBeam, NortekBottomTrack, NortekGroundSpeed, NortekSensors};

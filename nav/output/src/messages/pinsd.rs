@@ -56,6 +56,8 @@ fn status(said: &Said<'_>, _: Talker) -> Option<Content> {
         time_source: time_source(&said),
         simulated: said.is_simulated(),
         alerts: None,
+        integrity: said.judgement().map(|own| own.integrity.into()),
+        excluded: said.judgement().map(|own| own.excluded),
     };
     one(Pinsd::Status(status).write())
 }

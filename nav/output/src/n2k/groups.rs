@@ -1,6 +1,6 @@
 //! An epoch as each of the groups.
 
-use insd_base::FixQuality;
+use insd_base::{self as base, FixQuality};
 use insd_n2k::pgn::{
     Attitude, CourseSpeed, Direction, Dops, FixMethod, FixMode, GnssPosition, GnssSystem, Group,
     Heading, Heave, Integrity, MagneticVariation, North, PositionRapid, PseudorangeNoise,
@@ -126,6 +126,7 @@ impl Say for GnssPosition {
     fn say(said: &Said<'_>) -> Self {
         let marked = said.marked();
         let (place, quality, receiver) = (marked.position(), marked.quality(), marked.receiver());
+        let watch = marked.judgement().map(|judgement| judgement.integrity).unwrap_or_default();
         let (date, time) = utc(said).unzip();
         GnssPosition {
             sid: said.sid,
@@ -136,7 +137,7 @@ impl Say for GnssPosition {
             altitude: place.map(|place| place.height),
             system: Some(GnssSystem::Integrated),
             method: Some(method(quality, said.is_simulated())),
-            integrity: Some(integrity(quality)),
+            integrity: Some(integrity(quality, watch)),
             satellites: receiver.satellites.and_then(|satellites| u8::try_from(satellites).ok()),
             hdop: receiver.hdop,
             pdop: receiver.pdop,
@@ -161,13 +162,17 @@ fn method(quality: FixQuality, simulated: bool) -> FixMethod {
     }
 }
 
-/// Safe is what bridge equipment trusts; unsafe is also what all ones say, so that a field that is not
-/// available can be taken for nothing better.
-fn integrity(quality: FixQuality) -> Integrity {
-    match quality {
-        FixQuality::Invalid => Integrity::Unsafe,
-        FixQuality::Estimated | FixQuality::Manual | FixQuality::Simulated => Integrity::Caution,
-        _ => Integrity::Safe,
+/// Safe is what bridge equipment trusts, and what the sensors bear out; where nobody compares them nobody can say so.
+/// Unsafe is also what all ones say, so that a field that is not available can be taken for nothing better.
+fn integrity(quality: FixQuality, watch: base::Integrity) -> Integrity {
+    match (quality, watch) {
+        (FixQuality::Invalid, _) => Integrity::Unsafe,
+        (FixQuality::Estimated | FixQuality::Manual | FixQuality::Simulated, _) => {
+            Integrity::Caution
+        }
+        (_, base::Integrity::Unproven | base::Integrity::Contradiction) => Integrity::Caution,
+        (_, base::Integrity::Unwatched) => Integrity::NoChecking,
+        (_, base::Integrity::Consistent) => Integrity::Safe,
     }
 }
 

@@ -1,10 +1,11 @@
 //! What insd says in its own sentences.
 
 use insd_base::units::DEG;
-use insd_base::{FixQuality, HeaveQuality, Mode, Ned};
+use insd_base::{FixQuality, HeaveQuality, Integrity, Judgement, Mode, Ned, Parties, Party};
 use insd_output::{Epoch, Manner, Policy};
 use insd_wire::nmea::{
-    HeadingMode, Pinsd, PinsdMode, PinsdProtection, PinsdStatus, ProtectionState, Sentence,
+    HeadingMode, Pinsd, PinsdIntegrity, PinsdMode, PinsdProtection, PinsdStatus, ProtectionState,
+    Sentence,
 };
 
 use crate::ship::*;
@@ -35,7 +36,7 @@ fn spread(north: f64, east: f64, covariance: Option<f64>) -> Epoch {
 #[test]
 fn each_sentence_is_to_the_byte_what_its_page_says() {
     for (name, text) in [
-        ("PINSD.STA", "STA,030405.00,A,799,A,2,2,M,0,"),
+        ("PINSD.STA", "STA,030405.00,A,799,A,2,2,M,0,,A,N"),
         ("PINSD.SIG", "SIG,030405.00,0.80,0.60,1.50,0.020,0.030,0.040,0.020,0.030,0.050,0.04"),
         ("PINSD.ALI", "ALI,030405.00,F,1,0.500,0.170,6,0.040"),
         ("PINSD.PRO", "PRO,030405.00,1.75,3.84,6.63,5,,N"),
@@ -58,6 +59,23 @@ fn the_status_says_mode_and_qualities_by_the_policy() {
         assert_eq!(status(&heaving(quality)).heave, Some(quality));
     }
     assert_eq!(status(&in_mode(Mode::Fault)).heave, None);
+}
+
+#[test]
+fn the_status_says_whether_the_sensors_bear_it_out_and_who_is_left_out() {
+    for (integrity, said) in [
+        (Integrity::Unwatched, PinsdIntegrity::Unwatched),
+        (Integrity::Consistent, PinsdIntegrity::Agreed),
+        (Integrity::Unproven, PinsdIntegrity::Unproven),
+        (Integrity::Contradiction, PinsdIntegrity::Contradicted),
+    ] {
+        let excluded: Parties = [Party::Log, Party::Gnss].into_iter().collect();
+        let told = with(|ship| ship.judgement = Judgement { integrity, excluded });
+        let told = status(&Manner::default(), &told);
+        assert_eq!((told.integrity, told.excluded), (Some(said), Some(excluded)));
+    }
+    let unknown = status(&Manner::default(), &Epoch { solution: None, ..epoch() });
+    assert_eq!((unknown.integrity, unknown.excluded), (None, None));
 }
 
 #[test]

@@ -3,7 +3,8 @@
 use insd_base::units::DEG;
 use insd_base::{
     AlignmentPhase, AlignmentStatus, Attitude, AttitudeSigma, Body, Forecast, Geodetic, Heave,
-    HeaveQuality, Limiting, Mode, Ned, Solution, SolutionSigma, Time, UtcTime,
+    HeaveQuality, Integrity, Judgement, Limiting, Mode, Ned, Solution, SolutionSigma, Time,
+    UtcTime,
 };
 use insd_n2k::pgn::TimeSource;
 use insd_output::{Epoch, Manner, MessageKind, Port, PortConfig, Rate};
@@ -86,7 +87,7 @@ pub(crate) fn leaned(side: f64) -> Epoch {
             heading: 0.05 * DEG,
         },
         mode: Mode::Aided,
-        judgement: insd_base::Judgement::default(),
+        judgement: Judgement { integrity: Integrity::Consistent, ..Judgement::default() },
     };
     let heave = Heave {
         time: now(),

@@ -2,8 +2,8 @@
 
 use insd_base::units::DEG;
 use insd_base::{
-    Attitude, Body, Geodetic, Heave, HeaveQuality, Mode, Ned, Solution, SolutionSigma, Span, Time,
-    UtcTime,
+    Attitude, Body, Geodetic, Heave, HeaveQuality, Integrity, Judgement, Mode, Ned, Solution,
+    SolutionSigma, Span, Time, UtcTime,
 };
 use insd_n2k::node::Transmit;
 use insd_n2k::pgn::{Group, TimeSource};
@@ -26,7 +26,7 @@ pub(crate) fn solution() -> Solution {
             heading: 0.05 * DEG,
         },
         mode: Mode::Aided,
-        judgement: insd_base::Judgement::default(),
+        judgement: Judgement { integrity: Integrity::Consistent, ..Judgement::default() },
     }
 }
 

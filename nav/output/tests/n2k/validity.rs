@@ -1,7 +1,7 @@
 //! What is not available, and when.
 
 use insd_base::units::DEG;
-use insd_base::{Attitude as Angles, Body, Geodetic, Mode, Ned, Solution, Time};
+use insd_base::{self as base, Attitude as Angles, Body, Geodetic, Mode, Ned, Solution, Time};
 use insd_n2k::pgn::{
     Attitude, CourseSpeed, Dops, FixMethod, GnssPosition, GnssSystem, Group, Heading, Heave,
     Integrity, MagneticVariation, PositionRapid, PseudorangeNoise, RateOfTurn, SetDrift, Speed,
@@ -168,6 +168,29 @@ fn the_method_follows_the_sigma() {
         let fix =
             said::<GnssPosition>(&with(|ship| ship.sigma.position = Ned::new(sigma, 0.0, 0.0)));
         assert_eq!((fix.method, fix.integrity), (Some(method), Some(integrity)), "{sigma}");
+    }
+}
+
+#[test]
+fn a_position_is_safe_only_where_somebody_compares_the_sensors_and_they_agree() {
+    let told = |watch: base::Integrity, sigma: f64| {
+        let fix: GnssPosition = said(&with(|ship| {
+            ship.judgement.integrity = watch;
+            ship.sigma.position = Ned::new(sigma, 0.0, 0.0);
+        }));
+        (fix.method, fix.integrity)
+    };
+    let estimated = (Some(FixMethod::DeadReckoning), Some(Integrity::Caution));
+    for (watch, good) in [
+        (base::Integrity::Consistent, (Some(FixMethod::Differential), Some(Integrity::Safe))),
+        (base::Integrity::Unwatched, (Some(FixMethod::Differential), Some(Integrity::NoChecking))),
+        (base::Integrity::Unproven, estimated),
+        (base::Integrity::Contradiction, estimated),
+    ] {
+        assert_eq!(told(watch, 0.8), good, "{watch:?}");
+        assert_eq!(told(watch, 50.0), estimated, "{watch:?}");
+        let none = (Some(FixMethod::NoFix), Some(Integrity::Unsafe));
+        assert_eq!(told(watch, 150.0), none, "{watch:?}");
     }
 }
 

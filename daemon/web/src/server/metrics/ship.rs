@@ -7,7 +7,7 @@ use super::sheet::Sheet;
 /// Name, help, and where it is found.
 type Reading = (&'static str, &'static str, fn(&Motion) -> Option<f64>);
 
-const READINGS: [Reading; 17] = [
+const READINGS: [Reading; 19] = [
     ("latitude_degrees", "Latitude, WGS-84, north positive", |m| m.lat_deg),
     ("longitude_degrees", "Longitude, WGS-84, east positive", |m| m.lon_deg),
     ("height_meters", "Height above the ellipsoid", |m| m.height_m),
@@ -26,6 +26,8 @@ const READINGS: [Reading; 17] = [
     ("north_sigma_meters", "1-sigma of the position to the north", |m| m.sigma_north_m),
     ("east_sigma_meters", "1-sigma of the position to the east", |m| m.sigma_east_m),
     ("height_sigma_meters", "1-sigma of the height", |m| m.sigma_height_m),
+    ("horizontal_protection_level_meters", "Horizontal protection level", |m| m.hpl_m),
+    ("vertical_protection_level_meters", "Protection level of the height", |m| m.vpl_m),
     ("speed_sigma_knots", "1-sigma of the speed", |m| m.sigma_speed_kn),
 ];
 
@@ -36,6 +38,7 @@ pub(super) fn write(sheet: &mut Sheet, snapshot: &Snapshot) {
         for (name, help, of) in READINGS {
             sheet.value(name, help, of(motion));
         }
+        reliance(sheet, motion);
     }
     program(sheet, snapshot);
     alignment(sheet, snapshot);
@@ -47,6 +50,18 @@ pub(super) fn write(sheet: &mut Sheet, snapshot: &Snapshot) {
     for alert in &snapshot.alerts {
         let (priority, state) = (word(&alert.priority), word(&alert.state));
         alerts.set(&[&alert.id.to_string(), &alert.title, &priority, &state], 1.0);
+    }
+}
+
+fn reliance(sheet: &mut Sheet, motion: &Motion) {
+    if let Some(integrity) = &motion.integrity {
+        sheet
+            .gauge("integrity", "Whether the position may be relied on: 1", ["state"])
+            .set(&[integrity], 1.0);
+    }
+    let excluded = sheet.gauge("sensor_excluded", "Who is left out: 1", ["party"]);
+    for party in &motion.excluded {
+        excluded.set(&[party], 1.0);
     }
 }
 

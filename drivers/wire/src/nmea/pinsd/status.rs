@@ -1,8 +1,8 @@
 //! STA: what the system does, and how good that is.
 //!
 //! ```text
-//! $PINSD,STA,hhmmss.ss,m,x,a,q,h,t,s,n*hh
-//!            1         2 3 4 5 6 7 8 9
+//! $PINSD,STA,hhmmss.ss,m,x,a,q,h,t,s,n,i,e*hh
+//!            1         2 3 4 5 6 7 8 9 1011
 //! 1 UTC
 //! 2 mode: S standby, C coarse alignment, F fine alignment at the berth, M alignment in motion, A aided by
 //!   GNSS, D dead reckoning by log or reference, I inertial alone, X fault
@@ -14,9 +14,13 @@
 //! 7 time: P by pulses, M by messages, U unknown
 //! 8 1 if any of this comes from a simulator, else 0
 //! 9 number of active alerts
+//! 10 whether the sensors bear it out: A they do, U it rests on a receiver on trial, V they contradict each other,
+//!    N nobody compares them
+//! 11 who is left out: N nobody, else letters of G GNSS, L log, H heading, R other reference, I IMU
 //! ```
+//! Fields 10 and 11 came later: a line that ends before them is one of an older version.
 
-use insd_base::{FixQuality, HeaveQuality, Mode};
+use insd_base::{FixQuality, HeaveQuality, Integrity, Mode, Parties, Party};
 
 use super::{flag, read_flag, read_letter};
 use crate::nmea::civil::TimeOfDay;
@@ -61,12 +65,48 @@ pub enum PinsdTime {
     Unknown,
 }
 
+/// Whether the sensors bear out what is told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PinsdIntegrity {
+    /// A: those that are used agree.
+    Agreed,
+    /// U: a receiver is used that was found to lie, and nothing shows that it does not any more.
+    Unproven,
+    /// V: they contradict each other, and it is not known who is wrong.
+    Contradicted,
+    /// N: nobody compares them.
+    Unwatched,
+}
+
 letters! {
     PinsdMode {
         Standby b'S', CoarseAlignment b'C', FineAlignment b'F', InMotionAlignment b'M',
         Aided b'A', DeadReckoning b'D', Inertial b'I', Fault b'X'
     }
     PinsdTime { Pulses b'P', Messages b'M', Unknown b'U' }
+    PinsdIntegrity { Agreed b'A', Unproven b'U', Contradicted b'V', Unwatched b'N' }
+}
+
+/// The letter of nobody.
+const NOBODY: &str = "N";
+/// Whose letter is whose.
+const LETTERS: [(Party, char); Party::ALL.len()] = [
+    (Party::Gnss, 'G'),
+    (Party::Log, 'L'),
+    (Party::Heading, 'H'),
+    (Party::Reference, 'R'),
+    (Party::Imu, 'I'),
+];
+
+impl From<Integrity> for PinsdIntegrity {
+    fn from(integrity: Integrity) -> Self {
+        match integrity {
+            Integrity::Unwatched => PinsdIntegrity::Unwatched,
+            Integrity::Consistent => PinsdIntegrity::Agreed,
+            Integrity::Unproven => PinsdIntegrity::Unproven,
+            Integrity::Contradiction => PinsdIntegrity::Contradicted,
+        }
+    }
 }
 
 impl From<Mode> for PinsdMode {
@@ -105,6 +145,10 @@ pub struct PinsdStatus {
     pub simulated: bool,
     /// Number of active alerts.
     pub alerts: Option<u32>,
+    /// Whether the sensors bear it out.
+    pub integrity: Option<PinsdIntegrity>,
+    /// Who is left out; `None` where that is not known.
+    pub excluded: Option<Parties>,
 }
 
 impl PinsdStatus {
@@ -112,7 +156,7 @@ impl PinsdStatus {
     pub const NAME: &'static str = "STA";
 
     /// Greatest length, bytes with CR LF.
-    pub const LONGEST: usize = 51;
+    pub const LONGEST: usize = 59;
 
     pub(super) fn write_fields(&self, line: &mut Composer) {
         line.text(Self::NAME);
@@ -125,6 +169,8 @@ impl PinsdStatus {
         line.letter(self.time_source.letter());
         flag(line, self.simulated);
         line.whole(self.alerts, 1, MAX_ALERTS);
+        line.optional_letter(self.integrity.map(PinsdIntegrity::letter));
+        line.text(&self.excluded.map(letters_of).unwrap_or_default());
     }
 
     pub(super) fn read_fields(fields: &mut Fields<'_>) -> Result<Self, Fault> {
@@ -144,6 +190,36 @@ impl PinsdStatus {
             time_source: read_letter(fields, PinsdTime::from_letter)?,
             simulated: read_flag(fields)?,
             alerts: fields.whole(MAX_ALERTS)?,
+            integrity: appended(fields, |fields| {
+                fields.convert(|text| match text.as_bytes() {
+                    [letter] => PinsdIntegrity::from_letter(*letter),
+                    _ => None,
+                })
+            })?,
+            excluded: appended(fields, |fields| fields.convert(parties_of))?,
         })
     }
+}
+
+/// A field that lines of older versions do not have.
+fn appended<'a, T>(
+    fields: &mut Fields<'a>,
+    read: impl FnOnce(&mut Fields<'a>) -> Result<Option<T>, Fault>,
+) -> Result<Option<T>, Fault> {
+    if fields.has_more() { read(fields) } else { Ok(None) }
+}
+
+fn letters_of(parties: Parties) -> String {
+    let own = LETTERS.into_iter().filter(|(party, _)| parties.contains(*party));
+    let letters: String = own.map(|(_, letter)| letter).collect();
+    if letters.is_empty() { NOBODY.to_owned() } else { letters }
+}
+
+/// Those of some letters, in whatever order.
+fn parties_of(letters: &str) -> Option<Parties> {
+    if letters == NOBODY {
+        return Some(Parties::default());
+    }
+    let party = |letter| LETTERS.into_iter().find(|(_, own)| *own == letter).map(|own| own.0);
+    letters.chars().map(party).collect()
 }

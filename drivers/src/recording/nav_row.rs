@@ -1,0 +1,72 @@
+//! A row of `nav.csv`: a solution, and what it says of how far it may be relied on.
+
+use insd_base::{Availability, Solution, Time};
+
+use super::fields::Fields;
+use super::report::{BadRow, RowFault};
+use super::rows::{NAV, solution};
+use super::table::Row;
+
+/// Where the columns behind the mode stand in [`NAV`].
+const HORIZONTAL: usize = 20;
+const VERTICAL: usize = 21;
+const INTEGRITY: usize = 22;
+const EXCLUDED: usize = 23;
+
+/// A row of `nav.csv`. What it does not say is `None`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NavRow {
+    /// The solution. Of what was made of the sensors' words it says nothing; that stands below.
+    pub solution: Solution,
+    /// The horizontal error is said to be smaller, m.
+    pub horizontal_level: Option<f64>,
+    /// The error of the height is said to be smaller, m.
+    pub vertical_level: Option<f64>,
+    /// Whether it may be relied on.
+    pub integrity: Option<Availability>,
+    /// Whoever is left out: `gnss`, `log`, or words of another program (`G07`, `a2`).
+    pub excluded: Vec<String>,
+}
+
+impl Row for NavRow {
+    const COLUMNS: &'static [&'static str] = NAV;
+    const REQUIRED: usize = HORIZONTAL;
+
+    fn parse(fields: &Fields<'_>) -> Result<Self, BadRow> {
+        let level = |column| fields.within(column, 0.0..=f64::MAX);
+        Ok(NavRow {
+            solution: solution(fields)?,
+            horizontal_level: level(HORIZONTAL)?,
+            vertical_level: level(VERTICAL)?,
+            integrity: integrity(fields)?,
+            excluded: excluded(fields)?,
+        })
+    }
+
+    fn time(&self) -> Time {
+        self.solution.time
+    }
+
+    /// A row that is left out because of them might be the one that misled.
+    fn is_fatal(bad: &BadRow) -> bool {
+        NAV[HORIZONTAL..].contains(&bad.column)
+    }
+}
+
+fn integrity(fields: &Fields<'_>) -> Result<Option<Availability>, BadRow> {
+    let word = fields.raw(INTEGRITY);
+    if word.is_empty() {
+        return Ok(None);
+    }
+    let known = std::str::from_utf8(word).ok().and_then(Availability::from_word);
+    known.map(Some).ok_or_else(|| fields.bad(INTEGRITY, RowFault::UnknownWord))
+}
+
+/// Words of letters, digits and underscores, between spaces.
+fn excluded(fields: &Fields<'_>) -> Result<Vec<String>, BadRow> {
+    let is_of_word = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b' ';
+    let text = std::str::from_utf8(fields.raw(EXCLUDED)).ok();
+    let text = text.filter(|text| text.bytes().all(is_of_word));
+    let text = text.ok_or_else(|| fields.bad(EXCLUDED, RowFault::UnknownWord))?;
+    Ok(text.split_ascii_whitespace().map(str::to_owned).collect())
+}
