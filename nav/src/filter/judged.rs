@@ -100,7 +100,9 @@ impl Filter {
         match aid.party().filter(|_| judge.docket().leaves_out(aid)) {
             Some(Party::Gnss) if judge.docket().leaves_out_gnss() => {}
             Some(party) => {
-                weighed.iter().for_each(|weighed| judge.watch(party, aid, now, weighed));
+                weighed
+                    .iter()
+                    .for_each(|weighed| judge.watch((party, aid), now, innovation, weighed));
             }
             None => judge.hear(aid, now, innovation, &attitude, direct),
         }

@@ -65,6 +65,11 @@ impl Hearing {
         self.last.is_none_or(|last| (now - last).as_seconds() >= SPACING)
     }
 
+    /// Whether it was heard within such a time, s.
+    pub(super) fn was_within(&self, now: Time, span: f64) -> bool {
+        self.last.is_some_and(|last| (now - last).as_seconds() <= span)
+    }
+
     /// It is heard now.
     pub(super) fn note(&mut self, now: Time) {
         self.last = Some(now);

@@ -251,6 +251,13 @@ impl Docket {
         }
     }
 
+    /// Hears somebody again who was left out for his noise alone.
+    pub fn recall(&mut self, party: Party, now: Time) {
+        if self.entries[party as usize].fault.is_some_and(Fault::is_noise) {
+            self.enter(party, Standing::Trusted, now);
+        }
+    }
+
     fn acquit(&mut self, party: Party, now: Time) {
         let left = self.lie.off.norm();
         let standing = match party {

@@ -58,6 +58,8 @@ const OLDEST: f64 = 2500.0;
 const PERSISTS: f64 = 4.0;
 /// the same of somebody who is wrong in no way that is known, and might only be found to scatter, s.
 const SCATTERS: f64 = 12.0;
+/// A log of which the variance of the noise is so many times that stated tells now this and now that.
+const WILD: f64 = 25.0;
 /// The claims cover what may be from such odds on, as a logarithm, that somebody lies;
 const LIKELY: f64 = 2.3;
 /// what is less likely than this, as a logarithm, is not covered by the claims.
@@ -77,6 +79,8 @@ pub struct Judge {
     in_doubt: bool,
     accused: Option<(Party, Time)>,
     docket: Docket,
+    /// Since when the log scatters wildly.
+    wild: Option<Time>,
     /// The IMU was not believed at all a while ago: where it and somebody else contradict each other it is at fault.
     imu_on_trial: bool,
 }
@@ -96,6 +100,7 @@ impl Judge {
             assessment: Assessment::default(),
             in_doubt: false,
             accused: None,
+            wild: None,
             imu_on_trial: docket.imu_doubted_since().is_some(),
             docket,
         }
@@ -289,8 +294,9 @@ impl Judge {
         if self.docket.is_restless() {
             return self.look_at_imu(now);
         }
-        if let Some(verdict) = self.look_at_pessimist() {
-            return Some(verdict);
+        let quiet = self.look_at_pessimist().or_else(|| self.look_at_scatter(now));
+        if quiet.is_some() {
+            return quiet;
         }
         let is_excused = |charge: &Charge| excused.contains(charge.party());
         let first = self.likeliest().filter(|first| !is_excused(first));
@@ -337,16 +343,19 @@ impl Judge {
         self.shadow.alternative()
     }
 
-    /// Sees an innovation of somebody who is left out, weighed by the navigator.
+    /// Sees an innovation of somebody who is left out, as it is and weighed by the navigator.
     pub fn watch<const M: usize>(
         &mut self,
-        party: Party,
-        aid: Aid,
+        (party, aid): (Party, Aid),
         now: Time,
+        innovation: &Innovation<M>,
         weighed: &Weighed<M>,
     ) {
-        self.hearings[aid as usize].note(now);
-        self.docket.watch(party, now, agrees(weighed));
+        let hearing = &mut self.hearings[aid as usize];
+        hearing.note(now);
+        hearing.see(innovation);
+        let is_calm = hearing.noise() < WILD;
+        self.docket.watch(party, now, agrees(weighed) && is_calm);
     }
 
     /// Sees position and velocity of a receiver that is left out together, weighed by the navigator, which has a

@@ -3,8 +3,8 @@
 use insd_base::{Fault, Party, Time};
 use nalgebra::Vector2;
 
-use super::Judge;
 use super::charge::{Charge, DOUBT, Kind, PLAIN};
+use super::{Aid, Judge, SCATTERS, UNHEARD, WILD};
 use crate::config::WORST;
 use crate::error_state::{ATTITUDE, Covariance, ErrorState, GNSS_DELAY};
 
@@ -97,6 +97,28 @@ impl Judge {
         // a step is proven; what biases do that no aid sees, to the heading above all, asks for another
         self.docket = self.docket.with_worse_imu().with_worse_imu();
         Some(Verdict { fault: Fault::ImuWorse, mended: Some(self.pessimist.shadow.alternative()) })
+    }
+
+    /// A log that scatters wildly, as one that tells now the speed over the bottom and now that through the water, while
+    /// a receiver is heard: without one, what it says is better than nothing.
+    pub(super) fn look_at_scatter(&mut self, now: Time) -> Option<Verdict> {
+        let is_wild = [Aid::Log, Aid::LogStarboard].iter().any(|aid| self.noise(*aid) > WILD);
+        let of_gnss = &self.hearings[Aid::GnssPosition as usize];
+        let has_fixes = of_gnss.was_within(now, UNHEARD) && !self.docket.leaves_out_gnss();
+        if self.docket.is_excluded(Party::Log) {
+            if is_wild && !has_fixes {
+                self.docket.recall(Party::Log, now);
+            }
+            return None;
+        }
+        self.wild = self.wild.or(Some(now)).filter(|_| is_wild && has_fixes);
+        let persists = self.wild.is_some_and(|since| (now - since).as_seconds() >= SCATTERS);
+        persists.then(|| {
+            let charge = Charge::shapeless(Party::Log, DOUBT);
+            let mended = self.alternative(&charge);
+            self.docket.convict(charge.fault, now, lie_of_gnss(&charge, 0.0));
+            Verdict { fault: charge.fault, mended: Some(mended) }
+        })
     }
 
     /// The IMU is of no use.
