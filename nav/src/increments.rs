@@ -85,7 +85,6 @@ pub enum Conditioned {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Conditioner {
     nominal: f64,
-    random_walks: (f64, f64),
     rate: NoiseMonitor,
     force: NoiseMonitor,
     bridging: Bridging,
@@ -134,9 +133,8 @@ impl Conditioner {
     pub fn new(imu: &ImuSpec) -> Self {
         Conditioner {
             nominal: 1.0 / imu.rate,
-            random_walks: (imu.gyro.random_walk, imu.accel.random_walk),
-            rate: NoiseMonitor::default(),
-            force: NoiseMonitor::default(),
+            rate: NoiseMonitor::new(imu.gyro.random_walk, 1.0 / imu.rate),
+            force: NoiseMonitor::new(imu.accel.random_walk, 1.0 / imu.rate),
             bridging: Bridging::default(),
             jitter: 0.0,
             last: None,
@@ -158,8 +156,15 @@ impl Conditioner {
             Some(last) => self.bridging.kept(last.time, &last.mean.moment()),
             None => Bridging::default(),
         };
-        let Conditioner { nominal, random_walks, rate, force, jitter, last, leap, .. } = *self;
-        Conditioner { nominal, random_walks, rate, force, bridging, jitter, last, leap }
+        Conditioner {
+            nominal: self.nominal,
+            rate: self.rate.kept(),
+            force: self.force.kept(),
+            bridging,
+            jitter: self.jitter,
+            last: self.last,
+            leap: self.leap,
+        }
     }
 
     /// What has been learnt of bridging gaps.
@@ -268,12 +273,7 @@ impl Conditioner {
     }
 
     fn with_noise(&self, increment: Increment) -> Increment {
-        let (gyro, accel) = self.random_walks;
-        Increment {
-            rate_noise: self.rate.excess(gyro),
-            force_noise: self.force.excess(accel),
-            ..increment
-        }
+        Increment { rate_noise: self.rate.excess(), force_noise: self.force.excess(), ..increment }
     }
 
     fn first(&mut self, sample: &ImuSample) -> Conditioned {
