@@ -86,7 +86,6 @@ pub enum Conditioned {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Conditioner {
     nominal: f64,
-    random_walks: (f64, f64),
     rate: NoiseMonitor,
     force: NoiseMonitor,
     spikes: Spikes,
@@ -136,9 +135,8 @@ impl Conditioner {
     pub fn new(imu: &ImuSpec) -> Self {
         Conditioner {
             nominal: 1.0 / imu.rate,
-            random_walks: (imu.gyro.random_walk, imu.accel.random_walk),
-            rate: NoiseMonitor::default(),
-            force: NoiseMonitor::default(),
+            rate: NoiseMonitor::new(imu.gyro.random_walk, 1.0 / imu.rate),
+            force: NoiseMonitor::new(imu.accel.random_walk, 1.0 / imu.rate),
             spikes: Spikes::default(),
             bridging: Bridging::default(),
             jitter: 0.0,
@@ -161,7 +159,16 @@ impl Conditioner {
             Some(last) => self.bridging.kept(last.time, &last.mean.moment()),
             None => Bridging::default(),
         };
-        Conditioner { bridging, ..self.clone() }
+        Conditioner {
+            nominal: self.nominal,
+            rate: self.rate.kept(),
+            force: self.force.kept(),
+            spikes: self.spikes,
+            bridging,
+            jitter: self.jitter,
+            last: self.last,
+            leap: self.leap,
+        }
     }
 
     /// What has been learnt of bridging gaps.
@@ -274,12 +281,7 @@ impl Conditioner {
     }
 
     fn with_noise(&self, increment: Increment) -> Increment {
-        let (gyro, accel) = self.random_walks;
-        Increment {
-            rate_noise: self.rate.excess(gyro),
-            force_noise: self.force.excess(accel),
-            ..increment
-        }
+        Increment { rate_noise: self.rate.excess(), force_noise: self.force.excess(), ..increment }
     }
 
     fn first(&mut self, sample: &ImuSample) -> Conditioned {

@@ -45,6 +45,7 @@ pub(crate) enum Purpose {
     Lying,
     Compass,
     SecondReceiver,
+    Vibration,
 }
 
 /// The stream of one purpose in the voyage of one seed.

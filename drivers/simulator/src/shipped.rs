@@ -33,5 +33,6 @@ pub fn shipped() -> &'static [(&'static str, &'static str)] {
         "21-moored-lost-samples.toml",
         "22-moored-gnss.toml",
         "23-moored-departure.toml",
+        "24-moored-engine.toml",
     ]
 }

@@ -4,8 +4,8 @@ use insd::evaluation::Component;
 use insd_base::units::{DEG, wrap_pi};
 use insd_simulator::limit;
 use insd_tests::sailing::{Passage, sail_all};
-use insd_tests::scenario;
 use insd_tests::scores::{Scores, pooled};
+use insd_tests::{scenario, variant};
 
 use super::figure;
 
@@ -42,6 +42,24 @@ fn s07_the_claimed_heading_is_near_that_of_the_optimal_filter() {
             assert!(sigma < 1.1 * limit.heading, "s{number} at {at} s");
         }
         assert!(worst(&passages) < 4.5, "s{number}: {}", worst(&passages));
+    }
+}
+
+#[test]
+fn s24_steps_and_an_engine_leave_the_claimed_heading_near_that_of_the_optimal_filter() {
+    for step in ["0.1", "0.7", "2.0"] {
+        let steps = format!("gyro_arcsec = {step}");
+        let ship = variant(24, &[("gyro_arcsec = 0.7", &steps)]).with_duration(620.0);
+        let passages = sail_all(&ship, 0..2);
+        let bound = limit(&ship, &[300.0, 600.0]).unwrap();
+        for (at, limit) in [300.0, 600.0].into_iter().zip(bound) {
+            for passage in &passages {
+                let (error, sigma) = heading_at(passage, at);
+                figure!("s24 {step} arcsec, {at} s: {} off, {} deg", error / DEG, sigma / DEG);
+                assert!(sigma < 1.2 * limit.heading, "{step} arcsec at {at} s");
+            }
+        }
+        assert!(worst(&passages) < 4.5, "{step} arcsec: {}", worst(&passages));
     }
 }
 

@@ -125,6 +125,33 @@ pub(crate) struct ImuGap {
     pub(crate) duration_s: Spread,
 }
 
+/// The steps in which angle and velocity are counted; zero is none.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Quantisation {
+    /// Angle. What is left of a step goes into the next increment.
+    #[serde(default)]
+    pub(crate) gyro_arcsec: f64,
+    /// Velocity, likewise.
+    #[serde(default)]
+    pub(crate) accel_mps: f64,
+}
+
+/// One line in the spectrum of what an engine does to the IMU. Each axis has an amplitude between a
+/// third of these and all of it, and a phase of its own.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Vibration {
+    /// Frequency.
+    pub(crate) frequency_hz: f64,
+    /// Greatest amplitude of the angular rate of an axis.
+    #[serde(default)]
+    pub(crate) rate_deg_s: f64,
+    /// Greatest amplitude of the specific force along an axis.
+    #[serde(default)]
+    pub(crate) force_mps2: f64,
+}
+
 /// The inertial measurement unit.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
@@ -140,6 +167,12 @@ pub(crate) struct Imu {
     /// the uneven intervals.
     #[serde(default)]
     pub(crate) jitter_std_s: f64,
+    /// Steps of the increments.
+    #[serde(default)]
+    pub(crate) quantisation: Quantisation,
+    /// What the engine does; too small and too quick to be in the truth.
+    #[serde(default)]
+    pub(crate) vibration: Vec<Vibration>,
     /// Share of the samples that never arrive, each lost on its own.
     #[serde(default)]
     pub(crate) lost_share: f64,
@@ -176,6 +209,15 @@ impl Imu {
         faults.range("imu.rate_hz", self.rate_hz, 10.0, 1000.0);
         faults.range("imu.jitter_std_s", self.jitter_std_s, 0.0, 0.2 / self.rate_hz);
         faults.range("imu.lost_share", self.lost_share, 0.0, 0.5);
+        let steps = &self.quantisation;
+        faults.range("imu.quantisation.gyro_arcsec", steps.gyro_arcsec, 0.0, 1e3);
+        faults.range("imu.quantisation.accel_mps", steps.accel_mps, 0.0, 1.0);
+        for (index, line) in self.vibration.iter().enumerate() {
+            let key = format!("imu.vibration[{index}]");
+            faults.range(format!("{key}.frequency_hz"), line.frequency_hz, 1.0, 1e4);
+            faults.range(format!("{key}.rate_deg_s"), line.rate_deg_s, 0.0, 100.0);
+            faults.range(format!("{key}.force_mps2"), line.force_mps2, 0.0, 100.0);
+        }
         match (self.grade, &self.errors) {
             (Some(_), None) => {}
             (None, Some(errors)) => errors.check(faults),

@@ -20,7 +20,7 @@ use fault::Faults;
 
 pub use fault::{Fault, ScenarioError};
 pub(crate) use gnss::{Gnss, GnssGrade, GnssNoise, StdFault};
-pub(crate) use imu::Imu;
+pub(crate) use imu::{Imu, Vibration};
 pub(crate) use log::{Current, Log, LogAxes};
 pub use overrides::Override;
 pub(crate) use reference::{PositionReference, Reference};

@@ -4,9 +4,11 @@ use nalgebra::Vector3;
 use rand_pcg::Pcg64;
 
 use insd_base::earth::{gravity_e, rate_e};
+use insd_base::units::DEG;
 use insd_base::{Body, ImuSample, ImuSpec, Stamped, Time};
 
 use super::epochs;
+use super::vibration::Engine;
 use super::windows::{Window, windows};
 use crate::quadrature::{NODES, WEIGHTS};
 use crate::random::{GaussMarkov, Purpose, normal, normal3, stream, uniform};
@@ -109,6 +111,31 @@ fn accel_errors(spec: &ImuSpec, seed: u64) -> TriadErrors {
     }
 }
 
+/// Counts in steps: what is left of one goes into the next increment, so that the sum of the increments is
+/// never off by more than half a step.
+#[derive(Debug)]
+struct Quantiser {
+    step: f64,
+    rest: Vector3<f64>,
+}
+
+impl Quantiser {
+    /// Steps in the unit of the increments; none if zero.
+    fn new(step: f64) -> Self {
+        Quantiser { step, rest: Vector3::zeros() }
+    }
+
+    fn count(&mut self, increment: &Vector3<f64>) -> Vector3<f64> {
+        if self.step == 0.0 {
+            return *increment;
+        }
+        let due = increment + self.rest;
+        let counted = due.map(|value| (value / self.step).round() * self.step);
+        self.rest = due - counted;
+        counted
+    }
+}
+
 /// The faults of the data line.
 #[derive(Debug)]
 struct LineFaults {
@@ -170,6 +197,9 @@ pub(crate) fn samples_at(
     let spec = imu.simulated();
     let mut gyro = gyro_errors(&spec, seed);
     let mut accel = accel_errors(&spec, seed);
+    let engine = Engine::new(&imu.vibration, seed);
+    let mut angle = Quantiser::new(imu.quantisation.gyro_arcsec * DEG / 3600.0);
+    let mut speed = Quantiser::new(imu.quantisation.accel_mps);
     let mut line = LineFaults::new(imu, seed);
     let mut jitter = stream(seed, Purpose::ImuJitter);
     let mut samples = Vec::with_capacity((duration * imu.rate_hz) as usize + 1);
@@ -183,10 +213,13 @@ pub(crate) fn samples_at(
         if let Some(lever) = lever {
             velocity += swing(track, (from, to), lever);
         }
+        let shaken = engine.increments(from, to);
+        let theta = gyro.measure(&theta, to - from) + shaken.0;
+        let velocity = accel.measure(&velocity, to - from) + shaken.1;
         let message = ImuSample {
             time,
-            delta_theta: Body(gyro.measure(&theta, to - from)),
-            delta_velocity: Body(accel.measure(&velocity, to - from)),
+            delta_theta: Body(angle.count(&theta)),
+            delta_velocity: Body(speed.count(&velocity)),
         };
         samples.extend(std::iter::repeat_n(Stamped::prompt(message), line.copies(to)));
         from = to;

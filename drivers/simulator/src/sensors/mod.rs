@@ -5,6 +5,7 @@ mod gnss_faults;
 pub(crate) mod imu;
 pub(crate) mod log;
 pub(crate) mod reference;
+mod vibration;
 mod windows;
 
 use insd_base::{Span, Stamped, Time};

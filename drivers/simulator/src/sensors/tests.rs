@@ -397,3 +397,27 @@ fn another_navigator_gives_velocity_and_heading_with_their_noise() {
 fn a_reference_that_only_knows_the_berth_is_silent_under_way() {
     assert!(references(10.0, "reference = {}\n").2.is_empty());
 }
+
+#[test]
+fn an_imu_that_counts_in_steps_and_an_engine_leave_the_sums_as_they_were() {
+    let samples = |faults: &str| {
+        let rest = format!("imu = {{ grade = \"navigation\"{faults} }}\n{ROUGH}");
+        let scenario = scenario(10.0, 60.0, &rest);
+        super::imu::samples(&scenario.imu, &Track::new(&scenario, 4), 60.0, 4)
+    };
+    let clean = samples("");
+    let counted = samples(", quantisation = { gyro_arcsec = 2.0, accel_mps = 0.0006 }");
+    let shaken = samples(", vibration = [{ frequency_hz = 12.4, rate_deg_s = 0.05 }]");
+    let (step, swing) = (2.0 * DEG / 3600.0, 0.05 * DEG / (std::f64::consts::TAU * 12.4));
+    let mut sums = [Vector3::zeros(); 3];
+    let mut swung: f64 = 0.0;
+    for ((a, b), c) in clean.iter().zip(&counted).zip(&shaken) {
+        let (a, b, c) = (a.message.delta_theta.0, b.message.delta_theta.0, c.message.delta_theta.0);
+        assert!(b.iter().all(|angle| (angle / step - (angle / step).round()).abs() < 1e-6));
+        sums = [sums[0] + a, sums[1] + b, sums[2] + c];
+        assert!((sums[1] - sums[0]).amax() < 0.5001 * step);
+        assert!((sums[2] - sums[0]).amax() < 2.0 * swing);
+        swung = swung.max((sums[2] - sums[0]).amax());
+    }
+    assert!(swung > 0.5 * swing);
+}
