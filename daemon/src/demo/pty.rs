@@ -149,6 +149,17 @@ mod tests {
         std::thread::sleep(std::time::Duration::from_millis(2));
     }
 
+    /// Waits until the kernel has handed over what was written, which on a busy machine takes its time.
+    fn arrive(pty: &Pty) {
+        const PATIENCE: u32 = 500;
+        for _ in 0..PATIENCE {
+            settle();
+            if ioctl_fionread(&pty.far).unwrap() >= pty.left {
+                return;
+            }
+        }
+    }
+
     fn read_all(reader: &mut std::fs::File) -> String {
         // the kernel hands bytes over when it gets to it, on a busy machine some time later
         const PATIENCE: u32 = 10;
@@ -189,7 +200,7 @@ mod tests {
             pty.push(group(number).as_bytes());
             pty.push(group(number).as_bytes());
             pty.pump();
-            settle();
+            arrive(&pty);
         }
         let text = read_all(&mut reader(&pty));
         assert!(text.ends_with(&group(199)), "{text:?}");
