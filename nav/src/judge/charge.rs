@@ -20,7 +20,7 @@ const MUCH: f64 = 20.0;
 /// By how much likelier an IMU that was wrong a while ago is to be wrong again, as a logarithm.
 const RELAPSE: f64 = 10.0;
 /// Share of what the likeliest fault of an IMU explains that a plain one must.
-pub(super) const PLAIN: f64 = 0.9;
+const PLAIN: f64 = 0.9;
 /// A scale factor that changes so much that it matters shows within this, s: what takes longer is how little the model
 /// knows of a ship in waves.
 const QUICK: f64 = 60.0;
@@ -79,11 +79,6 @@ impl Charge {
         };
         let (evidence, begun) = (0.0, Time::START);
         Charge { fault, weight, evidence, begun, kind: Kind::Shapeless }
-    }
-
-    /// By how much likelier than nobody lying what is said is with it, as a logarithm.
-    pub(super) fn evidence(&self) -> f64 {
-        self.evidence
     }
 
     /// What it explains of the normalised squares, where that can be said.

@@ -209,7 +209,7 @@ impl Judge {
         for dissenter in &mut self.dissenters {
             dissenter.hear((party, now), innovation, attitude, likelihood);
         }
-        self.pessimist.hear(innovation, attitude, likelihood);
+        self.pessimist.hear(now, innovation, attitude, likelihood);
         self.shadow.absorb(&weighed, attitude);
     }
 
@@ -223,6 +223,7 @@ impl Judge {
     fn acquit_all(&mut self, noisy: Option<Party>) {
         self.onsets.clear();
         self.spawned = None;
+        self.pessimist.forget();
         let dissenter = noisy.and_then(|noisy| self.dissenter(noisy));
         let now = dissenter.map_or(&self.shadow, |dissenter| &dissenter.shadow).clone();
         self.shadow = now.clone();
@@ -294,7 +295,7 @@ impl Judge {
         if self.docket.is_restless() {
             return self.look_at_imu(now);
         }
-        let quiet = self.look_at_pessimist().or_else(|| self.look_at_scatter(now));
+        let quiet = self.look_at_pessimist(now).or_else(|| self.look_at_scatter(now));
         if quiet.is_some() {
             return quiet;
         }

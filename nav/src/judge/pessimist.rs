@@ -5,7 +5,7 @@
 //! time the pessimist finds what is said likelier, he is right. The sum of his log-likelihoods less the
 //! shadow's is begun anew whenever it is negative (Page, Continuous Inspection Schemes, Biometrika 41 (1954)).
 
-use insd_base::ImuSpec;
+use insd_base::{ImuSpec, Time};
 use nalgebra::UnitQuaternion;
 
 use super::dissenter::log_likelihood;
@@ -14,8 +14,10 @@ use crate::error_state::Covariance;
 use crate::initial::take_for_worse;
 use crate::innovation::Innovation;
 
-/// By how much likelier he must be, as a logarithm.
+/// By how much likelier he must be, as a logarithm, and for how long he must have been, s: what is bad of a sudden is
+/// something else.
 const CONVINCED: f64 = 25.0;
+const PATIENT: f64 = 200.0;
 
 /// One of them.
 #[derive(Clone, Debug)]
@@ -23,6 +25,8 @@ pub(super) struct Pessimist {
     pub(super) shadow: Shadow,
     /// By how much likelier he finds what is said, as a logarithm.
     pub(super) gain: f64,
+    /// Since when he finds it likelier.
+    since: Time,
 }
 
 impl Pessimist {
@@ -30,23 +34,32 @@ impl Pessimist {
     pub(super) fn new(covariance: &Covariance, imu: &ImuSpec) -> Self {
         let mut shadow = Shadow::of(covariance);
         take_for_worse(&mut shadow.covariance, imu);
-        Pessimist { shadow, gain: 0.0 }
+        Pessimist { shadow, gain: 0.0, since: Time::START }
     }
 
     /// Hears an innovation of the navigator; `others` is how likely the shadow finds it, as a logarithm.
     pub(super) fn hear<const M: usize>(
         &mut self,
+        now: Time,
         innovation: &Innovation<M>,
         attitude: &UnitQuaternion<f64>,
         others: f64,
     ) {
         let Some(weighed) = self.shadow.weigh(innovation, 1.0) else { return };
+        if self.gain <= 0.0 {
+            self.since = now;
+        }
         self.gain = (self.gain + log_likelihood(&weighed) - others).max(0.0);
         self.shadow.absorb(&weighed, attitude);
     }
 
+    /// Somebody lies, or did: what that did is no evidence.
+    pub(super) fn forget(&mut self) {
+        self.gain = 0.0;
+    }
+
     /// Whether he is right.
-    pub(super) fn is_right(&self) -> bool {
-        self.gain > CONVINCED
+    pub(super) fn is_right(&self, now: Time) -> bool {
+        self.gain > CONVINCED && (now - self.since).as_seconds() > PATIENT
     }
 }

@@ -1,9 +1,9 @@
 //! What follows when somebody is found to lie.
 
-use insd_base::{Fault, Party, Time};
+use insd_base::{Fault, Party, Standing, Time};
 use nalgebra::Vector2;
 
-use super::charge::{Charge, DOUBT, Kind, PLAIN};
+use super::charge::{Charge, DOUBT, Kind};
 use super::{Aid, Judge, SCATTERS, UNHEARD, WILD};
 use crate::config::WORST;
 use crate::error_state::{ATTITUDE, Covariance, ErrorState, GNSS_DELAY};
@@ -87,11 +87,13 @@ impl Judge {
         Verdict { fault: plain.fault, mended: Some(mended) }
     }
 
-    /// Whether the IMU is worse than assumed, and that explains what a lie would.
-    pub(super) fn look_at_pessimist(&mut self) -> Option<Verdict> {
-        let needed = self.assessment.charges.first().map_or(0.0, Charge::evidence);
-        let gain = self.pessimist.gain;
-        if !self.pessimist.is_right() || gain < PLAIN * needed || self.docket.worse() >= WORST {
+    /// Whether the IMU is worse than assumed, while nobody is known to lie.
+    pub(super) fn look_at_pessimist(&mut self, now: Time) -> Option<Verdict> {
+        let is_any_out = self.docket.all().any(|stands| stands.standing != Standing::Trusted);
+        if self.assessment.total > DOUBT || is_any_out {
+            self.pessimist.forget();
+        }
+        if !self.pessimist.is_right(now) || self.docket.worse() >= WORST {
             return None;
         }
         // a step is proven; what biases do that no aid sees, to the heading above all, asks for another
