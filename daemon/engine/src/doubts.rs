@@ -43,9 +43,11 @@ impl Engine {
             }
         }
         let Some(misled) = line.estimator().refuted_by() else {
-            let condemned = self.surveyor.condemned;
-            let is_served = condemned.is_none_or(|at| (time - at).as_seconds() > SENTENCE);
-            self.surveyor.is_refuted &= !(is_served && line.estimator().is_acquitted());
+            if self.surveyor.is_refuted {
+                let condemned = self.surveyor.condemned;
+                let is_served = condemned.is_none_or(|at| (time - at).as_seconds() > SENTENCE);
+                self.surveyor.is_refuted = !(is_served && line.estimator().is_acquitted());
+            }
             return;
         };
         let knows_nothing = self.nav.gnss.lever_found == Some(LeverFound::UNKNOWN);

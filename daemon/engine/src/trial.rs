@@ -59,10 +59,11 @@ impl Trial {
     /// What is on trial claims no more than GNSS bears out, and no heading before GNSS has been heard for a
     /// while.
     pub(crate) fn claim(&self, filter: &Filter, solution: Solution) -> Solution {
-        if self.is_over(filter) {
+        let off = filter.early_strain();
+        let is_fine = off <= HONEST && filter.strain().is_some();
+        if is_fine || self.is_over(filter) {
             return solution;
         }
-        let off = filter.early_strain();
         let factor = if off > HONEST { off.sqrt() } else { 1.0 };
         let mut sigma = solution.sigma.scaled(factor);
         if filter.strain().is_none() {
