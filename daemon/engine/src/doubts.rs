@@ -38,6 +38,7 @@ impl Engine {
             ImuState::Disturbed => return self.start_over(time, ModeReason::HeadingRefuted),
             ImuState::Wrong => {
                 self.surveyor.is_refuted = true;
+                self.surveyor.is_by_one = line.estimator().is_imu_doubted_by_one();
                 self.surveyor.condemned = Some(time);
                 return self.start_over(time, ModeReason::HeadingRefuted);
             }

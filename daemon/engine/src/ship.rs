@@ -96,6 +96,14 @@ impl Ship {
         }
     }
 
+    /// Whether the IMU was found wrong by one witness, who may be so himself.
+    pub(crate) fn is_imu_doubted_by_one(&self) -> bool {
+        match self {
+            Ship::Navigating { fine, .. } => fine.filter().docket().is_imu_doubted_by_one(),
+            _ => false,
+        }
+    }
+
     /// Whether the trial of her heading is over and GNSS has borne it out.
     pub(crate) fn is_acquitted(&self) -> bool {
         match self {

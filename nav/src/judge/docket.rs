@@ -69,6 +69,8 @@ pub struct Docket {
     condemned: bool,
     /// By how many steps the IMU was found to be worse than its data sheet.
     worse: u8,
+    /// The IMU was found wrong by one witness, who may be so himself.
+    by_one: bool,
     /// The position may be off by so much, though nothing shows it, m, and grow so fast, m/s, since then.
     unproven: Option<(f64, f64, Time)>,
 }
@@ -133,6 +135,17 @@ impl Docket {
     pub fn with_worse_imu(mut self) -> Self {
         self.worse = self.worse.saturating_add(1);
         self
+    }
+
+    /// Whether the IMU was found wrong by one witness, who may be so himself: neither is named.
+    #[must_use]
+    pub fn is_imu_doubted_by_one(&self) -> bool {
+        self.by_one
+    }
+
+    /// So many others were heard when the IMU was found wrong.
+    pub fn note_witnesses(&mut self, count: usize) {
+        self.by_one = count < 2;
     }
 
     /// Whether the IMU is not believed, in whatever way it is wrong.
@@ -308,7 +321,8 @@ impl Docket {
     /// What is left when the navigator begins anew on the word of a receiver that was not trusted.
     #[must_use]
     pub fn begun_anew(&self, now: Time) -> Self {
-        let mut anew = Docket { unproven: self.unproven, worse: self.worse, ..Docket::default() };
+        let Docket { unproven, worse, by_one, .. } = *self;
+        let mut anew = Docket { unproven, worse, by_one, ..Docket::default() };
         for party in [Party::Log, Party::Heading] {
             if self.is_excluded(party) {
                 anew.entries[party as usize] = self.entries[party as usize];

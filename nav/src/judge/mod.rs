@@ -374,7 +374,9 @@ impl Judge {
     pub fn judgement(&self) -> Judgement {
         let is_doubted = |stands: &Stands| match stands.standing {
             Standing::Excluded => true,
-            Standing::Doubtful => stands.party == Party::Imu,
+            Standing::Doubtful => {
+                stands.party == Party::Imu && !self.docket.is_imu_doubted_by_one()
+            }
             Standing::Trusted | Standing::Probation => false,
         };
         let all = self.docket.all();

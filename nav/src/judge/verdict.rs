@@ -75,6 +75,7 @@ impl Judge {
     /// An IMU cannot be left out: where a fault of a shape explains it all the estimate is mended, and it is believed
     /// with that; else it is not believed for a while.
     fn convict_imu(&mut self, charge: &Charge, now: Time) -> Verdict {
+        self.docket.note_witnesses(self.witnesses(now));
         let plain = self.plain_fault_of_imu(charge);
         let mut mended = self.alternative(&plain);
         let turned = ATTITUDE.of(&mended.error).norm();
@@ -128,6 +129,15 @@ impl Judge {
         self.docket.condemn_imu(now);
     }
 
+    /// How many are heard of how she moves. A compass is no witness of that.
+    fn witnesses(&self, now: Time) -> usize {
+        let all = [Aid::GnssPosition, Aid::Log, Aid::ReferencePosition];
+        let is_heard = |aid: &&Aid| {
+            self.hearings[**aid as usize].was_within(now, UNHEARD) && !self.docket.leaves_out(**aid)
+        };
+        all.iter().filter(is_heard).count()
+    }
+
     /// Whether somebody else lies beside him, as whoever does not believe him has found out: then what is made of the
     /// others' word is no better than the navigator's estimate, which has refused them.
     fn lies_another(&self, whom: Party) -> bool {
@@ -136,6 +146,7 @@ impl Judge {
 
     /// The IMU is wrong, as what it says is not what any ship does; gives the estimate without it.
     pub fn disbelieve_imu(&mut self, now: Time) -> Verdict {
+        self.docket.note_witnesses(self.witnesses(now));
         self.imu_on_trial = true;
         self.docket.disbelieve_imu(now);
         let charge = Charge::shapeless(Party::Imu, DOUBT);

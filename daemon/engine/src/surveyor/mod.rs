@@ -55,6 +55,8 @@ pub(crate) struct Surveyor {
     findings: Vec<Finding>,
     /// Whether GNSS has refuted every heading that was found with the IMU.
     pub(crate) is_refuted: bool,
+    /// Whether nobody but GNSS says so: then neither is named.
+    pub(crate) is_by_one: bool,
     /// When the judge found the IMU to be of no use.
     pub(crate) condemned: Option<Time>,
 }
@@ -75,6 +77,7 @@ impl Surveyor {
             late: None,
             findings: Vec::new(),
             is_refuted: false,
+            is_by_one: false,
             condemned: None,
         }
     }
@@ -112,7 +115,9 @@ impl Surveyor {
 
     /// Who is left out for what is found of him alone.
     pub(crate) fn excluded(&self) -> Parties {
-        self.findings.iter().filter_map(Finding::excludes).collect()
+        let is_open = |found: &&Finding| matches!(found, Finding::ImuRefuted) && self.is_by_one;
+        let named = self.findings.iter().filter(|found| !is_open(found));
+        named.filter_map(Finding::excludes).collect()
     }
 
     /// Sees a solution.
