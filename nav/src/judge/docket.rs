@@ -26,6 +26,9 @@ const SUCCESSIVE: f64 = 3.0;
 /// An IMU that was found wrong and mended is doubted for so long, s.
 const MENDED: f64 = 600.0;
 
+/// Of whoever is no receiver that is off by something.
+pub(super) const NO_LIE: (Vector2<f64>, f64) = (Vector2::new(0.0, 0.0), 0.0);
+
 /// One of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Entry {
@@ -85,7 +88,7 @@ impl Docket {
     /// With somebody left out for what he was found to do before.
     #[must_use]
     pub fn without(mut self, fault: Fault, now: Time) -> Self {
-        self.convict(fault, now, (Vector2::zeros(), 0.0));
+        self.convict(fault, now, NO_LIE);
         self
     }
 

@@ -398,7 +398,8 @@ impl Judge {
         self.docket.leaves_out(aid) || aid.party().is_some_and(is_doubted)
     }
 
-    /// The likeliest faults, for people who look into the evidence.
+    /// By how many steps the IMU is taken to be worse, what speaks for one more, and the likeliest faults, for people who look into the
+    /// evidence.
     #[must_use]
     pub fn evidence(&self) -> String {
         let of = |charge: &Charge| match charge.kind {

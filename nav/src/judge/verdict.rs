@@ -4,6 +4,7 @@ use insd_base::{Fault, Party, Standing, Time};
 use nalgebra::Vector2;
 
 use super::charge::{Charge, DOUBT, Kind};
+use super::docket::NO_LIE;
 use super::{Aid, Judge, SCATTERS, UNHEARD, WILD};
 use crate::config::WORST;
 use crate::error_state::{ATTITUDE, Covariance, ErrorState, GNSS_DELAY};
@@ -55,7 +56,7 @@ impl Judge {
         }
         let mut mended = self.alternative(charge);
         if charge.kind == Kind::Shapeless && self.lies_another(charge.party()) {
-            self.docket.convict(charge.fault, now, lie_of_gnss(charge, 0.0));
+            self.docket.convict(charge.fault, now, NO_LIE);
             return Verdict { fault: charge.fault, mended: None };
         }
         if let Some(late) = late(charge) {
@@ -84,7 +85,7 @@ impl Judge {
         }
         let when = plain.size() * UNTIMED;
         ATTITUDE.inflate(&mut mended.covariance, (0.5 * turned * turned).powi(2) + when * when);
-        self.docket.convict(plain.fault, now, lie_of_gnss(&plain, 0.0));
+        self.docket.convict(plain.fault, now, NO_LIE);
         Verdict { fault: plain.fault, mended: Some(mended) }
     }
 
@@ -119,7 +120,7 @@ impl Judge {
         persists.then(|| {
             let charge = Charge::shapeless(Party::Log, DOUBT);
             let mended = self.alternative(&charge);
-            self.docket.convict(charge.fault, now, lie_of_gnss(&charge, 0.0));
+            self.docket.convict(charge.fault, now, NO_LIE);
             Verdict { fault: charge.fault, mended: Some(mended) }
         })
     }
@@ -164,12 +165,12 @@ fn late(charge: &Charge) -> Option<f64> {
 
 /// What a receiver is off by after such an age, s: m, and how fast that grows, m/s.
 fn lie_of_gnss(charge: &Charge, age: f64) -> (Vector2<f64>, f64) {
-    let Kind::Shaped { sized, .. } = charge.kind else { return (Vector2::zeros(), 0.0) };
+    let Kind::Shaped { sized, .. } = charge.kind else { return NO_LIE };
     let value = Vector2::new(sized.value.x, sized.value.y);
     match charge.fault {
         Fault::Jump => (value, 0.0),
         Fault::Drag | Fault::Slide => (value * age, value.norm()),
         Fault::Creep => (value * (0.5 * age * age), value.norm() * age),
-        _ => (Vector2::zeros(), 0.0),
+        _ => NO_LIE,
     }
 }
