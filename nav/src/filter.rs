@@ -24,6 +24,7 @@ use crate::propagation::{self, Regime, Stretch, markov_decay};
 use crate::report::{Outcome, Report};
 use crate::sea_window::LevelWindow;
 use crate::separate_bias::SeparateBias;
+use crate::slip::Slip;
 use crate::solution_sigma::solution_sigma;
 use crate::strapdown::{self, LocalGravity};
 use crate::sway::Sway;
@@ -73,6 +74,7 @@ pub struct Filter {
     held: Option<Time>,
     told_across: Option<Time>,
     pace: Pace,
+    slip: Slip,
     /// When another reference last told a position.
     last_reference: Option<Time>,
     turned: Vector3<f64>,
@@ -130,6 +132,7 @@ impl Filter {
             held: None,
             told_across: None,
             pace: Pace::default(),
+            slip: Slip::default(),
             last_reference: None,
             turned: Vector3::zeros(),
             corrected: ErrorState::zeros(),
@@ -402,6 +405,7 @@ impl Estimator for Filter {
         }
         self.hold_to_wheels();
         self.look_at_pace();
+        self.look_at_slip();
         if self.level.is_full() {
             self.settle();
             self.hold_sea_level();

@@ -40,6 +40,16 @@ impl<const M: usize> Innovation<M> {
 }
 
 impl Innovation<3> {
+    /// One component alone.
+    #[must_use]
+    pub fn component(&self, axis: usize) -> Innovation<1> {
+        Innovation {
+            z: SVector::<f64, 1>::new(self.z[axis]),
+            h: self.h.fixed_rows::<1>(axis).into_owned(),
+            r: SMatrix::<f64, 1, 1>::new(self.r[(axis, axis)]),
+        }
+    }
+
     /// Two of one instant together.
     #[must_use]
     pub fn beside(&self, other: &Innovation<3>) -> Innovation<6> {

@@ -25,6 +25,7 @@ pub mod propagation;
 pub mod report;
 pub mod sea_window;
 pub mod separate_bias;
+pub mod slip;
 pub mod solution_sigma;
 pub mod spikes;
 pub mod spread;

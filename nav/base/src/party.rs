@@ -91,6 +91,8 @@ pub enum Fault {
     Creep,
     /// Its velocity is wrong.
     Velocity,
+    /// Its height is wrong.
+    Height,
     /// Its fixes come later than they say.
     Delay,
     /// It scatters by more than it says.
@@ -133,7 +135,7 @@ impl Fault {
     pub fn party(self) -> Party {
         match self {
             Fault::Jump | Fault::Drag | Fault::Slide | Fault::Creep => Party::Gnss,
-            Fault::Velocity | Fault::Delay | Fault::GnssNoise => Party::Gnss,
+            Fault::Velocity | Fault::Height | Fault::Delay | Fault::GnssNoise => Party::Gnss,
             Fault::LogGain | Fault::LogOffset | Fault::LogFlow | Fault::LogNoise => Party::Log,
             Fault::HeadingOffset | Fault::HeadingDrift | Fault::HeadingNoise => Party::Heading,
             Fault::ReferenceJump | Fault::ReferenceDrag | Fault::ReferenceNoise => Party::Reference,
@@ -160,6 +162,7 @@ impl Fault {
             Fault::Slide => "slide",
             Fault::Creep => "creep",
             Fault::Velocity => "velocity",
+            Fault::Height => "height",
             Fault::Delay => "delay",
             Fault::GnssNoise => "gnss_noise",
             Fault::LogNoise => "log_noise",
@@ -190,6 +193,7 @@ impl fmt::Display for Fault {
             Fault::Slide => "drifts away, and its velocity says that it does not",
             Fault::Creep => "drifts away faster and faster",
             Fault::Velocity => "tells a wrong velocity",
+            Fault::Height => "tells a wrong height",
             Fault::Delay => "tells fixes that are older than it says",
             Fault::GnssNoise | Fault::LogNoise | Fault::HeadingNoise | Fault::ReferenceNoise => {
                 "scatters by more than it says"

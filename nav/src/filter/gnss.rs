@@ -38,6 +38,8 @@ const DISHONEST: f64 = 25.0;
 /// Velocity that the product of the errors of velocity and attitude makes, which no linear filter knows of, 1-sigma
 /// of a filter that is lost, m/s.
 const LOST: f64 = 1.0;
+/// Noise of a height that is known to be wrong, 1-sigma, m.
+const WORTHLESS: f64 = 1e5;
 /// How stiff clocks and masts are taken to be, 1-sigma, m and m/s.
 const SLACK: f64 = 0.3;
 const SLACK_VELOCITY: f64 = 0.05;
@@ -167,6 +169,7 @@ impl Filter {
         let view = self.view();
         let Some(measured) = self.position_fix(&view, fix, report) else { return };
         let innovation = gnss_position::innovation(&view, &measured, &self.antenna_lever());
+        let innovation = self.without_wrong_height(innovation);
         self.consult(Aid::GnssPosition, &innovation, rows::of_gnss_position);
         self.follow(&innovation, velocity.map(|(_, innovation)| innovation));
         self.agreement(Aid::GnssPosition, &innovation);
@@ -182,6 +185,20 @@ impl Filter {
                 self.consider_reset(&measured, velocity.map(|(fix, _)| fix), report);
             }
         }
+    }
+
+    /// Of a receiver with a wrong height that counts for nothing, but is watched.
+    fn without_wrong_height(&mut self, mut innovation: Innovation<3>) -> Innovation<3> {
+        let now = self.time;
+        if self.judge.as_ref().is_none_or(|judge| !judge.docket().tells_wrong_height()) {
+            return innovation;
+        }
+        let weighed = innovation.component(2).weigh(&self.covariance);
+        if let Some((weighed, judge)) = weighed.zip(self.judge_now()) {
+            judge.watch_height(now, &weighed);
+        }
+        innovation.r[(2, 2)] = WORTHLESS * WORTHLESS;
+        innovation
     }
 
     fn position_fix(&self, view: &View, fix: &GnssFix, report: &mut Report) -> Option<PositionFix> {
@@ -307,6 +324,7 @@ impl Filter {
         self.trust.clear();
         self.trust.used(self.time);
         self.pace.restart();
+        self.slip.restart();
         self.restart_judge();
         report.position_reset = true;
     }

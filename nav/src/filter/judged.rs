@@ -23,6 +23,8 @@ const PATIENCE: f64 = 60.0;
 const LOST_HEADING: f64 = 5.0 * DEG;
 /// Mistakes of the installation show within this, s.
 const SETTLED: f64 = 300.0;
+/// Who has not been heard for so long is no witness of the heading, s.
+const ALONE: f64 = 60.0;
 /// Sigmas of a radius, or of a single component, that hold 95 %.
 const RADIUS: f64 = 2.448;
 
@@ -62,7 +64,7 @@ impl Filter {
     }
 
     /// Brings the judge up to the time of the estimate. It must be settled.
-    fn judge_now(&mut self) -> Option<&mut Judge> {
+    pub(super) fn judge_now(&mut self) -> Option<&mut Judge> {
         let regime = Regime { rtk: self.is_rtk() };
         let judge = Arc::make_mut(self.judge.as_mut()?);
         if self.unjudged.duration > 0.0 {
@@ -219,19 +221,46 @@ impl Filter {
         if !self.pace.is_due(self.time) {
             return;
         }
-        let (now, speed) = (self.time, self.nominal.velocity.norm());
-        let change = self.pace.see(now, speed);
+        let change = self.pace.see(self.time, self.nominal.velocity.norm());
         if self.mode() == Mode::Aided {
             self.pace.learn(change);
         } else if change > self.pace.limit(&self.config.vessel) && !self.is_restless() {
-            self.settle();
-            let verdict = self.judge_now().map(|judge| judge.disbelieve_imu(now));
-            if let Some(mended) = verdict.and_then(|verdict| verdict.mended) {
-                self.become_other(&mended);
-                self.restart_judge();
-            }
-            self.pace.restart();
+            self.disbelieve_imu();
         }
+    }
+
+    /// With nothing but a receiver the heading turns as no craft does: the IMU is not believed.
+    pub(super) fn look_at_slip(&mut self) {
+        let now = self.time;
+        let is_alone = |judge: &Judge| {
+            [Aid::Heading, Aid::Log].iter().all(|aid| !judge.has_heard(*aid, now, ALONE))
+        };
+        let is_judged = self.judge.as_deref().is_some_and(is_alone) && !self.is_early();
+        if !is_judged || !self.slip.is_due(now) {
+            return;
+        }
+        if self.mode() != Mode::Aided || self.is_restless() {
+            self.slip.restart();
+            return;
+        }
+        let view = self.view();
+        let velocity = (view.c_ne * self.nominal.velocity).xy();
+        let bow = view.c_nb().column(0).xy();
+        if self.slip.see(now, velocity, bow.y.atan2(bow.x), self.heading_std()) {
+            self.disbelieve_imu();
+        }
+    }
+
+    fn disbelieve_imu(&mut self) {
+        let now = self.time;
+        self.settle();
+        let verdict = self.judge_now().map(|judge| judge.disbelieve_imu(now));
+        if let Some(mended) = verdict.and_then(|verdict| verdict.mended) {
+            self.become_other(&mended);
+            self.restart_judge();
+        }
+        self.pace.restart();
+        self.slip.restart();
     }
 
     /// A filter that refuses a receiver against whom nothing speaks is wrong itself: it becomes what it would be
@@ -260,6 +289,7 @@ impl Filter {
         self.absorbed += VELOCITY.of(error);
         self.turned = Vector3::zeros();
         self.pace.restart();
+        self.slip.restart();
         let view = self.view();
         self.bias.iter_mut().for_each(|bias| bias.excuse(&view));
         self.trust.clear();

@@ -51,6 +51,8 @@ pub(super) struct Charge {
     evidence: f64,
     /// When it began, or began to show.
     begun: Time,
+    /// It is how somebody contradicts himself: no model of the ship stands between his words.
+    is_own_word: bool,
     pub(super) kind: Kind,
 }
 
@@ -77,8 +79,8 @@ impl Charge {
             Party::Heading => Fault::HeadingNoise,
             Party::Reference => Fault::ReferenceNoise,
         };
-        let (evidence, begun) = (0.0, Time::START);
-        Charge { fault, weight, evidence, begun, kind: Kind::Shapeless }
+        let (evidence, begun, is_own_word) = (0.0, Time::START, false);
+        Charge { fault, weight, evidence, begun, is_own_word, kind: Kind::Shapeless }
     }
 
     /// What it explains of the normalised squares, where that can be said.
@@ -117,7 +119,7 @@ impl Judge {
         let mut charges: Vec<Charge> = Vec::new();
         let mut total = 0.0;
         for mut charge in all {
-            let own = if charge.fault == Fault::Slide { worth.min(OWN_WORD) } else { worth };
+            let own = if charge.is_own_word { worth.min(OWN_WORD) } else { worth };
             charge.weight += charge.evidence / own;
             charge.weight += if charge.party() == Party::Imu { relapse } else { 0.0 };
             total = log_sum(total, charge.weight);
@@ -139,17 +141,19 @@ impl Judge {
             let step = (age * CLOSE).max(1.0).ln();
             let unsure = unsure(age);
             for (group, Group { fault, least, log_rate, .. }) in ALL.iter().enumerate() {
-                let Some(sized) = onset.sized(group, unsure) else { continue };
                 let is_slow = *fault == Fault::GyroScale && age > QUICK;
-                if sized.value.norm() < *least || is_slow {
-                    continue;
-                }
-                let kind = Kind::Shaped { group, since: onset.since, sized };
-                let evidence = sized.log_factor * unsure;
-                let weight = log_rate + step;
-                all.push(Charge { fault: *fault, weight, evidence, begun: onset.since, kind });
+                let is_own_word = *fault == Fault::Slide;
+                let unsure = if is_own_word { unsure.min(OWN_WORD) } else { unsure };
+                let sized = onset.sized(group, unsure).filter(|sized| sized.value.norm() >= *least);
+                let Some(sized) = sized.filter(|_| !is_slow) else { continue };
+                let (fault, begun) = (*fault, onset.since);
+                let kind = Kind::Shaped { group, since: begun, sized };
+                let (weight, evidence) = (log_rate + step, sized.log_factor * unsure);
+                all.push(Charge { fault, weight, evidence, begun, is_own_word, kind });
             }
         }
+        let most = all.iter().filter_map(Charge::explained).fold(0.0, f64::max);
+        all.retain(|charge| !charge.is_own_word || charge.explained() > Some(PLAIN * most));
         let shapeless = self.dissenters.iter().map(|dissenter| Charge {
             evidence: dissenter.gain,
             begun: dissenter.since,
@@ -199,6 +203,12 @@ impl Judge {
             charge.fault == Fault::GyroBias && charge.explained().is_some_and(|own| own > needed)
         };
         self.assessment.charges.iter().find(is_plain).copied().unwrap_or(*likeliest)
+    }
+
+    /// A lie of somebody else than the IMU that explains so much, too, as a logarithm, if innovations are as sure as stated.
+    pub(super) fn explained_by_another(&self, gain: f64) -> Option<Charge> {
+        let mut all = self.assessment.charges.iter();
+        all.find(|charge| charge.party() != Party::Imu && charge.evidence > gain).copied()
     }
 
     /// Whether no other sensor's fault explains it, too.

@@ -107,12 +107,23 @@ impl Docket {
     }
 
     /// Whether what somebody says with an aid is left out: of a receiver that is found to tell a wrong velocity, only
-    /// that is.
+    /// that is; of one with a wrong height no aid is ([`Docket::tells_wrong_height`]).
     #[must_use]
     pub fn leaves_out(&self, aid: Aid) -> bool {
         let Some(party) = aid.party() else { return false };
-        let is_of_velocity = self.entries[party as usize].fault == Some(Fault::Velocity);
-        self.is_excluded(party) && !(is_of_velocity && aid == Aid::GnssPosition)
+        let is_heard = match self.entries[party as usize].fault {
+            Some(Fault::Velocity) => aid == Aid::GnssPosition,
+            Some(Fault::Height) => true,
+            _ => false,
+        };
+        self.is_excluded(party) && !is_heard
+    }
+
+    /// Whether the receiver is used but for its height.
+    #[must_use]
+    pub fn tells_wrong_height(&self) -> bool {
+        let gnss = &self.entries[Party::Gnss as usize];
+        gnss.standing == Standing::Excluded && gnss.fault == Some(Fault::Height)
     }
 
     /// Whether a receiver is left out wholly.

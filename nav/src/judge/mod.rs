@@ -77,6 +77,8 @@ pub struct Judge {
     hearings: [Hearing; AIDS],
     assessment: Assessment,
     in_doubt: bool,
+    /// What may be a lie as well as an IMU that is worse than assumed.
+    disputed: Option<Charge>,
     accused: Option<(Party, Time)>,
     docket: Docket,
     /// Since when the log scatters wildly.
@@ -99,6 +101,7 @@ impl Judge {
             hearings: [Hearing::default(); AIDS],
             assessment: Assessment::default(),
             in_doubt: false,
+            disputed: None,
             accused: None,
             wild: None,
             imu_on_trial: docket.imu_doubted_since().is_some(),
@@ -121,6 +124,7 @@ impl Judge {
         }
         self.onsets.clear();
         (self.spawned, self.accused, self.in_doubt) = (None, None, false);
+        self.disputed = None;
         self.assessment = Assessment::default();
     }
 
@@ -170,6 +174,12 @@ impl Judge {
         self.hearings[aid as usize].is_due(now)
     }
 
+    /// Whether an aid was heard within such a time, s.
+    #[must_use]
+    pub fn has_heard(&self, aid: Aid, now: Time, within: f64) -> bool {
+        self.hearings[aid as usize].was_within(now, within)
+    }
+
     /// By how much the variance of an aid's noise is larger than stated.
     #[must_use]
     pub fn noise(&self, aid: Aid) -> f64 {
@@ -215,6 +225,9 @@ impl Judge {
 
     /// Whether there is nothing worse than that somebody scatters.
     fn is_noise_all(&self, party: Option<Party>) -> bool {
+        if self.disputed.is_some() {
+            return false;
+        }
         let first = self.likeliest().filter(|first| first.weight > 0.0);
         first.is_none_or(|first| first.fault.is_noise() && Some(first.party()) == party)
     }
@@ -301,8 +314,9 @@ impl Judge {
         }
         let is_excused = |charge: &Charge| excused.contains(charge.party());
         let first = self.likeliest().filter(|first| !is_excused(first));
-        self.in_doubt = self.assessment.total > DOUBT;
-        let suspect = first.filter(|_| self.in_doubt);
+        let is_likely = self.assessment.total > DOUBT;
+        self.in_doubt = is_likely || self.disputed.is_some();
+        let suspect = first.filter(|_| is_likely);
         self.docket.doubt(suspect.map(|first| first.fault), now);
         let certain = first.filter(|first| self.is_certain(first));
         let before = self.accused.take();
@@ -326,6 +340,9 @@ impl Judge {
     #[must_use]
     pub fn claims(&self) -> Vec<Alternative> {
         let total = self.assessment.total;
+        if let Some(lie) = &self.disputed {
+            return vec![self.alternative(lie), self.pessimist.shadow.alternative()];
+        }
         if total < LIKELY {
             return Vec::new();
         }
@@ -367,6 +384,11 @@ impl Judge {
         let agrees = agrees(weighed);
         self.docket.follow(now, &z, agrees, [own.hypot(noise), noise]);
         self.docket.watch(Party::Gnss, now, agrees);
+    }
+
+    /// Sees the height of a receiver of which only that is wrong, weighed by the navigator.
+    pub fn watch_height(&mut self, now: Time, weighed: &Weighed<1>) {
+        self.docket.watch(Party::Gnss, now, agrees(weighed));
     }
 
     /// What is made of all that is said.

@@ -13,8 +13,12 @@ use crate::error_state::{ATTITUDE, Covariance, ErrorState, GNSS_DELAY};
 const BLATANT: f64 = 100.0;
 /// An attitude that is off by more than this is beyond mending, rad: nothing is linear any more.
 const MENDABLE: f64 = 0.2;
+/// A gyro of which the scale is off by more is none: noise, too, is a scale factor of a gyro that tells little else.
+const MENDABLE_SCALE: f64 = 0.3;
 /// The moment at which a gyro's bias changed is not known better than this, s.
 const UNTIMED: f64 = 1.0;
+/// How fast a ship turns in a seaway, rad/s: a wrong scale factor of a gyro is as a bias of so many times that.
+const ROLLING: f64 = 0.05;
 /// Fixes that are later than this are left out, s; others are set back.
 const SET_BACK: f64 = 1.0;
 
@@ -80,10 +84,12 @@ impl Judge {
         let plain = self.plain_fault_of_imu(charge);
         let mut mended = self.alternative(&plain);
         let turned = ATTITUDE.of(&mended.error).norm();
-        if plain.kind == Kind::Shapeless || turned > MENDABLE {
+        let is_wild = plain.fault == Fault::GyroScale && plain.size() > MENDABLE_SCALE;
+        if plain.kind == Kind::Shapeless || turned > MENDABLE || is_wild {
             return self.disbelieve_imu(now);
         }
-        let when = plain.size() * UNTIMED;
+        let rate = if plain.fault == Fault::GyroScale { ROLLING } else { 1.0 };
+        let when = plain.size() * rate * UNTIMED;
         ATTITUDE.inflate(&mut mended.covariance, (0.5 * turned * turned).powi(2) + when * when);
         self.docket.convict(plain.fault, now, NO_LIE);
         Verdict { fault: plain.fault, mended: Some(mended) }
@@ -95,7 +101,12 @@ impl Judge {
         if self.assessment.total > DOUBT || is_any_out {
             self.pessimist.forget();
         }
+        self.disputed = None;
         if !self.pessimist.is_right(now) || self.docket.worse() >= WORST {
+            return None;
+        }
+        self.disputed = self.explained_by_another(self.pessimist.gain);
+        if self.disputed.is_some() {
             return None;
         }
         // a step is proven; what biases do that no aid sees, to the heading above all, asks for another

@@ -148,7 +148,8 @@ fn covers(case: &Case, rows: &[&Row]) -> bool {
     let covered = told.iter().filter(|row| {
         let (off, sigma) = row.heading;
         let lie = if case.shown_at.is_none() { row.lie } else { 0.0 };
-        row.off <= row.level.max(3.0).max(lie) && off <= (5.0 * sigma).max(least)
+        let allowed = if lie > 0.0 { lie + OWN } else { OWN };
+        row.off <= row.level.max(allowed) && off <= (5.0 * sigma).max(least)
     });
     told.is_empty() || covered.count() as f64 >= 0.99 * told.len() as f64
 }

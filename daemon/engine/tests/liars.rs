@@ -1,0 +1,92 @@
+//! Sensors that lie, one case each of what once went wrong; the whole catalogue is the example `faults`.
+
+#![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
+
+use insd_base::units::{DEG, wrap_pi};
+use insd_base::{Event, Finding, Integrity, Mode, Party, Solution, Truth, earth};
+use insd_engine::{Engine, EngineConfig, Output};
+use insd_simulator::lies::{Grade, Suite, case, catalogue};
+
+/// A second of a voyage: what she says, and what is true.
+struct Second {
+    said: Solution,
+    truth: Truth,
+}
+
+impl Second {
+    /// Horizontal error, m.
+    fn off(&self) -> f64 {
+        let apart = earth::ecef(&self.said.position).0 - earth::ecef(&self.truth.position).0;
+        (earth::c_ne(&self.truth.position) * apart).xy().norm()
+    }
+
+    /// Error of the heading, rad, where it is told with a sigma below 2 deg.
+    fn heading_off(&self) -> f64 {
+        let off = wrap_pi(self.said.attitude.heading - self.truth.attitude.unwrap().heading).abs();
+        if self.is_told() && self.said.sigma.heading < 2.0 * DEG { off } else { 0.0 }
+    }
+
+    fn is_told(&self) -> bool {
+        !matches!(self.said.mode, Mode::Fault | Mode::Standby | Mode::CoarseAlignment)
+            && self.said.judgement.integrity != Integrity::Contradiction
+    }
+}
+
+/// Sails a case; also tells whether the IMU was found to be worse than its data sheet.
+fn sailed(name: &str, grade: Grade, suite: Suite, seed: u64) -> (Vec<Second>, bool) {
+    let kind = catalogue().iter().find(|kind| kind.name == name).unwrap();
+    let case = case(kind, grade, suite, seed);
+    let voyage = case.spoilt(&case.honest().unwrap());
+    let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
+    let (mut seconds, mut is_worse) = (Vec::new(), false);
+    for received in voyage.received() {
+        engine.handle(&received);
+        while let Some(output) = engine.poll_output() {
+            match output {
+                Output::Solution(said) => {
+                    let at = voyage.truth.binary_search_by_key(&said.time, |row| row.time);
+                    seconds.extend(at.map(|at| Second { said, truth: voyage.truth[at] }));
+                }
+                Output::Event(Event::InstallationFound { finding, .. }) => {
+                    is_worse |= matches!(finding, Finding::ImuWorse { .. });
+                }
+                _ => {}
+            }
+        }
+    }
+    (seconds, is_worse)
+}
+
+#[test]
+fn of_a_receiver_with_a_wrong_height_only_that_is_left_out() {
+    let (seconds, _) = sailed("gnss height", Grade::Mems, Suite::Compass, 1);
+    assert!(seconds.iter().any(|second| second.said.judgement.excluded.contains(Party::Gnss)));
+    let last = seconds.last().unwrap();
+    assert_eq!(last.said.mode, Mode::Aided);
+    let worst = seconds.iter().map(Second::off).fold(0.0, f64::max);
+    assert!(worst < 10.0, "{worst} m");
+}
+
+#[test]
+fn a_receiver_that_creeps_is_no_bad_imu() {
+    let (seconds, is_worse) = sailed("gnss creep", Grade::Navigation, Suite::Gnss, 2);
+    assert!(!is_worse);
+    let misled = seconds.iter().filter(|second| second.is_told() && second.off() > 100.0);
+    let sure = misled.filter(|second| second.said.sigma.position.0.xy().norm() < 20.0);
+    assert!(sure.count() < 10);
+}
+
+#[test]
+fn a_gyro_that_turns_the_heading_of_a_ship_that_goes_straight_is_found_out() {
+    let (seconds, _) = sailed("gyro step", Grade::Mems, Suite::Gnss, 2);
+    let misled = seconds.iter().filter(|second| second.heading_off() > 10.0 * DEG).count();
+    assert!(misled < 60, "for {misled} s");
+}
+
+#[test]
+fn the_noise_of_a_gyro_is_not_mended_as_a_scale_factor() {
+    let (seconds, _) = sailed("imu noise", Grade::Mems, Suite::Both, 1);
+    let worst = seconds.iter().filter(|second| second.is_told()).map(Second::off);
+    let worst = worst.fold(0.0, f64::max);
+    assert!(worst < 20.0, "{worst} m");
+}
