@@ -49,6 +49,8 @@ pub enum Condition {
     ImuDoubt,
     /// GNSS is used again that was found to lie, and nothing shows that it does not any more.
     OnTrial,
+    /// The level of the position is beyond the alert limit that is set.
+    AlertLimit,
     /// A sensor tells nonsense, such as the same number again and again.
     BadData,
     /// What arrives cannot be recorded: the disk is full, or the folder is gone or read-only.
@@ -82,7 +84,7 @@ fn own(
 
 impl Condition {
     /// All of them, those that matter most first.
-    pub const ALL: [Condition; 20] = [
+    pub const ALL: [Condition; 21] = [
         Condition::SystemFault,
         Condition::HeadingLost,
         Condition::PositionLost,
@@ -97,6 +99,7 @@ impl Condition {
         Condition::LogExcluded,
         Condition::ReferenceExcluded,
         Condition::OnTrial,
+        Condition::AlertLimit,
         Condition::BadData,
         Condition::Installation,
         Condition::NotRecording,
@@ -169,6 +172,9 @@ impl Condition {
             // what was found has persisted for long enough
             Condition::MountingDoubt => {
                 own(10_020, Warning, ["Mounting doubt", "IMU not as configured. See page"], [0, 10])
+            }
+            Condition::AlertLimit => {
+                own(10_016, Warning, ["Alert limit", "Error may exceed the limit set"], [10, 10])
             }
             Condition::BadData => {
                 own(10_018, Caution, ["Bad data", "A sensor stands still. See page"], [0, 10])
@@ -287,6 +293,9 @@ impl Watch {
                 is_doubted && !epoch.doubts.mounting
             }
             Condition::OnTrial => integrity == Integrity::Unproven,
+            Condition::AlertLimit => policy.alert_limit.is_some_and(|limit| {
+                usable.is_some_and(|solution| solution.protection().horizontal > limit)
+            }),
             Condition::BadData => epoch.doubts.bad_data,
             Condition::Installation => epoch.doubts.installation,
             Condition::NotRecording => epoch.storage.recording,

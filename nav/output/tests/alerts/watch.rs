@@ -11,19 +11,20 @@ use insd_wire::nmea::Alf;
 use super::{at, solution};
 
 use Condition::{
-    EnginesDiffer, HeadingDegraded, HeadingLost, NoUtc, PositionEstimated, PositionLost, Simulated,
-    SystemFault,
+    AlertLimit, EnginesDiffer, HeadingDegraded, HeadingLost, NoUtc, PositionEstimated,
+    PositionLost, Simulated, SystemFault,
 };
 
 /// Ten looks a second, and when what was found.
 struct Look {
     watch: Watch,
+    policy: Policy,
     seconds: f64,
 }
 
 impl Look {
     fn new() -> Self {
-        Look { watch: Watch::default(), seconds: 0.0 }
+        Look { watch: Watch::default(), policy: Policy::default(), seconds: 0.0 }
     }
 
     /// What holds after so many seconds of such epochs.
@@ -36,7 +37,7 @@ impl Look {
                 utc: now.utc,
                 ..Epoch::unknown(now.time)
             };
-            let holding = self.watch.note(&epoch(usual), &Policy::default(), false);
+            let holding = self.watch.note(&epoch(usual), &self.policy, false);
             found = holding.iter().filter(|(_, holds)| *holds).map(|(own, _)| *own).collect();
             self.seconds = ((self.seconds + 0.1) * 10.0).round() / 10.0;
         }
@@ -83,6 +84,19 @@ fn engines_that_differ_are_told_at_once_and_as_long_as_they_do() {
     assert_eq!(look.at(0.1, differ), [EnginesDiffer]);
     assert_eq!(look.at(60.0, differ), [EnginesDiffer]);
     assert_eq!(look.at(0.1, |epoch| epoch), []);
+}
+
+#[test]
+fn a_level_beyond_the_alert_limit_is_told_where_one_is_set() {
+    let vague =
+        |sigma: f64| with(move |solution| solution.sigma.position = Ned::new(sigma, 0.0, 0.0));
+    let mut look = Look::of_a_sound_ship();
+    assert_eq!(look.at(60.0, vague(6.0)), []);
+    look.policy.alert_limit = Some(25.0);
+    assert_eq!(look.at(60.0, vague(4.0)), []);
+    assert_eq!(look.at(9.0, vague(6.0)), []);
+    assert_eq!(look.at(2.0, vague(6.0)), [AlertLimit]);
+    assert_eq!(look.at(12.0, vague(4.0)), []);
 }
 
 #[test]
