@@ -8,6 +8,7 @@ use insd_base::{
 use nalgebra::{Matrix2, Matrix3, Matrix4, RowSVector, UnitQuaternion, Vector2, Vector3};
 
 use crate::aids::View;
+use crate::angular_rate::rate_variance;
 use crate::antenna::AntennaMotion;
 use crate::config::NavConfig;
 use crate::error_state::{
@@ -250,9 +251,7 @@ impl Filter {
     /// The estimate with what aids need of it.
     #[must_use]
     pub fn view(&self) -> View {
-        // the rate comes from one sample and is extrapolated by half of it from the one before
-        let noise = self.config.imu.gyro.random_walk.powi(2) * self.config.imu.rate * 2.5;
-        View::new(&self.nominal, &self.rate, noise)
+        View::new(&self.nominal, &self.rate, rate_variance(&self.config.imu))
     }
 
     /// Applies an innovation if it passes the chi-square gate and nothing else speaks against it.
