@@ -318,6 +318,13 @@ impl Filter {
         judged
     }
 
+    /// Log-likelihood of a condition from outside that is not to be brought in.
+    pub fn decline<const M: usize>(&mut self, innovation: &Innovation<M>) -> f64 {
+        let weighed = innovation.weigh(&self.covariance);
+        self.note(Outcome::Rejected(Rejection::SourceSuspect));
+        weighed.map_or(0.0, |weighed| self.bounded_likelihood(&weighed))
+    }
+
     /// Sum of all corrections of the estimate since the last call.
     pub fn take_correction(&mut self) -> ErrorState {
         std::mem::replace(&mut self.corrected, ErrorState::zeros())
@@ -351,6 +358,15 @@ impl Filter {
     /// component, m.
     pub fn loosen_berth(&mut self, std: f64) {
         BERTH_OFFSET.inflate(&mut self.covariance, std * std);
+    }
+
+    /// Takes back a correction that was made by mistake, and is as unsure of it as it is large.
+    pub fn take_back(&mut self, correction: &ErrorState) {
+        self.settle_sway();
+        self.nominal.inject(&-correction);
+        self.corrected -= correction;
+        self.absorbed -= VELOCITY.of(correction);
+        self.covariance += correction * correction.transpose();
     }
 
     /// The ship is no longer taken as moored.
