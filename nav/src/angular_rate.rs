@@ -12,7 +12,8 @@
 //! r <- r + s h + (1 - theta^2) e,   s <- s + (1 - theta)^2 e / h,   e = sample - (r + s h).
 //!
 //! Its error is that of the noise, 5/4 N^2 / memory, and that of a bend of the rate, r'' memory^2; the memory
-//! is such that the sum of both squares is least.
+//! is such that the sum of both squares is least. Where that is hardly longer than two samples, theta is zero and the
+//! line goes through the last two.
 
 use insd_base::ImuSpec;
 use nalgebra::Vector3;
@@ -37,9 +38,13 @@ pub struct AngularRate {
     last: f64,
 }
 
-/// Over how long samples of gyros of this random walk are remembered, s.
+/// Samples that the memory must span to be worth while.
+const WORTH: f64 = 3.0;
+
+/// Over how long samples of gyros of this random walk are remembered, s; zero for the last two alone.
 fn memory(imu: &ImuSpec) -> f64 {
-    (1.25 * imu.gyro.random_walk.powi(2) / (4.0 * BEND * BEND)).powf(0.2)
+    let best = (1.25 * imu.gyro.random_walk.powi(2) / (4.0 * BEND * BEND)).powf(0.2);
+    if best * imu.rate < WORTH { 0.0 } else { best }
 }
 
 /// Variance of each component of the rate at the end of a sample, (rad/s)^2: that of the line, half a sample
@@ -52,7 +57,8 @@ pub fn rate_variance(imu: &ImuSpec) -> f64 {
     let both = off * off * (1.0 + 3.0 * theta);
     let slope = 2.0 * off.powi(3);
     let line = (own + both + 0.25 * slope) / (1.0 + theta).powi(3);
-    WITH_BEND * line * imu.gyro.random_walk.powi(2) * imu.rate
+    let bend = if theta > 0.0 { WITH_BEND } else { 1.0 };
+    bend * line * imu.gyro.random_walk.powi(2) * imu.rate
 }
 
 impl AngularRate {
