@@ -33,7 +33,7 @@ pub struct Fine {
 enum Hold {
     WhiteNoise(WhiteNoise),
     Prefiltered(Box<Prefiltered>),
-    Moorings(Moorings),
+    Moorings(Box<Moorings>),
 }
 
 impl Fine {
@@ -53,7 +53,7 @@ impl Fine {
         let hold = match method {
             Method::WhiteNoise => Hold::WhiteNoise(WhiteNoise::new(&filter)),
             Method::Autoregressive => Hold::Prefiltered(Box::new(Prefiltered::new(&filter))),
-            Method::Moorings => Hold::Moorings(Moorings::new(&mut filter)),
+            Method::Moorings => Hold::Moorings(Box::new(Moorings::new(&mut filter))),
         };
         Fine { hold: Some(hold), ..Fine::under_way(filter) }
     }

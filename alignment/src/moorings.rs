@@ -11,7 +11,7 @@
 
 use insd_base::{Geodetic, Span, Time};
 use insd_nav::aids::berth;
-use insd_nav::error_state::SWAY;
+use insd_nav::error_state::{ErrorState, POSITION, SWAY, VELOCITY};
 use insd_nav::innovation::Innovation;
 use insd_nav::{Filter, Oscillator, Outcome, Sway};
 use nalgebra::Vector2;
@@ -29,6 +29,10 @@ pub struct Moorings {
     start: Time,
     refused: u32,
     shifts: u32,
+    /// What the last samples have done to the estimate, sooner or later forgotten.
+    recent: ErrorState,
+    /// Running mean of the samples' innovations in units of their sigma.
+    lean: Vector2<f64>,
 }
 
 /// Spacing of the samples: about half a wave, so that the waves of consecutive ones have little in
@@ -41,8 +45,10 @@ const PERIODS: [f64; 2] = [66.0, 106.0];
 const DAMPING: f64 = 0.045;
 /// Share of the stated displacement that is slow swaying.
 const SLOW_SHARE: f64 = 0.9;
-/// The share that is waves, before they have been seen.
-const WAVE_SHARE: f64 = 0.4;
+/// The share that is waves, before they have been seen: with the other it is more than all, as nobody says
+/// which of the two it is. In a swell most of it is waves, and their samples are not white: taken for
+/// less than they are they pass for a heading within half a minute.
+const WAVE_SHARE: f64 = 0.6;
 /// How far her mean place may be from the named berth, as share of her stated displacement.
 const OFFSET_SHARE: f64 = 0.15;
 /// Displacement before anyone states it, 1-sigma of each component, m.
@@ -63,7 +69,14 @@ const SETTLING: f64 = 90.0;
 const SHIFT: u32 = 2;
 /// After a shift was found, her mean place stays free for this long, s.
 const SHIFTING: f64 = 20.0;
-/// How far it may wander from one sample to the next, 1-sigma, m.
+/// Weight of a sample in the running mean of the innovations. Of white ones with weight w the mean has a
+/// variance of w / (2 - w); a ship that begins to leave gives one after the other of the same sign.
+const LEANING: f64 = 0.4;
+/// Square of that mean over its variance beyond which she is not where she was: once in 10,000 samples.
+const LEAN: f64 = 18.4;
+/// A shift is found some samples after it began: for so long what they do to the estimate is remembered, s.
+const ONSET: f64 = 10.0;
+/// How far it may wander from one sample to the next where it is not seen to go further, 1-sigma, m.
 const WANDER: f64 = 0.5;
 
 impl Moorings {
@@ -81,6 +94,8 @@ impl Moorings {
             start: filter.time(),
             refused: 0,
             shifts: 0,
+            recent: ErrorState::zeros(),
+            lean: Vector2::zeros(),
         };
         moorings.begin(filter, UNSURVEYED);
         moorings
@@ -162,15 +177,22 @@ impl Moorings {
         }
         self.next = now + Span::from_seconds(SPACING);
         filter.settle_sway();
-        if now < self.shifting_until {
-            filter.loosen_berth(WANDER);
-        }
         let innovation = berth::innovation(&filter.view(), &self.place, self.waves_std());
+        if now < self.shifting_until {
+            filter.loosen_berth(innovation.z.norm().max(WANDER));
+        }
+        self.forget();
+        if self.leans(filter, &innovation) {
+            let likelihood = filter.decline(&innovation);
+            self.refuse(filter, &innovation);
+            return likelihood;
+        }
+        let before = *filter.nominal();
         let judged = filter.impose(&innovation);
-        let z = innovation.z;
         if judged.outcome == Outcome::Accepted {
+            self.recent += before.error_to(filter.nominal());
             let s = Vector2::from_fn(|i, _| judged.innovation[i].1.powi(2));
-            self.learn(filter, &z, &s);
+            self.learn(filter, &innovation.z, &s);
             self.refused = 0;
         } else {
             self.refuse(filter, &innovation);
@@ -178,15 +200,45 @@ impl Moorings {
         judged.log_likelihood
     }
 
-    /// One sample that does not fit counts for less. Several of them, once the filter knows its tilt,
-    /// are a shift of the ship's mean place; before, it may well be the tilt.
+    /// Whether the last samples together do not fit, though each of them may.
+    fn leans(&mut self, filter: &Filter, innovation: &Innovation<2>) -> bool {
+        let Some(weighed) = innovation.weigh(filter.covariance()) else { return false };
+        let off = innovation.z.component_div(&weighed.sigma());
+        // a single wild sample is the gate's affair, and says little of the next
+        let bounded = off.map(|off| off.clamp(-4.0, 4.0));
+        self.lean += (bounded - self.lean) * LEANING;
+        let variance = LEANING / (2.0 - LEANING);
+        self.is_settled(filter.time()) && self.lean.norm_squared() > LEAN * variance
+    }
+
+    /// Whether the filter knows its tilt.
+    fn is_settled(&self, now: Time) -> bool {
+        (now - self.start).as_seconds() > SETTLING
+    }
+
+    /// Carries on what the last samples have done: a velocity that is off moves the position.
+    fn forget(&mut self) {
+        let moved = POSITION.of(&self.recent) + VELOCITY.of(&self.recent) * SPACING;
+        POSITION.set(&mut self.recent, &moved);
+        self.recent *= (-SPACING / ONSET).exp();
+    }
+
+    /// Before the filter knows its tilt, a sample that does not fit may well be the tilt's, and counts for
+    /// less. After that it is the ship who is not where she was, by a gust or for good: one sample is left
+    /// out, and with more of them her mean place is free for as long as they do not fit. To weigh what does
+    /// not fit just so little that it passes would draw a ship that leaves back to her berth, sample by sample.
     fn refuse(&mut self, filter: &mut Filter, innovation: &Innovation<2>) {
         let now = filter.time();
         self.refused += 1;
-        let settled = (now - self.start).as_seconds() > SETTLING;
-        let shifting = self.refused >= SHIFT && self.refused < 3 * SHIFT;
-        if settled && shifting {
-            self.shifts += u32::from(self.refused == SHIFT);
+        let settled = self.is_settled(now);
+        if settled && self.refused < SHIFT {
+            return;
+        }
+        if settled {
+            if self.refused == SHIFT {
+                self.shifts += 1;
+                filter.take_back(&std::mem::replace(&mut self.recent, ErrorState::zeros()));
+            }
             self.shifting_until = now + Span::from_seconds(SHIFTING);
             filter.loosen_berth(innovation.z.norm());
         }

@@ -8,6 +8,7 @@ use insd_base::{
 use nalgebra::{Matrix2, Matrix3, Matrix4, RowSVector, UnitQuaternion, Vector2, Vector3};
 
 use crate::aids::View;
+use crate::angular_rate::rate_variance;
 use crate::antenna::AntennaMotion;
 use crate::config::NavConfig;
 use crate::error_state::{
@@ -253,9 +254,7 @@ impl Filter {
     /// The estimate with what aids need of it.
     #[must_use]
     pub fn view(&self) -> View {
-        // the rate comes from one sample and is extrapolated by half of it from the one before
-        let noise = self.config.imu.gyro.random_walk.powi(2) * self.config.imu.rate * 2.5;
-        View::new(&self.nominal, &self.rate, noise)
+        View::new(&self.nominal, &self.rate, rate_variance(&self.config.imu))
     }
 
     /// Applies an innovation if it passes the chi-square gate and nothing else speaks against it.
@@ -322,6 +321,13 @@ impl Filter {
         judged
     }
 
+    /// Log-likelihood of a condition from outside that is not to be brought in.
+    pub fn decline<const M: usize>(&mut self, innovation: &Innovation<M>) -> f64 {
+        let weighed = innovation.weigh(&self.covariance);
+        self.note(Outcome::Rejected(Rejection::SourceSuspect));
+        weighed.map_or(0.0, |weighed| self.bounded_likelihood(&weighed))
+    }
+
     /// Sum of all corrections of the estimate since the last call.
     pub fn take_correction(&mut self) -> ErrorState {
         std::mem::replace(&mut self.corrected, ErrorState::zeros())
@@ -355,6 +361,15 @@ impl Filter {
     /// component, m.
     pub fn loosen_berth(&mut self, std: f64) {
         BERTH_OFFSET.inflate(&mut self.covariance, std * std);
+    }
+
+    /// Takes back a correction that was made by mistake, and is as unsure of it as it is large.
+    pub fn take_back(&mut self, correction: &ErrorState) {
+        self.settle_sway();
+        self.nominal.inject(&-correction);
+        self.corrected -= correction;
+        self.absorbed -= VELOCITY.of(correction);
+        self.covariance += correction * correction.transpose();
     }
 
     /// The ship is no longer taken as moored.

@@ -5,6 +5,7 @@ use insd_base::{ImuSample, ImuSpec, Rejection, Span, Time};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::angular_rate::AngularRate;
 use crate::bridging::{Bridging, Moment};
 use crate::noise::NoiseMonitor;
 use crate::spikes::Spikes;
@@ -20,7 +21,8 @@ pub struct Increment {
     pub rotation: Vector3<f64>,
     /// Specific-force integral, m/s (sculling compensated, without the half-angle rotation term).
     pub velocity: Vector3<f64>,
-    /// Angular rate at the end of the interval, rad/s, extrapolated from the last two samples.
+    /// Angular rate at the end of the interval, rad/s, as far as its noise lets it be known
+    /// ([`crate::angular_rate`]).
     pub end_rate: Vector3<f64>,
     /// Change of the angular rate, rad/s^2.
     pub angular_acceleration: Vector3<f64>,
@@ -90,6 +92,7 @@ pub struct Conditioner {
     force: NoiseMonitor,
     spikes: Spikes,
     bridging: Bridging,
+    turning: AngularRate,
     /// Mean square of the stamps' departure from the nominal interval, s^2.
     jitter: f64,
     last: Option<Last>,
@@ -139,6 +142,7 @@ impl Conditioner {
             force: NoiseMonitor::new(imu.accel.random_walk, 1.0 / imu.rate),
             spikes: Spikes::default(),
             bridging: Bridging::default(),
+            turning: AngularRate::new(imu),
             jitter: 0.0,
             last: None,
             leap: None,
@@ -165,6 +169,7 @@ impl Conditioner {
             force: self.force.kept(),
             spikes: self.spikes,
             bridging,
+            turning: self.turning,
             jitter: self.jitter,
             last: self.last,
             leap: self.leap,
@@ -184,7 +189,8 @@ impl Conditioner {
             let mean = &last.mean;
             mean.duration.is_finite() && mean.rate.iter().chain(&mean.force).all(|x| x.is_finite())
         });
-        last && self.jitter.is_finite() && self.bridging.is_finite()
+        let learnt = self.bridging.is_finite() && self.turning.is_finite();
+        last && learnt && self.jitter.is_finite()
     }
 
     /// Takes the next sample.
@@ -219,7 +225,9 @@ impl Conditioner {
         if gap {
             self.rate.interrupt();
             self.force.interrupt();
+            self.turning.interrupt();
         }
+        self.turning.take(&mean.rate, duration);
         self.rate.learn(&mean.rate, duration);
         self.force.learn(&mean.force, duration);
         if gap {
@@ -228,11 +236,12 @@ impl Conditioner {
             self.bridging.interrupt();
             Conditioned::AfterGap(
                 bridge,
-                self.with_noise(compensated(&mean, &mean, start, sample.time)),
+                self.with_noise(compensated(&mean, &mean, (start, sample.time), &self.turning)),
             )
         } else {
             self.jitter += ((elapsed - self.nominal).powi(2) - self.jitter) * JITTER_WEIGHT;
-            let increment = compensated(&last.mean, &mean, last.time, sample.time);
+            let interval = (last.time, sample.time);
+            let increment = compensated(&last.mean, &mean, interval, &self.turning);
             self.bridging.learn(&increment, &mean.moment());
             Conditioned::Sample(self.with_noise(increment))
         }
@@ -289,8 +298,10 @@ impl Conditioner {
             return Conditioned::Rejected(Rejection::OutOfRange);
         };
         self.last = Some(Last { time: sample.time, mean });
+        self.turning.take(&mean.rate, self.nominal);
         let start = sample.time - Span::from_seconds(self.nominal);
-        Conditioned::Sample(compensated(&mean, &mean, start, sample.time))
+        let interval = (start, sample.time);
+        Conditioned::Sample(compensated(&mean, &mean, interval, &self.turning))
     }
 }
 
@@ -310,20 +321,27 @@ fn mean_of(sample: &ImuSample, duration: f64) -> Option<Mean> {
 /// with omega and f at the middle of this interval and omega', f' their slopes. For equal intervals
 /// these are the two-sample forms of Savage, Strapdown Inertial Navigation Integration Algorithm
 /// Design, J. Guidance 21 (1998), eqs. (33), (55)-(57) in part 1 and part 2.
-fn compensated(before: &Mean, this: &Mean, from: Time, to: Time) -> Increment {
+/// The rate at the end of the interval is that of the line through the samples, `turning`.
+fn compensated(
+    before: &Mean,
+    this: &Mean,
+    (from, to): (Time, Time),
+    turning: &AngularRate,
+) -> Increment {
     let h = this.duration;
     let spacing = 0.5 * (before.duration + h);
     let rate_slope = (this.rate - before.rate) / spacing;
     let force_slope = (this.force - before.force) / spacing;
     let weight = h * h * h / 12.0;
+    let (end_rate, angular_acceleration) = turning.at_end();
     Increment {
         from,
         to,
         rotation: this.rate * h + this.rate.cross(&rate_slope) * weight,
         velocity: this.force * h
             + (this.rate.cross(&force_slope) - rate_slope.cross(&this.force)) * weight,
-        end_rate: this.rate + rate_slope * (0.5 * h),
-        angular_acceleration: rate_slope,
+        end_rate,
+        angular_acceleration,
         rate_noise: Vector3::zeros(),
         force_noise: Vector3::zeros(),
         bridged: None,

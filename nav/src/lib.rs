@@ -5,6 +5,7 @@
 //! [`InitialState`], which alignment makes.
 
 pub mod aids;
+pub mod angular_rate;
 pub mod antenna;
 pub mod block;
 pub mod bridging;

@@ -24,7 +24,7 @@ pub struct KeptFine {
 enum KeptHold {
     WhiteNoise,
     Prefiltered,
-    Moorings(Moorings),
+    Moorings(Box<Moorings>),
 }
 
 impl KeptFine {
@@ -50,7 +50,7 @@ impl Fine {
             hold: self.hold.as_ref().map(|hold| match hold {
                 Hold::WhiteNoise(_) => KeptHold::WhiteNoise,
                 Hold::Prefiltered(_) => KeptHold::Prefiltered,
-                Hold::Moorings(moorings) => KeptHold::Moorings(*moorings),
+                Hold::Moorings(moorings) => KeptHold::Moorings(moorings.clone()),
             }),
             departure: self.departure,
             is_berth_named: self.is_berth_named,
@@ -66,7 +66,7 @@ impl Fine {
             Some(KeptHold::WhiteNoise) => Fine::moored(filter, Method::WhiteNoise),
             Some(KeptHold::Prefiltered) => Fine::moored(filter, Method::Autoregressive),
             Some(KeptHold::Moorings(moorings)) => {
-                let hold = Some(Hold::Moorings(moorings.shifted(by)));
+                let hold = Some(Hold::Moorings(Box::new(moorings.shifted(by))));
                 Fine { hold, ..Fine::under_way(filter) }
             }
         };

@@ -40,6 +40,7 @@ use insd_base::units::{DEG, wrap_two_pi};
 use insd_base::{
     Attitude, Body, Message, Mode, Ned, Received, Solution, SolutionSigma, Time, earth,
 };
+use insd_nav::angular_rate::rate_variance;
 use insd_nav::antenna::AntennaMotion;
 use insd_nav::gate::ChiSquareGate;
 use insd_nav::{Estimator, Increment, NavConfig, Report};
@@ -203,8 +204,7 @@ impl EightState {
     }
 
     fn scene(&self) -> Scene {
-        // one sample's rate, extrapolated by half of it, as in the full filter
-        let noise = self.config.imu.gyro.random_walk.powi(2) * self.config.imu.rate * 2.5;
+        let noise = rate_variance(&self.config.imu);
         let down = (self.vertical.down, self.vertical.variances().1);
         Scene::new(&self.motion, &self.rate, noise, down)
     }

@@ -34,5 +34,6 @@ pub fn shipped() -> &'static [(&'static str, &'static str)] {
         "22-moored-gnss.toml",
         "23-moored-departure.toml",
         "24-moored-engine.toml",
+        "25-moored-mems-gnss.toml",
     ]
 }

@@ -1,0 +1,82 @@
+//! Ships at their berths over some seeds: claims that hold in a swell, while she leaves, and with coarse gyros.
+
+#![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
+
+use insd_base::units::wrap_pi;
+use insd_base::{Solution, Truth, earth};
+use insd_engine::{Engine, EngineConfig, Output};
+use insd_simulator::{Scenario, limit, shipped, simulate};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+
+/// The shipped scenario of this number, cut off, s.
+fn scenario(number: &str, duration: u32) -> Scenario {
+    let (_, text) = shipped().iter().find(|(file, _)| file.starts_with(number)).unwrap();
+    let cut = format!("duration_s={duration}").parse().unwrap();
+    Scenario::with_overrides(text, &[cut]).unwrap()
+}
+
+/// Solutions with the truth at their time, one a second.
+fn sailed(scenario: &Scenario, seed: u64) -> Vec<(Solution, Truth)> {
+    let voyage = simulate(scenario, seed);
+    let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
+    let mut solutions = Vec::new();
+    for received in voyage.received() {
+        engine.handle(&received);
+        while let Some(output) = engine.poll_output() {
+            if let Output::Solution(solution) = output {
+                let at = voyage.truth.binary_search_by_key(&solution.time, |row| row.time);
+                solutions.extend(at.ok().map(|at| (solution, voyage.truth[at])));
+            }
+        }
+    }
+    solutions
+}
+
+/// The error of the heading, rad.
+fn off((solution, truth): &(Solution, Truth)) -> f64 {
+    wrap_pi(solution.attitude.heading - truth.attitude.unwrap().heading)
+}
+
+fn last(rows: &[(Solution, Truth)]) -> &(Solution, Truth) {
+    rows.last().unwrap()
+}
+
+#[test]
+fn in_a_swell_no_heading_is_claimed_that_the_swell_alone_makes() {
+    let swell = scenario("18", 100);
+    let worst_of = |seed: u64| {
+        let rows = sailed(&swell, seed);
+        let late = rows.iter().filter(|row| row.0.time.as_seconds() >= 30.0);
+        let sigmas = late.map(|row| (off(row) / row.0.sigma.heading).abs());
+        sigmas.fold(0.0, f64::max)
+    };
+    let seeds = [14_u64, 122, 136, 155, 163, 173, 181, 200];
+    let worst = seeds.into_par_iter().map(worst_of).reduce(|| 0.0, f64::max);
+    assert!(worst < 4.0, "{worst} claimed sigmas");
+}
+
+#[test]
+fn a_ship_that_leaves_is_not_drawn_back_to_her_berth() {
+    let departure = scenario("23", 300);
+    let square_of = |seed: u64| {
+        let rows = sailed(&departure, seed);
+        let (solution, truth) = last(&rows);
+        let away = earth::ecef(&solution.position).0 - earth::ecef(&truth.position).0;
+        let off = earth::c_ne(&truth.position) * away;
+        let sigma = solution.sigma.position.0;
+        0.5 * ((off.x / sigma.x).powi(2) + (off.y / sigma.y).powi(2))
+    };
+    let squares: Vec<f64> = (101_u64..113).into_par_iter().map(square_of).collect();
+    let nees = squares.iter().sum::<f64>() / squares.len() as f64;
+    assert!(nees < 2.5, "{nees}");
+}
+
+#[test]
+fn coarse_gyros_and_gnss_find_the_heading_of_a_ship_alongside_as_well_as_can_be() {
+    let alongside = scenario("25", 600);
+    let best = limit(&alongside, &[600.0]).unwrap()[0].heading;
+    let offs: Vec<f64> =
+        (1_u64..17).into_par_iter().map(|seed| off(last(&sailed(&alongside, seed)))).collect();
+    let rms = (offs.iter().map(|off| off * off).sum::<f64>() / offs.len() as f64).sqrt();
+    assert!(rms < 1.5 * best, "{} times the limit", rms / best);
+}
