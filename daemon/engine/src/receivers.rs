@@ -11,6 +11,7 @@ use insd_nav::judge::Docket;
 use insd_nav::timeline::HISTORY;
 use nalgebra::Vector3;
 
+use crate::ship::Ship;
 use crate::{Engine, Stage, checks};
 
 /// A receiver that is not the intake's choice can be used if it was heard within this, s.
@@ -154,14 +155,15 @@ impl Engine {
 
     /// How far everybody is believed.
     fn docket(&self) -> Docket {
-        let filter = self.ship().and_then(|ship| ship.likeliest()).map(|fine| fine.filter());
-        filter.map_or(self.nav.docket, |filter| filter.docket())
+        let fine = self.ship().and_then(Ship::likeliest);
+        fine.map_or(self.nav.docket, |fine| fine.filter().docket())
     }
 
     /// Lets the judge compare a fix, carried on to the newest sample of the IMU: what it is compared with to metres need
     /// not send the ship back on her time line.
     fn compare(&mut self, received: &Received) {
         let (checked, _) = checks::checked(received, self.config.vessel);
+        let checked = self.surveyor.completed(&checked);
         let Stage::Running(line) = &mut self.stage else { return };
         let Message::Gnss(fix) = checked.message else { return };
         let late = line.now() - fix.time;
