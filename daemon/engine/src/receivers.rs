@@ -100,12 +100,14 @@ impl Receivers {
         is_due
     }
 
-    /// Those of a set, in which the receiver in use goes by [`Party::Gnss`], and those that stand still, by their names.
+    /// Those of a set, in which the receiver in use goes by [`Party::Gnss`], and others that stand still, by their names.
     pub(crate) fn named(&self, parties: Parties) -> Parties {
         let own = self.in_use.map_or(Party::Gnss, |own| Party::RECEIVERS[own]);
         let named = parties.iter().map(|party| if party == Party::Gnss { own } else { party });
-        let all = Party::RECEIVERS.into_iter().zip(self.heard);
-        let frozen = all.filter(|(_, heard)| heard.is_some_and(|heard| heard.frozen.is_some()));
+        let is_frozen = |heard: &Heard| heard.frozen.is_some();
+        let others =
+            Party::RECEIVERS.into_iter().zip(self.heard).filter(|(party, _)| *party != own);
+        let frozen = others.filter(|(_, heard)| heard.as_ref().is_some_and(is_frozen));
         named.chain(frozen.map(|(party, _)| party)).collect()
     }
 }
