@@ -73,6 +73,7 @@ fn gnss(index: usize) -> Stamped<GnssFix> {
             quality: FixQuality::RtkFixed,
             lever: None,
             redated: 0.0,
+            rank: 0,
         },
         arrival: Some(Time::from_seconds(index as f64 + delay)),
     }

@@ -98,6 +98,7 @@ fn fix(seconds: f64) -> Received {
         quality: FixQuality::Differential,
         lever: None,
         redated: 0.0,
+        rank: 0,
     });
     Received { receipt: time, source: Source::Gnss(0), message }
 }

@@ -48,6 +48,7 @@ mod level;
 mod mode;
 mod motion;
 mod others;
+mod receivers;
 mod sideways;
 
 /// An estimate, its covariance and what is needed to carry both on.
@@ -432,6 +433,7 @@ impl Estimator for Filter {
         let mut report = Report::default();
         match &received.message {
             Message::Imu(_) => {}
+            Message::Gnss(fix) if fix.rank > 0 => self.compare(fix, received.source),
             Message::Gnss(fix) => self.apply_gnss(fix, received.source, &mut report),
             Message::Log(log) => self.apply_log(log, received.source, &mut report),
             Message::Reference(r) => self.apply_reference(r, received.source, &mut report),

@@ -50,6 +50,22 @@ impl Innovation<3> {
         }
     }
 
+    /// One that tells nothing.
+    #[must_use]
+    pub fn silent() -> Self {
+        Innovation { z: SVector::zeros(), h: SMatrix::zeros(), r: SMatrix::identity() }
+    }
+
+    /// Its first two components alone.
+    #[must_use]
+    pub fn horizontal(&self) -> Innovation<2> {
+        Innovation {
+            z: self.z.fixed_rows::<2>(0).into_owned(),
+            h: self.h.fixed_rows::<2>(0).into_owned(),
+            r: self.r.fixed_view::<2, 2>(0, 0).into_owned(),
+        }
+    }
+
     /// Two of one instant together.
     #[must_use]
     pub fn beside(&self, other: &Innovation<3>) -> Innovation<6> {

@@ -7,7 +7,7 @@
 
 use std::collections::VecDeque;
 
-use insd_base::{Received, Rejection, Solution, Source, Span, Time};
+use insd_base::{Message, Received, Rejection, Solution, Source, Span, Time};
 
 use crate::increments::Increment;
 use crate::report::{AidReport, Outcome, Report};
@@ -183,9 +183,11 @@ fn run_until<E: Estimator>(estimator: &mut E, increment: Increment, at: Time) ->
 }
 
 /// The order in which measurements are applied: by time of validity and, where that is the same, by
-/// source, so that the order of arrival leaves no trace.
-fn order(received: &Received) -> (Time, Source) {
-    (received.message.time(), received.source)
+/// source, so that the order of arrival leaves no trace. A receiver that is only compared comes last: whoever else
+/// spoke at that instant need not be repeated for it.
+fn order(received: &Received) -> (Time, bool, Source) {
+    let is_compared = matches!(received.message, Message::Gnss(fix) if fix.rank > 0);
+    (received.message.time(), is_compared, received.source)
 }
 
 /// Inserts in order, behind its equals; returns the place.

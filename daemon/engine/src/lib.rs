@@ -15,6 +15,7 @@ mod herald;
 mod ledger;
 mod looks;
 mod mode;
+mod receivers;
 mod recent;
 mod relay;
 mod resume;
@@ -42,6 +43,7 @@ use disturbance::Trace;
 use epochs::{due_at, epochs};
 use herald::Herald;
 use mode::{Facts, Machine};
+use receivers::Receivers;
 use recent::Recent;
 use relay::Relay;
 use resumption::Resumption;
@@ -141,6 +143,7 @@ pub struct Engine {
     /// Alignments that were begun anew because GNSS refuted what they found.
     retried: u8,
     recent: Recent,
+    receivers: Receivers,
     relay: Relay,
     period: Span,
     next_epoch: Option<i64>,
@@ -185,6 +188,7 @@ impl Engine {
             told: Told::default(),
             retried: 0,
             recent: Recent::default(),
+            receivers: Receivers::default(),
             relay: Relay::default(),
             next_epoch: None,
             last: None,
@@ -386,6 +390,7 @@ impl Engine {
             self.reject(received, source.name(), reason);
             return;
         }
+        let Some(received) = &self.as_used(received) else { return };
         let (checked, faults) = checks::checked(received, self.config.vessel);
         for aid in faults {
             self.reject(received, aid, Rejection::OutOfRange);

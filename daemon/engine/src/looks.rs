@@ -73,7 +73,7 @@ impl Engine {
     #[must_use]
     pub fn excluded(&self) -> Parties {
         let judged = self.judge().map(|judge| judge.judgement().excluded).unwrap_or_default();
-        judged.and(self.surveyor.excluded())
+        judged.and(self.receivers.named(self.surveyor.excluded()))
     }
 
     /// Whether sensors contradict each other, and it is not known who is wrong.
@@ -91,7 +91,7 @@ impl Engine {
     /// A solution with all that is found of the sensors.
     pub(crate) fn judged(&self, solution: Solution) -> Solution {
         let Judgement { integrity, excluded } = solution.judgement;
-        let excluded = excluded.and(self.surveyor.excluded());
+        let excluded = excluded.and(self.receivers.named(self.surveyor.excluded()));
         Solution { judgement: Judgement { integrity, excluded }, ..solution }
     }
 

@@ -6,7 +6,7 @@ use insd_alignment::{
 };
 use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::units::DEG;
-use insd_base::{Fault, ImuSpec, Mode, Party, Received, Solution, StoredDoubt, Time};
+use insd_base::{Fault, ImuSpec, Message, Mode, Party, Received, Solution, StoredDoubt, Time};
 use insd_nav::filter::judged::ImuState;
 use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
 
@@ -245,6 +245,11 @@ fn is_steerable(fine: &Fine) -> bool {
     fine.filter().is_settled() && fine.filter().heading_std() < STEERABLE
 }
 
+/// Whether a message is of a receiver that is not in use.
+fn is_compared(received: &Received) -> bool {
+    matches!(received.message, Message::Gnss(fix) if fix.rank > 0)
+}
+
 /// The part of an [`Estimator`] that only reads.
 trait Solver {
     fn now(&self) -> Solution;
@@ -285,6 +290,8 @@ impl Estimator for Ship {
 
     fn apply(&mut self, received: &Received) -> Report {
         match self {
+            Ship::Navigating { fine, .. } if is_compared(received) => fine.apply(received),
+            _ if is_compared(received) => Report::default(),
             Ship::Aligning(bank) => bank.apply(received),
             Ship::InMotion { finder, blind, .. } => {
                 let is_left_out = finder.config().docket.is_excluded(Party::Heading);

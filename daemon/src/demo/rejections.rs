@@ -60,6 +60,7 @@ pub fn event(event: &Event) -> String {
             format!("✗ Installation: {}", finding.as_str().replace('_', " "))
         }
         Event::Judged { stands, .. } => capitalised(&stands.to_string()),
+        Event::ReceiverUsed { change, .. } => capitalised(&change.to_string()),
         Event::PositionReset { .. } => "Position set anew".to_owned(),
         Event::StoredStateUsed { .. } => "Stored heading confirmed".to_owned(),
         Event::StoredStateDropped { reason, .. } => {

@@ -43,6 +43,7 @@ pub(crate) fn engine(event: &Event) -> (&'static str, Option<String>) {
         }
         Event::InstallationFound { finding, .. } => ("installation", Some(finding.to_string())),
         Event::Judged { stands, .. } => ("sensors", Some(stands.to_string())),
+        Event::ReceiverUsed { change, .. } => ("sensors", Some(change.to_string())),
         Event::PositionReset { .. } => {
             let words = "the position was set anew from a source that was kept out for too long";
             ("position reset", Some(words.to_owned()))

@@ -138,6 +138,10 @@ fn tell_engine(event: &Event) {
             let fault = stands.fault.map(Fault::as_str);
             tracing::warn!(at, party, standing, fault, "{stands}");
         }
+        Event::ReceiverUsed { time, change } => {
+            let (at, from, to) = (time.as_seconds(), change.from.as_str(), change.to.as_str());
+            tracing::warn!(at, from, to, "{change}");
+        }
         Event::PositionReset { .. } | Event::StoredStateDropped { .. } => {
             let (what, text) = words::engine(event);
             tracing::warn!("{what}: {}", text.unwrap_or_default());

@@ -136,7 +136,7 @@ export function system(data) {
 const AXES = ["forward", "starboard", "down"];
 
 const STANDINGS = { doubtful: "is-bad", excluded: "is-bad" };
-const PARTIES = { gnss: "GNSS", log: "log", heading: "compass", reference: "second position", imu: "IMU" };
+const PARTIES = { gnss: "GNSS", gnss2: "second GNSS", gnss3: "third GNSS", log: "log", heading: "compass", reference: "second position", imu: "IMU" };
 
 function standings(all) {
   const list = byId("standings");

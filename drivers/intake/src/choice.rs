@@ -168,6 +168,17 @@ impl Choice {
         self.current == Some(sensor)
     }
 
+    /// The place of a sensor among all: 0 for the one in use, then by priority.
+    #[must_use]
+    pub fn rank(&self, sensor: usize) -> u8 {
+        if self.is_used(sensor) {
+            return 0;
+        }
+        let others = self.candidates.iter().filter(|own| !self.is_used(own.sensor));
+        let before = others.take_while(|own| own.sensor != sensor).count();
+        u8::try_from(before + 1).unwrap_or(u8::MAX)
+    }
+
     /// The sensor in use.
     #[must_use]
     pub fn current(&self) -> Option<usize> {
@@ -238,6 +249,7 @@ mod tests {
         let both = spoken(&mut choice, 3.0, 20.0, &[(4, true), (7, true)]);
         assert_eq!(both, [(13.0, Some(7), Why::Better)]);
         assert!(choice.is_used(7) && !choice.is_used(4));
+        assert_eq!((choice.rank(7), choice.rank(4)), (0, 1));
     }
 
     #[test]

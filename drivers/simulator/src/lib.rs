@@ -22,7 +22,8 @@ mod track;
 
 use insd_base::earth::{c_ne, ecef, geodetic};
 use insd_base::{
-    Body, Ecef, Geodetic, ImuSample, LeverArms, Stamped, Truth, VesselKind, Voyage, VoyageHeader,
+    Body, Ecef, Geodetic, GnssFix, ImuSample, LeverArms, Stamped, Truth, VesselKind, Voyage,
+    VoyageHeader,
 };
 use nalgebra::Vector3;
 
@@ -69,6 +70,24 @@ pub fn further_imu(
     // seeds of voyages are small numbers
     let own = seed ^ u64::from(number) << 40;
     sensors::imu::samples_at(&scenario.imu, &track, scenario.duration(), own, Some(&lever.0))
+}
+
+/// The fixes of a further receiver on the same ship and voyage. `receiver` is a scenario whose receiver it is, with its
+/// rate, lever arm and errors; these are its own: `number`, from 1, decides them.
+#[must_use]
+pub fn further_receiver(
+    scenario: &Scenario,
+    seed: u64,
+    number: u32,
+    receiver: &Scenario,
+) -> Vec<Stamped<GnssFix>> {
+    let track = Track::new(scenario, seed);
+    let own = seed ^ u64::from(number) << 40;
+    let Some(gnss) = &receiver.gnss else { return Vec::new() };
+    let lever = Some(Body(Vector3::from(gnss.lever_arm_m)));
+    let mut fixes = sensors::gnss::fixes(gnss, &track, scenario.duration(), own);
+    fixes.iter_mut().for_each(|fix| fix.message.lever = lever);
+    fixes
 }
 
 fn header(scenario: &Scenario, seed: u64) -> VoyageHeader {

@@ -127,6 +127,7 @@ fn gnss_fix(time: Time, fields: &Fields<'_>) -> Result<GnssFix, BadRow> {
         quality: quality(fields, 15, has_data)?,
         lever: None,
         redated: 0.0,
+        rank: 0,
     })
 }
 

@@ -5,7 +5,7 @@ use std::fmt;
 
 use crate::installation::Finding;
 use crate::messages::Source;
-use crate::party::Stands;
+use crate::party::{ReceiverChange, Stands};
 use crate::solution::Mode;
 use crate::time::Time;
 
@@ -323,6 +323,13 @@ pub enum Event {
         time: Time,
         /// Who, and how.
         stands: Stands,
+    },
+    /// Another receiver is used from now on.
+    ReceiverUsed {
+        /// When.
+        time: Time,
+        /// Which.
+        change: ReceiverChange,
     },
     /// The position was set anew from a source that the gate had kept out for too long.
     PositionReset {

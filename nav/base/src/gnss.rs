@@ -84,6 +84,9 @@ pub struct GnssFix {
     pub lever: Option<Body>,
     /// By how much its time of validity was set back because the receiver tags its epochs late, s.
     pub redated: f64,
+    /// Place of the receiver among those of the ship: 0 is the one to be used, the others are compared with what is
+    /// made of it, in this order.
+    pub rank: u8,
 }
 
 #[cfg(test)]

@@ -48,7 +48,7 @@ pub use messages::{
     ExternalReference, ImuSample, LogReference, LogVelocity, Message, Received, Source,
 };
 pub use motion::{Current, Motion};
-pub use party::{Fault, Integrity, Judgement, Parties, Party, Standing, Stands};
+pub use party::{Fault, Integrity, Judgement, Parties, Party, ReceiverChange, Standing, Stands};
 pub use protection::{Availability, Protection};
 pub use sensor::{ImuSpec, LeverArms, Triad};
 pub use solution::{Mode, Solution, SolutionSigma};

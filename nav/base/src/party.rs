@@ -9,8 +9,12 @@ use crate::time::Time;
 /// A sensor, or several that fall together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Party {
-    /// The GNSS receiver in use.
+    /// The first GNSS receiver of the configuration.
     Gnss,
+    /// The second one.
+    Gnss2,
+    /// The third one, and any other.
+    Gnss3,
     /// The velocity log.
     Log,
     /// A heading reference: gyrocompass, dual antenna.
@@ -23,14 +27,39 @@ pub enum Party {
 
 impl Party {
     /// All of them.
-    pub const ALL: [Party; 5] =
-        [Party::Gnss, Party::Log, Party::Heading, Party::Reference, Party::Imu];
+    pub const ALL: [Party; 7] = [
+        Party::Gnss,
+        Party::Gnss2,
+        Party::Gnss3,
+        Party::Log,
+        Party::Heading,
+        Party::Reference,
+        Party::Imu,
+    ];
+
+    /// The receivers, in the order of the configuration.
+    pub const RECEIVERS: [Party; 3] = [Party::Gnss, Party::Gnss2, Party::Gnss3];
+
+    /// The receiver of a number, from 0.
+    #[must_use]
+    pub fn receiver(number: u8) -> Party {
+        let last = Party::RECEIVERS.len() - 1;
+        Party::RECEIVERS[usize::from(number).min(last)]
+    }
+
+    /// Whether it is a receiver.
+    #[must_use]
+    pub fn is_receiver(self) -> bool {
+        Party::RECEIVERS.contains(&self)
+    }
 
     /// Its word, as in the column `excluded` of `nav.csv`.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Party::Gnss => "gnss",
+            Party::Gnss2 => "gnss2",
+            Party::Gnss3 => "gnss3",
             Party::Log => "log",
             Party::Heading => "heading",
             Party::Reference => "reference",
@@ -44,6 +73,8 @@ impl fmt::Display for Party {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Party::Gnss => "GNSS",
+            Party::Gnss2 => "the second GNSS receiver",
+            Party::Gnss3 => "the third GNSS receiver",
             Party::Log => "the log",
             Party::Heading => "the heading reference",
             Party::Reference => "the other reference",
@@ -117,6 +148,12 @@ pub enum Fault {
     ReferenceDrag,
     /// It scatters by more than it says.
     ReferenceNoise,
+    /// A receiver that is only compared jumped.
+    SpareJump,
+    /// It is dragged away.
+    SpareDrag,
+    /// It is wrong in a way that has no shape.
+    SpareNoise,
     /// A gyro has another bias.
     GyroBias,
     /// An accelerometer has another bias.
@@ -130,12 +167,14 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// Who does so.
+    /// Who does so, of receivers [`Party::Gnss`] for the one in use and [`Party::Gnss2`] for the one that is compared
+    /// with it.
     #[must_use]
     pub fn party(self) -> Party {
         match self {
             Fault::Jump | Fault::Drag | Fault::Slide | Fault::Creep => Party::Gnss,
             Fault::Velocity | Fault::Height | Fault::Delay | Fault::GnssNoise => Party::Gnss,
+            Fault::SpareJump | Fault::SpareDrag | Fault::SpareNoise => Party::Gnss2,
             Fault::LogGain | Fault::LogOffset | Fault::LogFlow | Fault::LogNoise => Party::Log,
             Fault::HeadingOffset | Fault::HeadingDrift | Fault::HeadingNoise => Party::Heading,
             Fault::ReferenceJump | Fault::ReferenceDrag | Fault::ReferenceNoise => Party::Reference,
@@ -149,7 +188,11 @@ impl Fault {
     pub fn is_noise(self) -> bool {
         matches!(
             self,
-            Fault::GnssNoise | Fault::LogNoise | Fault::HeadingNoise | Fault::ReferenceNoise
+            Fault::GnssNoise
+                | Fault::SpareNoise
+                | Fault::LogNoise
+                | Fault::HeadingNoise
+                | Fault::ReferenceNoise
         )
     }
 
@@ -175,6 +218,9 @@ impl Fault {
             Fault::HeadingDrift => "heading_drift",
             Fault::ReferenceJump => "reference_jump",
             Fault::ReferenceDrag => "reference_drag",
+            Fault::SpareJump => "spare_jump",
+            Fault::SpareDrag => "spare_drag",
+            Fault::SpareNoise => "spare_noise",
             Fault::GyroBias => "gyro_bias",
             Fault::AccelBias => "accel_bias",
             Fault::GyroScale => "gyro_scale",
@@ -188,8 +234,8 @@ impl fmt::Display for Fault {
     /// The same in words, to be read after the name of who does so.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Fault::Jump | Fault::ReferenceJump => "has jumped to another place",
-            Fault::Drag | Fault::ReferenceDrag => "drifts away",
+            Fault::Jump | Fault::ReferenceJump | Fault::SpareJump => "has jumped to another place",
+            Fault::Drag | Fault::ReferenceDrag | Fault::SpareDrag => "drifts away",
             Fault::Slide => "drifts away, and its velocity says that it does not",
             Fault::Creep => "drifts away faster and faster",
             Fault::Velocity => "tells a wrong velocity",
@@ -198,6 +244,7 @@ impl fmt::Display for Fault {
             Fault::GnssNoise | Fault::LogNoise | Fault::HeadingNoise | Fault::ReferenceNoise => {
                 "scatters by more than it says"
             }
+            Fault::SpareNoise => "is elsewhere than the one in use",
             Fault::LogGain => "has another scale than before, or is turned",
             Fault::LogOffset => "is off along or athwart",
             Fault::LogFlow => "is off as if it tracked the water",
@@ -249,6 +296,30 @@ impl fmt::Display for Stands {
                 write!(f, "{party} is used again, but nothing shows that it is right")
             }
         }
+    }
+}
+
+/// Another receiver is used than before, though the intake would use the one before, or would have used this one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ReceiverChange {
+    /// The one before.
+    pub from: Party,
+    /// The one that is used now.
+    pub to: Party,
+    /// Whether the one before is left out for what it told.
+    pub is_for_lie: bool,
+}
+
+impl fmt::Display for ReceiverChange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ordinal = |party| match party {
+            Party::Gnss2 => "second",
+            Party::Gnss3 => "third",
+            _ => "first",
+        };
+        let why = if self.is_for_lie { ", which is left out" } else { "" };
+        let (from, to) = (ordinal(self.from), ordinal(self.to));
+        write!(f, "the {to} GNSS receiver is used in place of the {from} one{why}")
     }
 }
 

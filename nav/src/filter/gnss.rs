@@ -54,6 +54,7 @@ impl Filter {
             enter(report, fix.time, source, POSITION_AID, &none);
             return;
         }
+        self.take_up(source);
         self.note_antenna(fix);
         self.note_redating(fix.redated);
         self.note_quality(fix.quality);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use insd_base::units::DEG;
 use insd_base::{Mode, Parties, Party, SolutionSigma};
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use super::Filter;
 use crate::config::WORSE;
@@ -117,13 +117,11 @@ impl Filter {
         if self.judge.as_ref().is_none_or(|judge| !judge.docket().leaves_out_gnss()) {
             return;
         }
-        let silent =
-            Innovation { z: Vector3::zeros(), h: SMatrix::zeros(), r: Matrix3::identity() };
-        let both = position.beside(velocity.unwrap_or(&silent));
+        let both = position.beside(velocity.unwrap_or(&Innovation::silent()));
         let noise = position.r.diagonal().xy().max().sqrt();
         let weighed = both.weigh(&covariance);
         if let Some((weighed, judge)) = weighed.zip(self.judge_now()) {
-            judge.follow(now, &weighed, noise, &covariance);
+            judge.follow((Party::Gnss, now), &weighed, noise, &covariance);
         }
     }
 

@@ -24,6 +24,10 @@ pub enum Aid {
     ReferencePosition,
     /// Its velocity.
     ReferenceVelocity,
+    /// Position of a receiver that is compared with the one in use.
+    SparePosition,
+    /// Its velocity.
+    SpareVelocity,
     /// Mean sea level.
     SeaLevel,
 }
@@ -45,8 +49,17 @@ impl Aid {
             Aid::Log | Aid::LogStarboard | Aid::LogDown => Some(Party::Log),
             Aid::Heading => Some(Party::Heading),
             Aid::ReferencePosition | Aid::ReferenceVelocity => Some(Party::Reference),
+            Aid::SparePosition | Aid::SpareVelocity => Some(Party::Gnss2),
             Aid::SeaLevel => None,
         }
+    }
+}
+
+impl Aid {
+    /// Whether estimates take anything of it: what is only compared shares its slow errors with what is used.
+    #[must_use]
+    pub fn is_absorbed(self) -> bool {
+        !matches!(self, Aid::SparePosition | Aid::SpareVelocity)
     }
 }
 
@@ -68,6 +81,11 @@ impl Hearing {
     /// Whether it was heard within such a time, s.
     pub(super) fn was_within(&self, now: Time, span: f64) -> bool {
         self.last.is_some_and(|last| (now - last).as_seconds() <= span)
+    }
+
+    /// Time since it was heard, s; infinite if it never was.
+    pub(super) fn unheard(&self, now: Time) -> f64 {
+        self.last.map_or(f64::INFINITY, |last| (now - last).as_seconds())
     }
 
     /// It is heard now.

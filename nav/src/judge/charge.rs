@@ -75,6 +75,7 @@ impl Charge {
         let fault = match whom {
             Party::Imu => Fault::ImuUseless,
             Party::Gnss => Fault::GnssNoise,
+            Party::Gnss2 | Party::Gnss3 => Fault::SpareNoise,
             Party::Log => Fault::LogNoise,
             Party::Heading => Fault::HeadingNoise,
             Party::Reference => Fault::ReferenceNoise,
@@ -115,11 +116,14 @@ impl Judge {
         let is_relapse = self.docket.standing(Party::Imu) == Standing::Doubtful;
         let relapse = if is_relapse { RELAPSE } else { 0.0 };
         let most = all.iter().max_by(|a, b| a.evidence.total_cmp(&b.evidence));
+        // what another receiver tells is not his own word
+        let is_of_spare = most.is_some_and(|charge| charge.party() == Party::Gnss2);
         let worth = most.map_or(1.0, |charge| unsure((now - charge.begun).as_seconds()));
         let mut charges: Vec<Charge> = Vec::new();
         let mut total = 0.0;
         for mut charge in all {
-            let own = if charge.is_own_word { worth.min(OWN_WORD) } else { worth };
+            let is_own_word = charge.is_own_word && !is_of_spare;
+            let own = if is_own_word { worth.min(OWN_WORD) } else { worth };
             charge.weight += charge.evidence / own;
             charge.weight += if charge.party() == Party::Imu { relapse } else { 0.0 };
             total = log_sum(total, charge.weight);
@@ -154,10 +158,12 @@ impl Judge {
         }
         let most = all.iter().filter_map(Charge::explained).fold(0.0, f64::max);
         all.retain(|charge| !charge.is_own_word || charge.explained() > Some(PLAIN * most));
-        let shapeless = self.dissenters.iter().map(|dissenter| Charge {
-            evidence: dissenter.gain,
-            begun: dissenter.since,
-            ..Charge::shapeless(dissenter.whom, SHAPELESS + SPAWN.ln())
+        let others = self.dissenters.iter().map(|dissenter| (dissenter.whom, &dissenter.success));
+        let spare = (self.spare.gain > 0.0).then_some((Party::Gnss2, &self.spare));
+        let shapeless = others.chain(spare).map(|(whom, success)| Charge {
+            evidence: success.gain,
+            begun: success.since,
+            ..Charge::shapeless(whom, SHAPELESS + SPAWN.ln())
         });
         all.extend(shapeless);
         all
@@ -166,7 +172,7 @@ impl Judge {
     /// Whether a fault leaves nothing much unexplained.
     fn explains(&self, charge: &Charge) -> bool {
         let left = match charge.kind {
-            Kind::Shapeless => self.dissenter(charge.party()).map(|dissenter| dissenter.strain),
+            Kind::Shapeless => self.success(charge.party()).map(|success| success.strain),
             Kind::Shaped { since, sized, .. } => {
                 self.begun(since).map(|onset| onset.left(sized.explained))
             }

@@ -8,6 +8,7 @@
 use insd_base::{Party, Time};
 use nalgebra::UnitQuaternion;
 
+use super::Aid;
 use super::shadow::{Shadow, agitate};
 use crate::innovation::{Innovation, Weighed};
 
@@ -22,7 +23,13 @@ pub(super) struct Dissenter {
     /// Whom it does not believe.
     pub(super) whom: Party,
     pub(super) shadow: Shadow,
-    /// By how much likelier it is of late, as a logarithm, and since when it is.
+    pub(super) success: Success,
+}
+
+/// How well somebody who does not believe another finds what is said.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Success {
+    /// By how much likelier of late, as a logarithm, and since when.
     pub(super) gain: f64,
     pub(super) since: Time,
     /// Mean of the normalised squares of its innovations of late.
@@ -31,10 +38,44 @@ pub(super) struct Dissenter {
     pub(super) worst: f64,
 }
 
+impl Default for Success {
+    fn default() -> Self {
+        Success { gain: 0.0, since: Time::START, strain: 1.0, worst: 0.0 }
+    }
+}
+
+impl Success {
+    /// Enters an innovation as it is weighed there; `others` is how likely who believes all finds it, as a logarithm.
+    fn enter<const M: usize>(&mut self, now: Time, weighed: &Weighed<M>, others: f64) {
+        if self.gain <= 0.0 {
+            (self.since, self.worst) = (now, 0.0);
+        }
+        self.worst = self.worst.max(weighed.nis() / M as f64);
+        self.gain = (self.gain + log_likelihood(weighed) - others).max(0.0);
+        self.strain += (weighed.nis() / M as f64 - self.strain) / LATE;
+    }
+
+    /// The same for who does not believe a receiver that no estimate lives by: his shadow is that of all.
+    pub(super) fn hear<const M: usize>(
+        &mut self,
+        (aid, now): (Aid, Time),
+        innovation: &Innovation<M>,
+        weighed: &Weighed<M>,
+        shadow: &Shadow,
+    ) {
+        let others = log_likelihood(weighed);
+        if aid.is_absorbed() {
+            return self.enter(now, weighed, others);
+        }
+        let noisy = shadow.weigh(innovation, noise_of(innovation, shadow));
+        noisy.iter().for_each(|noisy| self.enter(now, noisy, others));
+    }
+}
+
 impl Dissenter {
     /// One that goes along with somebody's shadow up to now.
     pub(super) fn new(whom: Party, shadow: Shadow) -> Self {
-        Dissenter { whom, shadow, gain: 0.0, since: Time::START, strain: 1.0, worst: 0.0 }
+        Dissenter { whom, shadow, success: Success::default() }
     }
 
     /// What a time without anybody's word, s, does to it.
@@ -48,30 +89,26 @@ impl Dissenter {
     /// a logarithm.
     pub(super) fn hear<const M: usize>(
         &mut self,
-        (by, now): (Option<Party>, Time),
+        (aid, now): (Aid, Time),
         innovation: &Innovation<M>,
         attitude: &UnitQuaternion<f64>,
         others: f64,
     ) {
-        let noise = if by == Some(self.whom) { self.noise_of(innovation) } else { 1.0 };
+        let is_own = aid.party() == Some(self.whom);
+        let noise = if is_own { noise_of(innovation, &self.shadow) } else { 1.0 };
         let Some(weighed) = self.shadow.weigh(innovation, noise) else { return };
-        if self.gain <= 0.0 {
-            (self.since, self.worst) = (now, 0.0);
+        self.success.enter(now, &weighed, others);
+        if aid.is_absorbed() {
+            self.shadow.absorb(&weighed, attitude);
         }
-        self.worst = self.worst.max(weighed.nis() / M as f64);
-        self.gain = (self.gain + log_likelihood(&weighed) - others).max(0.0);
-        self.strain += (weighed.nis() / M as f64 - self.strain) / LATE;
-        self.shadow.absorb(&weighed, attitude);
     }
 }
 
-impl Dissenter {
-    /// The variance of noise, times that stated, of which an innovation is no more than an ordinary sample.
-    fn noise_of<const M: usize>(&self, innovation: &Innovation<M>) -> f64 {
-        let z = innovation.z - innovation.h * self.shadow.apart;
-        let squares = z.component_mul(&z).component_div(&innovation.r.diagonal());
-        squares.iter().copied().fold(NOISY, f64::max)
-    }
+/// The variance of noise, times that stated, of which an innovation is no more than an ordinary sample.
+fn noise_of<const M: usize>(innovation: &Innovation<M>, shadow: &Shadow) -> f64 {
+    let z = innovation.z - innovation.h * shadow.apart;
+    let squares = z.component_mul(&z).component_div(&innovation.r.diagonal());
+    squares.iter().copied().fold(NOISY, f64::max)
 }
 
 /// The logarithm of a likelihood, but for a constant.

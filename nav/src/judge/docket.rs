@@ -4,6 +4,10 @@
 //! lie is within what the navigator is unsure of by now agrees with anything. So the lie is followed. While it shows it
 //! is what the receiver and the navigator differ by; later only its steps are seen. If it went away, the receiver is
 //! trusted again; if it could still be there, the position is claimed to be no better than that.
+//!
+//! Of several receivers one is in use and one is compared with it. Here, as in all of the judge, these two are
+//! [`Party::Gnss`] and [`Party::Gnss2`], whichever they are; each keeps what it did when it takes another part, and is told
+//! by its own name.
 
 use insd_base::{Fault, Party, Span, Standing, Stands, Time};
 use nalgebra::Vector2;
@@ -51,7 +55,7 @@ impl Default for Entry {
     }
 }
 
-/// What the receiver is off by, as far as it is known.
+/// What a receiver is off by, as far as it is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct LieOfGnss {
     off: Vector2<f64>,
@@ -59,13 +63,31 @@ struct LieOfGnss {
     rate: f64,
     seen: Option<Time>,
     last: Option<(Time, Vector2<f64>)>,
+    /// The position may be off by so much, though nothing shows it, m, and grow so fast, m/s, since then.
+    unproven: Option<(f64, f64, Time)>,
+}
+
+/// Which receiver has which part, by their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Parts {
+    in_use: u8,
+    compared: u8,
+    /// How many there are, as far as was heard.
+    heard: u8,
+}
+
+impl Default for Parts {
+    fn default() -> Self {
+        Parts { in_use: 0, compared: 1, heard: 1 }
+    }
 }
 
 /// The standing of all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Docket {
     entries: [Entry; Party::ALL.len()],
-    lie: LieOfGnss,
+    parts: Parts,
+    lies: [LieOfGnss; Party::RECEIVERS.len()],
     /// The IMU is not believed since then, and has last been seen to be wrong then.
     restless: Option<(Time, Time)>,
     /// The IMU is of no use.
@@ -74,15 +96,78 @@ pub struct Docket {
     worse: u8,
     /// The IMU was found wrong by one witness, who may be so himself.
     by_one: bool,
-    /// The position may be off by so much, though nothing shows it, m, and grow so fast, m/s, since then.
-    unproven: Option<(f64, f64, Time)>,
 }
 
 impl Docket {
+    /// Where the entry of somebody is, and of a receiver with a part.
+    fn place(&self, party: Party) -> usize {
+        let named = match party {
+            Party::Gnss => self.receiver_in_use(),
+            Party::Gnss2 => Party::receiver(self.parts.compared),
+            other => other,
+        };
+        named as usize
+    }
+
+    /// Where the lie of a receiver with a part is.
+    fn lie_of(&self, party: Party) -> usize {
+        let number = if party == Party::Gnss { self.parts.in_use } else { self.parts.compared };
+        usize::from(number).min(self.lies.len() - 1)
+    }
+
+    /// The receiver that is in use, by its own name.
+    #[must_use]
+    pub fn receiver_in_use(&self) -> Party {
+        Party::receiver(self.parts.in_use)
+    }
+
+    /// The receiver that is compared with it, by its own name.
+    #[must_use]
+    pub fn receiver_compared(&self) -> Party {
+        Party::receiver(self.parts.compared)
+    }
+
+    /// How a receiver stands, by its own name.
+    #[must_use]
+    pub fn receiver_stands(&self, named: Party) -> Standing {
+        self.entries[named as usize].standing
+    }
+
+    /// Another receiver, by its number, is in use from now on. The one before is compared with it.
+    pub fn use_receiver(&mut self, number: u8, now: Time) {
+        let number = number.min(Party::RECEIVERS.len() as u8 - 1);
+        self.drop_doubt(now);
+        let Parts { in_use, heard, .. } = self.parts;
+        if number != in_use {
+            self.parts = Parts { in_use: number, compared: in_use, heard: heard.max(number + 1) };
+        }
+    }
+
+    /// A receiver, by its number, is compared with the one in use from now on; tells whether another was.
+    pub fn compare_receiver(&mut self, number: u8, now: Time) -> bool {
+        let number = number.min(Party::RECEIVERS.len() as u8 - 1);
+        self.parts.heard = self.parts.heard.max(number + 1);
+        let is_other = number != self.parts.compared && number != self.parts.in_use;
+        if is_other {
+            self.drop_doubt(now);
+            self.parts.compared = number;
+        }
+        is_other
+    }
+
+    /// Who is suspected in one part is not in another.
+    fn drop_doubt(&mut self, now: Time) {
+        for part in [Party::Gnss, Party::Gnss2] {
+            if self.standing(part) == Standing::Doubtful {
+                self.enter(part, Standing::Trusted, now);
+            }
+        }
+    }
+
     /// How far somebody is believed.
     #[must_use]
     pub fn standing(&self, party: Party) -> Standing {
-        self.entries[party as usize].standing
+        self.entries[self.place(party)].standing
     }
 
     /// With somebody left out for what he was found to do before.
@@ -92,9 +177,12 @@ impl Docket {
         self
     }
 
-    /// How all stand.
+    /// How all stand, each by its own name.
     pub fn all(&self) -> impl Iterator<Item = Stands> {
-        Party::ALL.into_iter().zip(self.entries).map(|(party, entry)| {
+        let heard = usize::from(self.parts.heard);
+        let is_there = move |party: Party| !party.is_receiver() || (party as usize) < heard;
+        let all = Party::ALL.into_iter().zip(self.entries);
+        all.filter(move |(party, _)| is_there(*party)).map(|(party, entry)| {
             let Entry { standing, since, fault, .. } = entry;
             Stands { party, standing, since, fault }
         })
@@ -111,7 +199,7 @@ impl Docket {
     #[must_use]
     pub fn leaves_out(&self, aid: Aid) -> bool {
         let Some(party) = aid.party() else { return false };
-        let is_heard = match self.entries[party as usize].fault {
+        let is_heard = match self.entries[self.place(party)].fault {
             Some(Fault::Velocity) => aid == Aid::GnssPosition,
             Some(Fault::Height) => true,
             _ => false,
@@ -122,7 +210,7 @@ impl Docket {
     /// Whether the receiver is used but for its height.
     #[must_use]
     pub fn tells_wrong_height(&self) -> bool {
-        let gnss = &self.entries[Party::Gnss as usize];
+        let gnss = &self.entries[self.place(Party::Gnss)];
         gnss.standing == Standing::Excluded && gnss.fault == Some(Fault::Height)
     }
 
@@ -135,7 +223,7 @@ impl Docket {
     /// The position may be off by so much though no sigma tells it, m.
     #[must_use]
     pub fn unproven(&self, now: Time) -> f64 {
-        self.unproven.map_or(0.0, |(off, rate, at)| off + rate * (now - at).as_seconds().max(0.0))
+        self.lies[self.lie_of(Party::Gnss)].unproven_at(now)
     }
 
     /// By how many steps the IMU was found to be worse than its data sheet.
@@ -213,7 +301,8 @@ impl Docket {
     }
 
     fn enter(&mut self, party: Party, standing: Standing, now: Time) {
-        let entry = &mut self.entries[party as usize];
+        let place = self.place(party);
+        let entry = &mut self.entries[place];
         if entry.standing != standing {
             (entry.standing, entry.since) = (standing, now);
         }
@@ -224,7 +313,8 @@ impl Docket {
     /// fast, m/s.
     pub fn convict(&mut self, fault: Fault, now: Time, lie: (Vector2<f64>, f64)) {
         let party = fault.party();
-        let entry = &mut self.entries[party as usize];
+        let place = self.place(party);
+        let entry = &mut self.entries[place];
         entry.fault = Some(fault);
         let is_relapse = entry.since > Time::START && (now - entry.since).as_seconds() < FORGOTTEN;
         entry.quarantine = if is_relapse && entry.standing != Standing::Doubtful {
@@ -234,24 +324,26 @@ impl Docket {
         };
         if party == Party::Imu {
             self.enter(party, Standing::Doubtful, now);
-            self.entries[party as usize].since = now;
+            self.entries[place].since = now;
             return;
         }
         self.enter(party, Standing::Excluded, now);
-        if party == Party::Gnss {
+        if party.is_receiver() {
             let (off, rate) = lie;
-            self.lie = LieOfGnss { off, rate, seen: Some(now), last: None };
+            let own = &mut self.lies[self.lie_of(party)];
+            *own = LieOfGnss { off, rate, seen: Some(now), last: None, unproven: own.unproven };
         }
     }
 
     /// Whoever is doubted, by what the last look gave.
     pub fn doubt(&mut self, fault: Option<Fault>, now: Time) {
         let party = fault.map(Fault::party);
-        for each in [Party::Gnss, Party::Log, Party::Heading, Party::Reference] {
+        for each in [Party::Gnss, Party::Gnss2, Party::Log, Party::Heading, Party::Reference] {
             match self.standing(each) {
                 Standing::Trusted if party == Some(each) => {
                     self.enter(each, Standing::Doubtful, now);
-                    self.entries[each as usize].fault = fault;
+                    let place = self.place(each);
+                    self.entries[place].fault = fault;
                 }
                 Standing::Doubtful if party != Some(each) => {
                     self.enter(each, Standing::Trusted, now);
@@ -267,7 +359,8 @@ impl Docket {
 
     /// Sees whether somebody who is left out agrees with the navigator; who has for long enough is heard again.
     pub fn watch(&mut self, party: Party, now: Time, agrees: bool) {
-        let entry = &mut self.entries[party as usize];
+        let place = self.place(party);
+        let entry = &mut self.entries[place];
         if !agrees {
             entry.agreeing_since = None;
             return;
@@ -280,30 +373,37 @@ impl Docket {
 
     /// Hears somebody again who was left out for his noise alone.
     pub fn recall(&mut self, party: Party, now: Time) {
-        if self.entries[party as usize].fault.is_some_and(Fault::is_noise) {
+        if self.entries[self.place(party)].fault.is_some_and(Fault::is_noise) {
             self.enter(party, Standing::Trusted, now);
         }
     }
 
     fn acquit(&mut self, party: Party, now: Time) {
-        let left = self.lie.off.norm();
-        let standing = match party {
-            Party::Gnss if left > 0.0 => {
-                let seen = self.lie.seen.unwrap_or(now);
-                let before = self.unproven(seen);
-                self.unproven = Some((left.max(before), self.lie.rate, seen));
-                Standing::Probation
+        let mut standing = Standing::Trusted;
+        if party.is_receiver() {
+            let lie = &mut self.lies[self.lie_of(party)];
+            let left = lie.off.norm();
+            if left > 0.0 {
+                let seen = lie.seen.unwrap_or(now);
+                lie.unproven = Some((left.max(lie.unproven_at(seen)), lie.rate, seen));
             }
-            Party::Gnss if self.unproven.is_some() => Standing::Probation,
-            _ => Standing::Trusted,
-        };
+            if lie.unproven.is_some() {
+                standing = Standing::Probation;
+            }
+        }
         self.enter(party, standing, now);
     }
 
-    /// Follows the lie of a receiver that is left out: the innovation of its position, north and east, whether it
-    /// agrees with the navigator, the sigma that the navigator has of it, and that of its noise, m.
-    pub fn follow(&mut self, now: Time, z: &Vector2<f64>, agrees: bool, [sigma, noise]: [f64; 2]) {
-        let lie = &mut self.lie;
+    /// Follows the lie of a receiver that is left out, by its part: the innovation of its position, north and east,
+    /// whether it agrees with the navigator, the sigma that the navigator has of it, and that of its noise, m.
+    pub fn follow(
+        &mut self,
+        (party, now): (Party, Time),
+        z: &Vector2<f64>,
+        agrees: bool,
+        [sigma, noise]: [f64; 2],
+    ) {
+        let lie = &mut self.lies[self.lie_of(party)];
         let last = lie.last.replace((now, *z));
         if !agrees {
             (lie.off, lie.seen) = (*z, Some(now));
@@ -326,6 +426,11 @@ impl Docket {
 }
 
 impl LieOfGnss {
+    fn unproven_at(&self, now: Time) -> f64 {
+        let grown = |at: Time| (now - at).as_seconds().max(0.0);
+        self.unproven.map_or(0.0, |(off, rate, at)| off + rate * grown(at))
+    }
+
     fn grown(&self, now: Time) -> f64 {
         self.seen.map_or(0.0, |seen| self.rate * (now - seen).as_seconds())
     }
@@ -335,23 +440,25 @@ impl Docket {
     /// What is left when the navigator begins anew on the word of a receiver that was not trusted.
     #[must_use]
     pub fn begun_anew(&self, now: Time) -> Self {
-        let Docket { unproven, worse, by_one, .. } = *self;
-        let mut anew = Docket { unproven, worse, by_one, ..Docket::default() };
-        for party in [Party::Log, Party::Heading] {
-            if self.is_excluded(party) {
-                anew.entries[party as usize] = self.entries[party as usize];
+        let Docket { parts, lies, worse, by_one, .. } = *self;
+        let mut anew = Docket { parts, lies, worse, by_one, ..Docket::default() };
+        let others = [Party::Log, Party::Heading].into_iter().chain(Party::RECEIVERS);
+        for named in others.filter(|named| *named != self.receiver_in_use()) {
+            let own = &self.entries[named as usize];
+            if matches!(own.standing, Standing::Excluded | Standing::Probation) {
+                anew.entries[named as usize] = *own;
             }
         }
         if self.standing(Party::Imu) == Standing::Doubtful {
             anew.entries[Party::Imu as usize] = self.entries[Party::Imu as usize];
         }
+        let own = self.lie_of(Party::Gnss);
         if self.is_excluded(Party::Gnss) {
-            anew.lie = self.lie;
             anew.acquit(Party::Gnss, now);
-        } else if anew.unproven.is_some() {
+        } else if anew.lies[own].unproven.is_some() {
             anew.enter(Party::Gnss, Standing::Probation, now);
         }
-        anew.lie = LieOfGnss::default();
+        anew.lies[own] = LieOfGnss { unproven: anew.lies[own].unproven, ..LieOfGnss::default() };
         anew
     }
 
@@ -362,9 +469,11 @@ impl Docket {
             entry.since = entry.since + by;
             entry.agreeing_since = None;
         }
-        self.lie.seen = self.lie.seen.map(|seen| seen + by);
-        self.lie.last = None;
-        self.unproven = self.unproven.map(|(off, rate, at)| (off, rate, at + by));
+        for lie in &mut self.lies {
+            lie.seen = lie.seen.map(|seen| seen + by);
+            lie.last = None;
+            lie.unproven = lie.unproven.map(|(off, rate, at)| (off, rate, at + by));
+        }
         self
     }
 }

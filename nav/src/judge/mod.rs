@@ -16,6 +16,7 @@ mod dissenter;
 mod docket;
 mod onset;
 mod pessimist;
+mod receivers;
 pub mod rows;
 mod scatter;
 mod shadow;
@@ -32,7 +33,7 @@ use crate::propagation::{self, Regime, Stretch};
 pub use aid::Aid;
 use aid::{AIDS, Hearing};
 use charge::{Assessment, Charge, DOUBT, Kind};
-use dissenter::{Dissenter, log_likelihood};
+use dissenter::{Dissenter, Success, log_likelihood};
 pub use docket::Docket;
 use onset::Onset;
 use pessimist::Pessimist;
@@ -70,6 +71,8 @@ const COVERED: f64 = -9.2;
 pub struct Judge {
     shadow: Shadow,
     dissenters: Vec<Dissenter>,
+    /// Of who does not believe the receiver that is compared.
+    spare: Success,
     pessimist: Pessimist,
     onsets: Vec<Onset>,
     spawned: Option<Time>,
@@ -95,6 +98,7 @@ impl Judge {
             shadow: Shadow::of(covariance),
             pessimist: Pessimist::new(covariance, &config.imu),
             dissenters: vec![Dissenter::new(Party::Imu, Shadow::of(covariance))],
+            spare: Success::default(),
             onsets: Vec::new(),
             spawned: None,
             looked: None,
@@ -123,6 +127,7 @@ impl Judge {
             *dissenter = Dissenter::new(dissenter.whom, Shadow::of(covariance));
         }
         self.onsets.clear();
+        self.spare = Success::default();
         (self.spawned, self.accused, self.in_doubt) = (None, None, false);
         self.disputed = None;
         self.assessment = Assessment::default();
@@ -208,19 +213,23 @@ impl Judge {
         if !is_heard {
             return;
         }
-        let gain = weighed.gain();
+        let gain = aid.is_absorbed().then(|| weighed.gain());
         for onset in &mut self.onsets {
             let age = (now - onset.since).as_seconds();
-            onset.hear(&weighed, &gain, &direct(age));
+            onset.hear(&weighed, gain.as_ref(), &direct(age));
         }
-        let party = aid.party();
-        self.admit(party);
         let likelihood = log_likelihood(&weighed);
-        for dissenter in &mut self.dissenters {
-            dissenter.hear((party, now), innovation, attitude, likelihood);
+        self.spare.hear((aid, now), innovation, &weighed, &self.shadow);
+        if aid.is_absorbed() {
+            self.admit(aid.party());
+            self.pessimist.hear(now, innovation, attitude, likelihood);
         }
-        self.pessimist.hear(now, innovation, attitude, likelihood);
-        self.shadow.absorb(&weighed, attitude);
+        for dissenter in &mut self.dissenters {
+            dissenter.hear((aid, now), innovation, attitude, likelihood);
+        }
+        if aid.is_absorbed() {
+            self.shadow.absorb(&weighed, attitude);
+        }
     }
 
     /// Whether there is nothing worse than that somebody scatters.
@@ -236,6 +245,7 @@ impl Judge {
     fn acquit_all(&mut self, noisy: Option<Party>) {
         self.onsets.clear();
         self.spawned = None;
+        self.spare = Success::default();
         self.pessimist.forget();
         let dissenter = noisy.and_then(|noisy| self.dissenter(noisy));
         let now = dissenter.map_or(&self.shadow, |dissenter| &dissenter.shadow).clone();
@@ -255,6 +265,12 @@ impl Judge {
 
     fn dissenter(&self, whom: Party) -> Option<&Dissenter> {
         self.dissenters.iter().find(|dissenter| dissenter.whom == whom)
+    }
+
+    /// How well who does not believe somebody finds what is said.
+    fn success(&self, whom: Party) -> Option<&Success> {
+        let own = (whom == Party::Gnss2).then_some(&self.spare);
+        own.or_else(|| self.dissenter(whom).map(|dissenter| &dissenter.success))
     }
 
     /// Lets faults begin now, if it is time to, or something has happened.
@@ -377,13 +393,22 @@ impl Judge {
     }
 
     /// Sees position and velocity of a receiver that is left out together, weighed by the navigator, which has a
-    /// covariance, and follows what the receiver is off by.
-    pub fn follow(&mut self, now: Time, weighed: &Weighed<6>, noise: f64, p: &Covariance) {
+    /// covariance, and follows what the receiver, by its part, is off by.
+    pub fn follow(
+        &mut self,
+        (party, now): (Party, Time),
+        weighed: &Weighed<6>,
+        noise: f64,
+        p: &Covariance,
+    ) {
         let own = POSITION.covariance(p).diagonal().max().max(0.0).sqrt();
         let z = Vector2::new(weighed.z()[0], weighed.z()[1]);
         let agrees = agrees(weighed);
-        self.docket.follow(now, &z, agrees, [own.hypot(noise), noise]);
-        self.docket.watch(Party::Gnss, now, agrees);
+        if party == Party::Gnss2 {
+            self.hearings[Aid::SparePosition as usize].note(now);
+        }
+        self.docket.follow((party, now), &z, agrees, [own.hypot(noise), noise]);
+        self.docket.watch(party, now, agrees);
     }
 
     /// Sees the height of a receiver of which only that is wrong, weighed by the navigator.

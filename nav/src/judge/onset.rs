@@ -11,7 +11,7 @@
 //!
 //! ln BF = (s eta)^T A^-1 (s eta) / 2 - ln(det A) / 2.
 
-use insd_base::Time;
+use insd_base::{Party, Time};
 use nalgebra::{Cholesky, Matrix3, SMatrix, Vector3};
 
 use super::rows::{self, ALL, Direct, Effects, GROUPS, Group};
@@ -62,11 +62,11 @@ impl Onset {
         &mut self.effects
     }
 
-    /// Hears an innovation before it is absorbed with a gain.
+    /// Hears an innovation before it is absorbed with a gain, if it is.
     pub(super) fn hear<const M: usize>(
         &mut self,
         weighed: &Weighed<M>,
-        gain: &SMatrix<f64, STATES, M>,
+        gain: Option<&SMatrix<f64, STATES, M>>,
         direct: &Direct<M>,
     ) {
         let (effect, whitened, z) = weighed.effect_of(&self.effects, direct);
@@ -78,9 +78,18 @@ impl Onset {
             let mut evidence = self.evidence[i].rows_mut(0, width);
             evidence += own * z;
         }
-        self.effects -= effect * gain.transpose();
+        if let Some(gain) = gain {
+            self.effects -= effect * gain.transpose();
+        }
         self.misfit += z.norm_squared();
         self.heard += M as f64;
+    }
+
+    /// Forgets what speaks for faults of somebody of whom no estimate takes anything.
+    pub(super) fn forget(&mut self, party: Party) {
+        for (i, _) in ALL.iter().enumerate().filter(|(_, group)| group.fault.party() == party) {
+            (self.information[i], self.evidence[i]) = (Matrix3::zeros(), Vector3::zeros());
+        }
     }
 
     /// Mean square of the innovations since, of which one is expected, that is left when so much is explained.

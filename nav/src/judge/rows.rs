@@ -27,8 +27,10 @@ const ACCEL: usize = 27;
 const SCALE: usize = 30;
 const DELAY: usize = 33;
 const TURN: usize = 34;
+const SPARE_JUMP: usize = 37;
+const SPARE_DRAG: usize = 39;
 /// How many there are.
-pub const ROWS: usize = 37;
+pub const ROWS: usize = 41;
 
 /// Transposed: a row for each fault, its effect on the errors of the estimate.
 pub type Effects = SMatrix<f64, ROWS, STATES>;
@@ -62,13 +64,16 @@ const fn group(
 
 /// A receiver that is disturbed or deceived: once in a thousand hours.
 const DISTURBED: f64 = -15.1;
+/// A receiver that is only compared: twice as often, so that the one in use goes on to be used where it is not known
+/// which of the two lies.
+const SPARED: f64 = -14.4;
 /// A log that fouls, or a compass: once in a hundred.
 const FOULED: f64 = -12.8;
 /// A part that fails: once in some ten thousand.
 const FAILED: f64 = -17.4;
 
 /// How many groups there are.
-pub const GROUPS: usize = 18;
+pub const GROUPS: usize = 20;
 
 /// All groups.
 pub const ALL: [Group; GROUPS] = [
@@ -90,6 +95,8 @@ pub const ALL: [Group; GROUPS] = [
     group(Fault::AccelBias, ACCEL, 3, [5e-3, 1.0], FAILED),
     group(Fault::GyroScale, SCALE, 3, [0.05, 1.0], FAILED),
     group(Fault::Delay, DELAY, 1, [0.1, 2.0], DISTURBED),
+    group(Fault::SpareJump, SPARE_JUMP, 2, [5.0, 1e3], SPARED),
+    group(Fault::SpareDrag, SPARE_DRAG, 2, [0.05, 3.0], SPARED),
 ];
 
 /// The effects at an onset: gyros and accelerometers have another bias or scale factor from then on, or gyros have
@@ -175,6 +182,24 @@ pub fn of_reference_position(age: f64) -> Direct<2> {
 pub fn of_reference_velocity() -> Direct<2> {
     let mut direct = Direct::zeros();
     put(&mut direct, REFERENCE_DRAG, &SMatrix::<f64, 2, 2>::identity());
+    direct
+}
+
+/// Of the position of a receiver that is compared, north and east.
+#[must_use]
+pub fn of_spare_position(age: f64) -> Direct<2> {
+    let mut direct = Direct::zeros();
+    let flat = SMatrix::<f64, 2, 2>::identity();
+    put(&mut direct, SPARE_JUMP, &flat);
+    put(&mut direct, SPARE_DRAG, &(flat * age));
+    direct
+}
+
+/// Of its velocity, north and east.
+#[must_use]
+pub fn of_spare_velocity() -> Direct<2> {
+    let mut direct = Direct::zeros();
+    put(&mut direct, SPARE_DRAG, &SMatrix::<f64, 2, 2>::identity());
     direct
 }
 

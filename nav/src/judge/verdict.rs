@@ -143,7 +143,7 @@ impl Judge {
 
     /// How many are heard of how she moves. A compass is no witness of that.
     fn witnesses(&self, now: Time) -> usize {
-        let all = [Aid::GnssPosition, Aid::Log, Aid::ReferencePosition];
+        let all = [Aid::GnssPosition, Aid::SparePosition, Aid::Log, Aid::ReferencePosition];
         let is_heard = |aid: &&Aid| {
             self.hearings[**aid as usize].was_within(now, UNHEARD) && !self.docket.leaves_out(**aid)
         };
@@ -153,7 +153,7 @@ impl Judge {
     /// Whether somebody else lies beside him, as whoever does not believe him has found out: then what is made of the
     /// others' word is no better than the navigator's estimate, which has refused them.
     fn lies_another(&self, whom: Party) -> bool {
-        self.dissenter(whom).is_some_and(|dissenter| dissenter.worst > BLATANT)
+        self.success(whom).is_some_and(|success| success.worst > BLATANT)
     }
 
     /// The IMU is wrong, as what it says is not what any ship does; gives the estimate without it.
@@ -179,8 +179,8 @@ fn lie_of_gnss(charge: &Charge, age: f64) -> (Vector2<f64>, f64) {
     let Kind::Shaped { sized, .. } = charge.kind else { return NO_LIE };
     let value = Vector2::new(sized.value.x, sized.value.y);
     match charge.fault {
-        Fault::Jump => (value, 0.0),
-        Fault::Drag | Fault::Slide => (value * age, value.norm()),
+        Fault::Jump | Fault::SpareJump => (value, 0.0),
+        Fault::Drag | Fault::Slide | Fault::SpareDrag => (value * age, value.norm()),
         Fault::Creep => (value * (0.5 * age * age), value.norm() * age),
         _ => NO_LIE,
     }

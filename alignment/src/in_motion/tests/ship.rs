@@ -298,6 +298,7 @@ impl Run {
             quality: FixQuality::Differential,
             lever: None,
             redated: 0.0,
+            rank: 0,
         };
         self.filter.gnss(&fix, Source::Gnss(0));
     }

@@ -183,6 +183,15 @@ impl StandingStill {
         (Some(*fix), None)
     }
 
+    pub(super) fn is_fix_frozen(&self) -> bool {
+        self.position.frozen
+    }
+
+    /// Another receiver is heard from now on.
+    pub(super) fn forget_receiver(&mut self) {
+        (self.position, self.velocity) = (Run::default(), Run::default());
+    }
+
     pub(super) fn is_log_frozen(&self) -> bool {
         self.log.frozen
     }

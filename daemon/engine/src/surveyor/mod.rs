@@ -120,6 +120,16 @@ impl Surveyor {
         named.filter_map(Finding::excludes).collect()
     }
 
+    /// Whether the position of the receiver in use stands still while the ship does not.
+    pub(crate) fn is_fix_frozen(&self) -> bool {
+        self.still.is_fix_frozen()
+    }
+
+    /// Another receiver is heard from now on.
+    pub(crate) fn forget_receiver(&mut self) {
+        self.still.forget_receiver();
+    }
+
     /// Sees a solution.
     pub(crate) fn see(&mut self, solution: &Solution) {
         self.mounting.see(solution);

@@ -56,16 +56,23 @@ pub(super) fn standings(all: &[base::Stands]) -> Vec<Stands> {
         since_s: stands.fault.map(|_| stands.since.as_seconds()),
         fault: stands.fault.map(|fault| fault.as_str().to_owned()),
         text: stands.fault.map(|_| stands.to_string()),
-        advice: advice(stands).map(str::to_owned),
+        advice: advice(stands, all).map(str::to_owned),
     };
     all.iter().map(shown).collect()
 }
 
 /// What the mate may do about somebody who is not believed.
-fn advice(stands: &base::Stands) -> Option<&'static str> {
+fn advice(stands: &base::Stands, all: &[base::Stands]) -> Option<&'static str> {
+    let is_another = |other: &base::Stands| {
+        let is_trusted = other.standing == Standing::Trusted;
+        is_trusted && other.party.is_receiver() && other.party != stands.party
+    };
     match (stands.standing, stands.party) {
         (Standing::Trusted, _) => None,
-        (_, Party::Gnss) => {
+        (Standing::Excluded, party) if party.is_receiver() && all.iter().any(is_another) => {
+            Some("Another receiver is used. Look at its antenna and its cable.")
+        }
+        (_, Party::Gnss | Party::Gnss2 | Party::Gnss3) => {
             Some("Fix by radar, bearings and depth. Do not steer by track control.")
         }
         (_, Party::Log) => Some("Compare the speed with GNSS. Look at the log."),

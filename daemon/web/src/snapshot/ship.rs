@@ -89,7 +89,7 @@ pub struct Motion {
     /// Whether the position may be relied on, as in `nav.csv`: `available`, `unavailable`, `fault`; `None` while
     /// nobody compares the sensors.
     pub integrity: Option<String>,
-    /// Who is left out: `gnss`, `log`, `heading`, `reference`, `imu`.
+    /// Who is left out: `gnss` (the first receiver), `gnss2`, `gnss3`, `log`, `heading`, `reference`, `imu`.
     pub excluded: Vec<String>,
     /// Protection level of the horizontal position, m.
     pub hpl_m: Option<f64>,
@@ -152,7 +152,7 @@ pub struct Estimate {
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Stands {
-    /// Who: `gnss`, `log`, `heading`, `reference`, `imu`.
+    /// Who: `gnss` (the first receiver), `gnss2`, `gnss3` (others, once heard), `log`, `heading`, `reference`, `imu`.
     pub name: String,
     /// How far it is believed: `trusted`, `doubtful`, `excluded`, `probation`.
     pub standing: String,

@@ -98,10 +98,12 @@ impl Core {
             };
             self.reference(Quantity::Heading, index, now, epoch.is_valid(), reference);
         }
-        if self.choose(Quantity::Gnss, index, epoch.is_valid(), now) {
+        let is_used = self.choose(Quantity::Gnss, index, epoch.is_valid(), now);
+        if is_used || epoch.is_valid() {
+            let fix = GnssFix { rank: self.choices[Quantity::Gnss as usize].rank(index), ..fix };
             self.pass(index, now, Source::Gnss(number), Message::Gnss(fix));
         } else {
-            self.refuse(index, Refusal::NotChosen);
+            self.refuse(index, Refusal::Invalid);
         }
     }
 

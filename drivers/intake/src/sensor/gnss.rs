@@ -203,6 +203,7 @@ impl Epoch {
             quality: if self.is_valid() { self.quality() } else { FixQuality::Invalid },
             lever: None,
             redated: 0.0,
+            rank: 0,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A case: the voyage, the lie that was drawn for it, and what is asked.
 
 use insd_base::units::{DEG, wrap_two_pi};
-use insd_base::{ExternalReference, Stamped, Voyage};
+use insd_base::{ExternalReference, GnssFix, Stamped, Voyage};
 use nalgebra::{Vector2, Vector3};
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -11,7 +11,7 @@ use super::gnss::moved;
 use super::kinds::{Asked, Kind, Strike};
 use super::{Class, Culprit, Grade, Lie, Suite, Told, Window};
 use crate::random::{GaussMarkov, Purpose, normal, normal3, stream, uniform};
-use crate::{Scenario, ScenarioError, simulate};
+use crate::{Scenario, ScenarioError, further_receiver, simulate};
 
 /// The voyage of all cases, s; she sails after five minutes.
 const LASTS: f64 = 3600.0;
@@ -129,13 +129,7 @@ impl Case {
     /// # Errors
     /// The scenario of this module is not one.
     pub fn honest(&self) -> Result<Voyage, ScenarioError> {
-        let grade = match self.grade {
-            Grade::Navigation => "navigation",
-            Grade::Mems => "mems",
-        };
-        let log = if self.suite.has_log() { "\n[log]\n" } else { "" };
-        let text = SCENARIO.replace("GRADE", grade) + log;
-        let mut voyage = simulate(&Scenario::from_toml(&text)?, self.seed);
+        let mut voyage = simulate(&self.scenario("")?, self.seed);
         if self.suite.has_compass() {
             voyage.reference = compass(&voyage, self.seed);
         }
@@ -143,6 +137,30 @@ impl Case {
             voyage.reference = second(&voyage, self.seed);
         }
         Ok(voyage)
+    }
+
+    /// The fixes of a further honest receiver on the same voyage; `gnss` are keys of the section `[gnss]` of a
+    /// scenario, `number`, from 1, decides its errors.
+    ///
+    /// # Errors
+    /// The keys are none.
+    pub fn receiver(
+        &self,
+        gnss: &str,
+        number: u32,
+    ) -> Result<Vec<Stamped<GnssFix>>, ScenarioError> {
+        Ok(further_receiver(&self.scenario("")?, self.seed, number, &self.scenario(gnss)?))
+    }
+
+    /// The scenario, its receiver with more keys.
+    fn scenario(&self, gnss: &str) -> Result<Scenario, ScenarioError> {
+        let grade = match self.grade {
+            Grade::Navigation => "navigation",
+            Grade::Mems => "mems",
+        };
+        let log = if self.suite.has_log() { "\n[log]\n" } else { "" };
+        let text = SCENARIO.replace("GRADE", grade) + gnss + log;
+        Scenario::from_toml(&text)
     }
 
     /// The same with everything in it that is told wrongly.

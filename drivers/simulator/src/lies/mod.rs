@@ -16,6 +16,8 @@ use std::fmt;
 use insd_base::{Span, Time, Truth, Voyage};
 use rand_pcg::Pcg64;
 
+use crate::random::{Purpose, stream};
+
 pub use compass::CompassLie;
 pub use draw::{Case, case};
 pub use gnss::GnssLie;
@@ -151,6 +153,11 @@ impl Told {
             Lie::Imu(lie) => lie.spoil(voyage, &window, rng),
             Lie::Outage => voyage.gnss.retain(|fix| !window.holds(fix.message.time)),
         }
+    }
+
+    /// Spoils a voyage, what is random about it drawn from a seed.
+    pub fn spoil_by(&self, voyage: &mut Voyage, seed: u64) {
+        self.spoil(voyage, &mut stream(seed, Purpose::Lying));
     }
 
     /// Who tells it.

@@ -123,6 +123,7 @@ impl Receiver {
             quality: self.quality,
             lever: None,
             redated: 0.0,
+            rank: 0,
         }
     }
 }

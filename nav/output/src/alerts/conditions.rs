@@ -35,7 +35,7 @@ pub enum Condition {
     MountingDoubt,
     /// Something else of the installation is found to be otherwise than configured, such as a lever arm.
     Installation,
-    /// GNSS contradicts the others and is left out.
+    /// GNSS, or its first receiver, contradicts the others and is left out.
     GnssExcluded,
     /// Sensors contradict each other, and it is not known who is wrong.
     PositionDoubt,
@@ -43,7 +43,7 @@ pub enum Condition {
     HeadingExcluded,
     /// The log contradicts the others and is left out.
     LogExcluded,
-    /// Another reference of position contradicts the others and is left out.
+    /// Another reference of position, or another receiver than the first, contradicts the others and is left out.
     ReferenceExcluded,
     /// The IMU contradicts the others.
     ImuDoubt,
@@ -270,6 +270,8 @@ impl Watch {
         });
         let Judgement { integrity, excluded } =
             epoch.solution.map(|solution| solution.judgement).unwrap_or_default();
+        let is_spare_out = [Party::Gnss2, Party::Gnss3].iter().any(|own| excluded.contains(*own));
+        let is_aided = usable.is_some_and(|solution| solution.mode == Mode::Aided);
         let holds = |condition| match condition {
             Condition::SystemFault => {
                 usable.is_none_or(|solution| solution.mode == Mode::Standby)
@@ -283,11 +285,13 @@ impl Watch {
             Condition::Simulated => simulated,
             Condition::EnginesDiffer => epoch.engines_differ,
             Condition::MountingDoubt => epoch.doubts.mounting,
-            Condition::GnssExcluded => excluded.contains(Party::Gnss),
+            Condition::GnssExcluded => {
+                excluded.contains(Party::Gnss) || (is_spare_out && !is_aided)
+            }
             Condition::PositionDoubt => integrity == Integrity::Contradiction,
             Condition::HeadingExcluded => excluded.contains(Party::Heading),
             Condition::LogExcluded => excluded.contains(Party::Log),
-            Condition::ReferenceExcluded => excluded.contains(Party::Reference),
+            Condition::ReferenceExcluded => excluded.contains(Party::Reference) || is_spare_out,
             Condition::ImuDoubt => {
                 let is_doubted = excluded.contains(Party::Imu) || epoch.doubts.imu;
                 is_doubted && !epoch.doubts.mounting

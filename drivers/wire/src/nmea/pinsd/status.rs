@@ -16,7 +16,8 @@
 //! 9 number of active alerts
 //! 10 whether the sensors bear it out: A they do, U it rests on a receiver on trial, V they contradict each other,
 //!    N nobody compares them
-//! 11 who is left out: N nobody, else letters of G GNSS, L log, H heading, R other reference, I IMU
+//! 11 who is left out: N nobody, else letters of G the first GNSS receiver, S the second, T the third, L log, H heading,
+//!   R other reference, I IMU
 //! ```
 //! Fields 10 and 11 came later: a line that ends before them is one of an older version.
 
@@ -92,6 +93,8 @@ const NOBODY: &str = "N";
 /// Whose letter is whose.
 const LETTERS: [(Party, char); Party::ALL.len()] = [
     (Party::Gnss, 'G'),
+    (Party::Gnss2, 'S'),
+    (Party::Gnss3, 'T'),
     (Party::Log, 'L'),
     (Party::Heading, 'H'),
     (Party::Reference, 'R'),

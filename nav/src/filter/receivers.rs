@@ -1,0 +1,126 @@
+//! Several receivers: one is used, the others are compared with what is made of it.
+//!
+//! The errors of two receivers under the same sky have much in common. Used as if they had not, both together would make
+//! the claims too small; so nothing is taken from the one that is compared. The judge hears its position, as noisy as its slow
+//! errors and those of the navigator make it: n positions within the time of these are worth one.
+
+use insd_base::{GnssFix, Party, Source, earth};
+use nalgebra::{Matrix1, Matrix2, Matrix3, Vector3};
+
+use super::Filter;
+use crate::aids::View;
+use crate::aids::gnss_position::{self, PositionFix};
+use crate::aids::gnss_velocity::{self, VelocityFix};
+use crate::error_state::{GNSS_DELAY, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR};
+use crate::floors;
+use crate::innovation::Innovation;
+use crate::judge::{Aid, Judge, rows};
+use crate::separate_bias::SeparateBias;
+
+/// What honest receivers differ by for long, 1-sigma of each component, beside what the one that is compared says of
+/// itself, and for how long, s. Position, m: paths of the signal, datum, the slow errors of the other.
+const APART: [f64; 2] = [2.0, 30.0];
+/// Velocity, m/s: how each averages it over the waves.
+const APART_VELOCITY: [f64; 2] = [0.1, 10.0];
+
+impl Filter {
+    /// The receiver that sends the fixes to be used: what is known of the slow errors and the delay of the one before is
+    /// not its. The position carries on.
+    pub(super) fn take_up(&mut self, source: Source) {
+        let (Source::Gnss(number), now) = (source, self.time) else { return };
+        let docket = self.judge.as_deref().map_or(&self.config.docket, Judge::docket);
+        if docket.receiver_in_use() == Party::receiver(number) {
+            return;
+        }
+        match self.judge_now() {
+            Some(judge) => judge.use_receiver(number, now),
+            None => self.config.docket.use_receiver(number, now),
+        }
+        GNSS_POSITION_ERROR.renew(&mut self.covariance, &Matrix3::identity());
+        GNSS_VELOCITY_ERROR.renew(&mut self.covariance, &Matrix3::identity());
+        GNSS_DELAY.renew(&mut self.covariance, &Matrix1::new(self.config.gnss.delay_std.powi(2)));
+        self.nominal.gnss_position_error = Vector3::zeros();
+        self.nominal.gnss_velocity_error = Vector3::zeros();
+        (self.nominal.gnss_delay, self.redated, self.rtk) = (0.0, None, None);
+        self.trust.clear();
+        let begun = SeparateBias::new(&self.view());
+        self.bias.iter_mut().for_each(|bias| *bias = begun);
+        self.restart_judge();
+    }
+
+    /// Lets the judge compare a receiver that is not in use.
+    pub(super) fn compare(&mut self, fix: &GnssFix, source: Source) {
+        let (Source::Gnss(number), now) = (source, self.time) else { return };
+        let is_due = |judge: &Judge| judge.is_due(Aid::SparePosition, now);
+        if !fix.quality.is_measured() || !self.judge.as_deref().is_some_and(is_due) {
+            return;
+        }
+        let is_admitted = self.judge_now().is_some_and(|judge| judge.admits_spare(number, now));
+        let Some(position) = self.spare_position(fix).filter(|_| is_admitted) else { return };
+        let velocity = self.spare_velocity(fix);
+        if self.docket().is_excluded(Party::Gnss2) {
+            return self.follow_spare(&position, velocity.as_ref());
+        }
+        if let Some(velocity) = velocity {
+            let aid = Aid::SpareVelocity;
+            let flat = self.as_slow(aid, &velocity.horizontal(), APART_VELOCITY);
+            self.consult(aid, &flat, |_| rows::of_spare_velocity());
+        }
+        let flat = self.as_slow(Aid::SparePosition, &position.horizontal(), APART);
+        self.consult(Aid::SparePosition, &flat, rows::of_spare_position);
+    }
+
+    /// Lever arm of a receiver that is compared, body axes, m: what was found of the one in use holds for it if they
+    /// share an antenna.
+    fn spare_lever(&self, fix: &GnssFix) -> Vector3<f64> {
+        let own = fix.lever.filter(|own| *own != self.config.lever_arms.gnss);
+        own.map_or_else(|| self.antenna_lever(), |own| own.0)
+    }
+
+    /// The position of a receiver that is compared, with all that it says its errors are, white.
+    fn spare_position(&self, fix: &GnssFix) -> Option<Innovation<3>> {
+        let (view, lever) = (self.view(), self.spare_lever(fix));
+        let told = floors::vector(fix.position_std, &floors::gnss_position(fix.quality)).value;
+        let unmeasured = if lever.norm() > 0.0 { 0.0 } else { self.config.gnss_lever_std() };
+        let measured = PositionFix {
+            position: fix.position?,
+            white: told.map(|std| std.hypot(unmeasured)),
+            slow: Vector3::zeros(),
+            velocity: view.c_ne * self.antenna_velocity(),
+        };
+        Some(gnss_position::innovation(&view, &measured, &lever))
+    }
+
+    /// What has errors that last, by so much more and for so long: as noisy as if each were new.
+    fn as_slow(&self, aid: Aid, told: &Innovation<2>, [by, lasts]: [f64; 2]) -> Innovation<2> {
+        let unheard = |judge: &Judge| judge.unheard(aid, self.time);
+        let since = self.judge.as_deref().map_or(lasts, unheard);
+        let factor = 2.0 * lasts / since.clamp(0.1, 2.0 * lasts) * self.noise_of(aid);
+        let slow = told.r.diagonal().map(|variance| (variance + by * by) * factor);
+        Innovation { r: Matrix2::from_diagonal(&slow), ..*told }
+    }
+
+    /// Sees whether a receiver that is left out agrees again, with its position and its velocity.
+    fn follow_spare(&mut self, position: &Innovation<3>, velocity: Option<&Innovation<3>>) {
+        let (now, covariance) = (self.time, self.covariance);
+        let both = position.beside(velocity.unwrap_or(&Innovation::silent()));
+        let noise = position.r.diagonal().xy().max().sqrt();
+        let weighed = both.weigh(&covariance);
+        if let Some((weighed, judge)) = weighed.zip(self.judge_now()) {
+            judge.follow((Party::Gnss2, now), &weighed, noise, &covariance);
+        }
+    }
+
+    fn spare_velocity(&self, fix: &GnssFix) -> Option<Innovation<3>> {
+        let (view, lever): (View, _) = (self.view(), self.spare_lever(fix));
+        let c_ne = fix.position.map_or(view.c_ne, |antenna| earth::c_ne(&antenna));
+        let measured = VelocityFix {
+            velocity: view.c_ne * c_ne.transpose() * fix.velocity?.0,
+            white: floors::vector(fix.velocity_std, &floors::gnss_velocity()).value,
+            slow: Vector3::zeros(),
+            acceleration: view.c_ne
+                * self.antenna.acceleration(self.time, &self.antenna_velocity()),
+        };
+        Some(gnss_velocity::innovation(&view, &measured, &lever))
+    }
+}
