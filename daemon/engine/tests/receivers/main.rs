@@ -30,10 +30,10 @@ fn for_good() -> Window {
     Window { from: FROM, until: f64::INFINITY }
 }
 
-/// Every kind of ship with each lie, told by the one or the other.
+/// A ship with good gyros and a log, and one with neither, with each lie, told by the one or the other.
 fn of_all(lies: &[GnssLie], spoil: fn(Ship, GnssLie) -> Ship, look: fn(&Sailed, &str)) {
-    let cases: Vec<_> =
-        SHIPS.iter().flat_map(|ship| lies.iter().map(move |lie| (*ship, *lie))).collect();
+    let ships = SHIPS[1..3].iter();
+    let cases: Vec<_> = ships.flat_map(|ship| lies.iter().map(move |lie| (*ship, *lie))).collect();
     cases.into_par_iter().for_each(|((grade, suite), lie)| {
         let ship = spoil(Ship::new(grade, suite, 1, SINGLE_POINT), lie);
         let sailed = sail(&ship);
@@ -69,8 +69,7 @@ fn a_spare_that_lies_is_named_and_nothing_else_happens() {
 
 #[test]
 fn two_honest_receivers_raise_no_alarm_and_cost_no_accuracy() {
-    let cases: Vec<_> =
-        SHIPS.iter().flat_map(|ship| (1..=3_u64).map(move |k| (*ship, k))).collect();
+    let cases: Vec<_> = SHIPS.into_iter().zip([1, 2, 3, 2]).collect();
     cases.into_par_iter().for_each(|((grade, suite), seed)| {
         let spare = if seed == 1 { RTK } else { SINGLE_POINT };
         let ship = Ship::new(grade, suite, seed, spare);
