@@ -70,7 +70,9 @@ pub struct Filter {
     antenna: AntennaMotion,
     /// By how much the fixes of its receiver are set back, s; `None` before the first.
     redated: Option<f64>,
+    /// When a log or another reference was last used, and when one that tells how she moves, not where she points.
     last_relative: Option<Time>,
+    last_motion: Option<Time>,
     last_water: Option<Time>,
     /// When the motion across was last assumed, and when a log last told it.
     held: Option<Time>,
@@ -130,6 +132,7 @@ impl Filter {
             antenna: AntennaMotion::default(),
             redated: None,
             last_relative: None,
+            last_motion: None,
             last_water: None,
             held: None,
             told_across: None,

@@ -1,6 +1,5 @@
 //! The mean sea level holds the height.
 
-use insd_base::Mode;
 use nalgebra::SMatrix;
 
 use super::Filter;
@@ -15,7 +14,8 @@ impl Filter {
         let (mean, length) = self.level.take_mean();
         let innovation = sea_level::innovation(&self.view(), mean, length, self.level.heave.std());
         let Some(weighed) = innovation.weigh(&self.covariance) else { return };
-        if self.mode() != Mode::Inertial {
+        let is_alone = self.is_carried_by_imu();
+        if !is_alone {
             self.consult(Aid::SeaLevel, &innovation, untouched::<1>);
         }
         let expected = weighed.sigma().x.powi(2) - innovation.r.x;
@@ -23,7 +23,7 @@ impl Filter {
         if weighed.nis() > self.gate.limit::<1>() {
             return;
         }
-        if self.mode() == Mode::Inertial {
+        if is_alone {
             self.absorb_vertically(&weighed);
         } else {
             self.absorb(&weighed);

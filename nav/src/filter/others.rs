@@ -96,7 +96,11 @@ impl Filter {
             let innovation = reference_heading::innovation(&self.view(), heading, std);
             self.consult(Aid::Heading, &innovation, rows::of_heading);
             let judged = self.gated(&innovation, self.withheld(Aid::Heading));
-            self.note(enter(report, reference.time, source, "reference_heading", &judged));
+            if enter(report, reference.time, source, "reference_heading", &judged)
+                == Outcome::Accepted
+            {
+                self.last_relative = Some(self.time);
+            }
         }
     }
 
@@ -156,6 +160,7 @@ impl Filter {
     pub(super) fn note(&mut self, outcome: Outcome) {
         if outcome == Outcome::Accepted {
             self.last_relative = Some(self.time);
+            self.last_motion = self.last_relative;
         }
     }
 }

@@ -17,8 +17,6 @@ const MENDABLE: f64 = 0.2;
 const MENDABLE_SCALE: f64 = 0.3;
 /// The moment at which a gyro's bias changed is not known better than this, s.
 const UNTIMED: f64 = 1.0;
-/// How fast a ship turns in a seaway, rad/s: a wrong scale factor of a gyro is as a bias of so many times that.
-const ROLLING: f64 = 0.05;
 /// Fixes that are later than this are left out, s; others are set back.
 const SET_BACK: f64 = 1.0;
 
@@ -88,8 +86,7 @@ impl Judge {
         if plain.kind == Kind::Shapeless || turned > MENDABLE || is_wild {
             return self.disbelieve_imu(now);
         }
-        let rate = if plain.fault == Fault::GyroScale { ROLLING } else { 1.0 };
-        let when = plain.size() * rate * UNTIMED;
+        let when = plain.size() * UNTIMED;
         ATTITUDE.inflate(&mut mended.covariance, (0.5 * turned * turned).powi(2) + when * when);
         self.docket.convict(plain.fault, now, NO_LIE);
         Verdict { fault: plain.fault, mended: Some(mended) }
