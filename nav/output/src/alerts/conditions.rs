@@ -1,6 +1,6 @@
 //! Which alerts there are, and when each of them holds.
 
-use insd_base::{FixQuality, Integrity, Judgement, Mode, Party, Span, Time};
+use insd_base::{FixQuality, Integrity, Judgement, Mode, Party, Solution, Span, Time};
 use insd_wire::nmea::{AlertId, AlertPriority, HeadingMode, Manufacturer};
 
 use crate::epoch::Epoch;
@@ -297,9 +297,7 @@ impl Watch {
                 is_doubted && !epoch.doubts.mounting
             }
             Condition::OnTrial => integrity == Integrity::Unproven,
-            Condition::AlertLimit => policy.alert_limit.is_some_and(|limit| {
-                usable.is_some_and(|solution| solution.protection().horizontal > limit)
-            }),
+            Condition::AlertLimit => usable.is_some_and(|own| is_beyond_limit(policy, &own)),
             Condition::BadData => epoch.doubts.bad_data,
             Condition::Installation => epoch.doubts.installation,
             Condition::NotRecording => epoch.storage.recording,
@@ -312,6 +310,11 @@ impl Watch {
         }
         found
     }
+}
+
+/// Whether the level of a position is beyond the alert limit, if there is one.
+fn is_beyond_limit(policy: &Policy, solution: &Solution) -> bool {
+    policy.alert_limit.is_some_and(|limit| solution.protection().horizontal > limit)
 }
 
 impl Latch {
