@@ -159,7 +159,7 @@ impl PinsdStatus {
     pub const NAME: &'static str = "STA";
 
     /// Greatest length, bytes with CR LF.
-    pub const LONGEST: usize = 59;
+    pub const LONGEST: usize = 61;
 
     pub(super) fn write_fields(&self, line: &mut Composer) {
         line.text(Self::NAME);
