@@ -124,7 +124,7 @@ impl Pipeline {
             return;
         }
         if let Some(redundancy) = &mut self.redundancy {
-            let first = (&self.engine, &self.intake);
+            let first = (&mut self.engine, &self.intake);
             redundancy.look(now, first, |vote| product(Product::Vote(vote)));
         }
         self.intake.handle(arrival);
@@ -133,6 +133,7 @@ impl Pipeline {
                 Intaken::Event(event) => product(Product::Intake(event)),
                 Intaken::Measured(received) => {
                     self.speaker.hear(&received);
+                    self.redundancy.iter_mut().for_each(|own| own.overhear_first(&received));
                     self.engine.handle(&received);
                     self.hand_on(&mut product);
                 }
@@ -153,10 +154,11 @@ impl Pipeline {
     /// Hands on what the first engine says, unless it is the word of a spare that counts.
     fn hand_on(&mut self, product: &mut impl FnMut(Product)) {
         while let Some(output) = self.engine.poll_output() {
-            let redundancy = self.redundancy.as_mut();
-            if redundancy.is_some_and(|spares| !spares.hear_first(&output)) {
-                continue;
-            }
+            let heard = match &mut self.redundancy {
+                Some(spares) => spares.hear_first(output),
+                None => Some(output),
+            };
+            let Some(output) = heard else { continue };
             self.speaker.note(&output);
             product(Product::Engine(output));
         }

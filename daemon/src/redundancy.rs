@@ -9,7 +9,7 @@ use insd_base::{
     Time,
 };
 use insd_engine::vote::{
-    Difference, Disagreement, Doubt, Record, Testimony, Voice, VoteEvent, Voter,
+    Difference, Disagreement, Doubt, Gyros, Record, Testimony, Voice, VoteEvent, Voter,
 };
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_intake::choice::Quantity;
@@ -119,6 +119,7 @@ struct Running {
 #[derive(Clone, Copy, Debug, Default)]
 struct Ears {
     record: Record,
+    gyros: Gyros,
     alignment: Option<AlignmentStatus>,
 }
 
@@ -146,13 +147,26 @@ impl Redundancy {
         }
     }
 
-    /// Hears what the first engine says; gives whether it is to be handed on.
-    pub(crate) fn hear_first(&mut self, output: &Output) -> bool {
-        self.first.hear(output);
+    /// Hears what the first engine is told.
+    pub(crate) fn overhear_first(&mut self, received: &Received) {
+        self.first.gyros.hear(&received.message);
+    }
+
+    /// Hears what the first engine says; gives what of it is to be handed on.
+    pub(crate) fn hear_first(&mut self, output: Output) -> Option<Output> {
+        self.first.hear(&output);
         match output {
-            Output::Solution(solution) => self.voter.chosen() == 0 && self.hand(solution),
-            _ => true,
+            Output::Solution(solution) => {
+                let is_new = self.voter.chosen() == 0 && self.hand(&solution);
+                is_new.then(|| Output::Solution(self.covered(&solution)))
+            }
+            other => Some(other),
         }
+    }
+
+    /// What the engine in use says, its claims so wide that they cover the others' where it is not known who is wrong.
+    fn covered(&self, solution: &Solution) -> Solution {
+        Solution { sigma: self.voter.covered(&solution.sigma), ..*solution }
     }
 
     /// Compares the engines if it is time to, before anything is made of what arrives now: however its bytes
@@ -160,16 +174,24 @@ impl Redundancy {
     pub(crate) fn look(
         &mut self,
         now: Time,
-        (first, intake): (&Engine, &Intake),
+        (first, intake): (&mut Engine, &Intake),
         mut say: impl FnMut(Vote),
     ) {
         if self.looked.is_some_and(|last| now - last < LOOK) {
             return;
         }
         self.looked = Some(now);
-        let first = testimony(first.motion(), intake, &self.first, now);
-        let spares = self.spares.iter();
-        let spares = spares.map(|own| testimony(own.motion(), &own.intake, &own.ears, now));
+        let voter = &self.voter;
+        let odds = |engine: &mut Engine, index: usize| {
+            let (since, excess) = voter.suspicion(index)?;
+            engine.odds_of_gyros(since, &excess)
+        };
+        let told = testimony(first.motion(), intake, &mut self.first, now);
+        let first = Testimony { odds: odds(first, 0), ..told };
+        let spares = self.spares.iter_mut().enumerate().map(|(index, own)| {
+            let told = testimony(own.motion(), &own.intake, &mut own.ears, now);
+            Testimony { odds: odds(&mut own.engine, index + 1), ..told }
+        });
         let said: Vec<Testimony> = std::iter::once(first).chain(spares).collect();
         for event in self.voter.look(now, &said) {
             say(Vote { event, names: Arc::clone(&self.names) });
@@ -190,7 +212,7 @@ impl Redundancy {
                 if let (true, Output::Solution(solution)) = (chosen, &output)
                     && self.hand(solution)
                 {
-                    say(Said::Solution(moved(solution, &home)));
+                    say(Said::Solution(self.covered(&moved(solution, &home))));
                 }
                 say(Said::Spare(name, output));
             }
@@ -286,6 +308,7 @@ impl Running {
         self.intake.handle(arrival);
         while let Some(taken) = self.intake.poll_output() {
             let Intaken::Measured(received) = taken else { continue };
+            self.ears.gyros.hear(&received.message);
             self.engine.handle(&loosened(&received, &self.home));
             while let Some(output) = self.engine.poll_output() {
                 self.ears.hear(&output);
@@ -314,10 +337,11 @@ pub fn loosened(received: &Received, home: &Body) -> Received {
     received
 }
 
-fn testimony(motion: Option<Motion>, intake: &Intake, ears: &Ears, now: Time) -> Testimony {
+fn testimony(motion: Option<Motion>, intake: &Intake, ears: &mut Ears, now: Time) -> Testimony {
     let imu = intake.in_use(Quantity::Inertial);
     let imu_valid = imu.is_some_and(|status| status.valid != Some(false));
-    Testimony { motion, imu_valid, refused: ears.record.refused(now) }
+    let refused = ears.record.refused(now);
+    Testimony { motion, imu_valid, refused, turned: ears.gyros.take(), odds: None }
 }
 
 /// A motion at another point; of the same point to the bit.
@@ -353,7 +377,9 @@ impl<'a> InUse<'a> {
 
 impl Knows for InUse<'_> {
     fn motion(&self) -> Option<Motion> {
-        self.spare().map_or_else(|| self.first.motion(), Running::motion)
+        let motion = self.spare().map_or_else(|| self.first.motion(), Running::motion)?;
+        let covered = self.redundancy.map(|own| own.covered(&motion.solution));
+        Some(Motion { solution: covered.unwrap_or(motion.solution), ..motion })
     }
 
     fn heaves(&self) -> Vec<Option<Heave>> {

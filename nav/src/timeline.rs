@@ -66,6 +66,11 @@ impl<E: Estimator> Timeline<E> {
         &self.estimator
     }
 
+    /// The newest state, to be changed. What is changed is lost when a measurement comes that is valid before.
+    pub fn estimator_mut(&mut self) -> &mut E {
+        &mut self.estimator
+    }
+
     /// Moves on over an increment; measurements that were waiting for it are applied on the way.
     pub fn advance(&mut self, increment: &Increment) -> Vec<Report> {
         self.keep_checkpoint();

@@ -9,7 +9,7 @@ use insd_base::{
     Arrival, Body, ImuSample, Input, LeverArms, PortId, Received, Solution, Stamped, Time, Truth,
     Voyage, earth,
 };
-use insd_engine::vote::{Record, Testimony, Voice, VoteEvent, Voter};
+use insd_engine::vote::{Gyros, Record, Testimony, Voice, VoteEvent, Voter};
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_intake::config::{IntakeConfig, Role};
 use insd_output::alerts::Condition;
@@ -167,6 +167,7 @@ impl Fleet {
             next: 0,
             engine: Engine::new(config),
             record: Record::default(),
+            gyros: Gyros::default(),
             home: Body(-offset.0),
         }
     }
@@ -320,6 +321,7 @@ struct Crew {
     next: usize,
     engine: Engine,
     record: Record,
+    gyros: Gyros,
     home: Body,
 }
 
@@ -327,13 +329,15 @@ impl Crew {
     fn sail_to(&mut self, now: Time) -> Testimony {
         while let Some(received) = self.messages.get(self.next).filter(|own| own.receipt <= now) {
             self.next += 1;
+            self.gyros.hear(&received.message);
             self.engine.handle(&loosened(received, &self.home));
             while let Some(output) = self.engine.poll_output() {
                 self.record.hear(&output);
             }
         }
         let motion = self.engine.motion().map(|motion| motion.at_point(&self.home));
-        Testimony { motion, imu_valid: true, refused: self.record.refused(now) }
+        let (refused, turned) = (self.record.refused(now), self.gyros.take());
+        Testimony { motion, imu_valid: true, refused, turned, odds: None }
     }
 }
 

@@ -2,7 +2,8 @@
 
 use insd_alignment::{Fine, StoredState};
 use insd_base::{
-    Disturbance, Estimates, Heave, Integrity, Judgement, Mode, Motion, Parties, Solution, Stands,
+    Body, Disturbance, Estimates, Heave, Integrity, Judgement, Mode, Motion, Parties, Solution,
+    Stands, Time,
 };
 use insd_nav::judge::Judge;
 use insd_nav::{Estimator, Filter, Increment};
@@ -99,6 +100,15 @@ impl Engine {
     #[must_use]
     pub fn judge(&self) -> Option<&Judge> {
         self.ship()?.likeliest()?.filter().judge()
+    }
+
+    /// How much likelier what the others say since an instant is if the gyros turn so much too fast since then, rad/s,
+    /// body axes, as a logarithm, the natural one; `None` before she navigates.
+    ///
+    /// To be asked again and again from that instant on: what is said is weighed for it from the first time on.
+    pub fn odds_of_gyros(&mut self, since: Time, excess: &Body) -> Option<f64> {
+        let Stage::Running(line) = &mut self.stage else { return None };
+        line.estimator_mut().odds_of_gyros(since, excess)
     }
 
     /// The ship on her time line, if the IMU has been heard since the engine was made.

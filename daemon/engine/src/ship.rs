@@ -6,7 +6,9 @@ use insd_alignment::{
 };
 use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::units::DEG;
-use insd_base::{Fault, ImuSpec, Message, Mode, Party, Received, Solution, StoredDoubt, Time};
+use insd_base::{
+    Body, Fault, ImuSpec, Message, Mode, Party, Received, Solution, StoredDoubt, Time,
+};
 use insd_nav::filter::judged::ImuState;
 use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
 
@@ -101,6 +103,14 @@ impl Ship {
         match self {
             Ship::Navigating { fine, .. } => fine.filter().docket().is_imu_doubted_by_one(),
             _ => false,
+        }
+    }
+
+    /// How much likelier what the others say since an instant is if the gyros turn so much too fast, rad/s.
+    pub(crate) fn odds_of_gyros(&mut self, since: Time, excess: &Body) -> Option<f64> {
+        match self {
+            Ship::Navigating { fine, .. } => fine.filter_mut().odds_of_gyros(since, &excess.0),
+            _ => None,
         }
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use insd_base::units::DEG;
-use insd_base::{Mode, Parties, Party, SolutionSigma};
+use insd_base::{Mode, Parties, Party, SolutionSigma, Time};
 use nalgebra::{Matrix3, Vector3};
 
 use super::Filter;
@@ -312,6 +312,13 @@ impl Filter {
             all = Some(floor);
         }
         all
+    }
+
+    /// How much likelier what was said since an instant is if the gyros have told so much too much since then, rad/s,
+    /// body axes, as a logarithm; `None` without a judge.
+    pub fn odds_of_gyros(&mut self, since: Time, excess: &Vector3<f64>) -> Option<f64> {
+        let now = self.time;
+        Some(self.judge_now()?.odds_of_gyros(now, since, excess))
     }
 
     /// How far everybody is believed.

@@ -23,7 +23,7 @@ mod shadow;
 mod verdict;
 
 use insd_base::{Integrity, Judgement, Parties, Party, Standing, Stands, Time};
-use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector2};
+use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector2, Vector3};
 
 use crate::block::Block;
 use crate::config::NavConfig;
@@ -293,6 +293,17 @@ impl Judge {
             }
         }
         self.onsets.push(Onset::new(now));
+    }
+
+    /// How much likelier what was said since an instant is if the gyros have told so much too much since then, rad/s,
+    /// body axes, as a logarithm; what is said from now on is weighed for that.
+    pub fn odds_of_gyros(&mut self, now: Time, since: Time, excess: &Vector3<f64>) -> f64 {
+        let own = self.onsets.iter().find(|onset| onset.since >= since);
+        let odds = own.map(|onset| onset.odds(rows::OF_GYROS, excess));
+        if odds.is_none() {
+            self.spawn(now, true);
+        }
+        odds.unwrap_or(0.0)
     }
 
     /// Whether a fault that began then is what the last look found likeliest.

@@ -117,6 +117,11 @@ impl Onset {
         })
     }
 
+    /// The logarithm of the ratio of likelihoods of a fault of a group that has such a size, with it over without.
+    pub(super) fn odds(&self, group: usize, value: &Vector3<f64>) -> f64 {
+        value.dot(&self.evidence[group]) - 0.5 * value.dot(&(self.information[group] * value))
+    }
+
     /// What such a fault has done to the errors, and the covariance that not knowing its size adds to theirs.
     #[must_use]
     pub(super) fn correction(&self, group: &Group, sized: &Sized) -> (ErrorState, Covariance) {

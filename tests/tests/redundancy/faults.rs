@@ -2,11 +2,16 @@
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use super::{FAULT, Fault, VOYAGE, alert, faulty, heading, position, switch};
+use super::{
+    FAULT, Fault, VOYAGE, alert, faulty, heading, heading_told, is_covered, position, switch,
+};
 
 /// Faults, within how many seconds the alert must be up, and how long is sailed, s.
-const FAULTS: [(Fault, f64, f64); 7] = [
+const FAULTS: [(Fault, f64, f64); 10] = [
     (Fault::Bias([0.0, 0.0, 3600.0]), 5.0, 300.0),
+    (Fault::Bias([0.0, 0.0, -1080.0]), 5.0, 300.0),
+    (Fault::Bias([0.0, 0.0, 720.0]), 5.0, 300.0),
+    (Fault::Bias([0.0, 0.0, 360.0]), 10.0, 300.0),
     (Fault::Bias([100.0, 0.0, 0.0]), 15.0, 300.0),
     (Fault::Bias([5.0, 0.0, 0.0]), 100.0, 420.0),
     (Fault::Bias([0.0, 0.0, 5.0]), 500.0, VOYAGE),
@@ -33,10 +38,11 @@ fn a_wrong_first_imu_is_noticed_and_left_where_something_tells_that_it_is_the_wr
     FAULTS.into_par_iter().for_each(|(fault, within, until)| {
         let log = faulty(2, 0, fault, until).sail();
         let (alert, switch) = (alert(&log, fault), switch(&log));
-        let (most, _) = heading(&log, FAULT);
+        let most = heading_told(&log, FAULT);
         println!("first {fault:?}: alert {alert:?}, switch {switch:?}, {most:.2} deg");
         println!("   {:?}", log.votes);
         assert!(alert.is_some_and(|at| at <= within), "{fault:?}: {alert:?}");
+        assert!(most < 1.0 || is_covered(&log, FAULT), "{fault:?}: {most} deg");
         if let Some(switch) = switch {
             assert_eq!(log.used, [0, 1], "{fault:?}");
             let after = FAULT + switch + 0.2;

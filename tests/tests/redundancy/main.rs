@@ -8,8 +8,8 @@ mod sound;
 
 use std::sync::OnceLock;
 
-use insd_base::Body;
 use insd_base::units::DEG;
+use insd_base::{Body, Mode};
 use insd_engine::vote::VoteEvent;
 use insd_tests::engines::{Fleet, Log, Told};
 
@@ -82,6 +82,20 @@ fn heading(log: &Log, from: f64) -> (f64, f64) {
         let (error, sigma) = (told.heading_error.unwrap().abs(), told.solution.unwrap().sigma);
         (most.max(error / DEG), sigmas.max(error / sigma.heading))
     })
+}
+
+/// Greatest error of a heading that is told from an instant on, deg: an engine that has given itself up tells none.
+fn heading_told(log: &Log, from: f64) -> f64 {
+    let is_told = |told: &&Told| told.solution.is_some_and(|own| own.mode != Mode::Standby);
+    let told = log.told.iter().filter(|told| told.at >= from).filter(is_told);
+    told.filter_map(|told| told.heading_error).fold(0.0, |most, error| error.abs().max(most)) / DEG
+}
+
+/// Whether no heading that is told is off by more than a degree without its sigma saying so.
+fn is_covered(log: &Log, from: f64) -> bool {
+    let told = log.told.iter().filter(|told| told.at >= from);
+    told.filter_map(|told| told.heading_error.zip(told.solution))
+        .all(|(error, own)| error.abs() < 1.0 * DEG || error.abs() < 3.0 * own.sigma.heading)
 }
 
 /// Greatest error of the horizontal position from an instant on, m.

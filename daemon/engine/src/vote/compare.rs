@@ -1,7 +1,7 @@
 //! How far two engines are apart, and how far they may be by what they claim.
 
 use insd_base::units::{DEG, wrap_pi};
-use insd_base::{Attitude, Mode, Motion, Solution, earth};
+use insd_base::{Attitude, Mode, Motion, Solution, SolutionSigma, earth};
 
 /// Differences within so many of their own standard deviations are no disagreement.
 const SIGMAS: f64 = 4.0;
@@ -33,6 +33,8 @@ pub enum Quantity {
     PositionEast,
     /// Position down, m.
     PositionDown,
+    /// How fast their IMUs turn, as they say themselves, rad/s.
+    Turn,
 }
 
 impl Quantity {
@@ -49,13 +51,14 @@ impl Quantity {
             Quantity::PositionNorth => "position_north",
             Quantity::PositionEast => "position_east",
             Quantity::PositionDown => "position_down",
+            Quantity::Turn => "turn",
         }
     }
 
-    /// Whether it is an angle, rad; else it is in m/s or m.
+    /// Whether it is of an angle, rad or rad/s; else it is in m/s or m.
     #[must_use]
     pub fn is_angle(self) -> bool {
-        matches!(self, Quantity::Heading | Quantity::Roll | Quantity::Pitch)
+        matches!(self, Quantity::Heading | Quantity::Roll | Quantity::Pitch | Quantity::Turn)
     }
 }
 
@@ -182,6 +185,27 @@ fn angles(a: &Solution, b: &Solution, mounting: f64, convergence: f64) -> Vec<Di
             + if quantity == Quantity::Heading { convergence } else { 0.0 },
     };
     heading.into_iter().chain(tilts).map(difference).collect()
+}
+
+/// How far two motions are apart, in each component.
+pub(super) fn distance(one: &Motion, other: &Motion, apart: &Apart) -> SolutionSigma {
+    let mut all = SolutionSigma::default();
+    for Difference { quantity, value, .. } in differences(one, other, apart) {
+        let component = match quantity {
+            Quantity::Heading => &mut all.heading,
+            Quantity::Roll => &mut all.roll,
+            Quantity::Pitch => &mut all.pitch,
+            Quantity::VelocityNorth => &mut all.velocity.0.x,
+            Quantity::VelocityEast => &mut all.velocity.0.y,
+            Quantity::VelocityDown => &mut all.velocity.0.z,
+            Quantity::PositionNorth => &mut all.position.0.x,
+            Quantity::PositionEast => &mut all.position.0.y,
+            Quantity::PositionDown => &mut all.position.0.z,
+            Quantity::Turn => continue,
+        };
+        *component = value.abs();
+    }
+    all
 }
 
 /// How much less certain one is than another: the greatest ratio of their sigmas, beside which the floors

@@ -1,6 +1,6 @@
 //! What speaks against an engine beside its being different from another.
 
-use insd_base::{Integrity, Mode, Motion, Party, Solution, Span, Time};
+use insd_base::{Body, Integrity, Mode, Motion, Party, Solution, Span, Time};
 
 use super::compare::vagueness;
 use crate::checks;
@@ -10,6 +10,9 @@ const SILENT: Span = Span::from_nanos(150_000_000);
 /// An engine that refuses so much of what it is told is wrong, if another takes nearly all of it.
 const REFUSES: f64 = 0.5;
 const TAKES: f64 = 0.2;
+/// So much likelier is an engine wrong than the other, as a logarithm, at the least; so much likelier than right.
+const LIKELIER: f64 = 4.6;
+const LIKELY: f64 = 2.0;
 /// So many times as uncertain is much less certain.
 const VAGUE: f64 = 4.0;
 
@@ -22,6 +25,11 @@ pub struct Testimony {
     pub imu_valid: bool,
     /// Share of its measurements that it refuses, 0 to 1; see [`super::Record::refused`].
     pub refused: Option<f64>,
+    /// How its IMU turned since the last look, rad/s; see [`super::Gyros`].
+    pub turned: Option<Body>,
+    /// How much likelier it finds what the others say if its gyros turn as [`super::Voter::suspicion`] has it, as a
+    /// logarithm.
+    pub odds: Option<f64>,
 }
 
 /// Why an engine is not believed, the strongest first.
@@ -33,6 +41,11 @@ pub enum Doubt {
     ImuInvalid,
     /// Two others that do not share an IMU agree with each other, and not with it.
     Outvoted,
+    /// Its IMU of a sudden turned otherwise than the other's, which went on as it had.
+    Jumped,
+    /// What receiver, log and compass say is likely if its gyros turn otherwise than the other's, and unlikely if the
+    /// other's do.
+    Unlikely,
     /// It is still aligning, and the other is not.
     Aligning,
     /// It refuses what it is told by receivers and logs, and the other does not.
@@ -51,6 +64,8 @@ impl Doubt {
             Doubt::Silent => "silent",
             Doubt::ImuInvalid => "imu_invalid",
             Doubt::Outvoted => "outvoted",
+            Doubt::Jumped => "jumped",
+            Doubt::Unlikely => "unlikely",
             Doubt::Aligning => "aligning",
             Doubt::Refuses => "refuses",
             Doubt::LesserMode => "lesser_mode",
@@ -113,7 +128,12 @@ pub(super) fn suspect(
         own.refused.is_some_and(|share| share >= REFUSES)
             && other.refused.is_some_and(|share| share <= TAKES)
     };
+    let is_unlikely = |own: &Testimony, other: &Testimony| {
+        let odds = own.odds.zip(other.odds);
+        odds.is_some_and(|(own, other)| own > LIKELY && own - other > LIKELIER)
+    };
     let reasons = [
+        (Doubt::Unlikely, is_unlikely(one, other), is_unlikely(other, one)),
         (Doubt::ImuInvalid, is_imu_doubted(one, a), is_imu_doubted(other, b)),
         (Doubt::Aligning, !navigates(a), !navigates(b)),
         (Doubt::Refuses, refuses(one, other), refuses(other, one)),

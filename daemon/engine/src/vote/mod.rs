@@ -3,23 +3,26 @@
 //! [`Voter::look`] is handed what each engine says at one instant, some ten times a second. It is a
 //! function of what it is handed: recordings replay to the same choice.
 //!
-//! - *Two that are apart* by more than they claim, for 2 s, disagree. That says nothing of who is wrong. What
+//! - *Two that are apart* by more than they claim, for 2 s, disagree, and at once two whose IMUs of a sudden turn apart. That says nothing of who is wrong. What
 //!   may: see [`Doubt`], the strongest reason first. Where there is none, the engine in use stays in use.
 //! - *Three*: one that disagrees with two who agree with each other is outvoted. Engines that share an IMU
 //!   have one voice, as what is wrong with it is wrong in both.
-//! - *The engine in use* is left at once when it falls silent or is found to be wrong, and after 2 s when
+//! - *The engine in use* is left at once when it falls silent, gives itself up or is found to be wrong, and after 2 s when
 //!   another has more behind it (its mode, its sigmas). An engine that stands before it in the order of the
 //!   configuration is taken back after 30 s in which nothing spoke against it.
 
 mod compare;
 mod evidence;
+mod gyros;
 mod pair;
 mod record;
+mod turning;
 
-use insd_base::{Motion, Solution, Time};
+use insd_base::{Body, Mode, Motion, Solution, SolutionSigma, Time};
 
 pub use compare::{Apart, Difference, Quantity, differences};
 pub use evidence::{Doubt, Testimony};
+pub use gyros::Gyros;
 pub use record::Record;
 
 use evidence::{is_imu_doubted, is_vaguer, rank};
@@ -106,6 +109,8 @@ pub struct Voter {
     better: Option<Time>,
     /// Since when each could be taken back.
     sound: Vec<Option<Time>>,
+    /// What the engine in use may be off by beside its claims.
+    cover: Option<SolutionSigma>,
 }
 
 /// What each engine says, with its motion where it can be used, all at one time.
@@ -126,6 +131,7 @@ impl Voter {
             looked: None,
             better: None,
             sound: vec![None; count],
+            cover: None,
             voices,
         }
     }
@@ -155,7 +161,33 @@ impl Voter {
         let round = Round::new(now, said);
         let mut events = self.compare(&round, passed);
         events.extend(self.choose(&round));
+        self.cover = self.cover_of(&round);
         events
+    }
+
+    /// Since when and by how much the gyros of an engine may turn too fast, rad/s, body axes, where they have begun to turn apart from
+    /// another's and it is not known whose are wrong.
+    #[must_use]
+    pub fn suspicion(&self, engine: usize) -> Option<(Time, Body)> {
+        self.pairs.iter().find_map(|pair| pair.excess(engine))
+    }
+
+    /// What the engine in use claims, and if it differs from another, and it is not known who is wrong, what covers
+    /// that one, too.
+    #[must_use]
+    pub fn covered(&self, sigma: &SolutionSigma) -> SolutionSigma {
+        self.cover.map_or(*sigma, |cover| cover.greatest(sigma))
+    }
+
+    fn cover_of(&self, round: &Round<'_>) -> Option<SolutionSigma> {
+        let own = round.motion(self.chosen)?;
+        let of_pair = |pair: &Pair| {
+            let (one, two) = pair.between;
+            let other = round.motion(if one == self.chosen { two } else { one })?;
+            let apart = apart(self.voices.get(one), self.voices.get(two));
+            pair.cover(self.chosen, own, other, &apart)
+        };
+        self.pairs.iter().filter_map(of_pair).reduce(|a, b| a.greatest(&b))
     }
 
     fn compare(&mut self, round: &Round<'_>, passed: f64) -> Vec<VoteEvent> {
@@ -164,8 +196,9 @@ impl Voter {
             let (one, other) = pair.between;
             let both = round.motion(one).zip(round.motion(other));
             let apart = apart(self.voices.get(one), self.voices.get(other));
-            pair.look(round.now, passed, both, &apart);
             let testimonies = round.testimony(one).zip(round.testimony(other));
+            let turned = [one, other].map(|own| round.testimony(own)?.turned.map(|own| own.0));
+            pair.look((round.now, passed), both, turned, &apart);
             if let (Some((a, b)), Some((first, second))) = (both, testimonies) {
                 pair.blame(round.now, (first, a), (second, b));
             }
@@ -233,7 +266,9 @@ impl Voter {
         }
         let lesser = round.lesser(own, best);
         let since = *lesser.map(|_| self.better.get_or_insert(round.now))?;
-        ((round.now - since).as_seconds() >= BETTER).then_some((best, lesser))
+        let is_idle = round.motion(own).is_some_and(|own| own.solution.mode == Mode::Standby);
+        let waits = !is_idle && (round.now - since).as_seconds() < BETTER;
+        (!waits).then_some((best, lesser))
     }
 
     /// The engine with the most behind it: usable, not wrong, of the highest mode, the most certain; the

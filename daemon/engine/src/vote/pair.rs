@@ -1,9 +1,12 @@
 //! Two engines side by side: since when they disagree, and who of them is taken as wrong.
 
-use insd_base::{Motion, Time};
+use insd_base::{Body, Motion, SolutionSigma, Time};
 
-use super::compare::{Apart, Difference, differences};
+use nalgebra::Vector3;
+
+use super::compare::{Apart, Difference, Quantity, differences, distance};
 use super::evidence::{Doubt, Testimony, suspect};
+use super::turning::Turning;
 
 /// For so long they must be apart, s.
 const LASTS: f64 = 2.0;
@@ -31,6 +34,7 @@ pub(super) struct Pair {
     pub(super) blamed: Option<(usize, Doubt)>,
     /// What would tell otherwise, and since when.
     told: Option<((usize, Doubt), Time)>,
+    turning: Turning,
 }
 
 impl Pair {
@@ -43,6 +47,7 @@ impl Pair {
             differs: false,
             blamed: None,
             told: None,
+            turning: Turning::default(),
         }
     }
 
@@ -51,22 +56,28 @@ impl Pair {
         self.between.0 == engine || self.between.1 == engine
     }
 
-    /// Compares them, `passed` s after the last look; not at all while one of them has no motion.
+    /// Compares them, `passed` s after the last look: their motions not at all while one of them has none, how their IMUs
+    /// turned, rad/s, while both say so.
     pub(super) fn look(
         &mut self,
-        now: Time,
-        passed: f64,
+        (now, passed): (Time, f64),
         motions: Option<(&Motion, &Motion)>,
+        turned: [Option<Vector3<f64>>; 2],
         apart: &Apart,
     ) {
-        let worst = motions.and_then(|(one, other)| {
-            let all = differences(one, other, apart);
-            all.into_iter().max_by(|a, b| a.share().total_cmp(&b.share()))
-        });
+        let found = self.turning.look(now, turned, apart.mounting_std);
+        let turn =
+            found.apart.map(|(value, limit)| Difference { quantity: Quantity::Turn, value, limit });
+        let of_motions = motions.map(|(one, other)| differences(one, other, apart));
+        let all = of_motions.into_iter().flatten().chain(turn);
+        let worst = all.max_by(|a, b| a.share().total_cmp(&b.share()));
         let share = worst.map_or(0.0, |worst| worst.share());
         self.worst = worst.or(self.worst);
         let change = if share > 1.0 { passed } else { -FORGETS * passed };
         self.apart = (self.apart + change).clamp(0.0, LASTS);
+        if found.is_sudden {
+            self.apart = LASTS;
+        }
         if share > CLOSE {
             self.loud = Some(now);
         }
@@ -74,11 +85,16 @@ impl Pair {
             self.differs = true;
         } else if self.loud.is_none_or(|loud| (now - loud).as_seconds() >= QUIET) {
             *self = Pair { apart: 0.0, differs: false, blamed: None, ..*self };
+            self.turning.agree();
+        }
+        if let Some(own) = found.jumped {
+            let engine = if own == 0 { self.between.0 } else { self.between.1 };
+            self.accuse((engine, Doubt::Jumped));
         }
     }
 
-    /// Looks who of the two is wrong, where they disagree. It takes 2 s to find, and only what is stronger
-    /// takes it back.
+    /// Looks who of the two is wrong, where they disagree. It takes 2 s to find, but for evidence that was gathered for
+    /// long enough itself, and only what is stronger takes it back.
     pub(super) fn blame(
         &mut self,
         now: Time,
@@ -91,10 +107,37 @@ impl Pair {
             Some((before, since)) if before == found => (found, since),
             _ => (found, now),
         });
-        let lasting = self.told.filter(|(_, since)| (now - *since).as_seconds() >= LASTS);
+        let lasts = |(found, since): &((usize, Doubt), Time)| {
+            found.1 == Doubt::Unlikely || (now - *since).as_seconds() >= LASTS
+        };
+        let lasting = self.told.filter(lasts);
         if let Some((found, _)) = lasting.filter(|_| self.differs) {
             self.accuse(found);
         }
+    }
+
+    /// Since when and by how much an engine's IMU turns faster than the other's, rad/s, body axes, where it is not known who is wrong.
+    pub(super) fn excess(&self, engine: usize) -> Option<(Time, Body)> {
+        let is_open = self.differs && self.blamed.is_none();
+        let (since, excess) = self.turning.excess().filter(|_| is_open)?;
+        match engine {
+            one if one == self.between.0 => Some((since, Body(-excess))),
+            other if other == self.between.1 => Some((since, Body(excess))),
+            _ => None,
+        }
+    }
+
+    /// What one that is used may be beside its claims while it is not known whether it is wrong: half of the way to the
+    /// other, and what that claims.
+    pub(super) fn cover(
+        &self,
+        engine: usize,
+        motion: &Motion,
+        other: &Motion,
+        apart: &Apart,
+    ) -> Option<SolutionSigma> {
+        let is_open = self.is_of(engine) && self.differs && self.blamed.is_none();
+        is_open.then(|| distance(motion, other, apart).scaled(0.5).plus(&other.solution.sigma))
     }
 
     /// Takes one of them as wrong, unless something stronger told otherwise.

@@ -53,7 +53,13 @@ fn wrong_by(mut motion: Motion, errors: &Errors) -> Motion {
 }
 
 fn says(motion: Motion) -> Testimony {
-    Testimony { motion: Some(motion), imu_valid: true, refused: Some(0.0) }
+    Testimony {
+        motion: Some(motion),
+        imu_valid: true,
+        refused: Some(0.0),
+        turned: None,
+        odds: None,
+    }
 }
 
 fn sound(seconds: f64) -> Testimony {
@@ -61,7 +67,7 @@ fn sound(seconds: f64) -> Testimony {
 }
 
 fn silent() -> Testimony {
-    Testimony { motion: None, imu_valid: true, refused: None }
+    Testimony { motion: None, imu_valid: true, refused: None, turned: None, odds: None }
 }
 
 /// Engines with an IMU each.
@@ -342,7 +348,7 @@ proptest! {
                     let own = turned(sound(seconds), error * DEG);
                     in_mode(own, *mode).motion.unwrap()
                 });
-                Testimony { motion, imu_valid, refused: Some(refused) }
+                Testimony { motion, imu_valid, refused: Some(refused), turned: None, odds: None }
             });
             voter.look(Time::from_seconds(seconds), &said);
             let any = said.iter().any(|own| own.motion.is_some());
