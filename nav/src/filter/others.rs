@@ -24,10 +24,10 @@ impl Filter {
         };
         let default = self.config.log.default_std;
         let range = Believable { least: 0.002, greatest: 10.0, default };
-        let noise = self.noise_of(Aid::Log);
-        let std = floored(log.std, &range, aid, report) * noise.sqrt();
+        let stated = floored(log.std, &range, aid, report);
         let prediction = self.predict_log(log);
         if let Some(measured) = log_velocity::all_components(log) {
+            let std = stated * self.noise_of(Aid::Log).sqrt();
             let innovation = log_velocity::complete(&prediction, &measured, std);
             let by_lever = prediction.by_lever;
             let gain = self.hear_log(&innovation, &by_lever);
@@ -46,11 +46,12 @@ impl Filter {
         for (axis, measured) in [log.u, log.v, log.w].into_iter().enumerate() {
             let Some(measured) = measured else { continue };
             let prediction = self.predict_log(log);
+            let aid_heard = [Aid::Log, Aid::LogStarboard, Aid::LogDown][axis];
+            let std = stated * self.noise_of(aid_heard).sqrt();
             let innovation = log_velocity::component(&prediction, axis, measured, std);
             let by_lever = prediction.by_lever.fixed_rows::<1>(axis).into_owned();
             let gain = self.hear_log(&innovation, &by_lever);
             let direct = rows::of_log(&prediction.velocity, &self.view().c_nb());
-            let aid_heard = [Aid::Log, Aid::LogStarboard, Aid::LogDown][axis];
             let own = direct.fixed_columns::<1>(axis).into_owned();
             self.consult(aid_heard, &innovation, |_| own);
             let judged = self.gated(&innovation, self.withheld(Aid::Log));
