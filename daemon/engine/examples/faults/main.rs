@@ -2,10 +2,11 @@
 //!
 //! `faults [DRAWS] [KIND]`: each kind of `insd_simulator::lies`, or those whose name begins so, with both
 //! grades of IMU and every suite of sensors, so many times; then, or of the kind `honest` alone, the same hours with honest
-//! sensors. In the environment
+//! sensors. `scenarios` sails the shipped voyages with honest sensors instead. In the environment
 //! `CASES=1` tells each case, `ONLY="Mems log"` takes one grade and suite, `TRACE=1` tells each second.
 
 mod sail;
+mod scenarios;
 mod score;
 
 use insd_simulator::lies::{Case, Class, Grade, Kind, Suite, case, catalogue};
@@ -20,6 +21,9 @@ const HONEST: u64 = 2;
 fn main() {
     let draws: u64 = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(5);
     let which = std::env::args().nth(2).unwrap_or_default();
+    if which == "scenarios" {
+        return scenarios::sail_all(draws);
+    }
     let kinds = catalogue().iter().filter(|kind| kind.name.starts_with(&which));
     let mut all = Sum::default();
     println!("{}", Sum::HEAD);
