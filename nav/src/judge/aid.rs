@@ -39,6 +39,8 @@ pub(super) const AIDS: usize = Aid::SeaLevel as usize + 1;
 const SPACING: f64 = 0.95;
 /// How many outliers in a row are not heard.
 const SPIKES: u32 = 2;
+/// Noise that grows by so much, as a variance, spoils what was made of it; less comes by chance.
+const MUCH: f64 = 10.0;
 
 impl Aid {
     /// Who says it.
@@ -70,6 +72,8 @@ pub(super) struct Hearing {
     outliers: u32,
     scatter: Scatter,
     noise: f64,
+    /// What of it was known when evidence was begun anew for it.
+    known: f64,
 }
 
 impl Hearing {
@@ -100,7 +104,10 @@ impl Hearing {
         let of = |i: usize| innovation.z[i] / (innovation.r[(i, i)] / before).sqrt();
         self.scatter.see(std::array::from_fn(|i| if i < M { of(i) } else { f64::NAN }));
         self.noise = self.scatter.factor();
-        self.noise > 2.0 * before
+        self.known = self.known.min(self.noise()).max(1.0);
+        let is_much = self.noise > MUCH * self.known;
+        self.known = if is_much { self.noise } else { self.known };
+        is_much
     }
 
     /// By how much the variance of the noise is larger than stated.

@@ -55,6 +55,8 @@ const MARKED: f64 = 0.95;
 const CLOSE: f64 = 0.5;
 const YOUNG: f64 = 16.0;
 const OLDEST: f64 = 2500.0;
+/// Onsets of so many of the likeliest faults are kept.
+const FOREMOST: usize = 2;
 /// Somebody is guilty who was found to be at each look for so long, s.
 const PERSISTS: f64 = 4.0;
 /// the same of somebody who is wrong in no way that is known, and might only be found to scatter, s.
@@ -306,10 +308,10 @@ impl Judge {
         odds.unwrap_or(0.0)
     }
 
-    /// Whether a fault that began then is what the last look found likeliest.
+    /// Whether a fault that began then is one of what the last look found likeliest.
     fn is_accused(&self, since: Time) -> bool {
-        let first = self.assessment.charges.first().filter(|charge| charge.weight > 0.0);
-        first.is_some_and(|charge| charge.since(Time::START) == since)
+        let foremost = self.assessment.charges.iter().take(FOREMOST);
+        foremost.into_iter().any(|charge| charge.since(Time::START) == since)
     }
 
     fn begun(&self, since: Time) -> Option<&Onset> {

@@ -118,6 +118,7 @@ pub fn case(kind: &Kind, grade: Grade, suite: Suite, seed: u64) -> Case {
             let class = after.map_or(Class::Bounded, |_| carried);
             (class, after.map(|after| first + after), true)
         }
+        Asked::After { seconds } => (Class::Required, Some(first + seconds), true),
         Asked::Of { class, is_named } => (class, Some(first), is_named),
     };
     Case { kind: kind.name, grade, suite, size, told, class, is_named, shown_at, judged_from, seed }

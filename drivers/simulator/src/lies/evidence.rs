@@ -1,7 +1,10 @@
 //! When the other sensors can show that a position is false.
 //!
 //! A monitor predicts the position from the moment before the lie on, with sigma^2 = s^2 + (v t)^2 +
-//! (a t^2 / 2)^2 after t seconds; the lie is shown when it exceeds six of them.
+//! (a t^2 / 2)^2 after t seconds; the lie is shown when it exceeds six of them. That of a compass which drifts is when it exceeds six sigmas
+//! of the heading that gyros, course and log tell without it.
+
+use insd_base::units::DEG;
 
 use super::{Grade, Suite};
 
@@ -67,6 +70,20 @@ pub fn shown_after(
     let looks = (lasts / LOOK).min(1e5) as u32;
     let is_shown = |t: &f64| all.iter().any(|monitor| off(*t) > SHOWN * monitor.sigma(*t));
     (0..=looks).map(|look| f64::from(look) * LOOK).find(is_shown)
+}
+
+/// How well a heading is known without the compass, 1-sigma, rad.
+fn heading_sigma(grade: Grade, suite: Suite) -> f64 {
+    DEG * match grade {
+        Grade::Navigation => 0.1,
+        Grade::Mems if suite.has_log() => 0.25,
+        Grade::Mems => 0.5,
+    }
+}
+
+/// Seconds after a compass began to drift at a rate, rad/s, at which the others can show it.
+pub fn heading_shown_after(grade: Grade, suite: Suite, rate: f64) -> f64 {
+    SHOWN * heading_sigma(grade, suite) / rate.abs()
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use insd_base::units::DEG;
 use nalgebra::{Vector2, Vector3};
 
 use super::draw::Draw;
+use super::evidence::heading_shown_after;
 use super::{Class, CompassLie, GnssLie, Grade, ImuLie, Lie, LogLie, Suite, Told, Window};
 
 /// A kind of lie.
@@ -31,6 +32,11 @@ pub(super) enum Asked {
         off: Box<dyn Fn(f64) -> f64>,
         /// Whether the receiver's own velocity is honest.
         velocity_is_honest: bool,
+    },
+    /// That the liar is named once the others can show it, and not used.
+    After {
+        /// So many seconds after the lie began.
+        seconds: f64,
     },
     /// This.
     Of {
@@ -105,7 +111,7 @@ const CATALOGUE: &[Kind] = kinds! {
     "compass 180 at the start" COMPASS |d| start_offset(d, 180.0, 180.0);
     "compass off at the start" COMPASS |d| start_offset(d, 5.0, 90.0);
     "compass step" COMPASS |d| { let by = d.signed(5.0, 90.0); compass(d, CompassLie::Offset(by * DEG)) };
-    "compass drift" COMPASS |d| { let by = d.signed(10.0, 60.0); compass(d, CompassLie::Drift(by * PER_HOUR)) };
+    "compass drift" COMPASS |d| compass_drift(d);
     "compass frozen" COMPASS |d| compass(d, CompassLie::Frozen);
     "compass mirrored" COMPASS |d| compass(d, CompassLie::Mirrored);
     "compass tiny sigma" COMPASS |d| { let by = d.size(5.0, 100.0); bounded(d, Lie::Compass(CompassLie::TinySigma(by))) };
@@ -180,6 +186,13 @@ fn log(d: &mut Draw, lie: LogLie) -> Strike {
 
 fn compass(d: &mut Draw, lie: CompassLie) -> Strike {
     of(d, Lie::Compass(lie), Class::Required, true)
+}
+
+fn compass_drift(d: &mut Draw) -> Strike {
+    let rate = d.signed(10.0, 60.0) * PER_HOUR;
+    let window = d.onset();
+    let told = vec![Told { lie: Lie::Compass(CompassLie::Drift(rate)), window }];
+    strike(told, Asked::After { seconds: heading_shown_after(d.grade, d.suite, rate) })
 }
 
 fn imu(d: &mut Draw, lie: ImuLie) -> Strike {
