@@ -106,6 +106,11 @@ pub enum Finding {
         /// Which.
         axes: Axes,
     },
+    /// Axes of the IMU reach the end of their range.
+    ImuSaturated {
+        /// Which.
+        axes: Axes,
+    },
     /// The gyros do not turn as she does.
     ImuTurns {
         /// What they tell of a turn over what her course says.
@@ -151,6 +156,7 @@ impl Finding {
             Finding::ImuForce { .. } => "imu_force",
             Finding::ImuRate { .. } => "imu_rate",
             Finding::ImuStuck { .. } => "imu_stuck",
+            Finding::ImuSaturated { .. } => "imu_saturated",
             Finding::Frozen { what: Frozen::Position } => "gnss_position_frozen",
             Finding::Frozen { what: Frozen::Velocity } => "gnss_velocity_frozen",
             Finding::Frozen { what: Frozen::Log } => "log_frozen",
@@ -173,7 +179,10 @@ impl Finding {
     /// Whether a sensor tells nonsense, which no configuration mends.
     #[must_use]
     pub fn is_bad_data(&self) -> bool {
-        matches!(self, Finding::Frozen { .. } | Finding::ImuStuck { .. })
+        matches!(
+            self,
+            Finding::Frozen { .. } | Finding::ImuStuck { .. } | Finding::ImuSaturated { .. }
+        )
     }
 
     /// Whether nothing can be made of an IMU of which that is so.
@@ -184,6 +193,7 @@ impl Finding {
             Finding::ImuForce { .. }
                 | Finding::ImuRate { .. }
                 | Finding::ImuStuck { .. }
+                | Finding::ImuSaturated { .. }
                 | Finding::ImuTurns { .. }
                 | Finding::ImuRefuted
                 | Finding::MountingTilted { .. }
@@ -368,6 +378,10 @@ impl Finding {
             Finding::ImuStuck { axes } => {
                 write!(f, "the IMU tells the same number again and again: {axes}")
             }
+            Finding::ImuSaturated { axes } => write!(
+                f,
+                "the IMU reaches the end of its range again and again: {axes}: she moves faster than it can tell"
+            ),
             Finding::ImuTurns { ratio } => write!(
                 f,
                 "the gyros say {:.1} times the turns that her course makes: is the axis that points down \

@@ -6,6 +6,7 @@ use insd_base::{Finding, ImuSample};
 use insd_nav::Increment;
 use nalgebra::Vector3;
 
+use super::saturated::Saturated;
 use super::stuck::Stuck;
 use super::swing::Swing;
 
@@ -36,6 +37,7 @@ pub(super) struct ImuWatch {
     is_tilted: bool,
     swing: Swing,
     stuck: Stuck,
+    saturated: Saturated,
     /// What was found, and for how long it has been right since, s.
     found: Option<Finding>,
     right: f64,
@@ -61,6 +63,7 @@ impl ImuWatch {
     /// Sees a sample as it came, and its duration, s.
     pub(super) fn see_raw(&mut self, sample: &ImuSample, duration: f64) {
         self.stuck.see(sample, duration);
+        self.saturated.see(sample, duration);
     }
 
     fn judge(&mut self, duration: f64) {
@@ -84,7 +87,9 @@ impl ImuWatch {
 
     /// What it gets wrong, if anything.
     pub(super) fn finding(&self) -> Option<Finding> {
-        self.stuck.axes().map(|axes| Finding::ImuStuck { axes }).or(self.found)
+        let saturated = self.saturated.axes().map(|axes| Finding::ImuSaturated { axes });
+        let stuck = || self.stuck.axes().map(|axes| Finding::ImuStuck { axes });
+        saturated.or_else(stuck).or(self.found)
     }
 
     /// How the ship would list and trim for ever if it sat as configured, if that is beyond any ship.

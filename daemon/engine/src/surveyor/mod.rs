@@ -7,6 +7,7 @@ mod frozen;
 mod imu;
 mod log;
 mod mounting;
+mod saturated;
 mod stuck;
 mod swing;
 mod turns;
