@@ -27,8 +27,8 @@ impl Filter {
         let stated = floored(log.std, &range, aid, report);
         let prediction = self.predict_log(log);
         if let Some(measured) = log_velocity::all_components(log) {
-            let std = stated * self.noise_of(Aid::Log).sqrt();
-            let innovation = log_velocity::complete(&prediction, &measured, std);
+            let mut innovation = log_velocity::complete(&prediction, &measured, stated);
+            innovation.r *= self.noise_of(Aid::Log);
             let by_lever = prediction.by_lever;
             let gain = self.hear_log(&innovation, &by_lever);
             let direct = rows::of_log(&prediction.velocity, &self.view().c_nb());
@@ -47,8 +47,8 @@ impl Filter {
             let Some(measured) = measured else { continue };
             let prediction = self.predict_log(log);
             let aid_heard = [Aid::Log, Aid::LogStarboard, Aid::LogDown][axis];
-            let std = stated * self.noise_of(aid_heard).sqrt();
-            let innovation = log_velocity::component(&prediction, axis, measured, std);
+            let mut innovation = log_velocity::component(&prediction, axis, measured, stated);
+            innovation.r *= self.noise_of(aid_heard);
             let by_lever = prediction.by_lever.fixed_rows::<1>(axis).into_owned();
             let gain = self.hear_log(&innovation, &by_lever);
             let direct = rows::of_log(&prediction.velocity, &self.view().c_nb());

@@ -97,8 +97,8 @@ impl Hearing {
         self.last = Some(now);
     }
 
-    /// Sees an innovation of which the variance of the noise has been raised by what it scatters. Tells whether it
-    /// is found to scatter much more than before.
+    /// Sees an innovation of which all of the variance of the noise has been raised by what it scatters: what was not would make
+    /// the scatter grow by itself. Tells whether it is found to scatter much more than before.
     pub(super) fn see<const M: usize>(&mut self, innovation: &Innovation<M>) -> bool {
         let before = self.noise();
         let of = |i: usize| innovation.z[i] / (innovation.r[(i, i)] / before).sqrt();
