@@ -20,9 +20,19 @@ use super::belief::{CONSIDERED, Covariance, Innovation, STATES, considered as k,
 use super::motion::{across, rotation};
 use super::{ASTRAY, EightState, LEAN};
 
+/// Mean square length of (s, 1-c) that still tells a direction of tilt.
+const SHORTEST: f64 = 1e-6;
+
 impl EightState {
-    /// Levels the frame: turns it by the a that leaves the least mean square tilt,
-    /// a = E[R(dpsi)^T phi], which is known long before the heading.
+    /// Levels the frame: turns it by the a that leaves the least mean square tilt, E|phi - R(dpsi) a|^2,
+    ///
+    /// a = E[R(dpsi)^T phi] / E|R(dpsi)|^2,   |R|^2 = s^2 + (1-c)^2,
+    ///
+    /// which is known long before the heading. The mean square of the length is one of a point on the
+    /// circle, but not of what the regression makes of it where the measured force is noise ([`circle`](super::circle)): s and
+    /// 1-c shrink, with tilt and all, and taken as one it would leave the frame as much too little
+    /// levelled, and the sigma of the tilt that is left would know nothing of it. Held by
+    /// `roll_and_pitch_are_as_sure_as_claimed_where_nothing_tells_the_heading`.
     pub(super) fn level(&mut self) {
         let a = self.lean();
         self.motion.tilt -= self.motion.turn() * a;
@@ -41,7 +51,9 @@ impl EightState {
             p[(x::SINE, e)] - p[(x::VERSINE, n)],
             -p[(x::SINE, n)] - p[(x::VERSINE, e)],
         );
-        self.motion.turn().transpose() * self.motion.tilt + spread
+        let turn = self.motion.turn();
+        let length = turn.column(0).norm_squared() + self.belief.pair(x::SINE).sum();
+        (turn.transpose() * self.motion.tilt + spread) / length.max(SHORTEST)
     }
 
     pub(super) fn keep_upright(&mut self) {
