@@ -138,6 +138,7 @@ pub fn gnss_position(
         h,
         hc,
         r: Matrix2::from_diagonal(&white.add_scalar(leaning)),
+        blur: 0.0,
     }
 }
 
@@ -164,14 +165,15 @@ pub fn gnss_velocity(
     hc.set_column(k::DELAY, &-late);
     hc.set_column(k::VELOCITY_DELAY, &-late);
     set_slow(&mut hc, k::SLOW_VELOCITY, &fix.slow);
-    let swinging = scene.rate_variance * lever.norm_squared() + scene.rocking(belief);
-    let noise = swinging + unsure * delay;
+    let swing_noise = scene.rate_variance * lever.norm_squared();
+    let noise = swing_noise + scene.rocking(belief) + unsure * delay;
     let white = fix.white.component_mul(&fix.white);
     Innovation {
         z: fix.value - scene.motion.velocity - swing,
         h,
         hc,
         r: Matrix2::from_diagonal(&white.add_scalar(noise)),
+        blur: swing_noise,
     }
 }
 
@@ -214,7 +216,7 @@ pub fn log_velocity(
     if reading.water {
         hc.fixed_view_mut::<2, 2>(0, k::CURRENT).fill_diagonal(-1.0);
     }
-    Innovation { z: seen - through, h, hc, r: Matrix2::from_diagonal_element(variance) }
+    Innovation { z: seen - through, h, hc, r: Matrix2::from_diagonal_element(variance), blur: 0.0 }
 }
 
 /// A position of the IMU from an external reference with 1-sigma, m.
@@ -245,6 +247,7 @@ pub fn reference_heading(scene: &Scene, heading: f64, std: f64) -> Innovation<2>
         h,
         hc: SMatrix::zeros(),
         r: along * along.transpose() * (std * std) + outwards * outwards.transpose() * bulge,
+        blur: 0.0,
     }
 }
 
@@ -252,7 +255,7 @@ fn plain(at: usize, z: &Vector2<f64>, std: f64) -> Innovation<2> {
     let mut h = SMatrix::<f64, 2, STATES>::zeros();
     h.fixed_view_mut::<2, 2>(0, at).fill_with_identity();
     let r = Matrix2::from_diagonal_element(std * std);
-    Innovation { z: *z, h, hc: SMatrix::zeros(), r }
+    Innovation { z: *z, h, hc: SMatrix::zeros(), r, blur: 0.0 }
 }
 
 fn set_slow(hc: &mut ByConsidered, at: usize, slow: &Vector2<f64>) {

@@ -110,13 +110,17 @@ pub struct Innovation<const M: usize> {
     pub hc: SMatrix<f64, M, CONSIDERED>,
     /// R.
     pub r: SMatrix<f64, M, M>,
+    /// Variance of the noise in what H takes for the motion of the hull, in the units of z.
+    pub blur: f64,
 }
 
 /// An innovation weighed against a belief.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weighed<const M: usize> {
-    gain: SMatrix<f64, STATES, M>,
-    s: SMatrix<f64, M, M>,
+    /// What a unit of each component moves the eight by.
+    pub gain: SMatrix<f64, STATES, M>,
+    /// Covariance of the innovation.
+    pub s: SMatrix<f64, M, M>,
     /// Normalised innovation squared.
     pub nis: f64,
     /// Half the logarithm of det S.
@@ -209,7 +213,7 @@ impl Belief {
     /// Weighs an innovation; `None` if it is not finite or its covariance not positive definite.
     #[must_use]
     pub fn weigh<const M: usize>(&self, innovation: &Innovation<M>) -> Option<Weighed<M>> {
-        let Innovation { z, h, hc, r } = innovation;
+        let Innovation { z, h, hc, r, .. } = innovation;
         if !z.iter().all(|v| v.is_finite()) {
             return None;
         }
@@ -238,6 +242,15 @@ impl Belief {
         self.own = (self.own + self.own.transpose()) * 0.5;
         self.cross -= gain * seen;
         gain * z
+    }
+
+    /// Covariance of (1-c, s), as the regression has it.
+    #[must_use]
+    pub fn direction_covariance(&self) -> Matrix2<f64> {
+        let p = &self.own;
+        let across = -p[(state::SINE, state::VERSINE)];
+        let (sine, versine) = (p[(state::SINE, state::SINE)], p[(state::VERSINE, state::VERSINE)]);
+        Matrix2::new(versine, across, across, sine)
     }
 
     /// Variances of north and east of a pair.

@@ -13,7 +13,8 @@
 //! in the variables) and yet claims information, as if a length of one had been excluded by chance.
 //! What the regression lost in length it lost in knowledge: the information is multiplied by |m| where
 //! that is less than one. Held by `a_straight_and_steady_course_tells_no_heading`; without the factor
-//! the error there reaches six claimed sigmas.
+//! the error there reaches six claimed sigmas. What the noise of the IMU is known to have done has been taken
+//! out before ([`blur`](super::blur)); the factor is for what is left, above all a gyro bias beyond its data sheet.
 //!
 //! The constraint as a measurement inside the filter would have to be linearised about a heading that
 //! nobody knows yet, and adds nothing: the radial error it removes is not one of angle.

@@ -14,15 +14,25 @@ use insd_nav::error_state::{
 };
 use insd_nav::initial::sensor_covariance;
 use insd_nav::{InitialState, Nominal};
-use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector1, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, SMatrix, UnitQuaternion, Vector1, Vector2, Vector3};
 
 use super::belief::{CONSIDERED, Covariance, Innovation, STATES, considered as k, state as x};
 use super::motion::{across, rotation};
 use super::{ASTRAY, EightState, LEAN};
 
+/// Mean square length of (s, 1-c) that still tells a direction of tilt.
+const SHORTEST: f64 = 1e-6;
+
 impl EightState {
-    /// Levels the frame: turns it by the a that leaves the least mean square tilt,
-    /// a = E[R(dpsi)^T phi], which is known long before the heading.
+    /// Levels the frame: turns it by the a that leaves the least mean square tilt, E|phi - R(dpsi) a|^2,
+    ///
+    /// a = E[R(dpsi)^T phi] / E|R(dpsi)|^2,   |R|^2 = s^2 + (1-c)^2,
+    ///
+    /// which is known long before the heading. What is known of (s, 1-c) is what noise has not made of it
+    /// ([`blur`](super::blur)). As the regression has it, it shrinks where the measured force is noise, and
+    /// its mean square with it: taken as one, as of a point on the circle, it would leave the frame as much too
+    /// little levelled, and the sigma of what is left would know nothing of that. Held by
+    /// `roll_and_pitch_are_as_sure_as_claimed_where_nothing_tells_the_heading`.
     pub(super) fn level(&mut self) {
         let a = self.lean();
         self.motion.tilt -= self.motion.turn() * a;
@@ -35,13 +45,18 @@ impl EightState {
     }
 
     fn lean(&self) -> Vector2<f64> {
+        let (direction, covariance) = self.direction();
         let p = &self.belief.own;
-        let (n, e) = (x::TILT, x::TILT + 1);
-        let spread = Vector2::new(
-            p[(x::SINE, e)] - p[(x::VERSINE, n)],
-            -p[(x::SINE, n)] - p[(x::VERSINE, e)],
-        );
-        self.motion.turn().transpose() * self.motion.tilt + spread
+        let cross = p.fixed_view::<2, 2>(x::TILT, x::SINE) * Matrix2::new(0.0, 1.0, -1.0, 0.0);
+        let found = self.belief.direction_covariance();
+        // what goes together with the direction goes with what noise has not made of it
+        let response = found.try_inverse().map_or_else(Matrix2::zeros, |inverse| cross * inverse);
+        let off = direction - Vector2::new(1.0 - self.motion.versine, self.motion.sine);
+        let tilt = self.motion.tilt + response * off;
+        let both = response * covariance;
+        let spread = Vector2::new(both[(0, 0)] + both[(1, 1)], both[(1, 0)] - both[(0, 1)]);
+        let length = direction.norm_squared() + covariance.trace();
+        (rotation(&direction).transpose() * tilt + spread) / length.max(SHORTEST)
     }
 
     pub(super) fn keep_upright(&mut self) {
@@ -74,6 +89,7 @@ impl EightState {
             h,
             hc: SMatrix::zeros(),
             r: Vector1::new((variance * variance).max(1e-10)),
+            blur: 0.0,
         };
         if let Some(weighed) = self.belief.weigh(&innovation) {
             let errors = self.belief.absorb(&innovation, &weighed);

@@ -30,6 +30,7 @@
 
 pub mod aids;
 pub mod belief;
+pub mod blur;
 pub mod circle;
 mod handover;
 mod messages;
@@ -50,6 +51,7 @@ use crate::bank::Kinematics;
 use crate::levelling::Level;
 use aids::Scene;
 use belief::{Belief, considered as k, state as x};
+use blur::Blur;
 use motion::{Local, Motion, Stretch};
 use vertical::Vertical;
 
@@ -62,6 +64,7 @@ pub struct EightState {
     motion: Motion,
     local: Local,
     belief: Belief,
+    blur: Blur,
     vertical: Vertical,
     stretch: Stretch,
     rate: Vector3<f64>,
@@ -119,6 +122,7 @@ impl EightState {
             motion,
             local,
             belief: Belief::new(config),
+            blur: Blur::default(),
             vertical: Vertical::new(
                 start.position.height,
                 start.position_std,
@@ -143,6 +147,7 @@ impl EightState {
     /// Nothing known of the heading, the rest as stated, m and m/s.
     fn renew(&mut self, position_std: f64, velocity_std: f64) {
         self.belief = Belief::new(&self.config);
+        self.blur = Blur::default();
         self.belief.renew_pair(x::POSITION, position_std * position_std);
         self.belief.renew_pair(x::VELOCITY, velocity_std * velocity_std);
         // a heading that could be anything: cosine and sine have mean 0 and variance 1/2
@@ -211,16 +216,21 @@ impl EightState {
 
     /// Angle and sigma of dpsi from (s, c).
     fn note_heading(&mut self) {
-        let p = &self.belief.own;
         let (sin, off) = (self.motion.sine, self.motion.versine);
         self.heading = if self.centred {
-            (sin.atan2(1.0 - off), p[(x::SINE, x::SINE)].max(0.0).sqrt())
+            let variance = self.belief.own[(x::SINE, x::SINE)];
+            (sin.atan2(1.0 - off), variance.max(0.0).sqrt())
         } else {
-            let across = -p[(x::SINE, x::VERSINE)];
-            let covariance =
-                Matrix2::new(p[(x::VERSINE, x::VERSINE)], across, across, p[(x::SINE, x::SINE)]);
-            circle::angle(&Vector2::new(1.0 - off, sin), &covariance)
+            let (mean, covariance) = self.direction();
+            circle::angle(&mean, &covariance)
         };
+    }
+
+    /// Mean and covariance of (cos dpsi, sin dpsi).
+    fn direction(&self) -> (Vector2<f64>, Matrix2<f64>) {
+        let mean = Vector2::new(1.0 - self.motion.versine, self.motion.sine);
+        let covariance = self.belief.direction_covariance();
+        if self.centred { (mean, covariance) } else { self.blur.sharpened(&mean, &covariance) }
     }
 
     /// Brings the belief up to the time of the estimate.
@@ -230,7 +240,10 @@ impl EightState {
         }
         let transition =
             self.stretch.transition(&self.motion, &self.local, &self.belief, &self.config);
+        let before = self.belief.pair(x::SINE).sum();
         self.belief.propagate(&transition);
+        let after = self.belief.pair(x::SINE).sum().max(f64::MIN_POSITIVE);
+        self.blur.propagate(&transition, (before / after).min(1.0));
         self.vertical.settle(self.stretch.duration, self.belief.prior[k::ACCEL].sqrt());
         if (self.time - self.heard_height).as_seconds() > SILENT {
             self.vertical.hold_afloat();

@@ -174,6 +174,47 @@ fn a_straight_and_steady_course_tells_no_heading() {
 }
 
 #[test]
+fn roll_and_pitch_are_as_sure_as_claimed_where_nothing_tells_the_heading() {
+    let mut squares = Vec::new();
+    for seed in 0..6_u64 {
+        let heading = 60.0 * DEG * seed as f64;
+        let ship = Ship { heading, speed: 0.0, roll: 0.0, ..Ship::at(35.0) };
+        let mut run = Run::new(&ship, &mems_imu(), 60 + seed);
+        for minute in 1..=20 {
+            run.sail(60.0);
+            let (said, truth) = (run.filter.solution(), run.truth());
+            let roll = (said.attitude.roll - truth.roll) / said.sigma.roll;
+            let pitch = (said.attitude.pitch - truth.pitch) / said.sigma.pitch;
+            let worst = roll.abs().max(pitch.abs());
+            assert!(worst < 3.5, "{seed} at {minute} min: {worst} claimed sigmas");
+            // the accelerometers' bias and little beside it
+            assert!(said.sigma.pitch < 1.6 * 2e-3, "{seed} at {minute} min: {}", said.sigma.pitch);
+            squares.push(0.5 * (roll * roll + pitch * pitch));
+        }
+    }
+    let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+    assert!((0.4..1.7).contains(&mean), "mean square {mean}");
+}
+
+#[test]
+fn gyros_that_are_noisy_tell_no_heading_of_a_ship_that_lies_still() {
+    let mut squares = Vec::new();
+    for seed in 0..10_u64 {
+        let heading = 36.0 * DEG * seed as f64;
+        let ship = Ship { heading, speed: 0.0, roll: 0.0, ..Ship::at(35.0) };
+        let mut run = Run::new(&ship, &mems_imu(), 80 + seed);
+        for minute in [5, 10, 15] {
+            run.sail(300.0);
+            let (off, sigma) = judged(&run.filter, &run.truth());
+            assert!(off.abs() < 3.0, "{seed} at {minute} min: {off} sigmas of {sigma}");
+            squares.push(off * off);
+        }
+    }
+    let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+    assert!(mean < 1.6, "mean square {mean}");
+}
+
+#[test]
 fn good_gyros_show_the_heading_on_a_straight_course_as_well_as_they_claim() {
     let mut squares = 0.0;
     for seed in 0..40_u64 {

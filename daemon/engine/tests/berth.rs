@@ -10,9 +10,16 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// The shipped scenario of this number, cut off, s.
 fn scenario(number: &str, duration: u32) -> Scenario {
+    scenario_with(number, duration, &[])
+}
+
+/// The same with some keys set.
+fn scenario_with(number: &str, duration: u32, sets: &[&str]) -> Scenario {
     let (_, text) = shipped().iter().find(|(file, _)| file.starts_with(number)).unwrap();
     let cut = format!("duration_s={duration}").parse().unwrap();
-    Scenario::with_overrides(text, &[cut]).unwrap()
+    let sets = sets.iter().map(|set| set.parse().unwrap());
+    let overrides: Vec<_> = std::iter::once(cut).chain(sets).collect();
+    Scenario::with_overrides(text, &overrides).unwrap()
 }
 
 /// Solutions with the truth at their time, one a second.
@@ -79,4 +86,39 @@ fn coarse_gyros_and_gnss_find_the_heading_of_a_ship_alongside_as_well_as_can_be(
         (1_u64..17).into_par_iter().map(|seed| off(last(&sailed(&alongside, seed)))).collect();
     let rms = (offs.iter().map(|off| off * off).sum::<f64>() / offs.len() as f64).sqrt();
     assert!(rms < 1.5 * best, "{} times the limit", rms / best);
+}
+
+#[test]
+fn coarse_gyros_keep_roll_and_pitch_of_a_ship_that_hardly_moves_and_claim_no_heading() {
+    for height in ["sea.significant_height_m=0.0", "sea.significant_height_m=0.05"] {
+        let still = scenario_with("25", 600, &[height]);
+        let best = limit(&still, &[600.0]).unwrap()[0];
+        let of = |seed: u64| {
+            let rows = sailed(&still, seed);
+            let tilts = |(said, truth): &(Solution, Truth)| {
+                let truth = truth.attitude.unwrap();
+                let (attitude, sigma) = (said.attitude, said.sigma);
+                let roll = (attitude.roll - truth.roll, sigma.roll);
+                let pitch = (attitude.pitch - truth.pitch, sigma.pitch);
+                [roll, pitch]
+            };
+            let late = rows.iter().filter(|row| row.0.time.as_seconds() >= 60.0);
+            let sigmas = late.clone().flat_map(tilts).map(|(off, sigma)| (off / sigma).abs());
+            let turned = late.map(|row| (off(row) / row.0.sigma.heading).abs());
+            let [roll, pitch] = tilts(last(&rows));
+            assert!(roll.1 < 1.5 * best.roll, "claimed {} of {}", roll.1, best.roll);
+            (
+                sigmas.fold(0.0, f64::max),
+                turned.fold(0.0, f64::max),
+                roll.0.powi(2) + pitch.0.powi(2),
+            )
+        };
+        let ships: Vec<(f64, f64, f64)> = (1_u64..9).into_par_iter().map(of).collect();
+        let worst = ships.iter().map(|ship| ship.0).fold(0.0, f64::max);
+        assert!(worst < 3.5, "{height}: {worst} claimed sigmas of roll or pitch");
+        let worst = ships.iter().map(|ship| ship.1).fold(0.0, f64::max);
+        assert!(worst < 4.0, "{height}: {worst} claimed sigmas of heading");
+        let rms = (ships.iter().map(|ship| ship.2).sum::<f64>() / (2 * ships.len()) as f64).sqrt();
+        assert!(rms < 1.4 * best.roll, "{height}: {} times the limit", rms / best.roll);
+    }
 }
