@@ -22,8 +22,8 @@ pub(super) struct LieOfGnss {
     pub(super) rate: f64,
     pub(super) seen: Option<Time>,
     last: Option<(Time, Vector2<f64>)>,
-    /// Steps since it was found, and what they have left of what was found, m: the navigator, which drifts meanwhile,
-    /// is not in it.
+    /// Steps since it was found, and what they have left of what was found, m, if it does not grow: the navigator, which
+    /// drifts meanwhile, is not in it.
     steps: u32,
     left: Vector2<f64>,
     /// The position may be off by so much, though nothing shows it, m, and grow so fast, m/s, since then.
@@ -67,7 +67,9 @@ impl LieOfGnss {
         self.off += if is_step { step } else { Vector2::zeros() };
         let grown = self.seen.map_or(0.0, |seen| self.rate * (now - seen).as_seconds());
         let unsure = LEAST_STEP.max(STEP * noise) + grown;
-        let is_undone = is_step && self.left.norm().min(self.off.norm()) < unsure;
+        let left =
+            if self.rate > 0.0 { self.off.norm() } else { self.left.norm().min(self.off.norm()) };
+        let is_undone = is_step && left < unsure;
         if is_undone || self.off.norm() > WOULD_SHOW * sigma {
             (self.off, self.rate) = (Vector2::zeros(), 0.0);
         }
@@ -106,6 +108,18 @@ mod tests {
     fn a_jump_that_goes_back_is_undone_even_where_the_navigator_has_drifted() {
         assert!(is_undone(0.0, |t| if t < 30 { 12.0 } else { 0.0 }));
         assert!(is_undone(0.2, |t| if t < 30 { 12.0 } else { 0.0 }));
+    }
+
+    #[test]
+    fn a_step_does_not_undo_what_grows() {
+        let mut lie = LieOfGnss::default();
+        lie.find(Vector2::new(12.0, 0.0), 1.0, Time::START);
+        let is_undone = (1..300).any(|second| {
+            let t = f64::from(second);
+            let z = Vector2::new(12.0 + t + if second > 200 { 10.0 } else { 0.0 }, 0.0);
+            lie.follow(Time::from_seconds(t), &z, second > 150, [0.003 * t * t, 0.3])
+        });
+        assert!(!is_undone);
     }
 
     #[test]
