@@ -388,7 +388,8 @@ impl Docket {
     ) {
         let place = self.place(party);
         let is_undone = self.lies[self.lie_of(party)].follow(now, z, agrees, [sigma, noise]);
-        if is_undone {
+        // where another receiver is used instead there is no hurry
+        if is_undone && party == Party::Gnss {
             self.entries[place].quarantine = UNDONE;
         }
     }
