@@ -277,15 +277,26 @@ fn with_a_token_that_could_be_guessed_the_page_is_read_only_and_says_why() {
 }
 
 #[test]
-fn an_address_in_use_is_refused() {
-    let start = |config| {
+fn an_address_that_another_has_is_taken_as_soon_as_it_is_free_and_one_that_is_forbidden_refused() {
+    let start = |address| {
         let (_publisher, viewer) = insd_web::channel();
         let (sender, _orders) = insd_web::orders::channel();
-        insd_web::start(config, viewer, sender).map(|_| ())
+        let config = WebConfig { listen: Listen::Address(address), ..WebConfig::default() };
+        insd_web::start(config, viewer, sender)
     };
-    let house = House::open(WebConfig::default());
-    let config = WebConfig { listen: Listen::Address(house.address), ..WebConfig::default() };
-    assert!(matches!(start(config), Err(WebError::Bind { .. })));
+    let other = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
+    let address = other.local_addr().unwrap();
+    let page = start(address).unwrap();
+    assert_eq!(page.address(), address);
+    drop(other);
+    let begun = Instant::now();
+    while std::net::TcpStream::connect(address).is_err() {
+        assert!(begun.elapsed() < Duration::from_secs(10), "the page never came");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    // an address of a link, without saying which
+    let astray = "[fe80::1]:8470".parse().unwrap();
+    assert!(matches!(start(astray), Err(WebError::Bind { .. })));
 }
 
 #[test]

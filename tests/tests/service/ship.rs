@@ -1,9 +1,9 @@
 //! A ship with sensors on UDP: her configuration, what her sensors send, and the truth.
 
-use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener, UdpSocket};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -34,10 +34,22 @@ pub(crate) struct Ship {
     feeds: FeedConfig,
 }
 
-/// Ports that nobody else has at the moment.
+/// Ports that nobody else has at the moment, nor is given by the system to who asks for any: a client of another test would
+/// else take one between now and the start of the daemon.
 pub(crate) fn free_ports<const COUNT: usize>() -> [SocketAddr; COUNT] {
-    let sockets = [(); COUNT].map(|()| UdpSocket::bind((Ipv4Addr::LOCALHOST, 0)).unwrap());
-    std::array::from_fn(|index| sockets[index].local_addr().unwrap())
+    /// Below those that systems give away (32768 and up, or 49152).
+    const RANGE: std::ops::Range<u32> = 10_000..32_768;
+    static NEXT: AtomicU32 = AtomicU32::new(0);
+    let own = std::process::id().wrapping_mul(997);
+    let next = || {
+        let step = own.wrapping_add(NEXT.fetch_add(1, Ordering::Relaxed));
+        let port = RANGE.start + step % (RANGE.end - RANGE.start);
+        SocketAddr::from((Ipv4Addr::LOCALHOST, u16::try_from(port).unwrap()))
+    };
+    let is_free =
+        |port: &SocketAddr| TcpListener::bind(port).is_ok() && UdpSocket::bind(port).is_ok();
+    let mut free = std::iter::repeat_with(next).filter(is_free);
+    std::array::from_fn(|_| free.next().unwrap())
 }
 
 impl Ship {

@@ -1,7 +1,7 @@
 //! Takes connections, so many at a time, so many of one address, and none for ever.
 
 use std::io;
-use std::net::{SocketAddr, TcpListener as StdListener};
+use std::net::SocketAddr;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -15,9 +15,10 @@ use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
 use socket2::SockRef;
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
-use tokio::net::{TcpListener, TcpStream};
+use tokio::net::TcpStream;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 
+use super::door::Door;
 use super::hall::Hall;
 use super::room::{Place, Room};
 use super::stall::Stall;
@@ -45,12 +46,12 @@ pub(super) struct Peer(pub(super) SocketAddr);
 
 /// Takes connections for ever.
 pub(super) async fn accept(
-    listener: StdListener,
+    door: Door,
     router: Router,
     hall: &Arc<Hall>,
     room: &Room,
 ) -> io::Result<()> {
-    let listener = TcpListener::from_std(listener)?;
+    let listener = door.opened().await?;
     let porch = Arc::new(Semaphore::new(TURNED_AWAY));
     loop {
         let Ok((stream, peer)) = listener.accept().await else {

@@ -4,6 +4,7 @@ mod accept;
 mod access;
 mod alerts;
 mod api;
+mod door;
 mod frame;
 mod guard;
 mod hall;
@@ -15,7 +16,7 @@ mod stall;
 mod stream;
 mod track;
 
-use std::net::{SocketAddr, TcpListener};
+use std::net::SocketAddr;
 use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -27,9 +28,10 @@ use tokio::runtime::{Builder, Runtime};
 use tokio::sync::watch;
 
 use crate::channel::Viewer;
-use crate::config::{Listen, WebConfig, WebError};
+use crate::config::{WebConfig, WebError};
 use crate::orders::OrderSender;
 
+use door::Door;
 use hall::Hall;
 use room::Room;
 
@@ -45,7 +47,7 @@ pub struct WebHandle {
 }
 
 impl WebHandle {
-    /// Where it listens.
+    /// Where it listens, or will.
     #[must_use]
     pub fn address(&self) -> SocketAddr {
         self.address
@@ -62,35 +64,30 @@ impl Drop for WebHandle {
     }
 }
 
-/// Starts the page on a thread of its own.
+/// Starts the page on a thread of its own. While somebody else has its address, or this computer does not have it yet, the
+/// page waits for it.
 ///
 /// # Errors
-/// The address cannot be listened at, or the system grants no thread.
+/// The address cannot be listened at for another reason, or the system grants no thread.
 pub fn start(
     config: WebConfig,
     viewer: Viewer,
     orders: OrderSender,
 ) -> Result<WebHandle, WebError> {
-    let listener = match config.listen {
-        Listen::Inherited(listener) => listener,
-        Listen::Address(address) => {
-            TcpListener::bind(address).map_err(|source| WebError::Bind { address, source })?
-        }
-    };
-    listener.set_nonblocking(true)?;
-    let address = listener.local_addr()?;
+    let door = Door::new(config.listen)?;
+    let address = door.address()?;
     let runtime = Builder::new_current_thread().enable_all().build()?;
     let hall = Arc::new(Hall::new(config.token, &config.allowed_hosts, orders));
     let (stop, stopped) = watch::channel(false);
     let room = Room::new(config.max_clients, config.max_per_address);
-    let run = move || run(runtime, listener, &viewer, &hall, &room, stopped);
+    let run = move || run(runtime, door, &viewer, &hall, &room, stopped);
     let thread = std::thread::Builder::new().name("web".to_owned()).spawn(run)?;
     Ok(WebHandle { address, stop, thread: Some(thread) })
 }
 
 fn run(
     runtime: Runtime,
-    listener: TcpListener,
+    door: Door,
     viewer: &Viewer,
     hall: &Arc<Hall>,
     room: &Room,
@@ -100,7 +97,7 @@ fn run(
     runtime.block_on(async {
         tokio::select! {
             () = hall::pump(viewer, hall) => {}
-            ended = accept::accept(listener, router, hall, room) => {
+            ended = accept::accept(door, router, hall, room) => {
                 if let Err(fault) = ended {
                     tracing::warn!(%fault, "the status page cannot be served");
                 }
