@@ -390,12 +390,10 @@ impl Knows for InUse<'_> {
     /// Those of the engine in use, and of the IMUs of all: one that is wrong is, whoever is believed.
     fn doubts(&self) -> Doubts {
         let spares = self.redundancy.iter().flat_map(|own| &own.spares).map(|spare| &spare.engine);
-        let all = std::iter::once(self.first).chain(spares);
-        let of_imus = all.flat_map(Engine::findings).filter(|found| found.doubts_imu());
-        let of_imus = Doubts::of(&of_imus.copied().collect::<Vec<_>>());
-        let own = Doubts::of(self.engine().findings());
-        let spares = self.redundancy.iter().flat_map(|own| &own.spares).map(|spare| &spare.engine);
         let all: Vec<&Engine> = std::iter::once(self.first).chain(spares).collect();
+        let of_imus = all.iter().flat_map(|engine| engine.findings());
+        let of_imus: Vec<_> = of_imus.filter(|found| found.doubts_imu()).copied().collect();
+        let (of_imus, own) = (Doubts::of(&of_imus), Doubts::of(self.engine().findings()));
         // all hear the same but for their IMUs: what one finds contradicted and another does not is the IMU
         let in_doubt = all.iter().filter(|engine| engine.is_in_doubt()).count();
         let is_found = all.iter().any(|engine| engine.excluded().contains(Party::Imu));

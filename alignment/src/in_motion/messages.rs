@@ -150,7 +150,9 @@ impl EightState {
         let limit = self.gate.limit::<2>();
         let passes = weighed.nis <= limit;
         if passes {
-            self.blur.absorb(innovation, &weighed, &self.belief.own);
+            if let Some(blur) = &mut self.blur {
+                blur.absorb(innovation, &weighed, &self.belief.own);
+            }
             let errors = self.belief.absorb(innovation, &weighed);
             self.motion.inject(&self.local, &errors);
             self.after_update();

@@ -64,9 +64,9 @@ pub struct EightState {
     motion: Motion,
     local: Local,
     belief: Belief,
-    blur: Blur,
-    /// She has made no way since the begin.
-    lies_still: bool,
+    /// What noise passes for, as long as she has made no way: of a craft under way it is little beside what she does, and on
+    /// wheels what the monitor takes for it is motion.
+    blur: Option<Blur>,
     vertical: Vertical,
     stretch: Stretch,
     rate: Vector3<f64>,
@@ -126,8 +126,7 @@ impl EightState {
             motion,
             local,
             belief: Belief::new(config),
-            blur: Blur::default(),
-            lies_still: start.velocity.norm() < LEFT,
+            blur: (start.velocity.norm() < LEFT).then(Blur::default),
             vertical: Vertical::new(
                 start.position.height,
                 start.position_std,
@@ -152,7 +151,7 @@ impl EightState {
     /// Nothing known of the heading, the rest as stated, m and m/s.
     fn renew(&mut self, position_std: f64, velocity_std: f64) {
         self.belief = Belief::new(&self.config);
-        self.blur = Blur::default();
+        self.blur = self.blur.map(|_| Blur::default());
         self.belief.renew_pair(x::POSITION, position_std * position_std);
         self.belief.renew_pair(x::VELOCITY, velocity_std * velocity_std);
         // a heading that could be anything: cosine and sine have mean 0 and variance 1/2
@@ -235,18 +234,14 @@ impl EightState {
     fn direction(&self) -> (Vector2<f64>, Matrix2<f64>) {
         let mean = Vector2::new(1.0 - self.motion.versine, self.motion.sine);
         let covariance = self.belief.direction_covariance();
-        // of a craft under way the noise is little beside what she does, and on wheels what the monitor takes for it is motion
-        if self.centred || !self.lies_still {
-            (mean, covariance)
-        } else {
-            self.blur.sharpened(&mean, &covariance)
-        }
+        let blur = self.blur.filter(|_| !self.centred);
+        blur.map_or((mean, covariance), |blur| blur.sharpened(&mean, &covariance))
     }
 
     /// She makes way: goes on from what is known of the direction without what noise has told of it.
     fn leave(&mut self) {
         let (mean, covariance) = self.direction();
-        self.lies_still = false;
+        self.blur = None;
         self.belief.renew_pair(x::SINE, 0.5 * covariance.trace());
         (self.motion.versine, self.motion.sine) = (1.0 - mean.x, mean.y);
     }
@@ -261,9 +256,11 @@ impl EightState {
         let before = self.belief.pair(x::SINE).sum();
         self.belief.propagate(&transition);
         let after = self.belief.pair(x::SINE).sum().max(f64::MIN_POSITIVE);
-        self.blur.propagate(&transition, (before / after).min(1.0));
-        if self.lies_still && self.motion.velocity.norm() > LEFT {
-            self.leave();
+        if let Some(blur) = &mut self.blur {
+            blur.propagate(&transition, (before / after).min(1.0));
+            if self.motion.velocity.norm() > LEFT {
+                self.leave();
+            }
         }
         self.vertical.settle(self.stretch.duration, self.belief.prior[k::ACCEL].sqrt());
         if (self.time - self.heard_height).as_seconds() > SILENT {

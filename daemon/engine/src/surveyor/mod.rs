@@ -3,6 +3,7 @@
 //! It looks every ten seconds at the newest state, as the herald does, or when samples of the IMU are found to
 //! make no sense, and is no part of what the time line takes back.
 
+mod axes;
 mod frozen;
 mod imu;
 mod log;

@@ -4,7 +4,7 @@
 //! A wave that turns slowly within the steps of the digits dwells at its top, too, but gets there step by step. A range
 //! is reached at speed, and left so: samples in a row that tell the same to the last digit are entered by a leap.
 
-use insd_base::{Axes, ImuSample};
+use super::axes::{Each, Watch};
 
 /// Samples in a row that tell the same make a dwelling; it is entered by more steps of the digits than this, and is so many of them high.
 const DWELLS: u32 = 4;
@@ -20,7 +20,7 @@ const FORGOTTEN: f64 = 300.0;
 
 /// One axis.
 #[derive(Clone, Copy, Debug, Default)]
-struct Axis {
+pub(super) struct Axis {
     last: f64,
     /// What was told before that, and for how many samples that has been told.
     before: f64,
@@ -35,7 +35,7 @@ struct Axis {
     is_saturated: bool,
 }
 
-impl Axis {
+impl Watch for Axis {
     fn see(&mut self, value: f64, duration: f64) {
         if value == self.last {
             self.run = self.run.saturating_add(1);
@@ -58,6 +58,12 @@ impl Axis {
         self.is_saturated &= self.since < FORGOTTEN;
     }
 
+    fn is_wrong(&self) -> bool {
+        self.is_saturated
+    }
+}
+
+impl Axis {
     fn dwells(&self) -> bool {
         let Some(step) = self.step.filter(|_| self.run >= DWELLS) else { return false };
         (self.last - self.before).abs() > LEAP * step && self.last.abs() > HIGH * step
@@ -70,34 +76,12 @@ impl Axis {
 }
 
 /// All six.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Saturated {
-    gyro: [Axis; 3],
-    accel: [Axis; 3],
-}
-
-impl Saturated {
-    /// Sees a sample as it came, and its duration, s.
-    pub(super) fn see(&mut self, sample: &ImuSample, duration: f64) {
-        let of = |axes: &mut [Axis; 3], values: &[f64]| {
-            axes.iter_mut().zip(values).for_each(|(axis, value)| axis.see(*value, duration));
-        };
-        of(&mut self.gyro, sample.delta_theta.0.as_slice());
-        of(&mut self.accel, sample.delta_velocity.0.as_slice());
-    }
-
-    /// Those that reach the end of their range, if any do.
-    pub(super) fn axes(&self) -> Option<Axes> {
-        let which = |axes: &[Axis; 3]| axes.map(|axis| axis.is_saturated);
-        let axes = Axes { gyro: which(&self.gyro), accel: which(&self.accel) };
-        axes.any().then_some(axes)
-    }
-}
+pub(super) type Saturated = Each<Axis>;
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use insd_base::{Body, Time};
+    use insd_base::{Body, ImuSample, Time};
 
     /// Whether an axis is found to reach the end of its range within so many seconds at 100 Hz, and when, s.
     fn found(seconds: u32, of: impl Fn(f64) -> f64) -> Option<f64> {

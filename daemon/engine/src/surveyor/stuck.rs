@@ -4,7 +4,7 @@
 //! runs of equal numbers are usual. So an axis is held against its own past: it stands still when it has told the same for many
 //! times the longest run that it ever made before. One that has never moved is not judged.
 
-use insd_base::{Axes, ImuSample};
+use super::axes::{Each, Watch};
 
 /// Times the longest run before, and at least so long, s.
 const LONGER: f64 = 20.0;
@@ -14,7 +14,7 @@ const CHANGES: u32 = 100;
 
 /// One axis.
 #[derive(Clone, Copy, Debug, Default)]
-struct Axis {
+pub(super) struct Axis {
     last: f64,
     /// How long it has told that, and the longest that it ever did so, s.
     run: f64,
@@ -23,7 +23,7 @@ struct Axis {
     stuck: bool,
 }
 
-impl Axis {
+impl Watch for Axis {
     fn see(&mut self, value: f64, duration: f64) {
         if value == self.last {
             self.run += duration;
@@ -40,37 +40,19 @@ impl Axis {
         self.stuck &= self.changes < CHANGES;
         (self.last, self.run) = (value, 0.0);
     }
+
+    fn is_wrong(&self) -> bool {
+        self.stuck
+    }
 }
 
 /// All six.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Stuck {
-    gyro: [Axis; 3],
-    accel: [Axis; 3],
-}
-
-impl Stuck {
-    /// Sees a sample as it came, and its duration, s.
-    pub(super) fn see(&mut self, sample: &ImuSample, duration: f64) {
-        let of = |axes: &mut [Axis; 3], values: &[f64]| {
-            axes.iter_mut().zip(values).for_each(|(axis, value)| axis.see(*value, duration));
-        };
-        of(&mut self.gyro, sample.delta_theta.0.as_slice());
-        of(&mut self.accel, sample.delta_velocity.0.as_slice());
-    }
-
-    /// Those that stand still, if any do.
-    pub(super) fn axes(&self) -> Option<Axes> {
-        let which = |axes: &[Axis; 3]| axes.map(|axis| axis.stuck);
-        let axes = Axes { gyro: which(&self.gyro), accel: which(&self.accel) };
-        axes.any().then_some(axes)
-    }
-}
+pub(super) type Stuck = Each<Axis>;
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use insd_base::{Body, Time};
+    use insd_base::{Body, ImuSample, Time};
 
     /// Sees what a function tells of each sample at 100 Hz, for so many seconds.
     fn seen(stuck: &mut Stuck, from: u32, seconds: u32, of: impl Fn(u32) -> f64) {

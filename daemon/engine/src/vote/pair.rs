@@ -1,10 +1,9 @@
 //! Two engines side by side: since when they disagree, and who of them is taken as wrong.
 
 use insd_base::{Body, Motion, SolutionSigma, Time};
-
 use nalgebra::Vector3;
 
-use super::compare::{Apart, Difference, Quantity, differences, distance};
+use super::compare::{Apart, Difference, differences, distance};
 use super::evidence::{Doubt, Testimony, suspect};
 use super::turning::Turning;
 
@@ -56,6 +55,16 @@ impl Pair {
         self.between.0 == engine || self.between.1 == engine
     }
 
+    /// The index of one of them.
+    fn engine(&self, second: bool) -> usize {
+        if second { self.between.1 } else { self.between.0 }
+    }
+
+    /// Whether they disagree, and it is not known who is wrong.
+    fn is_open(&self) -> bool {
+        self.differs && self.blamed.is_none()
+    }
+
     /// Compares them, `passed` s after the last look: their motions not at all while one of them has none, how their IMUs
     /// turned, rad/s, while both say so.
     pub(super) fn look(
@@ -66,10 +75,8 @@ impl Pair {
         apart: &Apart,
     ) {
         let found = self.turning.look(now, turned, apart.mounting_std);
-        let turn =
-            found.apart.map(|(value, limit)| Difference { quantity: Quantity::Turn, value, limit });
         let of_motions = motions.map(|(one, other)| differences(one, other, apart));
-        let all = of_motions.into_iter().flatten().chain(turn);
+        let all = of_motions.into_iter().flatten().chain(found.apart);
         let worst = all.max_by(|a, b| a.share().total_cmp(&b.share()));
         let share = worst.map_or(0.0, |worst| worst.share());
         self.worst = worst.or(self.worst);
@@ -88,8 +95,7 @@ impl Pair {
             self.turning.agree();
         }
         if let Some(own) = found.jumped {
-            let engine = if own == 0 { self.between.0 } else { self.between.1 };
-            self.accuse((engine, Doubt::Jumped));
+            self.accuse((self.engine(own == 1), Doubt::Jumped));
         }
     }
 
@@ -101,8 +107,7 @@ impl Pair {
         one: (&Testimony, &Motion),
         other: (&Testimony, &Motion),
     ) {
-        let found = suspect(one, other)
-            .map(|(second, doubt)| (if second { self.between.1 } else { self.between.0 }, doubt));
+        let found = suspect(one, other).map(|(second, doubt)| (self.engine(second), doubt));
         self.told = found.map(|found| match self.told {
             Some((before, since)) if before == found => (found, since),
             _ => (found, now),
@@ -118,8 +123,7 @@ impl Pair {
 
     /// Since when and by how much an engine's IMU turns faster than the other's, rad/s, body axes, where it is not known who is wrong.
     pub(super) fn excess(&self, engine: usize) -> Option<(Time, Body)> {
-        let is_open = self.differs && self.blamed.is_none();
-        let (since, excess) = self.turning.excess().filter(|_| is_open)?;
+        let (since, excess) = self.turning.excess().filter(|_| self.is_open())?;
         match engine {
             one if one == self.between.0 => Some((since, Body(-excess))),
             other if other == self.between.1 => Some((since, Body(excess))),
@@ -136,7 +140,7 @@ impl Pair {
         other: &Motion,
         apart: &Apart,
     ) -> Option<SolutionSigma> {
-        let is_open = self.is_of(engine) && self.differs && self.blamed.is_none();
+        let is_open = self.is_of(engine) && self.is_open();
         is_open.then(|| distance(motion, other, apart).scaled(0.5).plus(&other.solution.sigma))
     }
 

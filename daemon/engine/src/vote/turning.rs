@@ -8,6 +8,8 @@ use insd_base::Time;
 use insd_base::units::DEG;
 use nalgebra::Vector3;
 
+use super::compare::{Difference, Quantity};
+
 /// Rates that are apart by less are no matter, rad/s, look by look and over a second or so; so are so many sigmas of what is
 /// usual, and this share of a rate beyond so many sigmas of what is usual.
 const FLOORS: [f64; 2] = [0.15 * DEG, 0.05 * DEG];
@@ -35,9 +37,8 @@ type Rates = [Option<Vector3<f64>>; 2];
 /// What is found at a look.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Found {
-    /// By how much the second turns faster, about the axis where that is the most beside what it may be, and what it
-    /// may be, rad/s.
-    pub(super) apart: Option<(f64, f64)>,
+    /// By how much the second turns faster, about the axis where that is the most beside what it may be.
+    pub(super) apart: Option<Difference>,
     /// Whether they have begun to turn apart.
     pub(super) is_sudden: bool,
     /// Who jumped: 0 or 1.
@@ -97,12 +98,14 @@ impl Turning {
         for (i, window) in self.windows.iter_mut().enumerate() {
             let limit = window.limit(FLOORS[i], askew);
             let axis = window.off.abs().component_div(&limit).imax();
-            let (value, most) = (window.off[axis], limit[axis]);
-            let is_apart = is_known && value.abs() > most;
+            let (value, limit) = (window.off[axis], limit[axis]);
+            let own = Difference { quantity: Quantity::Turn, value, limit };
+            let own = Some(own).filter(|_| is_known);
+            let is_apart = own.is_some_and(|own| own.share() > 1.0);
             window.apart = if is_apart { window.apart + 1 } else { 0 };
-            if found.apart.is_none_or(|(before, its)| value.abs() / most > before.abs() / its) {
-                found.apart = is_known.then_some((value, most));
-            }
+            found.apart = own
+                .filter(|own| found.apart.is_none_or(|it| own.share() > it.share()))
+                .or(found.apart);
             if window.apart != IN_A_ROW[i] {
                 continue;
             }
