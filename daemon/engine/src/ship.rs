@@ -26,7 +26,7 @@ const POLAR: f64 = 88.0 * DEG;
 #[derive(Clone, Debug)]
 pub(crate) enum Ship {
     /// Several headings are possible; `heir` finds the heading once a receiver is heard, if the gyros are coarse.
-    Aligning { bank: Box<Bank>, heir: Option<Heir> },
+    Aligning { bank: Box<Bank>, heir: Option<Box<Heir>> },
     /// A receiver tells the velocity, the heading may be anything; `berth` is how the ship is held
     /// once it is found, if she is moored.
     /// `blind` finds it without a heading reference, where one is heard.
@@ -61,7 +61,7 @@ impl Ship {
             return Ship::InMotion { finder, blind: None, berth };
         }
         let is_awaited = is_wanted && is_coarse && stored.is_none();
-        let heir = is_awaited.then(|| Heir::new(config, choice.moored));
+        let heir = is_awaited.then(|| Box::new(Heir::new(config, choice.moored)));
         let bank = Box::new(match stored {
             Some(stored) => Bank::with_stored(config, level, kinematics, choice, stored),
             None => Bank::new(config, level, kinematics, choice.moored),
