@@ -65,6 +65,8 @@ pub struct EightState {
     local: Local,
     belief: Belief,
     blur: Blur,
+    /// She has made no way since the begin.
+    lies_still: bool,
     vertical: Vertical,
     stretch: Stretch,
     rate: Vector3<f64>,
@@ -80,6 +82,8 @@ pub struct EightState {
     centred: bool,
 }
 
+/// So much is way, m/s.
+const LEFT: f64 = 2.0;
 /// Heading sigma at which the phase ends, rad.
 pub const GOAL: f64 = 5.0 * DEG;
 /// Sigma of the tilt after levelling, sensor bias aside, rad.
@@ -123,6 +127,7 @@ impl EightState {
             local,
             belief: Belief::new(config),
             blur: Blur::default(),
+            lies_still: start.velocity.norm() < LEFT,
             vertical: Vertical::new(
                 start.position.height,
                 start.position_std,
@@ -230,7 +235,20 @@ impl EightState {
     fn direction(&self) -> (Vector2<f64>, Matrix2<f64>) {
         let mean = Vector2::new(1.0 - self.motion.versine, self.motion.sine);
         let covariance = self.belief.direction_covariance();
-        if self.centred { (mean, covariance) } else { self.blur.sharpened(&mean, &covariance) }
+        // of a craft under way the noise is little beside what she does, and on wheels what the monitor takes for it is motion
+        if self.centred || !self.lies_still {
+            (mean, covariance)
+        } else {
+            self.blur.sharpened(&mean, &covariance)
+        }
+    }
+
+    /// She makes way: goes on from what is known of the direction without what noise has told of it.
+    fn leave(&mut self) {
+        let (mean, covariance) = self.direction();
+        self.lies_still = false;
+        self.belief.renew_pair(x::SINE, 0.5 * covariance.trace());
+        (self.motion.versine, self.motion.sine) = (1.0 - mean.x, mean.y);
     }
 
     /// Brings the belief up to the time of the estimate.
@@ -244,6 +262,9 @@ impl EightState {
         self.belief.propagate(&transition);
         let after = self.belief.pair(x::SINE).sum().max(f64::MIN_POSITIVE);
         self.blur.propagate(&transition, (before / after).min(1.0));
+        if self.lies_still && self.motion.velocity.norm() > LEFT {
+            self.leave();
+        }
         self.vertical.settle(self.stretch.duration, self.belief.prior[k::ACCEL].sqrt());
         if (self.time - self.heard_height).as_seconds() > SILENT {
             self.vertical.hold_afloat();

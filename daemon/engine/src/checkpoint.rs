@@ -17,7 +17,7 @@ use crate::herald::KeptHerald;
 /// What begins each checkpoint.
 const MARK: [u8; 4] = *b"insc";
 /// To be raised whenever anything of [`Kept`] changes (a test holds its length).
-const VERSION: u16 = 3;
+const VERSION: u16 = 4;
 const HEAD: usize = MARK.len() + 2 + 4;
 const SUM: usize = 4;
 /// More than a state can ever be, bytes.

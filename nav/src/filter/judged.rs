@@ -268,7 +268,7 @@ impl Filter {
         let withheld = self.withholds(Aid::GnssPosition);
         let is_early = self.is_early();
         let Some(judge) = self.judge_now() else { return false };
-        if is_early && judge.is_in_doubt() {
+        if is_early && judge.is_in_doubt() && !judge.leaps(Party::Gnss) {
             return false;
         }
         if refused >= LOCKED_OUT && !withheld && !judge.is_in_doubt() {

@@ -29,6 +29,10 @@ const LONG: f64 = 60.0;
 const WORST: f64 = 4.0;
 /// The same where a receiver contradicts itself, its position its velocity: no model of the ship stands between them.
 const OWN_WORD: f64 = 1.2;
+/// A height that changes by more at once leaps, m.
+const LEAP: f64 = 5.0;
+/// Share of the likeliest fault's weight, as a logarithm, that is most of it.
+const MOST: f64 = 0.8;
 /// Logarithm of how often anybody does what has no shape, 1/s.
 const SHAPELESS: f64 = -17.4;
 
@@ -97,6 +101,15 @@ impl Charge {
         match self.kind {
             Kind::Shaped { sized, .. } => sized.value.norm(),
             Kind::Shapeless => 0.0,
+        }
+    }
+
+    fn is_leap(&self) -> bool {
+        let Kind::Shaped { sized, .. } = self.kind else { return false };
+        match self.fault {
+            Fault::Jump => sized.value.z.abs() > LEAP,
+            Fault::Height => sized.value.x.abs() > LEAP,
+            _ => false,
         }
     }
 
@@ -169,15 +182,34 @@ impl Judge {
         all
     }
 
+    /// Whether a height leaps, by somebody's word: no ship does that, and no mistake of the installation makes it.
+    #[must_use]
+    pub fn leaps(&self, whom: Party) -> bool {
+        self.leap(whom).is_some()
+    }
+
+    /// The leap of somebody's height, where that is most of what there is: a receiver that hears reflections is off in height,
+    /// place and velocity at once, and no shape has it all.
+    pub(super) fn leap(&self, whom: Party) -> Option<Charge> {
+        let all = &self.assessment.charges;
+        let most = all.first().map_or(0.0, |first| MOST * first.weight).max(DOUBT);
+        let is_of = |charge: &&Charge| charge.party() == whom && charge.weight > most;
+        all.iter().filter(is_of).find(|charge| charge.is_leap()).copied()
+    }
+
     /// Whether a fault leaves nothing much unexplained.
     fn explains(&self, charge: &Charge) -> bool {
-        let left = match charge.kind {
+        self.left(charge).is_some_and(|left| left < UNEXPLAINED)
+    }
+
+    /// Mean square of the innovations, of which one is expected, that a fault leaves unexplained.
+    pub(super) fn left(&self, charge: &Charge) -> Option<f64> {
+        match charge.kind {
             Kind::Shapeless => self.success(charge.party()).map(|success| success.strain),
             Kind::Shaped { since, sized, .. } => {
                 self.begun(since).map(|onset| onset.left(sized.explained))
             }
-        };
-        left.is_some_and(|left| left < UNEXPLAINED)
+        }
     }
 
     /// Faults that are not much less likely than the likeliest: what began later explains what came later only.

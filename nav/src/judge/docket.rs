@@ -14,19 +14,15 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use super::Aid;
+use super::lie::LieOfGnss;
 
 /// Who agrees for so long is heard again, s; each time he relapses for twice as long, up to this.
 const QUARANTINE: f64 = 60.0;
 const LONGEST: f64 = 3600.0;
 /// Relapses later than this are no relapses, s.
 const FORGOTTEN: f64 = 3600.0;
-/// A lie of so many sigmas of the navigator's position would show.
-const WOULD_SHOW: f64 = 8.0;
-/// A step of a position is one beyond so many sigmas of its noise, and this, m.
-const STEP: f64 = 6.0;
-const LEAST_STEP: f64 = 3.0;
-/// The navigator is vague of steps after so long without a fix, s.
-const SUCCESSIVE: f64 = 3.0;
+/// Who agrees for so long after his lie was undone is heard again, s.
+const UNDONE: f64 = 5.0;
 /// An IMU that was found wrong and mended is doubted for so long, s.
 const MENDED: f64 = 600.0;
 
@@ -53,18 +49,6 @@ impl Default for Entry {
             quarantine: QUARANTINE,
         }
     }
-}
-
-/// What a receiver is off by, as far as it is known.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct LieOfGnss {
-    off: Vector2<f64>,
-    /// How fast it grew when it was found, m/s.
-    rate: f64,
-    seen: Option<Time>,
-    last: Option<(Time, Vector2<f64>)>,
-    /// The position may be off by so much, though nothing shows it, m, and grow so fast, m/s, since then.
-    unproven: Option<(f64, f64, Time)>,
 }
 
 /// Which receiver has which part, by their numbers.
@@ -331,7 +315,7 @@ impl Docket {
         if party.is_receiver() {
             let (off, rate) = lie;
             let own = &mut self.lies[self.lie_of(party)];
-            *own = LieOfGnss { off, rate, seen: Some(now), last: None, unproven: own.unproven };
+            own.find(off, rate, now);
         }
     }
 
@@ -394,8 +378,7 @@ impl Docket {
         self.enter(party, standing, now);
     }
 
-    /// Follows the lie of a receiver that is left out, by its part: the innovation of its position, north and east,
-    /// whether it agrees with the navigator, the sigma that the navigator has of it, and that of its noise, m.
+    /// Follows the lie of a receiver that is left out, by its part; see [`LieOfGnss::follow`].
     pub fn follow(
         &mut self,
         (party, now): (Party, Time),
@@ -403,36 +386,11 @@ impl Docket {
         agrees: bool,
         [sigma, noise]: [f64; 2],
     ) {
-        let lie = &mut self.lies[self.lie_of(party)];
-        let last = lie.last.replace((now, *z));
-        if !agrees {
-            (lie.off, lie.seen) = (*z, Some(now));
-            return;
+        let place = self.place(party);
+        let is_undone = self.lies[self.lie_of(party)].follow(now, z, agrees, [sigma, noise]);
+        if is_undone {
+            self.entries[place].quarantine = UNDONE;
         }
-        if lie.off.norm() > WOULD_SHOW * sigma {
-            (lie.off, lie.rate) = (Vector2::zeros(), 0.0);
-        }
-        let Some((before, z_before)) = last else { return };
-        let step = z - z_before;
-        let is_step = step.norm() > LEAST_STEP.max(STEP * noise * std::f64::consts::SQRT_2);
-        if is_step && (now - before).as_seconds() < SUCCESSIVE {
-            lie.off += step;
-            let unsure = LEAST_STEP.max(STEP * noise) + lie.grown(now);
-            if lie.off.norm() < unsure {
-                (lie.off, lie.rate) = (Vector2::zeros(), 0.0);
-            }
-        }
-    }
-}
-
-impl LieOfGnss {
-    fn unproven_at(&self, now: Time) -> f64 {
-        let grown = |at: Time| (now - at).as_seconds().max(0.0);
-        self.unproven.map_or(0.0, |(off, rate, at)| off + rate * grown(at))
-    }
-
-    fn grown(&self, now: Time) -> f64 {
-        self.seen.map_or(0.0, |seen| self.rate * (now - seen).as_seconds())
     }
 }
 
@@ -458,7 +416,7 @@ impl Docket {
         } else if anew.lies[own].unproven.is_some() {
             anew.enter(Party::Gnss, Standing::Probation, now);
         }
-        anew.lies[own] = LieOfGnss { unproven: anew.lies[own].unproven, ..LieOfGnss::default() };
+        anew.lies[own] = anew.lies[own].forgotten();
         anew
     }
 
@@ -469,11 +427,7 @@ impl Docket {
             entry.since = entry.since + by;
             entry.agreeing_since = None;
         }
-        for lie in &mut self.lies {
-            lie.seen = lie.seen.map(|seen| seen + by);
-            lie.last = None;
-            lie.unproven = lie.unproven.map(|(off, rate, at)| (off, rate, at + by));
-        }
+        self.lies = self.lies.map(|lie| lie.shifted(by));
         self
     }
 }

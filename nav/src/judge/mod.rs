@@ -14,6 +14,7 @@ mod aid;
 mod charge;
 mod dissenter;
 mod docket;
+mod lie;
 mod onset;
 mod pessimist;
 mod receivers;
@@ -326,7 +327,8 @@ impl Judge {
 
     /// Looks at the evidence, once a second; gives who is found to lie.
     ///
-    /// Nobody of `excused` is judged: what looks like his lie may be a mistake of the installation, or of the heading.
+    /// Nobody of `excused` is judged: what looks like his lie may be a mistake of the installation, or of the heading. These do not
+    /// make a height leap.
     pub fn look(&mut self, now: Time, excused: Parties) -> Option<Verdict> {
         let unheard = self.looked.map_or(0.0, |last| (now - last).as_seconds());
         if unheard > UNHEARD {
@@ -341,7 +343,8 @@ impl Judge {
         if quiet.is_some() {
             return quiet;
         }
-        let is_excused = |charge: &Charge| excused.contains(charge.party());
+        let is_excused =
+            |charge: &Charge| excused.contains(charge.party()) && !self.leaps(charge.party());
         let first = self.likeliest().filter(|first| !is_excused(first));
         let is_likely = self.assessment.total > DOUBT;
         self.in_doubt = is_likely || self.disputed.is_some();
@@ -353,7 +356,7 @@ impl Judge {
         let whom = accused.party();
         let since = before.filter(|(party, _)| *party == whom).map_or(now, |(_, since)| since);
         self.accused = Some((whom, since));
-        let shaped = self.shaped(whom).unwrap_or(accused);
+        let shaped = self.shaped(whom).or_else(|| self.leap(whom)).unwrap_or(accused);
         let needed = if shaped.fault.is_noise() { SCATTERS } else { PERSISTS };
         let persists = (now - since).as_seconds() >= needed;
         persists.then(|| self.convict(&shaped, now))

@@ -7,7 +7,7 @@ use super::charge::{Charge, DOUBT, Kind};
 use super::docket::NO_LIE;
 use super::{Aid, Judge, SCATTERS, UNHEARD, WILD};
 use crate::config::WORST;
-use crate::error_state::{ATTITUDE, Covariance, ErrorState, GNSS_DELAY};
+use crate::error_state::{ATTITUDE, Covariance, ErrorState, GNSS_DELAY, POSITION, VELOCITY};
 
 /// Mean square of an innovation that only a lie explains.
 const BLATANT: f64 = 100.0;
@@ -57,6 +57,14 @@ impl Judge {
             return self.disbelieve_imu(now);
         }
         let mut mended = self.alternative(charge);
+        // what is not explained has gone into the estimate
+        let left = self.left(charge).unwrap_or(1.0);
+        if charge.kind != Kind::Shapeless && left > 1.0 {
+            for block in [POSITION, VELOCITY] {
+                let own = block.covariance(&mended.covariance).trace().max(0.0) / 3.0;
+                block.inflate(&mut mended.covariance, (left - 1.0) * own);
+            }
+        }
         if charge.kind == Kind::Shapeless && self.lies_another(charge.party()) {
             self.docket.convict(charge.fault, now, NO_LIE);
             return Verdict { fault: charge.fault, mended: None };
