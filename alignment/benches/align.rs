@@ -113,6 +113,7 @@ fn kinematics(moored: bool) -> Kinematics {
         velocity_std: 2.0,
         acceleration: Vector3::zeros(),
         moored,
+        gnss_position: !moored,
         gnss_velocity: !moored,
     }
 }

@@ -37,7 +37,9 @@ pub struct Kinematics {
     pub acceleration: Vector3<f64>,
     /// Whether the ship is known to lie at her berth.
     pub moored: bool,
-    /// Whether a receiver tells her velocity.
+    /// Whether a receiver tells her position.
+    pub gnss_position: bool,
+    /// Whether it tells her velocity as well.
     pub gnss_velocity: bool,
 }
 

@@ -108,6 +108,7 @@ impl Coarse {
             velocity_std: if start.velocity.is_some() { 3.0 } else { 10.0 },
             acceleration: self.acceleration(&last).unwrap_or_else(Vector3::zeros),
             moored: self.moored,
+            gnss_position: true,
             gnss_velocity: start.velocity.is_some(),
         })
     }
@@ -127,6 +128,7 @@ impl Coarse {
             velocity_std: if self.moored { 2.0 } else { 10.0 },
             acceleration: Vector3::zeros(),
             moored: self.moored,
+            gnss_position: false,
             gnss_velocity: false,
         })
     }

@@ -11,6 +11,7 @@ mod coarse;
 mod disturbance;
 mod doubts;
 mod epochs;
+mod heir;
 mod herald;
 mod ledger;
 mod looks;

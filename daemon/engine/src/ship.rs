@@ -13,7 +13,8 @@ use insd_nav::filter::judged::ImuState;
 use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
 
 use crate::blind::{Blind, Word, tells_heading, unchecked, without_heading};
-use crate::trial::{Misled, Trial};
+use crate::heir::Heir;
+use crate::trial::{BLIND, Misled, Trial};
 
 /// Heading sigma below which a ship can be steered by it for the first time.
 const STEERABLE: f64 = 1.0 * DEG;
@@ -24,8 +25,8 @@ const POLAR: f64 = 88.0 * DEG;
 /// What runs on the time line.
 #[derive(Clone, Debug)]
 pub(crate) enum Ship {
-    /// Several headings are possible.
-    Aligning(Box<Bank>),
+    /// Several headings are possible; `heir` finds the heading once a receiver is heard, if the gyros are coarse.
+    Aligning { bank: Box<Bank>, heir: Option<Box<Heir>> },
     /// A receiver tells the velocity, the heading may be anything; `berth` is how the ship is held
     /// once it is found, if she is moored.
     /// `blind` finds it without a heading reference, where one is heard.
@@ -50,22 +51,28 @@ impl Ship {
         stored: Option<&StoredState>,
     ) -> Self {
         let is_polar = kinematics.position.latitude.abs() > POLAR;
-        let is_told = !kinematics.moored || (kinematics.gnss_velocity && stored.is_none());
-        if is_told && !is_polar && choice.in_motion == InMotion::EightState {
+        let is_coarse = config.imu.gyro.bias_std > BLIND;
+        let is_heard = kinematics.gnss_velocity || (kinematics.gnss_position && is_coarse);
+        let is_told = !kinematics.moored || (is_heard && stored.is_none());
+        let is_wanted = !is_polar && choice.in_motion == InMotion::EightState;
+        if is_told && is_wanted {
             let finder = Box::new(EightState::new(config, level, kinematics));
             let berth = kinematics.moored.then_some(choice.moored);
             return Ship::InMotion { finder, blind: None, berth };
         }
-        Ship::Aligning(Box::new(match stored {
+        let is_awaited = is_wanted && is_coarse && stored.is_none();
+        let heir = is_awaited.then(|| Box::new(Heir::new(config, choice.moored)));
+        let bank = Box::new(match stored {
             Some(stored) => Bank::with_stored(config, level, kinematics, choice, stored),
             None => Bank::new(config, level, kinematics, choice.moored),
-        }))
+        });
+        Ship::Aligning { bank, heir }
     }
 
     /// What became of the stored state that was offered.
     pub(crate) fn verdict(&self) -> Option<Verdict> {
         match self {
-            Ship::Aligning(bank) => bank.verdict(),
+            Ship::Aligning { bank, .. } => bank.verdict(),
             Ship::InMotion { finder, .. } => {
                 let (time, reason) = (finder.time(), StoredDoubt::NotMoored);
                 Some(Verdict::Dropped { time, reason })
@@ -130,7 +137,7 @@ impl Ship {
     /// Whether she is taken as lying at her berth.
     pub(crate) fn is_moored(&self) -> bool {
         match self {
-            Ship::Aligning(bank) => bank.is_moored(),
+            Ship::Aligning { bank, .. } => bank.is_moored(),
             Ship::InMotion { berth, .. } => berth.is_some(),
             Ship::Navigating { fine, .. } => fine.is_moored(),
         }
@@ -149,7 +156,7 @@ impl Ship {
     /// The likeliest of her filters, if she has a full one.
     pub(crate) fn likeliest(&self) -> Option<&Fine> {
         match self {
-            Ship::Aligning(bank) => bank.likeliest(),
+            Ship::Aligning { bank, .. } => bank.likeliest(),
             Ship::InMotion { .. } => None,
             Ship::Navigating { fine, .. } => Some(fine.as_ref()),
         }
@@ -171,7 +178,7 @@ impl Ship {
         let aligned = heading_target(ACCURACY, solution.position.latitude);
         let mode = match self {
             _ if self.is_moored() && solution.sigma.heading > aligned => Mode::FineAlignment,
-            Ship::Aligning(_) | Ship::InMotion { .. } => Mode::InMotionAlignment,
+            Ship::Aligning { .. } | Ship::InMotion { .. } => Mode::InMotionAlignment,
             Ship::Navigating { aligned: false, .. } if solution.mode == Mode::Aided => {
                 Mode::InMotionAlignment
             }
@@ -184,7 +191,7 @@ impl Ship {
     fn hand_over(&mut self) {
         let verdict = self.verdict();
         let found = match self {
-            Ship::Aligning(bank) => bank.winner().cloned(),
+            Ship::Aligning { bank, .. } => bank.winner().cloned(),
             Ship::InMotion { finder, berth, .. } => finder.initial_state().map(|initial| {
                 let mut filter = Filter::new(finder.config(), &initial);
                 finder.gnss_used().iter().for_each(|time| filter.note_gnss_used(*time));
@@ -206,6 +213,17 @@ impl Ship {
             fine.filter_mut().doubt_heading(blind.is_some());
             *self =
                 Ship::Navigating { fine: Box::new(fine), aligned: false, verdict, trial, blind };
+        }
+    }
+
+    /// Lets the filter of eight states take over from the bank of headings, if the message is what it waits for.
+    fn call_heir(&mut self, received: &Received) {
+        let Ship::Aligning { bank, heir: Some(heir) } = self else { return };
+        if is_compared(received) {
+            return;
+        }
+        if let Some((finder, berth)) = heir.called_by(received, bank) {
+            *self = Ship::InMotion { finder: Box::new(finder), blind: None, berth };
         }
     }
 
@@ -242,7 +260,7 @@ impl Ship {
 
     fn inner(&self) -> &dyn Solver {
         match self {
-            Ship::Aligning(bank) => bank.as_ref(),
+            Ship::Aligning { bank, .. } => bank.as_ref(),
             Ship::InMotion { finder, .. } => finder.as_ref(),
             Ship::Navigating { fine, .. } => fine.as_ref(),
         }
@@ -279,7 +297,7 @@ impl<E: Estimator> Solver for E {
 impl Estimator for Ship {
     fn advance(&mut self, increment: &Increment) {
         match self {
-            Ship::Aligning(bank) => {
+            Ship::Aligning { bank, .. } => {
                 bank.advance(increment);
                 self.hand_over();
             }
@@ -299,10 +317,11 @@ impl Estimator for Ship {
     }
 
     fn apply(&mut self, received: &Received) -> Report {
+        self.call_heir(received);
         match self {
             Ship::Navigating { fine, .. } if is_compared(received) => fine.apply(received),
             _ if is_compared(received) => Report::default(),
-            Ship::Aligning(bank) => bank.apply(received),
+            Ship::Aligning { bank, .. } => bank.apply(received),
             Ship::InMotion { finder, blind, .. } => {
                 let is_left_out = finder.config().docket.is_excluded(Party::Heading);
                 if blind.is_none() && tells_heading(received) && !is_left_out {

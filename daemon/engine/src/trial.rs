@@ -10,7 +10,7 @@ use insd_nav::Filter;
 /// rad/s, until motion has confirmed the lever arm that it was found by, or for so long.
 const USUAL: f64 = 300.0;
 const LONGEST: f64 = 7200.0;
-const BLIND: f64 = 1.0 * DEG_PER_HOUR;
+pub(crate) const BLIND: f64 = 1.0 * DEG_PER_HOUR;
 /// Mean square of the innovations, of which one is expected, that refutes what was handed over,
 const REFUTED: f64 = 8.0;
 /// and up to which its claims stand as they are.

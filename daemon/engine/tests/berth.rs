@@ -2,8 +2,10 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
 
+use std::ops::Range;
+
 use insd_base::units::wrap_pi;
-use insd_base::{Solution, Truth, earth};
+use insd_base::{Message, Solution, Truth, earth};
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_simulator::{Scenario, limit, shipped, simulate};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -24,10 +26,20 @@ fn scenario_with(number: &str, duration: u32, sets: &[&str]) -> Scenario {
 
 /// Solutions with the truth at their time, one a second.
 fn sailed(scenario: &Scenario, seed: u64) -> Vec<(Solution, Truth)> {
+    sailed_hearing(scenario, seed, |_| true)
+}
+
+/// The same with the receiver heard at some times alone, s.
+fn sailed_hearing(
+    scenario: &Scenario,
+    seed: u64,
+    is_heard: impl Fn(f64) -> bool,
+) -> Vec<(Solution, Truth)> {
     let voyage = simulate(scenario, seed);
     let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
     let mut solutions = Vec::new();
-    for received in voyage.received() {
+    let is_silent = |message: &Message| matches!(message, Message::Gnss(fix) if !is_heard(fix.time.as_seconds()));
+    for received in voyage.received().into_iter().filter(|received| !is_silent(&received.message)) {
         engine.handle(&received);
         while let Some(output) = engine.poll_output() {
             if let Output::Solution(solution) = output {
@@ -120,5 +132,23 @@ fn coarse_gyros_keep_roll_and_pitch_of_a_ship_that_hardly_moves_and_claim_no_hea
         assert!(worst < 4.0, "{height}: {worst} claimed sigmas of heading");
         let rms = (ships.iter().map(|ship| ship.2).sum::<f64>() / (2 * ships.len()) as f64).sqrt();
         assert!(rms < 1.4 * best.roll, "{height}: {} times the limit", rms / best.roll);
+    }
+}
+
+#[test]
+fn coarse_gyros_claim_no_heading_that_is_not_there_where_a_receiver_tells_positions_alone() {
+    let sets = ["sea.significant_height_m=0.05", "gnss.with_velocity=false"];
+    let still = scenario_with("25", 900, &sets);
+    let worst_of = |silent: &Range<f64>| {
+        let of = |seed: u64| {
+            let rows = sailed_hearing(&still, seed, |at| !silent.contains(&at));
+            let late = rows.iter().filter(|row| row.0.time.as_seconds() >= 60.0);
+            late.map(|row| (off(row) / row.0.sigma.heading).abs()).fold(0.0, f64::max)
+        };
+        (1_u64..7).into_par_iter().map(of).reduce(|| 0.0, f64::max)
+    };
+    for silent in [0.0..0.0, 0.0..200.0, 200.0..600.0] {
+        let worst = worst_of(&silent);
+        assert!(worst < 4.0, "silent {silent:?}: {worst} claimed sigmas");
     }
 }

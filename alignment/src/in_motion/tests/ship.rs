@@ -179,6 +179,7 @@ impl Run {
             velocity_std: 0.5,
             acceleration: (ship.velocity(0.1) - ship.velocity(0.0)) / 0.1,
             moored: false,
+            gnss_position: true,
             gnss_velocity: true,
         };
         Run {

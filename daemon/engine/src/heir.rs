@@ -1,0 +1,62 @@
+//! Who takes over from the bank of headings once a receiver is heard.
+//!
+//! The bank takes the noise of coarse gyros for motion and what GNSS says of that for a heading. Until a receiver is
+//! heard there is nothing to compare it with; from then on the filter of eight states, which knows of it, finds
+//! the heading from the beginning, upright as the bank has left her.
+
+use insd_alignment::bank::Kinematics;
+use insd_alignment::{Bank, EightState, Level, Method};
+use insd_base::{Message, Received, earth};
+use insd_nav::{Estimator, NavConfig};
+use nalgebra::Vector3;
+
+/// Velocity of a ship of which only positions are told, 1-sigma, m/s: at her berth, and under way.
+const SWAYING: f64 = 2.0;
+const SAILING: f64 = 10.0;
+/// Error of her first position, the lever arm included, 1-sigma, m.
+const PLACE: f64 = 100.0;
+
+/// The filter of eight states to be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Heir {
+    config: NavConfig,
+    method: Method,
+}
+
+impl Heir {
+    /// `method` is how a ship at her berth will be held by the full filter.
+    pub(crate) fn new(config: &NavConfig, method: Method) -> Self {
+        Heir { config: *config, method }
+    }
+
+    /// The filter of eight states, if the message is a position of a receiver, and how the ship is held if she is
+    /// still at her berth.
+    pub(crate) fn called_by(
+        &self,
+        received: &Received,
+        bank: &Bank,
+    ) -> Option<(EightState, Option<Method>)> {
+        let Message::Gnss(fix) = received.message else { return None };
+        let position = fix.position.filter(|_| fix.quality.is_measured())?;
+        let fine = bank.likeliest()?;
+        let solution = fine.solution();
+        let gravity = earth::normal_gravity(position.latitude, position.height);
+        let force = solution.attitude.c_nb().transpose() * Vector3::new(0.0, 0.0, -gravity);
+        let level = Level { time: fine.filter().time(), force, rate: solution.rate.0 };
+        let moored = bank.is_moored();
+        let told = fix.velocity.map(|velocity| velocity.0);
+        let unsure = if moored { SWAYING } else { SAILING };
+        let kinematics = Kinematics {
+            position,
+            position_std: PLACE,
+            velocity: told.unwrap_or_else(Vector3::zeros),
+            velocity_std: told.map_or(unsure, |_| 3.0),
+            acceleration: Vector3::zeros(),
+            moored,
+            gnss_position: true,
+            gnss_velocity: told.is_some(),
+        };
+        let finder = EightState::new(&self.config, &level, &kinematics);
+        Some((finder, moored.then_some(self.method)))
+    }
+}
