@@ -35,8 +35,12 @@ impl Engine {
         let time = line.now();
         match line.estimator().imu_state() {
             ImuState::Believed => {}
-            ImuState::Disturbed => return self.start_over(time, ModeReason::HeadingRefuted),
+            ImuState::Disturbed => {
+                self.surveyor.doubt_headings();
+                return self.start_over(time, ModeReason::HeadingRefuted);
+            }
             ImuState::Wrong => {
+                self.surveyor.doubt_headings();
                 self.surveyor.is_refuted = true;
                 self.surveyor.is_by_one = line.estimator().is_imu_doubted_by_one();
                 self.surveyor.condemned = Some(time);

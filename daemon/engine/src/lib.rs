@@ -290,6 +290,7 @@ impl Engine {
         }
         self.stage = Stage::Levelling(Box::new(Coarse::new(&self.config)));
         self.herald = Herald::new(&self.config.imu, self.config.alignment.accuracy);
+        self.surveyor.begin_anew();
         self.next_epoch = None;
         self.resumption = None;
         self.trace.clear();
@@ -425,10 +426,10 @@ impl Engine {
             self.start_over(solution.time, ModeReason::StartedOver);
             return;
         }
-        self.enter(solution.time, solution.mode, self.facts(), None);
         self.surveyor.see(&solution);
+        let judged = self.judged(solution);
+        self.enter(judged.time, judged.mode, self.facts(), None);
         if self.shunned.is_none() {
-            let judged = self.judged(solution);
             self.outputs.push_back(Output::Solution(judged));
         }
     }

@@ -24,8 +24,7 @@ impl Engine {
     #[must_use]
     pub fn motion(&self) -> Option<Motion> {
         if self.machine.mode() == Mode::Standby && !self.is_waiting() {
-            let reach = self.nav.gnss_lever().norm() + self.nav.gnss_lever_std();
-            let motion = self.config.relay.then(|| self.relay.motion(reach)).flatten()?;
+            let motion = self.config.relay.then(|| self.relay.motion(self.reach())).flatten()?;
             return Some(Motion { solution: self.judged(motion.solution), ..motion });
         }
         let ship = self.ship()?;
@@ -93,7 +92,13 @@ impl Engine {
     pub(crate) fn judged(&self, solution: Solution) -> Solution {
         let Judgement { integrity, excluded } = solution.judgement;
         let excluded = excluded.and(self.receivers.named(self.surveyor.excluded()));
-        Solution { judgement: Judgement { integrity, excluded }, ..solution }
+        let judged = Solution { judgement: Judgement { integrity, excluded }, ..solution };
+        self.surveyor.claim(judged, self.reach())
+    }
+
+    /// How far the antenna may be from the IMU, m.
+    fn reach(&self) -> f64 {
+        self.nav.gnss_lever().norm() + self.nav.gnss_lever_std()
     }
 
     /// The judge of the navigator, if there is one.

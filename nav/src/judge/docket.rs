@@ -404,7 +404,8 @@ impl Docket {
         let others = [Party::Log, Party::Heading].into_iter().chain(Party::RECEIVERS);
         for named in others.filter(|named| *named != self.receiver_in_use()) {
             let own = &self.entries[named as usize];
-            if matches!(own.standing, Standing::Excluded | Standing::Probation) {
+            let is_left_out = matches!(own.standing, Standing::Excluded | Standing::Probation);
+            if is_left_out && !self.is_named_by_a_doubted_imu(own) {
                 anew.entries[named as usize] = *own;
             }
         }
@@ -419,6 +420,12 @@ impl Docket {
         }
         anew.lies[own] = anew.lies[own].forgotten();
         anew
+    }
+
+    /// Whether somebody was named while the IMU was itself in doubt: it was held against that.
+    fn is_named_by_a_doubted_imu(&self, own: &Entry) -> bool {
+        let imu = &self.entries[Party::Imu as usize];
+        matches!(imu.standing, Standing::Doubtful | Standing::Excluded) && own.since >= imu.since
     }
 
     /// The same on a time line that is later by a span.

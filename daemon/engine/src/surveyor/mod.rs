@@ -8,6 +8,7 @@ mod frozen;
 mod imu;
 mod log;
 mod mounting;
+mod probation;
 mod saturated;
 mod stuck;
 mod swing;
@@ -24,6 +25,7 @@ use frozen::StandingStill;
 use imu::ImuWatch;
 use log::LogWatch;
 use mounting::Mounting;
+use probation::Probation;
 use turns::Turns;
 
 /// Spacing of looks.
@@ -47,6 +49,7 @@ pub(crate) struct Surveyor {
     accepts: bool,
     imu: ImuWatch,
     mounting: Mounting,
+    probation: Probation,
     turns: Turns,
     still: StandingStill,
     log: LogWatch,
@@ -71,6 +74,7 @@ impl Surveyor {
             accepts,
             imu: ImuWatch::default(),
             mounting: Mounting::default(),
+            probation: Probation::default(),
             turns: Turns::default(),
             still: StandingStill::default(),
             log: LogWatch::default(),
@@ -132,9 +136,27 @@ impl Surveyor {
         self.still.forget_receiver();
     }
 
+    /// The ship is aligned anew.
+    pub(crate) fn begin_anew(&mut self) {
+        self.mounting.begin_anew();
+        self.probation.begin_anew();
+        self.newest = None;
+    }
+
+    /// The IMU is in doubt: a heading that is found with it from now on must be borne out.
+    pub(crate) fn doubt_headings(&mut self) {
+        self.probation.begin();
+    }
+
+    /// What is claimed of a solution with a heading that was found anew since; `reach` from the IMU to the antenna, m.
+    pub(crate) fn claim(&self, solution: Solution, reach: f64) -> Solution {
+        self.probation.claim(solution, reach)
+    }
+
     /// Sees a solution.
     pub(crate) fn see(&mut self, solution: &Solution) {
         self.mounting.see(solution);
+        self.probation.see(self.mounting.is_ahead(), solution.time);
         self.newest = Some(*solution);
     }
 
@@ -147,7 +169,12 @@ impl Surveyor {
                 self.still.hear_fix(fix, newest.as_ref());
             }
             Message::Log(log) => self.hear_log(log),
-            Message::Reference(told) => self.still.hear_heading(told, newest.as_ref()),
+            Message::Reference(told) => {
+                self.still.hear_heading(told, newest.as_ref());
+                if let Some(own) = newest {
+                    self.probation.hear(told, (own.attitude.heading, own.sigma.heading));
+                }
+            }
             Message::Imu(_) => {}
         }
     }

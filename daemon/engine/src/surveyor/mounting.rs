@@ -27,6 +27,11 @@ pub(super) struct Mounting {
 }
 
 impl Mounting {
+    /// The heading is being found anew: what was seen of another one says nothing of it.
+    pub(super) fn begin_anew(&mut self) {
+        *self = Mounting { is_turned: self.is_turned, ..Mounting::default() };
+    }
+
     /// Looks at a solution.
     pub(super) fn see(&mut self, solution: &Solution) {
         let elapsed = self.last.map_or(0.0, |last| (solution.time - last).as_seconds());
@@ -51,13 +56,22 @@ impl Mounting {
 
     /// Once it was found to be turned it is until she has gone where it points for as long.
     fn judge(&mut self) {
-        let turn = self.drift.y.atan2(self.drift.x).abs();
-        let persists = self.compared >= COMPARED && self.drift.norm() > ALWAYS;
-        if persists && turn > SIDEWAYS {
+        if self.turn().is_some_and(|turn| turn > SIDEWAYS) {
             self.is_turned = true;
-        } else if persists && turn < AHEAD {
+        } else if self.is_ahead() {
             self.is_turned = false;
         }
+    }
+
+    /// By how much course and heading have been apart all the time, rad.
+    fn turn(&self) -> Option<f64> {
+        let persists = self.compared >= COMPARED && self.drift.norm() > ALWAYS;
+        persists.then(|| self.drift.y.atan2(self.drift.x).abs())
+    }
+
+    /// Whether she has long gone the way her bow points.
+    pub(super) fn is_ahead(&self) -> bool {
+        self.turn().is_some_and(|turn| turn < AHEAD)
     }
 
     /// Course less heading on the mean, rad; its sigma as if it were another one every minute.
