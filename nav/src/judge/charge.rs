@@ -3,7 +3,7 @@
 use insd_base::{Fault, Party, Standing, Time};
 
 use super::onset::Sized;
-use super::rows::{ALL, Group};
+use super::rows::{ALL, Group, OF_FALSE_TURNS};
 use super::{Alternative, CLOSE, Judge, SPAWN};
 
 /// Mean square of the innovations, of which one is expected, that a fault may leave unexplained.
@@ -12,8 +12,11 @@ const UNEXPLAINED: f64 = 4.0;
 /// is found to.
 pub(super) const DOUBT: f64 = 6.9;
 const CERTAIN: f64 = 6.9;
-/// No rival may explain so much of what the guilty one explains.
+/// No rival may explain so much of what the guilty one explains;
 const RIVAL: f64 = 0.95;
+/// but for gyros that told a turn that was none: a log or compass that is off looks the same, and is so more often. Such a rival
+/// must be less likely by this, as a logarithm.
+const SURE: f64 = 2.0 * CERTAIN;
 /// What is less likely than this share of the likeliest fault, and this, as logarithms, is out of the question.
 const NEARLY: f64 = 0.95;
 const MUCH: f64 = 20.0;
@@ -102,6 +105,10 @@ impl Charge {
             Kind::Shaped { sized, .. } => sized.value.norm(),
             Kind::Shapeless => 0.0,
         }
+    }
+
+    fn is_false_turn(&self) -> bool {
+        matches!(self.kind, Kind::Shaped { group: OF_FALSE_TURNS, .. })
     }
 
     fn is_leap(&self) -> bool {
@@ -251,12 +258,15 @@ impl Judge {
 
     /// Whether no other sensor's fault explains it, too.
     pub(super) fn is_certain(&self, first: &Charge) -> bool {
+        let is_of_hull = matches!(first.party(), Party::Log | Party::Heading);
         let is_no_rival = |other: &Charge| {
+            let gap = first.weight - other.weight;
             let is_less = match (first.explained(), other.explained()) {
                 (Some(own), Some(others)) => others < RIVAL * own,
                 _ => true,
             };
-            other.weight < first.weight - CERTAIN && is_less
+            let is_unlikely = other.is_false_turn() && is_of_hull && gap > SURE;
+            gap > CERTAIN && (is_less || is_unlikely)
         };
         let of_others = |other: &&Charge| other.party() != first.party() && self.explains(other);
         let mut others = self.assessment.charges.iter().filter(of_others);

@@ -74,6 +74,8 @@ const FAILED: f64 = -17.4;
 
 /// Of [`ALL`], the one of gyros that have another bias.
 pub const OF_GYROS: usize = 13;
+/// The one of gyros that told a turn that was none.
+pub const OF_FALSE_TURNS: usize = 14;
 /// How many groups there are.
 pub const GROUPS: usize = 20;
 
@@ -217,5 +219,6 @@ mod tests {
         assert_eq!(rows, (0..ROWS).collect::<Vec<_>>());
         assert!(ALL.iter().all(|group| group.rows.len() <= 3));
         assert_eq!(ALL[OF_GYROS].rows.start, GYRO);
+        assert_eq!(ALL[OF_FALSE_TURNS].rows.start, TURN);
     }
 }
