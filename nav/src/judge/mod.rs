@@ -350,7 +350,7 @@ impl Judge {
         self.in_doubt = is_likely || self.disputed.is_some();
         let suspect = first.filter(|_| is_likely);
         self.docket.doubt(suspect.map(|first| first.fault), now);
-        let certain = first.filter(|first| self.is_certain(first));
+        let certain = first.filter(|first| self.is_certain(first) && !self.is_one_word(first, now));
         let before = self.accused.take();
         let accused = certain?;
         let whom = accused.party();

@@ -95,7 +95,7 @@ pub const ALL: [Group; GROUPS] = [
     group(Fault::ReferenceJump, REFERENCE_JUMP, 2, [3.0, 1e3], DISTURBED),
     group(Fault::ReferenceDrag, REFERENCE_DRAG, 2, [0.05, 3.0], DISTURBED),
     group(Fault::GyroBias, GYRO, 3, [2e-5, 0.02], FAILED),
-    group(Fault::GyroBias, TURN, 3, [0.005, 0.5], FAILED),
+    group(Fault::GyroBias, TURN, 3, [1e-3, 0.5], FAILED),
     group(Fault::AccelBias, ACCEL, 3, [5e-3, 1.0], FAILED),
     group(Fault::GyroScale, SCALE, 3, [0.05, 1.0], FAILED),
     group(Fault::Delay, DELAY, 1, [0.1, 2.0], DISTURBED),

@@ -131,7 +131,9 @@ impl Judge {
             }
             return None;
         }
-        self.wild = self.wild.or(Some(now)).filter(|_| is_wild && has_fixes);
+        // of an IMU that scatters itself a log is not known better
+        let is_seen = has_fixes && self.docket.standing(Party::Imu) == Standing::Trusted;
+        self.wild = self.wild.or(Some(now)).filter(|_| is_wild && is_seen);
         let persists = self.wild.is_some_and(|since| (now - since).as_seconds() >= SCATTERS);
         persists.then(|| {
             let charge = Charge::shapeless(Party::Log, DOUBT);
@@ -153,6 +155,12 @@ impl Judge {
             self.hearings[**aid as usize].was_within(now, UNHEARD) && !self.docket.leaves_out(**aid)
         };
         all.iter().filter(is_heard).count()
+    }
+
+    /// Whether it is one's word against the other's: a receiver that creeps away, and an IMU of which the biases grow beyond all
+    /// that is assumed of them, are the same to each other.
+    pub(super) fn is_one_word(&self, charge: &Charge, now: Time) -> bool {
+        charge.fault == Fault::Creep && self.witnesses(now) < 2
     }
 
     /// Whether somebody else lies beside him, as whoever does not believe him has found out: then what is made of the
