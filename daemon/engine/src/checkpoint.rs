@@ -13,11 +13,12 @@ use insd_nav::Conditioner;
 use serde::{Deserialize, Serialize};
 
 use crate::herald::KeptHerald;
+use crate::surveyor::Probation;
 
 /// What begins each checkpoint.
 const MARK: [u8; 4] = *b"insc";
 /// To be raised whenever anything of [`Kept`] changes (a test holds its length).
-const VERSION: u16 = 4;
+const VERSION: u16 = 5;
 const HEAD: usize = MARK.len() + 2 + 4;
 const SUM: usize = 4;
 /// More than a state can ever be, bytes.
@@ -36,6 +37,7 @@ pub(crate) struct Kept {
     pub(crate) fine: KeptFine,
     pub(crate) aligned: bool,
     pub(crate) herald: KeptHerald,
+    pub(crate) probation: Probation,
 }
 
 impl Kept {

@@ -36,6 +36,7 @@ impl Engine {
             fine: fine.kept(),
             aligned: *aligned,
             herald: self.herald.kept(),
+            probation: self.surveyor.probation(),
         })
     }
 
@@ -75,6 +76,7 @@ impl Engine {
         self.stage = Stage::Running(Box::new(Timeline::new(ship, start)));
         self.conditioner = conditioner;
         self.herald.take_up(&kept.herald, by);
+        self.surveyor.take_up(kept.probation.shifted(by));
         self.next_epoch = Some(epoch_after(self.period, now));
         self.resumption = Some(Resumption::new(!kept.fine.filter().is_receiver_suspect()));
         Ok(())

@@ -90,3 +90,29 @@ fn the_noise_of_a_gyro_is_not_mended_as_a_scale_factor() {
     let worst = worst.fold(0.0, f64::max);
     assert!(worst < 20.0, "{worst} m");
 }
+
+#[test]
+fn a_heading_that_an_imu_finds_that_was_turned_in_its_seat_is_not_claimed() {
+    let (seconds, _) = sailed("imu turned", Grade::Mems, Suite::Gnss, 1);
+    // nobody but the side-slip tells that a gyro lies: a minute of grace
+    let wrong = seconds.iter().filter(|second| second.heading_off() > 10.0 * DEG).count();
+    assert!(wrong < 60, "{wrong} s");
+}
+
+#[test]
+fn a_receiver_is_not_named_for_gyros_that_grow_worse() {
+    let (seconds, _) = sailed("gyro ramp", Grade::Navigation, Suite::Compass, 2);
+    assert!(seconds.iter().all(|second| second.said.judgement.excluded.is_empty()));
+    // whose word it is she does not know: a doubt, in which nothing is told
+    let worst =
+        seconds.iter().filter(|second| second.is_told()).map(Second::off).fold(0.0, f64::max);
+    assert!(worst < 10.0, "{worst} m");
+}
+
+#[test]
+fn a_log_that_is_off_athwart_is_named_where_nobody_tells_the_heading() {
+    let (seconds, _) = sailed("log athwart", Grade::Mems, Suite::Log, 1);
+    assert!(seconds.iter().any(|second| second.said.judgement.excluded.contains(Party::Log)));
+    let worst = seconds.iter().map(Second::off).fold(0.0, f64::max);
+    assert!(worst < 10.0, "{worst} m");
+}

@@ -25,7 +25,7 @@ use frozen::StandingStill;
 use imu::ImuWatch;
 use log::LogWatch;
 use mounting::Mounting;
-use probation::Probation;
+pub(crate) use probation::Probation;
 use turns::Turns;
 
 /// Spacing of looks.
@@ -146,6 +146,16 @@ impl Surveyor {
     /// The IMU is in doubt: a heading that is found with it from now on must be borne out.
     pub(crate) fn doubt_headings(&mut self) {
         self.probation.begin();
+    }
+
+    /// How far the IMU's probation has come.
+    pub(crate) fn probation(&self) -> Probation {
+        self.probation
+    }
+
+    /// Goes on with a probation of before a restart.
+    pub(crate) fn take_up(&mut self, probation: Probation) {
+        self.probation = probation;
     }
 
     /// What is claimed of a solution with a heading that was found anew since; `reach` from the IMU to the antenna, m.

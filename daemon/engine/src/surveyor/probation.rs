@@ -5,7 +5,8 @@
 //! to its own accuracy.
 
 use insd_base::units::{DEG, wrap_pi};
-use insd_base::{ExternalReference, Mode, Solution, Time};
+use insd_base::{ExternalReference, Mode, Solution, Span, Time};
+use serde::{Deserialize, Serialize};
 
 /// What may be wrong with a heading that nobody bears out, 1-sigma, rad: quarters of a turn.
 const UNPROVEN: f64 = 45.0 * DEG;
@@ -18,7 +19,7 @@ const LONG: f64 = 30.0;
 const SILENT: f64 = 5.0;
 
 /// How far it has come.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 enum Stage {
     /// Nobody doubts the IMU.
     #[default]
@@ -30,8 +31,8 @@ enum Stage {
 }
 
 /// The probation of an IMU.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Probation {
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Probation {
     stage: Stage,
     /// Since when a compass has told the same, and when it was heard.
     near: Option<(Time, Time)>,
@@ -41,6 +42,15 @@ impl Probation {
     /// The IMU is in doubt.
     pub(super) fn begin(&mut self) {
         *self = Probation { stage: Stage::Unproven, near: None };
+    }
+
+    /// The same on a time line that is later by a span, nobody heard since.
+    pub(crate) fn shifted(self, by: Span) -> Self {
+        let stage = match self.stage {
+            Stage::ByCourse(since) => Stage::ByCourse(since + by),
+            other => other,
+        };
+        Probation { stage, near: None }
     }
 
     /// Alignment begins anew.
@@ -140,6 +150,8 @@ mod tests {
         probation.see(true, at(4.0));
         probation.see(true, at(33.0));
         assert_eq!(probation.stage, Stage::ByCourse(at(4.0)));
+        let resumed = probation.shifted(Span::from_seconds(60.0));
+        assert_eq!(resumed.stage, Stage::ByCourse(at(5.0)), "on another time line");
         probation.see(false, at(35.0));
         assert_eq!(probation.stage, Stage::Free);
     }
