@@ -25,6 +25,8 @@ pub struct Fine {
     departure: Departure,
     sea: SeaTracker,
     is_berth_named: bool,
+    /// Time of the fix that was heard last.
+    heard: Option<Time>,
     likelihood: f64,
 }
 
@@ -63,7 +65,15 @@ impl Fine {
     pub fn under_way(filter: Filter) -> Self {
         let departure = Departure::new(&filter);
         let sea = SeaTracker::new(filter.time());
-        Fine { filter, hold: None, departure, sea, is_berth_named: false, likelihood: 0.0 }
+        Fine {
+            filter,
+            hold: None,
+            departure,
+            sea,
+            is_berth_named: false,
+            heard: None,
+            likelihood: 0.0,
+        }
     }
 
     /// The filter.
@@ -86,17 +96,21 @@ impl Fine {
     /// Whether the estimate moves away as a moored ship does not.
     #[must_use]
     pub fn seems_to_leave(&self) -> bool {
-        match &self.hold {
-            None => false,
+        let is_by_estimate = match &self.hold {
+            None => return false,
             Some(Hold::Moorings(_)) => self.departure.is_certain(),
             // nothing bounds the position: only speed tells
             Some(_) => self.departure.is_fast(),
-        }
+        };
+        is_by_estimate || self.departure.is_told()
     }
 
     /// The ship is no longer taken as moored.
     pub fn cast_off(&mut self) {
         self.hold = None;
+        if self.departure.is_told() {
+            self.filter.doubt_motion(self.departure.missed());
+        }
         self.filter.cast_off();
     }
 
@@ -146,6 +160,17 @@ impl Fine {
     /// Log-likelihood of what the berth said since the last call.
     pub fn take_likelihood(&mut self) -> f64 {
         std::mem::take(&mut self.likelihood)
+    }
+
+    /// While a receiver is left out what it says of her way is heard all the same.
+    fn hear_of_way(&mut self, received: &Received) {
+        let Message::Gnss(fix) = &received.message else { return };
+        let before = self.heard.replace(fix.time);
+        let Some(velocity) = fix.velocity.filter(|_| self.filter.docket().leaves_out_gnss()) else {
+            return;
+        };
+        let interval = before.map_or(0.0, |before| (fix.time - before).as_seconds());
+        self.departure.hear(&velocity.0.xy(), interval);
     }
 
     /// Gives the position of a reference to what holds the ship and leaves the rest for the filter.
@@ -199,6 +224,7 @@ impl Estimator for Fine {
     fn apply(&mut self, received: &Received) -> Report {
         let mut report = Report::default();
         let rest = self.take_berth(received, &mut report);
+        self.hear_of_way(received);
         let mut said = self.filter.apply(&rest);
         said.aids.splice(0..0, report.aids);
         said

@@ -3,22 +3,21 @@
 use std::sync::Arc;
 
 use insd_base::{
-    Body, Ecef, Judgement, Message, Ned, Received, Rejection, Solution, SolutionSigma, Time, earth,
+    Body, Ecef, Message, Ned, Received, Rejection, Solution, SolutionSigma, Time, earth,
 };
-use nalgebra::{Matrix2, Matrix3, Matrix4, RowSVector, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Matrix3, RowSVector, UnitQuaternion, Vector3};
 
 use crate::aids::View;
 use crate::angular_rate::rate_variance;
 use crate::antenna::AntennaMotion;
 use crate::config::NavConfig;
-use crate::error_state::{
-    ATTITUDE, BERTH_OFFSET, Covariance, ErrorState, STATES, SWAY, SWAY_VELOCITY, VELOCITY,
-};
+use crate::error_state::{ATTITUDE, Covariance, ErrorState, STATES, VELOCITY};
 use crate::gate::ChiSquareGate;
 use crate::increments::Increment;
 use crate::initial::InitialState;
 use crate::innovation::{Innovation, Weighed};
 use crate::judge::{Judge, agitate};
+use crate::leap::LeapWatch;
 use crate::nominal::Nominal;
 use crate::pace::Pace;
 use crate::propagation::{self, Regime, Stretch, markov_decay};
@@ -44,8 +43,10 @@ mod gnss;
 mod installation;
 pub mod judged;
 pub mod kept;
+mod leaps;
 mod level;
 mod mode;
+mod moored;
 mod motion;
 mod others;
 mod receivers;
@@ -90,6 +91,8 @@ pub struct Filter {
     /// Who is to be believed, while the filter navigates and nothing holds the ship; what it has not been told
     /// yet: the way since, and corrections.
     judge: Option<Arc<Judge>>,
+    /// Stands in for it otherwise.
+    leap: LeapWatch,
     judged_since: Time,
     /// The heading was found with a reference that nothing bears out yet.
     heading_doubted: bool,
@@ -146,6 +149,7 @@ impl Filter {
             absorbed: Vector3::zeros(),
             velocity_epoch: None,
             judge: None,
+            leap: LeapWatch::default(),
             judged_since: initial.time,
             heading_doubted: false,
             unjudged: Stretch::new(),
@@ -305,17 +309,6 @@ impl Filter {
         }
     }
 
-    /// Carries the swaying up to the time of the estimate. Nothing but the berth depends on it, so it
-    /// waits until the berth is looked at.
-    pub fn settle_sway(&mut self) {
-        self.settle();
-        if let Some(sway) = &self.sway {
-            sway.propagate(&mut self.covariance, self.unswayed);
-            sway.relax(&mut self.nominal, self.unswayed);
-        }
-        self.unswayed = 0.0;
-    }
-
     /// Brings in a condition from outside, such as that the ship lies at her berth: judged and
     /// absorbed as a measurement.
     pub fn impose<const M: usize>(&mut self, innovation: &Innovation<M>) -> Judged {
@@ -337,36 +330,6 @@ impl Filter {
         std::mem::replace(&mut self.corrected, ErrorState::zeros())
     }
 
-    /// Takes the ship as lying at a berth about which she sways; how far her mean place is from it is
-    /// known to `offset_std` of each component, m.
-    pub fn moor(&mut self, sway: Sway, offset_std: f64) {
-        self.settle_sway();
-        sway.begin(&mut self.nominal, &mut self.covariance);
-        self.nominal.berth_offset = Vector2::zeros();
-        let offset = Matrix2::from_diagonal_element(offset_std * offset_std);
-        BERTH_OFFSET.renew(&mut self.covariance, &offset);
-        self.sway = Some(sway);
-        self.be_judged();
-    }
-
-    /// How the ship sways, as far as she is taken as moored.
-    #[must_use]
-    pub fn sway(&self) -> Option<&Sway> {
-        self.sway.as_ref()
-    }
-
-    /// Changes what is assumed of the swaying from now on.
-    pub fn set_sway(&mut self, sway: Sway) {
-        self.settle_sway();
-        self.sway = Some(sway);
-    }
-
-    /// Admits that the ship's mean place at the berth has shifted by as much as this, 1-sigma of each
-    /// component, m.
-    pub fn loosen_berth(&mut self, std: f64) {
-        BERTH_OFFSET.inflate(&mut self.covariance, std * std);
-    }
-
     /// Takes back a correction that was made by mistake, and is as unsure of it as it is large.
     pub fn take_back(&mut self, correction: &ErrorState) {
         self.settle_sway();
@@ -374,16 +337,6 @@ impl Filter {
         self.corrected -= correction;
         self.absorbed -= VELOCITY.of(correction);
         self.covariance += correction * correction.transpose();
-    }
-
-    /// The ship is no longer taken as moored.
-    pub fn cast_off(&mut self) {
-        self.settle();
-        self.sway = None;
-        BERTH_OFFSET.renew(&mut self.covariance, &Matrix2::zeros());
-        SWAY.renew(&mut self.covariance, &Matrix4::zeros());
-        SWAY_VELOCITY.renew(&mut self.covariance, &Matrix4::zeros());
-        self.be_judged();
     }
 
     fn bounded_likelihood<const M: usize>(&self, weighed: &Weighed<M>) -> f64 {
@@ -460,10 +413,7 @@ impl Estimator for Filter {
             rate: Body(view.rate - turn_of_n),
             sigma,
             mode: self.mode(),
-            judgement: self
-                .judge
-                .as_ref()
-                .map_or_else(Judgement::default, |judge| judge.judgement()),
+            judgement: self.judgement(),
         }
     }
 

@@ -19,6 +19,7 @@ pub mod increments;
 pub mod initial;
 pub mod innovation;
 pub mod judge;
+pub mod leap;
 pub mod noise;
 pub mod nominal;
 pub mod pace;

@@ -5,6 +5,7 @@ use insd_base::{
 };
 use insd_nav::antenna::AntennaMotion;
 use insd_nav::floors::{self, Believable};
+use insd_nav::leap::Told;
 use insd_nav::{AidReport, Outcome, Report};
 use nalgebra::{Vector2, Vector3};
 
@@ -60,7 +61,12 @@ impl EightState {
             if fix.velocity.is_none() {
                 split.white = split.white.map(|white| white.hypot(UNLEVEL * lever.norm()));
             }
+            self.watch_for_leaps(fix, &position, split.white.max());
             let innovation = aids::gnss_position(&self.scene(), &split, &lever, &self.belief);
+            if self.leap.is_suspected() {
+                enter(&mut report, fix.time, source, GNSS_POSITION, Rejection::SourceSuspect);
+                return report;
+            }
             let used = self.judge(&innovation, fix.time, source, GNSS_POSITION, &mut report);
             self.gnss_used = used.then_some(self.time).or(self.gnss_used);
             passed.push(used);
@@ -172,6 +178,26 @@ impl EightState {
             innovation: [(z.x, sigma.x), (z.y, sigma.y), (f64::NAN, f64::NAN)],
         });
         passes
+    }
+
+    /// Watches the receiver's position for leaps. After one she is where it says, and nobody can tell which of its words was true: the
+    /// claims cover both.
+    fn watch_for_leaps(&mut self, fix: &GnssFix, place: &Geodetic, place_std: f64) {
+        let swing = self.scene().swing(&self.config.gnss_lever());
+        let told = Told {
+            time: self.time,
+            place: *place,
+            place_std,
+            // of a heading that is not known the swing is not known, either
+            velocity: fix.velocity.map_or(self.motion.velocity + swing.xy(), |own| own.0.xy()),
+            velocity_std: self.belief.pair(x::VELOCITY).max().max(0.0).sqrt(),
+        };
+        if let Some(leap) = self.leap.see(&told) {
+            self.motion.shift(&self.local, &leap);
+            let mut docket = self.config.docket;
+            docket.suspect(&self.leap.net(), self.time);
+            self.config = self.config.with_docket(docket);
+        }
     }
 
     /// Another receiver has another antenna.

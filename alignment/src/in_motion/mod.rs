@@ -44,6 +44,7 @@ use insd_base::{
 use insd_nav::angular_rate::rate_variance;
 use insd_nav::antenna::AntennaMotion;
 use insd_nav::gate::ChiSquareGate;
+use insd_nav::leap::LeapWatch;
 use insd_nav::{Estimator, Increment, NavConfig, Report};
 use nalgebra::{Matrix2, Rotation3, UnitQuaternion, Vector2, Vector3};
 
@@ -78,6 +79,7 @@ pub struct EightState {
     /// When a position of GNSS was last used.
     gnss_used: Option<Time>,
     refused_since: Option<Time>,
+    leap: LeapWatch,
     heading: (f64, f64),
     centred: bool,
 }
@@ -141,6 +143,7 @@ impl EightState {
             heard_height: level.time,
             gnss_used: None,
             refused_since: None,
+            leap: LeapWatch::default(),
             heading: (0.0, circle::UNKNOWN),
             centred: false,
         };
@@ -274,6 +277,12 @@ impl EightState {
         self.note_heading();
     }
 
+    /// What is claimed of a position, 1-sigma, m: no more than a receiver that has leapt leaves.
+    fn claimed(&self, std: Ned) -> Ned {
+        let unproven = self.config.docket.unproven_std(self.time);
+        Ned::new(std.0.x.max(unproven), std.0.y.max(unproven), std.0.z)
+    }
+
     /// Notes the antenna's velocity but for a constant, for its acceleration.
     fn note_antenna(&mut self) {
         let swing = self.motion.attitude * self.rate.cross(&self.config.gnss_lever());
@@ -335,14 +344,14 @@ impl Estimator for EightState {
             attitude,
             rate: Body(self.rate - turn_of_n),
             sigma: SolutionSigma {
-                position: std(x::POSITION, height),
+                position: self.claimed(std(x::POSITION, height)),
                 velocity: std(x::VELOCITY, down),
                 roll: tilt / attitude.pitch.cos().max(1e-9),
                 pitch: tilt,
                 heading: self.heading.1,
             },
             mode: Mode::InMotionAlignment,
-            judgement: insd_base::Judgement::default(),
+            judgement: self.config.docket.judgement(),
         }
     }
 

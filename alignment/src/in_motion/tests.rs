@@ -3,7 +3,9 @@
 mod ship;
 
 use insd_base::units::{DEG, wrap_pi};
-use insd_base::{Attitude, ExternalReference, Geodetic, ImuSpec, LeverArms, LogReference};
+use insd_base::{
+    Attitude, ExternalReference, Geodetic, ImuSpec, Integrity, LeverArms, LogReference,
+};
 use insd_nav::error_state::{ATTITUDE, STATES as ALL};
 use nalgebra::Cholesky;
 
@@ -361,10 +363,34 @@ fn a_filter_that_refuses_its_receiver_starts_again_from_its_word() {
     let mut run = Run::new(&ship, &good_imu(), 13);
     run.sail(30.0);
     assert!(run.filter.finished());
+    run.gnss = None;
+    run.sail(12.0);
+    run.gnss = Some(1.0);
     run.jump = 400.0;
     run.sail(7.0);
     assert!(!run.filter.finished());
     run.sail(50.0);
+    let (off, sigma) = judged(&run.filter, &run.truth());
+    assert!(sigma < 5.0 && off.abs() < 4.0, "{off} sigmas of {sigma}");
+}
+
+#[test]
+fn where_a_receiver_leaps_she_is_where_it_says_and_claims_no_more() {
+    let ship = Ship { heading: 1.0, turn: 1.5 * DEG, ..Ship::at(35.0) };
+    let mut run = Run::new(&ship, &good_imu(), 13);
+    run.sail(30.0);
+    let before = run.filter.solution().judgement.integrity;
+    run.jump = 400.0;
+    run.sail(7.0);
+    let said = run.filter.solution();
+    assert!(run.filter.finished(), "the heading is what it was");
+    assert_eq!((before, said.judgement.integrity), (Integrity::Unwatched, Integrity::Unproven));
+    assert!(said.sigma.position.0.x > 150.0, "claimed {}", said.sigma.position.0.x);
+    run.jump = 0.0;
+    run.sail(7.0);
+    let said = run.filter.solution();
+    assert_eq!(said.judgement.integrity, Integrity::Unwatched, "it went back");
+    assert!(said.sigma.position.0.x < 5.0, "claimed {}", said.sigma.position.0.x);
     let (off, sigma) = judged(&run.filter, &run.truth());
     assert!(sigma < 5.0 && off.abs() < 4.0, "{off} sigmas of {sigma}");
 }

@@ -285,9 +285,7 @@ impl Engine {
 
     /// Levels anew, as if nothing had been.
     fn start_over(&mut self, time: Time, why: ModeReason) {
-        if let Some(judge) = self.judge() {
-            self.nav = self.nav.with_docket(judge.docket().begun_anew(time));
-        }
+        self.nav = self.nav.with_docket(self.docket().begun_anew(time));
         self.stage = Stage::Levelling(Box::new(Coarse::new(&self.config)));
         self.herald = Herald::new(&self.config.imu, self.config.alignment.accuracy);
         self.surveyor.begin_anew();
@@ -349,6 +347,10 @@ impl Engine {
     fn tell_alignment(&mut self) {
         let Stage::Running(line) = &self.stage else { return };
         let (departure, status) = self.herald.look(line.estimator(), line.now());
+        if departure.is_some() {
+            // an alignment that is begun anew does not find her there
+            self.config.start = StartCondition::Underway;
+        }
         self.outputs.extend(departure.map(Output::Event));
         self.outputs.extend(status.map(Output::Alignment));
     }

@@ -3,7 +3,7 @@
 use insd_alignment::{Fine, StoredState};
 use insd_base::{
     Body, Disturbance, Estimates, Heave, Integrity, Judgement, Mode, Motion, Parties, Solution,
-    Stands, Time,
+    Standing, Stands, Time,
 };
 use insd_nav::judge::Judge;
 use insd_nav::{Estimator, Filter, Increment};
@@ -83,9 +83,12 @@ impl Engine {
         integrity == Some(Integrity::Contradiction)
     }
 
-    /// How all stand with whom the ship is navigated by; none before she is.
+    /// How all stand with whom the ship is navigated by; where nobody compares them, those who are not trusted.
     pub fn standings(&self) -> impl Iterator<Item = Stands> {
-        self.judge().into_iter().flat_map(|judge| judge.docket().all())
+        let is_compared = self.judge().is_some();
+        let docket = self.ship().and_then(Ship::docket);
+        let all = docket.map(|docket| docket.all().collect::<Vec<_>>()).unwrap_or_default();
+        all.into_iter().filter(move |it| is_compared || it.standing != Standing::Trusted)
     }
 
     /// A solution with all that is found of the sensors.

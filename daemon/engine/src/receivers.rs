@@ -156,9 +156,8 @@ impl Engine {
     }
 
     /// How far everybody is believed.
-    fn docket(&self) -> Docket {
-        let fine = self.ship().and_then(Ship::likeliest);
-        fine.map_or(self.nav.docket, |fine| fine.filter().docket())
+    pub(crate) fn docket(&self) -> Docket {
+        self.ship().and_then(Ship::docket).unwrap_or(self.nav.docket)
     }
 
     /// Lets the judge compare a fix, carried on to the newest sample of the IMU: what it is compared with to metres need

@@ -10,6 +10,7 @@ use insd_base::{
     Body, Fault, ImuSpec, Message, Mode, Party, Received, Solution, StoredDoubt, Time,
 };
 use insd_nav::filter::judged::ImuState;
+use insd_nav::judge::Docket;
 use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
 
 use crate::blind::{Blind, Word, tells_heading, unchecked, without_heading};
@@ -151,6 +152,14 @@ impl Ship {
     /// Whether the heading has been good enough to steer by.
     pub(crate) fn is_steerable(&self) -> bool {
         matches!(self, Ship::Navigating { aligned: true, .. })
+    }
+
+    /// How far everybody is believed.
+    pub(crate) fn docket(&self) -> Option<Docket> {
+        match self {
+            Ship::InMotion { finder, .. } => Some(finder.config().docket),
+            _ => self.likeliest().map(|fine| fine.filter().docket()),
+        }
     }
 
     /// The likeliest of her filters, if she has a full one.

@@ -172,6 +172,7 @@ impl Filter {
         let innovation = gnss_position::innovation(&view, &measured, &self.antenna_lever());
         let innovation = self.without_wrong_height(innovation);
         self.consult(Aid::GnssPosition, &innovation, rows::of_gnss_position);
+        self.watch_for_leaps(fix);
         self.follow(&innovation, velocity.map(|(_, innovation)| innovation));
         self.agreement(Aid::GnssPosition, &innovation);
         let refused = if self.is_receiver_refused(Aid::GnssPosition) {
@@ -244,7 +245,7 @@ impl Filter {
     }
 
     fn is_receiver_refused(&mut self, aid: Aid) -> bool {
-        if self.judge.is_some() {
+        if self.judge.is_some() || self.withholds(aid) {
             return self.withholds(aid);
         }
         self.can_judge() && self.trust.is_refused(self.time, OFF_HOLD)
@@ -267,7 +268,7 @@ impl Filter {
         velocity: Option<&VelocityFix>,
         report: &mut Report,
     ) {
-        if self.consider_rejoining() {
+        if self.consider_rejoining() || self.withholds(Aid::GnssPosition) {
             return;
         }
         let gate = &self.config.gate;

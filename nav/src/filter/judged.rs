@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use insd_base::units::DEG;
-use insd_base::{Mode, Parties, Party, SolutionSigma, Time};
+use insd_base::{Judgement, Mode, Parties, Party, SolutionSigma, Time};
 use nalgebra::{Matrix3, Vector3};
 
 use super::Filter;
@@ -12,6 +12,7 @@ use crate::error_state::{ErrorState, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, V
 use crate::innovation::Innovation;
 use crate::judge::rows::Direct;
 use crate::judge::{Aid, Alternative, Docket, Judge};
+use crate::leap::LeapWatch;
 use crate::propagation::{Regime, Stretch};
 use crate::solution_sigma::{difference, solution_sigma};
 
@@ -25,8 +26,6 @@ const LOST_HEADING: f64 = 5.0 * DEG;
 const SETTLED: f64 = 300.0;
 /// Who has not been heard for so long is no witness of the heading, s.
 const ALONE: f64 = 60.0;
-/// Sigmas of a radius, or of a single component, that hold 95 %.
-const RADIUS: f64 = 2.448;
 
 /// What is to be done about the IMU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +43,8 @@ impl Filter {
     pub(super) fn be_judged(&mut self) {
         let is_free = self.navigating && self.sway.is_none();
         let docket = self.docket();
+        self.config = self.config.with_docket(docket);
+        self.leap = LeapWatch::default();
         self.judge = is_free.then(|| Arc::new(Judge::new(&self.covariance, &self.config, docket)));
         self.judged_since = self.time;
         self.forget_unheard();
@@ -114,22 +115,31 @@ impl Filter {
     /// same epoch.
     pub(super) fn follow(&mut self, position: &Innovation<3>, velocity: Option<&Innovation<3>>) {
         let (now, covariance) = (self.time, self.covariance);
-        if self.judge.as_ref().is_none_or(|judge| !judge.docket().leaves_out_gnss()) {
+        if !self.docket().leaves_out_gnss() {
             return;
         }
         let both = position.beside(velocity.unwrap_or(&Innovation::silent()));
         let noise = position.r.diagonal().xy().max().sqrt();
         let weighed = both.weigh(&covariance);
-        if let Some((weighed, judge)) = weighed.zip(self.judge_now()) {
-            judge.follow((Party::Gnss, now), &weighed, noise, &covariance);
+        let Some(weighed) = weighed else { return };
+        match self.judge_now() {
+            Some(judge) => judge.follow((Party::Gnss, now), &weighed, noise, &covariance),
+            None => {
+                let mut docket = self.config.docket;
+                docket.see_receiver((Party::Gnss, now), &weighed, noise, &covariance);
+                self.config = self.config.with_docket(docket);
+                self.covered = self.cover();
+            }
         }
     }
 
     /// Whether what a receiver says now may be somebody's lie, and not the installer's mistake, which is there from
     /// the begin.
     pub(super) fn is_in_court(&self, aid: Aid) -> bool {
-        let judge = self.judge.as_ref().filter(|_| !self.is_early());
-        judge.is_some_and(|judge| judge.is_in_doubt() || judge.withholds(aid))
+        let Some(judge) = &self.judge else { return self.withholds(aid) };
+        let is_suspect = judge.is_in_doubt() || judge.withholds(aid);
+        let is_no_mistake = judge.leaps(Party::Gnss) || judge.docket().leaves_out(aid);
+        is_suspect && (is_no_mistake || !self.is_early())
     }
 
     /// By how much the variance of an aid's noise is larger than stated.
@@ -139,7 +149,11 @@ impl Filter {
 
     /// Whether what somebody says with an aid is not to be used now.
     pub(super) fn withholds(&self, aid: Aid) -> bool {
-        self.judge.as_ref().is_some_and(|judge| judge.withholds(aid))
+        let Some(judge) = &self.judge else {
+            let leapt = aid == Aid::GnssPosition && self.leap.is_suspected();
+            return leapt || self.config.docket.leaves_out(aid);
+        };
+        judge.withholds(aid)
     }
 
     /// The heading was found with a reference that nothing bears out yet, or is borne out now.
@@ -295,7 +309,6 @@ impl Filter {
 
     /// Sigmas that cover all that the estimate may be instead.
     fn cover(&self) -> Option<SolutionSigma> {
-        let judge = self.judge.as_ref()?;
         let acceleration = self.antenna.acceleration(self.time, &self.antenna_velocity());
         let view = self.view().at_gnss_time(&acceleration);
         let of = |other: &Alternative| {
@@ -303,8 +316,9 @@ impl Filter {
             let own = solution_sigma(&view, &acceleration, &other.covariance);
             apart.scaled(0.5).plus(&own)
         };
-        let mut all = judge.claims().iter().map(of).reduce(|a, b| a.greatest(&b));
-        let unproven = judge.docket().unproven(self.time) / RADIUS;
+        let claims = self.judge.as_ref().map(|judge| judge.claims()).unwrap_or_default();
+        let mut all = claims.iter().map(of).reduce(|a, b| a.greatest(&b));
+        let unproven = self.docket().unproven_std(self.time);
         if unproven > 0.0 {
             let mut floor = all.unwrap_or_default();
             floor.position.0.x = floor.position.0.x.max(unproven);
@@ -319,6 +333,12 @@ impl Filter {
     pub fn odds_of_gyros(&mut self, since: Time, excess: &Vector3<f64>) -> Option<f64> {
         let now = self.time;
         Some(self.judge_now()?.odds_of_gyros(now, since, excess))
+    }
+
+    /// What is made of all that is said.
+    pub(super) fn judgement(&self) -> Judgement {
+        let alone = || self.config.docket.judgement();
+        self.judge.as_ref().map_or_else(alone, |judge| judge.judgement())
     }
 
     /// How far everybody is believed.

@@ -34,6 +34,8 @@ const WORST: f64 = 4.0;
 const OWN_WORD: f64 = 1.2;
 /// A height that changes by more at once leaps, m.
 const LEAP: f64 = 5.0;
+/// A place that changes by more at once does, m.
+const FAR: f64 = 10.0;
 /// Share of the likeliest fault's weight, as a logarithm, that is most of it.
 const MOST: f64 = 0.8;
 /// Logarithm of how often anybody does what has no shape, 1/s.
@@ -114,7 +116,7 @@ impl Charge {
     fn is_leap(&self) -> bool {
         let Kind::Shaped { sized, .. } = self.kind else { return false };
         match self.fault {
-            Fault::Jump => sized.value.z.abs() > LEAP,
+            Fault::Jump => sized.value.z.abs() > LEAP || sized.value.xy().norm() > FAR,
             Fault::Height => sized.value.x.abs() > LEAP,
             _ => false,
         }
@@ -189,13 +191,13 @@ impl Judge {
         all
     }
 
-    /// Whether a height leaps, by somebody's word: no ship does that, and no mistake of the installation makes it.
+    /// Whether a height or a place leaps, by somebody's word: no ship does that, and no mistake of the installation makes it.
     #[must_use]
     pub fn leaps(&self, whom: Party) -> bool {
         self.leap(whom).is_some()
     }
 
-    /// The leap of somebody's height, where that is most of what there is: a receiver that hears reflections is off in height,
+    /// The leap of somebody's height or place, where that is most of what there is: a receiver that hears reflections is off in height,
     /// place and velocity at once, and no shape has it all.
     pub(super) fn leap(&self, whom: Party) -> Option<Charge> {
         let all = &self.assessment.charges;

@@ -9,12 +9,14 @@
 //! [`Party::Gnss`] and [`Party::Gnss2`], whichever they are; each keeps what it did when it takes another part, and is told
 //! by its own name.
 
-use insd_base::{Fault, Party, Span, Standing, Stands, Time};
+use insd_base::{Fault, Integrity, Judgement, Parties, Party, Span, Standing, Stands, Time};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
-use super::Aid;
 use super::lie::LieOfGnss;
+use super::{Aid, agrees};
+use crate::error_state::{Covariance, POSITION};
+use crate::innovation::Weighed;
 
 /// Who agrees for so long is heard again, s; each time he relapses for twice as long, up to this.
 const QUARANTINE: f64 = 60.0;
@@ -25,6 +27,11 @@ const FORGOTTEN: f64 = 3600.0;
 const UNDONE: f64 = 5.0;
 /// An IMU that was found wrong and mended is doubted for so long, s.
 const MENDED: f64 = 600.0;
+
+/// Sigmas of a radius that hold 95 %.
+const RADIUS: f64 = 2.448;
+/// A receiver that is so near to where it was at first has not leapt, m.
+const LEAPT: f64 = 10.0;
 
 /// Of whoever is no receiver that is off by something.
 pub(super) const NO_LIE: (Vector2<f64>, f64) = (Vector2::new(0.0, 0.0), 0.0);
@@ -154,6 +161,50 @@ impl Docket {
         self.entries[self.place(party)].standing
     }
 
+    /// What is made of all where nobody compares them.
+    #[must_use]
+    pub fn judgement(&self) -> Judgement {
+        let is_out = |stands: &Stands| stands.standing == Standing::Excluded;
+        let excluded: Parties = self.all().filter(is_out).map(|stands| stands.party).collect();
+        let integrity = if self.standing(Party::Gnss) == Standing::Probation {
+            Integrity::Unproven
+        } else {
+            Integrity::Unwatched
+        };
+        Judgement { integrity, excluded }
+    }
+
+    /// The receiver in use has leapt, m, by all in all, where nobody could tell which of its words was true: it is used, and the
+    /// position is claimed to be no better.
+    pub fn suspect(&mut self, off: &Vector2<f64>, now: Time) {
+        let own = self.lie_of(Party::Gnss);
+        let (unproven, standing) = if off.norm() > LEAPT {
+            (Some((off.norm(), 0.0, now)), Standing::Probation)
+        } else {
+            (None, Standing::Trusted)
+        };
+        self.lies[own].unproven = unproven;
+        self.enter(Party::Gnss, standing, now);
+        let place = self.place(Party::Gnss);
+        self.entries[place].fault = Some(Fault::Jump);
+    }
+
+    /// Sees position and velocity of a receiver that is left out together, weighed by a navigator with a covariance, and follows what
+    /// the receiver, by its part, is off by.
+    pub fn see_receiver(
+        &mut self,
+        (party, now): (Party, Time),
+        weighed: &Weighed<6>,
+        noise: f64,
+        p: &Covariance,
+    ) {
+        let own = POSITION.covariance(p).diagonal().max().max(0.0).sqrt();
+        let z = Vector2::new(weighed.z()[0], weighed.z()[1]);
+        let agrees = agrees(weighed);
+        self.follow((party, now), &z, agrees, [own.hypot(noise), noise]);
+        self.watch(party, now, agrees);
+    }
+
     /// With somebody left out for what he was found to do before.
     #[must_use]
     pub fn without(mut self, fault: Fault, now: Time) -> Self {
@@ -204,10 +255,10 @@ impl Docket {
         self.leaves_out(Aid::GnssPosition)
     }
 
-    /// The position may be off by so much though no sigma tells it, m.
+    /// 1-sigma of each component that covers what the position may be off by though no other sigma tells it, m.
     #[must_use]
-    pub fn unproven(&self, now: Time) -> f64 {
-        self.lies[self.lie_of(Party::Gnss)].unproven_at(now)
+    pub fn unproven_std(&self, now: Time) -> f64 {
+        self.lies[self.lie_of(Party::Gnss)].unproven_at(now) / RADIUS
     }
 
     /// By how many steps the IMU was found to be worse than its data sheet.
@@ -379,7 +430,7 @@ impl Docket {
     }
 
     /// Follows the lie of a receiver that is left out, by its part; see [`LieOfGnss::follow`].
-    pub fn follow(
+    fn follow(
         &mut self,
         (party, now): (Party, Time),
         z: &Vector2<f64>,

@@ -24,11 +24,11 @@ mod shadow;
 mod verdict;
 
 use insd_base::{Integrity, Judgement, Parties, Party, Standing, Stands, Time};
-use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
 
 use crate::block::Block;
 use crate::config::NavConfig;
-use crate::error_state::{Covariance, ErrorState, POSITION};
+use crate::error_state::{Covariance, ErrorState};
 use crate::innovation::{Innovation, Weighed};
 use crate::propagation::{self, Regime, Stretch};
 pub use aid::Aid;
@@ -328,7 +328,7 @@ impl Judge {
     /// Looks at the evidence, once a second; gives who is found to lie.
     ///
     /// Nobody of `excused` is judged: what looks like his lie may be a mistake of the installation, or of the heading. These do not
-    /// make a height leap.
+    /// make a height or a place leap.
     pub fn look(&mut self, now: Time, excused: Parties) -> Option<Verdict> {
         let unheard = self.looked.map_or(0.0, |last| (now - last).as_seconds());
         if unheard > UNHEARD {
@@ -417,14 +417,10 @@ impl Judge {
         noise: f64,
         p: &Covariance,
     ) {
-        let own = POSITION.covariance(p).diagonal().max().max(0.0).sqrt();
-        let z = Vector2::new(weighed.z()[0], weighed.z()[1]);
-        let agrees = agrees(weighed);
         if party == Party::Gnss2 {
             self.hearings[Aid::SparePosition as usize].note(now);
         }
-        self.docket.follow((party, now), &z, agrees, [own.hypot(noise), noise]);
-        self.docket.watch(party, now, agrees);
+        self.docket.see_receiver((party, now), weighed, noise, p);
     }
 
     /// Sees the height of a receiver of which only that is wrong, weighed by the navigator.

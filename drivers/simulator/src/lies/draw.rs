@@ -17,6 +17,8 @@ use crate::{Scenario, ScenarioError, further_receiver, simulate};
 const LASTS: f64 = 3600.0;
 /// When a lie begins at the earliest and at the latest, s.
 const ONSET: [f64; 2] = [1200.0, 2400.0];
+/// When one begins at the berth, s.
+const AT_BERTH: [f64; 2] = [30.0, 270.0];
 /// For how long one lasts that heals, s.
 const HEALS: [f64; 2] = [20.0, 300.0];
 /// 1-sigma of a compass that tells the truth, rad.
@@ -49,6 +51,8 @@ pub struct Case {
     pub shown_at: Option<f64>,
     /// From when on it is judged, s.
     pub judged_from: f64,
+    /// Whether she is said to lie at her berth at the start, and not just to be under way.
+    is_moored: bool,
     seed: u64,
 }
 
@@ -95,6 +99,12 @@ impl Draw {
         Window { from: self.between(ONSET[0], ONSET[1]).round(), until: f64::INFINITY }
     }
 
+    /// At the berth, while she aligns.
+    pub(super) fn at_berth(&mut self) -> Window {
+        let [from, to] = AT_BERTH;
+        Window { from: self.between(from, to).round(), until: f64::INFINITY }
+    }
+
     /// It heals.
     pub(super) fn moment(&mut self) -> Window {
         let window = self.onset();
@@ -107,7 +117,7 @@ impl Draw {
 pub fn case(kind: &Kind, grade: Grade, suite: Suite, seed: u64) -> Case {
     let own = kind.name.bytes().fold(seed, |sum, byte| sum.wrapping_mul(31) ^ u64::from(byte));
     let mut draw = Draw { rng: stream(own, Purpose::Lies), grade, suite };
-    let Strike { told, size, asked, judged_from } = (kind.draw)(&mut draw);
+    let Strike { told, size, asked, judged_from, is_moored } = (kind.draw)(&mut draw);
     let first = told.iter().map(|told| told.window.from).fold(f64::INFINITY, f64::min);
     let (class, shown_at, is_named) = match asked {
         Asked::ByEvidence { off, velocity_is_honest } => {
@@ -118,10 +128,23 @@ pub fn case(kind: &Kind, grade: Grade, suite: Suite, seed: u64) -> Case {
             let class = after.map_or(Class::Bounded, |_| carried);
             (class, after.map(|after| first + after), true)
         }
+        Asked::Unshown => (Class::Bounded, None, false),
         Asked::After { seconds } => (Class::Required, Some(first + seconds), true),
         Asked::Of { class, is_named } => (class, Some(first), is_named),
     };
-    Case { kind: kind.name, grade, suite, size, told, class, is_named, shown_at, judged_from, seed }
+    Case {
+        kind: kind.name,
+        grade,
+        suite,
+        size,
+        told,
+        class,
+        is_named,
+        shown_at,
+        judged_from,
+        is_moored,
+        seed,
+    }
 }
 
 impl Case {
@@ -160,7 +183,10 @@ impl Case {
             Grade::Mems => "mems",
         };
         let log = if self.suite.has_log() { "\n[log]\n" } else { "" };
-        let text = SCENARIO.replace("GRADE", grade) + gnss + log;
+        let mode = if self.is_moored { "moored" } else { "underway" };
+        let moored = if self.is_moored { "moored = true" } else { "" };
+        let text = SCENARIO.replace("GRADE", grade).replace("MODE", mode).replace("MOORED", moored);
+        let text = text + gnss + log;
         Scenario::from_toml(&text)
     }
 

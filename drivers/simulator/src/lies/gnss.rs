@@ -40,6 +40,8 @@ pub enum GnssLie {
     VelocityScale(f64),
     /// Its velocity stands still.
     VelocityStuck,
+    /// It tells more way than she makes, by this share, in its position and its velocity.
+    Fast(f64),
     /// Its sigmas are wrong by this factor.
     Sigmas(f64),
     /// It claims fixed ambiguities.
@@ -100,6 +102,7 @@ impl GnssLie {
                 move_by(&mut told.position, &(acceleration * (0.5 * since * since)).push(0.0));
                 add(&mut told.velocity, &(acceleration * since));
             }
+            GnssLie::Fast(share) => hasten(told, held, share),
             GnssLie::FrozenPosition | GnssLie::FrozenAll | GnssLie::FrozenStill => {
                 self.freeze(told, held);
             }
@@ -164,6 +167,15 @@ pub(super) fn moved(place: &Geodetic, by: &Vector3<f64>) -> Geodetic {
 
 fn add(velocity: &mut Option<Ned>, by: &Vector2<f64>) {
     *velocity = velocity.map(|own| Ned(own.0 + by.push(0.0)));
+}
+
+/// Adds such a share to the way made since `held` and to the velocity.
+fn hasten(told: &mut GnssFix, held: Option<&GnssFix>, share: f64) {
+    if let (Some(from), Some(to)) = (held.and_then(|held| held.position), told.position) {
+        let way = c_ne(&from) * (ecef(&to).0 - ecef(&from).0);
+        move_by(&mut told.position, &Vector3::new(way.x * share, way.y * share, 0.0));
+    }
+    told.velocity = told.velocity.map(|own| Ned(own.0 + (own.0.xy() * share).push(0.0)));
 }
 
 fn drag_second(voyage: &mut Voyage, window: &Window, velocity: &Vector2<f64>) {

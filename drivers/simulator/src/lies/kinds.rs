@@ -22,6 +22,7 @@ pub(super) struct Strike {
     pub(super) size: String,
     pub(super) asked: Asked,
     pub(super) judged_from: f64,
+    pub(super) is_moored: bool,
 }
 
 /// What is asked.
@@ -38,6 +39,8 @@ pub(super) enum Asked {
         /// So many seconds after the lie began.
         seconds: f64,
     },
+    /// That sigma and level cover what she follows, as nobody can show it.
+    Unshown,
     /// This.
     Of {
         /// What.
@@ -56,6 +59,8 @@ const TWO: &[Suite] = &[Suite::Two, Suite::TwoAndLog];
 const STARTED: f64 = 900.0;
 /// Degrees an hour, rad/s.
 const PER_HOUR: f64 = DEG / 3600.0;
+/// When she has left the berth and made way, s.
+const UNDER_WAY_FROM: f64 = 380.0;
 /// Speed of a position that is told to stand still while she makes 12 kn, m/s.
 const UNDER_WAY: f64 = 6.17;
 
@@ -145,17 +150,23 @@ const CATALOGUE: &[Kind] = kinds! {
     "heals: compass step" COMPASS |d| healing(d, |d| Lie::Compass(CompassLie::Offset(d.signed(5.0, 90.0) * DEG)), Class::Required);
     "heals: gyro step" ALL |d| healing(d, |d| Lie::Imu(ImuLie::GyroStep(d.along(0.1, 1.0) * DEG)), Class::Told);
     "heals: imu stuck" ALL |d| healing(d, |_| Lie::Imu(ImuLie::AllStuck), Class::Told);
+    "berth: gnss jump" ALL |d| jump_at_berth(d);
+    "berth: log turned" LOG |d| { let by = if d.axis() == 0 { 180.0 } else { 90.0 }; log_at_berth(d, LogLie::Turned(by * DEG)) };
+    "berth: log zero" LOG |d| log_at_berth(d, LogLie::Zero);
+    "moored: gnss jump" ALL |d| Strike { is_moored: true, ..jump_at_berth(d) };
+    "moored: log turned" LOG |d| Strike { is_moored: true, ..log_at_berth(d, LogLie::Turned(180.0 * DEG)) };
     "outage: log" LOG |d| in_outage(d, |_| Lie::Log(LogLie::Frozen));
     "outage: compass" COMPASS |d| in_outage(d, |d| Lie::Compass(CompassLie::Offset(d.signed(10.0, 90.0) * DEG)));
     "outage: gyro" ALL |d| in_outage(d, |d| Lie::Imu(ImuLie::GyroStep(d.along(0.1, 1.0) * DEG)));
     "pair: gnss and log" LOG |d| pair(d, |d| [Lie::Gnss(GnssLie::Jump(d.vector(100.0, 1e4))), Lie::Log(LogLie::Frozen)]);
     "pair: gnss and compass" BOTH |d| pair(d, |d| [Lie::Gnss(GnssLie::Jump(d.vector(100.0, 1e4))), Lie::Compass(CompassLie::Offset(d.signed(10.0, 90.0) * DEG))]);
     "pair: log and compass" BOTH |d| pair(d, |d| [Lie::Log(LogLie::Frozen), Lie::Compass(CompassLie::Offset(d.signed(10.0, 90.0) * DEG))]);
+    "pair: gnss and log fast" LOG both_fast;
 };
 
 fn strike(told: Vec<Told>, asked: Asked) -> Strike {
     let words: Vec<String> = told.iter().map(|told| format!("{:?}", told.lie)).collect();
-    Strike { told, size: words.join(" and "), asked, judged_from: 0.0 }
+    Strike { told, size: words.join(" and "), asked, judged_from: 0.0, is_moored: false }
 }
 
 fn of(d: &mut Draw, lie: Lie, class: Class, is_named: bool) -> Strike {
@@ -279,6 +290,30 @@ fn healing(d: &mut Draw, lie: fn(&mut Draw) -> Lie, class: Class) -> Strike {
     let lie = lie(d);
     let window = d.moment();
     strike(vec![Told { lie, window }], Asked::Of { class, is_named: class == Class::Required })
+}
+
+/// While she aligns; where neither log nor compass carry a heading on, it is told.
+fn jump_at_berth(d: &mut Draw) -> Strike {
+    let lie = Lie::Gnss(GnssLie::Jump(d.vector(30.0, 1e5)));
+    let carries_on = d.suite.has_log() && (d.grade == Grade::Navigation || d.suite.has_compass());
+    let class = if carries_on { Class::Required } else { Class::Told };
+    let window = d.at_berth();
+    strike(vec![Told { lie, window }], Asked::Of { class, is_named: true })
+}
+
+/// While she aligns; it is shown when she makes way.
+fn log_at_berth(d: &mut Draw, lie: LogLie) -> Strike {
+    let window = d.at_berth();
+    let asked = Asked::After { seconds: UNDER_WAY_FROM - window.from };
+    strike(vec![Told { lie: Lie::Log(lie), window }], asked)
+}
+
+/// By the same share.
+fn both_fast(d: &mut Draw) -> Strike {
+    let share = d.signed(0.05, 0.5);
+    let window = d.onset();
+    let lies = [Lie::Gnss(GnssLie::Fast(share)), Lie::Log(LogLie::Scale(1.0 + share))];
+    strike(lies.map(|lie| Told { lie, window }).to_vec(), Asked::Unshown)
 }
 
 fn in_outage(d: &mut Draw, lie: fn(&mut Draw) -> Lie) -> Strike {
