@@ -71,6 +71,14 @@ impl<E: Estimator> Timeline<E> {
         &mut self.estimator
     }
 
+    /// Changes the newest state for good: what is valid before comes too late from then on.
+    pub fn amend(&mut self, change: impl FnOnce(&mut E)) {
+        change(&mut self.estimator);
+        self.checkpoints = VecDeque::from([(self.now, self.estimator.clone())]);
+        self.increments.clear();
+        self.measurements.clear();
+    }
+
     /// Moves on over an increment; measurements that were waiting for it are applied on the way.
     pub fn advance(&mut self, increment: &Increment) -> Vec<Report> {
         self.keep_checkpoint();

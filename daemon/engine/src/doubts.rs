@@ -93,6 +93,14 @@ impl Engine {
         left
     }
 
+    /// Whoever stands still since a moment ago has lied meanwhile, and nobody else.
+    pub(crate) fn heed_frozen(&mut self) {
+        let Some(whom) = self.surveyor.newly_frozen() else { return };
+        if let Stage::Running(line) = &mut self.stage {
+            line.amend(|ship| ship.disbelieve(whom));
+        }
+    }
+
     /// A message without a velocity that the others refute: nobody is measured by it.
     pub(crate) fn unrefuted(&self, received: &Received) -> Received {
         let is_refuted = self.judge().is_some_and(|judge| judge.withholds(Aid::GnssVelocity));

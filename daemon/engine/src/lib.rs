@@ -403,6 +403,7 @@ impl Engine {
         self.herald.hear(&checked);
         self.relay.hear(&checked);
         self.surveyor.hear(&self.unrefuted(&checked));
+        self.heed_frozen();
         let Some(checked) = self.believed(received, &checked) else { return };
         match &mut self.stage {
             Stage::Levelling(coarse) => coarse.observe(&checked),

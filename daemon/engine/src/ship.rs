@@ -122,6 +122,13 @@ impl Ship {
         }
     }
 
+    /// Somebody is seen to lie by what he says alone.
+    pub(crate) fn disbelieve(&mut self, whom: Party) {
+        if let Ship::Navigating { fine, .. } = self {
+            fine.filter_mut().disbelieve(whom);
+        }
+    }
+
     /// Whether the trial of her heading is over and GNSS has borne it out.
     pub(crate) fn is_acquitted(&self) -> bool {
         match self {

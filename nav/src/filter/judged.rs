@@ -263,6 +263,16 @@ impl Filter {
         }
     }
 
+    /// Somebody is seen to lie by what he says alone: the estimate becomes that of who has not believed him.
+    pub fn disbelieve(&mut self, whom: Party) {
+        let now = self.time;
+        self.settle();
+        if let Some(mended) = self.judge_now().and_then(|judge| judge.disbelieve(whom, now)) {
+            self.become_other(&mended);
+            self.restart_judge();
+        }
+    }
+
     fn disbelieve_imu(&mut self) {
         let now = self.time;
         self.settle();

@@ -38,6 +38,7 @@ const LEAP: f64 = 5.0;
 const FAR: f64 = 10.0;
 /// Share of the likeliest fault's weight, as a logarithm, that is most of it.
 const MOST: f64 = 0.8;
+const NEARLY_ALL: f64 = 0.98;
 /// Logarithm of how often anybody does what has no shape, 1/s.
 const SHAPELESS: f64 = -17.4;
 
@@ -204,6 +205,15 @@ impl Judge {
         let most = all.first().map_or(0.0, |first| MOST * first.weight).max(DOUBT);
         let is_of = |charge: &&Charge| charge.party() == whom && charge.weight > most;
         all.iter().filter(is_of).find(|charge| charge.is_leap()).copied()
+    }
+
+    /// The wrong velocity of a receiver, where that is nearly all there is though no constant has it: with the wrong sign it is
+    /// otherwise at every wave.
+    pub(super) fn wrong_velocity(&self, whom: Party) -> Option<Charge> {
+        let all = &self.assessment.charges;
+        let nearly_all = all.first().map_or(0.0, |first| NEARLY_ALL * first.weight).max(DOUBT);
+        let is_it = |charge: &&Charge| charge.fault == Fault::Velocity && charge.party() == whom;
+        all.iter().filter(is_it).find(|charge| charge.weight > nearly_all).copied()
     }
 
     /// Whether a fault leaves nothing much unexplained.

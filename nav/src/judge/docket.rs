@@ -324,6 +324,11 @@ impl Docket {
         (imu.since, imu.fault) = (now, Some(Fault::ImuUseless));
     }
 
+    /// The IMU may have been blamed for somebody else's lie: it is not named.
+    pub(super) fn clear_imu(&mut self) {
+        self.by_one = true;
+    }
+
     /// The IMU is right as far as is seen now.
     pub fn consider_imu(&mut self, now: Time) {
         self.restless = self.restless.filter(|(_, last)| (now - *last).as_seconds() < QUARANTINE);

@@ -356,7 +356,8 @@ impl Judge {
         let whom = accused.party();
         let since = before.filter(|(party, _)| *party == whom).map_or(now, |(_, since)| since);
         self.accused = Some((whom, since));
-        let shaped = self.shaped(whom).or_else(|| self.leap(whom)).unwrap_or(accused);
+        let shaped = self.shaped(whom).or_else(|| self.leap(whom));
+        let shaped = shaped.or_else(|| self.wrong_velocity(whom)).unwrap_or(accused);
         let needed = if shaped.fault.is_noise() { SCATTERS } else { PERSISTS };
         let persists = (now - since).as_seconds() >= needed;
         persists.then(|| self.convict(&shaped, now))

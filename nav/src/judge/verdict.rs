@@ -17,6 +17,8 @@ const MENDABLE: f64 = 0.2;
 const MENDABLE_SCALE: f64 = 0.3;
 /// The moment at which a gyro's bias changed is not known better than this, s.
 const UNTIMED: f64 = 1.0;
+/// Within this before somebody is seen to lie the IMU may have been blamed for it, s.
+const MEANWHILE: f64 = 60.0;
 /// Fixes that are later than this are left out, s; others are set back.
 const SET_BACK: f64 = 1.0;
 
@@ -167,6 +169,18 @@ impl Judge {
     /// others' word is no better than the navigator's estimate, which has refused them.
     fn lies_another(&self, whom: Party) -> bool {
         self.success(whom).is_some_and(|success| success.worst > BLATANT)
+    }
+
+    /// Somebody is seen to lie by what he says alone, as one whose numbers stand still; gives the estimate of who has not believed him. What
+    /// was made of the others meanwhile is of no account; but for what has followed already where the IMU was blamed.
+    pub fn disbelieve(&mut self, whom: Party, now: Time) -> Option<Alternative> {
+        self.docket.doubt(None, now);
+        let is_blamed = |since: Time| (now - since).as_seconds() < MEANWHILE;
+        if self.docket.imu_doubted_since().is_some_and(is_blamed) {
+            self.docket.clear_imu();
+            return None;
+        }
+        Some(self.alternative(&Charge::shapeless(whom, DOUBT)))
     }
 
     /// The IMU is wrong, as what it says is not what any ship does; gives the estimate without it.

@@ -3,7 +3,8 @@
 //! `faults [DRAWS] [KIND]`: each kind of `insd_simulator::lies`, or those whose name begins so, with both
 //! grades of IMU and every suite of sensors, so many times; then, or of the kind `honest` alone, the same hours with honest
 //! sensors. `scenarios` sails the shipped voyages with honest sensors instead. In the environment
-//! `CASES=1` tells each case, `ONLY="Mems log"` takes one grade and suite, `TRACE=1` tells each second.
+//! `CASES=1` tells each case, `ONLY="Mems log"` takes one grade and suite, `TRACE=1` tells each second, `SEED=3` takes one of
+//! the draws.
 
 mod sail;
 mod scenarios;
@@ -47,11 +48,14 @@ fn cases(kind: &Kind, draws: u64) -> Vec<Case> {
     let grades = [Grade::Navigation, Grade::Mems];
     let of_grade = |grade| kind.suites.iter().map(move |suite| (grade, *suite));
     let only = std::env::var("ONLY").unwrap_or_default();
+    let seed: Option<u64> = std::env::var("SEED").ok().and_then(|text| text.parse().ok());
+    let seeds = seed.map_or(1..=draws, |seed| seed..=seed);
     let places = grades.into_iter().flat_map(of_grade);
     let places =
         places.filter(|(grade, suite)| only.is_empty() || format!("{grade:?} {suite}") == only);
     places
-        .flat_map(|(grade, suite)| (1..=draws).map(move |seed| case(kind, grade, suite, seed)))
+        .flat_map(|place| seeds.clone().map(move |seed| (place, seed)))
+        .map(|((grade, suite), seed)| case(kind, grade, suite, seed))
         .collect()
 }
 

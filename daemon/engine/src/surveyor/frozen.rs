@@ -1,12 +1,12 @@
 //! Receivers, logs and compasses that stand still: they tell the same while the ship has moved.
 //!
 //! Equal numbers alone mean little: a ship at her berth is where she was. So a run of them counts when the
-//! solution has moved, since it began, by more than the sensor's digits and errors explain. Of a log and a compass it
-//! counts, too, when it is many times longer than any before while GNSS has her under way: noise ends them.
+//! solution has moved, since it began, by more than the sensor's digits and errors explain. Of a log, a compass and the velocity
+//! of a receiver it counts, too, when it is many times longer than any before while GNSS has her under way: noise ends them.
 
 use insd_base::units::{DEG, wrap_pi};
 use insd_base::{
-    ExternalReference, Frozen, GnssFix, LogVelocity, Mode, Rejection, Solution, earth,
+    ExternalReference, Frozen, GnssFix, LogVelocity, Mode, Party, Rejection, Solution, earth,
 };
 use nalgebra::{Vector2, Vector3};
 
@@ -19,6 +19,7 @@ const PLACE: f64 = 15.0;
 const REPEATED: f64 = 1.5;
 const VELOCITIES: u32 = 10;
 const SPEED: f64 = 0.8;
+const FEW: u32 = 4;
 const LOGS: u32 = 20;
 const WAY: f64 = 0.6;
 const HEADINGS: u32 = 20;
@@ -108,6 +109,7 @@ pub(super) struct StandingStill {
     velocity: Run<2>,
     log: Run<2>,
     heading: Run<1>,
+    known: [bool; 3],
 }
 
 impl StandingStill {
@@ -125,6 +127,7 @@ impl StandingStill {
             let told = [velocity.0.x, velocity.0.y];
             let apart = |a: &Vector3<f64>, b: &Vector3<f64>| (a - b).xy().norm();
             self.velocity.see(told, now, [f64::from(VELOCITIES), SPEED], apart);
+            self.velocity.compare(is_under_way(solution), FEW);
         }
     }
 
@@ -155,6 +158,16 @@ impl StandingStill {
         let apart = |a: &Vector3<f64>, b: &Vector3<f64>| wrap_pi(a.x - b.x).abs();
         self.heading.see([heading], now, [f64::from(HEADINGS), TURN], apart);
         self.heading.compare(is_under_way(solution), HEADINGS);
+    }
+
+    /// Who stands still and did not when this was asked last.
+    pub(super) fn begun(&mut self) -> Option<Party> {
+        let now =
+            [self.position.frozen || self.velocity.frozen, self.log.frozen, self.heading.frozen];
+        let before = std::mem::replace(&mut self.known, now);
+        let parties = [Party::Gnss, Party::Log, Party::Heading];
+        let mut all = parties.into_iter().zip(now.into_iter().zip(before));
+        all.find(|(_, (now, before))| *now && !before).map(|(party, _)| party)
     }
 
     /// What stands still.

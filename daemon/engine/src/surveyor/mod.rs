@@ -16,7 +16,7 @@ mod turns;
 
 use insd_base::{
     Body, Estimate, Estimates, ExternalReference, Finding, GnssFix, ImuSample, LeverArms,
-    LogVelocity, Message, Mode, Parties, Received, Rejection, Solution, Span, Time,
+    LogVelocity, Message, Mode, Parties, Party, Received, Rejection, Solution, Span, Time,
 };
 use insd_nav::Increment;
 
@@ -129,6 +129,11 @@ impl Surveyor {
     /// Whether the position of the receiver in use stands still while the ship does not.
     pub(crate) fn is_fix_frozen(&self) -> bool {
         self.still.is_fix_frozen()
+    }
+
+    /// Who stands still from now on.
+    pub(crate) fn newly_frozen(&mut self) -> Option<Party> {
+        self.still.begun()
     }
 
     /// Another receiver is heard from now on.
