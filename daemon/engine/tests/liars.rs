@@ -68,6 +68,24 @@ fn of_a_receiver_with_a_wrong_height_only_that_is_left_out() {
 }
 
 #[test]
+fn of_a_receiver_with_a_velocity_of_the_wrong_sign_the_position_stays_in_use() {
+    let (seconds, _) = sailed("gnss velocity sign", Grade::Navigation, Suite::Gnss, 2);
+    assert!(seconds.iter().any(|second| second.said.judgement.excluded.contains(Party::Gnss)));
+    let worst = seconds.iter().map(Second::off).fold(0.0, f64::max);
+    assert!(worst < 10.0, "{worst} m");
+}
+
+#[test]
+fn nobody_else_is_named_for_a_velocity_that_stands_still() {
+    for (grade, seed) in [(Grade::Navigation, 3), (Grade::Mems, 1)] {
+        let (seconds, _) = sailed("gnss velocity stuck", grade, Suite::Log, seed);
+        let named: Vec<Party> =
+            seconds.iter().flat_map(|second| second.said.judgement.excluded.iter()).collect();
+        assert!(!named.is_empty() && named.iter().all(|party| *party == Party::Gnss));
+    }
+}
+
+#[test]
 fn a_receiver_that_creeps_is_no_bad_imu() {
     let (seconds, is_worse) = sailed("gnss creep", Grade::Navigation, Suite::Gnss, 2);
     assert!(!is_worse);
