@@ -8,6 +8,7 @@ use insd_nav::config::LeverFound;
 use insd_nav::filter::judged::ImuState;
 use insd_nav::judge::Aid;
 
+use crate::ship::Ship;
 use crate::trial::Misled;
 use crate::{Engine, Stage};
 
@@ -39,13 +40,7 @@ impl Engine {
                 self.surveyor.doubt_headings();
                 return self.start_over(time, ModeReason::HeadingRefuted);
             }
-            ImuState::Wrong => {
-                self.surveyor.doubt_headings();
-                self.surveyor.is_refuted = true;
-                self.surveyor.is_by_one = line.estimator().is_imu_doubted_by_one();
-                self.surveyor.condemned = Some(time);
-                return self.start_over(time, ModeReason::HeadingRefuted);
-            }
+            ImuState::Wrong => return self.condemn_imu(time),
         }
         let Some(misled) = line.estimator().refuted_by() else {
             if self.surveyor.is_refuted {
@@ -60,6 +55,9 @@ impl Engine {
             Misled::Found(_) if self.retried >= RETRIES => return,
             Misled::Found(estimates) => self.learn_of(&estimates),
             Misled::Unknown if line.estimator().is_heading_unchecked() => {
+                if self.docket().imu_doubted_since().is_some() {
+                    return self.condemn_imu(time);
+                }
                 let docket = self.nav.docket.without(Fault::HeadingOffset, time);
                 self.start_over(time, ModeReason::HeadingRefuted);
                 self.nav = self.nav.with_docket(docket);
@@ -72,6 +70,15 @@ impl Engine {
             Misled::Unknown => self.nav.gnss.lever_found = Some(LeverFound::UNKNOWN),
         }
         self.retried = self.retried.saturating_add(1);
+        self.start_over(time, ModeReason::HeadingRefuted);
+    }
+
+    /// The IMU is of no use for a while.
+    fn condemn_imu(&mut self, time: Time) {
+        self.surveyor.doubt_headings();
+        self.surveyor.is_refuted = true;
+        self.surveyor.is_by_one = self.ship().is_some_and(Ship::is_imu_doubted_by_one);
+        self.surveyor.condemned = Some(time);
         self.start_over(time, ModeReason::HeadingRefuted);
     }
 
