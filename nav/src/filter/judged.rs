@@ -101,7 +101,7 @@ impl Filter {
         let weighed = innovation.weigh(&self.covariance);
         let Some(judge) = self.judge_now() else { return };
         match aid.party().filter(|_| judge.docket().leaves_out(aid)) {
-            Some(Party::Gnss) if judge.docket().leaves_out_gnss() => {}
+            Some(Party::Gnss) if judge.docket().leaves_out_gnss() => judge.note_word(aid, now),
             Some(party) => {
                 weighed
                     .iter()

@@ -37,6 +37,8 @@ pub(super) const AIDS: usize = Aid::SeaLevel as usize + 1;
 
 /// Each aid is heard no more often than this, s: what is between tells little more.
 const SPACING: f64 = 0.95;
+/// A silence that is long, s.
+const SILENCE: f64 = 15.0;
 /// How many outliers in a row are not heard.
 const SPIKES: u32 = 2;
 /// Noise that grows by so much, as a variance, spoils what was made of it; less comes by chance.
@@ -69,6 +71,9 @@ impl Aid {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Hearing {
     last: Option<Time>,
+    /// When it spoke last, heard or not, and when it did again after a long silence.
+    spoke: Option<Time>,
+    resumed: Option<Time>,
     outliers: u32,
     scatter: Scatter,
     noise: f64,
@@ -95,6 +100,20 @@ impl Hearing {
     /// It is heard now.
     pub(super) fn note(&mut self, now: Time) {
         self.last = Some(now);
+        self.note_word(now);
+    }
+
+    /// It speaks, heard or not.
+    pub(super) fn note_word(&mut self, now: Time) {
+        let before = self.spoke.replace(now);
+        if before.is_some_and(|before| (now - before).as_seconds() > SILENCE) {
+            self.resumed = Some(now);
+        }
+    }
+
+    /// Whether it was heard again after a long silence within such a time, s.
+    pub(super) fn was_resumed_within(&self, now: Time, span: f64) -> bool {
+        self.resumed.is_some_and(|resumed| (now - resumed).as_seconds() <= span)
     }
 
     /// Sees an innovation of which all of the variance of the noise has been raised by what it scatters: what was not would make

@@ -114,10 +114,15 @@ impl Charge {
         matches!(self.kind, Kind::Shaped { group: OF_FALSE_TURNS, .. })
     }
 
+    fn is_far(&self) -> bool {
+        let Kind::Shaped { sized, .. } = self.kind else { return false };
+        self.fault == Fault::Jump && sized.value.xy().norm() > FAR
+    }
+
     fn is_leap(&self) -> bool {
         let Kind::Shaped { sized, .. } = self.kind else { return false };
         match self.fault {
-            Fault::Jump => sized.value.z.abs() > LEAP || sized.value.xy().norm() > FAR,
+            Fault::Jump => sized.value.z.abs() > LEAP,
             Fault::Height => sized.value.x.abs() > LEAP,
             _ => false,
         }
@@ -195,16 +200,25 @@ impl Judge {
     /// Whether a height or a place leaps, by somebody's word: no ship does that, and no mistake of the installation makes it.
     #[must_use]
     pub fn leaps(&self, whom: Party) -> bool {
-        self.leap(whom).is_some()
+        self.leap(whom).or_else(|| self.far_jump(whom)).is_some()
     }
 
-    /// The leap of somebody's height or place, where that is most of what there is: a receiver that hears reflections is off in height,
+    /// The leap of somebody's height, where that is most of what there is: a receiver that hears reflections is off in height,
     /// place and velocity at once, and no shape has it all.
     pub(super) fn leap(&self, whom: Party) -> Option<Charge> {
+        self.most_of_it(whom).find(|charge| charge.is_leap()).copied()
+    }
+
+    /// The leap of somebody's place, where that is most of what there is.
+    pub(super) fn far_jump(&self, whom: Party) -> Option<Charge> {
+        self.most_of_it(whom).find(|charge| charge.is_far()).copied()
+    }
+
+    /// What somebody may do that explains most of what there is.
+    fn most_of_it(&self, whom: Party) -> impl Iterator<Item = &Charge> {
         let all = &self.assessment.charges;
         let most = all.first().map_or(0.0, |first| MOST * first.weight).max(DOUBT);
-        let is_of = |charge: &&Charge| charge.party() == whom && charge.weight > most;
-        all.iter().filter(is_of).find(|charge| charge.is_leap()).copied()
+        all.iter().filter(move |charge| charge.party() == whom && charge.weight > most)
     }
 
     /// The wrong velocity of a receiver, where that is nearly all there is though no constant has it: with the wrong sign it is

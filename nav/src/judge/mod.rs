@@ -345,19 +345,23 @@ impl Judge {
         }
         let is_excused =
             |charge: &Charge| excused.contains(charge.party()) && !self.leaps(charge.party());
-        let first = self.likeliest().filter(|first| !is_excused(first));
+        let likeliest = self.likeliest();
+        let astray = likeliest.and_then(|first| self.astray_meanwhile(&first, now));
+        let first = astray.or(likeliest).filter(|first| !is_excused(first));
         let is_likely = self.assessment.total > DOUBT;
         self.in_doubt = is_likely || self.disputed.is_some();
         let suspect = first.filter(|_| is_likely);
         self.docket.doubt(suspect.map(|first| first.fault), now);
-        let certain = first.filter(|first| self.is_certain(first) && !self.is_one_word(first, now));
+        let is_sure = |first: &Charge| {
+            astray.is_some() || (self.is_certain(first) && !self.is_one_word(first, now))
+        };
+        let certain = first.filter(is_sure);
         let before = self.accused.take();
         let accused = certain?;
         let whom = accused.party();
         let since = before.filter(|(party, _)| *party == whom).map_or(now, |(_, since)| since);
         self.accused = Some((whom, since));
-        let shaped = self.shaped(whom).or_else(|| self.leap(whom));
-        let shaped = shaped.or_else(|| self.wrong_velocity(whom)).unwrap_or(accused);
+        let shaped = self.shape_of(whom, excused.contains(whom)).unwrap_or(accused);
         let needed = if shaped.fault.is_noise() { SCATTERS } else { PERSISTS };
         let persists = (now - since).as_seconds() >= needed;
         persists.then(|| self.convict(&shaped, now))

@@ -41,6 +41,11 @@ impl Judge {
         true
     }
 
+    /// An aid that is left out speaks.
+    pub fn note_word(&mut self, aid: Aid, now: Time) {
+        self.hearings[aid as usize].note_word(now);
+    }
+
     fn forget_noise(&mut self, aids: &[Aid]) {
         aids.iter().for_each(|aid| self.hearings[*aid as usize] = Hearing::default());
     }

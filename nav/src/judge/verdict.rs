@@ -17,6 +17,8 @@ const MENDABLE: f64 = 0.2;
 const MENDABLE_SCALE: f64 = 0.3;
 /// The moment at which a gyro's bias changed is not known better than this, s.
 const UNTIMED: f64 = 1.0;
+/// Share of the weight, as a logarithm, of what explains as much.
+const AS_MUCH: f64 = 0.95;
 /// Within this before somebody is seen to lie the IMU may have been blamed for it, s.
 const MEANWHILE: f64 = 60.0;
 /// Fixes that are later than this are left out, s; others are set back.
@@ -171,6 +173,27 @@ impl Judge {
         self.success(whom).is_some_and(|success| success.worst > BLATANT)
     }
 
+    /// What somebody does who is found to lie, if it has a shape; `early` while only leaps of a place are no mistakes of the installation.
+    pub(super) fn shape_of(&self, whom: Party, early: bool) -> Option<Charge> {
+        let shaped = self.shaped(whom).or_else(|| self.leap(whom));
+        let shaped = shaped.or_else(|| self.wrong_velocity(whom));
+        shaped.or_else(|| self.far_jump(whom).filter(|_| early))
+    }
+
+    /// A receiver that is heard again contradicts a heading that gyros have carried alone meanwhile: they have had the time to go astray, and
+    /// where they explain as much as its lie would they did. What is beyond 10 deg no model is linear in: as much is nearly as much.
+    pub(super) fn astray_meanwhile(&self, first: &Charge, now: Time) -> Option<Charge> {
+        let of_gnss = &self.hearings[Aid::GnssPosition as usize];
+        let is_back = first.party() == Party::Gnss && of_gnss.was_resumed_within(now, MEANWHILE);
+        if !is_back || self.has_heard(Aid::Heading, now, MEANWHILE) {
+            return None;
+        }
+        let is_it = |other: &&Charge| {
+            other.fault == Fault::ImuUseless && other.weight > AS_MUCH * first.weight
+        };
+        self.assessment.charges.iter().find(is_it).copied()
+    }
+
     /// Somebody is seen to lie by what he says alone, as one whose numbers stand still; gives the estimate of who has not believed him. What
     /// was made of the others meanwhile is of no account; but for what has followed already where the IMU was blamed.
     pub fn disbelieve(&mut self, whom: Party, now: Time) -> Option<Alternative> {
@@ -178,6 +201,9 @@ impl Judge {
         let is_blamed = |since: Time| (now - since).as_seconds() < MEANWHILE;
         if self.docket.imu_doubted_since().is_some_and(is_blamed) {
             self.docket.clear_imu();
+            return None;
+        }
+        if self.lies_another(whom) {
             return None;
         }
         Some(self.alternative(&Charge::shapeless(whom, DOUBT)))
