@@ -52,36 +52,51 @@ impl EightState {
             }
         }
         if let Some(position) = fix.position {
-            let std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality));
-            if std.replaced {
-                report.floored.push(GNSS_POSITION);
-            }
-            let share = self.config.gnss.position_slow_share_for(self.rtk == Some(true));
-            let mut split = split(position, &std.value, share);
-            if fix.velocity.is_none() {
-                split.white = split.white.map(|white| white.hypot(UNLEVEL * lever.norm()));
-            }
-            self.watch_for_leaps(fix, &position, split.white.max());
-            let innovation = aids::gnss_position(&self.scene(), &split, &lever, &self.belief);
-            if self.leap.is_suspected() {
-                enter(&mut report, fix.time, source, GNSS_POSITION, Rejection::SourceSuspect);
+            let Some(used) = self.gnss_position(fix, position, source, &mut report) else {
                 return report;
-            }
-            let used = self.judge(&innovation, fix.time, source, GNSS_POSITION, &mut report);
+            };
             self.gnss_used = used.then_some(self.time).or(self.gnss_used);
             passed.push(used);
-            if self.config.is_gnss_lever_unknown() {
-                self.place(&position, &split.white.component_mul(&split.white));
-            }
-            if std.value.z < floors::UNTOLD {
-                let above = (self.motion.c_pb() * lever).z;
-                let (white, slow) = shares(std.value.z, share);
-                self.vertical.measure_height(position.height + above, white, slow);
-                self.heard_height = self.time;
-            }
         }
         self.consider_restart(fix, &passed, &mut report);
         report
+    }
+
+    /// The position of a fix; tells whether it was used, `None` while the receiver may just have leapt.
+    fn gnss_position(
+        &mut self,
+        fix: &GnssFix,
+        position: Geodetic,
+        source: Source,
+        report: &mut Report,
+    ) -> Option<bool> {
+        let lever = self.config.gnss_lever();
+        let std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality));
+        if std.replaced {
+            report.floored.push(GNSS_POSITION);
+        }
+        let share = self.config.gnss.position_slow_share_for(self.rtk == Some(true));
+        let mut split = split(position, &std.value, share);
+        if fix.velocity.is_none() {
+            split.white = split.white.map(|white| white.hypot(UNLEVEL * lever.norm()));
+        }
+        self.watch_for_leaps(fix, &position, split.white.max());
+        let innovation = aids::gnss_position(&self.scene(), &split, &lever, &self.belief);
+        if self.leap.is_suspected() {
+            enter(report, fix.time, source, GNSS_POSITION, Rejection::SourceSuspect);
+            return None;
+        }
+        let used = self.judge(&innovation, fix.time, source, GNSS_POSITION, report);
+        if self.config.is_gnss_lever_unknown() {
+            self.place(&position, &split.white.component_mul(&split.white));
+        }
+        if std.value.z < floors::UNTOLD {
+            let above = (self.motion.c_pb() * lever).z;
+            let (white, slow) = shares(std.value.z, share);
+            self.vertical.measure_height(position.height + above, white, slow);
+            self.heard_height = self.time;
+        }
+        Some(used)
     }
 
     /// A log's velocity, valid now. Without a forward component it is not usable.

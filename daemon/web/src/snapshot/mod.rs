@@ -65,7 +65,7 @@ pub struct Snapshot {
     pub engines: Vec<Engine>,
     /// What the filter has found out about the sensors; `None` while there is no filter.
     pub estimates: Option<Estimates>,
-    /// Whom the navigator believes; nobody before it navigates.
+    /// Whom the navigator believes; before it navigates, and at the berth, those alone who are left out or on trial.
     pub standings: Vec<Stands>,
     /// What of the installation is found to be otherwise than configured.
     pub installation: Vec<Found>,
