@@ -72,8 +72,8 @@ impl Departure {
         let velocity = (c_ne * filter.nominal().velocity).xy();
         let along = if distance > 0.0 { velocity.dot(&away.xy()) / distance } else { 0.0 };
         self.speed += (along - self.speed) * SPACING / AVERAGE;
-        let position_std = (POSITION.covariance(filter.covariance()).trace() / 3.0).sqrt();
-        let velocity_std = (VELOCITY.covariance(filter.covariance()).trace() / 3.0).sqrt();
+        let position_std = POSITION.std(filter.covariance());
+        let velocity_std = VELOCITY.std(filter.covariance());
         let leaves = distance > WAY && self.speed > SPEED.max(SURE * velocity_std);
         let is_far = distance > FAR;
         let settled = (filter.time() - self.start).as_seconds() > SETTLING;

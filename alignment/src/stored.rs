@@ -79,7 +79,7 @@ impl StoredState {
             moored: true,
             imu: fingerprint(imu),
             position: solution.position,
-            position_std: (POSITION.covariance(p).trace() / 3.0).max(0.0).sqrt(),
+            position_std: POSITION.std(p),
             attitude: solution.attitude,
             attitude_std: Vector3::new(sigma.roll, sigma.pitch, sigma.heading),
             gyro_bias: nominal.gyro_bias + nominal.gyro_drift,

@@ -12,8 +12,8 @@
 //! r <- r + s h + (1 - theta^2) e,   s <- s + (1 - theta)^2 e / h,   e = sample - (r + s h).
 //!
 //! Its error is that of the noise, 5/4 N^2 / memory, and that of a bend of the rate, r'' memory^2; the memory
-//! is such that the sum of both squares is least. Where that is hardly longer than two samples, theta is zero and the
-//! line goes through the last two.
+//! is such that the sum of both squares is least, for the noise that the gyros are found to have. Where that is hardly longer
+//! than two samples, theta is zero and the line goes through the last two.
 
 use insd_base::ImuSpec;
 use nalgebra::Vector3;
@@ -27,8 +27,15 @@ const WITH_BEND: f64 = 1.25;
 /// The line through the last samples.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AngularRate {
+    /// Stated density of the gyros' noise, and that for which the memory was chosen, rad^2/s.
+    stated: f64,
+    density: f64,
+    /// Samples in a second.
+    frequency: f64,
     /// s.
     memory: f64,
+    /// Of the rate at the end of a sample, when the line is as long as the memory, (rad/s)^2.
+    variance: f64,
     samples: u32,
     /// In the middle of the last sample, rad/s.
     rate: Vector3<f64>,
@@ -41,32 +48,47 @@ pub struct AngularRate {
 /// Samples that the memory must span to be worth while.
 const WORTH: f64 = 3.0;
 
-/// Over how long samples of gyros of this random walk are remembered, s; zero for the last two alone.
-fn memory(imu: &ImuSpec) -> f64 {
-    let best = (1.25 * imu.gyro.random_walk.powi(2) / (4.0 * BEND * BEND)).powf(0.2);
-    if best * imu.rate < WORTH { 0.0 } else { best }
+/// The memory is chosen anew where the noise differs from that for which it was by such a factor.
+const RETUNED: f64 = 1.5;
+/// A line through samples before a gap of so many is none.
+const BROKEN: f64 = 8.0;
+
+/// Over how long samples with noise of such a density, rad^2/s, are remembered, s; zero for the last two alone.
+fn memory(density: f64, frequency: f64) -> f64 {
+    let best = (1.25 * density / (4.0 * BEND * BEND)).powf(0.2);
+    if best * frequency < WORTH { 0.0 } else { best }
 }
 
-/// Variance of each component of the rate at the end of a sample, (rad/s)^2: that of the line, half a sample
-/// after the middle of the last.
+/// Variance of each component of the rate at the end of a sample of gyros that are as stated, (rad/s)^2.
 #[must_use]
 pub fn rate_variance(imu: &ImuSpec) -> f64 {
-    let theta = (-1.0 / (imu.rate * memory(imu))).exp();
+    AngularRate::new(imu).variance
+}
+
+/// That of the line, half a sample after the middle of the last.
+fn variance(density: f64, frequency: f64, memory: f64) -> f64 {
+    let theta = (-1.0 / (frequency * memory)).exp();
     let off = 1.0 - theta;
     let own = off * (1.0 + 4.0 * theta + 5.0 * theta * theta);
     let both = off * off * (1.0 + 3.0 * theta);
     let slope = 2.0 * off.powi(3);
     let line = (own + both + 0.25 * slope) / (1.0 + theta).powi(3);
     let bend = if theta > 0.0 { WITH_BEND } else { 1.0 };
-    bend * line * imu.gyro.random_walk.powi(2) * imu.rate
+    bend * line * density * frequency
 }
 
 impl AngularRate {
     /// Before the first sample of this IMU.
     #[must_use]
     pub fn new(imu: &ImuSpec) -> Self {
+        let density = imu.gyro.random_walk.powi(2);
+        let memory = memory(density, imu.rate);
         AngularRate {
-            memory: memory(imu),
+            stated: density,
+            density,
+            frequency: imu.rate,
+            memory,
+            variance: variance(density, imu.rate, memory),
             samples: 0,
             rate: Vector3::zeros(),
             slope: Vector3::zeros(),
@@ -74,19 +96,28 @@ impl AngularRate {
         }
     }
 
-    /// Forgets what was before a gap.
-    pub fn interrupt(&mut self) {
-        (self.samples, self.slope) = (0, Vector3::zeros());
+    /// The gyros are found to be noisier than stated by such a density, rad^2/s.
+    pub fn tune(&mut self, excess: f64) {
+        let density = self.stated + excess;
+        if density < RETUNED * self.density && RETUNED * density > self.density {
+            return;
+        }
+        self.density = density;
+        self.memory = memory(density, self.frequency);
+        self.variance = variance(density, self.frequency, self.memory);
     }
 
-    /// Takes the mean rate over the next sample, rad/s, and its length, s.
-    pub fn take(&mut self, mean: &Vector3<f64>, duration: f64) {
+    /// Takes the mean rate over the next sample, rad/s, its length, and the time that is missing before it, s.
+    pub fn take(&mut self, mean: &Vector3<f64>, duration: f64, missing: f64) {
+        if missing * self.frequency > BROKEN {
+            (self.samples, self.slope) = (0, Vector3::zeros());
+        }
         self.samples = self.samples.saturating_add(1);
         if self.samples == 1 {
             (self.rate, self.last) = (*mean, duration);
             return;
         }
-        let spacing = 0.5 * (self.last + duration);
+        let spacing = 0.5 * (self.last + duration) + missing;
         let theta = (-spacing / self.memory).exp();
         // a line through few samples weighs all of them alike
         let n = f64::from(self.samples);
@@ -104,6 +135,14 @@ impl AngularRate {
     #[must_use]
     pub fn at_end(&self) -> (Vector3<f64>, Vector3<f64>) {
         (self.rate + self.slope * (0.5 * self.last), self.slope)
+    }
+
+    /// Variance of each component there, (rad/s)^2.
+    #[must_use]
+    pub fn variance(&self) -> f64 {
+        let n = f64::from(self.samples.max(1));
+        let few = (4.0 * n - 2.0) / (n * (n + 1.0)) * self.density * self.frequency;
+        self.variance.max(few)
     }
 
     /// Whether all of it are numbers.
@@ -133,7 +172,7 @@ mod tests {
         let mut line = AngularRate::new(imu);
         (0..2000).map(move |i| {
             let t = 0.01 * f64::from(i);
-            line.take(&Vector3::x().scale(rate(t + 0.005)), 0.01);
+            line.take(&Vector3::x().scale(rate(t + 0.005)), 0.01, 0.0);
             (t + 0.01, line.at_end().0.x)
         })
     }

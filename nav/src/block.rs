@@ -53,6 +53,12 @@ impl<const W: usize> Block<W> {
         p.fixed_view::<W, W>(self.start, self.start).into_owned()
     }
 
+    /// 1-sigma of a component, on the mean of all.
+    #[must_use]
+    pub fn std(self, p: &Covariance) -> f64 {
+        (self.covariance(p).trace() / W as f64).max(0.0).sqrt()
+    }
+
     /// Writes this block of the columns of a measurement matrix.
     pub fn set_columns<const M: usize>(
         self,

@@ -70,9 +70,10 @@ pub struct Bridging {
 struct Run {
     attitude: UnitQuaternion<f64>,
     velocity: Vector3<f64>,
-    /// Sums since the last tick.
+    /// Sums since the last tick, and their time, s.
     turned: Vector3<f64>,
     pushed: Vector3<f64>,
+    since: f64,
     ticks: VecDeque<Tick>,
 }
 
@@ -143,21 +144,32 @@ impl Bridging {
         run.attitude *= UnitQuaternion::new(increment.rotation);
         run.turned += increment.rotation;
         run.pushed += increment.velocity;
-        let since = run.ticks.back().map_or(0.0, |last| (increment.to - last.time).as_seconds());
-        if since < TICK - 0.5 * increment.duration() {
+        run.since += increment.duration();
+        if run.since < TICK - 0.5 * increment.duration() {
             return;
         }
-        let (turned, pushed) = (std::mem::take(&mut run.turned), std::mem::take(&mut run.pushed));
-        self.turn.average(&(turned / since), since);
-        self.push.average(&(pushed / since), since);
         run.attitude.renormalize();
-        run.tick(increment.to, moment, &self.turn.mean, &self.push.mean);
+        self.average();
+        self.run.tick(increment.to, moment, &self.turn.mean, &self.push.mean);
         self.make_up();
     }
 
-    /// Forgets the samples before a gap, not what was learnt from them.
+    /// Forgets the samples before a gap, not what was learnt from them. The means go on where gaps follow one
+    /// another closely.
     pub fn interrupt(&mut self) {
+        self.average();
         self.run = Run::default();
+    }
+
+    /// Takes what was summed up into the means.
+    fn average(&mut self) {
+        let run = &mut self.run;
+        let since = std::mem::take(&mut run.since);
+        let (turned, pushed) = (std::mem::take(&mut run.turned), std::mem::take(&mut run.pushed));
+        if since > 0.0 {
+            self.turn.average(&(turned / since), since);
+            self.push.average(&(pushed / since), since);
+        }
     }
 
     /// What is kept for the next start of the program: all but the samples.
@@ -321,7 +333,13 @@ impl Quantity {
     fn shares(&self, length: f64) -> [Vector3<f64>; 2] {
         let (index, along) = place_of(length);
         let (low, high) = (self.lags[index].shares(index), self.lags[index + 1].shares(index + 1));
-        std::array::from_fn(|i| low[i] * (1.0 - along) + high[i] * along)
+        // all of the ends and nothing of the slope as the gap becomes short, by the square as in a swing
+        let short = (length / TICK).min(1.0).powi(2);
+        std::array::from_fn(|i| {
+            let even = Vector3::repeat(if i == 0 { 1.0 } else { 0.0 });
+            let between = low[i] * (1.0 - along) + high[i] * along;
+            even + (between - even) * short
+        })
     }
 
     /// Mean square error of a bridge, by what was made up lately.

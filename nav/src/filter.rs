@@ -11,6 +11,7 @@ use crate::aids::View;
 use crate::angular_rate::rate_variance;
 use crate::antenna::AntennaMotion;
 use crate::config::NavConfig;
+use crate::echo::Echo;
 use crate::error_state::{ATTITUDE, Covariance, ErrorState, STATES, VELOCITY};
 use crate::gate::ChiSquareGate;
 use crate::increments::Increment;
@@ -19,6 +20,7 @@ use crate::innovation::{Innovation, Weighed};
 use crate::judge::{Judge, agitate};
 use crate::leap::LeapWatch;
 use crate::nominal::Nominal;
+use crate::own_word::OwnWord;
 use crate::pace::Pace;
 use crate::propagation::{self, Regime, Stretch, markov_decay};
 use crate::report::{Outcome, Report};
@@ -63,6 +65,7 @@ pub struct Filter {
     gravity: LocalGravity,
     stretch: Stretch,
     rate: Vector3<f64>,
+    rate_variance: f64,
     trust: Trust,
     rtk: Option<bool>,
     level: LevelWindow,
@@ -79,6 +82,7 @@ pub struct Filter {
     held: Option<Time>,
     told_across: Option<Time>,
     pace: Pace,
+    lurch: Pace,
     slip: Slip,
     /// When another reference last told a position.
     last_reference: Option<Time>,
@@ -93,6 +97,8 @@ pub struct Filter {
     judge: Option<Arc<Judge>>,
     /// Stands in for it otherwise.
     leap: LeapWatch,
+    own_word: OwnWord,
+    echo: Echo,
     judged_since: Time,
     /// The heading was found with a reference that nothing bears out yet.
     heading_doubted: bool,
@@ -127,6 +133,7 @@ impl Filter {
             gravity: LocalGravity::around(&initial.nominal.position, &initial.nominal.geodetic()),
             stretch: Stretch::new(),
             rate: initial.rate,
+            rate_variance: rate_variance(&config.imu),
             trust: Trust::default(),
             rtk: None,
             level: LevelWindow::new(&config.sea),
@@ -140,6 +147,7 @@ impl Filter {
             held: None,
             told_across: None,
             pace: Pace::default(),
+            lurch: Pace::default(),
             slip: Slip::default(),
             last_reference: None,
             turned: Vector3::zeros(),
@@ -150,6 +158,8 @@ impl Filter {
             velocity_epoch: None,
             judge: None,
             leap: LeapWatch::default(),
+            own_word: OwnWord::default(),
+            echo: Echo::default(),
             judged_since: initial.time,
             heading_doubted: false,
             unjudged: Stretch::new(),
@@ -235,7 +245,7 @@ impl Filter {
         }
         self.relax_nominal(self.stretch.duration);
         self.nominal.attitude.renormalize();
-        self.antenna.note(self.time, &self.antenna_velocity());
+        self.note_antenna_motion();
         let place = self.nominal.geodetic();
         if self.stretch.bridged > UNSEEN {
             self.level.restart();
@@ -262,7 +272,7 @@ impl Filter {
     /// The estimate with what aids need of it.
     #[must_use]
     pub fn view(&self) -> View {
-        View::new(&self.nominal, &self.rate, rate_variance(&self.config.imu))
+        View::new(&self.nominal, &self.rate, self.rate_variance)
     }
 
     /// Applies an innovation if it passes the chi-square gate and nothing else speaks against it.
@@ -370,7 +380,7 @@ impl Estimator for Filter {
             self.unjudged.add(&step);
             self.unjudged.add_noise(increment);
         }
-        self.rate = increment.end_rate;
+        (self.rate, self.rate_variance) = (increment.end_rate, increment.end_rate_variance);
         self.time = increment.to;
         if self.stretch.duration >= self.interval - 1e-6 {
             self.settle();

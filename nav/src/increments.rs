@@ -24,6 +24,8 @@ pub struct Increment {
     /// Angular rate at the end of the interval, rad/s, as far as its noise lets it be known
     /// ([`crate::angular_rate`]).
     pub end_rate: Vector3<f64>,
+    /// Variance of each component of that, (rad/s)^2.
+    pub end_rate_variance: f64,
     /// Change of the angular rate, rad/s^2.
     pub angular_acceleration: Vector3<f64>,
     /// Noise density of the rate beyond the stated random walk, body axes, rad^2/s: of vibration, or of
@@ -225,9 +227,9 @@ impl Conditioner {
         if gap {
             self.rate.interrupt();
             self.force.interrupt();
-            self.turning.interrupt();
         }
-        self.turning.take(&mean.rate, duration);
+        self.turning.tune(self.rate.excess().max());
+        self.turning.take(&mean.rate, duration, elapsed - duration);
         self.rate.learn(&mean.rate, duration);
         self.force.learn(&mean.force, duration);
         if gap {
@@ -271,6 +273,7 @@ impl Conditioner {
             rotation: bridge.rotation,
             velocity: bridge.velocity,
             end_rate: next.rate,
+            end_rate_variance: self.turning.variance(),
             angular_acceleration: Vector3::zeros(),
             rate_noise: jitter(&next.rate) + bridge.rotation_variance / missing,
             force_noise: jitter(&next.force) + bridge.velocity_variance / missing,
@@ -298,7 +301,7 @@ impl Conditioner {
             return Conditioned::Rejected(Rejection::OutOfRange);
         };
         self.last = Some(Last { time: sample.time, mean });
-        self.turning.take(&mean.rate, self.nominal);
+        self.turning.take(&mean.rate, self.nominal, 0.0);
         let start = sample.time - Span::from_seconds(self.nominal);
         let interval = (start, sample.time);
         Conditioned::Sample(compensated(&mean, &mean, interval, &self.turning))
@@ -341,6 +344,7 @@ fn compensated(
         velocity: this.force * h
             + (this.rate.cross(&force_slope) - rate_slope.cross(&this.force)) * weight,
         end_rate,
+        end_rate_variance: turning.variance(),
         angular_acceleration,
         rate_noise: Vector3::zeros(),
         force_noise: Vector3::zeros(),

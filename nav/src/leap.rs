@@ -13,7 +13,7 @@ const APART: f64 = 3.0;
 /// One that has not gone back for so long is none of single outliers, s.
 const STAYS: f64 = 4.0;
 
-/// A position that a receiver tells, beside what is known of the velocity of its antenna.
+/// A position that a receiver tells, beside a velocity of its antenna: what is known of that, or what it tells of it itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Told {
     /// When.

@@ -1,6 +1,6 @@
-//! How fast the speed changes: what no craft of a kind can do is the IMU's doing.
+//! How fast the speed changes, ahead or athwart: what no craft of a kind can do is the IMU's doing.
 
-use insd_base::{Time, VesselKind};
+use insd_base::Time;
 
 /// Looks that the memory spans, and how far apart they are, s.
 const SPAN: usize = 30;
@@ -47,8 +47,8 @@ impl Pace {
 
     /// Beyond this no change is real, m/s: what no craft of the kind does, and this one has not nearly done.
     #[must_use]
-    pub fn limit(&self, kind: &VesselKind) -> f64 {
-        kind.greatest_spurt().max(BEYOND * self.seen)
+    pub fn limit(&self, greatest: f64) -> f64 {
+        greatest.max(BEYOND * self.seen)
     }
 
     /// Forgets what was before, but not what was real.
@@ -72,8 +72,8 @@ mod tests {
             .collect();
         assert_eq!((changes[9], changes[10], changes[38]), (0.0, 4.0, 4.0));
         assert_eq!(changes[60], 0.0);
-        assert_eq!(pace.limit(&VesselKind::Ship), 10.0);
+        assert_eq!(pace.limit(10.0), 10.0);
         pace.learn(8.0);
-        assert_eq!(pace.limit(&VesselKind::Ship), 16.0);
+        assert_eq!(pace.limit(10.0), 16.0);
     }
 }

@@ -89,6 +89,7 @@ fn after_the_change(lever: Option<Body>) -> (f64, usize) {
             rotation: turn / IMU.rate,
             velocity: Vector3::new(0.0, 0.0, -gravity / IMU.rate),
             end_rate: turn,
+            end_rate_variance: 0.0,
             angular_acceleration: Vector3::zeros(),
             rate_noise: Vector3::zeros(),
             force_noise: Vector3::zeros(),

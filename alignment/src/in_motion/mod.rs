@@ -71,6 +71,7 @@ pub struct EightState {
     vertical: Vertical,
     stretch: Stretch,
     rate: Vector3<f64>,
+    rate_variance: f64,
     /// Integral of the force, computed frame, m/s: only its changes are used.
     push: Vector3<f64>,
     antenna: AntennaMotion,
@@ -137,6 +138,7 @@ impl EightState {
             ),
             stretch: Stretch::default(),
             rate: level.rate,
+            rate_variance: rate_variance(&config.imu),
             push: Vector3::zeros(),
             antenna: AntennaMotion::default(),
             rtk: None,
@@ -216,9 +218,8 @@ impl EightState {
     }
 
     fn scene(&self) -> Scene {
-        let noise = rate_variance(&self.config.imu);
         let down = (self.vertical.down, self.vertical.variances().1);
-        Scene::new(&self.motion, &self.rate, noise, down)
+        Scene::new(&self.motion, &self.rate, self.rate_variance, down)
     }
 
     /// Angle and sigma of dpsi from (s, c).
@@ -307,7 +308,7 @@ impl Estimator for EightState {
         self.vertical.advance(step.down, increment.duration());
         self.push += step.force;
         self.stretch.add(&step, increment);
-        self.rate = increment.end_rate;
+        (self.rate, self.rate_variance) = (increment.end_rate, increment.end_rate_variance);
         self.time = increment.to;
         self.push.z += self.local.gravity * increment.duration();
         self.note_antenna();

@@ -63,6 +63,7 @@ fn increment(step: usize) -> Increment {
         rotation: rate * STEP,
         velocity: turn * -gravity * STEP,
         end_rate: rate,
+        end_rate_variance: 0.0,
         angular_acceleration: Vector3::zeros(),
         rate_noise: Vector3::zeros(),
         force_noise: Vector3::zeros(),

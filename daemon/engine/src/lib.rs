@@ -8,6 +8,7 @@ mod blind;
 mod checkpoint;
 mod checks;
 mod coarse;
+mod config;
 mod disturbance;
 mod doubts;
 mod epochs;
@@ -22,24 +23,26 @@ mod relay;
 mod resume;
 mod resumption;
 mod ship;
+mod stamps;
 mod standings;
 mod surveyor;
 mod trial;
+mod twin;
 pub mod vote;
 
 use std::collections::VecDeque;
 
-use insd_alignment::{AlignmentConfig, StoredState, Verdict};
+use insd_alignment::{StoredState, Verdict};
 use insd_base::{
-    AlignmentStatus, Body, Counts, Event, Finding, Geodetic, ImuSample, ImuSpec, Innovation,
-    LeverArms, Message, Mode, ModeReason, Received, Rejection, Solution, Span, StartCondition,
-    Time, VesselKind, VoyageHeader,
+    AlignmentStatus, Body, Counts, Event, Finding, ImuSample, ImuSpec, Innovation, Message, Mode,
+    ModeReason, Received, Rejection, Solution, Span, StartCondition, Time,
 };
 use insd_nav::{
     Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Report, Timeline,
 };
 
 use coarse::Coarse;
+pub use config::EngineConfig;
 use disturbance::Trace;
 use epochs::{due_at, epochs};
 use herald::Herald;
@@ -49,61 +52,10 @@ use recent::Recent;
 use relay::Relay;
 use resumption::Resumption;
 use ship::Ship;
+use stamps::Stamps;
 use standings::Told;
 use surveyor::Surveyor;
-
-/// What the engine must know before the first message.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EngineConfig {
-    /// The IMU's error model.
-    pub imu: ImuSpec,
-    /// Where the sensors sit.
-    pub lever_arms: LeverArms,
-    /// What is known of the ship's motion at the start.
-    pub start: StartCondition,
-    /// Berth or starting position, if known.
-    pub initial: Option<Geodetic>,
-    /// Solutions per second.
-    pub output_rate: f64,
-    /// How the ship finds her attitude and heading.
-    pub alignment: AlignmentConfig,
-    /// The state at the last shutdown, offered for a ship that starts at her berth. It is put on
-    /// trial ([`insd_alignment::trial`]) and told as used or dropped.
-    pub stored: Option<StoredState>,
-    /// How well GNSS epochs and IMU samples agree in time, 1-sigma, s; `None`: by the grade of the IMU.
-    pub time_std: Option<f64>,
-    /// What carries the sensors.
-    pub vessel: VesselKind,
-    /// Whether the mounting of the IMU is as the operator wants it, whatever gravity and course say: a ferry
-    /// with two bows.
-    pub accept_mounting: bool,
-    /// Whether receivers and compass pass through while there are no data of the IMU.
-    pub relay: bool,
-    /// Monitoring points of which the heave is wanted, from the IMU, body axes, m. The first is the IMU
-    /// itself. Without any there is no heave.
-    pub points: Vec<Body>,
-}
-
-impl EngineConfig {
-    /// The configuration that a voyage's header asks for.
-    #[must_use]
-    pub fn for_voyage(header: &VoyageHeader, output_rate: f64) -> Self {
-        EngineConfig {
-            imu: header.imu,
-            lever_arms: header.lever_arms,
-            start: header.start,
-            initial: header.initial,
-            output_rate,
-            alignment: AlignmentConfig::default(),
-            stored: None,
-            time_std: header.time_std,
-            vessel: header.vessel,
-            accept_mounting: false,
-            relay: true,
-            points: Vec::new(),
-        }
-    }
-}
+use twin::Twin;
 
 /// What leaves the engine.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,7 +72,7 @@ pub enum Output {
 }
 
 /// What the engine is doing with the data.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 enum Stage {
     /// Finding which way is down.
     Levelling(Box<Coarse>),
@@ -129,10 +81,12 @@ enum Stage {
 }
 
 /// The mode machine around alignment and navigation.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Engine {
     config: EngineConfig,
     nav: NavConfig,
+    stamps: Stamps,
+    twin: Option<Twin>,
     conditioner: Conditioner,
     stage: Stage,
     herald: Herald,
@@ -180,6 +134,8 @@ impl Engine {
         nav.vessel = config.vessel;
         nav.gnss.delay_std = config.time_std.unwrap_or(nav.gnss.delay_std);
         Engine {
+            stamps: Stamps::new(1.0 / config.imu.rate),
+            twin: None,
             conditioner: Conditioner::new(&config.imu),
             stage: Stage::Levelling(Box::new(Coarse::new(&config))),
             herald: Herald::new(&config.imu, config.alignment.accuracy),
@@ -221,6 +177,15 @@ impl Engine {
 
     /// Takes one message, in order of receipt.
     pub fn handle(&mut self, received: &Received) {
+        if let Some(step) = self.stamps.may_have_stepped(received) {
+            self.bear_twin(received, step);
+        }
+        let before = self.outputs.len();
+        self.handle_alone(received);
+        self.hear_with_twin(received, before);
+    }
+
+    fn handle_alone(&mut self, received: &Received) {
         match received.message {
             Message::Imu(sample) => self.handle_imu(&sample, received.receipt),
             _ => {
@@ -242,8 +207,12 @@ impl Engine {
         &self.counts
     }
 
-    fn handle_imu(&mut self, sample: &ImuSample, receipt: Time) {
-        let increment = match self.conditioner.take(sample) {
+    fn handle_imu(&mut self, told: &ImuSample, receipt: Time) {
+        let (sample, step) = self.stamps.corrected(told, receipt);
+        if let Some(step) = step {
+            self.tell(Event::ImuClock { time: sample.time, step });
+        }
+        let increment = match self.conditioner.take(&sample) {
             Conditioned::Sample(increment) => {
                 self.begin_resumption(increment.from, 0.0);
                 increment
@@ -255,7 +224,7 @@ impl Engine {
             Conditioned::Rejected(reason) => return self.count_imu(reason),
         };
         self.counts.imu_samples += 1;
-        self.surveyor.see_raw(sample, increment.duration());
+        self.surveyor.see_raw(&sample, increment.duration());
         self.heard = Some(receipt);
         self.advance(&increment);
         if self.machine.mode() == Mode::Standby && self.shunned.is_none() {

@@ -8,7 +8,7 @@ use insd_base::{Rejection, Source, Time};
 const REMEMBERED: usize = 64;
 
 /// What came lately.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Recent {
     times: BTreeMap<Source, VecDeque<Time>>,
 }

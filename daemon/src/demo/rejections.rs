@@ -50,6 +50,7 @@ pub fn event(event: &Event) -> String {
             format!("✗ {}: {}", aid(name), reason(*why))
         }
         Event::ImuGap { missing, .. } => format!("IMU gap of {missing:.2} s"),
+        Event::ImuClock { step, .. } => format!("IMU clock stepped by {step:.2} s"),
         Event::LeftBerth { .. } => "Left the berth".to_owned(),
         Event::Resumed { gap, .. } => format!("Going on after {gap:.1} s"),
         Event::ResumeConfirmed { .. } => "Saved state confirmed".to_owned(),

@@ -22,6 +22,10 @@ pub(crate) fn engine(event: &Event) -> (&'static str, Option<String>) {
         Event::ImuGap { missing, .. } => {
             ("IMU gap", Some(format!("{missing:.3} s of IMU data were missing and bridged")))
         }
+        Event::ImuClock { step, .. } => (
+            "IMU clock",
+            Some(format!("the clock of the IMU stepped by {step:.2} s; it is set back")),
+        ),
         Event::LeftBerth { .. } => ("departure", Some("she left her berth".to_owned())),
         Event::StoredStateUsed { .. } => {
             ("stored state", Some("the sensors have confirmed the stored heading".to_owned()))

@@ -128,6 +128,13 @@ fn tell_engine(event: &Event) {
         Event::ImuGap { time, missing } => {
             tracing::warn!(at = time.as_seconds(), missing, "gap in the IMU data bridged");
         }
+        Event::ImuClock { time, step } => {
+            tracing::warn!(
+                at = time.as_seconds(),
+                step,
+                "the clock of the IMU stepped; it is set back"
+            );
+        }
         Event::InstallationFound { time, finding } => {
             let (at, paste) = (time.as_seconds(), finding.to_paste());
             tracing::warn!(at, finding = finding.as_str(), paste, "{finding}");

@@ -164,12 +164,14 @@ async fn find(
     Err(format!("nothing readable at {} baud", list.join(", ")))
 }
 
-/// Opens a line, which may be written to or not.
+/// Opens a line, which may be written to or not. What has come before is forgotten: nobody knows when it came.
 pub(crate) fn open_line(config: &Serial, written: bool) -> Result<Line, String> {
     let builder = builder(config)?;
     // held until the line is open, as some drivers forget the setting at the last close
     let _held = config.low_latency.then(|| ask_low_latency(&config.device));
     let stream = SerialStream::open(&builder).map_err(|error| error.to_string())?;
+    // a terminal that cannot forget is listened to anyway
+    let _ = stream.clear(ClearBuffer::Input);
     Ok(Line { stream, written })
 }
 

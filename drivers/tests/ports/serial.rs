@@ -57,6 +57,18 @@ async fn a_device_that_is_absent_at_the_start_is_found_when_it_comes() {
 }
 
 #[tokio::test]
+async fn what_came_before_the_line_was_opened_is_not_told_as_if_it_came_now() {
+    let mut device = Device::new();
+    device.say(b"long ago\n");
+    let mut host = Host::new();
+    let _port = host.spawn(1, serial(device.path()));
+    host.opened(1).await;
+    device.say(b"now\n");
+    host.bytes(1, b"now\n").await;
+    assert_eq!(host.sums(1).0, 4, "nothing but that");
+}
+
+#[tokio::test]
 async fn what_is_no_serial_line_is_told_once_and_not_tried_without_pause() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("file");

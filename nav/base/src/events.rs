@@ -274,6 +274,13 @@ pub enum Event {
         /// Missing time, s.
         missing: f64,
     },
+    /// The clock that stamps the samples of the IMU stepped; they are stamped as if it had not.
+    ImuClock {
+        /// When, as it was before.
+        time: Time,
+        /// What it stepped by, ahead positive, s.
+        step: f64,
+    },
     /// A ship that was taken as moored was found to have left her berth.
     LeftBerth {
         /// When it was found.

@@ -74,6 +74,16 @@ impl VesselKind {
         }
     }
 
+    /// No craft of this kind changes how fast she moves athwart by so much within half a minute, m/s.
+    #[must_use]
+    pub fn greatest_lurch(self) -> f64 {
+        match self {
+            VesselKind::Ship => 3.0,
+            VesselKind::Boat => 6.0,
+            VesselKind::Car => 10.0,
+        }
+    }
+
     /// Whether she goes where her wheels let her.
     #[must_use]
     pub fn has_wheels(self) -> bool {

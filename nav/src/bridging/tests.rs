@@ -28,6 +28,7 @@ fn learnt(until: f64, rate: impl Fn(f64) -> Vector3<f64>) -> Bridging {
             rotation: middle.rate * STEP,
             velocity: middle.force * STEP,
             end_rate: middle.rate,
+            end_rate_variance: 0.0,
             angular_acceleration: Vector3::zeros(),
             rate_noise: Vector3::zeros(),
             force_noise: Vector3::zeros(),

@@ -45,6 +45,8 @@ const SLACK: f64 = 0.3;
 const SLACK_VELOCITY: f64 = 0.05;
 /// Attitude that a filter found to be lost is unsure of, 1-sigma, rad.
 const LOST_ATTITUDE: f64 = 0.05;
+/// A receiver that was not used for so long, s, comes back.
+const UNHEARD: f64 = 30.0;
 
 impl Filter {
     pub(super) fn apply_gnss(&mut self, fix: &GnssFix, source: Source, report: &mut Report) {
@@ -61,7 +63,10 @@ impl Filter {
         self.mend_installation();
         if self.is_lost() {
             self.find(fix, report);
+        } else if self.hears_a_liar_again() {
+            self.untie_position();
         }
+        self.watch_for_contradictions(fix);
         let velocity = self.apply_velocity(fix, source, report);
         self.apply_position(fix, velocity.as_ref(), source, report);
     }
@@ -173,9 +178,11 @@ impl Filter {
         let innovation = self.without_wrong_height(innovation);
         self.consult(Aid::GnssPosition, &innovation, rows::of_gnss_position);
         self.watch_for_leaps(fix);
+        // who is heard again is used from the next fix on: its velocity was not
+        let is_out = self.withholds(Aid::GnssPosition);
         self.follow(&innovation, velocity.map(|(_, innovation)| innovation));
         self.agreement(Aid::GnssPosition, &innovation);
-        let refused = if self.is_receiver_refused(Aid::GnssPosition) {
+        let refused = if is_out || self.is_receiver_refused(Aid::GnssPosition) {
             Some(Rejection::SourceSuspect)
         } else {
             self.exceeds_dop_limit(fix, &innovation).then_some(Rejection::DopTest)
@@ -287,6 +294,21 @@ impl Filter {
         self.navigating && left_out > LOST && !self.withholds(Aid::GnssPosition)
     }
 
+    /// Whether a receiver that may still lie of where she is was not heard for long.
+    fn hears_a_liar_again(&self) -> bool {
+        let is_unproven = self.docket().unproven_std(self.time) > 0.0;
+        is_unproven
+            && self.trust.since_used(self.time) > UNHEARD
+            && !self.withholds(Aid::GnssPosition)
+    }
+
+    /// What is left of a lie about the place must tell nothing of how fast she goes and where her bow points.
+    fn untie_position(&mut self) {
+        let own = POSITION.covariance(&self.covariance);
+        POSITION.renew(&mut self.covariance, &own);
+        self.restart_judge();
+    }
+
     /// Takes position and velocity from a fix that tells both.
     fn find(&mut self, fix: &GnssFix, report: &mut Report) {
         let view = self.view();
@@ -325,8 +347,7 @@ impl Filter {
         }
         self.trust.clear();
         self.trust.used(self.time);
-        self.pace.restart();
-        self.slip.restart();
+        self.forget_motion();
         self.restart_judge();
         report.position_reset = true;
     }

@@ -233,12 +233,31 @@ impl Filter {
         if !self.pace.is_due(self.time) {
             return;
         }
-        let change = self.pace.see(self.time, self.nominal.velocity.norm());
+        let (now, kind) = (self.time, self.config.vessel);
+        let athwart = (self.nominal.attitude.inverse() * self.nominal.velocity).y;
+        let change = self.pace.see(now, self.nominal.velocity.norm());
+        let lurch = self.lurch.see(now, athwart);
         if self.mode() == Mode::Aided {
             self.pace.learn(change);
-        } else if change > self.pace.limit(&self.config.vessel) && !self.is_restless() {
+            self.lurch.learn(lurch);
+            return;
+        }
+        let farthest =
+            self.lurch.limit(kind.greatest_lurch()) + 3.0 * VELOCITY.std(&self.covariance);
+        // at first a lever arm may be configured wrongly
+        let is_beyond = change > self.pace.limit(kind.greatest_spurt())
+            || (lurch > farthest && !self.is_early());
+        if is_beyond && !self.is_restless() {
             self.disbelieve_imu();
         }
+    }
+
+    /// The estimate is not that of before: how it moved since is of no account.
+    pub(super) fn forget_motion(&mut self) {
+        self.pace.restart();
+        self.lurch.restart();
+        self.slip.restart();
+        self.echo.restart();
     }
 
     /// With nothing but a receiver the heading turns as no craft does: the IMU is not believed.
@@ -251,14 +270,17 @@ impl Filter {
         if !is_judged || !self.slip.is_due(now) {
             return;
         }
-        if self.mode() != Mode::Aided || self.is_restless() {
+        if !matches!(self.mode(), Mode::Aided | Mode::Inertial) || self.is_restless() {
             self.slip.restart();
             return;
         }
         let view = self.view();
         let velocity = (view.c_ne * self.nominal.velocity).xy();
         let bow = view.c_nb().column(0).xy();
-        if self.slip.see(now, velocity, bow.y.atan2(bow.x), self.heading_std()) {
+        // of her course without a receiver
+        let unsure =
+            self.heading_std().hypot(VELOCITY.std(&self.covariance) / velocity.norm().max(1.0));
+        if self.slip.see(now, velocity, bow.y.atan2(bow.x), unsure) {
             self.disbelieve_imu();
         }
     }
@@ -281,8 +303,7 @@ impl Filter {
             self.become_other(&mended);
             self.restart_judge();
         }
-        self.pace.restart();
-        self.slip.restart();
+        self.forget_motion();
     }
 
     /// A filter that refuses a receiver against whom nothing speaks is wrong itself: it becomes what it would be
@@ -310,8 +331,7 @@ impl Filter {
         self.corrected += error;
         self.absorbed += VELOCITY.of(error);
         self.turned = Vector3::zeros();
-        self.pace.restart();
-        self.slip.restart();
+        self.forget_motion();
         let view = self.view();
         self.bias.iter_mut().for_each(|bias| bias.excuse(&view));
         self.trust.clear();

@@ -182,6 +182,7 @@ mod tests {
             rotation: Vector3::new(1e-4, 0.0, 2e-4),
             velocity: Vector3::new(0.0, 0.0, -0.098),
             end_rate: Vector3::zeros(),
+            end_rate_variance: 0.0,
             angular_acceleration: Vector3::zeros(),
             rate_noise: Vector3::zeros(),
             force_noise: Vector3::zeros(),

@@ -74,6 +74,8 @@ pub(super) struct Hearing {
     /// When it spoke last, heard or not, and when it did again after a long silence.
     spoke: Option<Time>,
     resumed: Option<Time>,
+    /// When it contradicted another word of the same sensor last.
+    contradicted: Option<Time>,
     outliers: u32,
     scatter: Scatter,
     noise: f64,
@@ -89,7 +91,7 @@ impl Hearing {
 
     /// Whether it was heard within such a time, s.
     pub(super) fn was_within(&self, now: Time, span: f64) -> bool {
-        self.last.is_some_and(|last| (now - last).as_seconds() <= span)
+        is_within(self.last, now, span)
     }
 
     /// Time since it was heard, s; infinite if it never was.
@@ -111,9 +113,19 @@ impl Hearing {
         }
     }
 
+    /// It contradicts another word of the same sensor.
+    pub(super) fn note_contradiction(&mut self, now: Time) {
+        self.contradicted = Some(now);
+    }
+
+    /// Whether it did so within such a time, s.
+    pub(super) fn was_contradicted_within(&self, now: Time, span: f64) -> bool {
+        is_within(self.contradicted, now, span)
+    }
+
     /// Whether it was heard again after a long silence within such a time, s.
     pub(super) fn was_resumed_within(&self, now: Time, span: f64) -> bool {
-        self.resumed.is_some_and(|resumed| (now - resumed).as_seconds() <= span)
+        is_within(self.resumed, now, span)
     }
 
     /// Sees an innovation of which all of the variance of the noise has been raised by what it scatters: what was not would make
@@ -139,4 +151,9 @@ impl Hearing {
         self.outliers = if is_outlier { self.outliers + 1 } else { 0 };
         (self.outliers == 1, !(1..=SPIKES).contains(&self.outliers))
     }
+}
+
+/// Whether something happened within such a time, s.
+fn is_within(at: Option<Time>, now: Time, span: f64) -> bool {
+    at.is_some_and(|at| (now - at).as_seconds() <= span)
 }

@@ -3,7 +3,7 @@
 use insd_base::{Fault, Party, Standing, Time};
 
 use super::onset::Sized;
-use super::rows::{ALL, Group, OF_FALSE_TURNS};
+use super::rows::{ALL, Group, OF_FALSE_TURNS, OF_GYROS};
 use super::{Alternative, CLOSE, Judge, SPAWN};
 
 /// Mean square of the innovations, of which one is expected, that a fault may leave unexplained.
@@ -12,6 +12,9 @@ const UNEXPLAINED: f64 = 4.0;
 /// is found to.
 pub(super) const DOUBT: f64 = 6.9;
 const CERTAIN: f64 = 6.9;
+/// The claims cover what may be from such odds on, as a logarithm, that somebody lies, until they are below those.
+const LIKELY: f64 = 2.3;
+const UNLIKELY: f64 = 0.9;
 /// No rival may explain so much of what the guilty one explains;
 const RIVAL: f64 = 0.95;
 /// but for gyros that told a turn that was none: a log or compass that is off looks the same, and is so more often. Such a rival
@@ -73,6 +76,8 @@ pub(super) struct Assessment {
     pub(super) charges: Vec<Charge>,
     /// Logarithm of the weight of everything together.
     pub(super) total: f64,
+    /// Whether the claims are to cover what may be.
+    pub(super) is_covered: bool,
 }
 
 impl Charge {
@@ -162,7 +167,8 @@ impl Judge {
             }
         }
         charges.sort_by(|a, b| b.weight.total_cmp(&a.weight));
-        Assessment { charges, total }
+        let least = if self.assessment.is_covered { UNLIKELY } else { LIKELY };
+        Assessment { charges, total, is_covered: total >= least }
     }
 
     /// Every fault that may be, its weight without the evidence.
@@ -304,6 +310,7 @@ impl Judge {
         match charge.kind {
             Kind::Shapeless => self.dissenter(charge.party()).map(|own| own.shadow.alternative()),
             Kind::Shaped { group, since, sized } => self.begun(since).map(|onset| {
+                let sized = if group == OF_GYROS { sized.untimed() } else { sized };
                 let (error, unsure) = onset.correction(&ALL[group], &sized);
                 let shadow = self.shadow();
                 let covariance = shadow.covariance + unsure;

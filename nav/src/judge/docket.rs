@@ -422,7 +422,7 @@ impl Docket {
         let mut standing = Standing::Trusted;
         if party.is_receiver() {
             let lie = &mut self.lies[self.lie_of(party)];
-            let left = lie.off.norm();
+            let left = lie.may_be_off();
             if left > 0.0 {
                 let seen = lie.seen.unwrap_or(now);
                 lie.unproven = Some((left.max(lie.unproven_at(seen)), lie.rate, seen));

@@ -37,6 +37,12 @@ impl LieOfGnss {
         *self = LieOfGnss { off, rate, left: off, seen, unproven, ..LieOfGnss::default() };
     }
 
+    /// What it may be off by when it was last seen to be, m: a navigator that has drifted sees it from where it is itself.
+    pub(super) fn may_be_off(&self) -> f64 {
+        let is_gone = self.off == Vector2::zeros();
+        if is_gone { 0.0 } else { self.off.norm().max(self.left.norm()) }
+    }
+
     /// What nothing shows, at a time, m.
     pub(super) fn unproven_at(&self, now: Time) -> f64 {
         let grown = |at: Time| (now - at).as_seconds().max(0.0);
@@ -120,6 +126,18 @@ mod tests {
             lie.follow(Time::from_seconds(t), &z, second > 150, [0.003 * t * t, 0.3])
         });
         assert!(!is_undone);
+    }
+
+    #[test]
+    fn a_navigator_that_drifts_towards_it_takes_nothing_from_it() {
+        let mut lie = LieOfGnss::default();
+        lie.find(Vector2::new(120.0, 0.0), 0.0, Time::START);
+        for second in 1..=100 {
+            let t = f64::from(second);
+            let z = Vector2::new(120.0 - t, 0.0);
+            lie.follow(Time::from_seconds(t), &z, second > 90, [3.0 * t, 1.0]);
+        }
+        assert!((lie.may_be_off() - 120.0).abs() < 1e-9, "{}", lie.may_be_off());
     }
 
     #[test]

@@ -64,9 +64,7 @@ const PERSISTS: f64 = 4.0;
 const SCATTERS: f64 = 12.0;
 /// A log of which the variance of the noise is so many times that stated tells now this and now that.
 const WILD: f64 = 25.0;
-/// The claims cover what may be from such odds on, as a logarithm, that somebody lies;
-const LIKELY: f64 = 2.3;
-/// what is less likely than this, as a logarithm, is not covered by the claims.
+/// What is less likely than this, as a logarithm, is not covered by the claims.
 const COVERED: f64 = -9.2;
 
 /// All of it.
@@ -346,7 +344,7 @@ impl Judge {
         let is_excused =
             |charge: &Charge| excused.contains(charge.party()) && !self.leaps(charge.party());
         let likeliest = self.likeliest();
-        let astray = likeliest.and_then(|first| self.astray_meanwhile(&first, now));
+        let astray = likeliest.and_then(|first| self.blamed_instead(&first, now));
         let first = astray.or(likeliest).filter(|first| !is_excused(first));
         let is_likely = self.assessment.total > DOUBT;
         self.in_doubt = is_likely || self.disputed.is_some();
@@ -380,7 +378,7 @@ impl Judge {
         if let Some(lie) = &self.disputed {
             return vec![self.alternative(lie), self.pessimist.shadow.alternative()];
         }
-        if total < LIKELY {
+        if !self.assessment.is_covered {
             return Vec::new();
         }
         let stands = |weight: f64| weight - total > COVERED;

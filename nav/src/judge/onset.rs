@@ -43,6 +43,19 @@ pub(super) struct Sized {
     covariance: Matrix3<f64>,
 }
 
+/// What a tilt pushes her athwart by in the time that an onset is unknown by, over what a turn does to her velocity, as a ratio: g t / v
+/// with 2 s and 5 m/s.
+const ATHWART: f64 = 4.0;
+
+impl Sized {
+    /// Gyros that began to tilt her at another moment than an onset there is for: what that does to her velocity is what a turn does,
+    /// and the turn that is found is no better known than that.
+    pub(super) fn untimed(mut self) -> Self {
+        self.covariance[(2, 2)] += (ATHWART * self.value.xy().norm()).powi(2);
+        self
+    }
+}
+
 impl Onset {
     /// Everything may begin now.
     #[must_use]

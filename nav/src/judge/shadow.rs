@@ -26,6 +26,9 @@ pub(super) struct Shadow {
 /// Correction of the attitude after which the knowledge of the biases is turned with it, rad.
 const TURN: f64 = 2e-4;
 
+/// An attitude so far from the navigator's is the doing of a lie, rad: what is known of the biases is not turned with it, as it will not stay.
+const ASTRAY: f64 = 0.05;
+
 /// Who does not believe the IMU takes velocity, m/s, and attitude, rad, for random walks, each over the root of a
 /// second.
 const RESTLESS: f64 = 0.5;
@@ -91,7 +94,9 @@ impl Shadow {
         let error = weighed.update(&mut self.covariance);
         self.apart += error;
         self.turned += ATTITUDE.of(&error);
-        if self.turned.norm() > TURN {
+        if ATTITUDE.of(&self.apart).norm() > ASTRAY {
+            self.turned = Vector3::zeros();
+        } else if self.turned.norm() > TURN {
             let axes = |attitude: UnitQuaternion<f64>| -> Matrix3<f64> {
                 attitude.to_rotation_matrix().into_inner()
             };

@@ -7,7 +7,9 @@ use super::charge::{Charge, DOUBT, Kind};
 use super::docket::NO_LIE;
 use super::{Aid, Judge, SCATTERS, UNHEARD, WILD};
 use crate::config::WORST;
-use crate::error_state::{ATTITUDE, Covariance, ErrorState, GNSS_DELAY, POSITION, VELOCITY};
+use crate::error_state::{
+    ATTITUDE, Covariance, ErrorState, GNSS_DELAY, GYRO_SCALE, POSITION, VELOCITY,
+};
 
 /// Mean square of an innovation that only a lie explains.
 const BLATANT: f64 = 100.0;
@@ -17,6 +19,9 @@ const MENDABLE: f64 = 0.2;
 const MENDABLE_SCALE: f64 = 0.3;
 /// The moment at which a gyro's bias changed is not known better than this, s.
 const UNTIMED: f64 = 1.0;
+/// An IMU of which a bias changed tells turns no better than so, as a ratio, until they have been seen: what changed it may
+/// have changed that, too.
+const WRONG_SCALE: f64 = 0.01;
 /// Share of the weight, as a logarithm, of what explains as much.
 const AS_MUCH: f64 = 0.95;
 /// Within this before somebody is seen to lie the IMU may have been blamed for it, s.
@@ -100,6 +105,7 @@ impl Judge {
         }
         let when = plain.size() * UNTIMED;
         ATTITUDE.inflate(&mut mended.covariance, (0.5 * turned * turned).powi(2) + when * when);
+        GYRO_SCALE.inflate(&mut mended.covariance, WRONG_SCALE * WRONG_SCALE);
         self.docket.convict(plain.fault, now, NO_LIE);
         Verdict { fault: plain.fault, mended: Some(mended) }
     }
@@ -180,6 +186,25 @@ impl Judge {
         shaped.or_else(|| self.far_jump(whom).filter(|_| early))
     }
 
+    /// The receiver in use contradicts itself, or tells the past.
+    pub fn note_contradiction(&mut self, now: Time) {
+        self.hearings[Aid::GnssPosition as usize].note_contradiction(now);
+    }
+
+    /// Who is to blame where the likeliest fault is another's.
+    pub(super) fn blamed_instead(&self, first: &Charge, now: Time) -> Option<Charge> {
+        self.astray_meanwhile(first, now).or_else(|| self.contradicts_itself(first, now))
+    }
+
+    /// A receiver of which the position does not go where its velocity says lies, whatever the IMU does: it is not blamed for that.
+    fn contradicts_itself(&self, first: &Charge, now: Time) -> Option<Charge> {
+        let of_gnss = &self.hearings[Aid::GnssPosition as usize];
+        if first.party() != Party::Imu || !of_gnss.was_contradicted_within(now, UNHEARD) {
+            return None;
+        }
+        self.as_likely(first, |other| other.party() == Party::Gnss)
+    }
+
     /// A receiver that is heard again contradicts a heading that gyros have carried alone meanwhile: they have had the time to go astray, and
     /// where they explain as much as its lie would they did. What is beyond 10 deg no model is linear in: as much is nearly as much.
     pub(super) fn astray_meanwhile(&self, first: &Charge, now: Time) -> Option<Charge> {
@@ -188,10 +213,13 @@ impl Judge {
         if !is_back || self.has_heard(Aid::Heading, now, MEANWHILE) {
             return None;
         }
-        let is_it = |other: &&Charge| {
-            other.fault == Fault::ImuUseless && other.weight > AS_MUCH * first.weight
-        };
-        self.assessment.charges.iter().find(is_it).copied()
+        self.as_likely(first, |other| other.fault == Fault::ImuUseless)
+    }
+
+    /// The likeliest of some faults, where it explains as much as another does.
+    fn as_likely(&self, first: &Charge, is_meant: impl Fn(&Charge) -> bool) -> Option<Charge> {
+        let mut all = self.assessment.charges.iter();
+        all.find(|other| is_meant(other) && other.weight > AS_MUCH * first.weight).copied()
     }
 
     /// Somebody is seen to lie by what he says alone, as one whose numbers stand still; gives the estimate of who has not believed him. What

@@ -21,6 +21,7 @@ fn increment(step: i64) -> Increment {
         rotation: Vector3::new(2e-3 * phase.cos(), -1e-3, 3e-3 * phase.sin()),
         velocity: Vector3::new(0.004, 0.002 * phase.sin(), -0.098),
         end_rate: Vector3::zeros(),
+        end_rate_variance: 0.0,
         angular_acceleration: Vector3::zeros(),
         rate_noise: Vector3::zeros(),
         force_noise: Vector3::zeros(),

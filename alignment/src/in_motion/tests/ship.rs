@@ -72,6 +72,7 @@ impl Ship {
             rotation,
             velocity: middle.transpose() * force,
             end_rate: self.body_rotation(to - 1e-4, to + 1e-4, place) / 2e-4,
+            end_rate_variance: 0.0,
             angular_acceleration: Vector3::zeros(),
             rate_noise: Vector3::zeros(),
             force_noise: Vector3::zeros(),
@@ -248,6 +249,7 @@ impl Run {
             increment.velocity +=
                 self.biases.1 * h + self.dice.vector(imu.accel.random_walk * root);
             increment.end_rate += self.biases.0;
+            increment.end_rate_variance = rate_variance(&imu);
             self.filter.advance(&increment);
             self.step += 1;
             if self.gnss.is_some_and(|every| self.is_due(every)) {

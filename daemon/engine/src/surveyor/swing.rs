@@ -78,6 +78,7 @@ mod tests {
                     rotation: Vector3::new((to - from) * factor, 0.0, 0.0),
                     velocity: Vector3::new(0.0, -lean.sin(), -lean.cos()) * 0.0981,
                     end_rate: Vector3::zeros(),
+                    end_rate_variance: 0.0,
                     angular_acceleration: Vector3::zeros(),
                     rate_noise: Vector3::zeros(),
                     force_noise: Vector3::zeros(),

@@ -145,6 +145,7 @@ mod tests {
                 rotation,
                 velocity: Vector3::zeros(),
                 end_rate: Vector3::zeros(),
+                end_rate_variance: 0.0,
                 angular_acceleration: Vector3::zeros(),
                 rate_noise: Vector3::zeros(),
                 force_noise: Vector3::zeros(),
