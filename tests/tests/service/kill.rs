@@ -75,8 +75,10 @@ fn killed_without_gnss_she_goes_on_by_log_and_without_that_by_the_imu_alone() {
 
 #[test]
 fn killed_while_it_waits_or_aligns_it_begins_anew() {
-    // without a log it takes a while to find the heading
-    let ship = Arc::new(Ship::on(&[("[gnss]", "[gnss]\nrate_hz = 5.0")], 60.0, 5));
+    // neither a course nor waves tell a drifter on a calm sea where she points: it takes her gyros minutes
+    let slow = ("speed_kn = 10.0\nduration_s = 270.0", "speed_kn = 0.5\nduration_s = 270.0");
+    let calm = ("state = 4", "state = 0");
+    let ship = Arc::new(Ship::on(&[slow, calm, ("[gnss]", "[gnss]\nrate_hz = 5.0")], 90.0, 5));
     let mut daemon = Daemon::start(&ship);
     wait_until("standby", || mode(&ship) == "standby");
     daemon.kill();
