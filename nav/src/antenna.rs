@@ -3,34 +3,36 @@
 use insd_base::Time;
 use nalgebra::Vector3;
 
-/// The last two predicted velocities of the antenna, ECEF axes.
+/// Predicted velocities that are kept.
+const KEPT: usize = 8;
+/// Velocities closer together than this are not kept both, s.
+const LEAST: f64 = 0.045;
+/// The acceleration is a mean over so long, s: over less, the noise of small gyros that a long lever arm makes large is
+/// mistaken for motion, and a receiver that is late for one that is not.
+const SPAN: f64 = 0.3;
+
+/// The last predicted velocities of the antenna, ECEF axes, the newest first.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct AntennaMotion {
-    earlier: Option<(Time, Vector3<f64>)>,
-    latest: Option<(Time, Vector3<f64>)>,
+    velocities: [Option<(Time, Vector3<f64>)>; KEPT],
 }
-
-/// Velocities closer together than this say little of the acceleration, s.
-const LEAST: f64 = 0.045;
 
 impl AntennaMotion {
     /// Notes a predicted velocity, m/s.
     pub fn note(&mut self, time: Time, velocity: &Vector3<f64>) {
-        let fresh = self.latest.is_none_or(|(last, _)| (time - last).as_seconds() >= LEAST);
+        let fresh = self.velocities[0].is_none_or(|(last, _)| (time - last).as_seconds() >= LEAST);
         if fresh {
-            self.earlier = self.latest;
-            self.latest = Some((time, *velocity));
+            self.velocities.rotate_right(1);
+            self.velocities[0] = Some((time, *velocity));
         }
     }
 
     /// Mean acceleration up to now, m/s^2; zero before anything is known.
     #[must_use]
     pub fn acceleration(&self, now: Time, velocity: &Vector3<f64>) -> Vector3<f64> {
-        [self.latest, self.earlier]
-            .into_iter()
-            .flatten()
-            .map(|(time, before)| ((now - time).as_seconds(), before))
-            .find(|(elapsed, _)| *elapsed >= LEAST)
-            .map_or_else(Vector3::zeros, |(elapsed, before)| (velocity - before) / elapsed)
+        let ago = |own: &(Time, Vector3<f64>)| (now - own.0).as_seconds();
+        let known = || self.velocities.iter().flatten().filter(|own| ago(own) >= LEAST);
+        let before = known().find(|own| ago(own) >= SPAN).or_else(|| known().next_back());
+        before.map_or_else(Vector3::zeros, |own| (velocity - own.1) / ago(own))
     }
 }

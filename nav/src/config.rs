@@ -41,6 +41,8 @@ pub struct GnssModel {
     pub velocity_time: f64,
     /// Delay of epochs behind the IMU's time base, 1-sigma, s.
     pub delay_std: f64,
+    /// The part of it that the stamps of the IMU may be off by, 1-sigma, s.
+    pub stamps_std: f64,
     /// Delay of the velocity behind the position, 1-sigma, s: receivers average or filter it.
     pub velocity_delay_std: f64,
     /// What was found of the lever arm of the antenna: it goes before what is configured.
@@ -146,6 +148,7 @@ impl NavConfig {
                 velocity_slow_share: 0.1,
                 velocity_time: 100.0,
                 delay_std: synchronisation_std(&imu),
+                stamps_std: synchronisation_std(&imu),
                 velocity_delay_std: 0.1,
                 lever_found: None,
             },
@@ -209,23 +212,38 @@ impl NavConfig {
 
 /// 1-sigma of each component of a lever arm that was measured, m.
 const SURVEYED: f64 = 0.002;
+/// The ends of the longest ships, and the tops of their masts, from an IMU anywhere on board, m.
+const ON_BOARD: Vector3<f64> = Vector3::new(400.0, 70.0, 90.0);
 /// An antenna of which no more is known may be anywhere on a ship, 1-sigma of each component, m.
 const ANYWHERE: f64 = 20.0;
+
+/// Whether an antenna can sit there, from the IMU.
+pub(crate) fn is_on_board(arm: &Vector3<f64>) -> bool {
+    (0..3).all(|i| arm[i].abs() < ON_BOARD[i])
+}
 
 impl NavConfig {
     /// How well the lever arm of the antenna is known, 1-sigma of each component, m.
     #[must_use]
     pub fn gnss_lever_std(&self) -> f64 {
-        // no antenna sits inside the IMU: zeros are a lever arm that was not measured
-        let is_measured = self.lever_arms.gnss.0.norm() > 0.0;
-        let configured = if is_measured { SURVEYED } else { self.vessel.unmeasured_lever() };
+        let configured =
+            if self.is_gnss_lever_measured() { SURVEYED } else { self.vessel.unmeasured_lever() };
         self.gnss.lever_found.map_or(configured, |found| found.std)
     }
 
     /// The lever arm of the antenna to begin with, body axes, m.
     #[must_use]
     pub fn gnss_lever(&self) -> Vector3<f64> {
-        self.gnss.lever_found.map_or(self.lever_arms.gnss.0, |found| found.arm)
+        let configured =
+            if self.is_gnss_lever_measured() { self.lever_arms.gnss.0 } else { Vector3::zeros() };
+        self.gnss.lever_found.map_or(configured, |found| found.arm)
+    }
+
+    /// Whether the configured lever arm of the antenna can be one: none sits inside the IMU, zeros are a lever arm that was
+    /// not measured, nor does any sit beyond the ship.
+    fn is_gnss_lever_measured(&self) -> bool {
+        let arm = self.lever_arms.gnss.0;
+        arm.norm() > 0.0 && is_on_board(&arm)
     }
 
     /// Takes the lever arm of the antenna that speaks now; tells whether it is another than before, of which

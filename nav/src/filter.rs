@@ -108,6 +108,8 @@ pub struct Filter {
     covered: Option<SolutionSigma>,
     /// What wrong constants of the installation would do, while the filter navigates.
     bias: Option<SeparateBias>,
+    /// What the epochs of the receiver are suspected of being late by, 1-sigma, s.
+    lateness: f64,
     /// Whether they told that the antenna sits elsewhere, or speaks late.
     mended: bool,
     /// 1-sigma of the lever arm of the log, m, if it was found to be otherwise than configured.
@@ -166,6 +168,7 @@ impl Filter {
             owed: RowSVector::zeros(),
             covered: None,
             bias: None,
+            lateness: 0.0,
             mended: false,
             log_lever_std: None,
         }
@@ -410,8 +413,9 @@ impl Estimator for Filter {
 
     fn solution(&self) -> Solution {
         let acceleration = self.antenna.acceleration(self.time, &self.antenna_velocity());
-        let view = self.view().at_gnss_time(&acceleration);
-        let sigma = solution_sigma(&view, &acceleration, &self.covariance);
+        let dating = self.dating();
+        let view = self.view().at_gnss_time(&acceleration, &dating);
+        let sigma = solution_sigma(&view, &acceleration, &dating, &self.covariance);
         let sigma = self.covered.map_or(sigma, |covered| sigma.greatest(&covered));
         let v_n = view.v_n();
         let turn_of_n = view.c_nb().transpose() * earth::transport_rate(&view.geodetic, &v_n);

@@ -10,6 +10,7 @@ pub mod antenna;
 pub mod block;
 pub mod bridging;
 pub mod config;
+pub mod dating;
 pub mod echo;
 pub mod error_state;
 pub mod filter;

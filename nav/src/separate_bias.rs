@@ -48,10 +48,10 @@ const fn hypothesis(lever: f64, delay: f64, log: f64) -> Constants {
 /// U transposed: what a unit of each constant does to the errors of the estimate.
 pub type Response = SMatrix<f64, CONSTANTS, STATES>;
 
-/// What a constant may be off by, 1-sigma: the longest of masts, and more seconds than any receiver
-/// needs for a fix.
+/// What a lever arm may be off by, 1-sigma, m: the longest of masts.
 const LEVER: f64 = 50.0;
-const DELAY: f64 = 1.0;
+/// What the delay may be, 1-sigma, s: more than any receiver needs for a fix.
+pub const DELAY: f64 = 1.0;
 /// A constant that is not doubted.
 const CERTAIN: f64 = 1e-9;
 /// What may be wrong: the lever arm of the antenna, the delay, or both; that of the log, or of both sensors.
@@ -265,6 +265,13 @@ impl SeparateBias {
         convinces.then_some((score, Finding { value, covariance }))
     }
 
+    /// The covariance that the estimate has more if the delay is not known as it was thought, but to `sigma`, s.
+    #[must_use]
+    pub fn supposing_delay(&self, sigma: f64) -> Covariance {
+        let effect = self.response.row(DELAY_AT) * sigma;
+        effect.transpose() * effect
+    }
+
     /// The error of the estimate that a finding means, and the covariance that it adds to it.
     #[must_use]
     pub fn correction(&self, finding: &Finding) -> (ErrorState, Covariance) {
@@ -280,6 +287,12 @@ impl Finding {
     #[must_use]
     pub fn is_of_antenna(&self) -> bool {
         (0..LOG_AT).any(|i| self.value[i].abs() > LEAST[i])
+    }
+
+    /// Whether the delay of GNSS is off by much.
+    #[must_use]
+    pub fn is_of_delay(&self) -> bool {
+        self.value[DELAY_AT].abs() > LEAST[DELAY_AT]
     }
 
     /// What the lever arm of the antenna is found to be off by, m.

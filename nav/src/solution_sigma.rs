@@ -5,6 +5,7 @@ use insd_base::{Geodetic, Ned, SolutionSigma, earth};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use crate::aids::View;
+use crate::dating::Dating;
 use crate::error_state::{
     ATTITUDE, Covariance, ErrorState, GNSS_DELAY, POSITION, STRAPDOWN_STATES, VELOCITY,
 };
@@ -25,13 +26,19 @@ type Rows = SMatrix<f64, 3, STRAPDOWN_STATES>;
 /// The solution is given in GNSS time; what is not known of the IMU's delay behind it counts with the
 /// ship's velocity, her acceleration (ECEF axes, m/s^2) and her turning.
 #[must_use]
-pub fn solution_sigma(view: &View, acceleration: &Vector3<f64>, p: &Covariance) -> SolutionSigma {
+pub fn solution_sigma(
+    view: &View,
+    acceleration: &Vector3<f64>,
+    dating: &Dating,
+    p: &Covariance,
+) -> SolutionSigma {
     let corner = p.fixed_view::<STRAPDOWN_STATES, STRAPDOWN_STATES>(0, 0).into_owned();
     let delay = GNSS_DELAY.start();
     let with_delay = p.fixed_view::<STRAPDOWN_STATES, 1>(0, delay).into_owned();
     let std = |rows: &Rows, by_delay: &Vector3<f64>| {
-        let cross = (rows * with_delay).component_mul(by_delay) * 2.0;
-        let own = by_delay.component_mul(by_delay) * p[(delay, delay)];
+        let cross = (rows * with_delay).component_mul(by_delay) * (2.0 * dating.share);
+        let unsure = dating.share * dating.share * p[(delay, delay)] + dating.std * dating.std;
+        let own = by_delay.component_mul(by_delay) * unsure;
         let variance = (rows * corner * rows.transpose()).diagonal() + cross + own;
         variance.map(|variance| variance.max(0.0).sqrt())
     };

@@ -15,6 +15,7 @@ use insd_base::earth;
 use insd_base::{Attitude, Geodetic};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
+use crate::dating::Dating;
 use crate::nominal::Nominal;
 use crate::strapdown::earth_relative_rate;
 
@@ -55,11 +56,11 @@ impl View {
         }
     }
 
-    /// The estimate at the instant that GNSS time, not the IMU's time base, calls now: the delay of
-    /// GNSS epochs earlier. `acceleration` in ECEF axes, m/s^2.
+    /// The estimate at the instant that GNSS time, not the IMU's time base, calls now: earlier by what the stamps of
+    /// the IMU are behind. `acceleration` in ECEF axes, m/s^2.
     #[must_use]
-    pub fn at_gnss_time(&self, acceleration: &Vector3<f64>) -> Self {
-        let delay = self.nominal.gnss_delay;
+    pub fn at_gnss_time(&self, acceleration: &Vector3<f64>, dating: &Dating) -> Self {
+        let delay = self.nominal.gnss_delay * dating.share;
         let mut nominal = self.nominal;
         nominal.position -= self.nominal.velocity * delay;
         nominal.velocity -= acceleration * delay;

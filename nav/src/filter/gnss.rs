@@ -61,6 +61,7 @@ impl Filter {
         self.note_redating(fix.redated);
         self.note_quality(fix.quality);
         self.mend_installation();
+        self.suspect_delay();
         if self.is_lost() {
             self.find(fix, report);
         } else if self.hears_a_liar_again() {
@@ -79,6 +80,7 @@ impl Filter {
             self.nominal.gnss_lever = self.config.gnss_lever() - self.config.lever_arms.gnss.0;
             self.antenna = AntennaMotion::default();
             (self.nominal.gnss_delay, self.redated) = (0.0, None);
+            self.lateness = 0.0;
             let begun = SeparateBias::new(&self.view());
             self.bias.iter_mut().for_each(|bias| *bias = begun);
             self.restart_judge();

@@ -1,22 +1,25 @@
 //! Constants of the installation that are otherwise than configured: what the filter makes of them.
 
 use insd_base::Time;
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::SMatrix;
 
 use super::Filter;
-use crate::error_state::{ATTITUDE, STATES, VELOCITY};
+use crate::config::is_on_board;
+use crate::dating::Dating;
+use crate::error_state::{ATTITUDE, GNSS_VELOCITY_DELAY, STATES, VELOCITY};
 use crate::innovation::Weighed;
-use crate::separate_bias::SeparateBias;
-
-/// The ends of the longest ships, and the tops of their masts, from an IMU anywhere on board, m.
-const ON_BOARD: Vector3<f64> = Vector3::new(400.0, 70.0, 90.0);
+use crate::separate_bias::{DELAY, SeparateBias};
 
 /// A correction of the attitude, rad, that is more than linear: whoever found it found it by a wrong lever arm.
 const FAR: f64 = 0.03;
 
-fn is_on_board(arm: &Vector3<f64>) -> bool {
-    (0..3).all(|i| arm[i].abs() < ON_BOARD[i])
-}
+/// Velocities that are older than their positions by more, s, and by so many sigmas, are not only smoothed: then the
+/// positions are taken to be late by up to so many times as much, 1-sigma.
+const SMOOTHED: f64 = 0.05;
+const SIGNIFICANT: f64 = 3.0;
+const AS_LATE: f64 = 2.0;
+/// It is supposed anew when it has grown by this factor.
+const GROWN: f64 = 1.5;
 
 impl Filter {
     /// Whoever found the initial state used GNSS at this time: the filter that goes on from it is aided still.
@@ -61,6 +64,27 @@ impl Filter {
         }
     }
 
+    /// What a delay between receiver and IMU is put down to.
+    pub(super) fn dating(&self) -> Dating {
+        let (all, imu) = (self.config.gnss.delay_std, self.config.gnss.stamps_std);
+        let receiver = (all * all - imu * imu).max(0.0).sqrt();
+        Dating::new(imu, receiver.hypot(self.lateness))
+    }
+
+    /// Waves tell soon how old velocities are, but not whether the positions are as old, as whoever dates fixes by when
+    /// they are sent makes them: only turns and changes of speed do. Until then the claims allow for it.
+    pub(super) fn suspect_delay(&mut self) {
+        let at = GNSS_VELOCITY_DELAY.start();
+        let (lag, sigma) = (self.nominal.gnss_velocity_delay, self.covariance[(at, at)].sqrt());
+        let is_old = lag > SMOOTHED && lag > SIGNIFICANT * sigma;
+        let supposed = AS_LATE * lag;
+        if let Some(bias) = self.bias.filter(|_| is_old && supposed > GROWN * self.lateness) {
+            self.lateness = supposed;
+            self.covariance += bias.supposing_delay(supposed);
+            self.restart_judge();
+        }
+    }
+
     /// Where the innovations show that the antenna sits elsewhere than configured, or that its epochs come
     /// later: takes the estimate to be what it would have been with that.
     pub(super) fn mend_installation(&mut self) {
@@ -74,6 +98,9 @@ impl Filter {
         let (error, unsure) = bias.correction(&finding);
         self.covariance += unsure;
         let is_far = ATTITUDE.of(&error).norm() > FAR;
+        if finding.is_of_delay() {
+            self.lateness = self.lateness.max(DELAY);
+        }
         self.mended |= finding.is_of_antenna() && is_far;
         self.nominal.inject(&error);
         self.corrected += error;

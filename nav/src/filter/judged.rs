@@ -340,10 +340,11 @@ impl Filter {
     /// Sigmas that cover all that the estimate may be instead.
     fn cover(&self) -> Option<SolutionSigma> {
         let acceleration = self.antenna.acceleration(self.time, &self.antenna_velocity());
-        let view = self.view().at_gnss_time(&acceleration);
+        let dating = self.dating();
+        let view = self.view().at_gnss_time(&acceleration, &dating);
         let of = |other: &Alternative| {
             let apart = difference(&view, &other.error);
-            let own = solution_sigma(&view, &acceleration, &other.covariance);
+            let own = solution_sigma(&view, &acceleration, &dating, &other.covariance);
             apart.scaled(0.5).plus(&own)
         };
         let claims = self.judge.as_ref().map(|judge| judge.claims()).unwrap_or_default();

@@ -23,6 +23,7 @@ pub struct KeptFilter {
     /// The covariance by columns, each down to its diagonal.
     triangle: Vec<f64>,
     rate: Vector3<f64>,
+    lateness: f64,
     trust: Trust,
     rtk: Option<bool>,
     level: LevelWindow,
@@ -92,6 +93,7 @@ impl Filter {
             nominal: self.nominal,
             triangle: (0..STATES).flat_map(column).collect(),
             rate: self.rate,
+            lateness: self.lateness,
             trust: self.trust,
             rtk: self.rtk,
             level: self.level,
@@ -119,6 +121,7 @@ impl Filter {
         let later = |time: Option<Time>| time.map(|time| time + by);
         let config = config.with_docket(kept.docket.shifted(by));
         let mut filter = Filter {
+            lateness: kept.lateness,
             trust: kept.trust.shifted(by),
             rtk: kept.rtk,
             level: kept.level,

@@ -42,6 +42,7 @@ impl Filter {
         self.nominal.gnss_position_error = Vector3::zeros();
         self.nominal.gnss_velocity_error = Vector3::zeros();
         (self.nominal.gnss_delay, self.redated, self.rtk) = (0.0, None, None);
+        self.lateness = 0.0;
         self.trust.clear();
         let begun = SeparateBias::new(&self.view());
         self.bias.iter_mut().for_each(|bias| *bias = begun);
