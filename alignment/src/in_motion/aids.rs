@@ -28,6 +28,8 @@ pub struct Scene {
     pub rate_variance: f64,
     /// Velocity downwards, m/s, and its variance.
     pub down: (f64, f64),
+    /// Whether she has been seen to make way.
+    pub makes_way: bool,
 }
 
 /// A quantity from a GNSS receiver, its sigma split into white and slow parts, north and east.
@@ -58,6 +60,9 @@ pub struct LogReading {
 
 /// Leeway of a ship whose log does not tell it, 1-sigma, m/s.
 const LEEWAY: f64 = 0.5;
+/// All a ship at her berth does is roll, and every roll gives the antenna the same velocity beside that of the ship: what a
+/// lever arm of which little is known makes of that is as new as one in so many.
+const ALIKE: f64 = 100.0;
 /// A log's direction says something of the heading beyond this many sigmas of speed.
 const MOVING: f64 = 3.0;
 
@@ -84,6 +89,7 @@ impl Scene {
             rate: measured_rate - c_pb.transpose() * earth_p,
             rate_variance,
             down,
+            makes_way: true,
         }
     }
 
@@ -102,7 +108,8 @@ impl Scene {
     /// pitches, (m/s)^2.
     #[must_use]
     pub fn rocking(&self, belief: &Belief) -> f64 {
-        self.rate.xy().norm_squared() * belief.prior[k::LEVER]
+        let lasts = if self.makes_way { 1.0 } else { ALIKE };
+        self.rate.xy().norm_squared() * belief.prior[k::LEVER] * lasts
     }
 
     /// Position of the IMU less the estimated one, north and east, m.

@@ -81,6 +81,15 @@ impl Blur {
         self.noise = kept * self.noise * kept.transpose();
     }
 
+    /// Share of what was seen that is noise, of what the regression is sure of with `covariance`; one at most.
+    #[must_use]
+    pub fn share(&self, covariance: &Matrix2<f64>) -> f64 {
+        let seen = covariance
+            .symmetric_eigenvalues()
+            .map(|variance| (variance.max(1e-12).recip() - PRIOR).max(1e-9));
+        (self.information / seen.max()).min(1.0)
+    }
+
     /// Mean and covariance of (cos, sin), of which the regression says `mean` and `covariance`.
     #[must_use]
     pub fn sharpened(

@@ -206,6 +206,13 @@ impl EightState {
         self.heading.1 < GOAL
     }
 
+    /// Share of what was seen of the heading that may be noise; nothing of a craft that has made way.
+    #[must_use]
+    pub fn noise_share(&self) -> f64 {
+        let covariance = self.belief.direction_covariance();
+        self.blur.map_or(0.0, |blur| blur.share(&covariance))
+    }
+
     /// What is assumed of sensors and sea; the lever arm is that of the antenna that was heard last.
     #[must_use]
     pub fn config(&self) -> &NavConfig {
@@ -219,7 +226,8 @@ impl EightState {
 
     fn scene(&self) -> Scene {
         let down = (self.vertical.down, self.vertical.variances().1);
-        Scene::new(&self.motion, &self.rate, self.rate_variance, down)
+        let makes_way = self.blur.is_none();
+        Scene { makes_way, ..Scene::new(&self.motion, &self.rate, self.rate_variance, down) }
     }
 
     /// Angle and sigma of dpsi from (s, c).

@@ -5,10 +5,12 @@
 //! the heading from the beginning, upright as the bank has left her.
 
 use insd_alignment::bank::Kinematics;
-use insd_alignment::{Bank, EightState, Level, Method};
+use insd_alignment::{Bank, Level, Method};
 use insd_base::{Message, Received, earth};
 use insd_nav::{Estimator, NavConfig};
 use nalgebra::Vector3;
+
+use crate::ship::Ship;
 
 /// Velocity of a ship of which only positions are told, 1-sigma, m/s: at her berth, and under way.
 const SWAYING: f64 = 2.0;
@@ -29,13 +31,8 @@ impl Heir {
         Heir { config: *config, method }
     }
 
-    /// The filter of eight states, if the message is a position of a receiver, and how the ship is held if she is
-    /// still at her berth.
-    pub(crate) fn called_by(
-        &self,
-        received: &Received,
-        bank: &Bank,
-    ) -> Option<(EightState, Option<Method>)> {
+    /// The ship with the filter of eight states, if the message is a position of a receiver.
+    pub(crate) fn called_by(&self, received: &Received, bank: &Bank) -> Option<Ship> {
         let Message::Gnss(fix) = received.message else { return None };
         let position = fix.position.filter(|_| fix.quality.is_measured())?;
         let fine = bank.likeliest()?;
@@ -56,7 +53,6 @@ impl Heir {
             gnss_position: true,
             gnss_velocity: told.is_some(),
         };
-        let finder = EightState::new(&self.config, &level, &kinematics);
-        Some((finder, moored.then_some(self.method)))
+        Some(Ship::in_motion(&self.config, &level, &kinematics, moored.then_some(self.method)))
     }
 }

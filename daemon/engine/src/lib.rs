@@ -14,6 +14,7 @@ mod doubts;
 mod epochs;
 mod heir;
 mod herald;
+mod images;
 mod ledger;
 mod looks;
 mod mode;
@@ -133,6 +134,7 @@ impl Engine {
         let mut nav = NavConfig::new(config.imu, config.lever_arms);
         nav.vessel = config.vessel;
         nav.gnss.delay_std = config.time_std.unwrap_or(nav.gnss.delay_std);
+        nav.gnss.stamps_std = nav.gnss.delay_std;
         Engine {
             stamps: Stamps::new(1.0 / config.imu.rate),
             twin: None,

@@ -15,6 +15,7 @@ use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
 
 use crate::blind::{Blind, Word, tells_heading, unchecked, without_heading};
 use crate::heir::Heir;
+use crate::images::{Images, Verdict as Seat};
 use crate::trial::{BLIND, Misled, Trial};
 
 /// Heading sigma below which a ship can be steered by it for the first time.
@@ -30,8 +31,13 @@ pub(crate) enum Ship {
     Aligning { bank: Box<Bank>, heir: Option<Box<Heir>> },
     /// A receiver tells the velocity, the heading may be anything; `berth` is how the ship is held
     /// once it is found, if she is moored.
-    /// `blind` finds it without a heading reference, where one is heard.
-    InMotion { finder: Box<EightState>, blind: Option<Blind>, berth: Option<Method> },
+    /// `blind` finds it without a heading reference, where one is heard; `images` with the antenna elsewhere.
+    InMotion {
+        finder: Box<EightState>,
+        blind: Option<Blind>,
+        images: Images,
+        berth: Option<Method>,
+    },
     /// One is known, `aligned` once well enough to steer by; `verdict` on a stored state; `blind` while a heading
     /// reference that it was found with is not borne out.
     Navigating {
@@ -57,9 +63,8 @@ impl Ship {
         let is_told = !kinematics.moored || (is_heard && stored.is_none());
         let is_wanted = !is_polar && choice.in_motion == InMotion::EightState;
         if is_told && is_wanted {
-            let finder = Box::new(EightState::new(config, level, kinematics));
             let berth = kinematics.moored.then_some(choice.moored);
-            return Ship::InMotion { finder, blind: None, berth };
+            return Ship::in_motion(config, level, kinematics, berth);
         }
         let is_awaited = is_wanted && is_coarse && stored.is_none();
         let heir = is_awaited.then(|| Box::new(Heir::new(config, choice.moored)));
@@ -68,6 +73,17 @@ impl Ship {
             None => Bank::new(config, level, kinematics, choice.moored),
         });
         Ship::Aligning { bank, heir }
+    }
+
+    pub(crate) fn in_motion(
+        config: &NavConfig,
+        level: &Level,
+        kinematics: &Kinematics,
+        berth: Option<Method>,
+    ) -> Self {
+        let begin = |config: &NavConfig| EightState::new(config, level, kinematics);
+        let images = Images::beside(config, begin);
+        Ship::InMotion { finder: Box::new(begin(config)), blind: None, images, berth }
     }
 
     /// What became of the stored state that was offered.
@@ -186,6 +202,10 @@ impl Ship {
             _ => solution,
         };
         let solution = match self {
+            Ship::InMotion { finder, images, .. } => images.covered(finder, solution),
+            _ => solution,
+        };
+        let solution = match self {
             Ship::InMotion { blind: Some(_), .. } | Ship::Navigating { blind: Some(_), .. } => {
                 unchecked(solution)
             }
@@ -203,8 +223,24 @@ impl Ship {
         Solution { mode, ..solution }
     }
 
+    /// Takes the antenna to sit where it must; tells whether that is known as far as the heading goes.
+    fn knows_antenna(&mut self) -> bool {
+        let Ship::InMotion { finder, images, blind, .. } = self else { return true };
+        match images.judge(finder) {
+            Seat::Open => false,
+            Seat::AsTold => true,
+            Seat::Other(other) => {
+                (*finder, *images, *blind) = (other, Images::default(), None);
+                true
+            }
+        }
+    }
+
     /// Makes what has found the heading the navigator, so that nothing steps.
     fn hand_over(&mut self) {
+        if !self.knows_antenna() {
+            return;
+        }
         let verdict = self.verdict();
         let found = match self {
             Ship::Aligning { bank, .. } => bank.winner().cloned(),
@@ -238,8 +274,8 @@ impl Ship {
         if is_compared(received) {
             return;
         }
-        if let Some((finder, berth)) = heir.called_by(received, bank) {
-            *self = Ship::InMotion { finder: Box::new(finder), blind: None, berth };
+        if let Some(ship) = heir.called_by(received, bank) {
+            *self = ship;
         }
     }
 
@@ -317,8 +353,9 @@ impl Estimator for Ship {
                 bank.advance(increment);
                 self.hand_over();
             }
-            Ship::InMotion { finder, blind, .. } => {
+            Ship::InMotion { finder, blind, images, .. } => {
                 finder.advance(increment);
+                images.advance(increment);
                 blind.iter_mut().for_each(|blind| blind.advance(increment));
             }
             Ship::Navigating { fine, aligned, blind, .. } => {
@@ -338,7 +375,7 @@ impl Estimator for Ship {
             Ship::Navigating { fine, .. } if is_compared(received) => fine.apply(received),
             _ if is_compared(received) => Report::default(),
             Ship::Aligning { bank, .. } => bank.apply(received),
-            Ship::InMotion { finder, blind, .. } => {
+            Ship::InMotion { finder, blind, images, .. } => {
                 let is_left_out = finder.config().docket.is_excluded(Party::Heading);
                 if blind.is_none() && tells_heading(received) && !is_left_out {
                     *blind = Some(Blind::beside(finder));
@@ -346,6 +383,7 @@ impl Estimator for Ship {
                 blind.iter_mut().for_each(|blind| blind.apply(received));
                 let heard = if is_left_out { without_heading(received) } else { *received };
                 let report = finder.apply(&heard);
+                images.apply(&heard, &report);
                 self.hand_over();
                 report
             }

@@ -214,7 +214,7 @@ fn epochs_that_are_tagged_late_are_set_back() {
         let Some(Finding::GnssDelay { found, .. }) = sailed.last.first() else {
             panic!("{late} s: {:?}", sailed.last);
         };
-        assert!((found - late).abs() < 0.1, "{late} s: {found}");
+        assert!((found - late).abs() < 0.1, "{late} s: {:?}", sailed.last);
     }
 }
 

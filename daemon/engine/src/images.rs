@@ -1,0 +1,137 @@
+//! Others who take the antenna to sit elsewhere than it is said to: as far below the IMU as above it, or anywhere.
+//!
+//! A sign that is easily got wrong, and worse than it looks: the swing of a mast that points down is that of one that
+//! points up on a ship that is turned round, and a heading that is found by it is 180 deg off. The accelerometers,
+//! which feel how the IMU itself sways, tell the two apart; and an antenna that swings far less than it would where it is said
+//! to sit may sit anywhere. So while the heading is sought further filters of eight states have another lever arm
+//! each, and the likelihood of what the receiver says decides.
+
+use insd_alignment::EightState;
+use insd_base::units::wrap_pi;
+use insd_base::{Received, Rejection, Solution, earth};
+use insd_nav::config::LeverFound;
+use insd_nav::{AidReport, Estimator, Increment, NavConfig, Outcome, Report};
+use nalgebra::Vector3;
+
+/// A mast shorter than this, m, tells little by its swing.
+const SHORTEST: f64 = 3.0;
+/// 1-sigma of each component of a lever arm of which a sign was found wrong, m.
+const UNSURE: f64 = 0.5;
+/// Logarithm of the ratio of likelihoods from which on another lever arm is the right one, and of that from which on
+/// it is not: installers get most lever arms right.
+const OTHER: f64 = 14.0;
+const NOT_OTHER: f64 = -4.0;
+/// By so much it must be likelier than any further one.
+const LEADS: f64 = 4.0;
+/// Square of an innovation, of which one is expected, beyond which it counts no more.
+const OUTLIER: f64 = 25.0;
+/// On a ship that hardly moves, of which more than this share of the motion that is seen may be noise, nobody is the likelier:
+/// a longer arm makes more of the noise of the gyros.
+const NOISY: f64 = 0.3;
+/// Headings apart by less than so many sigmas are the same.
+const ALIKE: f64 = 3.0;
+
+/// Which lever arm it is, as far as the heading goes.
+#[derive(Clone, Debug)]
+pub(crate) enum Verdict {
+    /// Nobody can tell yet, and the headings differ.
+    Open,
+    /// The one that was told.
+    AsTold,
+    /// Another.
+    Other(Box<EightState>),
+}
+
+/// A finder with another lever arm, and how much likelier that is, as a logarithm.
+#[derive(Clone, Debug)]
+struct Image {
+    finder: Box<EightState>,
+    odds: f64,
+}
+
+/// All of them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Images(Vec<Image>);
+
+impl Images {
+    /// Those that begin as a finder with this configuration does; none where it matters little where the antenna sits.
+    pub(crate) fn beside(config: &NavConfig, begin: impl Fn(&NavConfig) -> EightState) -> Self {
+        let arm = config.gnss_lever();
+        if config.gnss.lever_found.is_some() || config.is_gnss_lever_unknown() {
+            return Images::default();
+        }
+        let mirrored = LeverFound { arm: Vector3::new(arm.x, arm.y, -arm.z), std: UNSURE };
+        let matters = [arm.z.abs() > SHORTEST, arm.norm() > SHORTEST];
+        let others = [mirrored, LeverFound::UNKNOWN].into_iter().zip(matters);
+        let image = |found: LeverFound| {
+            let mut config = *config;
+            config.gnss.lever_found = Some(found);
+            Image { finder: Box::new(begin(&config)), odds: 0.0 }
+        };
+        Images(others.filter(|(_, matters)| *matters).map(|(found, _)| image(found)).collect())
+    }
+
+    pub(crate) fn advance(&mut self, increment: &Increment) {
+        self.0.iter_mut().for_each(|image| image.finder.advance(increment));
+    }
+
+    /// Hear what the finder with the lever arm that was told heard, and what that made of it.
+    pub(crate) fn apply(&mut self, received: &Received, told: &Report) {
+        for image in &mut self.0 {
+            let own = image.finder.apply(received);
+            if image.finder.noise_share() < NOISY {
+                image.odds += likelihood(&own) - likelihood(told);
+            }
+        }
+        // of another antenna nothing was found
+        self.0.retain(|image| image.finder.config().gnss.lever_found.is_some());
+    }
+
+    /// Which lever arm is right, beside the finder with the one that was told.
+    pub(crate) fn judge(&self, told: &EightState) -> Verdict {
+        let mut ranked: Vec<&Image> = self.0.iter().collect();
+        ranked.sort_by(|a, b| b.odds.total_cmp(&a.odds));
+        let next = ranked.get(1).map_or(f64::NEG_INFINITY, |image| image.odds);
+        match ranked.first() {
+            Some(best) if best.odds > OTHER.max(next + LEADS) => {
+                Verdict::Other(best.finder.clone())
+            }
+            _ if self.open(told).next().is_some() => Verdict::Open,
+            _ => Verdict::AsTold,
+        }
+    }
+
+    /// Those that may be right and find another heading.
+    fn open(&self, told: &EightState) -> impl Iterator<Item = &Image> {
+        let (heading, sigma) = told.heading();
+        let is_known = told.finished();
+        self.0.iter().filter(move |image| {
+            let (own, own_sigma) = image.finder.heading();
+            let is_alike = wrap_pi(own - heading).abs() < ALIKE * own_sigma.hypot(sigma);
+            image.odds > NOT_OTHER && !(is_alike && is_known && image.finder.finished())
+        })
+    }
+
+    /// A solution of the finder with the lever arm that was told that covers those that may be right.
+    pub(crate) fn covered(&self, told: &EightState, solution: Solution) -> Solution {
+        let mut sigma = solution.sigma;
+        for image in self.open(told) {
+            let own = image.finder.solution();
+            let apart = earth::ecef(&own.position).0 - earth::ecef(&solution.position).0;
+            sigma.position.0 += (earth::c_ne(&solution.position) * apart).abs();
+            sigma.heading += wrap_pi(own.attitude.heading - solution.attitude.heading).abs();
+        }
+        Solution { sigma, ..solution }
+    }
+}
+
+/// Logarithm of the likelihood of what a receiver says, as a finder expected it.
+fn likelihood(report: &Report) -> f64 {
+    let was_weighed = |aid: &&AidReport| {
+        let passed = [Outcome::Accepted, Outcome::Rejected(Rejection::ChiSquare)];
+        aid.aid.starts_with("gnss") && passed.contains(&aid.outcome)
+    };
+    let one = |(z, sigma): &(f64, f64)| -0.5 * (z / sigma).powi(2).min(OUTLIER) - sigma.ln();
+    let both = |aid: &AidReport| aid.innovation.iter().take(2).map(one).sum::<f64>();
+    report.aids.iter().filter(was_weighed).map(both).sum()
+}
