@@ -20,7 +20,7 @@ const UNSURE: f64 = 0.5;
 /// Logarithm of the ratio of likelihoods from which on another lever arm is the right one, and of that from which on
 /// it is not: installers get most lever arms right.
 const OTHER: f64 = 14.0;
-const NOT_OTHER: f64 = -4.0;
+const NOT_OTHER: f64 = -10.0;
 /// By so much it must be likelier than any further one.
 const LEADS: f64 = 4.0;
 /// Square of an innovation, of which one is expected, beyond which it counts no more.

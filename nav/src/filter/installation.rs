@@ -16,6 +16,8 @@ const FAR: f64 = 0.03;
 /// Velocities that are older than their positions by more, s, and by so many sigmas, are not only smoothed: then the
 /// positions are taken to be late by up to so many times as much, 1-sigma.
 const SMOOTHED: f64 = 0.05;
+/// So are velocities that are younger than theirs by more than stamps of an IMU come late, s.
+const EARLY: f64 = -0.1;
 const SIGNIFICANT: f64 = 3.0;
 const AS_LATE: f64 = 2.0;
 /// It is supposed anew when it has grown by this factor.
@@ -76,9 +78,9 @@ impl Filter {
     pub(super) fn suspect_delay(&mut self) {
         let at = GNSS_VELOCITY_DELAY.start();
         let (lag, sigma) = (self.nominal.gnss_velocity_delay, self.covariance[(at, at)].sqrt());
-        let is_old = lag > SMOOTHED && lag > SIGNIFICANT * sigma;
-        let supposed = AS_LATE * lag;
-        if let Some(bias) = self.bias.filter(|_| is_old && supposed > GROWN * self.lateness) {
+        let is_off = !(EARLY..=SMOOTHED).contains(&lag) && lag.abs() > SIGNIFICANT * sigma;
+        let supposed = AS_LATE * lag.abs();
+        if let Some(bias) = self.bias.filter(|_| is_off && supposed > GROWN * self.lateness) {
             self.lateness = supposed;
             self.covariance += bias.supposing_delay(supposed);
             self.restart_judge();
