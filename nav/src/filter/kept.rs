@@ -134,7 +134,8 @@ impl Filter {
             ..Filter::new(&config, &initial)
         };
         filter.begin_navigation();
-        (kept.nominal.is_sound() && kept.rate.iter().all(|x| x.is_finite())).then_some(filter)
+        let is_finite = kept.rate.iter().all(|x| x.is_finite()) && kept.lateness.is_finite();
+        (kept.nominal.is_sound() && is_finite).then_some(filter)
     }
 }
 
