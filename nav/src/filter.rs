@@ -112,6 +112,8 @@ pub struct Filter {
     lateness: f64,
     /// Whether they told that the antenna sits elsewhere, or speaks late.
     mended: bool,
+    /// Whether they told of what no ship has.
+    is_impossible: bool,
     /// 1-sigma of the lever arm of the log, m, if it was found to be otherwise than configured.
     log_lever_std: Option<Vector3<f64>>,
 }
@@ -170,6 +172,7 @@ impl Filter {
             bias: None,
             lateness: 0.0,
             mended: false,
+            is_impossible: false,
             log_lever_std: None,
         }
     }

@@ -97,6 +97,15 @@ pub struct SeparateBias {
     strain: f64,
 }
 
+/// How a hypothesis fits.
+struct Fit {
+    /// Logarithm of the ratio of likelihoods.
+    score: f64,
+    /// Mean square of the innovations that it leaves unexplained.
+    left: f64,
+    finding: Finding,
+}
+
 /// What the constants are found to be off by.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finding {
@@ -242,10 +251,17 @@ impl SeparateBias {
         Some(finding)
     }
 
-    /// How much better a hypothesis fits than the configuration, and what it finds; `None` unless it is
-    /// believed. With S the prior sigmas and A = I + S Lambda S the logarithm of the ratio of likelihoods
-    /// is (S eta)^T A^-1 (S eta) / 2 - ln(det A) / 2.
-    fn weigh(&self, prior: &Constants) -> Option<(f64, Finding)> {
+    /// How much better the likeliest hypothesis fits than the configuration, as a logarithm; nothing where the configuration is
+    /// confirmed.
+    #[must_use]
+    pub fn odds(&self) -> f64 {
+        let all = HYPOTHESES.iter().filter_map(|prior| Some(self.fit(prior)?.score));
+        if self.is_confirmed() { 0.0 } else { all.fold(0.0, f64::max) }
+    }
+
+    /// How much better a hypothesis fits than the configuration. With S the prior sigmas and A = I + S Lambda S the logarithm of
+    /// the ratio of likelihoods is (S eta)^T A^-1 (S eta) / 2 - ln(det A) / 2.
+    fn fit(&self, prior: &Constants) -> Option<Fit> {
         let s = SMatrix::from_diagonal(prior);
         let factor = Cholesky::new(SMatrix::identity() + s * self.information * s)?;
         let scaled = s * self.evidence;
@@ -255,14 +271,21 @@ impl SeparateBias {
         let volume: f64 = factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
         let score = explained / (2.0 * left) - volume;
         let covariance = s * factor.inverse() * s * left;
-        let value = s * solved;
+        Some(Fit { score, left, finding: Finding { value: s * solved, covariance } })
+    }
+
+    /// How much better a hypothesis fits than the configuration, and what it finds; `None` unless it is
+    /// believed.
+    fn weigh(&self, prior: &Constants) -> Option<(f64, Finding)> {
+        let Fit { score, left, finding } = self.fit(prior)?;
         let is_large = |i: usize| {
-            value[i].abs() > LEAST[i].max(SIGNIFICANT * covariance[(i, i)].max(0.0).sqrt())
+            let sigma = finding.covariance[(i, i)].max(0.0).sqrt();
+            finding.value[i].abs() > LEAST[i].max(SIGNIFICANT * sigma)
         };
         let excess = self.misfit / self.heard - 1.0;
         let explains = left < UNEXPLAINED && left - 1.0 < (1.0 - SHARE) * excess;
         let convinces = score > CONVINCING && explains && (0..CONSTANTS).any(is_large);
-        convinces.then_some((score, Finding { value, covariance }))
+        convinces.then_some((score, finding))
     }
 
     /// The covariance that the estimate has more if the delay is not known as it was thought, but to `sigma`, s.

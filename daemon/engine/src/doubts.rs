@@ -16,6 +16,8 @@ use crate::{Engine, Stage};
 const RETRIES: u8 = 3;
 /// An IMU that the judge found to be of no use is not believed again before this, s.
 const SENTENCE: f64 = 1800.0;
+/// One that told so often what no installation is, is not believed again.
+const HOPELESS: u8 = 2;
 /// What was found of the lever arm is taken to be so many times as unsure for the next alignment, and by
 /// no less than this, m.
 const UNSURE: f64 = 2.0;
@@ -45,7 +47,9 @@ impl Engine {
         let Some(misled) = line.estimator().refuted_by() else {
             if self.surveyor.is_refuted {
                 let condemned = self.surveyor.condemned;
-                let is_served = condemned.is_none_or(|at| (time - at).as_seconds() > SENTENCE);
+                let is_open = self.surveyor.impossible < HOPELESS;
+                let is_over = condemned.is_none_or(|at| (time - at).as_seconds() > SENTENCE);
+                let is_served = is_open && is_over;
                 self.surveyor.is_refuted = !(is_served && line.estimator().is_acquitted());
             }
             return;
@@ -62,6 +66,11 @@ impl Engine {
                 self.start_over(time, ModeReason::HeadingRefuted);
                 self.nav = self.nav.with_docket(docket);
                 return;
+            }
+            Misled::Imu => {
+                self.surveyor.is_refuted = true;
+                self.surveyor.impossible = self.surveyor.impossible.saturating_add(1);
+                self.nav.gnss.lever_found = None;
             }
             Misled::Unknown if knows_nothing || self.retried >= RETRIES => {
                 self.surveyor.is_refuted = true;
@@ -126,6 +135,10 @@ impl Engine {
             Stage::Levelling(_) => None,
         };
         for finding in self.surveyor.look(ship, time) {
+            // what GNSS has refuted may have been the doing of a log that is not mounted as configured
+            if matches!(finding, Finding::LogMounting { .. }) && self.surveyor.condemned.is_none() {
+                (self.surveyor.is_refuted, self.surveyor.impossible) = (false, 0);
+            }
             self.tell(Event::InstallationFound { time, finding });
         }
         self.judge_imu(time);

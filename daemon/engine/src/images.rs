@@ -23,6 +23,9 @@ const OTHER: f64 = 14.0;
 const NOT_OTHER: f64 = -10.0;
 /// By so much it must be likelier than any further one.
 const LEADS: f64 = 4.0;
+/// Mean square of the innovations, of which one is expected, up to which it explains them all, and how many are asked for.
+const HONEST: f64 = 1.6;
+const ENOUGH: f64 = 100.0;
 /// Square of an innovation, of which one is expected, beyond which it counts no more.
 const OUTLIER: f64 = 25.0;
 /// On a ship that hardly moves, of which more than this share of the motion that is seen may be noise, nobody is the likelier:
@@ -40,6 +43,8 @@ pub(crate) enum Verdict {
     AsTold,
     /// Another.
     Other(Box<EightState>),
+    /// One far below the IMU, said to be above it: no sign is got wrong like that, but an IMU that is mirrored tells it.
+    Mirrored,
 }
 
 /// A finder with another lever arm, and how much likelier that is, as a logarithm.
@@ -47,6 +52,26 @@ pub(crate) enum Verdict {
 struct Image {
     finder: Box<EightState>,
     odds: f64,
+    /// Sum of the normalised squares of its innovations, and how many there were.
+    misfit: f64,
+    heard: f64,
+}
+
+impl Image {
+    /// Whether it takes the antenna to sit far below the IMU where it was told to sit far above it.
+    fn is_below(&self, told: &EightState) -> bool {
+        let height = |finder: &EightState| -finder.config().gnss_lever().z;
+        height(&self.finder) < -SHORTEST && height(told) > SHORTEST
+    }
+
+    /// Whether it explains all that the receiver says.
+    fn fits(&self) -> bool {
+        self.heard > ENOUGH && self.misfit < HONEST * self.heard
+    }
+
+    fn knows_nothing(&self) -> bool {
+        self.finder.config().gnss.lever_found == Some(LeverFound::UNKNOWN)
+    }
 }
 
 /// All of them.
@@ -66,7 +91,7 @@ impl Images {
         let image = |found: LeverFound| {
             let mut config = *config;
             config.gnss.lever_found = Some(found);
-            Image { finder: Box::new(begin(&config)), odds: 0.0 }
+            Image { finder: Box::new(begin(&config)), odds: 0.0, misfit: 0.0, heard: 0.0 }
         };
         Images(others.filter(|(_, matters)| *matters).map(|(found, _)| image(found)).collect())
     }
@@ -80,7 +105,10 @@ impl Images {
         for image in &mut self.0 {
             let own = image.finder.apply(received);
             if image.finder.noise_share() < NOISY {
-                image.odds += likelihood(&own) - likelihood(told);
+                let own = Likelihood::of(&own);
+                image.odds += own.logarithm - Likelihood::of(told).logarithm;
+                image.misfit += own.misfit;
+                image.heard += own.heard;
             }
         }
         // of another antenna nothing was found
@@ -93,12 +121,28 @@ impl Images {
         ranked.sort_by(|a, b| b.odds.total_cmp(&a.odds));
         let next = ranked.get(1).map_or(f64::NEG_INFINITY, |image| image.odds);
         match ranked.first() {
-            Some(best) if best.odds > OTHER.max(next + LEADS) => {
-                Verdict::Other(best.finder.clone())
-            }
+            Some(best) if best.odds > OTHER.max(next + LEADS) => self.verdict(best, told),
             _ if self.open(told).next().is_some() => Verdict::Open,
             _ => Verdict::AsTold,
         }
+    }
+
+    /// What follows if one is likelier than the lever arm that was told. An antenna far below the IMU is none, but it may be
+    /// likelier than one that is wrong in another way: then nothing is known of it.
+    fn verdict(&self, best: &Image, told: &EightState) -> Verdict {
+        if !best.is_below(told) {
+            return Verdict::Other(best.finder.clone());
+        }
+        if best.fits() {
+            return Verdict::Mirrored;
+        }
+        let vague = self.0.iter().find(|image| image.knows_nothing()).unwrap_or(best);
+        Verdict::Other(vague.finder.clone())
+    }
+
+    /// Whether only a mirrored IMU explains what the receiver says.
+    pub(crate) fn is_mirrored(&self, told: &EightState) -> bool {
+        matches!(self.judge(told), Verdict::Mirrored)
     }
 
     /// Those that may be right and find another heading.
@@ -125,13 +169,27 @@ impl Images {
     }
 }
 
-/// Logarithm of the likelihood of what a receiver says, as a finder expected it.
-fn likelihood(report: &Report) -> f64 {
-    let was_weighed = |aid: &&AidReport| {
-        let passed = [Outcome::Accepted, Outcome::Rejected(Rejection::ChiSquare)];
-        aid.aid.starts_with("gnss") && passed.contains(&aid.outcome)
-    };
-    let one = |(z, sigma): &(f64, f64)| -0.5 * (z / sigma).powi(2).min(OUTLIER) - sigma.ln();
-    let both = |aid: &AidReport| aid.innovation.iter().take(2).map(one).sum::<f64>();
-    report.aids.iter().filter(was_weighed).map(both).sum()
+/// How likely a finder finds what a receiver says.
+#[derive(Clone, Copy, Debug, Default)]
+struct Likelihood {
+    logarithm: f64,
+    /// Sum of the normalised squares of the innovations, and how many there were.
+    misfit: f64,
+    heard: f64,
+}
+
+impl Likelihood {
+    fn of(report: &Report) -> Self {
+        let was_weighed = |aid: &&AidReport| {
+            let passed = [Outcome::Accepted, Outcome::Rejected(Rejection::ChiSquare)];
+            aid.aid.starts_with("gnss") && passed.contains(&aid.outcome)
+        };
+        let weighed = report.aids.iter().filter(was_weighed);
+        let horizontal = weighed.flat_map(|aid| aid.innovation.iter().take(2));
+        horizontal.fold(Likelihood::default(), |sum, (z, sigma)| {
+            let square = (z / sigma).powi(2).min(OUTLIER);
+            let logarithm = sum.logarithm - 0.5 * square - sigma.ln();
+            Likelihood { logarithm, misfit: sum.misfit + square, heard: sum.heard + 1.0 }
+        })
+    }
 }

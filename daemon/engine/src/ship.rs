@@ -109,6 +109,12 @@ impl Ship {
     /// What the heading was misled by, if GNSS refutes what was handed over for navigation a while ago.
     pub(crate) fn refuted_by(&self) -> Option<Misled> {
         match self {
+            Ship::InMotion { finder, images, .. } => {
+                images.is_mirrored(finder).then_some(Misled::Imu)
+            }
+            Ship::Navigating { fine, .. } if fine.filter().finds_the_impossible() => {
+                Some(Misled::Imu)
+            }
             Ship::Navigating { fine, trial: Some(trial), .. } => trial.refuted_by(fine.filter()),
             _ => None,
         }
@@ -227,7 +233,7 @@ impl Ship {
     fn knows_antenna(&mut self) -> bool {
         let Ship::InMotion { finder, images, blind, .. } = self else { return true };
         match images.judge(finder) {
-            Seat::Open => false,
+            Seat::Open | Seat::Mirrored => false,
             Seat::AsTold => true,
             Seat::Other(other) => {
                 (*finder, *images, *blind) = (other, Images::default(), None);

@@ -28,6 +28,8 @@ pub(crate) enum Misled {
     Found(Box<Estimates>),
     /// Most likely by the lever arm of the antenna, of which nothing else is known.
     Unknown,
+    /// By the IMU: an installation as it tells it is none.
+    Imu,
 }
 
 impl Trial {

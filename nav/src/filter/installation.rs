@@ -8,7 +8,7 @@ use crate::config::is_on_board;
 use crate::dating::Dating;
 use crate::error_state::{ATTITUDE, GNSS_VELOCITY_DELAY, STATES, VELOCITY};
 use crate::innovation::Weighed;
-use crate::separate_bias::{DELAY, SeparateBias};
+use crate::separate_bias::{DELAY, Finding, SeparateBias};
 
 /// A correction of the attitude, rad, that is more than linear: whoever found it found it by a wrong lever arm.
 const FAR: f64 = 0.03;
@@ -22,6 +22,11 @@ const SIGNIFICANT: f64 = 3.0;
 const AS_LATE: f64 = 2.0;
 /// It is supposed anew when it has grown by this factor.
 const GROWN: f64 = 1.5;
+/// Logarithm of the odds from which on the installation is to blame, and no lie.
+const SURE: f64 = 6.9;
+/// No log sits higher above an IMU, m, which sits at the keel at best; by so many sigmas.
+const HIGHEST_LOG: f64 = -15.0;
+const SURELY: f64 = 3.0;
 
 impl Filter {
     /// Whoever found the initial state used GNSS at this time: the filter that goes on from it is aided still.
@@ -53,6 +58,12 @@ impl Filter {
     #[must_use]
     pub fn is_lever_confirmed(&self) -> bool {
         self.bias.as_ref().is_some_and(SeparateBias::is_confirmed)
+    }
+
+    /// Whether the installation was found to be as none can be: the IMU tells it wrongly, as a mirrored one does.
+    #[must_use]
+    pub fn finds_the_impossible(&self) -> bool {
+        self.is_impossible
     }
 
     /// What an update takes from the effect of the constants of the installation.
@@ -87,6 +98,18 @@ impl Filter {
         }
     }
 
+    /// Whether somebody's lie explains nearly as much as the installation does, or more: a few seconds later it will not.
+    fn may_be_a_lie(&self, bias: &SeparateBias) -> bool {
+        let Some(judge) = self.judge.as_ref().filter(|_| !self.is_early()) else { return false };
+        judge.is_in_doubt() && bias.odds() < judge.greatest_evidence() + SURE
+    }
+
+    /// Whether a log would sit where no ship has one: rolling against her swing, which no scale or direction of its own makes.
+    fn puts_log_off_board(&self, finding: &Finding) -> bool {
+        let Some((off, sigma)) = finding.log_lever() else { return false };
+        self.config.lever_arms.log.0.z + off.z + SURELY * sigma.z < HIGHEST_LOG
+    }
+
     /// Where the innovations show that the antenna sits elsewhere than configured, or that its epochs come
     /// later: takes the estimate to be what it would have been with that.
     pub(super) fn mend_installation(&mut self) {
@@ -94,9 +117,10 @@ impl Filter {
             return;
         };
         let arm = self.antenna_lever() + finding.gnss_lever();
-        if !is_on_board(&arm) {
+        if !is_on_board(&arm) || self.may_be_a_lie(&bias) {
             return;
         }
+        self.is_impossible |= self.puts_log_off_board(&finding);
         let (error, unsure) = bias.correction(&finding);
         self.covariance += unsure;
         let is_far = ATTITUDE.of(&error).norm() > FAR;

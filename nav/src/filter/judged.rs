@@ -14,6 +14,7 @@ use crate::judge::rows::Direct;
 use crate::judge::{Aid, Alternative, Docket, Judge};
 use crate::leap::LeapWatch;
 use crate::propagation::{Regime, Stretch};
+use crate::separate_bias::SeparateBias;
 use crate::solution_sigma::{difference, solution_sigma};
 
 /// A receiver that is refused for so long while nothing speaks against it is right, and the filter wrong, s.
@@ -139,7 +140,8 @@ impl Filter {
         let Some(judge) = &self.judge else { return self.withholds(aid) };
         let is_suspect = judge.is_in_doubt() || judge.withholds(aid);
         let is_no_mistake = judge.leaps(Party::Gnss) || judge.docket().leaves_out(aid);
-        is_suspect && (is_no_mistake || !self.is_early())
+        let may_be_mistake = self.is_early() || !self.is_lever_confirmed();
+        is_suspect && (is_no_mistake || !may_be_mistake)
     }
 
     /// By how much the variance of an aid's noise is larger than stated.
@@ -179,7 +181,7 @@ impl Filter {
         }
     }
 
-    fn is_early(&self) -> bool {
+    pub(super) fn is_early(&self) -> bool {
         (self.time - self.judged_since).as_seconds() < SETTLED
     }
 
@@ -217,8 +219,9 @@ impl Filter {
         if self.judge.as_ref().is_none_or(|judge| !judge.is_look_due(now)) {
             return;
         }
+        let mistake = self.bias.as_ref().map_or(0.0, SeparateBias::odds);
         let Some(judge) = self.judge_now() else { return };
-        if let Some(verdict) = judge.look(now, excused) {
+        if let Some(verdict) = judge.look(now, excused, mistake) {
             verdict.mended.iter().for_each(|mended| self.become_other(mended));
             if let Some(judge) = self.judge.as_ref() {
                 self.config = self.config.with_docket(*judge.docket());

@@ -85,6 +85,12 @@ impl Charge {
         self.fault.party()
     }
 
+    /// Whether a mistake of the installation is nearly as likely, or likelier: an antenna that sits elsewhere makes a receiver
+    /// creep away in a turn, or gyros count it wrongly.
+    pub(super) fn may_be_a_mistake(&self, mistake: f64) -> bool {
+        matches!(self.party(), Party::Gnss | Party::Imu) && self.evidence < mistake + CERTAIN
+    }
+
     /// Somebody is wrong in whatever way.
     pub(super) fn shapeless(whom: Party, weight: f64) -> Self {
         let fault = match whom {
@@ -201,6 +207,12 @@ impl Judge {
         });
         all.extend(shapeless);
         all
+    }
+
+    /// How much more likely what was said is with somebody's fault, as a logarithm.
+    #[must_use]
+    pub fn greatest_evidence(&self) -> f64 {
+        self.assessment.charges.iter().map(|charge| charge.evidence).fold(0.0, f64::max)
     }
 
     /// Whether a height or a place leaps, by somebody's word: no ship does that, and no mistake of the installation makes it.

@@ -326,8 +326,9 @@ impl Judge {
     /// Looks at the evidence, once a second; gives who is found to lie.
     ///
     /// Nobody of `excused` is judged: what looks like his lie may be a mistake of the installation, or of the heading. These do not
-    /// make a height or a place leap.
-    pub fn look(&mut self, now: Time, excused: Parties) -> Option<Verdict> {
+    /// make a height or a place leap. Nor is a receiver or the IMU where a mistake of the installation is nearly as likely, by the
+    /// logarithm of the ratio of its likelihood to that of none.
+    pub fn look(&mut self, now: Time, excused: Parties, mistake: f64) -> Option<Verdict> {
         let unheard = self.looked.map_or(0.0, |last| (now - last).as_seconds());
         if unheard > UNHEARD {
             self.docket.postpone(unheard);
@@ -351,7 +352,8 @@ impl Judge {
         let suspect = first.filter(|_| is_likely);
         self.docket.doubt(suspect.map(|first| first.fault), now);
         let is_sure = |first: &Charge| {
-            astray.is_some() || (self.is_certain(first) && !self.is_one_word(first, now))
+            let is_open = self.is_one_word(first, now) || first.may_be_a_mistake(mistake);
+            astray.is_some() || (self.is_certain(first) && !is_open)
         };
         let certain = first.filter(is_sure);
         let before = self.accused.take();

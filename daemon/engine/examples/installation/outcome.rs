@@ -7,6 +7,9 @@ use insd_engine::{Engine, EngineConfig, Output};
 
 use crate::mistakes::Mistake;
 
+/// What is beyond so many claimed sigmas misleads.
+const CLAIMED: f64 = 3.0;
+
 /// Errors of one voyage, or of all seeds together.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Outcome {
@@ -15,8 +18,9 @@ pub(crate) struct Outcome {
     vertical: f64,
     nees: f64,
     heading_nees: f64,
-    /// Greatest horizontal error while told valid, m, and in claimed sigmas, from the start.
-    worst: f64,
+    /// Greatest horizontal error while told valid that is beyond three claimed sigmas, m, and the greatest in claimed
+    /// sigmas, from the start.
+    misled: f64,
     worst_sigmas: f64,
     /// The greatest in claimed sigmas since it is judged.
     late_sigmas: f64,
@@ -26,13 +30,13 @@ pub(crate) struct Outcome {
 }
 
 impl Outcome {
-    pub(crate) const HEAD: &'static str = "mistake            horiz. m  down m   NEES  hdg NEES  worst m  sigmas  judged  told in   after s";
+    pub(crate) const HEAD: &'static str = "mistake            horiz. m  down m   NEES  hdg NEES  misled m sigmas  judged  told in   after s";
 
     /// Mean squares over voyages, the worst of all.
     pub(crate) fn of(name: &str, all: &[Outcome]) -> Outcome {
         let n = all.len() as f64;
         let mean = |of: fn(&Outcome) -> f64| all.iter().map(of).sum::<f64>() / n;
-        let worst = |of: fn(&Outcome) -> f64| all.iter().map(of).fold(0.0, f64::max);
+        let greatest = |of: fn(&Outcome) -> f64| all.iter().map(of).fold(0.0, f64::max);
         let mut told: Vec<f64> = all.iter().filter_map(|one| one.told).collect();
         told.sort_by(f64::total_cmp);
         Outcome {
@@ -41,9 +45,9 @@ impl Outcome {
             vertical: mean(|one| one.vertical.powi(2)).sqrt(),
             nees: mean(|one| one.nees),
             heading_nees: mean(|one| one.heading_nees),
-            worst: worst(|one| one.worst),
-            worst_sigmas: worst(|one| one.worst_sigmas),
-            late_sigmas: worst(|one| one.late_sigmas),
+            misled: greatest(|one| one.misled),
+            worst_sigmas: greatest(|one| one.worst_sigmas),
+            late_sigmas: greatest(|one| one.late_sigmas),
             told: told.last().copied(),
             voyages: n,
             told_in: told.len() as f64,
@@ -62,7 +66,7 @@ impl fmt::Display for Outcome {
             self.vertical,
             self.nees,
             self.heading_nees,
-            self.worst,
+            self.misled,
             self.worst_sigmas,
             self.late_sigmas,
             self.told_in,
@@ -134,8 +138,9 @@ impl Judged {
         let off = error.xy().norm();
         let valid = !matches!(solution.mode, Mode::CoarseAlignment | Mode::Standby | Mode::Fault);
         if valid {
-            outcome.worst = outcome.worst.max(off);
-            outcome.worst_sigmas = outcome.worst_sigmas.max(off / std.xy().norm());
+            let sigmas = off / std.xy().norm();
+            outcome.worst_sigmas = outcome.worst_sigmas.max(sigmas);
+            outcome.misled = outcome.misled.max(if sigmas > CLAIMED { off } else { 0.0 });
         }
         if solution.time.as_seconds() < from {
             return;

@@ -60,6 +60,8 @@ pub(crate) struct Surveyor {
     findings: Vec<Finding>,
     /// Whether GNSS has refuted every heading that was found with the IMU.
     pub(crate) is_refuted: bool,
+    /// How often it told an installation that none can be: what is so twice is so until somebody mends it.
+    pub(crate) impossible: u8,
     /// Whether nobody but GNSS says so: then neither is named.
     pub(crate) is_by_one: bool,
     /// When the judge found the IMU to be of no use.
@@ -83,6 +85,7 @@ impl Surveyor {
             late: None,
             findings: Vec::new(),
             is_refuted: false,
+            impossible: 0,
             is_by_one: false,
             condemned: None,
         }
@@ -217,6 +220,7 @@ impl Surveyor {
     ) -> (Option<Received>, Option<(&'static str, Rejection)>) {
         let with = |message: Message| Some(Received { message, ..*received });
         let is_wrong = |found: &Finding| matches!(found, Finding::LogMounting { .. });
+        let is_turned = |found: &Finding| matches!(found, Finding::MountingTurned { .. });
         match received.message {
             Message::Gnss(fix) => {
                 let (left, refused) = self.still.fix(&fix);
@@ -228,6 +232,8 @@ impl Surveyor {
             Message::Log(_) if self.findings.iter().any(is_wrong) => {
                 (None, Some((received.source.name(), Rejection::NotUsable)))
             }
+            // it would tell where her bow points, and not where the IMU does
+            Message::Log(_) if self.findings.iter().any(is_turned) => (None, None),
             Message::Reference(told) if self.still.is_heading_frozen() => {
                 let left = ExternalReference { heading: None, heading_std: None, ..told };
                 (with(Message::Reference(left)), Some(("reference_heading", Rejection::Frozen)))
@@ -279,14 +285,9 @@ impl Surveyor {
         (by(self.late) - by(before)).abs() > DELAY
     }
 
-    /// A lever arm in the axes of an IMU that is not mounted as configured means nothing; a ship that a
-    /// log, too, sees going astern goes astern.
+    /// A lever arm in the axes of an IMU that is not mounted as configured means nothing.
     fn all(&self, estimates: &Estimates, imu_is_worse_by: f64) -> Vec<Finding> {
-        let astern = |finding: &Finding| {
-            matches!(finding, Finding::MountingTurned { .. }) && self.log.agrees()
-        };
         let mut found = self.of_imu();
-        found.retain(|finding| !astern(finding));
         let levers = [self.lever(estimates), self.log_lever(estimates)];
         if found.is_empty() {
             found.extend(levers.into_iter().flatten());
@@ -298,9 +299,10 @@ impl Surveyor {
         found
     }
 
-    /// What is found of the IMU alone.
+    /// What is found of the IMU. A ship that a log, too, sees going astern goes astern.
     fn of_imu(&self) -> Vec<Finding> {
-        let turned = || self.mounting.finding().filter(|_| !self.accepts);
+        let is_as_meant = self.accepts || self.log.agrees();
+        let turned = || self.mounting.finding().filter(|_| !is_as_meant);
         let refuted = || self.is_refuted.then_some(Finding::ImuRefuted);
         let turns = || self.turns.finding();
         self.samples().or_else(turns).or_else(turned).or_else(refuted).into_iter().collect()
