@@ -17,7 +17,7 @@ const RETRIES: u8 = 3;
 /// An IMU that the judge found to be of no use is not believed again before this, s.
 const SENTENCE: f64 = 1800.0;
 /// One that told so often what no installation is, is not believed again.
-const HOPELESS: u8 = 2;
+const HOPELESS: u8 = 4;
 /// What was found of the lever arm is taken to be so many times as unsure for the next alignment, and by
 /// no less than this, m.
 const UNSURE: f64 = 2.0;
@@ -49,8 +49,9 @@ impl Engine {
                 let condemned = self.surveyor.condemned;
                 let is_open = self.surveyor.impossible < HOPELESS;
                 let is_over = condemned.is_none_or(|at| (time - at).as_seconds() > SENTENCE);
-                let is_served = is_open && is_over;
-                self.surveyor.is_refuted = !(is_served && line.estimator().is_acquitted());
+                let does_well = self.surveyor.impossible > 0 && line.estimator().does_well();
+                let is_borne_out = does_well || line.estimator().is_acquitted();
+                self.surveyor.is_refuted = !(is_open && is_over && is_borne_out);
             }
             return;
         };

@@ -159,6 +159,14 @@ impl Ship {
         }
     }
 
+    /// Whether the trial of her heading has gone well for minutes.
+    pub(crate) fn does_well(&self) -> bool {
+        match self {
+            Ship::Navigating { fine, trial: Some(trial), .. } => trial.has_gone_well(fine.filter()),
+            _ => false,
+        }
+    }
+
     /// Whether her heading was found with a reference that nothing has borne out.
     pub(crate) fn is_heading_unchecked(&self) -> bool {
         matches!(self, Ship::Navigating { blind: Some(_), .. })

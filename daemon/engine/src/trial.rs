@@ -58,6 +58,12 @@ impl Trial {
         self.is_over(filter) && filter.strain().is_some_and(|strain| strain < HONEST)
     }
 
+    /// Whether it has gone on for long enough to tell a mirrored IMU, and GNSS bears out what was found.
+    pub(crate) fn has_gone_well(&self, filter: &Filter) -> bool {
+        let is_long = (filter.time() - self.began).as_seconds() > USUAL;
+        is_long && filter.strain().is_some_and(|strain| strain < HONEST)
+    }
+
     /// What is on trial claims no more than GNSS bears out, and no heading before GNSS has been heard for a
     /// while.
     pub(crate) fn claim(&self, filter: &Filter, solution: Solution) -> Solution {

@@ -60,7 +60,7 @@ pub(crate) struct Surveyor {
     findings: Vec<Finding>,
     /// Whether GNSS has refuted every heading that was found with the IMU.
     pub(crate) is_refuted: bool,
-    /// How often it told an installation that none can be: what is so twice is so until somebody mends it.
+    /// How often it told an installation that none can be: what is so often is so until somebody mends it.
     pub(crate) impossible: u8,
     /// Whether nobody but GNSS says so: then neither is named.
     pub(crate) is_by_one: bool,
