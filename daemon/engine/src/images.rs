@@ -102,11 +102,12 @@ impl Images {
 
     /// Hear what the finder with the lever arm that was told heard, and what that made of it.
     pub(crate) fn apply(&mut self, received: &Received, told: &Report) {
+        let told = Likelihood::of(told);
         for image in &mut self.0 {
             let own = image.finder.apply(received);
             if image.finder.noise_share() < NOISY {
                 let own = Likelihood::of(&own);
-                image.odds += own.logarithm - Likelihood::of(told).logarithm;
+                image.odds += own.logarithm - told.logarithm;
                 image.misfit += own.misfit;
                 image.heard += own.heard;
             }

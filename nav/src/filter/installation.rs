@@ -22,8 +22,6 @@ const SIGNIFICANT: f64 = 3.0;
 const AS_LATE: f64 = 2.0;
 /// It is supposed anew when it has grown by this factor.
 const GROWN: f64 = 1.5;
-/// Logarithm of the odds from which on the installation is to blame, and no lie.
-const SURE: f64 = 6.9;
 /// No log sits higher above an IMU, m, which sits at the keel at best; by so many sigmas.
 const HIGHEST_LOG: f64 = -15.0;
 const SURELY: f64 = 3.0;
@@ -101,7 +99,7 @@ impl Filter {
     /// Whether somebody's lie explains nearly as much as the installation does, or more: a few seconds later it will not.
     fn may_be_a_lie(&self, bias: &SeparateBias) -> bool {
         let Some(judge) = self.judge.as_ref().filter(|_| !self.is_early()) else { return false };
-        judge.is_in_doubt() && bias.odds() < judge.greatest_evidence() + SURE
+        judge.doubts(bias.odds())
     }
 
     /// Whether a log would sit where no ship has one: rolling against her swing, which no scale or direction of its own makes.

@@ -209,10 +209,12 @@ impl Judge {
         all
     }
 
-    /// How much more likely what was said is with somebody's fault, as a logarithm.
+    /// Whether somebody lies, and that is nearly as likely as a mistake of the installation, or likelier; of that the logarithm of the
+    /// ratio of its likelihood to that of none.
     #[must_use]
-    pub fn greatest_evidence(&self) -> f64 {
-        self.assessment.charges.iter().map(|charge| charge.evidence).fold(0.0, f64::max)
+    pub fn doubts(&self, mistake: f64) -> bool {
+        let evidence = self.assessment.charges.iter().map(|charge| charge.evidence);
+        self.is_in_doubt() && mistake < evidence.fold(0.0, f64::max) + CERTAIN
     }
 
     /// Whether a height or a place leaps, by somebody's word: no ship does that, and no mistake of the installation makes it.
