@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use insd_base::{Event, Mode, Truth, Voyage, earth};
+use insd_base::{Event, Mode, Solution, Truth, Voyage, earth};
 use insd_engine::{Engine, EngineConfig, Output};
 
 use crate::mistakes::Mistake;
@@ -24,13 +24,16 @@ pub(crate) struct Outcome {
     worst_sigmas: f64,
     /// The greatest in claimed sigmas since it is judged.
     late_sigmas: f64,
+    /// Greatest horizontal error of the last minute while told valid, m, and in claimed sigmas.
+    end: f64,
+    end_sigmas: f64,
     told: Option<f64>,
     voyages: f64,
     told_in: f64,
 }
 
 impl Outcome {
-    pub(crate) const HEAD: &'static str = "mistake            horiz. m  down m   NEES  hdg NEES  misled m sigmas  judged  told in   after s";
+    pub(crate) const HEAD: &'static str = "mistake            horiz. m  down m   NEES  hdg NEES  misled m sigmas  judged  ends m sigmas  told in   after s";
 
     /// Mean squares over voyages, the worst of all.
     pub(crate) fn of(name: &str, all: &[Outcome]) -> Outcome {
@@ -48,6 +51,8 @@ impl Outcome {
             misled: greatest(|one| one.misled),
             worst_sigmas: greatest(|one| one.worst_sigmas),
             late_sigmas: greatest(|one| one.late_sigmas),
+            end: greatest(|one| one.end),
+            end_sigmas: greatest(|one| one.end_sigmas),
             told: told.last().copied(),
             voyages: n,
             told_in: told.len() as f64,
@@ -60,7 +65,7 @@ impl fmt::Display for Outcome {
         let told = self.told.map_or("-".to_owned(), |at| format!("{at:.0}"));
         write!(
             f,
-            "{:<18} {:>8.2} {:>7.2} {:>6.2} {:>9.2} {:>8.1} {:>7.1} {:>7.1} {:>4}/{:<3} {:>8}",
+            "{:<18} {:>8.2} {:>7.2} {:>6.2} {:>9.2} {:>8.1} {:>7.1} {:>7.1} {:>7.1} {:>6.1} {:>4}/{:<3} {:>8}",
             self.name,
             self.horizontal,
             self.vertical,
@@ -69,6 +74,8 @@ impl fmt::Display for Outcome {
             self.misled,
             self.worst_sigmas,
             self.late_sigmas,
+            self.end,
+            self.end_sigmas,
             self.told_in,
             self.voyages,
             told
@@ -82,7 +89,8 @@ pub(crate) fn sail(voyage: Voyage, mistake: &Mistake, from: f64) -> Outcome {
     (mistake.make)(&mut voyage);
     let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
     let mut outcome = Outcome::default();
-    let mut judged = Judged::default();
+    let ends = voyage.truth.last().map_or(0.0, |truth| truth.time.as_seconds()) - 60.0;
+    let mut judged = Judged { from, ends, ..Judged::default() };
     let mut truth = voyage.truth.iter().peekable();
     for received in voyage.received() {
         engine.handle(&received);
@@ -91,7 +99,7 @@ pub(crate) fn sail(voyage: Voyage, mistake: &Mistake, from: f64) -> Outcome {
                 Output::Solution(solution) => {
                     while truth.next_if(|truth| truth.time < solution.time).is_some() {}
                     if let Some(truth) = truth.peek().filter(|t| t.time == solution.time) {
-                        judged.judge(&solution, truth, from, &mut outcome);
+                        judged.judge(&solution, truth, &mut outcome);
                     }
                 }
                 Output::Event(Event::Judged { stands, .. })
@@ -117,6 +125,9 @@ pub(crate) fn sail(voyage: Voyage, mistake: &Mistake, from: f64) -> Outcome {
 
 #[derive(Default)]
 struct Judged {
+    /// From when on it is judged, and when the last minute begins, s.
+    from: f64,
+    ends: f64,
     n: f64,
     horizontal: f64,
     vertical: f64,
@@ -125,28 +136,22 @@ struct Judged {
 }
 
 impl Judged {
-    fn judge(
-        &mut self,
-        solution: &insd_base::Solution,
-        truth: &Truth,
-        from: f64,
-        outcome: &mut Outcome,
-    ) {
+    fn judge(&mut self, solution: &Solution, truth: &Truth, outcome: &mut Outcome) {
         let apart = earth::ecef(&solution.position).0 - earth::ecef(&truth.position).0;
         let error = earth::c_ne(&truth.position) * apart;
         let std = solution.sigma.position.0;
-        let off = error.xy().norm();
-        let valid = !matches!(solution.mode, Mode::CoarseAlignment | Mode::Standby | Mode::Fault);
-        if valid {
+        let (off, at) = (error.xy().norm(), solution.time.as_seconds());
+        if !matches!(solution.mode, Mode::CoarseAlignment | Mode::Standby | Mode::Fault) {
             let sigmas = off / std.xy().norm();
-            outcome.worst_sigmas = outcome.worst_sigmas.max(sigmas);
-            outcome.misled = outcome.misled.max(if sigmas > CLAIMED { off } else { 0.0 });
+            let raise = |greatest: &mut f64, to: f64| *greatest = greatest.max(to);
+            raise(&mut outcome.worst_sigmas, sigmas);
+            raise(&mut outcome.misled, if sigmas > CLAIMED { off } else { 0.0 });
+            raise(&mut outcome.late_sigmas, if at < self.from { 0.0 } else { sigmas });
+            raise(&mut outcome.end, if at < self.ends { 0.0 } else { off });
+            raise(&mut outcome.end_sigmas, if at < self.ends { 0.0 } else { sigmas });
         }
-        if solution.time.as_seconds() < from {
+        if at < self.from {
             return;
-        }
-        if valid {
-            outcome.late_sigmas = outcome.late_sigmas.max(off / std.xy().norm());
         }
         self.n += 1.0;
         self.horizontal += off * off;

@@ -14,7 +14,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 const BLOCK: f64 = 20.0;
 const BLOCKS: u8 = 2;
 /// Scatter that is worth a look, rad, and the share of it that gravity must follow at least.
-const WIDE: f64 = 5.0 * DEG;
+const WIDE: f64 = 1.5 * DEG;
 const FOLLOWS: f64 = 0.1;
 
 /// The block that runs, and how many before it said so.
