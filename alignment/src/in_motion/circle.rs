@@ -22,7 +22,7 @@
 use std::f64::consts::TAU;
 
 use insd_base::units::wrap_pi;
-use nalgebra::{Matrix2, Rotation2, Vector2};
+use nalgebra::{Matrix2, Vector2};
 
 /// Angles at which the density is summed.
 const GRID: usize = 90;
@@ -34,51 +34,22 @@ pub const UNKNOWN: f64 = 1.813_799_364_234_218;
 /// Mean and 1-sigma of the angle, rad, from mean and covariance of (cos, sin).
 #[must_use]
 pub fn angle(mean: &Vector2<f64>, covariance: &Matrix2<f64>) -> (f64, f64) {
-    let Some(information) = information(mean, covariance) else {
+    let guarded = covariance + Matrix2::from_diagonal_element(1e-12);
+    let shrunk = mean.norm().min(1.0);
+    let Some(information) = guarded.try_inverse().map(|inverse| inverse * shrunk) else {
         return (mean.y.atan2(mean.x), UNKNOWN);
     };
-    let (first, spread) = spread(&density(mean, &information));
+    let (first, spread) = summed(mean, &information);
     if spread > NARROW { (first, spread) } else { peak(mean, &information, first) }
-}
-
-/// Mean and covariance of (cos, sin) on the circle, from those in the plane; those of a narrow density by the
-/// moments of the wrapped normal distribution (Mardia and Jupp, section 3.5.7).
-#[must_use]
-pub fn point(mean: &Vector2<f64>, covariance: &Matrix2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
-    let Some(information) = information(mean, covariance) else {
-        return (Vector2::zeros(), Matrix2::from_diagonal_element(0.5));
-    };
-    let density = density(mean, &information);
-    let (first, spread) = spread(&density);
-    if spread > NARROW {
-        let centre: Vector2<f64> = (0..GRID).map(|i| direction(at(i)) * density[i]).sum();
-        let off = |i: usize| direction(at(i)) - centre;
-        return (centre, (0..GRID).map(|i| off(i) * off(i).transpose() * density[i]).sum());
-    }
-    let (angle, sigma) = peak(mean, &information, first);
-    let length = (-0.5 * sigma * sigma).exp();
-    let square = length * length;
-    let turn = Rotation2::new(angle).into_inner();
-    let spread = Vector2::new((1.0 - square).powi(2), 1.0 - square * square) * 0.5;
-    (direction(angle) * length, turn * Matrix2::from_diagonal(&spread) * turn.transpose())
-}
-
-/// What is known of the point, with what the regression has lost in length.
-fn information(mean: &Vector2<f64>, covariance: &Matrix2<f64>) -> Option<Matrix2<f64>> {
-    let guarded = covariance + Matrix2::from_diagonal_element(1e-12);
-    guarded.try_inverse().map(|inverse| inverse * mean.norm().min(1.0))
 }
 
 fn direction(angle: f64) -> Vector2<f64> {
     Vector2::new(angle.cos(), angle.sin())
 }
 
-fn at(i: usize) -> f64 {
-    TAU * i as f64 / GRID as f64
-}
-
-/// The density on the circle, summing to one.
-fn density(mean: &Vector2<f64>, information: &Matrix2<f64>) -> [f64; GRID] {
+/// Circular mean and root mean square about it, by sums over the circle.
+fn summed(mean: &Vector2<f64>, information: &Matrix2<f64>) -> (f64, f64) {
+    let at = |i: usize| TAU * i as f64 / GRID as f64;
     let log_density: [f64; GRID] = std::array::from_fn(|i| {
         let off = direction(at(i)) - mean;
         -0.5 * off.dot(&(information * off))
@@ -86,15 +57,10 @@ fn density(mean: &Vector2<f64>, information: &Matrix2<f64>) -> [f64; GRID] {
     let best = log_density.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let density = log_density.map(|log| (log - best).exp());
     let total: f64 = density.iter().sum();
-    density.map(|it| it / total)
-}
-
-/// Circular mean and root mean square about it, by sums over the circle.
-fn spread(density: &[f64; GRID]) -> (f64, f64) {
     let centre: Vector2<f64> = (0..GRID).map(|i| direction(at(i)) * density[i]).sum();
     let middle = centre.y.atan2(centre.x);
     let square: f64 = (0..GRID).map(|i| wrap_pi(at(i) - middle).powi(2) * density[i]).sum();
-    (wrap_pi(middle), square.sqrt())
+    (wrap_pi(middle), (square / total).sqrt())
 }
 
 /// Peak of a narrow density and its curvature there, by Newton's method.
@@ -131,19 +97,6 @@ mod tests {
             assert!(wrap_pi(found - truth).abs() < 1e-6);
             assert!((sigma - 0.02).abs() < 1e-3);
         }
-    }
-
-    /// What is known in the plane of a point that lies on the circle is known there as well.
-    #[test]
-    fn the_point_has_the_length_of_one_however_well_it_is_known() {
-        for spread in [0.001_f64, 0.05, 0.14, 0.2, 0.6, 10.0] {
-            let covariance = Matrix2::from_diagonal_element(spread * spread);
-            let (mean, covariance) = point(&(direction(2.0) * 0.9), &covariance);
-            assert!((mean.norm_squared() + covariance.trace() - 1.0).abs() < 1e-9, "{spread}");
-            assert!((mean.y.atan2(mean.x) - 2.0).abs() < 0.01, "{mean}");
-        }
-        let (mean, covariance) = point(&Vector2::zeros(), &Matrix2::from_diagonal_element(0.5));
-        assert!(mean.norm() < 1e-9 && (covariance - Matrix2::identity() * 0.5).amax() < 1e-9);
     }
 
     #[test]

@@ -17,17 +17,11 @@ use insd_nav::{InitialState, Nominal};
 use nalgebra::{Matrix2, Matrix3, SMatrix, UnitQuaternion, Vector1, Vector2, Vector3};
 
 use super::belief::{CONSIDERED, Covariance, Innovation, STATES, considered as k, state as x};
-use super::circle;
 use super::motion::{across, rotation};
 use super::{ASTRAY, EightState, LEAN};
 
 /// Mean square length of (s, 1-c) that still tells a direction of tilt.
 const SHORTEST: f64 = 1e-6;
-
-/// Length of (cos, sin) below which it is not of one, by so many sigmas: of a ship that hardly moves noise
-/// leaves three quarters, a log that tells knots half.
-const SHRUNK: f64 = 0.6;
-const SURELY: f64 = 4.0;
 
 impl EightState {
     /// Levels the frame: turns it by the a that leaves the least mean square tilt, E|phi - R(dpsi) a|^2,
@@ -52,40 +46,17 @@ impl EightState {
 
     fn lean(&self) -> Vector2<f64> {
         let (direction, covariance) = self.direction();
+        let p = &self.belief.own;
+        let cross = p.fixed_view::<2, 2>(x::TILT, x::SINE) * Matrix2::new(0.0, 1.0, -1.0, 0.0);
+        let found = self.belief.direction_covariance();
         // what goes together with the direction goes with what noise has not made of it
-        let response = self.response(x::TILT);
+        let response = found.try_inverse().map_or_else(Matrix2::zeros, |inverse| cross * inverse);
         let off = direction - Vector2::new(1.0 - self.motion.versine, self.motion.sine);
         let tilt = self.motion.tilt + response * off;
         let both = response * covariance;
         let spread = Vector2::new(both[(0, 0)] + both[(1, 1)], both[(1, 0)] - both[(0, 1)]);
         let length = direction.norm_squared() + covariance.trace();
         (rotation(&direction).transpose() * tilt + spread) / length.max(SHORTEST)
-    }
-
-    /// By how much a pair goes with (cos, sin): P_xR P_R^-1.
-    fn response(&self, pair: usize) -> Matrix2<f64> {
-        let p = &self.belief.own;
-        let cross = p.fixed_view::<2, 2>(pair, x::SINE) * Matrix2::new(0.0, 1.0, -1.0, 0.0);
-        let found = self.belief.direction_covariance();
-        found.try_inverse().map_or_else(Matrix2::zeros, |inverse| cross * inverse)
-    }
-
-    /// What a pair is off by and its variances, north and east, as it goes with the direction, a point on the
-    /// circle ([`circle::point`]). The regression puts that anywhere in the plane; shrunk to its middle by a log or
-    /// an IMU that is noisier than told it would leave out the lever arm of the antenna, and be sure of that. Of a
-    /// lever arm that is not known the position is what the antenna's is, whatever the direction.
-    pub(super) fn on_circle(&self, pair: usize) -> (Vector2<f64>, Vector2<f64>) {
-        let variances = self.belief.pair(pair);
-        if self.centred || self.config.is_gnss_lever_unknown() {
-            return (Vector2::zeros(), variances);
-        }
-        let (mean, covariance) = self.direction();
-        let (point, spread) = circle::point(&mean, &covariance);
-        let response = self.response(pair);
-        let off = point - Vector2::new(1.0 - self.motion.versine, self.motion.sine);
-        let change =
-            response * (spread - self.belief.direction_covariance()) * response.transpose();
-        (response * off, (variances + change.diagonal()).map(|variance| variance.max(0.0)))
     }
 
     pub(super) fn keep_upright(&mut self) {
@@ -103,16 +74,6 @@ impl EightState {
         } else if !self.centred && self.finished() {
             self.centre();
         }
-    }
-
-    /// Whether (cos, sin) has been shrunk far off the circle that it must lie on: two sensors tell of one velocity in
-    /// different units, or one is far noisier than it says.
-    #[must_use]
-    pub fn is_shrunk(&self) -> bool {
-        let (mean, covariance) = self.direction();
-        let along = mean.normalize();
-        let std = along.dot(&(covariance * along)).max(0.0).sqrt();
-        !self.centred && mean.norm() + SURELY * std < SHRUNK
     }
 
     /// Turns the frame by the estimated dpsi; from then on dpsi is a small angle, s = dpsi and c

@@ -118,7 +118,6 @@ impl EightState {
         let reading = LogReading { u, v: log.v, w: log.w, std: std.value, water };
         let lever = self.config.lever_arms.log.0;
         let innovation = aids::log_velocity(&self.scene(), &reading, &lever, &self.belief);
-        self.hears_log |= innovation.h.fixed_columns::<2>(x::SINE).amax() > 0.0;
         self.judge(&innovation, log.time, source, aid, &mut report);
         report
     }

@@ -83,7 +83,6 @@ pub struct EightState {
     leap: LeapWatch,
     heading: (f64, f64),
     centred: bool,
-    hears_log: bool,
 }
 
 /// So much is way, m/s.
@@ -149,7 +148,6 @@ impl EightState {
             leap: LeapWatch::default(),
             heading: (0.0, circle::UNKNOWN),
             centred: false,
-            hears_log: false,
         };
         filter.renew(start.position_std, start.velocity_std);
         filter
@@ -205,13 +203,7 @@ impl EightState {
     /// Whether the heading is known well enough for the full filter.
     #[must_use]
     pub fn finished(&self) -> bool {
-        self.heading.1 < GOAL && !self.is_shrunk()
-    }
-
-    /// Whether a log has told something of the heading.
-    #[must_use]
-    pub fn hears_log(&self) -> bool {
-        self.hears_log
+        self.heading.1 < GOAL
     }
 
     /// Share of what was seen of the heading that may be noise; nothing of a craft that has made way.
@@ -344,16 +336,14 @@ impl Estimator for EightState {
 
     fn solution(&self) -> Solution {
         let (attitude, tilt) = self.attitude();
-        let std = |variance: Vector2<f64>, down: f64| {
+        let std = |at: usize, down: f64| {
+            let variance = self.belief.pair(at);
             Ned::new(variance.x.sqrt(), variance.y.sqrt(), down.sqrt())
         };
         let (height, down) = self.vertical.variances();
-        let (off, spread) = self.on_circle(x::POSITION);
         let velocity =
             Vector3::new(self.motion.velocity.x, self.motion.velocity.y, self.vertical.down);
-        let mut shifted = self.motion;
-        shifted.shift(&self.local, &off);
-        let place = shifted.place;
+        let place = self.motion.place;
         let turn_of_n = attitude.c_nb().transpose()
             * (earth::rate_n(place.latitude) + earth::transport_rate(&place, &velocity));
         Solution {
@@ -363,8 +353,8 @@ impl Estimator for EightState {
             attitude,
             rate: Body(self.rate - turn_of_n),
             sigma: SolutionSigma {
-                position: self.claimed(std(spread, height)),
-                velocity: std(self.belief.pair(x::VELOCITY), down),
+                position: self.claimed(std(x::POSITION, height)),
+                velocity: std(x::VELOCITY, down),
                 roll: tilt / attitude.pitch.cos().max(1e-9),
                 pitch: tilt,
                 heading: self.heading.1,

@@ -36,10 +36,6 @@ impl Engine {
     pub(crate) fn consider_another(&mut self) {
         let Stage::Running(line) = &self.stage else { return };
         let time = line.now();
-        if line.estimator().is_misled_by_log() && !self.surveyor.is_log_doubted {
-            self.surveyor.is_log_doubted = true;
-            return self.start_over(time, ModeReason::HeadingRefuted);
-        }
         match line.estimator().imu_state() {
             ImuState::Believed => {}
             ImuState::Disturbed => {

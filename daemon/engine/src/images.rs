@@ -146,11 +146,6 @@ impl Images {
         matches!(self.judge(told), Verdict::Mirrored)
     }
 
-    /// Whether all of them are as wrong as a finder that is shrunk itself.
-    pub(crate) fn are_shrunk(&self) -> bool {
-        self.0.iter().all(|image| image.finder.is_shrunk())
-    }
-
     /// Those that may be right and find another heading.
     fn open(&self, told: &EightState) -> impl Iterator<Item = &Image> {
         let (heading, sigma) = told.heading();

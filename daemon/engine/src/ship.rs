@@ -120,12 +120,6 @@ impl Ship {
         }
     }
 
-    /// Whether no heading is found with the log, wherever the antenna sits.
-    pub(crate) fn is_misled_by_log(&self) -> bool {
-        let Ship::InMotion { finder, images, .. } = self else { return false };
-        finder.hears_log() && finder.is_shrunk() && images.are_shrunk()
-    }
-
     /// What is to be done about the IMU.
     pub(crate) fn imu_state(&self) -> ImuState {
         match self {

@@ -48,7 +48,7 @@ impl LogWatch {
         let factor = self.together / self.predicted;
         let explained = self.together.norm_sqr() / (self.predicted * self.measured);
         let is_wrong = (factor.norm() - 1.0).abs() > SCALE || factor.arg().abs() > TURN;
-        if !self.is_compared() || explained.is_nan() || explained < EXPLAINED || !is_wrong {
+        if self.count < FEWEST || explained.is_nan() || explained < EXPLAINED || !is_wrong {
             return None;
         }
         let scatter = ((1.0 - explained) / self.count.min(SPAN)).max(0.0).sqrt() * factor.norm();
@@ -58,11 +58,6 @@ impl LogWatch {
 
     /// Whether she goes the way her bow points, or the other way, by log and solution alike.
     pub(super) fn agrees(&self) -> bool {
-        self.is_compared() && self.finding().is_none()
-    }
-
-    /// Whether it has been compared for long enough.
-    pub(super) fn is_compared(&self) -> bool {
-        self.count >= FEWEST
+        self.count >= FEWEST && self.finding().is_none()
     }
 }

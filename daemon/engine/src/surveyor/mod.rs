@@ -64,8 +64,6 @@ pub(crate) struct Surveyor {
     pub(crate) impossible: u8,
     /// Whether nobody but GNSS says so: then neither is named.
     pub(crate) is_by_one: bool,
-    /// Whether no heading could be found with the log: until it has been compared under way it is not used.
-    pub(crate) is_log_doubted: bool,
     /// When the judge found the IMU to be of no use.
     pub(crate) condemned: Option<Time>,
 }
@@ -89,7 +87,6 @@ impl Surveyor {
             is_refuted: false,
             impossible: 0,
             is_by_one: false,
-            is_log_doubted: false,
             condemned: None,
         }
     }
@@ -234,9 +231,6 @@ impl Surveyor {
             }
             Message::Log(_) if self.findings.iter().any(is_wrong) => {
                 (None, Some((received.source.name(), Rejection::NotUsable)))
-            }
-            Message::Log(_) if self.is_log_doubted && !self.log.is_compared() => {
-                (None, Some((received.source.name(), Rejection::SourceSuspect)))
             }
             // it would tell where her bow points, and not where the IMU does
             Message::Log(_) if self.findings.iter().any(is_turned) => (None, None),
