@@ -181,6 +181,7 @@ async fn a_flood_on_one_port_is_counted_to_the_byte_and_costs_another_nothing() 
     let mut host = Host::new();
     let server = TcpServer { max_clients: 1, ..TcpServer::new(flooded) };
     let _port = host.spawn_with(1, PortConfig::new(Transport::TcpServer(server)));
+    host.opened(1).await;
     let _quiet = host.spawn(2, Transport::Udp(quiet.clone()));
     let sender = UdpSocket::bind(ANY_PORT).await.unwrap();
     host.opened(2).await;

@@ -116,6 +116,11 @@ pub enum Finding {
         /// What they tell of a turn over what her course says.
         ratio: Estimate,
     },
+    /// Gravity swings in its axes against what its gyros say.
+    ImuAxes {
+        /// How far they agree where they do least: 1 of one that is right, -1 of one of which an axis is mirrored.
+        agreement: f64,
+    },
     /// Every heading that was found with the IMU was refuted by GNSS.
     ImuRefuted,
     /// The IMU is worse than its data sheet.
@@ -162,6 +167,7 @@ impl Finding {
             Finding::Frozen { what: Frozen::Log } => "log_frozen",
             Finding::Frozen { what: Frozen::Heading } => "heading_frozen",
             Finding::ImuTurns { .. } => "imu_turns",
+            Finding::ImuAxes { .. } => "imu_axes",
             Finding::ImuRefuted => "imu_refuted",
             Finding::ImuWorse { .. } => "imu_worse",
             Finding::MountingTilted { .. } => "mounting_tilted",
@@ -195,6 +201,7 @@ impl Finding {
                 | Finding::ImuStuck { .. }
                 | Finding::ImuSaturated { .. }
                 | Finding::ImuTurns { .. }
+                | Finding::ImuAxes { .. }
                 | Finding::ImuRefuted
                 | Finding::MountingTilted { .. }
                 | Finding::MountingTurned { .. }
@@ -387,6 +394,11 @@ impl Finding {
                 "the gyros say {:.1} times the turns that her course makes: is the axis that points down \
                  mirrored, swapped, or in another unit?",
                 ratio.value
+            ),
+            Finding::ImuAxes { agreement } => write!(
+                f,
+                "gravity swings in the axes of the IMU against what its gyros say, agreement {agreement:.1} where 1 is \
+                 right: is an axis mirrored, or are two swapped?"
             ),
             Finding::ImuRefuted => f.write_str(
                 "GNSS refutes every heading that is found with the IMU: are its axes, signs and units as \

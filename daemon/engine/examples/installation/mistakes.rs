@@ -73,7 +73,7 @@ fn late(voyage: &mut Voyage, by: f64) {
 const LEVER: &str = "gnss_lever";
 const TILTED: &str = "mounting_tilted";
 const TURNED: &str = "mounting_turned";
-const REFUTED: &str = "imu_refuted";
+const AXES: &str = "imu_axes";
 const LOG: &str = "log_mounting";
 
 /// All of them; the first is none.
@@ -104,9 +104,9 @@ pub(crate) const MISTAKES: [Mistake; 33] = [
     mistake("IMU turned 270", TURNED, |v| turn(v, [0.0, 0.0, 270.0])),
     mistake("accel in g", "imu_force", |v| scale_imu(v, 1.0, 1.0 / 9.80665)),
     mistake("gyro in deg", "imu_rate", |v| scale_imu(v, 57.295_78, 1.0)),
-    mistake("gyro x mirrored", REFUTED, |v| mirror(v, 0, 1.0)),
+    mistake("gyro x mirrored", AXES, |v| mirror(v, 0, 1.0)),
     mistake("gyro z mirrored", "imu_turns", |v| mirror(v, 2, 1.0)),
-    mistake("y mirrored", REFUTED, |v| mirror(v, 1, -1.0)),
+    mistake("y mirrored", AXES, |v| mirror(v, 1, -1.0)),
     mistake("log reversed", LOG, |v| log(v, |u| -u)),
     mistake("log quarter turn", LOG, |v| log(v, |u| Vector3::new(-u.y, u.x, u.z))),
     mistake("log in knots", LOG, |v| log(v, |u| u / 0.514_444)),

@@ -6,6 +6,7 @@ use insd_base::{Finding, ImuSample};
 use insd_nav::Increment;
 use nalgebra::Vector3;
 
+use super::gravity::Gravity;
 use super::saturated::Saturated;
 use super::stuck::Stuck;
 use super::swing::Swing;
@@ -36,6 +37,7 @@ pub(super) struct ImuWatch {
     seen: f64,
     is_tilted: bool,
     swing: Swing,
+    gravity: Gravity,
     stuck: Stuck,
     saturated: Saturated,
     /// What was found, and for how long it has been right since, s.
@@ -46,6 +48,7 @@ pub(super) struct ImuWatch {
 impl ImuWatch {
     /// Sees an increment that was measured.
     pub(super) fn see(&mut self, increment: &Increment) {
+        self.gravity.see(increment);
         let duration = increment.duration();
         if increment.bridged.is_some() || duration <= 0.0 {
             return;
@@ -89,7 +92,7 @@ impl ImuWatch {
     pub(super) fn finding(&self) -> Option<Finding> {
         let saturated = self.saturated.axes().map(|axes| Finding::ImuSaturated { axes });
         let stuck = || self.stuck.axes().map(|axes| Finding::ImuStuck { axes });
-        saturated.or_else(stuck).or(self.found)
+        saturated.or_else(stuck).or(self.found).or_else(|| self.gravity.finding())
     }
 
     /// How the ship would list and trim for ever if it sat as configured, if that is beyond any ship.

@@ -5,6 +5,7 @@
 
 mod axes;
 mod frozen;
+mod gravity;
 mod imu;
 mod log;
 mod mounting;
