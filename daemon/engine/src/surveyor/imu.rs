@@ -2,7 +2,7 @@
 //! stand upright.
 
 use insd_base::units::DEG;
-use insd_base::{Finding, ImuSample};
+use insd_base::{Finding, GnssFix, ImuSample};
 use insd_nav::Increment;
 use nalgebra::Vector3;
 
@@ -61,6 +61,11 @@ impl ImuWatch {
         self.rate_square += (rate * rate - self.rate_square) * share;
         self.swing.see(increment, duration);
         self.judge(duration);
+    }
+
+    /// Hears a fix.
+    pub(super) fn hear(&mut self, fix: &GnssFix) {
+        self.gravity.hear(fix);
     }
 
     /// Sees a sample as it came, and its duration, s.

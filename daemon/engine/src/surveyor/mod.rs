@@ -185,6 +185,7 @@ impl Surveyor {
         match &received.message {
             Message::Gnss(fix) => {
                 self.turns.hear(fix);
+                self.imu.hear(fix);
                 self.still.hear_fix(fix, newest.as_ref());
             }
             Message::Log(log) => self.hear_log(log),
