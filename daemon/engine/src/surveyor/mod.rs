@@ -188,7 +188,10 @@ impl Surveyor {
                 self.imu.hear(fix);
                 self.still.hear_fix(fix, newest.as_ref());
             }
-            Message::Log(log) => self.hear_log(log),
+            Message::Log(log) => {
+                self.turns.hear_log(log);
+                self.hear_log(log);
+            }
             Message::Reference(told) => {
                 self.still.hear_heading(told, newest.as_ref());
                 if let Some(own) = newest {

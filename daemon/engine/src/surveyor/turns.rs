@@ -1,50 +1,79 @@
 //! Whether the gyros say of a turn what her course says: an axis that is mirrored, swapped or dead does not.
 //!
-//! Over intervals of half a minute the turn about the axis that points down is summed up and held against the
+//! Over intervals of less than a minute the turn about the axis that points down is summed up and held against the
 //! change of the course over ground, both smoothed alike so that the antenna's swinging is left out. Drift and current move the one against the other by some tens of
 //! degrees, so whole turns are compared: the least-squares factor k of turn = k change is 1 for gyros
-//! that are as configured, whatever the heading.
+//! that are as configured, whatever the heading. A log that sees the bottom tells the drift: what is left is where her bow
+//! points, but for a constant of its mounting, and a slow ship's small turn says as much.
 
 use insd_base::units::{DEG, wrap_pi};
-use insd_base::{Estimate, Finding, GnssFix, Time};
+use insd_base::{Estimate, Finding, GnssFix, LogReference, LogVelocity, Time};
 use insd_nav::Increment;
 use nalgebra::Vector2;
 
-/// Below this speed, m/s, a course says nothing of a turn.
-const UNDER_WAY: f64 = 2.5;
-/// Length of an interval, s, and the longest silence within it.
-const INTERVAL: f64 = 40.0;
+/// Silence that breaks an interval, s, and the age up to which a log tells the drift.
 const BROKEN: f64 = 5.0;
+const FRESH: f64 = 2.5;
 /// Time constant of the smoothing, s.
 const SWELL: f64 = 10.0;
-/// Change of course that is a turn, rad, and the sum of them that must have been seen.
-const TURN: f64 = 15.0 * DEG;
-const ENOUGH: f64 = 80.0 * DEG;
 /// Share of the sums that is kept from turn to turn.
 const KEPT: f64 = 0.97;
 /// Factors between these are of gyros that tell turns.
 const LEAST: f64 = 0.3;
 const GREATEST: f64 = 3.0;
 
-/// Velocity north and east, m/s, and turn by the gyros, rad, both smoothed; at the time of the newest.
+/// What a change of direction is worth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Worth {
+    /// Below this speed, m/s, it says nothing of a turn.
+    under_way: f64,
+    /// Length of an interval, s.
+    interval: f64,
+    /// Change that is a turn, rad, and the sum of them that must have been seen.
+    turn: f64,
+    enough: f64,
+}
+
+/// Of a course, and of a course less the drift that a log tells.
+const OF_COURSE: Worth =
+    Worth { under_way: 2.5, interval: 40.0, turn: 15.0 * DEG, enough: 80.0 * DEG };
+const OF_BOW: Worth = Worth { under_way: 0.8, interval: 20.0, turn: 8.0 * DEG, enough: 30.0 * DEG };
+
+/// Velocity north and east, and forward and starboard by the log, m/s, and turn by the gyros, rad, all smoothed; at the time
+/// of the newest.
 #[derive(Clone, Copy, Debug)]
 struct Smooth {
     time: Time,
     velocity: Vector2<f64>,
+    log: Option<Vector2<f64>>,
     turned: f64,
 }
 
 impl Smooth {
-    fn course(&self) -> f64 {
-        self.velocity.y.atan2(self.velocity.x)
+    fn worth(&self) -> Worth {
+        if self.log.is_some() { OF_BOW } else { OF_COURSE }
+    }
+
+    /// Where she goes, less where that is from her bow if it is known, rad.
+    fn direction(&self) -> f64 {
+        let of = |velocity: &Vector2<f64>| velocity.y.atan2(velocity.x);
+        of(&self.velocity) - self.log.as_ref().map_or(0.0, of)
+    }
+
+    fn is_under_way(&self) -> bool {
+        let least = self.worth().under_way;
+        let is_fast = |velocity: &Vector2<f64>| velocity.norm() > least;
+        is_fast(&self.velocity) && self.log.as_ref().is_none_or(is_fast)
     }
 
     /// With another one, some moments later.
     fn with(&self, next: &Smooth) -> Smooth {
         let share = ((next.time - self.time).as_seconds() / SWELL).clamp(0.0, 1.0);
+        let log = self.log.zip(next.log).map(|(own, next)| own.lerp(&next, share));
         Smooth {
             time: next.time,
             velocity: self.velocity.lerp(&next.velocity, share),
+            log: log.or(next.log),
             turned: self.turned + (next.turned - self.turned) * share,
         }
     }
@@ -55,12 +84,15 @@ impl Smooth {
 pub(super) struct Turns {
     /// What the gyros have turned by, rad.
     turned: f64,
+    log: Option<LogVelocity>,
     /// As it is now, and as it was when the interval began.
     now: Option<Smooth>,
     begun: Option<Smooth>,
     together: f64,
     by_course: f64,
     by_gyro: f64,
+    /// How many turns were seen, and what they are of all that must have been.
+    turns: f64,
     seen: f64,
 }
 
@@ -70,13 +102,29 @@ impl Turns {
         self.turned += increment.rotation.z;
     }
 
+    /// Hears a log.
+    pub(super) fn hear_log(&mut self, log: &LogVelocity) {
+        self.log = Some(*log).filter(|log| log.reference == LogReference::Bottom);
+    }
+
+    /// The velocity of a log that tells the bottom now.
+    fn drift(&self, now: Time) -> Option<Vector2<f64>> {
+        let log = self.log.filter(|log| (now - log.time).as_seconds().abs() < FRESH)?;
+        let velocity = Vector2::new(log.u?, log.v?);
+        velocity.iter().all(|value| value.is_finite()).then_some(velocity)
+    }
+
     /// Hears a fix.
     pub(super) fn hear(&mut self, fix: &GnssFix) {
         let velocity = fix.velocity.filter(|_| fix.quality.is_measured());
         let Some(velocity) = velocity.map(|velocity| velocity.0.xy()) else { return };
-        let next = Smooth { time: fix.time, velocity, turned: self.turned };
-        let is_old = |now: &Smooth| !(0.0..BROKEN).contains(&(fix.time - now.time).as_seconds());
-        if self.now.as_ref().is_none_or(is_old) {
+        let log = self.drift(fix.time);
+        let next = Smooth { time: fix.time, velocity, log, turned: self.turned };
+        let is_other = |now: &Smooth| {
+            !(0.0..BROKEN).contains(&(fix.time - now.time).as_seconds())
+                || now.log.is_some() != log.is_some()
+        };
+        if self.now.as_ref().is_none_or(is_other) {
             (self.now, self.begun) = (Some(next), None);
             return;
         }
@@ -86,18 +134,21 @@ impl Turns {
 
     /// Compares what she has turned by since the interval began, if it is over.
     fn look(&mut self) {
-        let Some(now) = self.now.filter(|now| now.velocity.norm() > UNDER_WAY) else {
+        let Some(now) = self.now.filter(Smooth::is_under_way) else {
             self.begun = None;
             return;
         };
         let begun = *self.begun.get_or_insert(now);
-        if (now.time - begun.time).as_seconds() < INTERVAL {
+        let worth = now.worth();
+        if (now.time - begun.time).as_seconds() < worth.interval {
             return;
         }
         self.begun = Some(now);
-        let change = wrap_pi(now.course() - begun.course());
-        if change.abs() > TURN {
+        let change = wrap_pi(now.direction() - begun.direction());
+        if change.abs() > worth.turn {
             self.compare(change, now.turned - begun.turned);
+            self.turns += change.abs() / worth.turn;
+            self.seen += change.abs() / worth.enough;
         }
     }
 
@@ -105,15 +156,14 @@ impl Turns {
         self.together = self.together * KEPT + change * turn;
         self.by_course = self.by_course * KEPT + change * change;
         self.by_gyro = self.by_gyro * KEPT + turn * turn;
-        self.seen += change.abs();
     }
 
     /// What the gyros make of her turns, if it is not what they are.
     pub(super) fn finding(&self) -> Option<Finding> {
         let value = self.together / self.by_course;
-        let is_wrong = self.seen > ENOUGH && !(LEAST..=GREATEST).contains(&value);
+        let is_wrong = self.seen > 1.0 && !(LEAST..=GREATEST).contains(&value);
         let left = (self.by_gyro / self.by_course - value * value).max(0.0);
-        let sigma = (left / (self.seen / TURN).max(1.0)).sqrt();
+        let sigma = (left / self.turns.max(1.0)).sqrt();
         is_wrong.then_some(Finding::ImuTurns { ratio: Estimate { value, sigma } })
     }
 }
