@@ -183,6 +183,12 @@ impl Filter {
         self.time
     }
 
+    /// Turn-on bias of the gyros by their data sheet, 1-sigma, rad/s.
+    #[must_use]
+    pub fn gyro_bias_std(&self) -> f64 {
+        self.config.imu.gyro.bias_std
+    }
+
     /// The estimate.
     #[must_use]
     pub fn nominal(&self) -> &Nominal {

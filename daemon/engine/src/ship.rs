@@ -267,11 +267,8 @@ impl Ship {
         };
         if let Some(mut fine) = found {
             fine.filter_mut().begin_navigation();
-            let trial = match self {
-                Ship::InMotion { finder, .. } => Some(finder.config().imu.gyro.bias_std),
-                _ => None,
-            };
-            let trial = trial.map(|bias_std| Trial::begin(fine.filter().time(), bias_std));
+            let is_on_trial = matches!(self, Ship::InMotion { .. });
+            let trial = is_on_trial.then(|| Trial::of(fine.filter()));
             let blind = match self {
                 Ship::InMotion { blind, .. } => blind.take(),
                 _ => None,
@@ -316,7 +313,7 @@ impl Ship {
                 let mut filter = Filter::new(&config, &initial);
                 finder.gnss_used().iter().for_each(|time| filter.note_gnss_used(*time));
                 filter.begin_navigation();
-                *trial = Some(Trial::begin(finder.time(), config.imu.gyro.bias_std));
+                *trial = Some(Trial::of(&filter));
                 let method = fine.is_moored().then_some(Method::Moorings);
                 (**fine, *aligned, *own) = (Fine::held(filter, method), false, None);
             }
@@ -372,11 +369,12 @@ impl Estimator for Ship {
                 images.advance(increment);
                 blind.iter_mut().for_each(|blind| blind.advance(increment));
             }
-            Ship::Navigating { fine, aligned, blind, .. } => {
+            Ship::Navigating { fine, aligned, trial, blind, .. } => {
                 fine.advance(increment);
                 blind.iter_mut().for_each(|blind| blind.advance(increment));
                 if fine.seems_to_leave() {
                     fine.cast_off();
+                    *trial = Some(Trial::of(fine.filter()));
                 }
                 *aligned = *aligned || is_steerable(fine);
             }

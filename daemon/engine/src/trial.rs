@@ -33,9 +33,10 @@ pub(crate) enum Misled {
 }
 
 impl Trial {
-    /// Begins with the filter that is handed over, on gyros of a turn-on bias, rad/s.
-    pub(crate) fn begin(now: Time, gyro_bias_std: f64) -> Self {
-        let lasts = if gyro_bias_std < BLIND { USUAL } else { LONGEST };
+    /// Begins with the filter as it is now.
+    pub(crate) fn of(filter: &Filter) -> Self {
+        let (now, is_blind) = (filter.time(), filter.gyro_bias_std() >= BLIND);
+        let lasts = if is_blind { LONGEST } else { USUAL };
         Trial { began: now, end: now + Span::from_seconds(lasts) }
     }
 
