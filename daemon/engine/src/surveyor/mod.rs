@@ -266,14 +266,14 @@ impl Surveyor {
         }
         self.next = Some(now + LOOK);
         let navigating = ship.filter(|ship| ship.has_one_heading()).and_then(Ship::likeliest);
-        let found: Vec<Finding> = match navigating {
-            Some(fine) => {
-                let estimates = fine.filter().estimates(fine.is_moored());
-                self.note_delay(&estimates);
-                self.all(&estimates, fine.filter().imu_is_worse_by())
-            }
-            None => self.of_imu(),
-        };
+        let mut found = self.of_imu();
+        if let Some(fine) = navigating {
+            let estimates = fine.filter().estimates(fine.is_moored());
+            self.note_delay(&estimates);
+            found.extend(self.of_installation(&estimates, fine.filter().imu_is_worse_by()));
+        }
+        found.extend(self.log.finding());
+        found.extend(self.still.all().map(|what| Finding::Frozen { what }));
         let is_new = |finding: &&Finding| {
             !self.findings.iter().any(|known| known.as_str() == finding.as_str())
         };
@@ -291,16 +291,13 @@ impl Surveyor {
     }
 
     /// A lever arm in the axes of an IMU that is not mounted as configured means nothing.
-    fn all(&self, estimates: &Estimates, imu_is_worse_by: f64) -> Vec<Finding> {
-        let mut found = self.of_imu();
+    fn of_installation(&self, estimates: &Estimates, imu_is_worse_by: f64) -> Vec<Finding> {
+        let is_imu_right = self.of_imu().is_empty();
         let levers = [self.lever(estimates), self.log_lever(estimates)];
-        if found.is_empty() {
-            found.extend(levers.into_iter().flatten());
-        }
+        let mut found: Vec<Finding> =
+            levers.into_iter().flatten().filter(|_| is_imu_right).collect();
         let worse = (imu_is_worse_by > 1.0).then_some(Finding::ImuWorse { times: imu_is_worse_by });
-        found.extend(worse);
-        found.extend(delay(estimates).into_iter().chain(self.log.finding()));
-        found.extend(self.still.all().map(|what| Finding::Frozen { what }));
+        found.extend(worse.into_iter().chain(delay(estimates)));
         found
     }
 
