@@ -144,6 +144,17 @@ fn a_log_that_tells_other_units_is_named_and_not_used() {
 }
 
 #[test]
+fn a_log_that_was_found_out_is_not_believed_by_an_alignment_that_begins_anew() {
+    let mut voyage = departure_of(1100.0, 14);
+    for log in &mut voyage.log {
+        log.message.u = log.message.u.map(|u| u * 3.6);
+        log.message.v = log.message.v.map(|v| v * 3.6);
+    }
+    let sailed = sail(voyage);
+    assert!(sailed.end().0 < 3.0 && sailed.end().1 < 3.0, "{:?}", sailed.end());
+}
+
+#[test]
 fn gyros_that_tell_degrees_are_named_at_a_calm_berth() {
     for seed in 1..=8 {
         let mut voyage = departure_of(130.0, seed);

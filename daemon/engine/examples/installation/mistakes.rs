@@ -53,6 +53,14 @@ fn mirror(voyage: &mut Voyage, axis: usize, accel: f64) {
     }
 }
 
+/// Forward is told as starboard, and starboard as forward.
+fn swap(voyage: &mut Voyage) {
+    for sample in &mut voyage.imu {
+        sample.message.delta_theta.0.swap_rows(0, 1);
+        sample.message.delta_velocity.0.swap_rows(0, 1);
+    }
+}
+
 fn log(voyage: &mut Voyage, change: impl Fn(Vector3<f64>) -> Vector3<f64>) {
     for log in &mut voyage.log {
         let told = [log.message.u, log.message.v, log.message.w].map(Option::unwrap_or_default);
@@ -77,7 +85,7 @@ const AXES: &str = "imu_axes";
 const LOG: &str = "log_mounting";
 
 /// All of them; the first is none.
-pub(crate) const MISTAKES: [Mistake; 33] = [
+pub(crate) const MISTAKES: [Mistake; 35] = [
     mistake("as configured", "", |_| {}),
     mistake("down sign", LEVER, |v| lever(v, |[x, y, z]| [x, y, -z])),
     mistake("forward sign", LEVER, |v| lever(v, |[x, y, z]| [-x, y, z])),
@@ -105,8 +113,10 @@ pub(crate) const MISTAKES: [Mistake; 33] = [
     mistake("accel in g", "imu_force", |v| scale_imu(v, 1.0, 1.0 / 9.80665)),
     mistake("gyro in deg", "imu_rate", |v| scale_imu(v, 57.295_78, 1.0)),
     mistake("gyro x mirrored", AXES, |v| mirror(v, 0, 1.0)),
+    mistake("gyro y mirrored", AXES, |v| mirror(v, 1, 1.0)),
     mistake("gyro z mirrored", "imu_turns", |v| mirror(v, 2, 1.0)),
     mistake("y mirrored", AXES, |v| mirror(v, 1, -1.0)),
+    mistake("x, y swapped", AXES, swap),
     mistake("log reversed", LOG, |v| log(v, |u| -u)),
     mistake("log quarter turn", LOG, |v| log(v, |u| Vector3::new(-u.y, u.x, u.z))),
     mistake("log in knots", LOG, |v| log(v, |u| u / 0.514_444)),
