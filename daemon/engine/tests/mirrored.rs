@@ -1,5 +1,5 @@
 //! An IMU of which an axis is mirrored: at the berth it looks like a mast that points down, in the first turn like a receiver
-//! that creeps away; gravity and the turns that log and course tell of give it away.
+//! that creeps away; gravity, the turns that log and course tell of, and the way that her antenna swings under way give it away.
 
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
 
@@ -24,6 +24,8 @@ fn mirrored(number: &str, seconds: f64, seed: u64, axis: usize, accel: f64) -> V
 
 /// With gyros of some degrees an hour from the berth to the first turns, which begin after 780 s.
 const COASTAL: &str = "03";
+/// With gyros that find north, under way when the navigator is started.
+const RESTART: &str = "10";
 /// With gyros that find north from a calm berth, which she leaves after 700 s with a turn.
 const HARBOUR: &str = "01";
 
@@ -77,4 +79,11 @@ fn an_axis_that_is_mirrored_is_named_at_the_berth() {
         assert!(misled < 50.0, "{number}, axis {axis}: {misled} m");
         assert_eq!(found.last(), Some(&"imu_axes"), "{number}, axis {axis}");
     }
+}
+
+#[test]
+fn a_gyro_about_starboard_that_is_mirrored_alone_is_named_under_way() {
+    let (misled, found) = sail(&mirrored(RESTART, 300.0, 1, 1, 1.0));
+    assert!(misled < 20.0, "{misled} m");
+    assert!(found.contains(&"imu_axes"), "{found:?}");
 }

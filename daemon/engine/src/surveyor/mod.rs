@@ -7,6 +7,7 @@ mod axes;
 mod frozen;
 mod gravity;
 mod imu;
+mod leaning;
 mod log;
 mod mounting;
 mod probation;
@@ -24,6 +25,7 @@ use insd_nav::Increment;
 use crate::ship::Ship;
 use frozen::StandingStill;
 use imu::ImuWatch;
+use leaning::Leaning;
 use log::LogWatch;
 use mounting::Mounting;
 pub(crate) use probation::Probation;
@@ -52,6 +54,7 @@ pub(crate) struct Surveyor {
     mounting: Mounting,
     probation: Probation,
     turns: Turns,
+    leaning: Leaning,
     still: StandingStill,
     log: LogWatch,
     newest: Option<Solution>,
@@ -79,6 +82,7 @@ impl Surveyor {
             mounting: Mounting::default(),
             probation: Probation::default(),
             turns: Turns::default(),
+            leaning: Leaning::default(),
             still: StandingStill::default(),
             log: LogWatch::default(),
             newest: None,
@@ -111,6 +115,7 @@ impl Surveyor {
     pub(crate) fn measure(&mut self, increment: &Increment) {
         self.imu.see(increment);
         self.turns.see(increment);
+        self.leaning.see(increment);
     }
 
     /// Whether nothing can be made of what the IMU says, however the ship lies.
@@ -185,6 +190,7 @@ impl Surveyor {
         match &received.message {
             Message::Gnss(fix) => {
                 self.turns.hear(fix);
+                self.leaning.hear(fix);
                 self.imu.hear(fix);
                 self.still.hear_fix(fix, newest.as_ref());
             }
@@ -306,8 +312,15 @@ impl Surveyor {
         let is_as_meant = self.accepts || self.log.agrees();
         let turned = || self.mounting.finding().filter(|_| !is_as_meant);
         let refuted = || self.is_refuted.then_some(Finding::ImuRefuted);
+        let leaning = || self.leaning.finding();
         let turns = || self.turns.finding();
-        self.samples().or_else(turns).or_else(turned).or_else(refuted).into_iter().collect()
+        self.samples()
+            .or_else(leaning)
+            .or_else(turns)
+            .or_else(turned)
+            .or_else(refuted)
+            .into_iter()
+            .collect()
     }
 
     /// What is found of its samples.
