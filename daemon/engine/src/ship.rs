@@ -112,9 +112,13 @@ impl Ship {
             Ship::InMotion { finder, images, .. } => {
                 images.is_mirrored(finder).then_some(Misled::Imu)
             }
-            Ship::Navigating { fine, .. } if fine.filter().finds_the_impossible() => {
+            Ship::Navigating { fine, .. }
+                if fine.filter().finds_the_impossible()
+                    || (!fine.is_moored() && fine.filter().puts_antenna_off_board()) =>
+            {
                 Some(Misled::Imu)
             }
+            Ship::Navigating { fine, .. } if fine.filter().is_forsaken() => Some(Misled::Unknown),
             Ship::Navigating { fine, trial: Some(trial), .. } => trial.refuted_by(fine.filter()),
             _ => None,
         }

@@ -6,7 +6,7 @@ use nalgebra::SMatrix;
 use super::Filter;
 use crate::config::is_on_board;
 use crate::dating::Dating;
-use crate::error_state::{ATTITUDE, GNSS_VELOCITY_DELAY, STATES, VELOCITY};
+use crate::error_state::{ATTITUDE, GNSS_LEVER, GNSS_VELOCITY_DELAY, STATES, VELOCITY};
 use crate::innovation::Weighed;
 use crate::separate_bias::{DELAY, Finding, SeparateBias};
 
@@ -62,6 +62,18 @@ impl Filter {
     #[must_use]
     pub fn finds_the_impossible(&self) -> bool {
         self.is_impossible
+    }
+
+    /// Whether the antenna is found where no ship is, however unsure that is.
+    #[must_use]
+    pub fn puts_antenna_off_board(&self) -> bool {
+        let arm = self.antenna_lever();
+        if is_on_board(&arm) {
+            return false;
+        }
+        let variance = GNSS_LEVER.covariance(&self.covariance).diagonal();
+        let unsure = variance.map(|variance| SURELY * variance.max(0.0).sqrt());
+        !is_on_board(&arm.zip_map(&unsure, |m, by| m.signum() * (m.abs() - by).max(0.0)))
     }
 
     /// What an update takes from the effect of the constants of the installation.

@@ -25,6 +25,8 @@ const PATIENCE: f64 = 60.0;
 const LOST_HEADING: f64 = 5.0 * DEG;
 /// Mistakes of the installation show within this, s.
 const SETTLED: f64 = 300.0;
+/// Who has spoken within this time speaks, s.
+const SPEAKS: f64 = 3.0;
 /// Who has not been heard for so long is no witness of the heading, s.
 const ALONE: f64 = 60.0;
 
@@ -179,6 +181,17 @@ impl Filter {
         } else {
             Parties::default()
         }
+    }
+
+    /// Whether it goes on by the IMU alone, against a receiver and a log that both speak: before mistakes of the installation have shown
+    /// nobody is named for that, but the heading is one.
+    #[must_use]
+    pub fn is_forsaken(&self) -> bool {
+        let now = self.time;
+        let speaks = |judge: &Judge| {
+            [Aid::GnssPosition, Aid::Log].iter().all(|aid| judge.has_spoken(*aid, now, SPEAKS))
+        };
+        self.is_early() && self.is_carried_by_imu() && self.judge.as_deref().is_some_and(speaks)
     }
 
     pub(super) fn is_early(&self) -> bool {

@@ -99,6 +99,11 @@ impl Hearing {
         self.last.map_or(f64::INFINITY, |last| (now - last).as_seconds())
     }
 
+    /// Whether it has spoken within such a time, s, heard or not.
+    pub(super) fn spoke_within(&self, now: Time, span: f64) -> bool {
+        is_within(self.spoke, now, span)
+    }
+
     /// It is heard now.
     pub(super) fn note(&mut self, now: Time) {
         self.last = Some(now);

@@ -46,6 +46,12 @@ impl Judge {
         self.hearings[aid as usize].note_word(now);
     }
 
+    /// Whether somebody says something with an aid, believed or not.
+    #[must_use]
+    pub fn has_spoken(&self, aid: Aid, now: Time, within: f64) -> bool {
+        self.hearings[aid as usize].spoke_within(now, within)
+    }
+
     fn forget_noise(&mut self, aids: &[Aid]) {
         aids.iter().for_each(|aid| self.hearings[*aid as usize] = Hearing::default());
     }
