@@ -270,11 +270,36 @@ fn missing_files_are_named() {
 
 #[test]
 fn a_wrong_header_names_the_columns_that_are_missing() {
-    for (file, column) in [("imu.csv", "dvel_y_mps"), ("gnss.csv", "quality"), ("log.csv", "t_s")] {
+    for (file, column) in [
+        ("imu.csv", "dvel_y_mps"),
+        ("gnss.csv", "lon_deg"),
+        ("gnss.csv", "ve_mps"),
+        ("log.csv", "t_s"),
+        ("log.csv", "reference"),
+    ] {
         let dir = damaged(file, |text| text.replacen(column, "wrong", 1));
         let message = message_of(dir.path());
         assert!(message.contains(&format!("{file}:1: missing column {column};")), "{message}");
     }
+}
+
+#[test]
+fn a_column_that_no_receiver_tells_may_be_left_out_and_that_is_told() {
+    let dir = damaged("gnss.csv", |text| {
+        ["vn_mps", "ve_mps", "quality"]
+            .iter()
+            .fold(text.to_owned(), |text, column| text.replacen(column, "another", 1))
+    });
+    let mut reader = VoyageReader::open(dir.path()).unwrap();
+    let messages: Vec<Message> = (&mut reader).map(|received| received.unwrap().message).collect();
+    let of_fix = |message: &Message| match message {
+        Message::Gnss(fix) => Some((fix.velocity, fix.quality)),
+        _ => None,
+    };
+    let told: Vec<_> = messages.iter().filter_map(of_fix).collect();
+    assert!(!told.is_empty() && told.iter().all(|it| *it == (None, FixQuality::Autonomous)));
+    let report = reader.skipped().into_iter().find(|report| report.file == "gnss.csv").unwrap();
+    assert_eq!(report.absent, ["vn_mps", "ve_mps", "quality"]);
 }
 
 #[test]

@@ -120,10 +120,13 @@ impl Summary<'_> {
 }
 
 fn write_report(f: &mut fmt::Formatter<'_>, report: &FileReport) -> fmt::Result {
+    let (file, rows) = (&report.file, report.rows);
+    if !report.absent.is_empty() {
+        writeln!(f, "{file}: no column {}: not available", report.absent.join(", "))?;
+    }
     if report.faulty() == 0 {
         return Ok(());
     }
-    let (file, rows) = (&report.file, report.rows);
     let reasons = report.skipped.iter().map(|(fault, count)| (fault.as_str(), *count));
     let unsorted = (report.unsorted > 0).then_some(("unsorted, passed on", report.unsorted));
     let reasons: Vec<String> =

@@ -20,6 +20,23 @@ pub(super) struct Columns {
     pub(super) width: usize,
 }
 
+impl Columns {
+    /// Names of the columns of the format that the file has.
+    pub(super) fn present(&self) -> impl Iterator<Item = &'static str> {
+        self.named(true)
+    }
+
+    /// Names of those that it lacks.
+    pub(super) fn absent(&self) -> impl Iterator<Item = &'static str> {
+        self.named(false)
+    }
+
+    fn named(&self, is_there: bool) -> impl Iterator<Item = &'static str> {
+        let all = self.names.iter().zip(&self.places);
+        all.filter(move |(_, place)| place.is_some() == is_there).map(|(name, _)| *name)
+    }
+}
+
 /// One line, cut at its commas.
 pub(super) struct Fields<'a> {
     pub(super) columns: &'a Columns,

@@ -30,7 +30,8 @@ pub struct NavRow {
 
 impl Row for NavRow {
     const COLUMNS: &'static [&'static str] = NAV;
-    const REQUIRED: usize = HORIZONTAL;
+    const OPTIONAL: &'static [&'static [&'static str]] =
+        &[&["hpl_m"], &["vpl_m"], &["integrity"], &["excluded"]];
 
     fn parse(fields: &Fields<'_>) -> Result<Self, BadRow> {
         let level = |column| fields.within(column, 0.0..=f64::MAX);

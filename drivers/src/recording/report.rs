@@ -104,6 +104,8 @@ pub struct FileReport {
     pub lines: u64,
     /// Rows read so far, faulty ones included.
     pub rows: u64,
+    /// Columns of the format that it does not have, and need not: nobody tells what they would.
+    pub absent: Vec<&'static str>,
     /// Rows left out, by reason.
     pub skipped: BTreeMap<RowFault, u64>,
     /// Rows whose time goes back: passed on, for the engine to judge, but faults of the file.

@@ -7,19 +7,20 @@ use insd_base::{
 
 use super::fields::Fields;
 use super::report::{BadRow, RowFault};
-use super::table::Row;
+use super::table::{ARRIVAL, Row};
 
 /// Takes `t_s` and the optional `arrival_s`, the first and the last column of every sensor's row.
 /// An arrival before the time of validity, by a clock's jitter, counts as prompt.
 macro_rules! stamped_row {
-    ($message:ty, $parse:path, $columns:expr) => {
+    ($message:ty, $parse:path, $columns:expr, $optional:expr) => {
         impl Row for Stamped<$message> {
             const COLUMNS: &'static [&'static str] = $columns;
-            const REQUIRED: usize = Self::COLUMNS.len() - 1;
+            const OPTIONAL: &'static [&'static [&'static str]] = $optional;
 
             fn parse(fields: &Fields<'_>) -> Result<Self, BadRow> {
                 let time = fields.time(0)?;
-                let arrival = fields.optional_time(Self::REQUIRED)?.filter(|at| *at > time);
+                let last = Self::COLUMNS.len() - 1;
+                let arrival = fields.optional_time(last)?.filter(|at| *at > time);
                 Ok(Stamped { message: $parse(time, fields)?, arrival })
             }
 
@@ -41,8 +42,9 @@ stamped_row!(
         "dvel_x_mps",
         "dvel_y_mps",
         "dvel_z_mps",
-        "arrival_s"
-    ]
+        ARRIVAL
+    ],
+    &[&[ARRIVAL]]
 );
 
 stamped_row!(
@@ -65,14 +67,28 @@ stamped_row!(
         "hdop",
         "satellites",
         "quality",
-        "arrival_s"
+        ARRIVAL
+    ],
+    &[
+        &["height_m"],
+        &["vn_mps", "ve_mps"],
+        &["vd_mps"],
+        &["std_n_m", "std_e_m"],
+        &["std_d_m"],
+        &["std_vn_mps", "std_ve_mps"],
+        &["std_vd_mps"],
+        &["hdop"],
+        &["satellites"],
+        &["quality"],
+        &[ARRIVAL]
     ]
 );
 
 stamped_row!(
     LogVelocity,
     log_velocity,
-    &["t_s", "u_mps", "v_mps", "w_mps", "std_mps", "reference", "arrival_s"]
+    &["t_s", "u_mps", "v_mps", "w_mps", "std_mps", "reference", ARRIVAL],
+    &[&["v_mps"], &["w_mps"], &["std_mps"], &[ARRIVAL]]
 );
 
 stamped_row!(
@@ -88,7 +104,16 @@ stamped_row!(
         "std_v_mps",
         "std_pos_m",
         "std_heading_deg",
-        "arrival_s"
+        ARRIVAL
+    ],
+    &[
+        &["vn_mps", "ve_mps"],
+        &["lat_deg", "lon_deg"],
+        &["heading_deg"],
+        &["std_v_mps"],
+        &["std_pos_m"],
+        &["std_heading_deg"],
+        &[ARRIVAL]
     ]
 );
 
@@ -191,7 +216,7 @@ macro_rules! state_columns {
 
 impl Row for Truth {
     const COLUMNS: &'static [&'static str] = state_columns!();
-    const REQUIRED: usize = Self::COLUMNS.len();
+    const OPTIONAL: &'static [&'static [&'static str]] = &[];
 
     fn parse(fields: &Fields<'_>) -> Result<Self, BadRow> {
         Ok(Truth {

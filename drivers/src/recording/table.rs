@@ -13,12 +13,15 @@ use super::input;
 use super::lines::{LineFault, Lines, MAX_LINE};
 use super::report::{BadRow, FileReport, RowFault};
 
+/// When a row reached the computer, s: every sensor's last column.
+pub(super) const ARRIVAL: &str = "arrival_s";
+
 /// A row of one of the files of the format.
 pub(super) trait Row: Sized {
     /// Its columns in the order in which [`Row::parse`] counts them.
     const COLUMNS: &'static [&'static str];
-    /// How many of them, from the front, a header must name.
-    const REQUIRED: usize;
+    /// Those that a header need not name: of a group all or none, as one that names some of it is misspelt.
+    const OPTIONAL: &'static [&'static [&'static str]];
 
     /// Takes the row from its fields.
     fn parse(fields: &Fields<'_>) -> Result<Self, BadRow>;
@@ -52,7 +55,8 @@ impl<T: Row> Table<T> {
         };
         let columns = find_columns::<T>(path, header)?;
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-        let report = FileReport { file: name, lines: 1, ..FileReport::default() };
+        let absent = columns.absent().filter(|column| *column != ARRIVAL).collect();
+        let report = FileReport { file: name, lines: 1, absent, ..FileReport::default() };
         let (path, cuts) = (path.to_owned(), Vec::with_capacity(columns.width));
         Ok(Table { path, lines, columns, cuts, report, rows: PhantomData })
     }
@@ -100,9 +104,7 @@ impl<T: Row> Table<T> {
 
     /// The columns of the format that the file has.
     pub(super) fn columns(&self) -> Vec<&'static str> {
-        let Columns { names, places, .. } = &self.columns;
-        let named = names.iter().zip(places).filter(|(_, place)| place.is_some());
-        named.map(|(name, _)| *name).collect()
+        self.columns.present().collect()
     }
 
     /// An error if the whole file turned out to be bad.
@@ -136,7 +138,8 @@ fn line_fault(path: &Path, last: u64, fault: LineFault) -> RecordingError {
 
 /// Finds the columns of a row in a header, in any order.
 fn find_columns<T: Row>(path: &Path, header: &[u8]) -> Result<Columns, RecordingError> {
-    let expected = || T::COLUMNS[..T::REQUIRED].join(",");
+    let format: Vec<_> = T::COLUMNS.iter().copied().filter(|column| *column != ARRIVAL).collect();
+    let expected = || format.join(",");
     let header = header.strip_prefix(b"\xef\xbb\xbf").unwrap_or(header);
     let bad_byte = match std::str::from_utf8(header) {
         Ok(text) => text.find('\0'),
@@ -149,8 +152,12 @@ fn find_columns<T: Row>(path: &Path, header: &[u8]) -> Result<Columns, Recording
     let words: Vec<&[u8]> = header.split(|byte| *byte == b',').map(unquote).collect();
     let place = |name: &&str| words.iter().position(|word| *word == name.as_bytes());
     let places: Vec<Option<usize>> = T::COLUMNS.iter().map(place).collect();
-    let is_missing = |index: &usize| places[*index].is_none();
-    let missing: Vec<_> = (0..T::REQUIRED).filter(is_missing).map(|i| T::COLUMNS[i]).collect();
+    let columns = Columns { names: T::COLUMNS, places, width: words.len() };
+    let may_be_absent = |column: &&str| {
+        let group = T::OPTIONAL.iter().find(|group| group.contains(column));
+        group.is_some_and(|group| group.iter().all(|other| columns.absent().any(|it| it == *other)))
+    };
+    let missing: Vec<_> = columns.absent().filter(|column| !may_be_absent(column)).collect();
     if !missing.is_empty() {
         return Err(RecordingError::MissingColumns { file, missing, expected: expected() });
     }
@@ -158,7 +165,7 @@ fn find_columns<T: Row>(path: &Path, header: &[u8]) -> Result<Columns, Recording
     if let Some(column) = T::COLUMNS.iter().copied().find(repeated) {
         return Err(RecordingError::RepeatedColumn { file, column });
     }
-    Ok(Columns { names: T::COLUMNS, places, width: words.len() })
+    Ok(columns)
 }
 
 /// A column's name without blanks or the quotes that spreadsheets put around it.
