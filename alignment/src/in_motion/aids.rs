@@ -7,6 +7,7 @@ use insd_base::{Geodetic, earth};
 use nalgebra::{Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 
 use super::belief::{Belief, CONSIDERED, Innovation, STATES, considered as k, state as x};
+use super::mast::Mast;
 use super::motion::{Local, Motion, across, rotation};
 
 type ByConsidered = SMatrix<f64, 2, CONSIDERED>;
@@ -99,9 +100,18 @@ impl Scene {
         self.c_pb * self.rate.cross(lever)
     }
 
-    /// Square of the sine of the angle between the mast and the vertical.
-    fn lean_squared(&self) -> f64 {
-        self.c_pb[(0, 2)].powi(2) + self.c_pb[(1, 2)].powi(2)
+    /// Where the foot of a mast of unit length is from below its top, computed frame.
+    #[must_use]
+    pub fn mast(&self) -> Vector2<f64> {
+        Vector2::new(self.c_pb[(0, 2)], self.c_pb[(1, 2)])
+    }
+
+    /// Variance of what a mast of unknown length moves the antenna by, m^2.
+    #[must_use]
+    pub fn leaning(&self, mast: &Mast, belief: &Belief) -> f64 {
+        let is_alike = mast.is_held() && !self.makes_way;
+        let lasts = if is_alike { ALIKE } else { 1.0 };
+        mast.swung(&self.mast(), &self.hull) * belief.prior[k::LEVER] * lasts
     }
 
     /// Variance of the velocity that an unknown lever arm gives the antenna as the ship rolls and
@@ -124,13 +134,14 @@ impl Scene {
 }
 
 /// GNSS position at the antenna: z = dr + (R(dpsi) C_pb l and its tilt) + v tau + slow + white. What an
-/// unknown height of the antenna does as the ship leans counts as noise.
+/// unknown height of the antenna does as the ship leans counts as noise, of the variance `leaning`, m^2
+/// ([`Scene::leaning`]).
 #[must_use]
 pub fn gnss_position(
     scene: &Scene,
     fix: &Split<Geodetic>,
     lever: &Vector3<f64>,
-    belief: &Belief,
+    leaning: f64,
 ) -> Innovation<2> {
     let (arm, mut h) = scene.motion.carried(&(scene.c_pb * lever));
     h.fixed_view_mut::<2, 2>(0, x::POSITION).fill_with_identity();
@@ -138,7 +149,6 @@ pub fn gnss_position(
     hc.fixed_view_mut::<2, 2>(0, k::LEVER).copy_from(&scene.hull);
     hc.set_column(k::DELAY, &-scene.motion.velocity);
     set_slow(&mut hc, k::SLOW_POSITION, &fix.slow);
-    let leaning = scene.lean_squared() * belief.prior[k::LEVER];
     let white = fix.white.component_mul(&fix.white);
     Innovation {
         z: scene.offset(&fix.value) - arm,
@@ -208,7 +218,7 @@ pub fn log_velocity(
         variance += LEEWAY * LEEWAY;
     }
     if reading.w.is_none() {
-        variance += scene.lean_squared() * scene.down.1;
+        variance += scene.mast().norm_squared() * scene.down.1;
     }
     let mut h = -by_state;
     if at_imu.xy().norm() < MOVING * variance.sqrt() {

@@ -81,7 +81,9 @@ impl EightState {
             split.white = split.white.map(|white| white.hypot(UNLEVEL * lever.norm()));
         }
         self.watch_for_leaps(fix, &position, split.white.max());
-        let innovation = aids::gnss_position(&self.scene(), &split, &lever, &self.belief);
+        let scene = self.scene();
+        let leaning = scene.leaning(&self.mast, &self.belief);
+        let innovation = aids::gnss_position(&scene, &split, &lever, leaning);
         if self.leap.is_suspected() {
             enter(report, fix.time, source, GNSS_POSITION, Rejection::SourceSuspect);
             return None;
@@ -220,15 +222,18 @@ impl EightState {
         if fix.lever.is_some_and(|arm| self.config.hear_antenna(arm)) {
             self.antenna = AntennaMotion::default();
             self.belief.renew_considered_pair(k::LEVER, self.config.gnss_lever_std().powi(2));
+            self.mast.release();
         }
     }
 
     /// Takes the position as that of the antenna, `white` the variance of the fix: nothing knows it better
-    /// while the lever arm is unknown. It is off by that, dr = -C_nb dl.
+    /// while the lever arm is unknown. It is off by that, dr = -C_nb dl, and by what the mast leans at that moment, which is of no
+    /// account until it leans otherwise.
     fn place(&mut self, antenna: &Geodetic, white: &Vector2<f64>) {
         self.motion.place = Geodetic { height: self.vertical.height, ..*antenna };
         let by_lever = -self.scene().hull;
         self.belief.tie_pair(x::POSITION, k::LEVER, &by_lever, white.max());
+        self.mast.hold(&self.scene().mast());
     }
 
     /// A filter that refuses its receiver for long is itself in error: it starts again from the
@@ -251,6 +256,7 @@ impl EightState {
         self.motion.place = Geodetic { height: self.vertical.height, ..place };
         self.motion.velocity = velocity.0.xy();
         self.renew(spread(place_std, lever.norm()), spread(speed_std, swing));
+        self.mast.release();
         self.refused_since = None;
         report.position_reset = true;
     }

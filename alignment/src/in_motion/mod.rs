@@ -33,6 +33,7 @@ pub mod belief;
 pub mod blur;
 pub mod circle;
 mod handover;
+pub mod mast;
 mod messages;
 pub mod motion;
 pub mod vertical;
@@ -53,6 +54,7 @@ use crate::levelling::Level;
 use aids::Scene;
 use belief::{Belief, considered as k, state as x};
 use blur::Blur;
+use mast::Mast;
 use motion::{Local, Motion, Stretch};
 use vertical::Vertical;
 
@@ -77,6 +79,7 @@ pub struct EightState {
     antenna: AntennaMotion,
     rtk: Option<bool>,
     heard_height: Time,
+    mast: Mast,
     /// When a position of GNSS was last used.
     gnss_used: Option<Time>,
     refused_since: Option<Time>,
@@ -143,6 +146,7 @@ impl EightState {
             antenna: AntennaMotion::default(),
             rtk: None,
             heard_height: level.time,
+            mast: Mast::default(),
             gnss_used: None,
             refused_since: None,
             leap: LeapWatch::default(),
@@ -265,6 +269,8 @@ impl EightState {
         }
         let transition =
             self.stretch.transition(&self.motion, &self.local, &self.belief, &self.config);
+        let scene = self.scene();
+        self.mast.see(&scene.mast(), &scene.hull, self.stretch.duration);
         let before = self.belief.pair(x::SINE).sum();
         self.belief.propagate(&transition);
         let after = self.belief.pair(x::SINE).sum().max(f64::MIN_POSITIVE);

@@ -424,7 +424,7 @@ fn table() -> [Aid; 6] {
     [
         ("gnss_position", |scene, belief| {
             let fix = split(Geodetic::from_degrees(52.000_01, 139.000_02, 40.0));
-            aids::gnss_position(scene, &fix, &LEVER, belief)
+            aids::gnss_position(scene, &fix, &LEVER, scene.leaning(&Mast::default(), belief))
         }),
         ("gnss_velocity", |scene, belief| {
             let fix = split(Vector2::new(4.0, -3.0));
