@@ -133,6 +133,11 @@ impl Hearing {
         is_within(self.resumed, now, span)
     }
 
+    /// Whether an instant is that at which it was heard again after a long silence, or just after it, s.
+    pub(super) fn resumed_about(&self, since: Time, span: f64) -> bool {
+        self.resumed.is_some_and(|at| (since - at).as_seconds().abs() <= span)
+    }
+
     /// Sees an innovation of which all of the variance of the noise has been raised by what it scatters: what was not would make
     /// the scatter grow by itself. Tells whether it is found to scatter much more than before.
     pub(super) fn see<const M: usize>(&mut self, innovation: &Innovation<M>) -> bool {

@@ -4,7 +4,7 @@ use insd_base::{Fault, Party, Standing, Time};
 
 use super::onset::Sized;
 use super::rows::{ALL, Group, OF_FALSE_TURNS, OF_GYROS};
-use super::{Alternative, CLOSE, Judge, SPAWN};
+use super::{Aid, Alternative, CLOSE, Judge, SPAWN};
 
 /// Mean square of the innovations, of which one is expected, that a fault may leave unexplained.
 const UNEXPLAINED: f64 = 4.0;
@@ -35,6 +35,8 @@ const LONG: f64 = 60.0;
 const WORST: f64 = 4.0;
 /// The same where a receiver contradicts itself, its position its velocity: no model of the ship stands between them.
 const OWN_WORD: f64 = 1.2;
+/// What begins within this of when a receiver is heard again began in its silence, s.
+const RESUMED: f64 = 5.0;
 /// A height that changes by more at once leaps, m.
 const LEAP: f64 = 5.0;
 /// A place that changes by more at once does, m.
@@ -189,7 +191,8 @@ impl Judge {
                 let is_own_word = *fault == Fault::Slide;
                 let unsure = if is_own_word { unsure.min(OWN_WORD) } else { unsure };
                 let sized = onset.sized(group, unsure).filter(|sized| sized.value.norm() >= *least);
-                let Some(sized) = sized.filter(|_| !is_slow) else { continue };
+                let is_unseen = self.began_unseen(*fault, onset.since, now);
+                let Some(sized) = sized.filter(|_| !is_slow && !is_unseen) else { continue };
                 let (fault, begun) = (*fault, onset.since);
                 let kind = Kind::Shaped { group, since: begun, sized };
                 let (weight, evidence) = (log_rate + step, sized.log_factor * unsure);
@@ -207,6 +210,17 @@ impl Judge {
         });
         all.extend(shapeless);
         all
+    }
+
+    /// Whether it would have begun while nobody but coarse gyros and their accelerometers told where she is: what they say of place and
+    /// speed after a silence of the receiver is no evidence that it leapt, or goes away, since then. One that contradicts
+    /// itself does.
+    fn began_unseen(&self, fault: Fault, since: Time, now: Time) -> bool {
+        let of_gnss = &self.hearings[Aid::GnssPosition as usize];
+        matches!(fault, Fault::Jump | Fault::Height | Fault::Drag | Fault::Creep)
+            && self.is_coarse
+            && of_gnss.resumed_about(since, RESUMED)
+            && self.witnesses(now) < 2
     }
 
     /// Whether somebody lies, and that is nearly as likely as a mistake of the installation, or likelier; of that the logarithm of the
@@ -344,4 +358,48 @@ fn unsure(age: f64) -> f64 {
 fn log_sum(a: f64, b: f64) -> f64 {
     let (low, high) = if a < b { (a, b) } else { (b, a) };
     high + (low - high).exp().ln_1p()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::NavConfig;
+    use crate::error_state::Covariance;
+    use crate::judge::Docket;
+    use insd_base::units::DEG_PER_HOUR;
+    use insd_base::{ImuSpec, LeverArms, Triad};
+
+    /// Of gyros of such a bias, deg/h, and a receiver that has been silent from 10 to 70 s.
+    fn after_an_outage(gyro_bias: f64) -> Judge {
+        let triad = Triad {
+            bias_std: gyro_bias * DEG_PER_HOUR,
+            instability_std: 1e-7,
+            instability_time: 300.0,
+            random_walk: 1e-5,
+            scale_std: 1e-3,
+        };
+        let imu = ImuSpec { rate: 100.0, gyro: triad, accel: triad };
+        let config = NavConfig::new(imu, LeverArms::default());
+        let mut judge = Judge::new(&Covariance::identity(), &config, Docket::default());
+        for second in (0..=10).chain(70..=80) {
+            let now = Time::from_seconds(f64::from(second));
+            judge.hearings[Aid::GnssPosition as usize].note(now);
+        }
+        judge
+    }
+
+    #[test]
+    fn coarse_gyros_that_carried_her_alone_do_not_convict_a_receiver_of_a_leap_in_its_silence() {
+        let now = Time::from_seconds(80.0);
+        let [then, later] = [70.0, 78.0].map(Time::from_seconds);
+        let mut judge = after_an_outage(20.0);
+        assert!(judge.began_unseen(Fault::Jump, then, now));
+        assert!(judge.began_unseen(Fault::Height, then, now));
+        assert!(judge.began_unseen(Fault::Drag, then, now));
+        assert!(!judge.began_unseen(Fault::Jump, later, now), "seen from one fix to the next");
+        assert!(!judge.began_unseen(Fault::Slide, then, now), "it contradicts itself");
+        judge.hearings[Aid::Log as usize].note(now);
+        assert!(!judge.began_unseen(Fault::Jump, then, now), "a log has seen it, too");
+        assert!(!after_an_outage(0.01).began_unseen(Fault::Jump, then, now), "fine gyros have");
+    }
 }

@@ -23,6 +23,7 @@ mod scatter;
 mod shadow;
 mod verdict;
 
+use insd_base::units::DEG_PER_HOUR;
 use insd_base::{Integrity, Judgement, Parties, Party, Standing, Stands, Time};
 use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
 
@@ -64,6 +65,8 @@ const PERSISTS: f64 = 4.0;
 const SCATTERS: f64 = 12.0;
 /// A log of which the variance of the noise is so many times that stated tells now this and now that.
 const WILD: f64 = 25.0;
+/// Gyros with a larger turn-on bias than this, rad/s, are coarse.
+const COARSE: f64 = 1.0 * DEG_PER_HOUR;
 /// What is less likely than this, as a logarithm, is not covered by the claims.
 const COVERED: f64 = -9.2;
 
@@ -87,6 +90,8 @@ pub struct Judge {
     docket: Docket,
     /// Since when the log scatters wildly.
     wild: Option<Time>,
+    /// The gyros do not find north on their own.
+    is_coarse: bool,
     /// The IMU was not believed at all a while ago: where it and somebody else contradict each other it is at fault.
     imu_on_trial: bool,
 }
@@ -109,6 +114,7 @@ impl Judge {
             disputed: None,
             accused: None,
             wild: None,
+            is_coarse: config.imu.gyro.bias_std > COARSE,
             imu_on_trial: docket.imu_doubted_since().is_some(),
             docket,
         }

@@ -159,7 +159,7 @@ impl Judge {
     }
 
     /// How many are heard of how she moves. A compass is no witness of that.
-    fn witnesses(&self, now: Time) -> usize {
+    pub(super) fn witnesses(&self, now: Time) -> usize {
         let all = [Aid::GnssPosition, Aid::SparePosition, Aid::Log, Aid::ReferencePosition];
         let is_heard = |aid: &&Aid| {
             self.hearings[**aid as usize].was_within(now, UNHEARD) && !self.docket.leaves_out(**aid)
