@@ -14,12 +14,15 @@
 
 use std::collections::VecDeque;
 
+use insd_base::units::DEG;
 use insd_base::{Finding, GnssFix, Span, Time};
 use insd_nav::Increment;
 use nalgebra::{SMatrix, SVector, Vector2, Vector3};
 
-/// Her course is where her bow points above this speed, m/s.
+/// Her course is where her bow points above this speed, m/s, while she turns no faster than this on the mean, rad/s: the mean of her
+/// course is behind her bow by as much as she turns in its time constant.
 const UNDER_WAY: f64 = 1.5;
+const STRAIGHT: f64 = 0.3 * DEG;
 /// Time constants of what is slow, twice; of the course; and of the mean of the force, s.
 const SLOW: f64 = 10.0;
 const COURSE: f64 = 10.0;
@@ -38,10 +41,10 @@ const SETTLED: f64 = 40.0;
 const ENOUGH: f64 = 120.0;
 const SPAN: f64 = 600.0;
 /// Sum of h of a receiver that sees the waves.
-const SEES: std::ops::Range<f64> = 0.6..1.5;
+const SEES: std::ops::Range<f64> = 0.7..1.5;
 /// What explains more does so by a share of what is left, and is likelier by this, in logarithms.
 const MORE: f64 = 0.1;
-const LIKELIER: f64 = 25.0;
+const LIKELIER: f64 = 40.0;
 
 /// What the IMU has summed up: the force, m/s, and the time integral of the lean, m/s, along the level axes; and the rate of
 /// the lean, rad/s.
@@ -119,6 +122,8 @@ pub(super) struct Leaning {
     seen: f64,
     mean: Vector3<f64>,
     turned: Vector2<f64>,
+    /// Rate of turn on the mean, rad/s.
+    turning: f64,
     force: Vector2<f64>,
     lean: Vector2<f64>,
     sums: VecDeque<Sums>,
@@ -137,7 +142,7 @@ impl Leaning {
     pub(super) fn see(&mut self, increment: &Increment) {
         let duration = increment.duration();
         if increment.bridged.is_some() || duration <= 0.0 {
-            (self.lasts, self.last) = (0.0, None);
+            self.interrupt();
             self.sums.clear();
             return;
         }
@@ -146,6 +151,8 @@ impl Leaning {
         self.mean += (increment.velocity / duration - self.mean) * share;
         let Some(up) = self.mean.try_normalize(1e-9) else { return };
         self.turned -= increment.rotation.cross(&up).xy();
+        let rate = increment.rotation.dot(&up) / duration;
+        self.turning += (rate - self.turning) * (duration / COURSE).min(1.0);
         self.force += increment.velocity.xy();
         self.lean += self.turned * self.mean.norm() * duration;
         let age = |sums: &Sums| (increment.to - sums.time).as_seconds();
@@ -162,6 +169,11 @@ impl Leaning {
             self.sums.pop_front();
         }
         self.weigh();
+    }
+
+    /// What comes next does not follow what was heard, as of another receiver.
+    pub(super) fn interrupt(&mut self) {
+        (self.lasts, self.last, self.heard) = (0.0, None, None);
     }
 
     /// What was summed up until an instant.
@@ -187,7 +199,8 @@ impl Leaning {
         self.weigh();
     }
 
-    /// Holds what a receiver has said against the IMU, once that has told as much.
+    /// Holds what a receiver has said against the IMU, once that has told as much. What does not follow, is not under way, or in a
+    /// turn, begins anew.
     fn weigh(&mut self) {
         let newest = self.sums.back().map(|sums| sums.time);
         let has_come = |(time, _): &mut (Time, _)| newest.is_some_and(|newest| newest >= *time);
@@ -199,7 +212,8 @@ impl Leaning {
             return;
         }
         self.course += (velocity - self.course) * (apart / COURSE).min(1.0);
-        let Some(bow) = self.course.try_normalize(UNDER_WAY) else {
+        let is_straight = self.turning.abs() < STRAIGHT;
+        let Some(bow) = self.course.try_normalize(UNDER_WAY).filter(|_| is_straight) else {
             self.lasts = 0.0;
             return;
         };

@@ -148,6 +148,7 @@ impl Surveyor {
     /// Another receiver is heard from now on.
     pub(crate) fn forget_receiver(&mut self) {
         self.still.forget_receiver();
+        self.leaning.interrupt();
     }
 
     /// The ship is aligned anew.
