@@ -14,6 +14,7 @@ mod aid;
 mod charge;
 mod dissenter;
 mod docket;
+mod evidence;
 mod lie;
 mod onset;
 mod pessimist;
@@ -34,7 +35,7 @@ use crate::innovation::{Innovation, Weighed};
 use crate::propagation::{self, Regime, Stretch};
 pub use aid::Aid;
 use aid::{AIDS, Hearing};
-use charge::{Assessment, Charge, DOUBT, Kind};
+use charge::{Assessment, Charge, DOUBT};
 use dissenter::{Dissenter, Success, log_likelihood};
 pub use docket::Docket;
 use onset::Onset;
@@ -466,24 +467,6 @@ impl Judge {
     pub fn withholds(&self, aid: Aid) -> bool {
         let is_doubted = |party| self.docket.standing(party) == Standing::Doubtful;
         self.docket.leaves_out(aid) || aid.party().is_some_and(is_doubted)
-    }
-
-    /// By how many steps the IMU is taken to be worse, what speaks for one more, and the likeliest faults, for people who look into the
-    /// evidence.
-    #[must_use]
-    pub fn evidence(&self) -> String {
-        let of = |charge: &Charge| match charge.kind {
-            Kind::Shaped { since, sized, .. } => {
-                let (since, size) = (since.as_seconds(), sized.value);
-                let [x, y, z] = [size.x, size.y, size.z];
-                let explained = sized.explained;
-                let (name, weight) = (charge.fault.as_str(), charge.weight);
-                format!("{name} {weight:.1} since {since:.0} ({explained:.0}) {x:.3} {y:.3} {z:.3}")
-            }
-            Kind::Shapeless => format!("{} {:.1}", charge.fault.as_str(), charge.weight),
-        };
-        let all: Vec<String> = self.assessment.charges.iter().take(5).map(of).collect();
-        format!("worse {} ({:.1}); {}", self.docket.worse(), self.pessimist.gain, all.join("; "))
     }
 }
 
