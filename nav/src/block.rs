@@ -1,7 +1,7 @@
 //! Parts of the error state by name: each block is declared after the last, so no index is written
 //! by hand.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{SMatrix, SMatrixViewMut, SVector};
 
 use crate::error_state::{Covariance, ErrorState, STATES};
 
@@ -87,6 +87,21 @@ impl<const W: usize> Block<W> {
         p.fixed_columns_mut::<W>(self.start).copy_from(&columns);
         let rows = matrix * p.fixed_rows::<W>(self.start);
         p.fixed_rows_mut::<W>(self.start).copy_from(&rows);
+    }
+
+    /// Tells this block in another unit: its numbers become what they were times a factor. What is told in units of its
+    /// own sigma has become larger where the factor is below one, and is not known by that much: its variance tends to one.
+    pub fn rescale(self, p: &mut Covariance, factor: f64) {
+        self.transform(p, &SMatrix::from_diagonal_element(factor));
+        self.inflate(p, (1.0 - factor * factor).max(0.0));
+    }
+
+    /// This block of rows of effects on the error state.
+    pub fn columns_mut<const R: usize>(
+        self,
+        effects: &mut SMatrix<f64, R, STATES>,
+    ) -> SMatrixViewMut<'_, f64, R, W> {
+        effects.fixed_columns_mut::<W>(self.start)
     }
 
     /// Adds a variance to each component.

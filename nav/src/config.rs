@@ -6,6 +6,10 @@ use nalgebra::Vector3;
 
 use crate::judge::Docket;
 
+/// Gyros with a larger turn-on bias than this, rad/s, are coarse: they do not find north on their own, and are no judges
+/// of a receiver.
+pub const COARSE_GYRO: f64 = 1.0 * DEG_PER_HOUR;
+
 /// A lever arm that was found to be otherwise than configured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeverFound {
@@ -223,6 +227,12 @@ pub(crate) fn is_on_board(arm: &Vector3<f64>) -> bool {
 }
 
 impl NavConfig {
+    /// Whether the gyros are coarse.
+    #[must_use]
+    pub fn has_coarse_gyros(&self) -> bool {
+        self.imu.gyro.bias_std > COARSE_GYRO
+    }
+
     /// How well the lever arm of the antenna is known, 1-sigma of each component, m.
     #[must_use]
     pub fn gnss_lever_std(&self) -> f64 {

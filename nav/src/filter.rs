@@ -37,10 +37,12 @@ use ahead::VelocityEpoch;
 pub use entry::Judged;
 pub(crate) use entry::NO_INNOVATION;
 use entry::detail;
+use found_lever::FoundLever;
 
 pub mod ahead;
 mod entry;
 mod estimates;
+mod found_lever;
 mod gnss;
 mod installation;
 pub mod judged;
@@ -53,6 +55,7 @@ mod motion;
 mod others;
 mod receivers;
 mod sideways;
+mod slow;
 
 /// An estimate, its covariance and what is needed to carry both on.
 #[derive(Clone, Debug)]
@@ -68,6 +71,9 @@ pub struct Filter {
     rate_variance: f64,
     trust: Trust,
     rtk: Option<bool>,
+    /// By how much the sigmas that its slow errors are told in, of position and velocity, are larger than stated,
+    /// as variances.
+    slow_noise: [f64; 2],
     level: LevelWindow,
     sway: Option<Sway>,
     navigating: bool,
@@ -112,6 +118,7 @@ pub struct Filter {
     lateness: f64,
     /// Whether they told that the antenna sits elsewhere, or speaks late.
     mended: bool,
+    found_lever: FoundLever,
     /// Whether they told of what no ship has.
     is_impossible: bool,
     /// 1-sigma of the lever arm of the log, m, if it was found to be otherwise than configured.
@@ -140,6 +147,7 @@ impl Filter {
             rate_variance: rate_variance(&config.imu),
             trust: Trust::default(),
             rtk: None,
+            slow_noise: [1.0; 2],
             level: LevelWindow::new(&config.sea),
             sway: None,
             navigating: false,
@@ -172,6 +180,7 @@ impl Filter {
             bias: None,
             lateness: 0.0,
             mended: false,
+            found_lever: FoundLever::default(),
             is_impossible: false,
             log_lever_std: None,
         }
@@ -206,7 +215,7 @@ impl Filter {
     pub fn begin_navigation(&mut self) {
         self.navigating = true;
         self.interval = self.config.covariance_interval;
-        self.bias = Some(SeparateBias::new(&self.view()));
+        self.bias = Some(SeparateBias::of_unknown_origin(&self.view()));
         self.be_judged();
     }
 

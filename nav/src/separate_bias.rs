@@ -95,6 +95,8 @@ pub struct SeparateBias {
     heard: f64,
     /// Mean of the squares of late, none of them counting for more than a fault.
     strain: f64,
+    /// Whether it is known where the position has come from.
+    knows_origin: bool,
 }
 
 /// How a hypothesis fits.
@@ -132,15 +134,35 @@ impl SeparateBias {
             misfit: 0.0,
             heard: 0.0,
             strain: 0.0,
+            knows_origin: true,
         };
-        bias.place(view);
+        bias.place(view, &Vector3::repeat(1.0));
         bias
     }
 
-    /// The position has been set to what the receiver says: r = p - C_eb l + v tau.
-    pub fn place(&mut self, view: &View) {
-        let by_delay = view.nominal.velocity.transpose();
-        self.set(POSITION.start(), &-view.c_eb.transpose(), &by_delay);
+    /// The same of a filter of which it is not known where its position has come from.
+    #[must_use]
+    pub fn of_unknown_origin(view: &View) -> Self {
+        let mut bias = SeparateBias { knows_origin: false, ..SeparateBias::new(view) };
+        bias.place(view, &Vector3::zeros());
+        bias
+    }
+
+    /// Where the position has come from, if that was not known: a share of each of its components, NED, from the
+    /// receiver.
+    pub fn came_from(&mut self, view: &View, share: &Vector3<f64>) {
+        if !self.knows_origin {
+            self.place(view, share);
+            self.knows_origin = true;
+        }
+    }
+
+    /// The position has been set to what the receiver says, a share of each of its components, NED:
+    /// r = p - C_eb l + v tau.
+    fn place(&mut self, view: &View, share: &Vector3<f64>) {
+        let taken = view.c_ne.transpose() * Matrix3::from_diagonal(share) * view.c_ne;
+        let by_delay = (taken * view.nominal.velocity).transpose();
+        self.set(POSITION.start(), &-(taken * view.c_eb).transpose(), &by_delay);
     }
 
     /// The velocity has been set to what the receiver says: v = v_a - C_eb (omega x l) + a tau, with the
@@ -251,6 +273,19 @@ impl SeparateBias {
         Some(finding)
     }
 
+    /// Whether a hypothesis explains what the innovations are off by, be it too early to find it.
+    #[must_use]
+    pub fn is_suspicious(&self) -> bool {
+        let mut all = HYPOTHESES.iter().filter_map(|prior| self.fit(prior));
+        self.misfit > self.heard && all.any(|fit| fit.score > 0.0 && self.is_explained(&fit))
+    }
+
+    /// Whether a hypothesis leaves little of what the innovations are off by.
+    fn is_explained(&self, fit: &Fit) -> bool {
+        let excess = self.misfit / self.heard - 1.0;
+        fit.left < UNEXPLAINED && fit.left - 1.0 < (1.0 - SHARE) * excess
+    }
+
     /// How much better the likeliest hypothesis fits than the configuration, as a logarithm; nothing where the configuration is
     /// confirmed.
     #[must_use]
@@ -277,13 +312,13 @@ impl SeparateBias {
     /// How much better a hypothesis fits than the configuration, and what it finds; `None` unless it is
     /// believed.
     fn weigh(&self, prior: &Constants) -> Option<(f64, Finding)> {
-        let Fit { score, left, finding } = self.fit(prior)?;
+        let fit = self.fit(prior)?;
+        let explains = self.is_explained(&fit);
+        let Fit { score, finding, .. } = fit;
         let is_large = |i: usize| {
             let sigma = finding.covariance[(i, i)].max(0.0).sqrt();
             finding.value[i].abs() > LEAST[i].max(SIGNIFICANT * sigma)
         };
-        let excess = self.misfit / self.heard - 1.0;
-        let explains = left < UNEXPLAINED && left - 1.0 < (1.0 - SHARE) * excess;
         let convinces = score > CONVINCING && explains && (0..CONSTANTS).any(is_large);
         convinces.then_some((score, finding))
     }
@@ -322,6 +357,12 @@ impl Finding {
     #[must_use]
     pub fn gnss_lever(&self) -> Vector3<f64> {
         self.value.fixed_rows::<3>(0).into_owned()
+    }
+
+    /// 1-sigma of the same.
+    #[must_use]
+    pub fn gnss_lever_std(&self) -> Vector3<f64> {
+        self.covariance.diagonal().fixed_rows::<3>(0).map(|variance| variance.max(0.0).sqrt())
     }
 
     /// What the lever arm of the log is found to be off by, m, with 1-sigma, if it is by much.

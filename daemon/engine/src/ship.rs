@@ -16,7 +16,7 @@ use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
 use crate::blind::{Blind, Word, tells_heading, unchecked, without_heading};
 use crate::heir::Heir;
 use crate::images::{Images, Verdict as Seat};
-use crate::trial::{BLIND, Misled, Trial};
+use crate::trial::{Misled, Trial};
 
 /// Heading sigma below which a ship can be steered by it for the first time.
 const STEERABLE: f64 = 1.0 * DEG;
@@ -58,7 +58,7 @@ impl Ship {
         stored: Option<&StoredState>,
     ) -> Self {
         let is_polar = kinematics.position.latitude.abs() > POLAR;
-        let is_coarse = config.imu.gyro.bias_std > BLIND;
+        let is_coarse = config.has_coarse_gyros();
         let is_heard = kinematics.gnss_velocity || (kinematics.gnss_position && is_coarse);
         let is_told = !kinematics.moored || (is_heard && stored.is_none());
         let is_wanted = !is_polar && choice.in_motion == InMotion::EightState;

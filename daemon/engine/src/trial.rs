@@ -2,15 +2,13 @@
 //! tells.
 
 use insd_alignment::in_motion::GOAL;
-use insd_base::units::DEG_PER_HOUR;
 use insd_base::{Estimates, Solution, Span, Time};
 use insd_nav::Filter;
+use insd_nav::config::COARSE_GYRO;
 
-/// It lasts so long, s; with gyros that do not find north on their own, of a larger turn-on bias than this,
-/// rad/s, until motion has confirmed the lever arm that it was found by, or for so long.
+/// It lasts so long, s; with coarse gyros until motion has confirmed the lever arm that it was found by, or for so long.
 const USUAL: f64 = 300.0;
 const LONGEST: f64 = 7200.0;
-pub(crate) const BLIND: f64 = 1.0 * DEG_PER_HOUR;
 /// Mean square of the innovations, of which one is expected, that refutes what was handed over,
 const REFUTED: f64 = 8.0;
 /// and up to which its claims stand as they are.
@@ -35,7 +33,7 @@ pub(crate) enum Misled {
 impl Trial {
     /// Begins with the filter as it is now.
     pub(crate) fn of(filter: &Filter) -> Self {
-        let (now, is_blind) = (filter.time(), filter.gyro_bias_std() >= BLIND);
+        let (now, is_blind) = (filter.time(), filter.gyro_bias_std() >= COARSE_GYRO);
         let lasts = if is_blind { LONGEST } else { USUAL };
         Trial { began: now, end: now + Span::from_seconds(lasts) }
     }

@@ -102,6 +102,19 @@ fn a_lever_arm_of_the_wrong_sign_costs_a_ship_nothing_and_is_told() {
     }
 }
 
+/// Her place at the berth is known to centimetres, and did not come by way of the antenna.
+#[test]
+fn a_wrong_lever_arm_is_found_at_a_surveyed_berth() {
+    for seed in [1, 8] {
+        let mut voyage = departure_of(400.0, seed);
+        voyage.header.lever_arms.gnss = Body(Vector3::new(-0.8, -6.0, -14.0));
+        let sailed = sail(voyage);
+        let (error, sigmas) = sailed.end();
+        assert_eq!(sailed.names(), ["gnss_lever"], "{seed}: {:?}", sailed.told);
+        assert!(error < 0.2 && sigmas < 3.0, "{seed}: {error} m, {sigmas}");
+    }
+}
+
 /// What is told as a heading to steer by, while what it was found by is wrong.
 #[test]
 fn a_heading_that_a_wrong_lever_arm_tells_is_not_told_to_anyone() {

@@ -1,10 +1,10 @@
 //! A GNSS fix: velocity first, then position, each through its gates.
 
-use insd_base::units::DEG_PER_HOUR;
 use insd_base::{FixQuality, GnssFix, Rejection, Source, earth};
 use nalgebra::{Matrix3, Vector3};
 
 use super::entry::{Judged, NO_INNOVATION, enter};
+use super::found_lever::FoundLever;
 use super::{Filter, imu_position};
 use crate::aids::View;
 use crate::aids::gnss_position::{self, PositionFix};
@@ -29,8 +29,6 @@ const POSITION_AID: &str = "gnss_position";
 const VELOCITY_AID: &str = "gnss_velocity";
 /// A log or reference used within this time vouches for the filter's velocity, s.
 const VOUCHED: f64 = 5.0;
-/// Gyros with a smaller turn-on bias than this can judge a receiver on their own, rad/s.
-const JUDGING_GYRO: f64 = 1.0 * DEG_PER_HOUR;
 /// A receiver that is off on the mean is refused for at least this long, s.
 const OFF_HOLD: f64 = 10.0;
 /// Fixes that scatter by so much more than they say, as variances, have no carrier ambiguities fixed.
@@ -45,6 +43,10 @@ const SLACK: f64 = 0.3;
 const SLACK_VELOCITY: f64 = 0.05;
 /// Attitude that a filter found to be lost is unsure of, 1-sigma, rad.
 const LOST_ATTITUDE: f64 = 0.05;
+/// A position that is known better than by this share of a receiver's slow errors came from somewhere else.
+const OF_GNSS: f64 = 0.5;
+/// So long a mistake of the installation that would explain a receiver is given to show, s.
+const MISTAKEN: f64 = 15.0;
 /// A receiver that was not used for so long, s, comes back.
 const UNHEARD: f64 = 30.0;
 
@@ -56,6 +58,7 @@ impl Filter {
             enter(report, fix.time, source, POSITION_AID, &none);
             return;
         }
+        self.note_noise();
         self.take_up(source);
         self.note_antenna(fix);
         self.note_redating(fix.redated);
@@ -79,6 +82,7 @@ impl Filter {
             GNSS_LEVER.renew(&mut self.covariance, &Matrix3::from_diagonal_element(variance));
             self.nominal.gnss_lever = self.config.gnss_lever() - self.config.lever_arms.gnss.0;
             self.antenna = AntennaMotion::default();
+            self.found_lever = FoundLever::default();
             (self.nominal.gnss_delay, self.redated) = (0.0, None);
             self.lateness = 0.0;
             let begun = SeparateBias::new(&self.view());
@@ -183,6 +187,7 @@ impl Filter {
         // who is heard again is used from the next fix on: its velocity was not
         let is_out = self.withholds(Aid::GnssPosition);
         self.follow(&innovation, velocity.map(|(_, innovation)| innovation));
+        self.note_origin(&view, &measured);
         self.agreement(Aid::GnssPosition, &innovation);
         let refused = if is_out || self.is_receiver_refused(Aid::GnssPosition) {
             Some(Rejection::SourceSuspect)
@@ -229,6 +234,15 @@ impl Filter {
         })
     }
 
+    /// A filter that has begun does not know where its position came from. One that is known far better than the slow
+    /// errors of a receiver let it, as that of a ship at a surveyed berth, did not come by way of the antenna.
+    fn note_origin(&mut self, view: &View, measured: &PositionFix) {
+        let own = view.c_ne * POSITION.covariance(&self.covariance) * view.c_ne.transpose();
+        let least = (measured.slow * OF_GNSS).map(|std| std * std);
+        let share = own.diagonal().zip_map(&least, |own, least| (own / least).clamp(0.0, 1.0));
+        self.bias.iter_mut().for_each(|bias| bias.came_from(view, &share));
+    }
+
     /// Enters an innovation in the statistics of its quantity; tells whether it is a fault.
     fn agreement(&mut self, aid: Aid, innovation: &Innovation<3>) -> bool {
         let Some(weighed) = innovation.weigh(&self.covariance) else { return true };
@@ -250,7 +264,7 @@ impl Filter {
     fn can_judge(&self) -> bool {
         let vouched =
             self.last_relative.is_some_and(|last| (self.time - last).as_seconds() < VOUCHED);
-        self.navigating && (vouched || self.config.imu.gyro.bias_std < JUDGING_GYRO)
+        self.navigating && (vouched || !self.config.has_coarse_gyros())
     }
 
     fn is_receiver_refused(&mut self, aid: Aid) -> bool {
@@ -282,6 +296,8 @@ impl Filter {
         }
         let gate = &self.config.gate;
         let patience = if self.can_judge() { gate.judged_reset_time } else { gate.reset_time };
+        let is_mistake = self.bias.as_ref().is_some_and(SeparateBias::is_suspicious);
+        let patience = if is_mistake { patience.max(MISTAKEN) } else { patience };
         if !self.navigating || self.trust.refused(self.time) < patience {
             return;
         }

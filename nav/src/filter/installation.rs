@@ -130,6 +130,9 @@ impl Filter {
         if !is_on_board(&arm) || self.may_be_a_lie(&bias) {
             return;
         }
+        if !self.found_lever.note(self.time, &arm, &finding) {
+            return;
+        }
         self.is_impossible |= self.puts_log_off_board(&finding);
         let (error, unsure) = bias.correction(&finding);
         self.covariance += unsure;

@@ -26,6 +26,7 @@ pub struct KeptFilter {
     lateness: f64,
     trust: Trust,
     rtk: Option<bool>,
+    slow_noise: [f64; 2],
     level: LevelWindow,
     sway: Option<Sway>,
     last_relative: Option<Time>,
@@ -96,6 +97,7 @@ impl Filter {
             lateness: self.lateness,
             trust: self.trust,
             rtk: self.rtk,
+            slow_noise: self.slow_noise,
             level: self.level,
             sway: self.sway,
             last_relative: self.last_relative,
@@ -124,6 +126,7 @@ impl Filter {
             lateness: kept.lateness,
             trust: kept.trust.shifted(by),
             rtk: kept.rtk,
+            slow_noise: kept.slow_noise,
             level: kept.level,
             sway: kept.sway,
             last_relative: later(kept.last_relative),
@@ -134,7 +137,10 @@ impl Filter {
             ..Filter::new(&config, &initial)
         };
         filter.begin_navigation();
-        let is_finite = kept.rate.iter().all(|x| x.is_finite()) && kept.lateness.is_finite();
+        let is_noise = |noise: &f64| noise.is_finite() && *noise > 0.0;
+        let is_finite = kept.rate.iter().all(|x| x.is_finite())
+            && kept.lateness.is_finite()
+            && kept.slow_noise.iter().all(is_noise);
         (kept.nominal.is_sound() && is_finite).then_some(filter)
     }
 }

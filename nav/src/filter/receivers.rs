@@ -47,6 +47,7 @@ impl Filter {
         let begun = SeparateBias::new(&self.view());
         self.bias.iter_mut().for_each(|bias| *bias = begun);
         self.restart_judge();
+        self.slow_noise = self.noise_of_slow();
     }
 
     /// Lets the judge compare a receiver that is not in use.

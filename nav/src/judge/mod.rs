@@ -24,7 +24,6 @@ mod scatter;
 mod shadow;
 mod verdict;
 
-use insd_base::units::DEG_PER_HOUR;
 use insd_base::{Integrity, Judgement, Parties, Party, Standing, Stands, Time};
 use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
 
@@ -66,8 +65,6 @@ const PERSISTS: f64 = 4.0;
 const SCATTERS: f64 = 12.0;
 /// A log of which the variance of the noise is so many times that stated tells now this and now that.
 const WILD: f64 = 25.0;
-/// Gyros with a larger turn-on bias than this, rad/s, are coarse.
-const COARSE: f64 = 1.0 * DEG_PER_HOUR;
 /// What is less likely than this, as a logarithm, is not covered by the claims.
 const COVERED: f64 = -9.2;
 
@@ -115,7 +112,7 @@ impl Judge {
             disputed: None,
             accused: None,
             wild: None,
-            is_coarse: config.imu.gyro.bias_std > COARSE,
+            is_coarse: config.has_coarse_gyros(),
             imu_on_trial: docket.imu_doubted_since().is_some(),
             docket,
         }
@@ -158,7 +155,18 @@ impl Judge {
             shadow.apart.fixed_rows_mut::<3>(block.start()).fill(0.0);
         }
         for onset in &mut self.onsets {
-            onset.effects_mut().fixed_columns_mut::<3>(block.start()).fill(0.0);
+            block.columns_mut(onset.effects_mut()).fill(0.0);
+        }
+    }
+
+    /// The unit of a block of three states has grown: their numbers are what they were, times a factor.
+    pub fn rescale(&mut self, block: Block<3>, factor: f64) {
+        for shadow in self.shadows() {
+            block.rescale(&mut shadow.covariance, factor);
+            shadow.apart.fixed_rows_mut::<3>(block.start()).scale_mut(factor);
+        }
+        for onset in &mut self.onsets {
+            block.columns_mut(onset.effects_mut()).scale_mut(factor);
         }
     }
 
