@@ -5,7 +5,7 @@ use nalgebra::SMatrix;
 use super::Filter;
 use crate::aids::sea_level;
 use crate::error_state::{POSITION, SEA_LEVEL, VELOCITY};
-use crate::innovation::Weighed;
+use crate::innovation::{Innovation, Weighed};
 use crate::judge::{Aid, untouched};
 
 impl Filter {
@@ -14,13 +14,16 @@ impl Filter {
         let (mean, length) = self.level.take_mean();
         let innovation = sea_level::innovation(&self.view(), mean, length, self.level.heave.std());
         let Some(weighed) = innovation.weigh(&self.covariance) else { return };
+        let excess = (weighed.nis() / self.gate.limit::<1>()).max(1.0);
         let is_alone = self.is_carried_by_imu();
         if !is_alone {
-            self.consult(Aid::SeaLevel, &innovation, untouched::<1>);
+            // who is not at sea, in a lock or on a hill, has a level that tells against nobody more than once
+            let r = innovation.r.add_scalar((excess - 1.0) * weighed.sigma().x.powi(2));
+            self.consult(Aid::SeaLevel, &Innovation { r, ..innovation }, untouched::<1>);
         }
         let expected = weighed.sigma().x.powi(2) - innovation.r.x;
         self.level.heave.learn(innovation.z.x, expected);
-        if weighed.nis() > self.gate.limit::<1>() {
+        if excess > 1.0 {
             return;
         }
         if is_alone {

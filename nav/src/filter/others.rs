@@ -129,12 +129,16 @@ impl Filter {
         prediction
     }
 
-    /// What a log says of the lever arms, whether it is used or not; gives the gain with which it would be.
+    /// What a log that is not left out says of the lever arms, whether it is used or not; gives the gain with which it
+    /// would be.
     fn hear_log<const M: usize>(
         &mut self,
         innovation: &Innovation<M>,
         by_lever: &SMatrix<f64, M, 3>,
     ) -> Option<SMatrix<f64, STATES, M>> {
+        if self.withholds(Aid::Log) {
+            return None;
+        }
         let bias = self.bias.as_mut()?;
         let weighed = innovation.weigh(&self.covariance)?;
         bias.hear_log(&weighed, by_lever);
