@@ -71,9 +71,9 @@ impl Aid {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Hearing {
     last: Option<Time>,
-    /// When it spoke last, heard or not, and when it did again after a long silence.
+    /// When it spoke last, heard or not, and its last long silence: from and to.
     spoke: Option<Time>,
-    resumed: Option<Time>,
+    silence: Option<(Time, Time)>,
     /// When it contradicted another word of the same sensor last.
     contradicted: Option<Time>,
     outliers: u32,
@@ -113,9 +113,8 @@ impl Hearing {
     /// It speaks, heard or not.
     pub(super) fn note_word(&mut self, now: Time) {
         let before = self.spoke.replace(now);
-        if before.is_some_and(|before| (now - before).as_seconds() > SILENCE) {
-            self.resumed = Some(now);
-        }
+        let silence = before.filter(|before| (now - *before).as_seconds() > SILENCE);
+        self.silence = silence.map(|before| (before, now)).or(self.silence);
     }
 
     /// It contradicts another word of the same sensor.
@@ -130,12 +129,14 @@ impl Hearing {
 
     /// Whether it was heard again after a long silence within such a time, s.
     pub(super) fn was_resumed_within(&self, now: Time, span: f64) -> bool {
-        is_within(self.resumed, now, span)
+        is_within(self.silence.map(|(_, end)| end), now, span)
     }
 
-    /// Whether an instant is that at which it was heard again after a long silence, or just after it, s.
-    pub(super) fn resumed_about(&self, since: Time, span: f64) -> bool {
-        self.resumed.is_some_and(|at| (since - at).as_seconds().abs() <= span)
+    /// Whether an instant is in its last long silence, or just after it, s.
+    pub(super) fn was_silent_at(&self, since: Time, span: f64) -> bool {
+        let is_in =
+            |(begin, end): (Time, Time)| since >= begin && (since - end).as_seconds() <= span;
+        self.silence.is_some_and(is_in)
     }
 
     /// Sees an innovation of which all of the variance of the noise has been raised by what it scatters: what was not would make

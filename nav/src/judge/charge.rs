@@ -219,7 +219,7 @@ impl Judge {
         let of_gnss = &self.hearings[Aid::GnssPosition as usize];
         matches!(fault, Fault::Jump | Fault::Height | Fault::Drag | Fault::Creep)
             && self.is_coarse
-            && of_gnss.resumed_about(since, RESUMED)
+            && of_gnss.was_silent_at(since, RESUMED)
             && self.witnesses(now) < 2
     }
 

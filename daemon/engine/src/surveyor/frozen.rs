@@ -29,13 +29,42 @@ const LONGER: u32 = 5;
 const RUNS: u32 = 50;
 const UNDER_WAY: f64 = 1.0;
 
+/// What the solution was when a run began counts for so many of its sigmas less, and anew when it has become so much surer: after
+/// an outage it comes to where she is, which is no way of hers.
+const SURELY: f64 = 3.0;
+const SURER: f64 = 0.5;
+
+/// What the solution is.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    value: Vector3<f64>,
+    /// 1-sigma.
+    std: f64,
+}
+
+impl Seen {
+    fn position(solution: &Solution) -> Self {
+        let std = solution.sigma.position.0.xy().norm();
+        Seen { value: earth::ecef(&solution.position).0, std }
+    }
+
+    fn velocity(solution: &Solution) -> Self {
+        Seen { value: solution.velocity.0, std: solution.sigma.velocity.0.xy().norm() }
+    }
+
+    fn heading(solution: &Solution) -> Self {
+        let value = Vector3::new(solution.attitude.heading, 0.0, 0.0);
+        Seen { value, std: solution.sigma.heading }
+    }
+}
+
 /// A run of equal numbers.
 #[derive(Clone, Copy, Debug)]
 struct Run<const N: usize> {
     told: [f64; N],
     count: u32,
-    /// Where the solution was when it began.
-    begun: Option<Vector3<f64>>,
+    /// The solution when it began.
+    begun: Option<Seen>,
     differing: u32,
     /// Length of the run before; how many there were under way, and the longest of them.
     ended: u32,
@@ -64,7 +93,7 @@ impl<const N: usize> Run<N> {
     fn see(
         &mut self,
         told: [f64; N],
-        now: Option<Vector3<f64>>,
+        now: Option<Seen>,
         [enough, moved]: [f64; 2],
         apart: impl Fn(&Vector3<f64>, &Vector3<f64>) -> f64,
     ) {
@@ -76,9 +105,13 @@ impl<const N: usize> Run<N> {
             return;
         }
         (self.count, self.differing) = (self.count.saturating_add(1), 0);
-        self.begun = self.begun.or(now);
-        let way = self.begun.zip(now).map_or(0.0, |(begun, now)| apart(&begun, &now));
-        self.frozen |= f64::from(self.count) >= enough && way > moved;
+        let is_surer = |(begun, now): (Seen, Seen)| now.std < SURER * begun.std;
+        self.begun =
+            if self.begun.zip(now).is_some_and(is_surer) { now } else { self.begun.or(now) };
+        let has_moved = self.begun.zip(now).is_some_and(|(begun, now)| {
+            apart(&begun.value, &now.value) > moved + SURELY * begun.std
+        });
+        self.frozen |= f64::from(self.count) >= enough && has_moved;
     }
 
     /// Whether she is under way: then the lengths of the runs tell, too.
@@ -117,13 +150,13 @@ impl StandingStill {
     pub(super) fn hear_fix(&mut self, fix: &GnssFix, solution: Option<&Solution>) {
         let speed = solution.map_or(0.0, |solution| solution.velocity.0.xy().norm());
         if let Some(place) = fix.position {
-            let now = solution.map(|solution| earth::ecef(&solution.position).0);
+            let now = solution.map(Seen::position);
             let moved = PLACE + REPEATED * speed;
             let told = [place.latitude, place.longitude];
             self.position.see(told, now, [f64::from(FIXES), moved], |a, b| (a - b).norm());
         }
         if let Some(velocity) = fix.velocity {
-            let now = solution.map(|solution| solution.velocity.0);
+            let now = solution.map(Seen::velocity);
             let told = [velocity.0.x, velocity.0.y];
             let apart = |a: &Vector3<f64>, b: &Vector3<f64>| (a - b).xy().norm();
             self.velocity.see(told, now, [f64::from(VELOCITIES), SPEED], apart);
@@ -143,7 +176,10 @@ impl StandingStill {
             let way: Vector2<f64> = (a - b).xy();
             if log.v.is_some() { way.norm() } else { way.x.abs() }
         };
-        self.log.see(told, at_log, [f64::from(LOGS), WAY], apart);
+        let now = at_log
+            .zip(solution)
+            .map(|(value, solution)| Seen { value, ..Seen::velocity(solution) });
+        self.log.see(told, now, [f64::from(LOGS), WAY], apart);
         self.log.compare(is_under_way(solution), LOGS);
     }
 
@@ -154,7 +190,7 @@ impl StandingStill {
         solution: Option<&Solution>,
     ) {
         let Some(heading) = reference.heading else { return };
-        let now = solution.map(|solution| Vector3::new(solution.attitude.heading, 0.0, 0.0));
+        let now = solution.map(Seen::heading);
         let apart = |a: &Vector3<f64>, b: &Vector3<f64>| wrap_pi(a.x - b.x).abs();
         self.heading.see([heading], now, [f64::from(HEADINGS), TURN], apart);
         self.heading.compare(is_under_way(solution), HEADINGS);
@@ -220,7 +256,7 @@ mod tests {
 
     fn way(run: &mut Run<1>, told: impl Fn(u32) -> f64, moved: impl Fn(u32) -> f64, count: u32) {
         for k in 0..count {
-            let now = Some(Vector3::new(moved(k), 0.0, 0.0));
+            let now = Some(Seen { value: Vector3::new(moved(k), 0.0, 0.0), std: 0.1 });
             run.see([told(k)], now, [20.0, 1.0], |a, b| (a - b).norm());
         }
     }
@@ -243,5 +279,19 @@ mod tests {
         let mut run = Run::default();
         way(&mut run, |k| f64::from(k / 3), f64::from, 300);
         assert!(!run.frozen);
+    }
+
+    /// The first is of her own drifting, the second where she is heard to be again.
+    #[test]
+    fn a_solution_that_comes_back_to_where_she_lies_is_no_way_of_hers() {
+        let mut run = Run::default();
+        let mut see = |value: f64, std: f64| {
+            let now = Some(Seen { value: Vector3::new(value, 0.0, 0.0), std });
+            run.see([5.0], now, [20.0, 1.0], |a, b| (a - b).norm());
+            run.frozen
+        };
+        assert!(!(0..30).any(|k| see(200.0 + f64::from(k), 100.0)));
+        assert!(!(0..30).any(|_| see(0.0, 0.1)));
+        assert!((0..30).any(|k| see(0.1 * f64::from(k), 0.1)), "then she goes");
     }
 }
