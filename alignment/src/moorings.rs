@@ -113,7 +113,7 @@ impl Moorings {
         self.sway_variance = [0.5 * (SLOW_SHARE * std).powi(2); 2];
         self.wave_variance = (WAVE_SHARE * std).powi(2);
         self.learning_time = LEARNING_STATED;
-        self.begin(filter, OFFSET_SHARE * std);
+        self.begin(filter, (OFFSET_SHARE * std).hypot(filter.berth_doubt()));
     }
 
     fn begin(&mut self, filter: &mut Filter, offset_std: f64) {

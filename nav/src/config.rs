@@ -10,6 +10,9 @@ use crate::judge::Docket;
 /// of a receiver.
 pub const COARSE_GYRO: f64 = 1.0 * DEG_PER_HOUR;
 
+/// A berth taken from a chart is off by so much, 1-sigma, m.
+const MISPLACED: f64 = 10.0;
+
 /// A lever arm that was found to be otherwise than configured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeverFound {
@@ -265,6 +268,13 @@ impl NavConfig {
             self.gnss.lever_found = self.gnss.lever_found.filter(|_| self.is_gnss_lever_unknown());
         }
         is_other
+    }
+
+    /// By how much a place that a reference names may be off beyond what it says, 1-sigma, m: where the lever arm was given up,
+    /// as the receiver contradicted it, the berth may as well be elsewhere than it was said to be.
+    #[must_use]
+    pub fn berth_doubt(&self) -> f64 {
+        if self.gnss.lever_found == Some(LeverFound::UNKNOWN) { MISPLACED } else { 0.0 }
     }
 
     /// Whether the antenna may be anywhere on board.

@@ -95,8 +95,9 @@ pub struct SeparateBias {
     heard: f64,
     /// Mean of the squares of late, none of them counting for more than a fault.
     strain: f64,
-    /// Whether it is known where the position has come from.
+    /// Whether it is known where the position has come from, and which share of it not from the receiver.
     knows_origin: bool,
+    surveyed: f64,
 }
 
 /// How a hypothesis fits.
@@ -135,6 +136,7 @@ impl SeparateBias {
             heard: 0.0,
             strain: 0.0,
             knows_origin: true,
+            surveyed: 0.0,
         };
         bias.place(view, &Vector3::repeat(1.0));
         bias
@@ -154,7 +156,14 @@ impl SeparateBias {
         if !self.knows_origin {
             self.place(view, share);
             self.knows_origin = true;
+            self.surveyed = 1.0 - share.xy().max();
         }
+    }
+
+    /// Which share of the horizontal position did not come from the receiver.
+    #[must_use]
+    pub fn surveyed(&self) -> f64 {
+        self.surveyed
     }
 
     /// The position has been set to what the receiver says, a share of each of its components, NED:

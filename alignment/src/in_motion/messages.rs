@@ -135,7 +135,7 @@ impl EightState {
             self.judge(&innovation, at, source, "reference_velocity", &mut report);
         }
         if let Some(place) = reference.position {
-            let std = believed(reference.position_std, 10.0);
+            let std = believed(reference.position_std, 10.0).hypot(self.config.berth_doubt());
             let innovation = aids::reference_position(&self.scene(), &place, std);
             self.judge(&innovation, at, source, "reference_position", &mut report);
         }

@@ -4,7 +4,8 @@
 
 use insd_base::units::{DEG, wrap_pi};
 use insd_base::{
-    Body, Event, Finding, Mode, Motion, Party, Rejection, Solution, Span, Truth, Voyage, earth,
+    Body, Event, Finding, Geodetic, Mode, Motion, Party, Rejection, Solution, Span, Truth, Voyage,
+    earth,
 };
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_simulator::{Scenario, shipped, simulate};
@@ -102,16 +103,45 @@ fn a_lever_arm_of_the_wrong_sign_costs_a_ship_nothing_and_is_told() {
     }
 }
 
-/// Her place at the berth is known to centimetres, and did not come by way of the antenna.
+impl Sailed {
+    /// The greatest horizontal error from an instant on, in claimed sigmas.
+    fn worst_after(&self, second: f64) -> f64 {
+        let told = self.solutions.iter().filter(|own| own.time.as_seconds() > second);
+        let sigmas = told.map(|solution| {
+            let truth = self.truth.iter().find(|truth| truth.time >= solution.time).unwrap();
+            let apart = earth::ecef(&solution.position).0 - earth::ecef(&truth.position).0;
+            let off = (earth::c_ne(&truth.position) * apart).xy().norm();
+            off / solution.sigma.position.0.xy().norm()
+        });
+        sigmas.fold(0.0, f64::max)
+    }
+}
+
+/// Her place at the berth was surveyed, but until she turns nobody can tell whether a lever arm was measured wrongly, or the
+/// berth is not where it is said to be: one taken from a chart.
 #[test]
-fn a_wrong_lever_arm_is_found_at_a_surveyed_berth() {
+fn a_wrong_lever_arm_is_covered_at_a_surveyed_berth_and_named_at_the_first_turns() {
     for seed in [1, 8] {
-        let mut voyage = departure_of(400.0, seed);
+        let mut voyage = departure_of(1000.0, seed);
         voyage.header.lever_arms.gnss = Body(Vector3::new(-0.8, -6.0, -14.0));
         let sailed = sail(voyage);
-        let (error, sigmas) = sailed.end();
+        let (worst, (error, sigmas)) = (sailed.worst_after(110.0), sailed.end());
         assert_eq!(sailed.names(), ["gnss_lever"], "{seed}: {:?}", sailed.told);
-        assert!(error < 0.2 && sigmas < 3.0, "{seed}: {error} m, {sigmas}");
+        assert!(worst < 4.0, "{seed}: {worst}");
+        assert!(error < 3.0 && sigmas < 3.0, "{seed}: {error} m, {sigmas}");
+    }
+}
+
+#[test]
+fn a_berth_that_is_named_elsewhere_is_covered_by_the_claims() {
+    for (seed, north) in [(1, 5.0), (2, 10.0), (3, 10.0)] {
+        let mut voyage = departure_of(1000.0, seed);
+        for reference in &mut voyage.reference {
+            let place = &mut reference.message.position;
+            *place = place.map(|at| Geodetic { latitude: at.latitude + north / 6.36e6, ..at });
+        }
+        let worst = sail(voyage).worst_after(110.0);
+        assert!(worst < 4.0, "{seed}: {worst}");
     }
 }
 

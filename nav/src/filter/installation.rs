@@ -1,12 +1,14 @@
 //! Constants of the installation that are otherwise than configured: what the filter makes of them.
 
 use insd_base::Time;
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, Vector3};
 
 use super::Filter;
 use crate::config::is_on_board;
 use crate::dating::Dating;
-use crate::error_state::{ATTITUDE, GNSS_LEVER, GNSS_VELOCITY_DELAY, STATES, VELOCITY};
+use crate::error_state::{
+    ATTITUDE, BERTH_OFFSET, ErrorState, GNSS_LEVER, GNSS_VELOCITY_DELAY, POSITION, STATES, VELOCITY,
+};
 use crate::innovation::Weighed;
 use crate::separate_bias::{DELAY, Finding, SeparateBias};
 
@@ -148,8 +150,25 @@ impl Filter {
             self.config.lever_arms.log.0 += off;
             self.log_lever_std = Some(sigma);
         }
+        self.suspect_berth(&(finding.gnss_lever() * bias.surveyed()));
         self.bias = Some(SeparateBias::new(&self.view()));
         self.trust.clear();
         self.restart_judge();
+    }
+
+    /// A receiver and a berth that are apart tell as much of a lever arm that was measured wrongly as of a berth that is not
+    /// where it is said to be, until she turns: she may be off by that, her berth with her, and the antenna back where it was
+    /// said to be.
+    fn suspect_berth(&mut self, off: &Vector3<f64>) {
+        if self.sway.is_none() {
+            return;
+        }
+        let view = self.view();
+        let off = (view.c_nb() * off).xy().insert_row(2, 0.0);
+        let mut apart = ErrorState::zeros();
+        POSITION.set(&mut apart, &(view.c_ne.transpose() * off));
+        BERTH_OFFSET.set(&mut apart, &off.xy());
+        GNSS_LEVER.set(&mut apart, &-(view.c_nb().transpose() * off));
+        self.covariance += apart * apart.transpose();
     }
 }

@@ -19,6 +19,12 @@ impl Filter {
         self.be_judged();
     }
 
+    /// By how much the named berth may be off beyond what is said of it, 1-sigma of each component, m.
+    #[must_use]
+    pub fn berth_doubt(&self) -> f64 {
+        self.config.berth_doubt()
+    }
+
     /// How the ship sways, as far as she is taken as moored.
     #[must_use]
     pub fn sway(&self) -> Option<&Sway> {

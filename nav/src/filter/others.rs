@@ -136,7 +136,7 @@ impl Filter {
         innovation: &Innovation<M>,
         by_lever: &SMatrix<f64, M, 3>,
     ) -> Option<SMatrix<f64, STATES, M>> {
-        if self.withholds(Aid::Log) {
+        if self.docket().leaves_out(Aid::Log) {
             return None;
         }
         let bias = self.bias.as_mut()?;
