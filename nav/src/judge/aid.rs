@@ -168,3 +168,19 @@ impl Hearing {
 fn is_within(at: Option<Time>, now: Time, span: f64) -> bool {
     at.is_some_and(|at| (now - at).as_seconds() <= span)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_of_a_long_silence_is_silent_and_the_moment_after_it() {
+        let mut hearing = Hearing::default();
+        for second in [8.0, 9.0, 10.0, 40.0, 41.0, 42.0] {
+            hearing.note_word(Time::from_seconds(second));
+        }
+        let was_silent = |second: f64| hearing.was_silent_at(Time::from_seconds(second), 5.0);
+        assert!(was_silent(15.0) && was_silent(39.0) && was_silent(44.0));
+        assert!(!was_silent(9.0) && !was_silent(46.0));
+    }
+}
