@@ -95,9 +95,8 @@ pub struct SeparateBias {
     heard: f64,
     /// Mean of the squares of late, none of them counting for more than a fault.
     strain: f64,
-    /// Whether it is known where the position has come from, and which share of it not from the receiver.
-    knows_origin: bool,
-    surveyed: f64,
+    /// Which share of the horizontal position did not come from the receiver, once that is known.
+    surveyed: Option<f64>,
 }
 
 /// How a hypothesis fits.
@@ -135,8 +134,7 @@ impl SeparateBias {
             misfit: 0.0,
             heard: 0.0,
             strain: 0.0,
-            knows_origin: true,
-            surveyed: 0.0,
+            surveyed: Some(0.0),
         };
         bias.place(view, &Vector3::repeat(1.0));
         bias
@@ -145,25 +143,27 @@ impl SeparateBias {
     /// The same of a filter of which it is not known where its position has come from.
     #[must_use]
     pub fn of_unknown_origin(view: &View) -> Self {
-        let mut bias = SeparateBias { knows_origin: false, ..SeparateBias::new(view) };
+        let mut bias = SeparateBias { surveyed: None, ..SeparateBias::new(view) };
         bias.place(view, &Vector3::zeros());
         bias
     }
 
-    /// Where the position has come from, if that was not known: a share of each of its components, NED, from the
-    /// receiver.
-    pub fn came_from(&mut self, view: &View, share: &Vector3<f64>) {
-        if !self.knows_origin {
-            self.place(view, share);
-            self.knows_origin = true;
-            self.surveyed = 1.0 - share.xy().max();
-        }
+    /// Whether it is known where the position has come from.
+    #[must_use]
+    pub fn knows_origin(&self) -> bool {
+        self.surveyed.is_some()
     }
 
-    /// Which share of the horizontal position did not come from the receiver.
+    /// Where the position has come from: a share of each of its components, NED, from the receiver.
+    pub fn came_from(&mut self, view: &View, share: &Vector3<f64>) {
+        self.place(view, share);
+        self.surveyed = Some(1.0 - share.xy().max());
+    }
+
+    /// Which share of the horizontal position did not come from the receiver; nothing while that is not known.
     #[must_use]
     pub fn surveyed(&self) -> f64 {
-        self.surveyed
+        self.surveyed.unwrap_or(0.0)
     }
 
     /// The position has been set to what the receiver says, a share of each of its components, NED:

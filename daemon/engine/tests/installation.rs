@@ -60,13 +60,25 @@ impl Sailed {
         let from = self.solutions.len() - 60;
         let (mut square, mut scaled) = (0.0, 0.0);
         for solution in &self.solutions[from..] {
-            let truth = self.truth.iter().find(|truth| truth.time >= solution.time).unwrap();
-            let apart = earth::ecef(&solution.position).0 - earth::ecef(&truth.position).0;
-            let error = (earth::c_ne(&truth.position) * apart).xy().norm_squared();
+            let error = self.off(solution).powi(2);
             square += error / 60.0;
             scaled += error / solution.sigma.position.0.xy().norm_squared() / 60.0;
         }
         (square.sqrt(), scaled.sqrt())
+    }
+
+    /// Horizontal error of a solution, m.
+    fn off(&self, solution: &Solution) -> f64 {
+        let truth = self.truth.iter().find(|truth| truth.time >= solution.time).unwrap();
+        let apart = earth::ecef(&solution.position).0 - earth::ecef(&truth.position).0;
+        (earth::c_ne(&truth.position) * apart).xy().norm()
+    }
+
+    /// The greatest horizontal error from an instant on, in claimed sigmas.
+    fn worst_after(&self, second: f64) -> f64 {
+        let told = self.solutions.iter().filter(|own| own.time.as_seconds() > second);
+        let sigmas = told.map(|own| self.off(own) / own.sigma.position.0.xy().norm());
+        sigmas.fold(0.0, f64::max)
     }
 }
 
@@ -103,20 +115,6 @@ fn a_lever_arm_of_the_wrong_sign_costs_a_ship_nothing_and_is_told() {
     }
 }
 
-impl Sailed {
-    /// The greatest horizontal error from an instant on, in claimed sigmas.
-    fn worst_after(&self, second: f64) -> f64 {
-        let told = self.solutions.iter().filter(|own| own.time.as_seconds() > second);
-        let sigmas = told.map(|solution| {
-            let truth = self.truth.iter().find(|truth| truth.time >= solution.time).unwrap();
-            let apart = earth::ecef(&solution.position).0 - earth::ecef(&truth.position).0;
-            let off = (earth::c_ne(&truth.position) * apart).xy().norm();
-            off / solution.sigma.position.0.xy().norm()
-        });
-        sigmas.fold(0.0, f64::max)
-    }
-}
-
 /// Her place at the berth was surveyed, but until she turns nobody can tell whether a lever arm was measured wrongly, or the
 /// berth is not where it is said to be: one taken from a chart.
 #[test]
@@ -141,7 +139,7 @@ fn a_berth_that_is_named_elsewhere_is_covered_by_the_claims() {
             *place = place.map(|at| Geodetic { latitude: at.latitude + north / 6.36e6, ..at });
         }
         let worst = sail(voyage).worst_after(110.0);
-        assert!(worst < 4.0, "{seed}: {worst}");
+        assert!(worst < 3.5, "{seed}: {worst}");
     }
 }
 

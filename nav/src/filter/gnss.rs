@@ -237,10 +237,11 @@ impl Filter {
     /// A filter that has begun does not know where its position came from. One that is known far better than the slow
     /// errors of a receiver let it, as that of a ship at a surveyed berth, did not come by way of the antenna.
     fn note_origin(&mut self, view: &View, measured: &PositionFix) {
+        let Some(bias) = self.bias.as_mut().filter(|bias| !bias.knows_origin()) else { return };
         let own = view.c_ne * POSITION.covariance(&self.covariance) * view.c_ne.transpose();
         let least = (measured.slow * OF_GNSS).map(|std| std * std);
         let share = own.diagonal().zip_map(&least, |own, least| (own / least).clamp(0.0, 1.0));
-        self.bias.iter_mut().for_each(|bias| bias.came_from(view, &share));
+        bias.came_from(view, &share);
     }
 
     /// Enters an innovation in the statistics of its quantity; tells whether it is a fault.
@@ -296,9 +297,12 @@ impl Filter {
         }
         let gate = &self.config.gate;
         let patience = if self.can_judge() { gate.judged_reset_time } else { gate.reset_time };
-        let is_mistake = self.bias.as_ref().is_some_and(SeparateBias::is_suspicious);
-        let patience = if is_mistake { patience.max(MISTAKEN) } else { patience };
-        if !self.navigating || self.trust.refused(self.time) < patience {
+        if !self.navigating {
+            return;
+        }
+        let refused = self.trust.refused(self.time);
+        let may_be_mistake = || self.bias.as_ref().is_some_and(SeparateBias::is_suspicious);
+        if refused < patience || (refused < MISTAKEN && may_be_mistake()) {
             return;
         }
         self.place_anew(measured, velocity, report);

@@ -146,7 +146,7 @@ impl Filter {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::error_state::{ATTITUDE, POSITION, VELOCITY};
     use crate::increments::Increment;
@@ -155,7 +155,8 @@ mod tests {
     use insd_base::{Geodetic, ImuSpec, LeverArms, Triad};
     use nalgebra::Matrix3;
 
-    fn filter() -> (NavConfig, Filter) {
+    /// A filter that has navigated for half a second.
+    pub(in crate::filter) fn filter() -> (NavConfig, Filter) {
         let triad = Triad {
             bias_std: 1e-7,
             instability_std: 1e-8,

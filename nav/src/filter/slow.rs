@@ -9,14 +9,13 @@ impl Filter {
     /// When a receiver is found to be noisier than it says, or not any more, its slow errors are what they were, in
     /// metres; and may be off by as much more as they are larger now.
     pub(super) fn note_noise(&mut self) {
-        let before = self.slow_noise;
-        self.slow_noise = self.noise_of_slow();
-        for (i, block) in [GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR].into_iter().enumerate() {
-            let factor = (before[i] / self.slow_noise[i]).sqrt();
-            if factor != 1.0 {
-                self.rescale_slow(block, factor);
-            }
-        }
+        let now = self.noise_of_slow();
+        let before = std::mem::replace(&mut self.slow_noise, now);
+        let [position, velocity] = [0, 1].map(|i: usize| (before[i] / now[i]).sqrt());
+        self.nominal.gnss_position_error *= position;
+        self.nominal.gnss_velocity_error *= velocity;
+        self.rescale_slow(GNSS_POSITION_ERROR, position);
+        self.rescale_slow(GNSS_VELOCITY_ERROR, velocity);
     }
 
     /// By how much the variances of its position and of its velocity are larger than stated.
@@ -25,14 +24,9 @@ impl Filter {
     }
 
     fn rescale_slow(&mut self, block: Block<3>, factor: f64) {
-        let nominal = &mut self.nominal;
-        let is_position = block == GNSS_POSITION_ERROR;
-        let error = if is_position {
-            &mut nominal.gnss_position_error
-        } else {
-            &mut nominal.gnss_velocity_error
-        };
-        *error *= factor;
+        if factor == 1.0 {
+            return;
+        }
         block.rescale(&mut self.covariance, factor);
         if let Some(bias) = &mut self.bias {
             block.columns_mut(bias.response_mut()).scale_mut(factor);
@@ -46,36 +40,17 @@ impl Filter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::NavConfig;
-    use crate::error_state::POSITION;
-    use crate::initial::sensor_covariance;
-    use crate::{InitialState, Nominal};
-    use insd_base::{Geodetic, ImuSpec, LeverArms, Time, Triad};
+    use crate::filter::kept::tests;
     use nalgebra::{Matrix3, Vector3};
 
     /// A filter whose receiver was so much noisier than it says until now, and which knows its slow error of two and a
     /// half metres, half of a variance of one.
     fn filter(noise: f64) -> Filter {
-        let triad = Triad {
-            bias_std: 1e-7,
-            instability_std: 1e-8,
-            instability_time: 100.0,
-            random_walk: 1e-6,
-            scale_std: 1e-5,
-        };
-        let imu = ImuSpec { rate: 100.0, gyro: triad, accel: triad };
-        let config = NavConfig::new(imu, LeverArms::default());
-        let place = Geodetic::from_degrees(35.0, 139.0, 20.0);
-        let mut nominal = Nominal::at(&place, &Vector3::zeros(), &Matrix3::identity());
-        nominal.gnss_position_error = Vector3::repeat(2.5 / noise.sqrt());
-        let mut covariance = sensor_covariance(&config);
+        let (_, mut filter) = tests::filter();
+        filter.nominal.gnss_position_error = Vector3::repeat(2.5 / noise.sqrt());
         let half = Matrix3::from_diagonal_element(0.5);
-        GNSS_POSITION_ERROR.renew(&mut covariance, &half);
-        POSITION.renew(&mut covariance, &half);
-        let (time, rate) = (Time::from_seconds(9.0), Vector3::zeros());
-        let mut filter = Filter::new(&config, &InitialState { time, nominal, covariance, rate });
+        GNSS_POSITION_ERROR.renew(&mut filter.covariance, &half);
         filter.slow_noise[0] = noise;
-        filter.begin_navigation();
         filter
     }
 

@@ -105,9 +105,8 @@ impl<const N: usize> Run<N> {
             return;
         }
         (self.count, self.differing) = (self.count.saturating_add(1), 0);
-        let is_surer = |(begun, now): (Seen, Seen)| now.std < SURER * begun.std;
-        self.begun =
-            if self.begun.zip(now).is_some_and(is_surer) { now } else { self.begun.or(now) };
+        let is_surer = |begun: &Seen| now.is_some_and(|now| now.std < SURER * begun.std);
+        self.begun = self.begun.filter(|begun| !is_surer(begun)).or(now);
         let has_moved = self.begun.zip(now).is_some_and(|(begun, now)| {
             apart(&begun.value, &now.value) > moved + SURELY * begun.std
         });
