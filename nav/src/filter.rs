@@ -40,6 +40,7 @@ use entry::detail;
 use found_lever::FoundLever;
 
 pub mod ahead;
+mod bent;
 mod entry;
 mod estimates;
 mod found_lever;

@@ -7,7 +7,7 @@ use insd_base::{
     Body, Ecef, FixQuality, Geodetic, GnssFix, ImuSpec, LeverArms, Message, Ned, Received, Source,
     Time, Triad, earth,
 };
-use insd_nav::error_state::{ATTITUDE, POSITION, VELOCITY};
+use insd_nav::error_state::{ATTITUDE, ErrorState, GNSS_LEVER, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
 use insd_nav::{
     AidReport, Estimator, Filter, Increment, InitialState, NavConfig, Nominal, Outcome,
@@ -41,9 +41,14 @@ fn place() -> Geodetic {
 
 /// A ship that lies still with her bow to the north.
 fn filter() -> Filter {
-    let config = NavConfig::new(IMU, LeverArms { gnss: MAST, log: Body::default() });
+    filter_with(MAST, 1e-3)
+}
+
+/// The same with her antenna there and an attitude known to so much, rad.
+fn filter_with(gnss: Body, attitude: f64) -> Filter {
+    let config = NavConfig::new(IMU, LeverArms { gnss, log: Body::default() });
     let mut covariance = sensor_covariance(&config);
-    for (block, std) in [(POSITION, 3.0_f64), (VELOCITY, 0.1), (ATTITUDE, 1e-3)] {
+    for (block, std) in [(POSITION, 3.0_f64), (VELOCITY, 0.1), (ATTITUDE, attitude)] {
         block.renew(&mut covariance, &Matrix3::from_diagonal_element(std * std));
     }
     let initial = InitialState {
@@ -114,4 +119,28 @@ fn a_receiver_with_an_antenna_of_its_own_moves_the_ship_nowhere() {
     assert!(error < 0.3 && refused == 0, "{error} m, {refused} refused");
     let (_, refused) = after_the_change(None);
     assert!(refused > 50, "taken for the other antenna: {refused} refused");
+}
+
+/// Claimed 1-sigma of the antenna to the north, m, after one fix of centimetres, of a ship that knows her attitude to so much, rad.
+fn antenna_is_known_to(gnss: Body, attitude: f64) -> f64 {
+    let mut filter = filter_with(gnss, attitude);
+    let mut received = fix(0.0, 0, &gnss, None);
+    let Message::Gnss(told) = &mut received.message else { unreachable!() };
+    (told.position_std, told.quality) = (Some(Ned::new(0.01, 0.01, 0.02)), FixQuality::RtkFixed);
+    filter.apply(&received);
+    let c_ne = earth::c_ne(&place());
+    let to_antenna = |error: &ErrorState| (c_ne * POSITION.of(error) + GNSS_LEVER.of(error)).x;
+    let rows =
+        ErrorState::from_fn(|row, _| to_antenna(&filter.covariance().column(row).into_owned()));
+    to_antenna(&rows).sqrt()
+}
+
+#[test]
+fn a_fix_is_worth_no_more_than_an_unmeasured_arm_at_an_unknown_attitude_lets_it() {
+    let (vague, sure) = (0.05, 1e-6);
+    let unmeasured = Body::default();
+    assert!(antenna_is_known_to(unmeasured, vague) > 0.5);
+    assert!(antenna_is_known_to(unmeasured, sure) < 0.03);
+    let lever = 20.0 * vague;
+    assert!(antenna_is_known_to(unmeasured, vague) < 2.0 * lever);
 }

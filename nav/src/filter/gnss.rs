@@ -120,7 +120,8 @@ impl Filter {
     ) -> Option<(VelocityFix, Innovation<3>)> {
         let view = self.view();
         let measured = self.velocity_fix(&view, fix, report)?;
-        let innovation = gnss_velocity::innovation(&view, &measured, &self.antenna_lever());
+        let mut innovation = gnss_velocity::innovation(&view, &measured, &self.antenna_lever());
+        innovation.r += self.bent_velocity(&view);
         self.consult(Aid::GnssVelocity, &innovation, rows::of_gnss_velocity);
         let fault = self.agreement(Aid::GnssVelocity, &innovation);
         if fault && self.can_judge() {
@@ -180,7 +181,8 @@ impl Filter {
     ) {
         let view = self.view();
         let Some(measured) = self.position_fix(&view, fix, report) else { return };
-        let innovation = gnss_position::innovation(&view, &measured, &self.antenna_lever());
+        let mut innovation = gnss_position::innovation(&view, &measured, &self.antenna_lever());
+        innovation.r += self.bent_position(&view);
         let innovation = self.without_wrong_height(innovation);
         self.consult(Aid::GnssPosition, &innovation, rows::of_gnss_position);
         self.watch_for_leaps(fix);

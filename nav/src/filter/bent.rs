@@ -1,0 +1,76 @@
+//! What a linear filter leaves out of a lever arm that nobody has measured: the product of its error with that of
+//! attitude and turn rate.
+//!
+//! An antenna of which the place is unknown to metres seems to move by metres times the error of the attitude, which is
+//! centimetres where the receiver tells millimetres. Where the filter is sure of neither, the fix is worth no more than that
+//! (the second-order term of the measurement: Jazwinski, Stochastic Processes and Filtering Theory, section 9.3).
+
+use insd_base::attitude::skew;
+use nalgebra::Matrix3;
+
+use super::Filter;
+use crate::aids::View;
+use crate::error_state::{ATTITUDE, GNSS_LEVER, GYRO_BIAS, GYRO_DRIFT};
+
+impl Filter {
+    /// Covariance of the position of the antenna that is left out, NED, m^2.
+    pub(super) fn bent_position(&self, view: &View) -> Matrix3<f64> {
+        let attitude = view.c_ne * ATTITUDE.covariance(&self.covariance) * view.c_ne.transpose();
+        of_product(&attitude, &self.lever_in_ned(view))
+    }
+
+    /// Covariance of the velocity of the antenna that is left out, NED, m^2/s^2.
+    pub(super) fn bent_velocity(&self, view: &View) -> Matrix3<f64> {
+        let p = &self.covariance;
+        let (c_nb, lever) = (view.c_nb(), GNSS_LEVER.covariance(p));
+        let attitude = view.c_ne * ATTITUDE.covariance(p) * view.c_ne.transpose();
+        let swing = c_nb * skew(&view.rate);
+        let gyro = GYRO_BIAS.covariance(p) + GYRO_DRIFT.covariance(p);
+        of_product(&attitude, &(swing * lever * swing.transpose()))
+            + c_nb * of_product(&gyro, &lever) * c_nb.transpose()
+    }
+
+    fn lever_in_ned(&self, view: &View) -> Matrix3<f64> {
+        let c_nb = view.c_nb();
+        c_nb * GNSS_LEVER.covariance(&self.covariance) * c_nb.transpose()
+    }
+}
+
+/// Covariance of a x b for independent a and b of mean zero.
+fn of_product(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
+    let both = a * b;
+    let (of_a, of_b) = (a.trace(), b.trace());
+    let scale = of_a * of_b - both.trace();
+    Matrix3::from_diagonal_element(scale) - a * of_b - b * of_a + both + both.transpose()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn a_turn_about_down_moves_what_is_ahead_to_starboard() {
+        let turn = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 0.01));
+        let ahead = Matrix3::from_diagonal(&Vector3::new(4.0, 0.0, 0.0));
+        let starboard = Matrix3::from_diagonal(&Vector3::new(0.0, 0.04, 0.0));
+        assert_relative_eq!(of_product(&turn, &ahead), starboard, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn it_is_the_mean_of_the_products_over_the_axes_of_both() {
+        let axes = |m: Matrix3<f64>| [0, 1, 2].map(|i| m.column(i).into_owned());
+        let a = Matrix3::new(1.0, 0.0, 0.0, 0.4, 2.0, 0.0, -0.3, 0.7, 0.5);
+        let b = Matrix3::new(3.0, 0.0, 0.0, -1.0, 0.2, 0.0, 0.6, 0.1, 1.5);
+        let mut expected = Matrix3::zeros();
+        for one in axes(a) {
+            for other in axes(b) {
+                let product = one.cross(&other);
+                expected += product * product.transpose();
+            }
+        }
+        let found = of_product(&(a * a.transpose()), &(b * b.transpose()));
+        assert_relative_eq!(found, expected, epsilon = 1e-12);
+    }
+}
