@@ -16,6 +16,10 @@ const BROKEN: f64 = 5.0;
 const FRESH: f64 = 2.5;
 /// Time constant of the smoothing, s.
 const SWELL: f64 = 10.0;
+/// A log that changes by more than this share of its speed, and by more than a wave does, m/s, from one message to the
+/// next is mounted otherwise.
+const LEAP: f64 = 0.8;
+const WAVE: f64 = 0.5;
 /// Share of the sums that is kept from turn to turn.
 const KEPT: f64 = 0.97;
 /// Factors between these are of gyros that tell turns.
@@ -79,6 +83,17 @@ impl Smooth {
     }
 }
 
+/// Whether a log tells another direction from one message to the next, as no ship turns, but a log that fails does:
+/// as if it were mounted otherwise from now on.
+fn has_leapt(last: &LogVelocity, next: &LogVelocity) -> bool {
+    let of = |log: &LogVelocity| Some(Vector2::new(log.u?, log.v?));
+    let is_next = (0.0..BROKEN).contains(&(next.time - last.time).as_seconds());
+    let both = of(last).zip(of(next)).filter(|_| is_next);
+    both.is_some_and(|(last, next)| {
+        (next - last).norm() > WAVE.max(LEAP * last.norm().min(next.norm()))
+    })
+}
+
 /// Sums of the regression.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Turns {
@@ -104,7 +119,11 @@ impl Turns {
 
     /// Hears a log.
     pub(super) fn hear_log(&mut self, log: &LogVelocity) {
-        self.log = Some(*log).filter(|log| log.reference == LogReference::Bottom);
+        let next = Some(*log).filter(|log| log.reference == LogReference::Bottom);
+        if self.log.zip(next).is_some_and(|(last, next)| has_leapt(&last, &next)) {
+            (self.now, self.begun) = (None, None);
+        }
+        self.log = next;
     }
 
     /// The velocity of a log that tells the bottom now.
@@ -177,10 +196,20 @@ mod tests {
     /// Ten minutes of turns to both sides at 6 m/s, the course drifting behind the bow, in a current;
     /// the gyro tells `factor` times the turn.
     fn sailed(factor: f64, current: f64) -> Turns {
+        sailed_with(1.5, factor, current, |_| None)
+    }
+
+    /// The same with turns of so much to either side, rad, and a log that tells forward and starboard, m/s, at a time, s.
+    fn sailed_with(
+        swing: f64,
+        factor: f64,
+        current: f64,
+        log: impl Fn(f64) -> Option<(f64, f64)>,
+    ) -> Turns {
         let mut turns = Turns::default();
         for second in 0..600 {
             let at = f64::from(second);
-            let heading = |t: f64| 1.5 * (t / 40.0).sin();
+            let heading = |t: f64| swing * (t / 40.0).sin();
             let way = heading(at - 3.0);
             let fix = GnssFix {
                 time: Time::from_seconds(at),
@@ -201,6 +230,17 @@ mod tests {
                 force_noise: Vector3::zeros(),
                 bridged: None,
             });
+            if let Some((u, v)) = log(at) {
+                let time = fix.time;
+                turns.hear_log(&LogVelocity {
+                    time,
+                    u: Some(u),
+                    v: Some(v),
+                    w: None,
+                    std: None,
+                    reference: LogReference::Bottom,
+                });
+            }
             turns.hear(&fix);
         }
         turns
@@ -223,6 +263,14 @@ mod tests {
                 (ratio.value / factor.max(-1.0) - 1.0).abs() < 0.3 || factor == 0.0,
                 "{ratio:?}"
             );
+        }
+    }
+
+    #[test]
+    fn a_log_that_is_turned_under_way_has_no_gyro_doubted() {
+        for from in [280.0, 303.0, 317.0] {
+            let turned = |at: f64| Some(if at < from { (6.0, 0.0) } else { (0.0, 6.0) });
+            assert_eq!(sailed_with(0.0, 1.0, 0.0, turned).finding(), None, "from {from} s");
         }
     }
 }
