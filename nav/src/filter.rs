@@ -33,6 +33,7 @@ use crate::sway::Sway;
 use crate::symmetry::{keep_turn_unknown, turn_biases};
 use crate::timeline::Estimator;
 use crate::trust::Trust;
+use crate::wheels::Wheels;
 use ahead::VelocityEpoch;
 pub use entry::Judged;
 pub(crate) use entry::NO_INNOVATION;
@@ -91,6 +92,7 @@ pub struct Filter {
     pace: Pace,
     lurch: Pace,
     slip: Slip,
+    wheels: Wheels,
     /// When another reference last told a position.
     last_reference: Option<Time>,
     turned: Vector3<f64>,
@@ -162,6 +164,7 @@ impl Filter {
             pace: Pace::default(),
             lurch: Pace::default(),
             slip: Slip::default(),
+            wheels: Wheels::default(),
             last_reference: None,
             turned: Vector3::zeros(),
             corrected: ErrorState::zeros(),
@@ -407,6 +410,7 @@ impl Estimator for Filter {
         if self.stretch.duration >= self.interval - 1e-6 {
             self.settle();
         }
+        self.look_for_wheels();
         self.hold_to_wheels();
         self.look_at_pace();
         self.look_at_slip();

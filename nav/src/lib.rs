@@ -39,6 +39,7 @@ pub mod sway;
 pub mod symmetry;
 pub mod timeline;
 pub mod trust;
+pub mod wheels;
 
 pub use config::NavConfig;
 pub use filter::Filter;

@@ -121,6 +121,8 @@ pub enum Finding {
         /// How far they agree where they do least: 1 of one that is right, -1 of one of which an axis is mirrored.
         agreement: f64,
     },
+    /// She climbs as she points and never slides, and is not configured as what goes on wheels.
+    OnWheels,
     /// Every heading that was found with the IMU was refuted by GNSS.
     ImuRefuted,
     /// The IMU is worse than its data sheet.
@@ -168,6 +170,7 @@ impl Finding {
             Finding::Frozen { what: Frozen::Heading } => "heading_frozen",
             Finding::ImuTurns { .. } => "imu_turns",
             Finding::ImuAxes { .. } => "imu_axes",
+            Finding::OnWheels => "on_wheels",
             Finding::ImuRefuted => "imu_refuted",
             Finding::ImuWorse { .. } => "imu_worse",
             Finding::MountingTilted { .. } => "mounting_tilted",
@@ -179,7 +182,7 @@ impl Finding {
     /// Whether the configuration is wrong, and not merely incomplete.
     #[must_use]
     pub fn is_fault(&self) -> bool {
-        !matches!(self, Finding::GnssLeverUnmeasured { .. })
+        !matches!(self, Finding::GnssLeverUnmeasured { .. } | Finding::OnWheels)
     }
 
     /// Whether a sensor tells nonsense, which no configuration mends.
@@ -228,6 +231,7 @@ impl Finding {
                 Some(lever_line("gnss", found))
             }
             Finding::LogLever { found, .. } => Some(lever_line("log", found)),
+            Finding::OnWheels => Some("kind = \"car\"".to_owned()),
             Finding::GnssDelay { found, .. } => Some(format!("delay_s = {found:.2}")),
             _ => None,
         }
@@ -400,6 +404,9 @@ impl Finding {
                 "gravity swings in the axes of the IMU against what its gyros say, agreement {agreement:.1} where 1 is \
                  right: is an axis mirrored, or are two swapped?"
             ),
+            Finding::OnWheels => f.write_str(
+                "she climbs as she points and never slides, as nothing does but what goes on wheels, and is held to them",
+            ),
             Finding::ImuRefuted => f.write_str(
                 "GNSS refutes every heading that is found with the IMU: are its axes, signs and units as \
                  configured, or is the receiver wrong?",
@@ -444,6 +451,12 @@ mod tests {
             "the GNSS antenna seems 28.0 m higher, 0.8 m further to starboard than configured: \
              gnss_lever_m = [-6.0, 0.0, -14.0], good to 0.2 m"
         );
+    }
+
+    #[test]
+    fn a_car_that_is_configured_as_a_ship_is_no_fault_and_told_what_to_write() {
+        assert!(!Finding::OnWheels.is_fault());
+        assert_eq!(Finding::OnWheels.to_paste().as_deref(), Some("kind = \"car\""));
     }
 
     #[test]

@@ -31,6 +31,7 @@ impl Filter {
             gnss_delay: estimate(nominal.gnss_delay + redated, GNSS_DELAY.start()),
             log_lever: self.log_lever_std.map(|sigma| (self.config.lever_arms.log, Body(sigma))),
             course_less_heading: None,
+            goes_on_wheels: self.wheels.are_proven(),
             moored,
         }
     }

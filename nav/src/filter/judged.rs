@@ -249,7 +249,7 @@ impl Filter {
         if !self.pace.is_due(self.time) {
             return;
         }
-        let (now, kind) = (self.time, self.config.vessel);
+        let (now, kind) = (self.time, self.vessel());
         let athwart = (self.nominal.attitude.inverse() * self.nominal.velocity).y;
         let change = self.pace.see(now, self.nominal.velocity.norm());
         let lurch = self.lurch.see(now, athwart);

@@ -1,10 +1,12 @@
 //! That a craft hardly moves sideways, as weak knowledge where nothing measures it.
 
-use insd_base::{LogReference, LogVelocity, Sideways};
+use insd_base::{LogReference, LogVelocity, Mode, Sideways, VesselKind};
 use nalgebra::Vector3;
 
 use super::Filter;
 use crate::aids::log_velocity;
+use crate::error_state::VELOCITY;
+use crate::wheels::Look;
 
 /// A car is held to its course so often, s.
 const EVERY: f64 = 1.0;
@@ -15,7 +17,31 @@ const BOUNCE: f64 = 0.2;
 /// Longest time for which one look stands, s.
 const LONGEST: f64 = 5.0;
 
+/// A velocity that is known to less, m/s, tells nothing of wheels.
+const TOLD_TO: f64 = 0.2;
+
 impl Filter {
+    /// What kind of craft she is: as configured, or as she is seen to be.
+    pub(super) fn vessel(&self) -> VesselKind {
+        if self.wheels.are_proven() { VesselKind::Car } else { self.config.vessel }
+    }
+
+    /// A ship does not climb: what does, as it points, and never slides, goes on wheels.
+    pub(super) fn look_for_wheels(&mut self) {
+        let is_known = self.config.vessel.has_wheels();
+        if is_known || !self.navigating || !self.wheels.is_due(self.time) {
+            return;
+        }
+        let is_told = self.mode() == Mode::Aided && VELOCITY.std(&self.covariance) < TOLD_TO;
+        if is_told && !self.is_restless() {
+            let view = self.view();
+            let (velocity, attitude) = (view.v_n(), view.attitude());
+            let body = view.c_nb().tr_mul(&velocity);
+            let look = Look { velocity: body, rise: -velocity.z, pitch: attitude.pitch };
+            self.wheels.see(self.time, &look);
+        }
+    }
+
     /// A log without a component across: the ship makes little leeway.
     pub(super) fn hold_leeway(&mut self, log: &LogVelocity) {
         if self.navigating && self.sway.is_none() {
@@ -27,7 +53,7 @@ impl Filter {
     /// A car goes where its wheels let it, whatever else is heard.
     pub(super) fn hold_to_wheels(&mut self) {
         let since = self.held.map_or(f64::INFINITY, |last| (self.time - last).as_seconds());
-        if !self.config.vessel.has_wheels() || !self.navigating || since < EVERY {
+        if !self.vessel().has_wheels() || !self.navigating || since < EVERY {
             return;
         }
         self.settle();
@@ -43,7 +69,7 @@ impl Filter {
         if is_told {
             return;
         }
-        let Sideways { drift, pivot, .. } = self.config.vessel.sideways();
+        let Sideways { drift, pivot, .. } = self.vessel().sideways();
         let spacing = since.map_or(EVERY, |since| (self.time - since).as_seconds());
         let turning = pivot * self.rate.z;
         self.hold(reference, lever, 1, drift.hypot(turning), spacing.min(LONGEST));
@@ -59,7 +85,7 @@ impl Filter {
         sigma: f64,
         spacing: f64,
     ) {
-        let shared = (2.0 * self.config.vessel.sideways().time / spacing.max(0.05)).max(1.0);
+        let shared = (2.0 * self.vessel().sideways().time / spacing.max(0.05)).max(1.0);
         let prediction = log_velocity::predict(&self.view(), reference, lever);
         let std = sigma * shared.sqrt();
         let innovation = log_velocity::component(&prediction, axis, 0.0, std);

@@ -304,7 +304,8 @@ impl Surveyor {
         let mut found: Vec<Finding> =
             levers.into_iter().flatten().filter(|_| is_imu_right).collect();
         let worse = (imu_is_worse_by > 1.0).then_some(Finding::ImuWorse { times: imu_is_worse_by });
-        found.extend(worse.into_iter().chain(delay(estimates)));
+        let wheels = estimates.goes_on_wheels.then_some(Finding::OnWheels);
+        found.extend(worse.into_iter().chain(delay(estimates)).chain(wheels));
         found
     }
 
