@@ -53,6 +53,16 @@ impl<const W: usize> Block<W> {
         p.fixed_view::<W, W>(self.start, self.start).into_owned()
     }
 
+    /// Covariance of this block as other axes see it: of A x, with x the block.
+    #[must_use]
+    pub fn covariance_in<const M: usize>(
+        self,
+        p: &Covariance,
+        axes: &SMatrix<f64, M, W>,
+    ) -> SMatrix<f64, M, M> {
+        axes * self.covariance(p) * axes.transpose()
+    }
+
     /// 1-sigma of a component, on the mean of all.
     #[must_use]
     pub fn std(self, p: &Covariance) -> f64 {

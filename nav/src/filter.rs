@@ -410,7 +410,6 @@ impl Estimator for Filter {
         if self.stretch.duration >= self.interval - 1e-6 {
             self.settle();
         }
-        self.look_for_wheels();
         self.hold_to_wheels();
         self.look_at_pace();
         self.look_at_slip();

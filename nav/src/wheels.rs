@@ -9,8 +9,7 @@
 use insd_base::Time;
 use nalgebra::Vector3;
 
-/// How far looks are apart, s; a longer silence is a gap.
-const SPACING: f64 = 1.0;
+/// A longer silence between looks is a gap, s.
 const GAP: f64 = 5.0;
 /// Looks that are judged together.
 const SPAN: u32 = 60;
@@ -82,19 +81,13 @@ pub struct Wheels {
 }
 
 impl Wheels {
-    /// Whether it is time to look.
-    #[must_use]
-    pub fn is_due(&self, now: Time) -> bool {
-        self.last.is_none_or(|last| (now - last).as_seconds() >= SPACING)
-    }
-
     /// Whether she is proven to go on wheels.
     #[must_use]
     pub fn are_proven(&self) -> bool {
         self.proofs >= PROOFS
     }
 
-    /// Looks at her while a receiver tells her velocity.
+    /// Looks at her, once a second while a receiver tells her velocity.
     pub fn see(&mut self, now: Time, look: &Look) {
         let since = self.last.replace(now).map_or(GAP, |last| (now - last).as_seconds());
         if since >= GAP {

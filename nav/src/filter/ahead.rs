@@ -153,7 +153,7 @@ impl Ahead<'_> {
     /// 1-sigma of the rotation about down, rad: the heading of a ship that is nearly level.
     #[must_use]
     pub fn heading_std(&self) -> f64 {
-        let down = self.view.c_ne.row(2);
-        (down * ATTITUDE.covariance(&self.covariance) * down.transpose()).x.max(0.0).sqrt()
+        let down = self.view.c_ne.row(2).into_owned();
+        ATTITUDE.covariance_in(&self.covariance, &down).x.max(0.0).sqrt()
     }
 }

@@ -15,24 +15,19 @@ use crate::error_state::{ATTITUDE, GNSS_LEVER, GYRO_BIAS, GYRO_DRIFT};
 impl Filter {
     /// Covariance of the position of the antenna that is left out, NED, m^2.
     pub(super) fn bent_position(&self, view: &View) -> Matrix3<f64> {
-        let attitude = view.c_ne * ATTITUDE.covariance(&self.covariance) * view.c_ne.transpose();
-        of_product(&attitude, &self.lever_in_ned(view))
+        let p = &self.covariance;
+        let attitude = ATTITUDE.covariance_in(p, &view.c_ne);
+        of_product(&attitude, &GNSS_LEVER.covariance_in(p, &view.c_nb()))
     }
 
     /// Covariance of the velocity of the antenna that is left out, NED, m^2/s^2.
     pub(super) fn bent_velocity(&self, view: &View) -> Matrix3<f64> {
-        let p = &self.covariance;
-        let (c_nb, lever) = (view.c_nb(), GNSS_LEVER.covariance(p));
-        let attitude = view.c_ne * ATTITUDE.covariance(p) * view.c_ne.transpose();
-        let swing = c_nb * skew(&view.rate);
-        let gyro = GYRO_BIAS.covariance(p) + GYRO_DRIFT.covariance(p);
-        of_product(&attitude, &(swing * lever * swing.transpose()))
-            + c_nb * of_product(&gyro, &lever) * c_nb.transpose()
-    }
-
-    fn lever_in_ned(&self, view: &View) -> Matrix3<f64> {
-        let c_nb = view.c_nb();
-        c_nb * GNSS_LEVER.covariance(&self.covariance) * c_nb.transpose()
+        let (p, c_nb) = (&self.covariance, view.c_nb());
+        let attitude = ATTITUDE.covariance_in(p, &view.c_ne);
+        let swing = GNSS_LEVER.covariance_in(p, &(c_nb * skew(&view.rate)));
+        let gyro = GYRO_BIAS.covariance_in(p, &c_nb) + GYRO_DRIFT.covariance_in(p, &c_nb);
+        let lever = GNSS_LEVER.covariance_in(p, &c_nb);
+        of_product(&attitude, &swing) + of_product(&gyro, &lever)
     }
 }
 

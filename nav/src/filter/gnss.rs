@@ -240,7 +240,7 @@ impl Filter {
     /// errors of a receiver let it, as that of a ship at a surveyed berth, did not come by way of the antenna.
     fn note_origin(&mut self, view: &View, measured: &PositionFix) {
         let Some(bias) = self.bias.as_mut().filter(|bias| !bias.knows_origin()) else { return };
-        let own = view.c_ne * POSITION.covariance(&self.covariance) * view.c_ne.transpose();
+        let own = POSITION.covariance_in(&self.covariance, &view.c_ne);
         let least = (measured.slow * OF_GNSS).map(|std| std * std);
         let share = own.diagonal().zip_map(&least, |own, least| (own / least).clamp(0.0, 1.0));
         bias.came_from(view, &share);

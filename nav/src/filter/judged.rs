@@ -256,6 +256,7 @@ impl Filter {
         if self.mode() == Mode::Aided {
             self.pace.learn(change);
             self.lurch.learn(lurch);
+            self.look_for_wheels();
             return;
         }
         let farthest =

@@ -1,6 +1,6 @@
 //! That a craft hardly moves sideways, as weak knowledge where nothing measures it.
 
-use insd_base::{LogReference, LogVelocity, Mode, Sideways, VesselKind};
+use insd_base::{LogReference, LogVelocity, Sideways, VesselKind};
 use nalgebra::Vector3;
 
 use super::Filter;
@@ -16,7 +16,6 @@ const TOLD: f64 = 5.0;
 const BOUNCE: f64 = 0.2;
 /// Longest time for which one look stands, s.
 const LONGEST: f64 = 5.0;
-
 /// A velocity that is known to less, m/s, tells nothing of wheels.
 const TOLD_TO: f64 = 0.2;
 
@@ -26,14 +25,12 @@ impl Filter {
         if self.wheels.are_proven() { VesselKind::Car } else { self.config.vessel }
     }
 
-    /// A ship does not climb: what does, as it points, and never slides, goes on wheels.
+    /// A ship does not climb: what does, as it points, and never slides, goes on wheels. Looked at once a second while a
+    /// receiver tells her velocity.
     pub(super) fn look_for_wheels(&mut self) {
-        let is_known = self.config.vessel.has_wheels();
-        if is_known || !self.navigating || !self.wheels.is_due(self.time) {
-            return;
-        }
-        let is_told = self.mode() == Mode::Aided && VELOCITY.std(&self.covariance) < TOLD_TO;
-        if is_told && !self.is_restless() {
+        let is_asked = self.navigating && !self.config.vessel.has_wheels();
+        let is_told = VELOCITY.std(&self.covariance) < TOLD_TO && !self.is_restless();
+        if is_asked && is_told {
             let view = self.view();
             let (velocity, attitude) = (view.v_n(), view.attitude());
             let body = view.c_nb().tr_mul(&velocity);
