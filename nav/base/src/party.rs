@@ -183,6 +183,20 @@ impl Fault {
         }
     }
 
+    /// Whether somebody goes away from the others little by little.
+    #[must_use]
+    pub fn is_drift(self) -> bool {
+        matches!(
+            self,
+            Fault::Drag
+                | Fault::Slide
+                | Fault::Creep
+                | Fault::HeadingDrift
+                | Fault::ReferenceDrag
+                | Fault::SpareDrag
+        )
+    }
+
     /// Whether it is merely that somebody scatters by more than he says.
     #[must_use]
     pub fn is_noise(self) -> bool {

@@ -411,10 +411,11 @@ impl Docket {
         }
     }
 
-    /// Hears somebody again who was left out for his noise alone.
+    /// Hears somebody again who need not have been left out.
     pub fn recall(&mut self, party: Party, now: Time) {
-        if self.entries[self.place(party)].fault.is_some_and(Fault::is_noise) {
-            self.enter(party, Standing::Trusted, now);
+        self.enter(party, Standing::Trusted, now);
+        if party.is_receiver() {
+            self.lies[self.lie_of(party)] = LieOfGnss::default();
         }
     }
 

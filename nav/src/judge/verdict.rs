@@ -1,6 +1,6 @@
 //! What follows when somebody is found to lie.
 
-use insd_base::{Fault, Party, Standing, Time};
+use insd_base::{Fault, Party, Standing, Stands, Time};
 use nalgebra::Vector2;
 
 use super::charge::{Charge, DOUBT, Kind};
@@ -26,6 +26,9 @@ const WRONG_SCALE: f64 = 0.01;
 const AS_MUCH: f64 = 0.95;
 /// Within this before somebody is seen to lie the IMU may have been blamed for it, s.
 const MEANWHILE: f64 = 60.0;
+/// A log that stands still has not led the estimate further astray than this, 1-sigma, m/s: it is seen at once when she goes 0.6 m/s
+/// otherwise.
+const FOLLOWED: f64 = 0.3;
 /// Fixes that are later than this are left out, s; others are set back.
 const SET_BACK: f64 = 1.0;
 
@@ -136,7 +139,10 @@ impl Judge {
         let of_gnss = &self.hearings[Aid::GnssPosition as usize];
         let has_fixes = of_gnss.was_within(now, UNHEARD) && !self.docket.leaves_out_gnss();
         if self.docket.is_excluded(Party::Log) {
-            if is_wild && !has_fixes {
+            let is_noise = |stands: Stands| {
+                stands.party == Party::Log && stands.fault.is_some_and(Fault::is_noise)
+            };
+            if is_wild && !has_fixes && self.docket.all().any(is_noise) {
                 self.docket.recall(Party::Log, now);
             }
             return None;
@@ -234,7 +240,30 @@ impl Judge {
         if self.lies_another(whom) {
             return None;
         }
-        Some(self.alternative(&Charge::shapeless(whom, DOUBT)))
+        let mut mended = self.alternative(&Charge::shapeless(whom, DOUBT));
+        if self.rehabilitate(whom, now) && whom == Party::Log {
+            VELOCITY.inflate(&mut mended.covariance, FOLLOWED * FOLLOWED);
+            POSITION.inflate(&mut mended.covariance, (0.5 * FOLLOWED * MEANWHILE).powi(2));
+        }
+        Some(mended)
+    }
+
+    /// Hears those again who were found to drift from somebody who has turned out to lie. Whether anybody was found to lie meanwhile: then the
+    /// judge has begun anew with an estimate that believed him.
+    fn rehabilitate(&mut self, liar: Party, now: Time) -> bool {
+        let is_of_late = |stands: &Stands| {
+            let age = (now - stands.since).as_seconds();
+            stands.party != liar && stands.standing == Standing::Excluded && age < MEANWHILE
+        };
+        let mut is_anybody = false;
+        let before = self.docket;
+        for stands in before.all().filter(is_of_late) {
+            is_anybody = true;
+            if stands.fault.is_some_and(Fault::is_drift) {
+                self.docket.recall(stands.party, now);
+            }
+        }
+        is_anybody
     }
 
     /// The IMU is wrong, as what it says is not what any ship does; gives the estimate without it.

@@ -2,7 +2,7 @@
 //!
 //! Equal numbers alone mean little: a ship at her berth is where she was. So a run of them counts when the
 //! solution has moved, since it began, by more than the sensor's digits and errors explain. Of a log, a compass and the velocity
-//! of a receiver it counts, too, when it is many times longer than any before while GNSS has her under way: noise ends them.
+//! of a receiver it counts, too, when it is many times longer than any before while GNSS or a log has her under way: noise ends them.
 
 use insd_base::units::{DEG, wrap_pi};
 use insd_base::{
@@ -113,9 +113,12 @@ impl<const N: usize> Run<N> {
         self.frozen |= f64::from(self.count) >= enough && has_moved;
     }
 
-    /// Whether she is under way: then the lengths of the runs tell, too.
-    fn compare(&mut self, is_under_way: bool, enough: u32) {
-        if !is_under_way {
+    /// While she is under way the lengths of the runs tell, too.
+    fn compare(&mut self, way: Way, enough: u32) {
+        if way == Way::Unsure {
+            return;
+        }
+        if way == Way::LiesStill {
             self.count = self.count.min(1);
         } else if self.count == 1 {
             self.runs = self.runs.saturating_add(1);
@@ -128,10 +131,24 @@ impl<const N: usize> Run<N> {
     }
 }
 
-fn is_under_way(solution: Option<&Solution>) -> bool {
-    solution.is_some_and(|solution| {
-        solution.mode == Mode::Aided && solution.velocity.0.xy().norm() > UNDER_WAY
-    })
+/// Whether she goes, and whether somebody else than gyros and accelerometers says so.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Way {
+    LiesStill,
+    UnderWay,
+    Unsure,
+}
+
+impl Way {
+    fn of(solution: Option<&Solution>) -> Self {
+        match solution {
+            Some(solution) if solution.velocity.0.xy().norm() > UNDER_WAY => match solution.mode {
+                Mode::Aided | Mode::DeadReckoning => Way::UnderWay,
+                _ => Way::Unsure,
+            },
+            _ => Way::LiesStill,
+        }
+    }
 }
 
 /// All that may stand still.
@@ -159,7 +176,7 @@ impl StandingStill {
             let told = [velocity.0.x, velocity.0.y];
             let apart = |a: &Vector3<f64>, b: &Vector3<f64>| (a - b).xy().norm();
             self.velocity.see(told, now, [f64::from(VELOCITIES), SPEED], apart);
-            self.velocity.compare(is_under_way(solution), FEW);
+            self.velocity.compare(Way::of(solution), FEW);
         }
     }
 
@@ -179,7 +196,7 @@ impl StandingStill {
             .zip(solution)
             .map(|(value, solution)| Seen { value, ..Seen::velocity(solution) });
         self.log.see(told, now, [f64::from(LOGS), WAY], apart);
-        self.log.compare(is_under_way(solution), LOGS);
+        self.log.compare(Way::of(solution), LOGS);
     }
 
     /// The same of a heading.
@@ -192,7 +209,7 @@ impl StandingStill {
         let now = solution.map(Seen::heading);
         let apart = |a: &Vector3<f64>, b: &Vector3<f64>| wrap_pi(a.x - b.x).abs();
         self.heading.see([heading], now, [f64::from(HEADINGS), TURN], apart);
-        self.heading.compare(is_under_way(solution), HEADINGS);
+        self.heading.compare(Way::of(solution), HEADINGS);
     }
 
     /// Who stands still and did not when this was asked last.
@@ -278,6 +295,22 @@ mod tests {
         let mut run = Run::default();
         way(&mut run, |k| f64::from(k / 3), f64::from, 300);
         assert!(!run.frozen);
+    }
+
+    /// A frozen log has the receiver doubted before it is found out, and is what she goes by then.
+    #[test]
+    fn a_run_goes_on_while_the_receiver_is_in_doubt() {
+        let mut run = Run::default();
+        let mut see = |told: f64, way: Way| {
+            run.see([told], None, [20.0, 1.0], |a, b| (a - b).norm());
+            run.compare(way, 20);
+            run.frozen
+        };
+        assert!(!(0..100).any(|k| see(f64::from(k), Way::UnderWay)));
+        assert!(!(0..100).any(|_| see(7.0, Way::LiesStill)), "at rest all numbers are equal");
+        assert!(!(0..15).any(|_| see(5.0, Way::UnderWay)));
+        assert!(!(0..5).any(|_| see(5.0, Way::Unsure)), "nobody else says that she goes");
+        assert!((0..5).any(|_| see(5.0, Way::UnderWay)));
     }
 
     /// The first is of her own drifting, the second where she is heard to be again.
