@@ -306,8 +306,8 @@ impl Filter {
     pub fn disbelieve(&mut self, whom: Party) {
         let now = self.time;
         self.settle();
-        if let Some(mended) = self.judge_now().and_then(|judge| judge.disbelieve(whom, now)) {
-            self.become_other(&mended);
+        if let Some(verdict) = self.judge_now().and_then(|judge| judge.disbelieve(whom, now)) {
+            verdict.mended.iter().for_each(|mended| self.become_other(mended));
             self.restart_judge();
         }
     }

@@ -228,24 +228,26 @@ impl Judge {
         all.find(|other| is_meant(other) && other.weight > AS_MUCH * first.weight).copied()
     }
 
-    /// Somebody is seen to lie by what he says alone, as one whose numbers stand still; gives the estimate of who has not believed him. What
-    /// was made of the others meanwhile is of no account; but for what has followed already where the IMU was blamed.
-    pub fn disbelieve(&mut self, whom: Party, now: Time) -> Option<Alternative> {
+    /// Somebody is seen to lie by what he says alone, as one whose numbers stand still; gives the estimate of who has not believed him, or
+    /// none where that follows somebody else who lies. What was made of the others meanwhile is of no account; but for what has followed already
+    /// where the IMU was blamed.
+    pub fn disbelieve(&mut self, whom: Party, now: Time) -> Option<Verdict> {
         self.docket.doubt(None, now);
         let is_blamed = |since: Time| (now - since).as_seconds() < MEANWHILE;
         if self.docket.imu_doubted_since().is_some_and(is_blamed) {
             self.docket.clear_imu();
             return None;
         }
+        let charge = Charge::shapeless(whom, DOUBT);
         if self.lies_another(whom) {
-            return None;
+            return Some(Verdict { fault: charge.fault, mended: None });
         }
-        let mut mended = self.alternative(&Charge::shapeless(whom, DOUBT));
+        let mut mended = self.alternative(&charge);
         if self.rehabilitate(whom, now) && whom == Party::Log {
             VELOCITY.inflate(&mut mended.covariance, FOLLOWED * FOLLOWED);
             POSITION.inflate(&mut mended.covariance, (0.5 * FOLLOWED * MEANWHILE).powi(2));
         }
-        Some(mended)
+        Some(Verdict { fault: charge.fault, mended: Some(mended) })
     }
 
     /// Hears those again who were found to drift from somebody who has turned out to lie. Whether anybody was found to lie meanwhile: then the
