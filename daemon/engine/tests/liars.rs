@@ -134,3 +134,40 @@ fn a_log_that_is_off_athwart_is_named_where_nobody_tells_the_heading() {
     let worst = seconds.iter().map(Second::off).fold(0.0, f64::max);
     assert!(worst < 10.0, "{worst} m");
 }
+
+/// The receiver is doubted first, and she goes by the log that stands still.
+#[test]
+fn a_log_that_stands_still_leaves_nobody_else_out_for_long() {
+    let (seconds, _) = sailed("heals: log frozen", Grade::Mems, Suite::Both, 62);
+    let excluded = |party| {
+        seconds.iter().filter(move |second| second.said.judgement.excluded.contains(party)).count()
+    };
+    assert!(excluded(Party::Log) > 5);
+    let others = [Party::Gnss, Party::Heading, Party::Imu].map(excluded);
+    assert!(others.iter().all(|count| *count < 30), "{others:?} s");
+}
+
+#[test]
+fn what_a_log_did_that_stands_still_beside_a_receiver_that_leaps_is_covered() {
+    for suite in [Suite::Log, Suite::Both] {
+        let (seconds, _) = sailed("pair: gnss and log", Grade::Navigation, suite, 62);
+        let misled = seconds.iter().filter(|second| {
+            let sigma = second.said.sigma.position.0.xy().norm();
+            second.is_told() && second.off() > 10.0 && second.off() > 5.0 * sigma
+        });
+        let count = misled.count();
+        assert!(count < 15, "for {count} s");
+    }
+}
+
+/// For a while they are alike.
+#[test]
+fn the_heading_claims_that_a_coarse_gyro_may_drift_where_a_compass_was_named() {
+    for name in ["gyro bias", "compass drift"] {
+        let (seconds, _) = sailed(name, Grade::Mems, Suite::Compass, 63);
+        let misled = seconds.iter().filter(|second| {
+            second.heading_off() > (3.0 * DEG).max(3.0 * second.said.sigma.heading)
+        });
+        assert_eq!(misled.count(), 0, "{name}");
+    }
+}

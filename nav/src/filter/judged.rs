@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use insd_base::units::DEG;
-use insd_base::{Judgement, Mode, Parties, Party, SolutionSigma, Time};
+use insd_base::{Fault, Judgement, Mode, Parties, Party, SolutionSigma, Time};
 use nalgebra::{Matrix3, Vector3};
 
 use super::Filter;
 use crate::config::WORSE;
-use crate::error_state::{ErrorState, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, VELOCITY};
+use crate::error_state::{
+    ATTITUDE, ErrorState, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, GYRO_BIAS, VELOCITY,
+};
 use crate::innovation::Innovation;
 use crate::judge::rows::Direct;
 use crate::judge::{Aid, Alternative, Docket, Judge};
@@ -236,12 +238,25 @@ impl Filter {
         let Some(judge) = self.judge_now() else { return };
         if let Some(verdict) = judge.look(now, excused, mistake) {
             verdict.mended.iter().for_each(|mended| self.become_other(mended));
+            if verdict.fault == Fault::HeadingDrift {
+                verdict.mended.iter().for_each(|mended| self.doubt_gyros(mended));
+            }
             if let Some(judge) = self.judge.as_ref() {
                 self.config = self.config.with_docket(*judge.docket());
             }
             self.restart_judge();
         }
         self.covered = self.cover();
+    }
+
+    /// A compass that drifts and coarse gyros that do are alike, and what was known of their biases came from it: it is known no better than
+    /// at first from now on, and the heading than what was made of the compass.
+    fn doubt_gyros(&mut self, mended: &Alternative) {
+        if self.config.has_coarse_gyros() {
+            let turned = ATTITUDE.of(&mended.error);
+            ATTITUDE.add(&mut self.covariance, &(turned * turned.transpose()));
+            GYRO_BIAS.inflate(&mut self.covariance, self.config.imu.gyro.bias_std.powi(2));
+        }
     }
 
     /// Without GNSS the estimate does what no craft of its kind can, and this one never did: the IMU is not believed.

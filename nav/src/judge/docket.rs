@@ -359,6 +359,8 @@ impl Docket {
         let is_relapse = entry.since > Time::START && (now - entry.since).as_seconds() < FORGOTTEN;
         entry.quarantine = if is_relapse && entry.standing != Standing::Doubtful {
             (entry.quarantine * 2.0).min(LONGEST)
+        } else if fault == Fault::HeadingDrift {
+            10.0 * QUARANTINE // coarse gyros of which little is known follow it for a minute or two
         } else {
             QUARANTINE
         };
@@ -369,9 +371,7 @@ impl Docket {
         }
         self.enter(party, Standing::Excluded, now);
         if party.is_receiver() {
-            let (off, rate) = lie;
-            let own = &mut self.lies[self.lie_of(party)];
-            own.find(off, rate, now);
+            self.lies[self.lie_of(party)].find(lie.0, lie.1, now);
         }
     }
 

@@ -29,6 +29,8 @@ const MEANWHILE: f64 = 60.0;
 /// A log that stands still has not led the estimate further astray than this, 1-sigma, m/s: it is seen at once when she goes 0.6 m/s
 /// otherwise.
 const FOLLOWED: f64 = 0.3;
+/// Of that size, m/s^2.
+const GRAVITY: f64 = 9.8;
 /// Fixes that are later than this are left out, s; others are set back.
 const SET_BACK: f64 = 1.0;
 
@@ -246,6 +248,9 @@ impl Judge {
         if self.rehabilitate(whom, now) && whom == Party::Log {
             VELOCITY.inflate(&mut mended.covariance, FOLLOWED * FOLLOWED);
             POSITION.inflate(&mut mended.covariance, (0.5 * FOLLOWED * MEANWHILE).powi(2));
+            // what the velocity followed in that time looks like a lean
+            let lean = FOLLOWED / (MEANWHILE * GRAVITY);
+            ATTITUDE.inflate(&mut mended.covariance, lean * lean);
         }
         Some(Verdict { fault: charge.fault, mended: Some(mended) })
     }

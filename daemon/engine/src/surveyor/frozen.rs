@@ -135,7 +135,7 @@ impl<const N: usize> Run<N> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Way {
     LiesStill,
-    UnderWay,
+    Going,
     Unsure,
 }
 
@@ -143,7 +143,7 @@ impl Way {
     fn of(solution: Option<&Solution>) -> Self {
         match solution {
             Some(solution) if solution.velocity.0.xy().norm() > UNDER_WAY => match solution.mode {
-                Mode::Aided | Mode::DeadReckoning => Way::UnderWay,
+                Mode::Aided | Mode::DeadReckoning => Way::Going,
                 _ => Way::Unsure,
             },
             _ => Way::LiesStill,
@@ -306,11 +306,11 @@ mod tests {
             run.compare(way, 20);
             run.frozen
         };
-        assert!(!(0..100).any(|k| see(f64::from(k), Way::UnderWay)));
+        assert!(!(0..100).any(|k| see(f64::from(k), Way::Going)));
         assert!(!(0..100).any(|_| see(7.0, Way::LiesStill)), "at rest all numbers are equal");
-        assert!(!(0..15).any(|_| see(5.0, Way::UnderWay)));
+        assert!(!(0..15).any(|_| see(5.0, Way::Going)));
         assert!(!(0..5).any(|_| see(5.0, Way::Unsure)), "nobody else says that she goes");
-        assert!((0..5).any(|_| see(5.0, Way::UnderWay)));
+        assert!((0..5).any(|_| see(5.0, Way::Going)));
     }
 
     /// The first is of her own drifting, the second where she is heard to be again.
