@@ -61,7 +61,9 @@ fn cases(kind: &Kind, draws: u64) -> Vec<Case> {
 
 fn judge(case: Case) -> Option<(Case, Score)> {
     let honest = case.honest().ok()?;
-    let rows = sail(&case.spoilt(&honest), &honest);
+    let spoilt = case.spoilt(&honest);
+    let case = case.shown_in(&honest, &spoilt);
+    let rows = sail(&spoilt, &honest);
     let score = score(&case, &rows);
     Some((case, score))
 }

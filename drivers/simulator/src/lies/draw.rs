@@ -6,10 +6,10 @@ use nalgebra::{Vector2, Vector3};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-use super::evidence::shown_after;
+use super::evidence::{heading_shown_in, shown_after};
 use super::gnss::moved;
 use super::kinds::{Asked, Kind, Strike};
-use super::{Class, Culprit, Grade, Lie, Suite, Told, Window};
+use super::{Class, CompassLie, Culprit, Grade, Lie, Suite, Told, Window};
 use crate::random::{GaussMarkov, Purpose, normal, normal3, stream, uniform};
 use crate::{Scenario, ScenarioError, further_receiver, simulate};
 
@@ -197,6 +197,17 @@ impl Case {
         let mut rng = stream(self.seed, Purpose::Lying);
         self.told.iter().for_each(|told| told.spoil(&mut voyage, &mut rng));
         voyage
+    }
+
+    /// The same case with the moment at which the others can show the lie where only the voyage tells that: a compass that is mirrored is
+    /// not off before she turns.
+    #[must_use]
+    pub fn shown_in(self, honest: &Voyage, spoilt: &Voyage) -> Self {
+        let is_mirrored = |told: &Told| told.lie == Lie::Compass(CompassLie::Mirrored);
+        if !self.told.iter().any(is_mirrored) {
+            return self;
+        }
+        Case { shown_at: heading_shown_in(self.grade, self.suite, honest, spoilt), ..self }
     }
 
     /// Everybody who tells something wrong.

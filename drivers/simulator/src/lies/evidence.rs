@@ -2,9 +2,10 @@
 //!
 //! A monitor predicts the position from the moment before the lie on, with sigma^2 = s^2 + (v t)^2 +
 //! (a t^2 / 2)^2 after t seconds; the lie is shown when it exceeds six of them. That of a compass which drifts is when it exceeds six sigmas
-//! of the heading that gyros, course and log tell without it.
+//! of the heading that gyros, course and log tell without it; one that is mirrored tells nothing wrong before she turns.
 
-use insd_base::units::DEG;
+use insd_base::Voyage;
+use insd_base::units::{DEG, wrap_pi};
 
 use super::{Grade, Suite};
 
@@ -13,6 +14,8 @@ const SHOWN: f64 = 6.0;
 /// Error of a position that everybody has, 1-sigma, m, and of two receivers against each other.
 const RECEIVER: f64 = 1.5;
 const RECEIVERS: f64 = 2.0;
+/// For so long a compass is off before that is no noise, s.
+const WHILE: f64 = 10.0;
 /// From look to look, s.
 const LOOK: f64 = 0.5;
 
@@ -84,6 +87,23 @@ fn heading_sigma(grade: Grade, suite: Suite) -> f64 {
 /// Seconds after a compass began to drift at a rate, rad/s, at which the others can show it.
 pub fn heading_shown_after(grade: Grade, suite: Suite, rate: f64) -> f64 {
     SHOWN * heading_sigma(grade, suite) / rate.abs()
+}
+
+/// When the others can show that a compass is off, s: it has been, by more than that, for a while.
+pub(super) fn heading_shown_in(
+    grade: Grade,
+    suite: Suite,
+    honest: &Voyage,
+    spoilt: &Voyage,
+) -> Option<f64> {
+    let far = SHOWN * heading_sigma(grade, suite);
+    let mut begun = None;
+    honest.reference.iter().zip(&spoilt.reference).find_map(|(honest, spoilt)| {
+        let now = spoilt.message.time.as_seconds();
+        let off = wrap_pi(spoilt.message.heading? - honest.message.heading?).abs();
+        begun = begun.filter(|_| off > far).or((off > far).then_some(now));
+        begun.filter(|begun| now - begun >= WHILE)
+    })
 }
 
 #[cfg(test)]

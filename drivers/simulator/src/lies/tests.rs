@@ -48,3 +48,20 @@ fn what_is_asked_depends_on_what_the_others_can_show() {
     assert!(classes(Suite::Log).contains(&Class::Required));
     assert!(!classes(Suite::Gnss).contains(&Class::Required));
 }
+
+#[test]
+fn a_mirrored_compass_is_shown_in_a_turn_only() {
+    let mirrored =
+        catalogue().iter().find(|kind| kind.name == "compass mirrored").expect("there is one");
+    let case = case(mirrored, Grade::Navigation, Suite::Compass, 62);
+    let honest = case.honest().expect("a scenario");
+    let (from, spoilt) = (case.told[0].window.from, case.spoilt(&honest));
+    let shown = case.shown_in(&honest, &spoilt).shown_at.expect("she turns");
+    let heading_at = |time: f64| {
+        let row = honest.truth.iter().find(|row| row.time.as_seconds() >= time);
+        row.and_then(|row| row.attitude).expect("a row").heading
+    };
+    assert!(shown > from + 60.0, "goes straight: {from} s, {shown} s");
+    let turned = insd_base::units::wrap_pi(heading_at(shown + 60.0) - heading_at(from)).abs();
+    assert!(turned > 0.1, "{turned} rad");
+}
