@@ -237,9 +237,11 @@ impl Filter {
         let mistake = self.bias.as_ref().map_or(0.0, SeparateBias::odds);
         let Some(judge) = self.judge_now() else { return };
         if let Some(verdict) = judge.look(now, excused, mistake) {
-            verdict.mended.iter().for_each(|mended| self.become_other(mended));
-            if verdict.fault == Fault::HeadingDrift {
-                verdict.mended.iter().for_each(|mended| self.doubt_gyros(mended));
+            if let Some(mended) = &verdict.mended {
+                self.become_other(mended);
+                if verdict.fault == Fault::HeadingDrift {
+                    self.doubt_gyros(mended);
+                }
             }
             if let Some(judge) = self.judge.as_ref() {
                 self.config = self.config.with_docket(*judge.docket());

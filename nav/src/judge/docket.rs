@@ -411,11 +411,13 @@ impl Docket {
         }
     }
 
-    /// Hears somebody again who need not have been left out.
-    pub fn recall(&mut self, party: Party, now: Time) {
-        self.enter(party, Standing::Trusted, now);
-        if party.is_receiver() {
-            self.lies[self.lie_of(party)] = LieOfGnss::default();
+    /// Hears somebody again who was left out for no more than a fault that turns out to be none.
+    pub fn recall(&mut self, party: Party, now: Time, is_none: fn(Fault) -> bool) {
+        if self.entries[self.place(party)].fault.is_some_and(is_none) {
+            self.enter(party, Standing::Trusted, now);
+            if party.is_receiver() {
+                self.lies[self.lie_of(party)] = LieOfGnss::default();
+            }
         }
     }
 

@@ -1,5 +1,6 @@
 //! What follows when somebody is found to lie.
 
+use insd_base::units::MICRO_G;
 use insd_base::{Fault, Party, Standing, Stands, Time};
 use nalgebra::Vector2;
 
@@ -29,8 +30,6 @@ const MEANWHILE: f64 = 60.0;
 /// A log that stands still has not led the estimate further astray than this, 1-sigma, m/s: it is seen at once when she goes 0.6 m/s
 /// otherwise.
 const FOLLOWED: f64 = 0.3;
-/// Of that size, m/s^2.
-const GRAVITY: f64 = 9.8;
 /// Fixes that are later than this are left out, s; others are set back.
 const SET_BACK: f64 = 1.0;
 
@@ -141,11 +140,8 @@ impl Judge {
         let of_gnss = &self.hearings[Aid::GnssPosition as usize];
         let has_fixes = of_gnss.was_within(now, UNHEARD) && !self.docket.leaves_out_gnss();
         if self.docket.is_excluded(Party::Log) {
-            let is_noise = |stands: Stands| {
-                stands.party == Party::Log && stands.fault.is_some_and(Fault::is_noise)
-            };
-            if is_wild && !has_fixes && self.docket.all().any(is_noise) {
-                self.docket.recall(Party::Log, now);
+            if is_wild && !has_fixes {
+                self.docket.recall(Party::Log, now, Fault::is_noise);
             }
             return None;
         }
@@ -249,7 +245,7 @@ impl Judge {
             VELOCITY.inflate(&mut mended.covariance, FOLLOWED * FOLLOWED);
             POSITION.inflate(&mut mended.covariance, (0.5 * FOLLOWED * MEANWHILE).powi(2));
             // what the velocity followed in that time looks like a lean
-            let lean = FOLLOWED / (MEANWHILE * GRAVITY);
+            let lean = FOLLOWED / (MEANWHILE * 1e6 * MICRO_G);
             ATTITUDE.inflate(&mut mended.covariance, lean * lean);
         }
         Some(Verdict { fault: charge.fault, mended: Some(mended) })
@@ -266,9 +262,7 @@ impl Judge {
         let before = self.docket;
         for stands in before.all().filter(is_of_late) {
             is_anybody = true;
-            if stands.fault.is_some_and(Fault::is_drift) {
-                self.docket.recall(stands.party, now);
-            }
+            self.docket.recall(stands.party, now, Fault::is_drift);
         }
         is_anybody
     }

@@ -115,18 +115,19 @@ impl<const N: usize> Run<N> {
 
     /// While she is under way the lengths of the runs tell, too.
     fn compare(&mut self, way: Way, enough: u32) {
-        if way == Way::Unsure {
-            return;
-        }
-        if way == Way::LiesStill {
-            self.count = self.count.min(1);
-        } else if self.count == 1 {
-            self.runs = self.runs.saturating_add(1);
-            if !self.frozen {
-                self.longest = self.longest.max(self.ended);
+        match way {
+            Way::Unsure => {}
+            Way::LiesStill => self.count = self.count.min(1),
+            Way::Going if self.count == 1 => {
+                self.runs = self.runs.saturating_add(1);
+                if !self.frozen {
+                    self.longest = self.longest.max(self.ended);
+                }
             }
-        } else if self.runs >= RUNS && self.count > enough.max(LONGER * self.longest) {
-            self.frozen = true;
+            Way::Going => {
+                let is_long = self.count > enough.max(LONGER * self.longest);
+                self.frozen |= self.runs >= RUNS && is_long;
+            }
         }
     }
 }
@@ -141,12 +142,11 @@ enum Way {
 
 impl Way {
     fn of(solution: Option<&Solution>) -> Self {
-        match solution {
-            Some(solution) if solution.velocity.0.xy().norm() > UNDER_WAY => match solution.mode {
-                Mode::Aided | Mode::DeadReckoning => Way::Going,
-                _ => Way::Unsure,
-            },
-            _ => Way::LiesStill,
+        let moving = solution.filter(|solution| solution.velocity.0.xy().norm() > UNDER_WAY);
+        match moving.map(|solution| solution.mode) {
+            None => Way::LiesStill,
+            Some(Mode::Aided | Mode::DeadReckoning) => Way::Going,
+            Some(_) => Way::Unsure,
         }
     }
 }

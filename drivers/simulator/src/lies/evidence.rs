@@ -101,7 +101,7 @@ pub(super) fn heading_shown_in(
     honest.reference.iter().zip(&spoilt.reference).find_map(|(honest, spoilt)| {
         let now = spoilt.message.time.as_seconds();
         let off = wrap_pi(spoilt.message.heading? - honest.message.heading?).abs();
-        begun = begun.filter(|_| off > far).or((off > far).then_some(now));
+        begun = (off > far).then(|| begun.unwrap_or(now));
         begun.filter(|begun| now - begun >= WHILE)
     })
 }
