@@ -52,8 +52,11 @@ pub const LOG_MISALIGNMENT: Block<2> = Block::after(LOG_SCALE);
 /// Mean height of the IMU over the ellipsoid (sea level plus mounting height), m, random walk.
 pub const SEA_LEVEL: Block<1> = Block::after(LOG_MISALIGNMENT);
 
+/// Slowly varying part of the error of a reference's heading, in units of the sigma it states, Gauss-Markov.
+pub const HEADING_ERROR: Block<1> = Block::after(SEA_LEVEL);
+
 /// Number of error states.
-pub const STATES: usize = SEA_LEVEL.end();
+pub const STATES: usize = HEADING_ERROR.end();
 
 /// Number of states at the head that the strapdown integrates: position, velocity, attitude.
 pub const STRAPDOWN_STATES: usize = ATTITUDE.end();

@@ -7,7 +7,7 @@ use insd_base::{
 };
 use nalgebra::{Matrix3, RowSVector, UnitQuaternion, Vector3};
 
-use crate::aids::View;
+use crate::aids::{View, reference_heading};
 use crate::angular_rate::rate_variance;
 use crate::antenna::AntennaMotion;
 use crate::config::NavConfig;
@@ -69,13 +69,15 @@ pub struct Filter {
     covariance: Covariance,
     gravity: LocalGravity,
     stretch: Stretch,
+    /// What is left of a long gap that it stands in, s.
+    gap_left: f64,
     rate: Vector3<f64>,
     rate_variance: f64,
     trust: Trust,
     rtk: Option<bool>,
-    /// By how much the sigmas that its slow errors are told in, of position and velocity, are larger than stated,
+    /// By how much the sigmas that slow errors are told in, of position, velocity and heading, are larger than stated,
     /// as variances.
-    slow_noise: [f64; 2],
+    slow_noise: [f64; 3],
     level: LevelWindow,
     sway: Option<Sway>,
     navigating: bool,
@@ -146,11 +148,12 @@ impl Filter {
             covariance: initial.covariance,
             gravity: LocalGravity::around(&initial.nominal.position, &initial.nominal.geodetic()),
             stretch: Stretch::new(),
+            gap_left: 0.0,
             rate: initial.rate,
             rate_variance: rate_variance(&config.imu),
             trust: Trust::default(),
             rtk: None,
-            slow_noise: [1.0; 2],
+            slow_noise: [1.0; 3],
             level: LevelWindow::new(&config.sea),
             sway: None,
             navigating: false,
@@ -291,7 +294,21 @@ impl Filter {
         nominal.gnss_position_error *= markov_decay(dt, gnss.position_time_for(rtk));
         nominal.gnss_velocity_error *= markov_decay(dt, gnss.velocity_time);
         nominal.current *= markov_decay(dt, log.current_time);
+        nominal.heading_error *= markov_decay(dt, reference_heading::TIME);
         self.unswayed += dt;
+    }
+
+    /// Follows how much is left of a long gap.
+    fn pass_gap(&mut self, increment: &Increment) {
+        let gap = increment.bridged.filter(|gap| *gap > UNSEEN).unwrap_or(0.0);
+        let left = if self.gap_left > 0.0 { self.gap_left.min(gap) } else { gap };
+        self.gap_left = (left - increment.duration()).max(0.0);
+    }
+
+    /// Whether it stands inside a gap so long that the ship may have swung out and back: both sides of it are
+    /// known, and claims are those of its end.
+    fn is_in_gap(&self) -> bool {
+        self.gap_left > 1e-6
     }
 
     /// The estimate with what aids need of it.
@@ -407,6 +424,7 @@ impl Estimator for Filter {
         }
         (self.rate, self.rate_variance) = (increment.end_rate, increment.end_rate_variance);
         self.time = increment.to;
+        self.pass_gap(increment);
         if self.stretch.duration >= self.interval - 1e-6 {
             self.settle();
         }

@@ -7,7 +7,7 @@ use crate::config::{NavConfig, WORSE};
 use crate::error_state::{
     ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, CURRENT, Covariance, GNSS_DELAY, GNSS_LEVER,
     GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT,
-    GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, SEA_LEVEL,
+    GYRO_SCALE, HEADING_ERROR, LOG_MISALIGNMENT, LOG_SCALE, SEA_LEVEL,
 };
 use crate::nominal::Nominal;
 
@@ -70,5 +70,6 @@ pub fn sensor_covariance(config: &NavConfig) -> Covariance {
     let misalignment = Matrix2::from_diagonal_element(log.misalignment_std.powi(2));
     LOG_MISALIGNMENT.renew(&mut p, &misalignment);
     SEA_LEVEL.renew(&mut p, &Matrix1::new(SEA_LEVEL_UNKNOWN.powi(2)));
+    HEADING_ERROR.renew(&mut p, &Matrix1::identity());
     p
 }

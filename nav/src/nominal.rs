@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use crate::error_state::{
     ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, BERTH_OFFSET, CURRENT, ErrorState, GNSS_DELAY,
     GNSS_LEVER, GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS,
-    GYRO_DRIFT, GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, POSITION, SEA_LEVEL, SWAY, SWAY_VELOCITY,
-    VELOCITY,
+    GYRO_DRIFT, GYRO_SCALE, HEADING_ERROR, LOG_MISALIGNMENT, LOG_SCALE, POSITION, SEA_LEVEL, SWAY,
+    SWAY_VELOCITY, VELOCITY,
 };
 
 /// Estimated values of everything in the error state; units and axes as stated there.
@@ -58,6 +58,8 @@ pub struct Nominal {
     pub log_misalignment: Vector2<f64>,
     /// Mean height, m.
     pub sea_level: f64,
+    /// Slow error of a reference's heading, sigmas.
+    pub heading_error: f64,
 }
 
 impl Nominal {
@@ -87,6 +89,7 @@ impl Nominal {
             log_scale: 0.0,
             log_misalignment: Vector2::zeros(),
             sea_level: position.height,
+            heading_error: 0.0,
         }
     }
 
@@ -147,6 +150,7 @@ impl Nominal {
         self.log_scale += LOG_SCALE.of(error).x;
         self.log_misalignment += LOG_MISALIGNMENT.of(error);
         self.sea_level += SEA_LEVEL.of(error).x;
+        self.heading_error += HEADING_ERROR.of(error).x;
     }
 
     /// The error vector that moves this estimate onto another: the inverse of [`Self::inject`].
@@ -181,6 +185,8 @@ impl Nominal {
         LOG_SCALE.set(&mut error, &Vector1::new(other.log_scale - self.log_scale));
         LOG_MISALIGNMENT.set(&mut error, &(other.log_misalignment - self.log_misalignment));
         SEA_LEVEL.set(&mut error, &Vector1::new(other.sea_level - self.sea_level));
+        let heading_error = other.heading_error - self.heading_error;
+        HEADING_ERROR.set(&mut error, &Vector1::new(heading_error));
         error
     }
 }

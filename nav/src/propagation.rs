@@ -15,11 +15,12 @@ use insd_base::attitude::skew;
 use insd_base::earth;
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
+use crate::aids::reference_heading;
 use crate::config::NavConfig;
 use crate::error_state::{
     ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, CURRENT, Covariance, GNSS_POSITION_ERROR,
-    GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, POSITION, SEA_LEVEL, STATES,
-    STRAPDOWN_STATES, VELOCITY,
+    GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, HEADING_ERROR, POSITION, SEA_LEVEL,
+    STATES, STRAPDOWN_STATES, VELOCITY,
 };
 use crate::increments::Increment;
 use crate::strapdown::Step;
@@ -220,7 +221,7 @@ fn strapdown_corner(
 }
 
 /// Gauss-Markov states with their steady sigma and time constant.
-fn markov(config: &NavConfig, regime: &Regime) -> [(usize, usize, f64, f64); 5] {
+fn markov(config: &NavConfig, regime: &Regime) -> [(usize, usize, f64, f64); 6] {
     let (gyro, accel) = (&config.imu.gyro, &config.imu.accel);
     [
         (GYRO_DRIFT.start(), GYRO_DRIFT.end(), gyro.instability_std, gyro.instability_time),
@@ -233,6 +234,7 @@ fn markov(config: &NavConfig, regime: &Regime) -> [(usize, usize, f64, f64); 5] 
         ),
         (GNSS_VELOCITY_ERROR.start(), GNSS_VELOCITY_ERROR.end(), 1.0, config.gnss.velocity_time),
         (CURRENT.start(), CURRENT.end(), config.log.current_std, config.log.current_time),
+        (HEADING_ERROR.start(), HEADING_ERROR.end(), 1.0, reference_heading::TIME),
     ]
 }
 

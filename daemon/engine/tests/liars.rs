@@ -171,3 +171,26 @@ fn the_heading_claims_that_a_coarse_gyro_may_drift_where_a_compass_was_named() {
         assert_eq!(misled.count(), 0, "{name}");
     }
 }
+
+/// Slowly enough that coarse gyros follow it.
+#[test]
+fn a_compass_that_wanders_or_drifts_slowly_does_not_steer_beyond_what_is_claimed() {
+    for (name, suite, seed) in
+        [("compass wander", Suite::Both, 65), ("compass drift", Suite::Compass, 66)]
+    {
+        let (seconds, _) = sailed(name, Grade::Mems, suite, seed);
+        let misled = seconds.iter().filter(|second| {
+            second.heading_off() > DEG.max(5.0 * second.said.sigma.heading)
+                || second.said.judgement.excluded.contains(Party::Log)
+        });
+        let share = misled.count() as f64 / seconds.len() as f64;
+        assert!(share < 0.01, "{name}: {share}");
+    }
+}
+
+/// She swings out and back in it.
+#[test]
+fn nobody_is_named_for_what_is_heard_inside_a_gap_of_the_imu() {
+    let (seconds, _) = sailed("imu gap", Grade::Navigation, Suite::Log, 65);
+    assert!(seconds.iter().all(|second| second.said.judgement.excluded.is_empty()));
+}

@@ -24,6 +24,7 @@ fn estimate() -> Nominal {
     nominal.log_scale = 0.01;
     nominal.log_misalignment = Vector2::new(0.02, -0.03);
     nominal.sea_level = 24.0;
+    nominal.heading_error = 0.4;
     nominal
 }
 

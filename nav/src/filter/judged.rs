@@ -91,7 +91,8 @@ impl Filter {
         }
     }
 
-    /// Lets the judge hear an innovation before it is absorbed: of somebody who is left out, whether he agrees.
+    /// Lets the judge hear an innovation before it is absorbed: of somebody who is left out, whether he agrees. What is
+    /// said inside a gap of the IMU is no evidence.
     pub(super) fn consult<const M: usize>(
         &mut self,
         aid: Aid,
@@ -99,7 +100,7 @@ impl Filter {
         direct: impl Fn(f64) -> Direct<M>,
     ) {
         let now = self.time;
-        if self.judge.as_ref().is_none_or(|judge| !judge.is_due(aid, now)) {
+        if self.is_in_gap() || self.judge.as_ref().is_none_or(|judge| !judge.is_due(aid, now)) {
             return;
         }
         let attitude = self.nominal.attitude;

@@ -26,7 +26,7 @@ pub struct KeptFilter {
     lateness: f64,
     trust: Trust,
     rtk: Option<bool>,
-    slow_noise: [f64; 2],
+    slow_noise: [f64; 3],
     level: LevelWindow,
     sway: Option<Sway>,
     last_relative: Option<Time>,

@@ -89,6 +89,7 @@ impl Filter {
             self.note(enter(report, reference.time, source, "reference_position", &judged));
         }
         if let Some(heading) = reference.heading {
+            self.note_noise();
             let degree = insd_base::units::DEG;
             let range =
                 Believable { least: 0.01 * degree, greatest: 180.0 * degree, default: degree };

@@ -1,29 +1,31 @@
-//! The slow errors of GNSS, which are told in units of their sigmas, where a receiver is noisier than it says.
+//! Slow errors, which are told in units of their sigmas, where a receiver or a compass is noisier than it says.
 
 use super::Filter;
 use crate::block::Block;
-use crate::error_state::{GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR};
+use crate::error_state::{GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, HEADING_ERROR};
 use crate::judge::Aid;
 
 impl Filter {
-    /// When a receiver is found to be noisier than it says, or not any more, its slow errors are what they were, in
-    /// metres; and may be off by as much more as they are larger now.
+    /// When somebody is found to be noisier than he says, or not any more, his slow errors are what they were, in
+    /// metres or radians; and may be off by as much more as they are larger now.
     pub(super) fn note_noise(&mut self) {
         let now = self.noise_of_slow();
         let before = std::mem::replace(&mut self.slow_noise, now);
-        let [position, velocity] = [0, 1].map(|i: usize| (before[i] / now[i]).sqrt());
+        let [position, velocity, heading] = [0, 1, 2].map(|i: usize| (before[i] / now[i]).sqrt());
         self.nominal.gnss_position_error *= position;
         self.nominal.gnss_velocity_error *= velocity;
+        self.nominal.heading_error *= heading;
         self.rescale_slow(GNSS_POSITION_ERROR, position);
         self.rescale_slow(GNSS_VELOCITY_ERROR, velocity);
+        self.rescale_slow(HEADING_ERROR, heading);
     }
 
-    /// By how much the variances of its position and of its velocity are larger than stated.
-    pub(super) fn noise_of_slow(&self) -> [f64; 2] {
-        [Aid::GnssPosition, Aid::GnssVelocity].map(|aid| self.noise_of(aid))
+    /// By how much the variances of position and velocity of GNSS and of a reference's heading are larger than stated.
+    pub(super) fn noise_of_slow(&self) -> [f64; 3] {
+        [Aid::GnssPosition, Aid::GnssVelocity, Aid::Heading].map(|aid| self.noise_of(aid))
     }
 
-    fn rescale_slow(&mut self, block: Block<3>, factor: f64) {
+    fn rescale_slow<const W: usize>(&mut self, block: Block<W>, factor: f64) {
         if factor == 1.0 {
             return;
         }
@@ -43,14 +45,15 @@ mod tests {
     use crate::filter::kept::tests;
     use nalgebra::{Matrix3, Vector3};
 
-    /// A filter whose receiver was so much noisier than it says until now, and which knows its slow error of two and a
-    /// half metres, half of a variance of one.
+    /// A filter whose receiver and compass were so much noisier than they say until now, and which knows the receiver's slow
+    /// error of two and a half metres, half of a variance of one, and that of the compass.
     fn filter(noise: f64) -> Filter {
         let (_, mut filter) = tests::filter();
         filter.nominal.gnss_position_error = Vector3::repeat(2.5 / noise.sqrt());
         let half = Matrix3::from_diagonal_element(0.5);
         GNSS_POSITION_ERROR.renew(&mut filter.covariance, &half);
-        filter.slow_noise[0] = noise;
+        filter.nominal.heading_error = 2.5 / noise.sqrt();
+        (filter.slow_noise[0], filter.slow_noise[2]) = (noise, noise);
         filter
     }
 
@@ -61,7 +64,8 @@ mod tests {
             filter.note_noise();
             let error = filter.nominal.gnss_position_error;
             assert!((error - Vector3::repeat(2.5)).norm() < 1e-12, "{noise}: {error}");
-            assert_eq!(filter.slow_noise, [1.0; 2]);
+            assert!((filter.nominal.heading_error - 2.5).abs() < 1e-12);
+            assert_eq!(filter.slow_noise, [1.0; 3]);
         }
     }
 

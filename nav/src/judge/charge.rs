@@ -17,8 +17,10 @@ const LIKELY: f64 = 2.3;
 const UNLIKELY: f64 = 0.9;
 /// No rival may explain so much of what the guilty one explains;
 const RIVAL: f64 = 0.95;
-/// but for gyros that told a turn that was none: a log or compass that is off looks the same, and is so more often. Such a rival
-/// must be less likely by this, as a logarithm.
+/// but for gyros that told a turn that was none, as a log or compass that is off looks the same, and is so more often; and but
+/// for fine gyros that have another bias, as a compass drifts more often than they. Such a rival must be less likely by this, as a
+/// logarithm. Coarse gyros may have another bias at any time: a compass must explain so much more than they, of the
+/// normalised squares.
 const SURE: f64 = 2.0 * CERTAIN;
 /// What is less likely than this share of the likeliest fault, and this, as logarithms, is out of the question.
 const NEARLY: f64 = 0.95;
@@ -33,6 +35,8 @@ const QUICK: f64 = 60.0;
 /// What no model knows adds up: after so long, s, evidence is worth half, and in the end so many times less.
 const LONG: f64 = 60.0;
 const WORST: f64 = 4.0;
+/// The same of a compass: its slow error is a state of its own, and only the gyros stand between its words.
+const WORST_OF_HEADING: f64 = 1.5;
 /// The same where a receiver contradicts itself, its position its velocity: no model of the ship stands between them.
 const OWN_WORD: f64 = 1.2;
 /// What begins within this of when a receiver is heard again began in its silence, s.
@@ -153,13 +157,13 @@ impl Charge {
 impl Judge {
     /// Weighs all that may be, by what is known in common of how much evidence is worth: that of what has most of it.
     pub(super) fn assess(&self, now: Time) -> Assessment {
-        let all = self.all_charges(now);
+        let (all, worst) = self.all_comparable(now);
         let is_relapse = self.docket.standing(Party::Imu) == Standing::Doubtful;
         let relapse = if is_relapse { RELAPSE } else { 0.0 };
         let most = all.iter().max_by(|a, b| a.evidence.total_cmp(&b.evidence));
         // what another receiver tells is not his own word
         let is_of_spare = most.is_some_and(|charge| charge.party() == Party::Gnss2);
-        let worth = most.map_or(1.0, |charge| unsure((now - charge.begun).as_seconds()));
+        let worth = most.map_or(1.0, |charge| unsure((now - charge.begun).as_seconds(), worst));
         let mut charges: Vec<Charge> = Vec::new();
         let mut total = 0.0;
         for mut charge in all {
@@ -179,13 +183,24 @@ impl Judge {
         Assessment { charges, total, is_covered: total >= least }
     }
 
-    /// Every fault that may be, its weight without the evidence.
-    fn all_charges(&self, now: Time) -> Vec<Charge> {
+    /// All that may be, and how many times less their evidence is worth in the end: less is unknown of what most of it is
+    /// against where that is a compass.
+    fn all_comparable(&self, now: Time) -> (Vec<Charge>, f64) {
+        let all = self.all_charges(now, WORST);
+        let most = all.iter().max_by(|a, b| a.evidence.total_cmp(&b.evidence));
+        match most.map(Charge::party) {
+            Some(Party::Heading) => (self.all_charges(now, WORST_OF_HEADING), WORST_OF_HEADING),
+            _ => (all, WORST),
+        }
+    }
+
+    /// Every fault that may be, its weight without the evidence, which is worth so many times less in the end.
+    fn all_charges(&self, now: Time, worst: f64) -> Vec<Charge> {
         let mut all: Vec<Charge> = Vec::new();
         for onset in &self.onsets {
             let age = (now - onset.since).as_seconds();
             let step = (age * CLOSE).max(1.0).ln();
-            let unsure = unsure(age);
+            let unsure = unsure(age, worst);
             for (group, Group { fault, least, log_rate, .. }) in ALL.iter().enumerate() {
                 let is_slow = *fault == Fault::GyroScale && age > QUICK;
                 let is_own_word = *fault == Fault::Slide;
@@ -318,19 +333,25 @@ impl Judge {
 
     /// Whether no other sensor's fault explains it, too.
     pub(super) fn is_certain(&self, first: &Charge) -> bool {
-        let is_of_hull = matches!(first.party(), Party::Log | Party::Heading);
-        let is_no_rival = |other: &Charge| {
-            let gap = first.weight - other.weight;
-            let is_less = match (first.explained(), other.explained()) {
-                (Some(own), Some(others)) => others < RIVAL * own,
-                _ => true,
-            };
-            let is_unlikely = other.is_false_turn() && is_of_hull && gap > SURE;
-            gap > CERTAIN && (is_less || is_unlikely)
-        };
         let of_others = |other: &&Charge| other.party() != first.party() && self.explains(other);
         let mut others = self.assessment.charges.iter().filter(of_others);
-        first.weight > DOUBT && others.all(is_no_rival)
+        first.weight > DOUBT && others.all(|other| self.rules_out(first, other))
+    }
+
+    /// Whether one who may be guilty leaves nothing to another: is likelier, and explains more, or is likelier by far where
+    /// nothing else can tell them apart.
+    fn rules_out(&self, first: &Charge, other: &Charge) -> bool {
+        let gap = first.weight - other.weight;
+        let is_of_heading = first.party() == Party::Heading;
+        let is_less = match (first.explained(), other.explained()) {
+            (Some(own), Some(others)) if is_of_heading && self.is_coarse => own - others > SURE,
+            (Some(own), Some(others)) => others < RIVAL * own,
+            _ => true,
+        };
+        let is_of_hull = is_of_heading || first.party() == Party::Log;
+        let is_rare = is_of_heading && !self.is_coarse && other.fault == Fault::GyroBias;
+        let is_unlikely = (is_of_hull && other.is_false_turn() || is_rare) && gap > SURE;
+        gap > CERTAIN && (is_less || is_unlikely)
     }
 
     /// What the estimate would be with it.
@@ -350,8 +371,8 @@ impl Judge {
 }
 
 /// How many times as uncertain as stated innovations are that have added up for so long, s, as variances.
-fn unsure(age: f64) -> f64 {
-    (1.0 + age / LONG).min(WORST)
+fn unsure(age: f64, worst: f64) -> f64 {
+    (1.0 + age / LONG).min(worst)
 }
 
 /// The logarithm of the sum of two numbers of which these are the logarithms.

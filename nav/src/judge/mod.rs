@@ -159,11 +159,11 @@ impl Judge {
         }
     }
 
-    /// The unit of a block of three states has grown: their numbers are what they were, times a factor.
-    pub fn rescale(&mut self, block: Block<3>, factor: f64) {
+    /// The unit of a block of states has grown: their numbers are what they were, times a factor.
+    pub fn rescale<const W: usize>(&mut self, block: Block<W>, factor: f64) {
         for shadow in self.shadows() {
             block.rescale(&mut shadow.covariance, factor);
-            shadow.apart.fixed_rows_mut::<3>(block.start()).scale_mut(factor);
+            shadow.apart.fixed_rows_mut::<W>(block.start()).scale_mut(factor);
         }
         for onset in &mut self.onsets {
             block.columns_mut(onset.effects_mut()).scale_mut(factor);
