@@ -100,6 +100,10 @@ heave-chain grade="navigation":
 installation seeds="20" *voyage:
     cargo run --release -p insd-engine --example installation -- {{seeds}} {{voyage}}
 
+# voyages with a MEMS IMU whose biases follow its temperature beyond the data sheet: claims, refusals, what is found
+temperature seeds="9":
+    cargo run --release -p insd-engine --example temperature -- {{seeds}}
+
 # voyages with a sensor that lies, all kinds, both grades, every suite of sensors: what it costs, who is told and named
 faults draws="5" *kind:
     cargo run --release -p insd-engine --example faults -- {{draws}} {{kind}}

@@ -16,8 +16,11 @@ use crate::innovation::Innovation;
 
 /// By how much likelier he must be, as a logarithm, and for how long he must have been, s: what is bad of a sudden is
 /// something else.
-const CONVINCED: f64 = 25.0;
+const CONVINCED: f64 = 10.0;
 const PATIENT: f64 = 200.0;
+/// Where he is as much likelier as this, so long is enough.
+const MUCH: f64 = 40.0;
+const BRIEF: f64 = 60.0;
 
 /// One of them.
 #[derive(Clone, Debug)]
@@ -58,8 +61,14 @@ impl Pessimist {
         self.gain = 0.0;
     }
 
+    /// Whether he may be right.
+    pub(super) fn is_likely(&self) -> bool {
+        self.gain > CONVINCED
+    }
+
     /// Whether he is right.
     pub(super) fn is_right(&self, now: Time) -> bool {
-        self.gain > CONVINCED && (now - self.since).as_seconds() > PATIENT
+        let needed = if self.gain > MUCH { BRIEF } else { PATIENT };
+        self.is_likely() && (now - self.since).as_seconds() > needed
     }
 }

@@ -117,15 +117,18 @@ impl Judge {
     /// Whether the IMU is worse than assumed, while nobody is known to lie.
     pub(super) fn look_at_pessimist(&mut self, now: Time) -> Option<Verdict> {
         let is_any_out = self.docket.all().any(|stands| stands.standing != Standing::Trusted);
-        if self.assessment.total > DOUBT || is_any_out {
+        let is_of_another = |charge: &Charge| charge.party() != Party::Imu;
+        // what an IMU does that is worse than assumed looks like another bias of it first
+        let is_another = || self.assessment.charges.first().is_some_and(is_of_another);
+        if is_any_out || self.assessment.total > DOUBT && is_another() {
             self.pessimist.forget();
         }
         self.disputed = None;
-        if !self.pessimist.is_right(now) || self.docket.worse() >= WORST {
+        if !self.pessimist.is_likely() || self.docket.worse() >= WORST {
             return None;
         }
         self.disputed = self.explained_by_another(self.pessimist.gain);
-        if self.disputed.is_some() {
+        if self.disputed.is_some() || !self.pessimist.is_right(now) {
             return None;
         }
         // a step is proven; what biases do that no aid sees, to the heading above all, asks for another
