@@ -132,7 +132,7 @@ impl Filter {
             Some(judge) => judge.follow((Party::Gnss, now), &weighed, noise, &covariance),
             None => {
                 let mut docket = self.config.docket;
-                docket.see_receiver((Party::Gnss, now), &weighed, noise, &covariance);
+                docket.see_receiver((Party::Gnss, now), &weighed, noise, &covariance, false);
                 self.config = self.config.with_docket(docket);
                 self.covered = self.cover();
             }

@@ -190,18 +190,28 @@ impl Docket {
     }
 
     /// Sees position and velocity of a receiver that is left out together, weighed by a navigator with a covariance, and follows what
-    /// the receiver, by its part, is off by.
+    /// the receiver, by its part, is off by; `alone` where only the navigator speaks against it.
     pub fn see_receiver(
         &mut self,
         (party, now): (Party, Time),
         weighed: &Weighed<6>,
         noise: f64,
         p: &Covariance,
+        alone: bool,
     ) {
         let own = POSITION.covariance(p).diagonal().max().max(0.0).sqrt();
         let z = Vector2::new(weighed.z()[0], weighed.z()[1]);
-        let agrees = agrees(weighed);
-        self.follow((party, now), &z, agrees, [own.hypot(noise), noise]);
+        let (agrees, sigma) = (agrees(weighed), own.hypot(noise));
+        let lie = self.lie_of(party);
+        if alone && !agrees {
+            self.lies[lie].suspect(now, &z, sigma);
+        }
+        let is_undone = self.lies[lie].follow(now, &z, agrees, [sigma, noise]);
+        // where another receiver is used instead there is no hurry
+        if is_undone && party == Party::Gnss {
+            let place = self.place(party);
+            self.entries[place].quarantine = UNDONE;
+        }
         self.watch(party, now, agrees);
     }
 
@@ -435,22 +445,6 @@ impl Docket {
             }
         }
         self.enter(party, standing, now);
-    }
-
-    /// Follows the lie of a receiver that is left out, by its part; see [`LieOfGnss::follow`].
-    fn follow(
-        &mut self,
-        (party, now): (Party, Time),
-        z: &Vector2<f64>,
-        agrees: bool,
-        [sigma, noise]: [f64; 2],
-    ) {
-        let place = self.place(party);
-        let is_undone = self.lies[self.lie_of(party)].follow(now, z, agrees, [sigma, noise]);
-        // where another receiver is used instead there is no hurry
-        if is_undone && party == Party::Gnss {
-            self.entries[place].quarantine = UNDONE;
-        }
     }
 }
 

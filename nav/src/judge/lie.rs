@@ -11,6 +11,9 @@ const STEP: f64 = 6.0;
 const LEAST_STEP: f64 = 3.0;
 /// A lie that goes away by a step, as one of the first since it was found, is undone.
 const FEW: u32 = 2;
+/// What it is off by is foreseen to so many times how it grew, and so many sigmas.
+const GREW: f64 = 1.5;
+const FORESEEN: f64 = 4.0;
 /// The navigator is vague of steps after so long without a fix, s.
 const SUCCESSIVE: f64 = 3.0;
 
@@ -21,6 +24,8 @@ pub(super) struct LieOfGnss {
     /// How fast it grew when it was found, m/s.
     pub(super) rate: f64,
     pub(super) seen: Option<Time>,
+    /// When it was found, and what it was off by, m.
+    found: Option<(Time, f64)>,
     last: Option<(Time, Vector2<f64>)>,
     /// Steps since it was found, and what they have left of what was found, m, if it does not grow: the navigator, which
     /// drifts meanwhile, is not in it.
@@ -34,7 +39,8 @@ impl LieOfGnss {
     /// It is found to be off by so much, m, and to grow so fast, m/s.
     pub(super) fn find(&mut self, off: Vector2<f64>, rate: f64, now: Time) {
         let (unproven, seen) = (self.unproven, Some(now));
-        *self = LieOfGnss { off, rate, left: off, seen, unproven, ..LieOfGnss::default() };
+        let found = Some((now, off.norm()));
+        *self = LieOfGnss { off, rate, left: off, seen, found, unproven, ..LieOfGnss::default() };
     }
 
     /// What it may be off by when it was last seen to be, m: a navigator that has drifted sees it from where it is itself.
@@ -47,6 +53,17 @@ impl LieOfGnss {
     pub(super) fn unproven_at(&self, now: Time) -> f64 {
         let grown = |at: Time| (now - at).as_seconds().max(0.0);
         self.unproven.map_or(0.0, |(off, rate, at)| off + rate * grown(at))
+    }
+
+    /// The navigator, whose word is the only one against the receiver's, sees it go away otherwise than it was found to, as one does who
+    /// drifts himself: nobody knows which of them it is, and the position may be the receiver's.
+    pub(super) fn suspect(&mut self, now: Time, z: &Vector2<f64>, sigma: f64) {
+        let Some((at, off)) = self.found else { return };
+        let age = (now - at).as_seconds().max(1.0);
+        let foreseen = off + GREW * self.rate * age + FORESEEN * sigma + LEAST_STEP;
+        if z.norm() > foreseen {
+            self.unproven = Some((z.norm(), 2.0 * z.norm() / age, now));
+        }
     }
 
     /// Follows it by the innovation of its position, north and east, whether it agrees with the navigator, the sigma that
@@ -90,7 +107,8 @@ impl LieOfGnss {
     /// The same on a time line that is later by a span.
     pub(super) fn shifted(self, by: Span) -> Self {
         let unproven = self.unproven.map(|(off, rate, at)| (off, rate, at + by));
-        LieOfGnss { seen: self.seen.map(|seen| seen + by), last: None, unproven, ..self }
+        let found = self.found.map(|(at, off)| (at + by, off));
+        LieOfGnss { seen: self.seen.map(|seen| seen + by), found, last: None, unproven, ..self }
     }
 }
 
@@ -138,6 +156,21 @@ mod tests {
             lie.follow(Time::from_seconds(t), &z, second > 90, [3.0 * t, 1.0]);
         }
         assert!((lie.may_be_off() - 120.0).abs() < 1e-9, "{}", lie.may_be_off());
+    }
+
+    /// One that was found to drift by 0.1 m/s, and is seen to go away as the square of time, or as it was found to.
+    #[test]
+    fn whoever_goes_away_otherwise_than_foreseen_may_be_right() {
+        let of = |off: fn(f64) -> f64| {
+            let mut lie = LieOfGnss::default();
+            lie.find(Vector2::new(2.0, 0.0), 0.1, Time::START);
+            (1..=120).map(f64::from).for_each(|t| {
+                lie.suspect(Time::from_seconds(t), &Vector2::new(off(t), 0.0), 1.0);
+            });
+            lie.unproven_at(Time::from_seconds(120.0))
+        };
+        assert_eq!(of(|t| 0.02 * t * t), 288.0);
+        assert_eq!(of(|t| 2.0 + 0.1 * t), 0.0);
     }
 
     #[test]

@@ -440,7 +440,8 @@ impl Judge {
         if party == Party::Gnss2 {
             self.hearings[Aid::SparePosition as usize].note(now);
         }
-        self.docket.see_receiver((party, now), weighed, noise, p);
+        let alone = party == Party::Gnss && self.witnesses(now) == 0;
+        self.docket.see_receiver((party, now), weighed, noise, p, alone);
     }
 
     /// Sees the height of a receiver of which only that is wrong, weighed by the navigator.
