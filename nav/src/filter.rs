@@ -301,7 +301,7 @@ impl Filter {
     /// Follows how much is left of a long gap.
     fn pass_gap(&mut self, increment: &Increment) {
         let gap = increment.bridged.filter(|gap| *gap > UNSEEN).unwrap_or(0.0);
-        let left = if self.gap_left > 0.0 { self.gap_left.min(gap) } else { gap };
+        let left = if self.is_in_gap() { self.gap_left.min(gap) } else { gap };
         self.gap_left = (left - increment.duration()).max(0.0);
     }
 

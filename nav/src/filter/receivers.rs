@@ -47,7 +47,8 @@ impl Filter {
         let begun = SeparateBias::new(&self.view());
         self.bias.iter_mut().for_each(|bias| *bias = begun);
         self.restart_judge();
-        self.slow_noise = self.noise_of_slow();
+        let [position, velocity, _] = self.noise_of_slow();
+        [self.slow_noise[0], self.slow_noise[1]] = [position, velocity];
     }
 
     /// Lets the judge compare a receiver that is not in use.

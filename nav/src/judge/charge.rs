@@ -160,7 +160,7 @@ impl Judge {
         let (all, worst) = self.all_comparable(now);
         let is_relapse = self.docket.standing(Party::Imu) == Standing::Doubtful;
         let relapse = if is_relapse { RELAPSE } else { 0.0 };
-        let most = all.iter().max_by(|a, b| a.evidence.total_cmp(&b.evidence));
+        let most = most_evident(&all);
         // what another receiver tells is not his own word
         let is_of_spare = most.is_some_and(|charge| charge.party() == Party::Gnss2);
         let worth = most.map_or(1.0, |charge| unsure((now - charge.begun).as_seconds(), worst));
@@ -187,8 +187,7 @@ impl Judge {
     /// against where that is a compass.
     fn all_comparable(&self, now: Time) -> (Vec<Charge>, f64) {
         let all = self.all_charges(now, WORST);
-        let most = all.iter().max_by(|a, b| a.evidence.total_cmp(&b.evidence));
-        match most.map(Charge::party) {
+        match most_evident(&all).map(Charge::party) {
             Some(Party::Heading) => (self.all_charges(now, WORST_OF_HEADING), WORST_OF_HEADING),
             _ => (all, WORST),
         }
@@ -368,6 +367,11 @@ impl Judge {
         }
         .unwrap_or_else(|| self.shadow())
     }
+}
+
+/// What the innovations tell most of.
+fn most_evident(all: &[Charge]) -> Option<&Charge> {
+    all.iter().max_by(|a, b| a.evidence.total_cmp(&b.evidence))
 }
 
 /// How many times as uncertain as stated innovations are that have added up for so long, s, as variances.

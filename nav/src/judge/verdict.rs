@@ -117,10 +117,10 @@ impl Judge {
     /// Whether the IMU is worse than assumed, while nobody is known to lie.
     pub(super) fn look_at_pessimist(&mut self, now: Time) -> Option<Verdict> {
         let is_any_out = self.docket.all().any(|stands| stands.standing != Standing::Trusted);
-        let is_of_another = |charge: &Charge| charge.party() != Party::Imu;
         // what an IMU does that is worse than assumed looks like another bias of it first
-        let is_another = || self.assessment.charges.first().is_some_and(is_of_another);
-        if is_any_out || self.assessment.total > DOUBT && is_another() {
+        let likeliest = self.assessment.charges.first();
+        let is_another = likeliest.is_some_and(|charge| charge.party() != Party::Imu);
+        if is_any_out || self.assessment.total > DOUBT && is_another {
             self.pessimist.forget();
         }
         self.disputed = None;

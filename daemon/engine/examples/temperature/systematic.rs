@@ -25,7 +25,7 @@ const SWING: [f64; 2] = [7.0, 2000.0];
 const RISE: f64 = 6.0;
 
 /// The errors of one ship.
-pub(crate) struct Systematic {
+struct Systematic {
     gyro: [Vector3<f64>; 2],
     accel: [Vector3<f64>; 2],
     scale: [f64; 2],
