@@ -143,6 +143,11 @@ impl Trust {
         (now - since).as_seconds()
     }
 
+    /// From now on is counted for how long none was used.
+    pub fn count_anew(&mut self) {
+        self.refused_since = None;
+    }
+
     /// Forgets all suspicion.
     pub fn clear(&mut self) {
         *self = Trust { last_used: self.last_used, ..Trust::default() };

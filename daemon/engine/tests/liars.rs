@@ -194,3 +194,25 @@ fn nobody_is_named_for_what_is_heard_inside_a_gap_of_the_imu() {
     let (seconds, _) = sailed("imu gap", Grade::Navigation, Suite::Log, 65);
     assert!(seconds.iter().all(|second| second.said.judgement.excluded.is_empty()));
 }
+
+#[test]
+fn of_two_that_lie_at_once_neither_leads_her_astray() {
+    for (name, suite, seed) in
+        [("pair: gnss and compass", Suite::Both, 71), ("pair: gnss and log", Suite::Log, 73)]
+    {
+        let (seconds, _) = sailed(name, Grade::Mems, suite, seed);
+        let named: Vec<Party> =
+            seconds.iter().flat_map(|second| second.said.judgement.excluded.iter()).collect();
+        assert!(named.contains(&Party::Gnss) && !named.contains(&Party::Imu), "{name}");
+        let misled = seconds.iter().filter(|second| second.heading_off() > 3.0 * DEG).count();
+        assert!(misled < 10, "{name}: {misled} s");
+    }
+}
+
+#[test]
+fn of_a_receiver_and_a_log_that_tell_another_speed_at_once_or_an_imu_that_missed_a_push_nobody_is_named()
+ {
+    let (seconds, _) = sailed("pair: gnss and log fast", Grade::Mems, Suite::Log, 72);
+    assert!(seconds.iter().all(|second| second.said.judgement.excluded.is_empty()));
+    assert!(seconds.iter().all(|second| second.heading_off() < 3.0 * DEG));
+}

@@ -61,9 +61,10 @@ impl Filter {
         self.owed = ErrorState::zeros().transpose();
     }
 
-    /// The judge begins anew with the estimate as it is.
+    /// The judge begins anew with the estimate as it is. Whom that refuses it has not heard yet.
     pub(super) fn restart_judge(&mut self) {
         self.forget_unheard();
+        self.trust.count_anew();
         if let Some(judge) = &mut self.judge {
             Arc::make_mut(judge).restart(&self.covariance, &self.config);
         }
@@ -217,7 +218,10 @@ impl Filter {
     pub fn imu_state(&self) -> ImuState {
         let Some(judge) = &self.judge else { return ImuState::Believed };
         let docket = judge.docket();
-        let is_heading_lost = || self.is_settled() && self.heading_std() > LOST_HEADING;
+        // what two say that lie alike is no reason to find a heading anew
+        let may_be_two = docket.may_be_two(self.time);
+        let std = || if may_be_two { self.own_heading_std() } else { self.heading_std() };
+        let is_heading_lost = || self.is_settled() && std() > LOST_HEADING;
         let is_doubted = docket.imu_doubted_since().is_some_and(|at| at >= self.judged_since);
         if docket.is_imu_condemned() || docket.wrong_imu_for() > PATIENCE {
             ImuState::Wrong
@@ -226,6 +230,12 @@ impl Filter {
         } else {
             ImuState::Believed
         }
+    }
+
+    /// 1-sigma of the heading of the estimate itself, whatever else may be, rad.
+    fn own_heading_std(&self) -> f64 {
+        let down = self.view().c_ne.row(2).into_owned();
+        ATTITUDE.covariance_in(&self.covariance, &down).x.max(0.0).sqrt()
     }
 
     /// Does as the judge says, after a message.

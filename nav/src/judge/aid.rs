@@ -140,16 +140,16 @@ impl Hearing {
     }
 
     /// Sees an innovation of which all of the variance of the noise has been raised by what it scatters: what was not would make
-    /// the scatter grow by itself. Tells whether it is found to scatter much more than before.
-    pub(super) fn see<const M: usize>(&mut self, innovation: &Innovation<M>) -> bool {
+    /// the scatter grow by itself. Where it is found to scatter much more than before, by how much, as a variance.
+    pub(super) fn see<const M: usize>(&mut self, innovation: &Innovation<M>) -> Option<f64> {
         let before = self.noise();
         let of = |i: usize| innovation.z[i] / (innovation.r[(i, i)] / before).sqrt();
         self.scatter.see(std::array::from_fn(|i| if i < M { of(i) } else { f64::NAN }));
         self.noise = self.scatter.factor();
         self.known = self.known.min(self.noise()).max(1.0);
-        let is_much = self.noise > MUCH * self.known;
-        self.known = if is_much { self.noise } else { self.known };
-        is_much
+        let growth = Some(self.noise / self.known).filter(|growth| *growth > MUCH);
+        self.known = growth.map_or(self.known, |_| self.noise);
+        growth
     }
 
     /// By how much the variance of the noise is larger than stated.

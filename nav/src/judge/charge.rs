@@ -3,7 +3,7 @@
 use insd_base::{Fault, Party, Standing, Time};
 
 use super::onset::Sized;
-use super::rows::{ALL, Group, OF_FALSE_TURNS, OF_GYROS};
+use super::rows::{ALL, Group, OF_FALSE_PUSHES, OF_FALSE_TURNS, OF_GYROS};
 use super::{Aid, Alternative, CLOSE, Judge, SPAWN};
 
 /// Mean square of the innovations, of which one is expected, that a fault may leave unexplained.
@@ -131,6 +131,10 @@ impl Charge {
         matches!(self.kind, Kind::Shaped { group: OF_FALSE_TURNS, .. })
     }
 
+    fn is_false_push(&self) -> bool {
+        matches!(self.kind, Kind::Shaped { group: OF_FALSE_PUSHES, .. })
+    }
+
     fn is_far(&self) -> bool {
         let Kind::Shaped { sized, .. } = self.kind else { return false };
         self.fault == Fault::Jump && sized.value.xy().norm() > FAR
@@ -196,6 +200,7 @@ impl Judge {
     /// Every fault that may be, its weight without the evidence, which is worth so many times less in the end.
     fn all_charges(&self, now: Time, worst: f64) -> Vec<Charge> {
         let mut all: Vec<Charge> = Vec::new();
+        let is_one = self.witnesses(now) < 2;
         for onset in &self.onsets {
             let age = (now - onset.since).as_seconds();
             let step = (age * CLOSE).max(1.0).ln();
@@ -206,7 +211,10 @@ impl Judge {
                 let unsure = if is_own_word { unsure.min(OWN_WORD) } else { unsure };
                 let sized = onset.sized(group, unsure).filter(|sized| sized.value.norm() >= *least);
                 let is_unseen = self.began_unseen(*fault, onset.since, now);
-                let Some(sized) = sized.filter(|_| !is_slow && !is_unseen) else { continue };
+                // of a single witness it is his drift
+                let is_drift = group == OF_FALSE_PUSHES && is_one;
+                let is_none = is_slow || is_unseen || is_drift;
+                let Some(sized) = sized.filter(|_| !is_none) else { continue };
                 let (fault, begun) = (*fault, onset.since);
                 let kind = Kind::Shaped { group, since: begun, sized };
                 let (weight, evidence) = (log_rate + step, sized.log_factor * unsure);
@@ -322,6 +330,15 @@ impl Judge {
             charge.fault == Fault::GyroBias && charge.explained().is_some_and(|own| own > needed)
         };
         self.assessment.charges.iter().find(is_plain).copied().unwrap_or(*likeliest)
+    }
+
+    /// A push that the IMU has not told, where that explains nearly as much as its likeliest fault: whoever else tells how she moves told
+    /// another speed at once.
+    pub(super) fn false_push(&self, likeliest: &Charge) -> Option<Charge> {
+        let needed = NEARLY_ALL * likeliest.weight;
+        let is_it = |charge: &&Charge| charge.is_false_push() && charge.weight > needed;
+        let mut all = self.assessment.charges.iter().filter(is_it);
+        all.find(|charge| self.explains(charge)).copied()
     }
 
     /// A lie of somebody else than the IMU that explains so much, too, as a logarithm, if innovations are as sure as stated.

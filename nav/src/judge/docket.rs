@@ -9,6 +9,8 @@
 //! [`Party::Gnss`] and [`Party::Gnss2`], whichever they are; each keeps what it did when it takes another part, and is told
 //! by its own name.
 
+mod of_imu;
+
 use insd_base::{Fault, Integrity, Judgement, Parties, Party, Span, Standing, Stands, Time};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -85,8 +87,10 @@ pub struct Docket {
     condemned: bool,
     /// By how many steps the IMU was found to be worse than its data sheet.
     worse: u8,
-    /// The IMU was found wrong by one witness, who may be so himself.
+    /// The IMU was found wrong by one witness, who may be so himself, or by two that may lie alike.
     by_one: bool,
+    /// Two told another speed at once then, which the IMU did not feel.
+    alike: Option<Time>,
 }
 
 impl Docket {
@@ -271,85 +275,6 @@ impl Docket {
         self.lies[self.lie_of(Party::Gnss)].unproven_at(now) / RADIUS
     }
 
-    /// By how many steps the IMU was found to be worse than its data sheet.
-    #[must_use]
-    pub fn worse(&self) -> u8 {
-        self.worse
-    }
-
-    /// With an IMU that is a step worse.
-    #[must_use]
-    pub fn with_worse_imu(mut self) -> Self {
-        self.worse = self.worse.saturating_add(1);
-        self
-    }
-
-    /// Whether the IMU was found wrong by one witness, who may be so himself: neither is named.
-    #[must_use]
-    pub fn is_imu_doubted_by_one(&self) -> bool {
-        self.by_one
-    }
-
-    /// So many others were heard when the IMU was found wrong.
-    pub fn note_witnesses(&mut self, count: usize) {
-        self.by_one = count < 2;
-    }
-
-    /// Whether the IMU is not believed, in whatever way it is wrong.
-    #[must_use]
-    pub fn is_restless(&self) -> bool {
-        self.restless.is_some()
-    }
-
-    /// When the IMU was last found wrong, if it is doubted for that.
-    #[must_use]
-    pub fn imu_doubted_since(&self) -> Option<Time> {
-        let imu = &self.entries[Party::Imu as usize];
-        (imu.standing == Standing::Doubtful).then_some(imu.since)
-    }
-
-    /// The IMU is of no use, as what it says was refuted again after it had been found wrong.
-    pub fn condemn_imu(&mut self, now: Time) {
-        self.disbelieve_imu(now);
-        self.condemned = true;
-    }
-
-    /// Whether it is.
-    #[must_use]
-    pub fn is_imu_condemned(&self) -> bool {
-        self.condemned
-    }
-
-    /// For how long the IMU has been seen to be wrong, in whatever way, s.
-    #[must_use]
-    pub fn wrong_imu_for(&self) -> f64 {
-        self.restless.map_or(0.0, |(since, last)| (last - since).as_seconds())
-    }
-
-    /// The IMU is found wrong now, in whatever way.
-    pub fn disbelieve_imu(&mut self, now: Time) {
-        self.restless = Some((self.restless.map_or(now, |(since, _)| since), now));
-        self.enter(Party::Imu, Standing::Doubtful, now);
-        let imu = &mut self.entries[Party::Imu as usize];
-        (imu.since, imu.fault) = (now, Some(Fault::ImuUseless));
-    }
-
-    /// The IMU may have been blamed for somebody else's lie: it is not named.
-    pub(super) fn clear_imu(&mut self) {
-        self.by_one = true;
-    }
-
-    /// The IMU is right as far as is seen now.
-    pub fn consider_imu(&mut self, now: Time) {
-        self.restless = self.restless.filter(|(_, last)| (now - *last).as_seconds() < QUARANTINE);
-    }
-
-    /// Nobody was heard for a time, s.
-    pub fn postpone(&mut self, unheard: f64) {
-        let later = |last: Time| last + Span::from_seconds(unheard);
-        self.restless = self.restless.map(|(since, last)| (later(since), later(last)));
-    }
-
     fn enter(&mut self, party: Party, standing: Standing, now: Time) {
         let place = self.place(party);
         let entry = &mut self.entries[place];
@@ -452,8 +377,8 @@ impl Docket {
     /// What is left when the navigator begins anew on the word of a receiver that was not trusted.
     #[must_use]
     pub fn begun_anew(&self, now: Time) -> Self {
-        let Docket { parts, lies, worse, by_one, .. } = *self;
-        let mut anew = Docket { parts, lies, worse, by_one, ..Docket::default() };
+        let Docket { parts, lies, worse, by_one, alike, .. } = *self;
+        let mut anew = Docket { parts, lies, worse, by_one, alike, ..Docket::default() };
         let others = [Party::Log, Party::Heading].into_iter().chain(Party::RECEIVERS);
         for named in others.filter(|named| *named != self.receiver_in_use()) {
             let own = &self.entries[named as usize];
@@ -489,6 +414,7 @@ impl Docket {
             entry.agreeing_since = None;
         }
         self.lies = self.lies.map(|lie| lie.shifted(by));
+        self.alike = self.alike.map(|since| since + by);
         self
     }
 }

@@ -16,6 +16,7 @@ mod dissenter;
 mod docket;
 mod evidence;
 mod lie;
+mod noise;
 mod onset;
 mod pessimist;
 mod receivers;
@@ -219,7 +220,7 @@ impl Judge {
     ) {
         let hearing = &mut self.hearings[aid as usize];
         hearing.note(now);
-        if hearing.see(innovation) && self.is_noise_all(aid.party()) {
+        if hearing.see(innovation).is_some_and(|growth| self.is_noise_all(aid.party(), growth)) {
             self.acquit_all(aid.party());
         }
         let Some(weighed) = self.shadow.weigh(innovation, 1.0) else { return };
@@ -246,29 +247,6 @@ impl Judge {
         if aid.is_absorbed() {
             self.shadow.absorb(&weighed, attitude);
         }
-    }
-
-    /// Whether there is nothing worse than that somebody scatters.
-    fn is_noise_all(&self, party: Option<Party>) -> bool {
-        if self.disputed.is_some() {
-            return false;
-        }
-        let first = self.likeliest().filter(|first| first.weight > 0.0);
-        first.is_none_or(|first| first.fault.is_noise() && Some(first.party()) == party)
-    }
-
-    /// What was taken for evidence was somebody's noise: who did not believe him goes on.
-    fn acquit_all(&mut self, noisy: Option<Party>) {
-        self.onsets.clear();
-        self.spawned = None;
-        self.spare = Success::default();
-        self.pessimist.forget();
-        let dissenter = noisy.and_then(|noisy| self.dissenter(noisy));
-        let now = dissenter.map_or(&self.shadow, |dissenter| &dissenter.shadow).clone();
-        self.shadow = now.clone();
-        self.dissenters.iter_mut().for_each(|dissenter| {
-            *dissenter = Dissenter::new(dissenter.whom, now.clone());
-        });
     }
 
     /// Whoever is heard for the first time may be disbelieved from then on.
@@ -361,7 +339,8 @@ impl Judge {
             |charge: &Charge| excused.contains(charge.party()) && !self.leaps(charge.party());
         let likeliest = self.likeliest();
         let astray = likeliest.and_then(|first| self.blamed_instead(&first, now));
-        let first = astray.or(likeliest).filter(|first| !is_excused(first));
+        let foremost = likeliest.is_none().then(|| self.foremost_of_two(now)).flatten();
+        let first = astray.or(likeliest).or(foremost).filter(|first| !is_excused(first));
         let is_likely = self.assessment.total > DOUBT;
         self.in_doubt = is_likely || self.disputed.is_some();
         let suspect = first.filter(|_| is_likely);
@@ -376,10 +355,13 @@ impl Judge {
         let whom = accused.party();
         let since = before.filter(|(party, _)| *party == whom).map_or(now, |(_, since)| since);
         self.accused = Some((whom, since));
+        let persists = |needed: f64| (now - since).as_seconds() >= needed;
+        if foremost.is_some() {
+            return persists(SCATTERS).then(|| self.convict_beside_another(&accused, now));
+        }
         let shaped = self.shape_of(whom, excused.contains(whom)).unwrap_or(accused);
         let needed = if shaped.fault.is_noise() { SCATTERS } else { PERSISTS };
-        let persists = (now - since).as_seconds() >= needed;
-        persists.then(|| self.convict(&shaped, now))
+        persists(needed).then(|| self.convict(&shaped, now))
     }
 
     /// Whether somebody lies, whoever it is.

@@ -8,7 +8,9 @@ use std::ops::Range;
 use insd_base::Fault;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use crate::error_state::{ACCEL_BIAS, ATTITUDE, GNSS_DELAY, GYRO_BIAS, GYRO_SCALE, STATES};
+use crate::error_state::{
+    ACCEL_BIAS, ATTITUDE, GNSS_DELAY, GYRO_BIAS, GYRO_SCALE, STATES, VELOCITY,
+};
 
 const GNSS_JUMP: usize = 0;
 const GNSS_DRAG: usize = 3;
@@ -29,8 +31,9 @@ const DELAY: usize = 33;
 const TURN: usize = 34;
 const SPARE_JUMP: usize = 37;
 const SPARE_DRAG: usize = 39;
+const PUSH: usize = 41;
 /// How many there are.
-pub const ROWS: usize = 41;
+pub const ROWS: usize = 44;
 
 /// Transposed: a row for each fault, its effect on the errors of the estimate.
 pub type Effects = SMatrix<f64, ROWS, STATES>;
@@ -76,8 +79,10 @@ const FAILED: f64 = -17.4;
 pub const OF_GYROS: usize = 13;
 /// The one of gyros that told a turn that was none.
 pub const OF_FALSE_TURNS: usize = 14;
+/// The one of accelerometers that told a push that was none, or none that was.
+pub const OF_FALSE_PUSHES: usize = 20;
 /// How many groups there are.
-pub const GROUPS: usize = 20;
+pub const GROUPS: usize = 21;
 
 /// All groups.
 pub const ALL: [Group; GROUPS] = [
@@ -101,10 +106,11 @@ pub const ALL: [Group; GROUPS] = [
     group(Fault::Delay, DELAY, 1, [0.1, 2.0], DISTURBED),
     group(Fault::SpareJump, SPARE_JUMP, 2, [5.0, 1e3], SPARED),
     group(Fault::SpareDrag, SPARE_DRAG, 2, [0.05, 3.0], SPARED),
+    group(Fault::AccelBias, PUSH, 3, [0.3, 10.0], FAILED),
 ];
 
-/// The effects at an onset: gyros and accelerometers have another bias or scale factor from then on, or gyros have
-/// told a turn that was none, and the receiver has another delay.
+/// The effects at an onset: gyros and accelerometers have another bias or scale factor from then on, or have
+/// told a turn or a push that was none, and the receiver has another delay.
 #[must_use]
 pub fn at_onset() -> Effects {
     let mut effects = Effects::zeros();
@@ -113,6 +119,7 @@ pub fn at_onset() -> Effects {
         (ACCEL, ACCEL_BIAS.start()),
         (SCALE, GYRO_SCALE.start()),
         (TURN, ATTITUDE.start()),
+        (PUSH, VELOCITY.start()),
     ] {
         (0..3).for_each(|i| effects[(start + i, state + i)] = 1.0);
     }
@@ -220,5 +227,6 @@ mod tests {
         assert!(ALL.iter().all(|group| group.rows.len() <= 3));
         assert_eq!(ALL[OF_GYROS].rows.start, GYRO);
         assert_eq!(ALL[OF_FALSE_TURNS].rows.start, TURN);
+        assert_eq!(ALL[OF_FALSE_PUSHES].rows.start, PUSH);
     }
 }

@@ -18,7 +18,7 @@ const BLATANT: f64 = 100.0;
 const MENDABLE: f64 = 0.2;
 /// A gyro of which the scale is off by more is none: noise, too, is a scale factor of a gyro that tells little else.
 const MENDABLE_SCALE: f64 = 0.3;
-/// The moment at which a gyro's bias changed is not known better than this, s.
+/// The moment at which an IMU began to be wrong is not known better than this, s.
 const UNTIMED: f64 = 1.0;
 /// An IMU of which a bias changed tells turns no better than so, as a ratio, until they have been seen: what changed it may
 /// have changed that, too.
@@ -79,8 +79,7 @@ impl Judge {
             }
         }
         if charge.kind == Kind::Shapeless && self.lies_another(charge.party()) {
-            self.docket.convict(charge.fault, now, NO_LIE);
-            return Verdict { fault: charge.fault, mended: None };
+            return self.convict_beside_another(charge, now);
         }
         if let Some(late) = late(charge) {
             let state = GNSS_DELAY.start();
@@ -99,17 +98,24 @@ impl Judge {
     /// An IMU cannot be left out: where a fault of a shape explains it all the estimate is mended, and it is believed
     /// with that; else it is not believed for a while.
     fn convict_imu(&mut self, charge: &Charge, now: Time) -> Verdict {
-        self.docket.note_witnesses(self.witnesses(now));
-        let plain = self.plain_fault_of_imu(charge);
+        self.docket.note_witnesses(self.witnesses(now), now);
+        let push = self.false_push(charge);
+        if push.is_some() {
+            self.docket.note_alike(now);
+        }
+        let plain = push.unwrap_or_else(|| self.plain_fault_of_imu(charge));
         let mut mended = self.alternative(&plain);
         let turned = ATTITUDE.of(&mended.error).norm();
         let is_wild = plain.fault == Fault::GyroScale && plain.size() > MENDABLE_SCALE;
         if plain.kind == Kind::Shapeless || turned > MENDABLE || is_wild {
             return self.disbelieve_imu(now);
         }
-        let when = plain.size() * UNTIMED;
-        ATTITUDE.inflate(&mut mended.covariance, (0.5 * turned * turned).powi(2) + when * when);
-        GYRO_SCALE.inflate(&mut mended.covariance, WRONG_SCALE * WRONG_SCALE);
+        ATTITUDE.inflate(&mut mended.covariance, (0.5 * turned * turned).powi(2));
+        let untimed = if push.is_some() { POSITION } else { ATTITUDE };
+        untimed.inflate(&mut mended.covariance, (plain.size() * UNTIMED).powi(2));
+        if push.is_none() {
+            GYRO_SCALE.inflate(&mut mended.covariance, WRONG_SCALE * WRONG_SCALE);
+        }
         self.docket.convict(plain.fault, now, NO_LIE);
         Verdict { fault: plain.fault, mended: Some(mended) }
     }
@@ -180,10 +186,45 @@ impl Judge {
         charge.fault == Fault::Creep && self.witnesses(now) < 2
     }
 
+    /// Where no single fault explains what is said, as two lie: he of whom it explains most by far, or who contradicts himself.
+    pub(super) fn foremost_of_two(&self, now: Time) -> Option<Charge> {
+        let all = &self.assessment.charges;
+        let is_own_word = self.is_gnss_contradicted(now);
+        let most = all.iter().find(|most| !is_own_word || most.party() == Party::Gnss)?;
+        if most.party() == Party::Imu || most.weight <= DOUBT {
+            return None;
+        }
+        let is_rival = |other: &&Charge| {
+            let is_excused = is_own_word && other.party() == Party::Imu;
+            other.party() != most.party() && !is_excused
+        };
+        let rival = all.iter().find(is_rival);
+        let is_far = rival.is_none_or(|rival| rival.weight < AS_MUCH * most.weight);
+        (is_far && self.lies_another(most.party())).then_some(*most)
+    }
+
+    /// Somebody lies, and somebody else does: what is made of the others' word is no better than the navigator's estimate.
+    pub(super) fn convict_beside_another(&mut self, charge: &Charge, now: Time) -> Verdict {
+        let age = (now - charge.since(now)).as_seconds();
+        self.docket.convict(charge.fault, now, lie_of_gnss(charge, age));
+        Verdict { fault: charge.fault, mended: None }
+    }
+
     /// Whether somebody else lies beside him, as whoever does not believe him has found out: then what is made of the
     /// others' word is no better than the navigator's estimate, which has refused them.
     fn lies_another(&self, whom: Party) -> bool {
         self.success(whom).is_some_and(|success| success.worst > BLATANT)
+    }
+
+    /// Whether the lie of another, who is no IMU, explains what is said far better than his does.
+    fn is_another_likelier(&self, whom: Party) -> bool {
+        let all = &self.assessment.charges;
+        let own = all.iter().find(|charge| charge.party() == whom);
+        let own = own.map_or(0.0, |own| own.weight).max(DOUBT);
+        let is_far = |first: &Charge| AS_MUCH * first.weight > own;
+        all.first().is_some_and(|first| {
+            first.party() != whom && first.party() != Party::Imu && is_far(first)
+        })
     }
 
     /// What somebody does who is found to lie, if it has a shape; `early` while only leaps of a place are no mistakes of the installation.
@@ -205,11 +246,15 @@ impl Judge {
 
     /// A receiver of which the position does not go where its velocity says lies, whatever the IMU does: it is not blamed for that.
     fn contradicts_itself(&self, first: &Charge, now: Time) -> Option<Charge> {
-        let of_gnss = &self.hearings[Aid::GnssPosition as usize];
-        if first.party() != Party::Imu || !of_gnss.was_contradicted_within(now, UNHEARD) {
+        if first.party() != Party::Imu || !self.is_gnss_contradicted(now) {
             return None;
         }
         self.as_likely(first, |other| other.party() == Party::Gnss)
+    }
+
+    /// Whether the receiver in use contradicts itself.
+    fn is_gnss_contradicted(&self, now: Time) -> bool {
+        self.hearings[Aid::GnssPosition as usize].was_contradicted_within(now, UNHEARD)
     }
 
     /// A receiver that is heard again contradicts a heading that gyros have carried alone meanwhile: they have had the time to go astray, and
@@ -240,7 +285,7 @@ impl Judge {
             return None;
         }
         let charge = Charge::shapeless(whom, DOUBT);
-        if self.lies_another(whom) {
+        if self.lies_another(whom) || self.is_another_likelier(whom) {
             return Some(Verdict { fault: charge.fault, mended: None });
         }
         let mut mended = self.alternative(&charge);
@@ -272,7 +317,7 @@ impl Judge {
 
     /// The IMU is wrong, as what it says is not what any ship does; gives the estimate without it.
     pub fn disbelieve_imu(&mut self, now: Time) -> Verdict {
-        self.docket.note_witnesses(self.witnesses(now));
+        self.docket.note_witnesses(self.witnesses(now), now);
         self.imu_on_trial = true;
         self.docket.disbelieve_imu(now);
         let charge = Charge::shapeless(Party::Imu, DOUBT);
