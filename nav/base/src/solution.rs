@@ -107,6 +107,12 @@ impl SolutionSigma {
         self.zip(other, |a, b| a + b)
     }
 
+    /// The root of the sum of the squares of each component.
+    #[must_use]
+    pub fn hypot(&self, other: &Self) -> Self {
+        self.zip(other, f64::hypot)
+    }
+
     /// All of them by a factor.
     #[must_use]
     pub fn scaled(&self, by: f64) -> Self {

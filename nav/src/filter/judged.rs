@@ -219,8 +219,8 @@ impl Filter {
         let Some(judge) = &self.judge else { return ImuState::Believed };
         let docket = judge.docket();
         // what two say that lie alike is no reason to find a heading anew
-        let may_be_two = docket.may_be_two(self.time);
-        let std = || if may_be_two { self.own_heading_std() } else { self.heading_std() };
+        let is_vague = judge.finds_a_lie_likely() && !docket.may_be_two(self.time);
+        let std = || if is_vague { self.heading_std() } else { self.own_heading_std() };
         let is_heading_lost = || self.is_settled() && std() > LOST_HEADING;
         let is_doubted = docket.imu_doubted_since().is_some_and(|at| at >= self.judged_since);
         if docket.is_imu_condemned() || docket.wrong_imu_for() > PATIENCE {
@@ -393,7 +393,13 @@ impl Filter {
             apart.scaled(0.5).plus(&own)
         };
         let claims = self.judge.as_ref().map(|judge| judge.claims()).unwrap_or_default();
-        let mut all = claims.iter().map(of).reduce(|a, b| a.greatest(&b));
+        // the second moment of a mixture: how far each would be off, as often as it may be so
+        let share = |(chance, other): &(f64, Alternative)| {
+            difference(&view, &other.error).scaled(chance.sqrt())
+        };
+        let chances = self.judge.as_ref().map(|judge| judge.chances()).unwrap_or_default();
+        let hedge = chances.iter().map(share).reduce(|a, b| a.hypot(&b));
+        let mut all = claims.iter().map(of).chain(hedge).reduce(|a, b| a.greatest(&b));
         let unproven = self.docket().unproven_std(self.time);
         if unproven > 0.0 {
             let mut floor = all.unwrap_or_default();

@@ -12,9 +12,12 @@ const UNEXPLAINED: f64 = 4.0;
 /// is found to.
 pub(super) const DOUBT: f64 = 6.9;
 const CERTAIN: f64 = 6.9;
-/// The claims cover what may be from such odds on, as a logarithm, that somebody lies, until they are below those.
+/// Somebody is likely to lie from such odds on, as a logarithm, until they are below those;
 const LIKELY: f64 = 2.3;
 const UNLIKELY: f64 = 0.9;
+/// the claims cover what may be, as far as three sigmas, from one in nine on.
+const COVER: f64 = 0.12;
+const UNCOVER: f64 = 0.06;
 /// No rival may explain so much of what the guilty one explains;
 const RIVAL: f64 = 0.95;
 /// but for gyros that told a turn that was none, as a log or compass that is off looks the same, and is so more often; and but
@@ -84,6 +87,8 @@ pub(super) struct Assessment {
     pub(super) total: f64,
     /// Whether the claims are to cover what may be.
     pub(super) is_covered: bool,
+    /// Whether somebody is likely to lie.
+    pub(super) is_likely: bool,
 }
 
 impl Charge {
@@ -183,8 +188,10 @@ impl Judge {
             }
         }
         charges.sort_by(|a, b| b.weight.total_cmp(&a.weight));
-        let least = if self.assessment.is_covered { UNLIKELY } else { LIKELY };
-        Assessment { charges, total, is_covered: total >= least }
+        let Assessment { is_covered, is_likely, .. } = self.assessment;
+        let is_covered = total >= if is_covered { UNCOVER } else { COVER };
+        let is_likely = total >= if is_likely { UNLIKELY } else { LIKELY };
+        Assessment { charges, total, is_covered, is_likely }
     }
 
     /// All that may be, and how many times less their evidence is worth in the end: less is unknown of what most of it is

@@ -69,6 +69,9 @@ const WILD: f64 = 25.0;
 /// What is less likely than this, as a logarithm, is not covered by the claims.
 const COVERED: f64 = -9.2;
 
+/// What is less likely than this is of no account.
+const CHANCE: f64 = 1e-3;
+
 /// All of it.
 #[derive(Clone, Debug)]
 pub struct Judge {
@@ -370,6 +373,12 @@ impl Judge {
         self.in_doubt
     }
 
+    /// Whether somebody is likely to lie, whoever it is.
+    #[must_use]
+    pub fn finds_a_lie_likely(&self) -> bool {
+        self.disputed.is_some() || self.assessment.is_likely
+    }
+
     /// What the estimate may be if it is not the navigator's: nothing unless somebody may lie.
     #[must_use]
     pub fn claims(&self) -> Vec<Alternative> {
@@ -387,6 +396,15 @@ impl Judge {
             all.push(self.shadow());
         }
         all
+    }
+
+    /// What the estimate may be instead, and how likely that is, while that is too little for the claims to cover all of it.
+    #[must_use]
+    pub fn chances(&self) -> Vec<(f64, Alternative)> {
+        let Assessment { charges, total, is_covered, .. } = &self.assessment;
+        let chance = |charge: &Charge| (charge.weight - total).exp();
+        let open = charges.iter().filter(|charge| !is_covered && chance(charge) > CHANCE);
+        open.map(|charge| (chance(charge), self.alternative(charge))).collect()
     }
 
     /// The estimate of him who believes everybody.
