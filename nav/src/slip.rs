@@ -9,7 +9,7 @@ use insd_base::units::{DEG, wrap_pi};
 use nalgebra::{Rotation2, Vector2};
 
 /// Looks that the memory spans, and how far apart they are, s; a longer silence is a gap.
-const SPAN: usize = 60;
+const SPAN: usize = 150;
 const SPACING: f64 = 1.9;
 const GAP: f64 = 5.0;
 /// Time constant of the smoothing, s: what waves do is left out.
@@ -41,7 +41,7 @@ pub struct Slip {
 
 impl Default for Slip {
     fn default() -> Self {
-        Slip { looks: [Look::default(); SPAN], count: 0, last: None, smooth: None }
+        Slip { looks: [Look { course: 0.0, slip: 0.0 }; SPAN], count: 0, last: None, smooth: None }
     }
 }
 
@@ -53,7 +53,7 @@ impl Slip {
     }
 
     /// Takes velocity, north and east, m/s, and heading, rad. Tells whether the heading has turned as it cannot have
-    /// within two minutes of a straight course; `unsure` is the 1-sigma of its error, rad.
+    /// within five minutes of a straight course; `unsure` is the 1-sigma of its error, rad.
     pub fn see(&mut self, now: Time, velocity: Vector2<f64>, heading: f64, unsure: f64) -> bool {
         let since = self.last.replace(now).map_or(GAP, |last| (now - last).as_seconds());
         if since >= GAP || velocity.norm() < UNDER_WAY {
@@ -114,6 +114,7 @@ mod tests {
     fn a_heading_that_turns_on_a_straight_course_is_absurd() {
         assert!(absurd_after(0.0, 0.5).is_some_and(|at| (20..45).contains(&at)));
         assert!(absurd_after(0.0, -0.15).is_some_and(|at| (80..130).contains(&at)));
+        assert!(absurd_after(0.0, 0.07).is_some_and(|at| (180..290).contains(&at)));
     }
 
     #[test]

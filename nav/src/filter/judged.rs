@@ -351,8 +351,7 @@ impl Filter {
         self.forget_motion();
     }
 
-    /// A filter that refuses a receiver against whom nothing speaks is wrong itself: it becomes what it would be
-    /// had it believed everybody. Tells whether it has a judge at all.
+    /// A filter that refuses a receiver against whom nothing speaks is wrong itself. Tells whether it has a judge at all.
     pub(super) fn consider_rejoining(&mut self) -> bool {
         let refused = self.trust.refused(self.time);
         let withheld = self.withholds(Aid::GnssPosition);
@@ -361,10 +360,10 @@ impl Filter {
         if is_early && judge.is_in_doubt() && !judge.leaps(Party::Gnss) {
             return false;
         }
-        if refused >= LOCKED_OUT && !withheld && !judge.is_in_doubt() {
-            let shadow = judge.shadow();
-            self.become_other(&shadow);
-            self.owed += shadow.error.transpose();
+        let unbiased = judge.unbiased().filter(|_| refused >= LOCKED_OUT && !withheld);
+        if let Some(unbiased) = unbiased {
+            self.become_other(&unbiased);
+            self.owed += unbiased.error.transpose();
         }
         true
     }

@@ -229,7 +229,7 @@ impl Judge {
             }
         }
         let most = all.iter().filter_map(Charge::explained).fold(0.0, f64::max);
-        all.retain(|charge| !charge.is_own_word || charge.explained() > Some(PLAIN * most));
+        all.retain(|charge| !charge.is_own_word || charge.explained() > Some(NEARLY_ALL * most));
         let others = self.dissenters.iter().map(|dissenter| (dissenter.whom, &dissenter.success));
         let spare = (self.spare.gain > 0.0).then_some((Party::Gnss2, &self.spare));
         let shapeless = others.chain(spare).map(|(whom, success)| Charge {

@@ -12,6 +12,7 @@
 
 mod aid;
 mod charge;
+mod claims;
 mod dissenter;
 mod docket;
 mod evidence;
@@ -66,12 +67,6 @@ const PERSISTS: f64 = 4.0;
 const SCATTERS: f64 = 12.0;
 /// A log of which the variance of the noise is so many times that stated tells now this and now that.
 const WILD: f64 = 25.0;
-/// What is less likely than this, as a logarithm, is not covered by the claims.
-const COVERED: f64 = -9.2;
-
-/// What is less likely than this is of no account.
-const CHANCE: f64 = 1e-3;
-
 /// All of it.
 #[derive(Clone, Debug)]
 pub struct Judge {
@@ -86,6 +81,8 @@ pub struct Judge {
     hearings: [Hearing; AIDS],
     assessment: Assessment,
     in_doubt: bool,
+    /// Who is suspected of it.
+    suspect: Option<Charge>,
     /// What may be a lie as well as an IMU that is worse than assumed.
     disputed: Option<Charge>,
     accused: Option<(Party, Time)>,
@@ -113,6 +110,7 @@ impl Judge {
             hearings: [Hearing::default(); AIDS],
             assessment: Assessment::default(),
             in_doubt: false,
+            suspect: None,
             disputed: None,
             accused: None,
             wild: None,
@@ -138,7 +136,7 @@ impl Judge {
         self.onsets.clear();
         self.spare = Success::default();
         (self.spawned, self.accused, self.in_doubt) = (None, None, false);
-        self.disputed = None;
+        (self.suspect, self.disputed) = (None, None);
         self.assessment = Assessment::default();
     }
 
@@ -348,6 +346,7 @@ impl Judge {
         self.in_doubt = is_likely || self.disputed.is_some();
         let suspect = first.filter(|_| is_likely);
         self.docket.doubt(suspect.map(|first| first.fault), now);
+        self.suspect = suspect;
         let is_sure = |first: &Charge| {
             let is_open = self.is_one_word(first, now) || first.may_be_a_mistake(mistake);
             astray.is_some() || (self.is_certain(first) && !is_open)
@@ -365,52 +364,6 @@ impl Judge {
         let shaped = self.shape_of(whom, excused.contains(whom)).unwrap_or(accused);
         let needed = if shaped.fault.is_noise() { SCATTERS } else { PERSISTS };
         persists(needed).then(|| self.convict(&shaped, now))
-    }
-
-    /// Whether somebody lies, whoever it is.
-    #[must_use]
-    pub fn is_in_doubt(&self) -> bool {
-        self.in_doubt
-    }
-
-    /// Whether somebody is likely to lie, whoever it is.
-    #[must_use]
-    pub fn finds_a_lie_likely(&self) -> bool {
-        self.disputed.is_some() || self.assessment.is_likely
-    }
-
-    /// What the estimate may be if it is not the navigator's: nothing unless somebody may lie.
-    #[must_use]
-    pub fn claims(&self) -> Vec<Alternative> {
-        let total = self.assessment.total;
-        if let Some(lie) = &self.disputed {
-            return vec![self.alternative(lie), self.pessimist.shadow.alternative()];
-        }
-        if !self.assessment.is_covered {
-            return Vec::new();
-        }
-        let stands = |weight: f64| weight - total > COVERED;
-        let faults = self.assessment.charges.iter().filter(|charge| stands(charge.weight));
-        let mut all: Vec<Alternative> = faults.map(|charge| self.alternative(charge)).collect();
-        if !all.is_empty() && stands(0.0) {
-            all.push(self.shadow());
-        }
-        all
-    }
-
-    /// What the estimate may be instead, and how likely that is, while that is too little for the claims to cover all of it.
-    #[must_use]
-    pub fn chances(&self) -> Vec<(f64, Alternative)> {
-        let Assessment { charges, total, is_covered, .. } = &self.assessment;
-        let chance = |charge: &Charge| (charge.weight - total).exp();
-        let open = charges.iter().filter(|charge| !is_covered && chance(charge) > CHANCE);
-        open.map(|charge| (chance(charge), self.alternative(charge))).collect()
-    }
-
-    /// The estimate of him who believes everybody.
-    #[must_use]
-    pub fn shadow(&self) -> Alternative {
-        self.shadow.alternative()
     }
 
     /// Sees an innovation of somebody who is left out, as it is and weighed by the navigator.
