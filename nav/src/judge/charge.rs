@@ -207,7 +207,7 @@ impl Judge {
     /// Every fault that may be, its weight without the evidence, which is worth so many times less in the end.
     fn all_charges(&self, now: Time, worst: f64) -> Vec<Charge> {
         let mut all: Vec<Charge> = Vec::new();
-        let is_one = self.witnesses(now) < 2;
+        let is_log_heard = self.is_witness(Aid::Log, now);
         for onset in &self.onsets {
             let age = (now - onset.since).as_seconds();
             let step = (age * CLOSE).max(1.0).ln();
@@ -218,8 +218,8 @@ impl Judge {
                 let unsure = if is_own_word { unsure.min(OWN_WORD) } else { unsure };
                 let sized = onset.sized(group, unsure).filter(|sized| sized.value.norm() >= *least);
                 let is_unseen = self.began_unseen(*fault, onset.since, now);
-                // of a single witness it is his drift
-                let is_drift = group == OF_FALSE_PUSHES && is_one;
+                // of receivers only it is the drift of one
+                let is_drift = group == OF_FALSE_PUSHES && !is_log_heard;
                 let is_none = is_slow || is_unseen || is_drift;
                 let Some(sized) = sized.filter(|_| !is_none) else { continue };
                 let (fault, begun) = (*fault, onset.since);

@@ -174,10 +174,12 @@ impl Judge {
     /// How many are heard of how she moves. A compass is no witness of that.
     pub(super) fn witnesses(&self, now: Time) -> usize {
         let all = [Aid::GnssPosition, Aid::SparePosition, Aid::Log, Aid::ReferencePosition];
-        let is_heard = |aid: &&Aid| {
-            self.hearings[**aid as usize].was_within(now, UNHEARD) && !self.docket.leaves_out(**aid)
-        };
-        all.iter().filter(is_heard).count()
+        all.iter().filter(|aid| self.is_witness(**aid, now)).count()
+    }
+
+    /// Whether somebody is heard with an aid, and not left out.
+    pub(super) fn is_witness(&self, aid: Aid, now: Time) -> bool {
+        self.hearings[aid as usize].was_within(now, UNHEARD) && !self.docket.leaves_out(aid)
     }
 
     /// Whether it is one's word against the other's: a receiver that creeps away, and an IMU of which the biases grow beyond all
