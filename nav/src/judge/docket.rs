@@ -16,7 +16,7 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use super::lie::LieOfGnss;
-use super::{Aid, agrees};
+use super::{Aid, agreement};
 use crate::error_state::{Covariance, POSITION};
 use crate::innovation::Weighed;
 
@@ -29,6 +29,9 @@ const FORGOTTEN: f64 = 3600.0;
 const UNDONE: f64 = 5.0;
 /// An IMU that was found wrong and mended is doubted for so long, s.
 const MENDED: f64 = 600.0;
+
+/// Mean square of the innovations, of which one is expected, beyond which they do not agree, taken together.
+const STRAINED: f64 = 4.0;
 
 /// Sigmas of a radius that hold 95 %.
 const RADIUS: f64 = 2.448;
@@ -44,7 +47,10 @@ struct Entry {
     standing: Standing,
     since: Time,
     fault: Option<Fault>,
+    /// Since when, how often, and the mean square of the innovations of all that.
     agreeing_since: Option<Time>,
+    agreed: u32,
+    strain: f64,
     quarantine: f64,
 }
 
@@ -55,6 +61,8 @@ impl Default for Entry {
             since: Time::START,
             fault: None,
             agreeing_since: None,
+            agreed: 0,
+            strain: 0.0,
             quarantine: QUARANTINE,
         }
     }
@@ -205,7 +213,8 @@ impl Docket {
     ) {
         let own = POSITION.covariance(p).diagonal().max().max(0.0).sqrt();
         let z = Vector2::new(weighed.z()[0], weighed.z()[1]);
-        let (agrees, sigma) = (agrees(weighed), own.hypot(noise));
+        let (square, sigma) = (agreement(weighed), own.hypot(noise));
+        let agrees = square.is_some();
         let lie = self.lie_of(party);
         if alone && !agrees {
             self.lies[lie].suspect(now, &z, sigma);
@@ -216,7 +225,7 @@ impl Docket {
             let place = self.place(party);
             self.entries[place].quarantine = UNDONE;
         }
-        self.watch(party, now, agrees);
+        self.watch(party, now, square);
     }
 
     /// With somebody left out for what he was found to do before.
@@ -333,15 +342,25 @@ impl Docket {
     }
 
     /// Sees whether somebody who is left out agrees with the navigator; who has for long enough is heard again.
-    pub fn watch(&mut self, party: Party, now: Time, agrees: bool) {
+    pub fn watch(&mut self, party: Party, now: Time, square: Option<f64>) {
         let place = self.place(party);
         let entry = &mut self.entries[place];
-        if !agrees {
+        let Some(square) = square else {
             entry.agreeing_since = None;
             return;
+        };
+        if entry.agreeing_since.is_none() {
+            (entry.agreed, entry.strain) = (0, 0.0);
         }
         let since = *entry.agreeing_since.get_or_insert(now);
-        if (now - since).as_seconds() >= entry.quarantine {
+        entry.agreed += 1;
+        entry.strain += (square - entry.strain) / f64::from(entry.agreed);
+        if (now - since).as_seconds() < entry.quarantine {
+            return;
+        }
+        if entry.strain > STRAINED {
+            entry.agreeing_since = None;
+        } else {
             self.acquit(party, now);
         }
     }

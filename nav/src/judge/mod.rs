@@ -378,7 +378,7 @@ impl Judge {
         hearing.note(now);
         hearing.see(innovation);
         let is_calm = hearing.noise() < WILD;
-        self.docket.watch(party, now, agrees(weighed) && is_calm);
+        self.docket.watch(party, now, agreement(weighed).filter(|_| is_calm));
     }
 
     /// Sees position and velocity of a receiver that is left out together, weighed by the navigator, which has a
@@ -399,7 +399,7 @@ impl Judge {
 
     /// Sees the height of a receiver of which only that is wrong, weighed by the navigator.
     pub fn watch_height(&mut self, now: Time, weighed: &Weighed<1>) {
-        self.docket.watch(Party::Gnss, now, agrees(weighed));
+        self.docket.watch(Party::Gnss, now, agreement(weighed));
     }
 
     /// What is made of all that is said.
@@ -432,15 +432,15 @@ impl Judge {
     }
 }
 
-/// Whether an innovation agrees: one in 10,000 honest ones does not.
-fn agrees<const M: usize>(weighed: &Weighed<M>) -> bool {
+/// The mean square of an innovation, of which one is expected, if it agrees: one in 10,000 honest ones does not.
+fn agreement<const M: usize>(weighed: &Weighed<M>) -> Option<f64> {
     let limit = match M {
         1 => 15.1,
         2 => 18.4,
         3 => 21.1,
         _ => 27.9,
     };
-    weighed.nis() <= limit
+    Some(weighed.nis()).filter(|nis| *nis <= limit).map(|nis| nis / M as f64)
 }
 
 /// A measurement that no fault but one of the IMU touches.
