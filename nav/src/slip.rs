@@ -114,7 +114,7 @@ mod tests {
     fn a_heading_that_turns_on_a_straight_course_is_absurd() {
         assert!(absurd_after(0.0, 0.5).is_some_and(|at| (20..45).contains(&at)));
         assert!(absurd_after(0.0, -0.15).is_some_and(|at| (80..130).contains(&at)));
-        assert!(absurd_after(0.0, 0.07).is_some_and(|at| (180..290).contains(&at)));
+        assert!(absurd_after(0.0, 0.07).is_some_and(|at| (140..290).contains(&at)));
     }
 
     #[test]

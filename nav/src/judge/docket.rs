@@ -437,3 +437,30 @@ impl Docket {
         self
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a log is heard again of which each word for five minutes is off by such a mean square.
+    fn is_heard_again(square: fn(u32) -> f64) -> bool {
+        let mut docket = Docket::default();
+        docket.convict(Fault::LogOffset, Time::START, NO_LIE);
+        (1..300).any(|second| {
+            docket.watch(Party::Log, Time::from_seconds(second.into()), Some(square(second)));
+            docket.standing(Party::Log) == Standing::Trusted
+        })
+    }
+
+    #[test]
+    fn who_agrees_word_by_word_but_not_taken_together_is_not_heard_again() {
+        assert!(is_heard_again(|_| 1.0));
+        assert!(is_heard_again(|second| f64::from(second % 4) * 2.5));
+        assert!(!is_heard_again(|_| 6.0));
+    }
+
+    #[test]
+    fn who_comes_to_agree_is() {
+        assert!(is_heard_again(|second| if second < 130 { 7.0 } else { 1.0 }));
+    }
+}

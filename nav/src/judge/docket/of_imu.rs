@@ -95,3 +95,23 @@ impl Docket {
         self.restless = self.restless.map(|(since, last)| (later(since), later(last)));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_imu_that_two_contradict_who_may_lie_alike_is_not_named_for_an_hour() {
+        let mut docket = Docket::default();
+        docket.note_witnesses(2, Time::START);
+        assert!(!docket.is_imu_doubted_by_one());
+        docket.note_alike(Time::START);
+        let after = |seconds: f64| {
+            let mut later = docket;
+            later.note_witnesses(2, Time::from_seconds(seconds));
+            later.is_imu_doubted_by_one()
+        };
+        assert!(after(1800.0));
+        assert!(!after(3700.0));
+    }
+}
