@@ -182,6 +182,7 @@ impl Surveyor {
     pub(crate) fn see(&mut self, solution: &Solution) {
         self.mounting.see(solution);
         self.probation.see(self.mounting.is_ahead(), solution.time);
+        self.probation.see_way(solution);
         self.newest = Some(*solution);
     }
 

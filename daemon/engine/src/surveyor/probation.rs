@@ -36,12 +36,15 @@ pub(crate) struct Probation {
     stage: Stage,
     /// Since when a compass has told the same, and when it was heard.
     near: Option<(Time, Time)>,
+    /// How far such a heading may have led her astray since a receiver was in use, m, and until when that is counted.
+    astray: f64,
+    seen: Option<Time>,
 }
 
 impl Probation {
     /// The IMU is in doubt.
     pub(super) fn begin(&mut self) {
-        *self = Probation { stage: Stage::Unproven, near: None };
+        *self = Probation { stage: Stage::Unproven, near: None, ..*self };
     }
 
     /// The same on a time line that is later by a span, nobody heard since.
@@ -50,24 +53,47 @@ impl Probation {
             Stage::ByCourse(since) => Stage::ByCourse(since + by),
             other => other,
         };
-        Probation { stage, near: None }
+        Probation { stage, near: None, seen: None, ..self }
     }
 
     /// Alignment begins anew.
     pub(super) fn begin_anew(&mut self) {
         let is_free = self.stage == Stage::Free;
         let stage = if is_free { Stage::Free } else { Stage::Unproven };
-        *self = Probation { stage, near: None };
+        *self = Probation { stage, near: None, ..*self };
+    }
+
+    /// It is over.
+    fn end(&mut self) {
+        *self = Probation { stage: Stage::Free, near: None, ..*self };
     }
 
     /// Sees whether the course bears out her heading.
     pub(super) fn see(&mut self, is_ahead: bool, now: Time) {
         match self.stage {
             Stage::Unproven if is_ahead => self.stage = Stage::ByCourse(now),
-            Stage::ByCourse(since) if (now - since).as_seconds() > SERVED => {
-                *self = Probation::default();
-            }
+            Stage::ByCourse(since) if (now - since).as_seconds() > SERVED => self.end(),
             _ => {}
+        }
+    }
+
+    /// Sees how she makes her way: by a log and such a heading, or by a receiver.
+    pub(super) fn see_way(&mut self, solution: &Solution) {
+        let before = self.seen.replace(solution.time);
+        let since = before.map_or(0.0, |before| (solution.time - before).as_seconds());
+        match solution.mode {
+            Mode::Aided => self.astray = 0.0,
+            Mode::DeadReckoning => self.astray += since * solution.speed() * self.least().sin(),
+            _ => {}
+        }
+    }
+
+    /// 1-sigma of what may be wrong with her heading, rad.
+    fn least(&self) -> f64 {
+        match self.stage {
+            Stage::Free => 0.0,
+            Stage::Unproven => UNPROVEN,
+            Stage::ByCourse(_) => BY_COURSE,
         }
     }
 
@@ -79,7 +105,7 @@ impl Probation {
         let since = before.map_or(told.time, |(since, _)| since);
         self.near = is_near.then_some((since, told.time));
         if is_near && (told.time - since).as_seconds() > LONG {
-            *self = Probation::default();
+            self.end();
         }
     }
 
@@ -87,18 +113,16 @@ impl Probation {
     /// anywhere, and so does the lever arm; who has no more than that is not aligned. What passes through in standby has
     /// its heading from a compass.
     pub(super) fn claim(&self, mut solution: Solution, reach: f64) -> Solution {
-        let least = match self.stage {
-            Stage::Free => return solution,
-            _ if solution.mode == Mode::Standby => return solution,
-            Stage::Unproven => UNPROVEN,
-            Stage::ByCourse(_) => BY_COURSE,
-        };
+        if solution.mode == Mode::Standby {
+            return solution;
+        }
+        let least = self.least();
         if self.stage == Stage::Unproven && solution.mode.is_navigating() {
             solution.mode = Mode::InMotionAlignment;
         }
         let sigma = &mut solution.sigma;
         sigma.heading = sigma.heading.max(least);
-        let astray = reach * least.sin();
+        let astray = (reach * least.sin()).hypot(self.astray);
         sigma.position.0.x = sigma.position.0.x.hypot(astray);
         sigma.position.0.y = sigma.position.0.y.hypot(astray);
         solution
@@ -108,6 +132,7 @@ impl Probation {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use insd_base::{Attitude, Body, Geodetic, Integrity, Judgement, Ned, Parties, SolutionSigma};
 
     fn told(seconds: f64, heading: f64) -> ExternalReference {
         ExternalReference {
@@ -154,5 +179,38 @@ mod tests {
         assert_eq!(resumed.stage, Stage::ByCourse(at(5.0)), "on another time line");
         probation.see(false, at(35.0));
         assert_eq!(probation.stage, Stage::Free);
+    }
+
+    /// A ship that makes 5 m/s.
+    fn going(seconds: f64, mode: Mode) -> Solution {
+        let judgement =
+            Judgement { integrity: Integrity::Consistent, excluded: Parties::default() };
+        Solution {
+            time: Time::from_seconds(seconds),
+            position: Geodetic::default(),
+            velocity: Ned::new(3.0, 4.0, 0.0),
+            attitude: Attitude::default(),
+            rate: Body::default(),
+            sigma: SolutionSigma::default(),
+            mode,
+            judgement,
+        }
+    }
+
+    #[test]
+    fn a_way_made_by_log_and_such_a_heading_is_as_unsure_until_a_receiver_is_used_again() {
+        let mut probation = Probation { stage: Stage::ByCourse(Time::START), ..Default::default() };
+        for second in 0..=100 {
+            probation.see_way(&going(f64::from(second), Mode::DeadReckoning));
+        }
+        let claimed = |probation: &Probation, mode| {
+            probation.claim(going(100.0, mode), 0.0).sigma.position.0.x
+        };
+        let sigma = claimed(&probation, Mode::DeadReckoning);
+        assert!((sigma - 500.0 * BY_COURSE.sin()).abs() < 1e-6, "{sigma}");
+        probation.end();
+        assert_eq!(claimed(&probation, Mode::DeadReckoning), sigma, "what was made astray stays");
+        probation.see_way(&going(101.0, Mode::Aided));
+        assert_eq!(claimed(&probation, Mode::Aided), 0.0);
     }
 }
