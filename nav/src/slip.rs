@@ -41,7 +41,7 @@ pub struct Slip {
 
 impl Default for Slip {
     fn default() -> Self {
-        Slip { looks: [Look { course: 0.0, slip: 0.0 }; SPAN], count: 0, last: None, smooth: None }
+        Slip { looks: [Look::default(); SPAN], count: 0, last: None, smooth: None }
     }
 }
 

@@ -153,7 +153,12 @@ impl Ahead<'_> {
     /// 1-sigma of the rotation about down, rad: the heading of a ship that is nearly level.
     #[must_use]
     pub fn heading_std(&self) -> f64 {
-        let down = self.view.c_ne.row(2).into_owned();
-        ATTITUDE.covariance_in(&self.covariance, &down).x.max(0.0).sqrt()
+        heading_std(&self.view, &self.covariance)
     }
+}
+
+/// 1-sigma of the rotation about down, rad, of an estimate with a covariance.
+pub(super) fn heading_std(view: &View, covariance: &Covariance) -> f64 {
+    let down = view.c_ne.row(2).into_owned();
+    ATTITUDE.covariance_in(covariance, &down).x.max(0.0).sqrt()
 }

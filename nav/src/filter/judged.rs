@@ -7,6 +7,7 @@ use insd_base::{Fault, Judgement, Mode, Parties, Party, SolutionSigma, Time};
 use nalgebra::{Matrix3, Vector3};
 
 use super::Filter;
+use super::ahead::heading_std;
 use crate::config::WORSE;
 use crate::error_state::{
     ATTITUDE, ErrorState, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, GYRO_BIAS, VELOCITY,
@@ -220,7 +221,8 @@ impl Filter {
         let docket = judge.docket();
         // what two say that lie alike is no reason to find a heading anew
         let is_vague = judge.finds_a_lie_likely() && !docket.may_be_two(self.time);
-        let std = || if is_vague { self.heading_std() } else { self.own_heading_std() };
+        let own = || heading_std(&self.view(), &self.covariance);
+        let std = || if is_vague { self.heading_std() } else { own() };
         let is_heading_lost = || self.is_settled() && std() > LOST_HEADING;
         let is_doubted = docket.imu_doubted_since().is_some_and(|at| at >= self.judged_since);
         if docket.is_imu_condemned() || docket.wrong_imu_for() > PATIENCE {
@@ -230,12 +232,6 @@ impl Filter {
         } else {
             ImuState::Believed
         }
-    }
-
-    /// 1-sigma of the heading of the estimate itself, whatever else may be, rad.
-    fn own_heading_std(&self) -> f64 {
-        let down = self.view().c_ne.row(2).into_owned();
-        ATTITUDE.covariance_in(&self.covariance, &down).x.max(0.0).sqrt()
     }
 
     /// Does as the judge says, after a message.
@@ -391,12 +387,13 @@ impl Filter {
             let own = solution_sigma(&view, &acceleration, &dating, &other.covariance);
             apart.scaled(0.5).plus(&own)
         };
-        let claims = self.judge.as_ref().map(|judge| judge.claims()).unwrap_or_default();
+        let judge = self.judge.as_deref();
+        let claims = judge.map(Judge::claims).unwrap_or_default();
         // the second moment of a mixture: how far each would be off, as often as it may be so
         let share = |(chance, other): &(f64, Alternative)| {
             difference(&view, &other.error).scaled(chance.sqrt())
         };
-        let chances = self.judge.as_ref().map(|judge| judge.chances()).unwrap_or_default();
+        let chances = judge.map(Judge::chances).unwrap_or_default();
         let hedge = chances.iter().map(share).reduce(|a, b| a.hypot(&b));
         let mut all = claims.iter().map(of).chain(hedge).reduce(|a, b| a.greatest(&b));
         let unproven = self.docket().unproven_std(self.time);

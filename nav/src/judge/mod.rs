@@ -359,7 +359,7 @@ impl Judge {
         self.accused = Some((whom, since));
         let persists = |needed: f64| (now - since).as_seconds() >= needed;
         if foremost.is_some() {
-            return persists(SCATTERS).then(|| self.convict_beside_another(&accused, now));
+            return persists(SCATTERS).then(|| self.leave_out(&accused, now));
         }
         let shaped = self.shape_of(whom, excused.contains(whom)).unwrap_or(accused);
         let needed = if shaped.fault.is_noise() { SCATTERS } else { PERSISTS };

@@ -79,7 +79,7 @@ impl Judge {
             }
         }
         if charge.kind == Kind::Shapeless && self.lies_another(charge.party()) {
-            return self.convict_beside_another(charge, now);
+            return self.leave_out(charge, now);
         }
         if let Some(late) = late(charge) {
             let state = GNSS_DELAY.start();
@@ -90,9 +90,7 @@ impl Judge {
             GNSS_DELAY
                 .renew(&mut mended.covariance, &GNSS_DELAY.covariance(&self.shadow.covariance));
         }
-        let age = (now - charge.since(now)).as_seconds();
-        self.docket.convict(charge.fault, now, lie_of_gnss(charge, age));
-        Verdict { fault: charge.fault, mended: Some(mended) }
+        Verdict { mended: Some(mended), ..self.leave_out(charge, now) }
     }
 
     /// An IMU cannot be left out: where a fault of a shape explains it all the estimate is mended, and it is believed
@@ -205,8 +203,8 @@ impl Judge {
         (is_far && self.lies_another(most.party())).then_some(*most)
     }
 
-    /// Somebody lies, and somebody else does: what is made of the others' word is no better than the navigator's estimate.
-    pub(super) fn convict_beside_another(&mut self, charge: &Charge, now: Time) -> Verdict {
+    /// Leaves somebody out for what he does; the estimate stays as it is, as it must where somebody else lies, too.
+    pub(super) fn leave_out(&mut self, charge: &Charge, now: Time) -> Verdict {
         let age = (now - charge.since(now)).as_seconds();
         self.docket.convict(charge.fault, now, lie_of_gnss(charge, age));
         Verdict { fault: charge.fault, mended: None }

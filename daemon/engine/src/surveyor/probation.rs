@@ -44,7 +44,7 @@ pub(crate) struct Probation {
 impl Probation {
     /// The IMU is in doubt.
     pub(super) fn begin(&mut self) {
-        *self = Probation { stage: Stage::Unproven, near: None, ..*self };
+        self.enter(Stage::Unproven);
     }
 
     /// The same on a time line that is later by a span, nobody heard since.
@@ -59,20 +59,21 @@ impl Probation {
     /// Alignment begins anew.
     pub(super) fn begin_anew(&mut self) {
         let is_free = self.stage == Stage::Free;
-        let stage = if is_free { Stage::Free } else { Stage::Unproven };
-        *self = Probation { stage, near: None, ..*self };
+        self.enter(if is_free { Stage::Free } else { Stage::Unproven });
     }
 
-    /// It is over.
-    fn end(&mut self) {
-        *self = Probation { stage: Stage::Free, near: None, ..*self };
+    /// What a compass told before is of no account.
+    fn enter(&mut self, stage: Stage) {
+        (self.stage, self.near) = (stage, None);
     }
 
     /// Sees whether the course bears out her heading.
     pub(super) fn see(&mut self, is_ahead: bool, now: Time) {
         match self.stage {
             Stage::Unproven if is_ahead => self.stage = Stage::ByCourse(now),
-            Stage::ByCourse(since) if (now - since).as_seconds() > SERVED => self.end(),
+            Stage::ByCourse(since) if (now - since).as_seconds() > SERVED => {
+                self.enter(Stage::Free);
+            }
             _ => {}
         }
     }
@@ -105,7 +106,7 @@ impl Probation {
         let since = before.map_or(told.time, |(since, _)| since);
         self.near = is_near.then_some((since, told.time));
         if is_near && (told.time - since).as_seconds() > LONG {
-            self.end();
+            self.enter(Stage::Free);
         }
     }
 
@@ -208,7 +209,7 @@ mod tests {
         };
         let sigma = claimed(&probation, Mode::DeadReckoning);
         assert!((sigma - 500.0 * BY_COURSE.sin()).abs() < 1e-6, "{sigma}");
-        probation.end();
+        probation.enter(Stage::Free);
         assert_eq!(claimed(&probation, Mode::DeadReckoning), sigma, "what was made astray stays");
         probation.see_way(&going(101.0, Mode::Aided));
         assert_eq!(claimed(&probation, Mode::Aided), 0.0);
