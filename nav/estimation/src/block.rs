@@ -1,0 +1,120 @@
+//! Error states by name.
+
+use nalgebra::SMatrix;
+use serde::{Deserialize, Serialize};
+
+use crate::covariance::Covariance;
+
+/// The name of a block of error states: which declaration, and which instance of it, as there may be one for each
+/// antenna, satellite or pose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct Key {
+    /// Number of the declaration.
+    pub kind: u16,
+    /// Which of those of one kind.
+    pub instance: u16,
+}
+
+/// `W` error states that belong together. It is a name and says nothing of whether they are there, or where.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Block<const W: usize> {
+    key: Key,
+}
+
+impl<const W: usize> Block<W> {
+    /// Number of states.
+    pub const WIDTH: usize = W;
+
+    /// The first instance of a declaration.
+    #[must_use]
+    pub const fn new(kind: u16) -> Self {
+        Block { key: Key { kind, instance: 0 } }
+    }
+
+    /// Another instance of the same declaration.
+    #[must_use]
+    pub const fn instance(self, instance: u16) -> Self {
+        Block { key: Key { kind: self.key.kind, instance } }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub const fn key(self) -> Key {
+        self.key
+    }
+
+    /// Covariance of this block with itself; zero where it is not there.
+    #[must_use]
+    pub fn covariance(self, p: &Covariance) -> SMatrix<f64, W, W> {
+        self.covariance_with(self, p)
+    }
+
+    /// Covariance of this block (rows) with another (columns); zero where one of them is not there.
+    #[must_use]
+    pub fn covariance_with<const V: usize>(
+        self,
+        other: Block<V>,
+        p: &Covariance,
+    ) -> SMatrix<f64, W, V> {
+        match (p.layout().start(self.key), p.layout().start(other.key)) {
+            (Some(row), Some(column)) => p.matrix().fixed_view::<W, V>(row, column).into_owned(),
+            _ => SMatrix::zeros(),
+        }
+    }
+
+    /// Covariance of this block as other axes see it: of A x, with x the block.
+    #[must_use]
+    pub fn covariance_in<const M: usize>(
+        self,
+        p: &Covariance,
+        axes: &SMatrix<f64, M, W>,
+    ) -> SMatrix<f64, M, M> {
+        axes * self.covariance(p) * axes.transpose()
+    }
+
+    /// 1-sigma of a component, on the mean of all.
+    #[must_use]
+    pub fn std(self, p: &Covariance) -> f64 {
+        (self.covariance(p).trace() / W as f64).max(0.0).sqrt()
+    }
+
+    /// Forgets what is known of this block: new covariance, no correlation with the rest. It joins where it is not there.
+    pub fn renew(self, p: &mut Covariance, covariance: &SMatrix<f64, W, W>) {
+        let Some(start) = p.layout().start(self.key) else { return p.join(self, covariance) };
+        let matrix = p.matrix_mut();
+        matrix.fixed_rows_mut::<W>(start).fill(0.0);
+        matrix.fixed_columns_mut::<W>(start).fill(0.0);
+        matrix.fixed_view_mut::<W, W>(start, start).copy_from(covariance);
+    }
+
+    /// Adds to the covariance of this block, if it is there.
+    pub fn add(self, p: &mut Covariance, covariance: &SMatrix<f64, W, W>) {
+        let Some(start) = p.layout().start(self.key) else { return };
+        let mut own = p.matrix_mut().fixed_view_mut::<W, W>(start, start);
+        own += (covariance + covariance.transpose()) * 0.5;
+    }
+
+    /// Adds a variance to each component, if it is there.
+    pub fn inflate(self, p: &mut Covariance, variance: f64) {
+        let Some(start) = p.layout().start(self.key) else { return };
+        let matrix = p.matrix_mut();
+        (start..start + W).for_each(|i| matrix[(i, i)] += variance);
+    }
+
+    /// Transforms this block of the error by a matrix, x <- A x.
+    pub fn transform(self, p: &mut Covariance, by: &SMatrix<f64, W, W>) {
+        let Some(start) = p.layout().start(self.key) else { return };
+        let matrix = p.matrix_mut();
+        let columns = matrix.fixed_columns::<W>(start) * by.transpose();
+        matrix.fixed_columns_mut::<W>(start).copy_from(&columns);
+        let rows = by * matrix.fixed_rows::<W>(start);
+        matrix.fixed_rows_mut::<W>(start).copy_from(&rows);
+    }
+
+    /// Tells this block in another unit: its numbers become what they were times a factor. What is told in units of its
+    /// own sigma has become larger where the factor is below one, and is not known by that much: its variance tends to one.
+    pub fn rescale(self, p: &mut Covariance, factor: f64) {
+        self.transform(p, &SMatrix::from_diagonal_element(factor));
+        self.inflate(p, (1.0 - factor * factor).max(0.0));
+    }
+}

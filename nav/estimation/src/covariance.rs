@@ -1,0 +1,147 @@
+//! The covariance of the errors.
+
+use nalgebra::{DMatrix, SMatrix};
+
+use crate::block::{Block, Key};
+use crate::effects::Effects;
+use crate::errors::Errors;
+use crate::layout::Layout;
+
+/// A covariance of error states that join and leave.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Covariance {
+    layout: Layout,
+    p: DMatrix<f64>,
+}
+
+impl Covariance {
+    /// Of no state.
+    #[must_use]
+    pub fn none() -> Self {
+        Covariance::default()
+    }
+
+    /// Of these states, and every error known to be zero.
+    #[must_use]
+    pub fn zeros(layout: &Layout) -> Self {
+        let states = layout.states();
+        Covariance { layout: layout.clone(), p: DMatrix::zeros(states, states) }
+    }
+
+    pub(crate) fn new(layout: Layout, p: DMatrix<f64>) -> Self {
+        Covariance { layout, p }
+    }
+
+    /// Which states there are.
+    #[must_use]
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Number of states.
+    #[must_use]
+    pub fn states(&self) -> usize {
+        self.layout.states()
+    }
+
+    /// The matrix, in the order of the layout.
+    #[must_use]
+    pub fn matrix(&self) -> &DMatrix<f64> {
+        &self.p
+    }
+
+    /// The same to be changed; whoever does keeps it symmetric.
+    pub fn matrix_mut(&mut self) -> &mut DMatrix<f64> {
+        &mut self.p
+    }
+
+    /// Whether a block is there.
+    #[must_use]
+    pub fn has<const W: usize>(&self, block: Block<W>) -> bool {
+        self.layout.start(block.key()).is_some()
+    }
+
+    /// A block joins with a covariance of its own and no correlation with the rest; one that is there begins anew.
+    pub fn join<const W: usize>(&mut self, block: Block<W>, covariance: &SMatrix<f64, W, W>) {
+        if !self.has(block) {
+            self.append(block.key(), W);
+        }
+        block.renew(self, covariance);
+    }
+
+    /// A block leaves: of the others stays known what was (the marginal of a normal distribution).
+    pub fn leave(&mut self, key: Key) {
+        let Some(place) = self.layout.place(key) else { return };
+        let p = std::mem::take(&mut self.p);
+        let p = p.remove_rows(place.start, place.width);
+        self.p = p.remove_columns(place.start, place.width);
+        self.layout = self.layout.without(key);
+    }
+
+    /// A block joins as it is at this moment, and stays so: as another instance, with all that the original has to do with
+    /// the rest and with itself (stochastic cloning: Roumeliotis and Burdick, ICRA 2002, eq. (8)).
+    pub fn clone_block<const W: usize>(&mut self, original: Block<W>, copy: Block<W>) {
+        let Some(from) = self.layout.start(original.key()) else { return };
+        if original == copy {
+            return;
+        }
+        if !self.has(copy) {
+            self.append(copy.key(), W);
+        }
+        let Some(to) = self.layout.start(copy.key()) else { return };
+        let columns = self.p.fixed_columns::<W>(from).into_owned();
+        self.p.fixed_columns_mut::<W>(to).copy_from(&columns);
+        let rows = self.p.fixed_rows::<W>(from).into_owned();
+        self.p.fixed_rows_mut::<W>(to).copy_from(&rows);
+    }
+
+    fn append(&mut self, key: Key, width: usize) {
+        self.layout = self.layout.with(key, width);
+        let states = self.layout.states();
+        self.p.resize_mut(states, states, 0.0);
+    }
+
+    /// Takes on the states of a layout in its order: those that it has not leave, new ones are known to be zero.
+    pub fn conform(&mut self, layout: &Layout) {
+        if self.layout == *layout {
+            return;
+        }
+        let mut other = Covariance::zeros(layout);
+        let both = layout.places().iter().filter_map(|to| Some((to, self.layout.place(to.key)?)));
+        let both: Vec<_> = both.map(|(to, from)| (to.start, from.start, to.width)).collect();
+        for (to_row, from_row, rows) in &both {
+            for (to_column, from_column, columns) in &both {
+                let from = self.p.view((*from_row, *from_column), (*rows, *columns));
+                let mut to = other.p.view_mut((*to_row, *to_column), (*rows, *columns));
+                to.copy_from(&from);
+            }
+        }
+        *self = other;
+    }
+
+    /// The errors may be off by this one as well: P <- P + x x^T.
+    pub fn spread(&mut self, error: &Errors) {
+        let x = error.in_order_of(&self.layout);
+        self.p.ger(1.0, &x, &x, 1.0);
+    }
+
+    /// The same by causes that are known to a covariance, a row and column for each: P <- P + U C U^T.
+    pub fn spread_by(&mut self, effects: &Effects, covariance: &DMatrix<f64>) {
+        let mut effects = effects.clone();
+        effects.conform(&self.layout);
+        let wide = effects.matrix().transpose() * covariance * effects.matrix();
+        self.p += (&wide + wide.transpose()) * 0.5;
+    }
+
+    /// Makes the matrix symmetric again, where one half was worked out otherwise than the other.
+    pub fn symmetrise(&mut self) {
+        let n = self.states();
+        for column in 0..n {
+            for row in 0..column {
+                let mean = 0.5 * (self.p[(row, column)] + self.p[(column, row)]);
+                self.p[(row, column)] = mean;
+                self.p[(column, row)] = mean;
+            }
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Innovations: what every measurement is turned into.
+
+use nalgebra::{Cholesky, DMatrix, DVector, SMatrix, SVector};
+
+use crate::covariance::Covariance;
+use crate::jacobian::Jacobian;
+use crate::weighed::{Weighed, p_h_transposed, symmetric};
+
+/// Measured minus predicted, and how it depends on the error state: z = H x + noise(R).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Innovation {
+    /// Measured minus predicted.
+    pub z: DVector<f64>,
+    /// Measurement matrix.
+    pub h: Jacobian,
+    /// Covariance of the measurement noise.
+    pub r: DMatrix<f64>,
+}
+
+impl Innovation {
+    /// One of M rows.
+    #[must_use]
+    pub fn new<const M: usize>(z: &SVector<f64, M>, h: Jacobian, r: &SMatrix<f64, M, M>) -> Self {
+        debug_assert_eq!(h.rows(), M);
+        let z = DVector::from_column_slice(z.as_slice());
+        Innovation { z, h, r: DMatrix::from_column_slice(M, M, r.as_slice()) }
+    }
+
+    /// One of so many rows that tells nothing.
+    #[must_use]
+    pub fn silent(rows: usize) -> Self {
+        Innovation {
+            z: DVector::zeros(rows),
+            h: Jacobian::none(rows),
+            r: DMatrix::identity(rows, rows),
+        }
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.z.len()
+    }
+
+    /// Some of its rows alone, in this order.
+    #[must_use]
+    pub fn select(&self, rows: &[usize]) -> Self {
+        let r = DMatrix::from_fn(rows.len(), rows.len(), |i, j| self.r[(rows[i], rows[j])]);
+        Innovation { z: self.z.select_rows(rows), h: self.h.select(rows), r }
+    }
+
+    /// Two of one instant together.
+    #[must_use]
+    pub fn beside(&self, other: &Innovation) -> Self {
+        let (own, all) = (self.rows(), self.rows() + other.rows());
+        let (mut z, mut r) = (DVector::zeros(all), DMatrix::zeros(all, all));
+        for (at, one) in [(0, self), (own, other)] {
+            z.rows_mut(at, one.rows()).copy_from(&one.z);
+            r.view_mut((at, at), (one.rows(), one.rows())).copy_from(&one.r);
+        }
+        Innovation { z, h: self.h.above(&other.h), r }
+    }
+
+    /// Computes S = H P H^T + R and factors it; `None` if S is not positive definite or a value is
+    /// not finite.
+    #[must_use]
+    pub fn weigh(&self, p: &Covariance) -> Option<Weighed> {
+        if self.rows() == 0 || !self.z.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        let columns = self.h.columns(p.layout());
+        let pht = p_h_transposed(p.matrix(), &columns, self.rows());
+        let mut s = self.r.clone();
+        for (state, column) in &columns {
+            for (j, mut of_s) in s.column_iter_mut().enumerate() {
+                let with = pht[(*state, j)];
+                of_s.iter_mut().zip(*column).for_each(|(s, h)| *s += h * with);
+            }
+        }
+        let factor = Cholesky::new(symmetric(s))?;
+        Some(Weighed::new(self.clone(), p.layout().clone(), pht, factor))
+    }
+}

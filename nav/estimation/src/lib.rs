@@ -1,0 +1,33 @@
+//! The estimation kernel: linear error states that have names, and what a Kalman filter does with them.
+//!
+//! It knows nothing of navigation. Who uses it declares [`Block`]s of error states; they *join* a
+//! [`Covariance`] and *leave* it at run time, and are cloned in it. A measurement is an [`Innovation`] of any
+//! number of rows that depends on states by their names: of one that is not there nothing is known to
+//! be wrong, and its column is left out. There is one update ([`Weighed::update`]), one with a gain that leaves
+//! some states alone ([`Weighed::update_considering`]), one gate ([`Gate`]), and one propagation ([`Transition`]).
+//!
+//! Errors are true minus estimated. The estimate itself is not here: what an error means for it is known to who
+//! declares the state.
+
+mod block;
+mod covariance;
+mod effects;
+mod errors;
+mod gate;
+mod innovation;
+mod jacobian;
+mod kept;
+mod layout;
+mod transition;
+mod weighed;
+
+pub use block::{Block, Key};
+pub use covariance::Covariance;
+pub use effects::Effects;
+pub use errors::Errors;
+pub use gate::Gate;
+pub use innovation::Innovation;
+pub use jacobian::Jacobian;
+pub use layout::{Layout, Place};
+pub use transition::{Decay, Feed, Transition};
+pub use weighed::Weighed;

@@ -1,0 +1,214 @@
+//! The Kalman update.
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+use crate::block::Key;
+use crate::covariance::Covariance;
+use crate::effects::Effects;
+use crate::errors::Errors;
+use crate::innovation::Innovation;
+use crate::layout::Layout;
+
+/// An innovation with its covariance factored, S = L L^T: ready to be judged and applied.
+#[derive(Clone, Debug)]
+pub struct Weighed {
+    innovation: Innovation,
+    layout: Layout,
+    /// P H^T.
+    pht: DMatrix<f64>,
+    factor: Cholesky<f64, Dyn>,
+}
+
+/// Where the innovation is so many times as uncertain as the noise of one of its rows, as variances, the difference of
+/// covariances is not far from rounding.
+const SURE: f64 = 1e9;
+
+impl Weighed {
+    pub(crate) fn new(
+        innovation: Innovation,
+        layout: Layout,
+        pht: DMatrix<f64>,
+        factor: Cholesky<f64, Dyn>,
+    ) -> Self {
+        Weighed { innovation, layout, pht, factor }
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.innovation.rows()
+    }
+
+    /// The innovation.
+    #[must_use]
+    pub fn z(&self) -> &DVector<f64> {
+        &self.innovation.z
+    }
+
+    /// Normalised innovation squared, z^T S^-1 z: chi-square with as many degrees of freedom as rows.
+    #[must_use]
+    pub fn nis(&self) -> f64 {
+        self.whitened().norm_squared()
+    }
+
+    /// Half the logarithm of det S.
+    #[must_use]
+    pub fn log_root_determinant(&self) -> f64 {
+        self.factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum()
+    }
+
+    /// 1-sigma that the filter expects of each row.
+    #[must_use]
+    pub fn sigma(&self) -> DVector<f64> {
+        let l = self.factor.l_dirty();
+        DVector::from_fn(self.rows(), |i, _| l.view((i, 0), (1, i + 1)).norm())
+    }
+
+    /// The optimal gain, P H^T S^-1.
+    #[must_use]
+    pub fn gain(&self) -> DMatrix<f64> {
+        self.factor.solve(&self.pht.transpose()).transpose()
+    }
+
+    /// L^-1 z.
+    fn whitened(&self) -> DVector<f64> {
+        let mut z = self.innovation.z.clone();
+        self.factor.l_dirty().solve_lower_triangular_mut(&mut z);
+        z
+    }
+
+    /// W = P H^T L^-T, so that K = W L^-1 and K S K^T = W W^T.
+    fn root(&self) -> DMatrix<f64> {
+        let mut w_t = self.pht.transpose();
+        self.factor.l_dirty().solve_lower_triangular_mut(&mut w_t);
+        w_t.transpose()
+    }
+
+    /// Kalman update: returns the estimated error and lowers the covariance, which must be the one that
+    /// [`Innovation::weigh`] saw.
+    ///
+    /// P <- P - W W^T keeps P exactly symmetric. A measurement that is all but perfect goes through Joseph's form instead.
+    #[must_use]
+    pub fn update(&self, p: &mut Covariance) -> Errors {
+        if self.is_all_but_perfect() {
+            return self.update_with(p, &self.gain());
+        }
+        let w = self.root();
+        self.lower(p, &w);
+        Errors::new(self.layout.clone(), w * self.whitened())
+    }
+
+    /// Update that leaves some blocks as they are, and what is known of them, but not how they hang together with the
+    /// others: considered states (Schmidt, Advances in Control Systems 3 (1966)).
+    ///
+    /// Their rows of the gain are zero. Any gain K is the best one and D = K L - W more than it, and
+    /// costs D D^T, which for this one is W W^T among the considered states.
+    #[must_use]
+    pub fn update_considering(&self, p: &mut Covariance, considered: &[Key]) -> Errors {
+        let mut w = self.root();
+        let mut kept = DMatrix::zeros(w.nrows(), w.ncols());
+        for place in considered.iter().filter_map(|key| self.layout.place(*key)) {
+            let own = w.rows(place.start, place.width).into_owned();
+            kept.rows_mut(place.start, place.width).copy_from(&own);
+        }
+        self.lower(p, &w);
+        add_product(p.matrix_mut(), &kept, 1.0);
+        w -= kept;
+        Errors::new(self.layout.clone(), w * self.whitened())
+    }
+
+    /// Update with a gain of one's own choice, states by rows: Joseph's form,
+    /// P <- (I - K H) P (I - K H)^T + K R K^T.
+    #[must_use]
+    pub fn update_with(&self, p: &mut Covariance, gain: &DMatrix<f64>) -> Errors {
+        debug_assert_eq!(self.layout, *p.layout());
+        let states = p.states();
+        let mut left = DMatrix::identity(states, states);
+        for (state, column) in self.innovation.h.columns(&self.layout) {
+            for (row, weight) in column.iter().enumerate() {
+                left.column_mut(state).axpy(-weight, &gain.column(row), 1.0);
+            }
+        }
+        let matrix = p.matrix_mut();
+        let lowered = &left * &*matrix * left.transpose();
+        *matrix = lowered + gain * &self.innovation.r * gain.transpose();
+        p.symmetrise();
+        Errors::new(self.layout.clone(), gain * &self.innovation.z)
+    }
+
+    fn lower(&self, p: &mut Covariance, w: &DMatrix<f64>) {
+        debug_assert_eq!(self.layout, *p.layout());
+        add_product(p.matrix_mut(), w, -1.0);
+    }
+
+    fn is_all_but_perfect(&self) -> bool {
+        let s = self.sigma();
+        (0..self.rows()).any(|i| s[i] * s[i] > SURE * self.innovation.r[(i, i)])
+    }
+
+    /// What causes and `direct` (rows by causes) do to the innovation, H U + D, whitened, and the innovation itself,
+    /// whitened: L^-1 (H U + D) and L^-1 z. The causes have the states of the covariance that was weighed.
+    #[must_use]
+    pub fn whitened_with(
+        &self,
+        effects: &Effects,
+        direct: &DMatrix<f64>,
+    ) -> (DMatrix<f64>, DVector<f64>) {
+        let mut effect = self.effect_of(effects, direct);
+        self.factor.l_dirty().solve_lower_triangular_mut(&mut effect);
+        (effect, self.whitened())
+    }
+
+    /// What causes and `direct` (rows by causes) do to the innovation: H U + D.
+    #[must_use]
+    pub fn effect_of(&self, effects: &Effects, direct: &DMatrix<f64>) -> DMatrix<f64> {
+        debug_assert_eq!(self.layout, *effects.layout());
+        let mut effect = direct.clone();
+        let of_causes = effects.matrix();
+        for (state, column) in self.innovation.h.columns(&self.layout) {
+            for (cause, mut own) in effect.column_iter_mut().enumerate() {
+                let by = of_causes[(cause, state)];
+                own.iter_mut().zip(column).for_each(|(own, h)| *own += h * by);
+            }
+        }
+        effect
+    }
+
+    /// Takes from the effects of causes what an update with this gain takes from them, U <- U - K (H U + D); `effect` is
+    /// H U + D.
+    pub fn pass_on(&self, effects: &mut Effects, effect: &DMatrix<f64>, gain: &DMatrix<f64>) {
+        let rows = effects.matrix_mut();
+        rows.gemm(-1.0, &effect.transpose(), &gain.transpose(), 1.0);
+    }
+}
+
+/// P H^T, by the columns of H that are not empty.
+pub(crate) fn p_h_transposed(
+    p: &DMatrix<f64>,
+    columns: &[(usize, &[f64])],
+    rows: usize,
+) -> DMatrix<f64> {
+    let mut pht = DMatrix::zeros(p.nrows(), rows);
+    for (state, column) in columns {
+        for (row, weight) in column.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+            pht.column_mut(row).axpy(*weight, &p.column(*state), 1.0);
+        }
+    }
+    pht
+}
+
+pub(crate) fn symmetric(s: DMatrix<f64>) -> DMatrix<f64> {
+    let transposed = s.transpose();
+    (s + transposed) * 0.5
+}
+
+/// P <- P + sign W W^T, both halves alike to the bit.
+fn add_product(p: &mut DMatrix<f64>, w: &DMatrix<f64>, sign: f64) {
+    let states = p.nrows().max(1);
+    for (j, column) in p.as_mut_slice().chunks_exact_mut(states).enumerate() {
+        for of_w in w.as_slice().chunks_exact(states) {
+            let by = sign * of_w[j];
+            column.iter_mut().zip(of_w).for_each(|(p, w)| *p += by * w);
+        }
+    }
+}
