@@ -43,7 +43,7 @@ pub fn at_the_berth(
 ) -> Forecast {
     let mut ahead = filter.ahead();
     let mut sample = berth::innovation(ahead.view(), moorings.place(), moorings.waves_std());
-    let white = sample.r;
+    let white = sample.r.clone();
     let speed = waves.map_or(0.0, |waves| waves.velocity.xy().norm());
     let latitude = ahead.view().geodetic.latitude;
     let mut gone = 0.0;
@@ -52,7 +52,7 @@ pub fn at_the_berth(
     while sigma >= target {
         let step = (STEP_SHARE * gone).clamp(STEPS.0, STEPS.1);
         ahead.advance(step);
-        sample.r = white * (SPACING / step);
+        sample.r = &white * (SPACING / step);
         ahead.observe(&sample);
         ahead.observe_gnss_velocity(speed, step);
         gone += step;

@@ -2,7 +2,6 @@
 
 use insd_base::units::{wrap_pi, wrap_two_pi};
 use insd_base::{Attitude, Ecef, Ned, Solution, SolutionSigma, earth};
-use insd_nav::error_state::ErrorState;
 use insd_nav::filter::Filter;
 use insd_nav::symmetry::turn_biases;
 use nalgebra::Vector3;
@@ -11,17 +10,17 @@ use nalgebra::Vector3;
 /// (Bar-Shalom, Li and Kirubarajan, Estimation with Applications to Tracking and Navigation,
 /// eq. (1.4.16-10)), each covariance seen from the mean. `share` is the weight of the second, 0..1.
 pub fn join(first: &mut Filter, second: &Filter, share: f64) {
-    let error: ErrorState = first.nominal().error_to(second.nominal());
+    let apart = first.nominal().error_to(second.nominal());
     let mut nominal = *first.nominal();
-    nominal.inject(&(error * share));
-    let spread = error * error.transpose() * (share * (1.0 - share));
+    nominal.inject(&apart.scaled(share));
     let seen_from_there = |filter: &Filter| {
-        let mut covariance = *filter.covariance();
+        let mut covariance = filter.covariance().clone();
         turn_biases(&mut covariance, &filter.nominal().c_eb(), &nominal.c_eb());
         covariance
     };
-    let covariance =
-        seen_from_there(first) * (1.0 - share) + seen_from_there(second) * share + spread;
+    let mut covariance = seen_from_there(first).scaled(1.0 - share);
+    covariance.add(&seen_from_there(second).scaled(share));
+    covariance.spread(&apart.scaled((share * (1.0 - share)).sqrt()));
     first.replace(nominal, covariance);
 }
 

@@ -11,14 +11,13 @@
 
 use insd_base::{Geodetic, Span, Time};
 use insd_nav::aids::berth;
-use insd_nav::error_state::{ErrorState, POSITION, SWAY, VELOCITY};
-use insd_nav::innovation::Innovation;
+use insd_nav::error_state::{Errors, Innovation, POSITION, SWAY, VELOCITY};
 use insd_nav::{Filter, Oscillator, Outcome, Sway};
-use nalgebra::Vector2;
+use nalgebra::{DVector, Vector2};
 use serde::{Deserialize, Serialize};
 
 /// What is known of the ship at her berth, and learnt.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Moorings {
     place: Geodetic,
     sway_variance: [f64; 2],
@@ -30,7 +29,7 @@ pub struct Moorings {
     refused: u32,
     shifts: u32,
     /// What the last samples have done to the estimate, sooner or later forgotten.
-    recent: ErrorState,
+    recent: Errors,
     /// Running mean of the samples' innovations in units of their sigma.
     lean: Vector2<f64>,
 }
@@ -79,6 +78,11 @@ const ONSET: f64 = 10.0;
 /// How far it may wander from one sample to the next where it is not seen to go further, 1-sigma, m.
 const WANDER: f64 = 0.5;
 
+/// North and east.
+fn pair(z: &DVector<f64>) -> Vector2<f64> {
+    Vector2::new(z[0], z[1])
+}
+
 impl Moorings {
     /// Takes the ship as lying where the filter has her, until a reference names the berth.
     #[must_use]
@@ -94,7 +98,7 @@ impl Moorings {
             start: filter.time(),
             refused: 0,
             shifts: 0,
-            recent: ErrorState::zeros(),
+            recent: Errors::none(),
             lean: Vector2::zeros(),
         };
         moorings.begin(filter, UNSURVEYED);
@@ -190,9 +194,9 @@ impl Moorings {
         let before = *filter.nominal();
         let judged = filter.impose(&innovation);
         if judged.outcome == Outcome::Accepted {
-            self.recent += before.error_to(filter.nominal());
+            self.recent += &before.error_to(filter.nominal());
             let s = Vector2::from_fn(|i, _| judged.innovation[i].1.powi(2));
-            self.learn(filter, &innovation.z, &s);
+            self.learn(filter, &pair(&innovation.z), &s);
             self.refused = 0;
         } else {
             self.refuse(filter, &innovation);
@@ -201,9 +205,9 @@ impl Moorings {
     }
 
     /// Whether the last samples together do not fit, though each of them may.
-    fn leans(&mut self, filter: &Filter, innovation: &Innovation<2>) -> bool {
+    fn leans(&mut self, filter: &Filter, innovation: &Innovation) -> bool {
         let Some(weighed) = innovation.weigh(filter.covariance()) else { return false };
-        let off = innovation.z.component_div(&weighed.sigma());
+        let off = pair(&innovation.z.component_div(&weighed.sigma()));
         // a single wild sample is the gate's affair, and says little of the next
         let bounded = off.map(|off| off.clamp(-4.0, 4.0));
         self.lean += (bounded - self.lean) * LEANING;
@@ -218,16 +222,16 @@ impl Moorings {
 
     /// Carries on what the last samples have done: a velocity that is off moves the position.
     fn forget(&mut self) {
-        let moved = POSITION.of(&self.recent) + VELOCITY.of(&self.recent) * SPACING;
-        POSITION.set(&mut self.recent, &moved);
-        self.recent *= (-SPACING / ONSET).exp();
+        let moved = self.recent.of(POSITION) + self.recent.of(VELOCITY) * SPACING;
+        self.recent.set(POSITION, &moved);
+        self.recent.scale((-SPACING / ONSET).exp());
     }
 
     /// Before the filter knows its tilt, a sample that does not fit may well be the tilt's, and counts for
     /// less. After that it is the ship who is not where she was, by a gust or for good: one sample is left
     /// out, and with more of them her mean place is free for as long as they do not fit. To weigh what does
     /// not fit just so little that it passes would draw a ship that leaves back to her berth, sample by sample.
-    fn refuse(&mut self, filter: &mut Filter, innovation: &Innovation<2>) {
+    fn refuse(&mut self, filter: &mut Filter, innovation: &Innovation) {
         let now = filter.time();
         self.refused += 1;
         let settled = self.is_settled(now);
@@ -237,12 +241,12 @@ impl Moorings {
         if settled {
             if self.refused == SHIFT {
                 self.shifts += 1;
-                filter.take_back(&std::mem::replace(&mut self.recent, ErrorState::zeros()));
+                filter.take_back(&std::mem::take(&mut self.recent));
             }
             self.shifting_until = now + Span::from_seconds(SHIFTING);
             filter.loosen_berth(innovation.z.norm());
         }
-        let mut doubtful = *innovation;
+        let mut doubtful = innovation.clone();
         while filter.impose(&doubtful).outcome != Outcome::Accepted && doubtful.r[(0, 0)] < 1e8 {
             doubtful.r *= 4.0;
         }

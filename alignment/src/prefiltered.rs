@@ -16,7 +16,7 @@ use insd_base::{Span, Time, earth};
 use insd_nav::Filter;
 use insd_nav::aids::reference_velocity;
 use insd_nav::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, ErrorState, GYRO_BIAS, GYRO_DRIFT, POSITION, VELOCITY,
+    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, Errors, GYRO_BIAS, GYRO_DRIFT, POSITION, VELOCITY,
 };
 use nalgebra::{Vector2, Vector3};
 
@@ -126,8 +126,8 @@ fn feed(filter: &mut Filter, slow: &SlowVelocity, doubt: f64) -> f64 {
     let waves = view.v_n().xy() - slow.value;
     let mut innovation = reference_velocity::innovation(&view, &waves, 0.0);
     let across = Vector2::new(waves.y, -waves.x);
-    ATTITUDE.set_columns(&mut innovation.h, &(across * view.c_ne.row(2)));
-    innovation.r = slow.covariance * doubt;
+    innovation.h.set(ATTITUDE, &(across * view.c_ne.row(2)));
+    innovation.r.copy_from(&(slow.covariance * doubt));
     white::impose(filter, &innovation).log_likelihood
 }
 
@@ -139,16 +139,16 @@ fn feed(filter: &mut Filter, slow: &SlowVelocity, doubt: f64) -> f64 {
 ///
 /// The Earth's turn in phi' is what a heading is found by: left out, each correction of the heading
 /// would leave a parabola in the window to be found again.
-fn derivatives(filter: &Filter, error: &ErrorState) -> [Vector2<f64>; DERIVATIVES] {
+fn derivatives(filter: &Filter, error: &Errors) -> [Vector2<f64>; DERIVATIVES] {
     let view = filter.view();
     let down = view.c_ne.row(2).transpose();
     let gravity = earth::normal_gravity(view.geodetic.latitude, view.geodetic.height);
     let (force, rate) = (down * -gravity, earth::rate_e());
     let stiffness = gravity / filter.nominal().position.norm();
-    let mut gyro = -view.c_eb * (GYRO_BIAS.of(error) + GYRO_DRIFT.of(error));
-    let mut accel = -view.c_eb * (ACCEL_BIAS.of(error) + ACCEL_DRIFT.of(error));
+    let mut gyro = -view.c_eb * (error.of(GYRO_BIAS) + error.of(GYRO_DRIFT));
+    let mut accel = -view.c_eb * (error.of(ACCEL_BIAS) + error.of(ACCEL_DRIFT));
     let (mut r, mut v, mut phi): (Vector3<f64>, Vector3<f64>, Vector3<f64>) =
-        (POSITION.of(error), VELOCITY.of(error), ATTITUDE.of(error));
+        (error.of(POSITION), error.of(VELOCITY), error.of(ATTITUDE));
     std::array::from_fn(|_| {
         let now = (view.c_ne * v).xy();
         let level = r - down * r.dot(&down);

@@ -83,9 +83,9 @@ impl StoredState {
             attitude: solution.attitude,
             attitude_std: Vector3::new(sigma.roll, sigma.pitch, sigma.heading),
             gyro_bias: nominal.gyro_bias + nominal.gyro_drift,
-            gyro_bias_std: std_of_sum(p, GYRO_BIAS.start(), GYRO_DRIFT.start()),
+            gyro_bias_std: GYRO_BIAS.std_of_sum(GYRO_DRIFT, p),
             accel_bias: nominal.accel_bias + nominal.accel_drift,
-            accel_bias_std: std_of_sum(p, ACCEL_BIAS.start(), ACCEL_DRIFT.start()),
+            accel_bias_std: ACCEL_BIAS.std_of_sum(ACCEL_DRIFT, p),
             sway_std: fine.moorings().map_or(0.0, crate::moorings::Moorings::sway_std),
         };
         stored.is_finite().then_some(stored)
@@ -155,14 +155,6 @@ impl StoredState {
         nominal.accel_bias = self.accel_bias;
         ACCEL_BIAS.renew(p, &squares(&self.accel_bias_std));
     }
-}
-
-/// 1-sigma of the sum of two blocks of three.
-fn std_of_sum(p: &Covariance, first: usize, second: usize) -> Vector3<f64> {
-    Vector3::from_fn(|i, _| {
-        let (a, b) = (first + i, second + i);
-        (p[(a, a)] + p[(b, b)] + 2.0 * p[(a, b)]).max(0.0).sqrt()
-    })
 }
 
 /// A number that tells IMUs apart by their error model: FNV-1a (Fowler, Noll and Vo) over its values

@@ -12,8 +12,8 @@
 
 use insd_base::{Span, Time};
 use insd_nav::aids::reference_velocity;
+use insd_nav::error_state::Innovation;
 use insd_nav::filter::Judged;
-use insd_nav::innovation::Innovation;
 use insd_nav::{Filter, Outcome};
 use nalgebra::Vector2;
 
@@ -69,7 +69,7 @@ impl WhiteNoise {
         judged.log_likelihood
     }
 
-    fn learn(&mut self, innovation: &Innovation<2>, judged: &Judged) {
+    fn learn(&mut self, innovation: &Innovation, judged: &Judged) {
         let r = self.std().powi(2);
         for axis in 0..2 {
             let expected = judged.innovation[axis].1.powi(2) - innovation.r[(axis, axis)];
@@ -84,9 +84,9 @@ impl WhiteNoise {
 
 /// Imposes an innovation; one that does not fit counts for less, until it fits. Returns the first
 /// judgement.
-pub(crate) fn impose(filter: &mut Filter, innovation: &Innovation<2>) -> Judged {
+pub(crate) fn impose(filter: &mut Filter, innovation: &Innovation) -> Judged {
     let judged = filter.impose(innovation);
-    let mut doubtful = *innovation;
+    let mut doubtful = innovation.clone();
     let mut outcome = judged.outcome;
     while outcome != Outcome::Accepted && doubtful.r[(0, 0)] < NOTHING {
         doubtful.r *= 4.0;

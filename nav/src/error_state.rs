@@ -1,68 +1,136 @@
-//! The error state: which errors the filter estimates, in which axes and units.
+//! The error states: which errors the filter estimates, in which axes and units.
 //!
 //! Errors are true minus estimated; the attitude error is the small rotation phi in
 //! C_true = (I + [phi x]) C_estimated, resolved in ECEF axes. Blocks 1-15 of JAE's hybrid filter
 //! (systems.md S2) are position, velocity, attitude, gyro and accelerometer errors; the others make
 //! the sensors honest.
 
-use nalgebra::{SMatrix, SVector};
+use std::slice::from_mut;
 
-use crate::block::Block;
+pub use insd_estimation::{Block, Covariance, Effects, Errors, Innovation, Jacobian, Weighed};
 
-/// Position, ECEF, m.
-pub const POSITION: Block<3> = Block::first();
-/// Velocity over the Earth, ECEF axes, m/s.
-pub const VELOCITY: Block<3> = Block::after(POSITION);
-/// Attitude, small rotation in ECEF axes, rad.
-pub const ATTITUDE: Block<3> = Block::after(VELOCITY);
-/// Gyro turn-on bias, body axes, rad/s, constant.
-pub const GYRO_BIAS: Block<3> = Block::after(ATTITUDE);
-/// Gyro in-run bias, body axes, rad/s, Gauss-Markov.
-pub const GYRO_DRIFT: Block<3> = Block::after(GYRO_BIAS);
-/// Gyro scale factor, body axes, ratio, constant.
-pub const GYRO_SCALE: Block<3> = Block::after(GYRO_DRIFT);
-/// Accelerometer turn-on bias, body axes, m/s^2, constant.
-pub const ACCEL_BIAS: Block<3> = Block::after(GYRO_SCALE);
-/// Accelerometer in-run bias, body axes, m/s^2, Gauss-Markov.
-pub const ACCEL_DRIFT: Block<3> = Block::after(ACCEL_BIAS);
-/// Accelerometer scale factor, body axes, ratio, constant.
-pub const ACCEL_SCALE: Block<3> = Block::after(ACCEL_DRIFT);
-/// Slowly varying part of the GNSS position error, NED, in units of its own sigma, Gauss-Markov.
-pub const GNSS_POSITION_ERROR: Block<3> = Block::after(ACCEL_SCALE);
-/// Slowly varying part of the GNSS velocity error, NED, in units of its own sigma, Gauss-Markov.
-pub const GNSS_VELOCITY_ERROR: Block<3> = Block::after(GNSS_POSITION_ERROR);
-/// Delay of the GNSS velocity behind the position of the same epoch, s, constant.
-pub const GNSS_VELOCITY_DELAY: Block<1> = Block::after(GNSS_VELOCITY_ERROR);
-/// Delay of GNSS epochs behind the IMU's time base, s, constant.
-pub const GNSS_DELAY: Block<1> = Block::after(GNSS_VELOCITY_DELAY);
-/// Lever arm from the IMU to the GNSS antenna, body axes, m, constant.
-pub const GNSS_LEVER: Block<3> = Block::after(GNSS_DELAY);
-/// Water current, north and east, m/s, Gauss-Markov.
-pub const CURRENT: Block<2> = Block::after(GNSS_LEVER);
-/// Mean place of a moored ship from her named berth, north and east, m, constant but for shifts.
-pub const BERTH_OFFSET: Block<2> = Block::after(CURRENT);
-/// Slow swaying of a moored ship about that place, north and east of each of two oscillators, m.
-pub const SWAY: Block<4> = Block::after(BERTH_OFFSET);
-/// Velocity of that swaying, m/s.
-pub const SWAY_VELOCITY: Block<4> = Block::after(SWAY);
-/// Log scale factor, ratio, constant.
-pub const LOG_SCALE: Block<1> = Block::after(SWAY_VELOCITY);
-/// Log misalignment about the starboard and down axes, rad, constant.
-pub const LOG_MISALIGNMENT: Block<2> = Block::after(LOG_SCALE);
-/// Mean height of the IMU over the ellipsoid (sea level plus mounting height), m, random walk.
-pub const SEA_LEVEL: Block<1> = Block::after(LOG_MISALIGNMENT);
+use crate::aids::reference_heading;
+use crate::declaration::{Axes, Carried, Correction, Declaration, Process};
 
-/// Slowly varying part of the error of a reference's heading, in units of the sigma it states, Gauss-Markov.
-pub const HEADING_ERROR: Block<1> = Block::after(SEA_LEVEL);
+/// 1-sigma of the mean height before anything is known of it, m.
+const SEA_LEVEL_UNKNOWN: f64 = 30.0;
 
-/// Number of error states.
-pub const STATES: usize = HEADING_ERROR.end();
+/// One row for each block of error states, in the order in which they stand when all are carried.
+macro_rules! declare {
+    ($($(#[$doc:meta])+ $block:ident: $width:literal, $name:literal, $unit:literal, $axes:ident, $carried:ident,
+        first: $first:expr, process: $process:expr, correction: $correction:expr;)+) => {
+        #[allow(non_camel_case_types, clippy::upper_case_acronyms)] // named as the blocks are
+        enum Kind { $($block),+ }
+        $($(#[$doc])+ pub const $block: Block<$width> = Block::new(Kind::$block as u16);)+
+        /// What is known of each, by the number of its kind.
+        pub static DECLARATIONS: [Declaration; [$($width),+].len()] = [$(Declaration {
+            key: $block.key(),
+            width: $width,
+            name: $name,
+            unit: $unit,
+            axes: Axes::$axes,
+            carried: Carried::$carried,
+            first: $first,
+            process: $process,
+            correction: $correction,
+        }),+];
+    };
+}
+
+declare! {
+    /// Position, ECEF, m.
+    POSITION: 3, "position", "m", Ecef, Always,
+        first: |_| 0.0, process: |_, _| Process::Mechanised,
+        correction: Correction::Adds(|nominal| nominal.position.as_mut_slice());
+    /// Velocity over the Earth, ECEF axes, m/s.
+    VELOCITY: 3, "velocity", "m/s", Ecef, Always,
+        first: |_| 0.0, process: |_, _| Process::Mechanised,
+        correction: Correction::Adds(|nominal| nominal.velocity.as_mut_slice());
+    /// Attitude, small rotation in ECEF axes, rad.
+    ATTITUDE: 3, "attitude", "rad", Ecef, Always,
+        first: |_| 0.0, process: |_, _| Process::Mechanised,
+        correction: Correction::Turns;
+    /// Gyro turn-on bias, body axes, rad/s, constant.
+    GYRO_BIAS: 3, "gyro_bias", "rad/s", Body, Always,
+        first: |config| config.imu.gyro.bias_std, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.gyro_bias.as_mut_slice());
+    /// Gyro in-run bias, body axes, rad/s, Gauss-Markov.
+    GYRO_DRIFT: 3, "gyro_drift", "rad/s", Body, Always,
+        first: |config| config.imu.gyro.instability_std,
+        process: |config, _| Process::in_run(&config.imu.gyro),
+        correction: Correction::Adds(|nominal| nominal.gyro_drift.as_mut_slice());
+    /// Gyro scale factor, body axes, ratio, constant.
+    GYRO_SCALE: 3, "gyro_scale", "ratio", Body, Always,
+        first: |config| config.imu.gyro.scale_std, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.gyro_scale.as_mut_slice());
+    /// Accelerometer turn-on bias, body axes, m/s^2, constant.
+    ACCEL_BIAS: 3, "accel_bias", "m/s^2", Body, Always,
+        first: |config| config.imu.accel.bias_std, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.accel_bias.as_mut_slice());
+    /// Accelerometer in-run bias, body axes, m/s^2, Gauss-Markov.
+    ACCEL_DRIFT: 3, "accel_drift", "m/s^2", Body, Always,
+        first: |config| config.imu.accel.instability_std,
+        process: |config, _| Process::in_run(&config.imu.accel),
+        correction: Correction::Adds(|nominal| nominal.accel_drift.as_mut_slice());
+    /// Accelerometer scale factor, body axes, ratio, constant.
+    ACCEL_SCALE: 3, "accel_scale", "ratio", Body, Always,
+        first: |config| config.imu.accel.scale_std, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.accel_scale.as_mut_slice());
+    /// Slowly varying part of the GNSS position error, NED, in units of its own sigma, Gauss-Markov.
+    GNSS_POSITION_ERROR: 3, "gnss_position_error", "sigma", Ned, Always,
+        first: |_| 1.0,
+        process: |config, regime| Process::of_sigmas(config.gnss.position_time_for(regime.rtk)),
+        correction: Correction::Adds(|nominal| nominal.gnss_position_error.as_mut_slice());
+    /// Slowly varying part of the GNSS velocity error, NED, in units of its own sigma, Gauss-Markov.
+    GNSS_VELOCITY_ERROR: 3, "gnss_velocity_error", "sigma", Ned, Always,
+        first: |_| 1.0, process: |config, _| Process::of_sigmas(config.gnss.velocity_time),
+        correction: Correction::Adds(|nominal| nominal.gnss_velocity_error.as_mut_slice());
+    /// Delay of the GNSS velocity behind the position of the same epoch, s, constant.
+    GNSS_VELOCITY_DELAY: 1, "gnss_velocity_delay", "s", Scalar, Always,
+        first: |config| config.gnss.velocity_delay_std, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| from_mut(&mut nominal.gnss_velocity_delay));
+    /// Delay of GNSS epochs behind the IMU's time base, s, constant.
+    GNSS_DELAY: 1, "gnss_delay", "s", Scalar, Always,
+        first: |config| config.gnss.delay_std, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| from_mut(&mut nominal.gnss_delay));
+    /// Lever arm from the IMU to the GNSS antenna, body axes, m, constant.
+    GNSS_LEVER: 3, "gnss_lever", "m", Body, Always,
+        first: |config| config.gnss_lever_std(), process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.gnss_lever.as_mut_slice());
+    /// Mean height of the IMU over the ellipsoid (sea level plus mounting height), m, random walk.
+    SEA_LEVEL: 1, "sea_level", "m", Scalar, Always,
+        first: |_| SEA_LEVEL_UNKNOWN, process: |config, _| Process::Walk(config.sea.level_walk),
+        correction: Correction::Adds(|nominal| from_mut(&mut nominal.sea_level));
+    /// Water current, north and east, m/s, Gauss-Markov.
+    CURRENT: 2, "current", "m/s", Ned, WithLog,
+        first: |config| config.log.current_std,
+        process: |config, _| Process::Markov { std: config.log.current_std, time: config.log.current_time },
+        correction: Correction::Adds(|nominal| nominal.current.as_mut_slice());
+    /// Log scale factor, ratio, constant.
+    LOG_SCALE: 1, "log_scale", "ratio", Scalar, WithLog,
+        first: |config| config.log.scale_std, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| from_mut(&mut nominal.log_scale));
+    /// Log misalignment about the starboard and down axes, rad, constant.
+    LOG_MISALIGNMENT: 2, "log_misalignment", "rad", Body, WithLog,
+        first: |config| config.log.misalignment_std, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.log_misalignment.as_mut_slice());
+    /// Slowly varying part of the error of a reference's heading, in units of the sigma it states, Gauss-Markov.
+    HEADING_ERROR: 1, "heading_error", "sigma", Scalar, WithHeading,
+        first: |_| 1.0, process: |_, _| Process::of_sigmas(reference_heading::TIME),
+        correction: Correction::Adds(|nominal| from_mut(&mut nominal.heading_error));
+    /// Mean place of a moored ship from her named berth, north and east, m, constant but for shifts.
+    BERTH_OFFSET: 2, "berth_offset", "m", ComputedNed, AtBerth,
+        first: |_| 0.0, process: |_, _| Process::Constant,
+        correction: Correction::AddsTurned(|nominal| nominal.berth_offset.as_mut_slice());
+    /// Slow swaying of a moored ship about that place, north and east of each of two oscillators, m.
+    SWAY: 4, "sway", "m", ComputedNed, AtBerth,
+        first: |_| 0.0, process: |_, _| Process::Swaying,
+        correction: Correction::AddsTurned(|nominal| nominal.sway.as_mut_slice());
+    /// Velocity of that swaying, m/s.
+    SWAY_VELOCITY: 4, "sway_velocity", "m/s", ComputedNed, AtBerth,
+        first: |_| 0.0, process: |_, _| Process::Swaying,
+        correction: Correction::AddsTurned(|nominal| nominal.sway_velocity.as_mut_slice());
+}
 
 /// Number of states at the head that the strapdown integrates: position, velocity, attitude.
-pub const STRAPDOWN_STATES: usize = ATTITUDE.end();
-
-/// An error vector.
-pub type ErrorState = SVector<f64, STATES>;
-
-/// Covariance of the error vector.
-pub type Covariance = SMatrix<f64, STATES, STATES>;
+pub const STRAPDOWN_STATES: usize = 9;

@@ -5,24 +5,23 @@ use std::sync::Arc;
 use insd_base::{
     Body, Ecef, Message, Ned, Received, Rejection, Solution, SolutionSigma, Time, earth,
 };
-use nalgebra::{Matrix3, RowSVector, UnitQuaternion, Vector3};
+use insd_estimation::Gate;
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
-use crate::aids::{View, reference_heading};
+use crate::aids::View;
 use crate::angular_rate::rate_variance;
 use crate::antenna::AntennaMotion;
 use crate::config::NavConfig;
 use crate::echo::Echo;
-use crate::error_state::{ATTITUDE, Covariance, ErrorState, STATES, VELOCITY};
-use crate::gate::ChiSquareGate;
+use crate::error_state::{ATTITUDE, Covariance, Errors, Innovation, VELOCITY, Weighed};
 use crate::increments::Increment;
 use crate::initial::InitialState;
-use crate::innovation::{Innovation, Weighed};
 use crate::judge::{Judge, agitate};
 use crate::leap::LeapWatch;
 use crate::nominal::Nominal;
 use crate::own_word::OwnWord;
 use crate::pace::Pace;
-use crate::propagation::{self, Regime, Stretch, markov_decay};
+use crate::propagation::{self, Regime, Stretch};
 use crate::report::{Outcome, Report};
 use crate::sea_window::LevelWindow;
 use crate::separate_bias::SeparateBias;
@@ -58,12 +57,13 @@ mod others;
 mod receivers;
 mod sideways;
 mod slow;
+mod states;
 
 /// An estimate, its covariance and what is needed to carry both on.
 #[derive(Clone, Debug)]
 pub struct Filter {
     config: NavConfig,
-    gate: ChiSquareGate,
+    gate: Gate,
     time: Time,
     nominal: Nominal,
     covariance: Covariance,
@@ -98,7 +98,7 @@ pub struct Filter {
     /// When another reference last told a position.
     last_reference: Option<Time>,
     turned: Vector3<f64>,
-    corrected: ErrorState,
+    corrected: Errors,
     interval: f64,
     unswayed: f64,
     absorbed: Vector3<f64>,
@@ -114,7 +114,7 @@ pub struct Filter {
     /// The heading was found with a reference that nothing bears out yet.
     heading_doubted: bool,
     unjudged: Stretch,
-    owed: RowSVector<f64, STATES>,
+    owed: Errors,
     /// Sigmas that cover all that may be, while somebody may lie.
     covered: Option<SolutionSigma>,
     /// What wrong constants of the installation would do, while the filter navigates.
@@ -142,10 +142,10 @@ impl Filter {
     pub fn new(config: &NavConfig, initial: &InitialState) -> Self {
         Filter {
             config: *config,
-            gate: ChiSquareGate::new(config.gate.probability),
+            gate: Gate::new(config.gate.probability),
             time: initial.time,
             nominal: initial.nominal,
-            covariance: initial.covariance,
+            covariance: initial.covariance.clone(),
             gravity: LocalGravity::around(&initial.nominal.position, &initial.nominal.geodetic()),
             stretch: Stretch::new(),
             gap_left: 0.0,
@@ -170,7 +170,7 @@ impl Filter {
             wheels: Wheels::default(),
             last_reference: None,
             turned: Vector3::zeros(),
-            corrected: ErrorState::zeros(),
+            corrected: Errors::none(),
             interval: config.covariance_interval,
             unswayed: 0.0,
             absorbed: Vector3::zeros(),
@@ -182,7 +182,7 @@ impl Filter {
             judged_since: initial.time,
             heading_doubted: false,
             unjudged: Stretch::new(),
-            owed: RowSVector::zeros(),
+            owed: Errors::none(),
             covered: None,
             bias: None,
             lateness: 0.0,
@@ -235,7 +235,7 @@ impl Filter {
     /// Moves estimate and covariance by an error and a covariance from outside: for alignment, which
     /// joins hypotheses. It counts as a correction.
     pub fn replace(&mut self, nominal: Nominal, covariance: Covariance) {
-        self.corrected += self.nominal.error_to(&nominal);
+        self.corrected += &self.nominal.error_to(&nominal);
         self.nominal = nominal;
         self.covariance = covariance;
     }
@@ -261,7 +261,7 @@ impl Filter {
         );
         if let Some(bias) = &mut self.bias {
             let gradient = self.gravity.gradient();
-            let response = bias.response_mut();
+            let response = bias.response_on(self.covariance.layout());
             propagation::carry(response, &self.stretch, gradient, &self.config, &regime);
         }
         if self.is_restless() {
@@ -269,9 +269,17 @@ impl Filter {
         }
         if self.judge.is_some() {
             let gradient = self.gravity.gradient();
-            propagation::carry(&mut self.owed, &self.stretch, gradient, &self.config, &regime);
+            self.owed.conform(self.covariance.layout());
+            propagation::carry_errors(
+                &mut self.owed,
+                &self.stretch,
+                gradient,
+                &self.config,
+                &regime,
+            );
         }
-        self.relax_nominal(self.stretch.duration);
+        propagation::relax(&mut self.nominal, self.stretch.duration, &self.config, &regime);
+        self.unswayed += self.stretch.duration;
         self.nominal.attitude.renormalize();
         self.note_antenna_motion();
         let place = self.nominal.geodetic();
@@ -282,20 +290,6 @@ impl Filter {
         }
         self.gravity = LocalGravity::around(&self.nominal.position, &place);
         self.stretch = Stretch::new();
-    }
-
-    /// The expected values of Gauss-Markov states decay as the states do.
-    fn relax_nominal(&mut self, dt: f64) {
-        let (imu, gnss, log) = (&self.config.imu, &self.config.gnss, &self.config.log);
-        let rtk = self.is_rtk();
-        let nominal = &mut self.nominal;
-        nominal.gyro_drift *= markov_decay(dt, imu.gyro.instability_time);
-        nominal.accel_drift *= markov_decay(dt, imu.accel.instability_time);
-        nominal.gnss_position_error *= markov_decay(dt, gnss.position_time_for(rtk));
-        nominal.gnss_velocity_error *= markov_decay(dt, gnss.velocity_time);
-        nominal.current *= markov_decay(dt, log.current_time);
-        nominal.heading_error *= markov_decay(dt, reference_heading::TIME);
-        self.unswayed += dt;
     }
 
     /// Follows how much is left of a long gap.
@@ -319,16 +313,12 @@ impl Filter {
 
     /// Applies an innovation if it passes the chi-square gate and nothing else speaks against it.
     /// The covariance must be settled.
-    fn gated<const M: usize>(
-        &mut self,
-        innovation: &Innovation<M>,
-        refused: Option<Rejection>,
-    ) -> Judged {
+    fn gated(&mut self, innovation: &Innovation, refused: Option<Rejection>) -> Judged {
         let Some(weighed) = innovation.weigh(&self.covariance) else {
             let outcome = Outcome::Rejected(Rejection::OutOfRange);
             return Judged { outcome, log_likelihood: 0.0, innovation: NO_INNOVATION };
         };
-        let passes = weighed.nis() <= self.gate.limit::<M>();
+        let passes = weighed.nis() <= self.gate.limit(weighed.rows());
         let refused = refused.or((!passes).then_some(Rejection::ChiSquare));
         let log_likelihood = self.bounded_likelihood(&weighed);
         if refused.is_none() {
@@ -338,20 +328,20 @@ impl Filter {
         Judged { outcome, log_likelihood, innovation: detail(&weighed) }
     }
 
-    fn absorb<const M: usize>(&mut self, weighed: &Weighed<M>) {
-        if self.bias.is_some() {
-            self.pass_on(weighed, &weighed.gain());
+    fn absorb(&mut self, weighed: &Weighed) {
+        if let Some(bias) = &mut self.bias {
+            bias.absorb(weighed, &weighed.gain());
         }
         let error = weighed.update(&mut self.covariance);
         self.nominal.inject(&error);
-        self.corrected += error;
-        self.owed += error.transpose();
-        self.absorbed += VELOCITY.of(&error);
+        self.corrected += &error;
+        self.owed += &error;
+        self.absorbed += error.of(VELOCITY);
         if self.sway.is_some() {
             let down = -self.nominal.position.normalize();
             keep_turn_unknown(&mut self.covariance, &error, &down);
         }
-        self.turned += ATTITUDE.of(&error);
+        self.turned += error.of(ATTITUDE);
         if self.turned.norm() > TURN {
             let now = self.nominal.attitude;
             let before = UnitQuaternion::new(-self.turned) * now;
@@ -363,7 +353,7 @@ impl Filter {
 
     /// Brings in a condition from outside, such as that the ship lies at her berth: judged and
     /// absorbed as a measurement.
-    pub fn impose<const M: usize>(&mut self, innovation: &Innovation<M>) -> Judged {
+    pub fn impose(&mut self, innovation: &Innovation) -> Judged {
         self.settle_sway();
         let judged = self.gated(innovation, None);
         self.note(judged.outcome);
@@ -371,28 +361,29 @@ impl Filter {
     }
 
     /// Log-likelihood of a condition from outside that is not to be brought in.
-    pub fn decline<const M: usize>(&mut self, innovation: &Innovation<M>) -> f64 {
+    pub fn decline(&mut self, innovation: &Innovation) -> f64 {
         let weighed = innovation.weigh(&self.covariance);
         self.note(Outcome::Rejected(Rejection::SourceSuspect));
         weighed.map_or(0.0, |weighed| self.bounded_likelihood(&weighed))
     }
 
     /// Sum of all corrections of the estimate since the last call.
-    pub fn take_correction(&mut self) -> ErrorState {
-        std::mem::replace(&mut self.corrected, ErrorState::zeros())
+    pub fn take_correction(&mut self) -> Errors {
+        std::mem::take(&mut self.corrected)
     }
 
     /// Takes back a correction that was made by mistake, and is as unsure of it as it is large.
-    pub fn take_back(&mut self, correction: &ErrorState) {
+    pub fn take_back(&mut self, correction: &Errors) {
         self.settle_sway();
         self.nominal.inject(&-correction);
         self.corrected -= correction;
-        self.absorbed -= VELOCITY.of(correction);
-        self.covariance += correction * correction.transpose();
+        self.absorbed -= correction.of(VELOCITY);
+        self.covariance.spread(correction);
     }
 
-    fn bounded_likelihood<const M: usize>(&self, weighed: &Weighed<M>) -> f64 {
-        -0.5 * weighed.nis().min(self.gate.limit::<M>()) - weighed.log_root_determinant()
+    fn bounded_likelihood(&self, weighed: &Weighed) -> f64 {
+        let bounded = weighed.nis().min(self.gate.limit(weighed.rows()));
+        -0.5 * bounded - weighed.log_root_determinant()
     }
 
     /// Whether GNSS positions come from fixed carrier ambiguities.

@@ -3,15 +3,11 @@
 
 use insd_base::earth;
 use insd_base::{Ecef, Geodetic};
-use nalgebra::{Matrix3, Rotation2, UnitQuaternion, Vector1, Vector2, Vector3, Vector4};
+use nalgebra::{Matrix3, Rotation2, UnitQuaternion, Vector2, Vector3, Vector4};
 use serde::{Deserialize, Serialize};
 
-use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, BERTH_OFFSET, CURRENT, ErrorState, GNSS_DELAY,
-    GNSS_LEVER, GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS,
-    GYRO_DRIFT, GYRO_SCALE, HEADING_ERROR, LOG_MISALIGNMENT, LOG_SCALE, POSITION, SEA_LEVEL, SWAY,
-    SWAY_VELOCITY, VELOCITY,
-};
+use crate::declaration::{declaration, no_errors};
+use crate::error_state::{ATTITUDE, DECLARATIONS, Errors, POSITION};
 
 /// Estimated values of everything in the error state; units and axes as stated there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -104,7 +100,7 @@ impl Nominal {
             &Vector3::zeros(),
             &Matrix3::identity(),
         );
-        far < 0.01 && rotation < 1e-6 && zero.error_to(&none).iter().all(|x| x.is_finite())
+        far < 0.01 && rotation < 1e-6 && zero.error_to(&none).values().iter().all(|x| x.is_finite())
     }
 
     /// Slow swaying, both oscillators together, north and east, m.
@@ -127,66 +123,39 @@ impl Nominal {
 
     /// Moves the estimate by an error vector: estimated + error = true. The swaying of a moored ship
     /// is held in the axes of the computed heading and turns with it ([`crate::aids::berth`]).
-    pub fn inject(&mut self, error: &ErrorState) {
-        self.position += POSITION.of(error);
-        self.velocity += VELOCITY.of(error);
-        self.attitude = UnitQuaternion::new(ATTITUDE.of(error)) * self.attitude;
-        self.gyro_bias += GYRO_BIAS.of(error);
-        self.gyro_drift += GYRO_DRIFT.of(error);
-        self.gyro_scale += GYRO_SCALE.of(error);
-        self.accel_bias += ACCEL_BIAS.of(error);
-        self.accel_drift += ACCEL_DRIFT.of(error);
-        self.accel_scale += ACCEL_SCALE.of(error);
-        self.gnss_position_error += GNSS_POSITION_ERROR.of(error);
-        self.gnss_velocity_error += GNSS_VELOCITY_ERROR.of(error);
-        self.gnss_lever += GNSS_LEVER.of(error);
-        self.gnss_delay += GNSS_DELAY.of(error).x;
-        self.gnss_velocity_delay += GNSS_VELOCITY_DELAY.of(error).x;
-        self.current += CURRENT.of(error);
-        let turn = turn_about_down(&ATTITUDE.of(error), &self.position);
-        self.berth_offset = turn * self.berth_offset + BERTH_OFFSET.of(error);
-        self.sway = turned(&turn, &self.sway) + SWAY.of(error);
-        self.sway_velocity = turned(&turn, &self.sway_velocity) + SWAY_VELOCITY.of(error);
-        self.log_scale += LOG_SCALE.of(error).x;
-        self.log_misalignment += LOG_MISALIGNMENT.of(error);
-        self.sea_level += SEA_LEVEL.of(error).x;
-        self.heading_error += HEADING_ERROR.of(error).x;
+    pub fn inject(&mut self, error: &Errors) {
+        let rotation = error.of(ATTITUDE);
+        self.attitude = UnitQuaternion::new(rotation) * self.attitude;
+        self.position += error.of(POSITION);
+        let turn = turn_about_down(&rotation, &self.position);
+        for place in error.layout().places().iter().filter(|place| place.key != POSITION.key()) {
+            let Some(declared) = declaration(place.key) else { continue };
+            let value = declared.value(self);
+            if declared.turns_with_heading() {
+                turn_pairs(&turn, value);
+            }
+            let own = &error.values().as_slice()[place.start..place.start + place.width];
+            value.iter_mut().zip(own).for_each(|(value, error)| *value += error);
+        }
     }
 
-    /// The error vector that moves this estimate onto another: the inverse of [`Self::inject`].
+    /// The error vector that moves this estimate onto another: the inverse of [`Self::inject`]. It has all states that there may
+    /// be.
     #[must_use]
-    pub fn error_to(&self, other: &Nominal) -> ErrorState {
-        let mut error = ErrorState::zeros();
-        POSITION.set(&mut error, &(other.position - self.position));
-        VELOCITY.set(&mut error, &(other.velocity - self.velocity));
-        let turn = other.attitude * self.attitude.inverse();
-        ATTITUDE.set(&mut error, &turn.scaled_axis());
-        GYRO_BIAS.set(&mut error, &(other.gyro_bias - self.gyro_bias));
-        GYRO_DRIFT.set(&mut error, &(other.gyro_drift - self.gyro_drift));
-        GYRO_SCALE.set(&mut error, &(other.gyro_scale - self.gyro_scale));
-        ACCEL_BIAS.set(&mut error, &(other.accel_bias - self.accel_bias));
-        ACCEL_DRIFT.set(&mut error, &(other.accel_drift - self.accel_drift));
-        ACCEL_SCALE.set(&mut error, &(other.accel_scale - self.accel_scale));
-        let position_error = other.gnss_position_error - self.gnss_position_error;
-        GNSS_POSITION_ERROR.set(&mut error, &position_error);
-        let velocity_error = other.gnss_velocity_error - self.gnss_velocity_error;
-        GNSS_VELOCITY_ERROR.set(&mut error, &velocity_error);
-        GNSS_LEVER.set(&mut error, &(other.gnss_lever - self.gnss_lever));
-        GNSS_DELAY.set(&mut error, &Vector1::new(other.gnss_delay - self.gnss_delay));
-        let delay = other.gnss_velocity_delay - self.gnss_velocity_delay;
-        GNSS_VELOCITY_DELAY.set(&mut error, &Vector1::new(delay));
-        CURRENT.set(&mut error, &(other.current - self.current));
-        let about_down = turn_about_down(&turn.scaled_axis(), &other.position);
-        let offset = other.berth_offset - about_down * self.berth_offset;
-        BERTH_OFFSET.set(&mut error, &offset);
-        SWAY.set(&mut error, &(other.sway - turned(&about_down, &self.sway)));
-        let velocity = other.sway_velocity - turned(&about_down, &self.sway_velocity);
-        SWAY_VELOCITY.set(&mut error, &velocity);
-        LOG_SCALE.set(&mut error, &Vector1::new(other.log_scale - self.log_scale));
-        LOG_MISALIGNMENT.set(&mut error, &(other.log_misalignment - self.log_misalignment));
-        SEA_LEVEL.set(&mut error, &Vector1::new(other.sea_level - self.sea_level));
-        let heading_error = other.heading_error - self.heading_error;
-        HEADING_ERROR.set(&mut error, &Vector1::new(heading_error));
+    pub fn error_to(&self, other: &Nominal) -> Errors {
+        let mut error = no_errors();
+        let rotation = (other.attitude * self.attitude.inverse()).scaled_axis();
+        let turn = turn_about_down(&rotation, &other.position);
+        let (mut here, mut there) = (*self, *other);
+        for declared in &DECLARATIONS {
+            let own = declared.value(&mut here);
+            if declared.turns_with_heading() {
+                turn_pairs(&turn, own);
+            }
+            let difference = declared.value(&mut there).iter_mut().zip(own).map(|(a, b)| *a - *b);
+            error.fill(declared.key, difference);
+        }
+        error.set(ATTITUDE, &rotation);
         error
     }
 }
@@ -200,25 +169,32 @@ fn turn_about_down(rotation: &Vector3<f64>, place: &Vector3<f64>) -> Rotation2<f
     Rotation2::new(-rotation.dot(&up))
 }
 
-/// North and east of both oscillators, turned.
-fn turned(turn: &Rotation2<f64>, sway: &Vector4<f64>) -> Vector4<f64> {
-    let component = |i: usize| (turn.matrix() * sway.fixed_rows::<2>(i & 2))[i & 1];
-    Vector4::from_fn(|i, _| component(i))
+/// Turns pairs of north and east.
+fn turn_pairs(turn: &Rotation2<f64>, pairs: &mut [f64]) {
+    for pair in pairs.chunks_exact_mut(2) {
+        let turned = turn * Vector2::new(pair[0], pair[1]);
+        pair.copy_from_slice(turned.as_slice());
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error_state::STATES;
+    use crate::declaration::all_states;
     use approx::assert_relative_eq;
 
     #[test]
     fn injecting_the_error_to_another_estimate_reaches_it() {
         let here = Geodetic::from_degrees(35.0, 139.0, 10.0);
         let start = Nominal::at(&here, &Vector3::new(1.0, 2.0, 0.1), &Matrix3::identity());
-        let error = ErrorState::from_fn(|i, _| 1e-3 * (i as f64 + 1.0) / STATES as f64);
+        let mut error = Errors::zeros(&all_states());
+        let count = all_states().states() as f64;
+        for (i, place) in all_states().places().iter().enumerate() {
+            let own = |k: usize| 1e-3 * ((i + k) as f64 + 1.0) / count;
+            error.fill(place.key, (0..place.width).map(own));
+        }
         let mut moved = start;
         moved.inject(&error);
-        assert_relative_eq!(start.error_to(&moved), error, epsilon = 1e-9);
+        assert_relative_eq!(start.error_to(&moved).values(), error.values(), epsilon = 1e-9);
     }
 }

@@ -13,21 +13,21 @@
 
 use insd_base::attitude::skew;
 use insd_base::earth;
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use insd_estimation::{Decay, Feed, Layout, Place, Transition};
+use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use crate::aids::reference_heading;
 use crate::config::NavConfig;
+use crate::declaration::{Process, declaration};
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, CURRENT, Covariance, GNSS_POSITION_ERROR,
-    GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, HEADING_ERROR, POSITION, SEA_LEVEL,
-    STATES, STRAPDOWN_STATES, VELOCITY,
+    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, Block, Covariance, DECLARATIONS, Effects,
+    Errors, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, POSITION, STRAPDOWN_STATES, VELOCITY,
 };
 use crate::increments::Increment;
+use crate::nominal::Nominal;
 use crate::strapdown::Step;
 
-type Transition = SMatrix<f64, STRAPDOWN_STATES, STRAPDOWN_STATES>;
+type Head = SMatrix<f64, STRAPDOWN_STATES, STRAPDOWN_STATES>;
 type Input = SMatrix<f64, STRAPDOWN_STATES, 3>;
-type Columns<const R: usize> = SMatrix<f64, R, STRAPDOWN_STATES>;
 
 /// Sums over the strapdown steps since the covariance was last propagated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,11 +98,16 @@ pub struct Regime {
     pub rtk: bool,
 }
 
+/// Where the strapdown errors stand: at the head, in this order.
+const POSITION_AT: usize = 0;
+const VELOCITY_AT: usize = POSITION_AT + 3;
+const ATTITUDE_AT: usize = VELOCITY_AT + 3;
+
 /// The nine strapdown rows of the transition matrix over a stretch.
 #[derive(Clone, Copy, Debug)]
 pub struct StrapdownRows {
     /// Position, velocity and attitude into themselves.
-    pub transition: Transition,
+    pub transition: Head,
     /// Gyro errors, rad/s, into them.
     pub gyro: Input,
     /// Accelerometer errors, m/s^2, into them.
@@ -117,22 +122,22 @@ pub fn strapdown_rows(stretch: &Stretch, gradient: &Matrix3<f64>) -> StrapdownRo
     let turn = skew(&earth::rate_e()) * dt;
     let velocity_from_attitude = -skew(&stretch.force);
     let velocity_from_gyro = velocity_from_attitude * stretch.c_eb * -0.5;
-    let mut transition = Transition::identity();
+    let mut transition = Head::identity();
     let mut put = |row: usize, column: usize, m: &Matrix3<f64>| {
         transition.fixed_view_mut::<3, 3>(row, column).copy_from(m);
     };
-    put(POSITION.start(), VELOCITY.start(), &(Matrix3::identity() * dt));
-    put(POSITION.start(), ATTITUDE.start(), &(velocity_from_attitude * (0.5 * dt)));
-    put(VELOCITY.start(), POSITION.start(), &(gradient * dt));
-    put(VELOCITY.start(), VELOCITY.start(), &(Matrix3::identity() - turn * 2.0));
-    put(VELOCITY.start(), ATTITUDE.start(), &velocity_from_attitude);
-    put(ATTITUDE.start(), ATTITUDE.start(), &(Matrix3::identity() - turn));
+    put(POSITION_AT, VELOCITY_AT, &(Matrix3::identity() * dt));
+    put(POSITION_AT, ATTITUDE_AT, &(velocity_from_attitude * (0.5 * dt)));
+    put(VELOCITY_AT, POSITION_AT, &(gradient * dt));
+    put(VELOCITY_AT, VELOCITY_AT, &(Matrix3::identity() - turn * 2.0));
+    put(VELOCITY_AT, ATTITUDE_AT, &velocity_from_attitude);
+    put(ATTITUDE_AT, ATTITUDE_AT, &(Matrix3::identity() - turn));
     let mut gyro = Input::zeros();
-    gyro.fixed_rows_mut::<3>(VELOCITY.start()).copy_from(&velocity_from_gyro);
-    gyro.fixed_rows_mut::<3>(ATTITUDE.start()).copy_from(&-stretch.c_eb);
+    gyro.fixed_rows_mut::<3>(VELOCITY_AT).copy_from(&velocity_from_gyro);
+    gyro.fixed_rows_mut::<3>(ATTITUDE_AT).copy_from(&-stretch.c_eb);
     let mut accel = Input::zeros();
-    accel.fixed_rows_mut::<3>(POSITION.start()).copy_from(&(stretch.c_eb * (-0.5 * dt)));
-    accel.fixed_rows_mut::<3>(VELOCITY.start()).copy_from(&-stretch.c_eb);
+    accel.fixed_rows_mut::<3>(POSITION_AT).copy_from(&(stretch.c_eb * (-0.5 * dt)));
+    accel.fixed_rows_mut::<3>(VELOCITY_AT).copy_from(&-stretch.c_eb);
     StrapdownRows { transition, gyro, accel }
 }
 
@@ -147,19 +152,16 @@ pub fn propagate(
     if stretch.duration <= 0.0 {
         return;
     }
-    let rows = strapdown_rows(stretch, gradient);
-    let columns = strapdown_columns(p, stretch, &rows);
-    let corner = strapdown_corner(&columns, stretch, &rows);
-    p.fixed_columns_mut::<STRAPDOWN_STATES>(0).copy_from(&columns);
-    p.fixed_rows_mut::<STRAPDOWN_STATES>(0).copy_from(&columns.transpose());
-    p.fixed_view_mut::<STRAPDOWN_STATES, STRAPDOWN_STATES>(0, 0).copy_from(&corner);
-    relax_markov(p, stretch.duration, config, regime);
-    add_noise(p, stretch, config);
+    let layout = p.layout().clone();
+    with_transition(&layout, stretch, gradient, (config, regime), |transition| {
+        transition.propagate(p);
+    });
+    add_noise(p, stretch, config, regime);
 }
 
-/// Carries an effect on the errors, a row for each cause, over a stretch: U^T <- U^T Phi^T.
-pub fn carry<const R: usize>(
-    response: &mut SMatrix<f64, R, STATES>,
+/// Carries the effects of causes on the errors over a stretch: U^T <- U^T Phi^T.
+pub fn carry(
+    effects: &mut Effects,
     stretch: &Stretch,
     gradient: &Matrix3<f64>,
     config: &NavConfig,
@@ -168,74 +170,72 @@ pub fn carry<const R: usize>(
     if stretch.duration <= 0.0 {
         return;
     }
-    let columns = strapdown_columns(response, stretch, &strapdown_rows(stretch, gradient));
-    response.fixed_columns_mut::<STRAPDOWN_STATES>(0).copy_from(&columns);
-    for (start, end, _, time) in markov(config, regime) {
-        response.columns_mut(start, end - start).scale_mut(markov_decay(stretch.duration, time));
+    let layout = effects.layout().clone();
+    with_transition(&layout, stretch, gradient, (config, regime), |transition| {
+        transition.carry(effects);
+    });
+}
+
+/// Carries errors over a stretch: x <- Phi x.
+pub fn carry_errors(
+    errors: &mut Errors,
+    stretch: &Stretch,
+    gradient: &Matrix3<f64>,
+    config: &NavConfig,
+    regime: &Regime,
+) {
+    if stretch.duration <= 0.0 {
+        return;
     }
+    let layout = errors.layout().clone();
+    with_transition(&layout, stretch, gradient, (config, regime), |transition| {
+        transition.carry_errors(errors);
+    });
 }
 
-/// P Phi^T in the columns of the strapdown states, P the covariance or any rows beside it.
-fn strapdown_columns<const R: usize>(
-    p: &SMatrix<f64, R, STATES>,
+/// Hands the transition over a stretch, of states that stand so, to who uses it.
+fn with_transition(
+    layout: &Layout,
     stretch: &Stretch,
-    rows: &StrapdownRows,
-) -> Columns<R> {
+    gradient: &Matrix3<f64>,
+    (config, regime): (&NavConfig, &Regime),
+    mut with: impl FnMut(&Transition<'_, STRAPDOWN_STATES>),
+) {
     let dt = stretch.duration;
-    let own = p.fixed_columns::<STRAPDOWN_STATES>(0);
-    let triad = |bias: usize, drift: usize, scale: usize, mean: Vector3<f64>| {
-        let mut sum = p.fixed_columns::<3>(bias) + p.fixed_columns::<3>(drift);
-        for axis in 0..3 {
-            sum.column_mut(axis).axpy(mean[axis], &p.column(scale + axis), 1.0);
-        }
-        sum
+    let rows = strapdown_rows(stretch, gradient);
+    let triad = |bias: Block<3>, drift: Block<3>, scale: Block<3>, mean: Vector3<f64>| {
+        let start = |block: Block<3>| layout.start(block.key()).unwrap_or(layout.states());
+        [
+            (start(bias), Vector3::repeat(1.0)),
+            (start(drift), Vector3::repeat(1.0)),
+            (start(scale), mean),
+        ]
     };
-    let gyro =
-        triad(GYRO_BIAS.start(), GYRO_DRIFT.start(), GYRO_SCALE.start(), stretch.rotation / dt);
-    let accel =
-        triad(ACCEL_BIAS.start(), ACCEL_DRIFT.start(), ACCEL_SCALE.start(), stretch.velocity / dt);
-    own * rows.transition.transpose()
-        + gyro * rows.gyro.transpose()
-        + accel * rows.accel.transpose()
+    let gyro = triad(GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, stretch.rotation / dt);
+    let accel = triad(ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, stretch.velocity / dt);
+    let feeds = [Feed { by: rows.gyro, from: &gyro }, Feed { by: rows.accel, from: &accel }];
+    let mut decays = [Decay::NONE; DECLARATIONS.len()];
+    let mut count = 0;
+    for (place, std, time) in markov(layout, config, regime) {
+        let left = markov_decay(dt, time);
+        let (start, width) = (place.start, place.width);
+        decays[count] = Decay { start, width, left, steady: std * std };
+        count += 1;
+    }
+    with(&Transition { head: rows.transition, feeds: &feeds, decays: &decays[..count] });
 }
 
-/// Phi (P Phi^T) in the rows and columns of the strapdown states, made symmetric.
-fn strapdown_corner(
-    columns: &Columns<STATES>,
-    stretch: &Stretch,
-    rows: &StrapdownRows,
-) -> Transition {
-    let dt = stretch.duration;
-    let triad = |bias: usize, drift: usize, scale: usize, mean: Vector3<f64>| {
-        let scaled = Matrix3::from_diagonal(&mean) * columns.fixed_rows::<3>(scale);
-        columns.fixed_rows::<3>(bias) + columns.fixed_rows::<3>(drift) + scaled
+/// Gauss-Markov states that are there, with their steady sigma and time constant.
+fn markov<'a>(
+    layout: &'a Layout,
+    config: &'a NavConfig,
+    regime: &'a Regime,
+) -> impl Iterator<Item = (Place, f64, f64)> + 'a {
+    let process = |place: &Place| match (declaration(place.key)?.process)(config, regime) {
+        Process::Markov { std, time } => Some((*place, std, time)),
+        _ => None,
     };
-    let gyro =
-        triad(GYRO_BIAS.start(), GYRO_DRIFT.start(), GYRO_SCALE.start(), stretch.rotation / dt);
-    let accel =
-        triad(ACCEL_BIAS.start(), ACCEL_DRIFT.start(), ACCEL_SCALE.start(), stretch.velocity / dt);
-    let corner = rows.transition * columns.fixed_rows::<STRAPDOWN_STATES>(0)
-        + rows.gyro * gyro
-        + rows.accel * accel;
-    (corner + corner.transpose()) * 0.5
-}
-
-/// Gauss-Markov states with their steady sigma and time constant.
-fn markov(config: &NavConfig, regime: &Regime) -> [(usize, usize, f64, f64); 6] {
-    let (gyro, accel) = (&config.imu.gyro, &config.imu.accel);
-    [
-        (GYRO_DRIFT.start(), GYRO_DRIFT.end(), gyro.instability_std, gyro.instability_time),
-        (ACCEL_DRIFT.start(), ACCEL_DRIFT.end(), accel.instability_std, accel.instability_time),
-        (
-            GNSS_POSITION_ERROR.start(),
-            GNSS_POSITION_ERROR.end(),
-            1.0,
-            config.gnss.position_time_for(regime.rtk),
-        ),
-        (GNSS_VELOCITY_ERROR.start(), GNSS_VELOCITY_ERROR.end(), 1.0, config.gnss.velocity_time),
-        (CURRENT.start(), CURRENT.end(), config.log.current_std, config.log.current_time),
-        (HEADING_ERROR.start(), HEADING_ERROR.end(), 1.0, reference_heading::TIME),
-    ]
+    layout.places().iter().filter_map(process)
 }
 
 /// Share of a Gauss-Markov value that is left after `dt`.
@@ -244,28 +244,17 @@ pub fn markov_decay(dt: f64, time_constant: f64) -> f64 {
     (-dt / time_constant).exp()
 }
 
-fn relax_markov(p: &mut Covariance, dt: f64, config: &NavConfig, regime: &Regime) {
-    let mut decay = SVector::<f64, STATES>::repeat(1.0);
-    let processes = markov(config, regime);
-    for (start, end, _, time) in processes {
-        let left = markov_decay(dt, time);
-        decay.rows_mut(start, end - start).fill(left);
-    }
-    for (start, end, _, _) in processes {
-        for i in start..end {
-            let left = decay[i];
-            p.column_mut(i).scale_mut(left);
-            p.row_mut(i).scale_mut(left);
-        }
-    }
-    for (start, end, std, _) in processes {
-        for i in start..end {
-            p[(i, i)] += std * std * (1.0 - decay[i] * decay[i]);
+/// The expected values of Gauss-Markov states decay as the states do.
+pub fn relax(nominal: &mut Nominal, dt: f64, config: &NavConfig, regime: &Regime) {
+    for declared in &DECLARATIONS {
+        if let Process::Markov { time, .. } = (declared.process)(config, regime) {
+            let left = markov_decay(dt, time);
+            declared.value(nominal).iter_mut().for_each(|value| *value *= left);
         }
     }
 }
 
-fn add_noise(p: &mut Covariance, stretch: &Stretch, config: &NavConfig) {
+fn add_noise(p: &mut Covariance, stretch: &Stretch, config: &NavConfig, regime: &Regime) {
     let dt = stretch.duration;
     let angle = config.imu.gyro.random_walk.powi(2) * dt;
     let velocity = config.imu.accel.random_walk.powi(2) * dt;
@@ -283,7 +272,11 @@ fn add_noise(p: &mut Covariance, stretch: &Stretch, config: &NavConfig) {
             add_way(p, &velocity, dt);
         }
     }
-    SEA_LEVEL.inflate(p, config.sea.level_walk.powi(2) * dt);
+    for declared in &DECLARATIONS {
+        if let Process::Walk(density) = (declared.process)(config, regime) {
+            p.inflate(declared.key, density * density * dt);
+        }
+    }
 }
 
 /// What an unknown change of the velocity, of a covariance that grew evenly over `dt` seconds, does to
@@ -291,12 +284,7 @@ fn add_noise(p: &mut Covariance, stretch: &Stretch, config: &NavConfig) {
 /// example 3.7-1). In the short steps between samples it is nothing.
 fn add_way(p: &mut Covariance, velocity: &Matrix3<f64>, dt: f64) {
     POSITION.add(p, &(velocity * (dt * dt / 3.0)));
-    let cross = velocity * (0.5 * dt);
-    let (r, v) = (POSITION.start(), VELOCITY.start());
-    let mut block = p.fixed_view_mut::<3, 3>(r, v);
-    block += cross;
-    let mut block = p.fixed_view_mut::<3, 3>(v, r);
-    block += cross.transpose();
+    POSITION.add_between(VELOCITY, p, &(velocity * (0.5 * dt)));
 }
 
 #[cfg(test)]

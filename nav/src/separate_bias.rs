@@ -19,13 +19,13 @@
 //! gyro that fails is not explained by where the antenna sits.
 
 use insd_base::attitude::skew;
-use nalgebra::{Cholesky, Matrix3, SMatrix, SVector, Vector3};
+use insd_estimation::Layout;
+use nalgebra::{Cholesky, DMatrix, Matrix3, RowVector3, SMatrix, SVector, Vector3};
 
 use crate::aids::View;
 use crate::error_state::{
-    Covariance, ErrorState, GNSS_DELAY, GNSS_LEVER, POSITION, STATES, VELOCITY,
+    Block, Covariance, Effects, Errors, GNSS_DELAY, GNSS_LEVER, POSITION, VELOCITY, Weighed,
 };
-use crate::innovation::Weighed;
 use crate::trust::FAULT;
 
 /// Constants that are doubted: the lever arm of the antenna, three components, m; the delay, s; the lever
@@ -44,9 +44,6 @@ const fn hypothesis(lever: f64, delay: f64, log: f64) -> Constants {
         lever, lever, lever, delay, log, log, log,
     ]]))
 }
-
-/// U transposed: what a unit of each constant does to the errors of the estimate.
-pub type Response = SMatrix<f64, CONSTANTS, STATES>;
 
 /// What a lever arm may be off by, 1-sigma, m: the longest of masts.
 const LEVER: f64 = 50.0;
@@ -85,9 +82,10 @@ const CONFIRMED: f64 = 0.5;
 const BENT: f64 = 0.05;
 
 /// The effect of the constants on the estimate, and what the innovations say of them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SeparateBias {
-    response: Response,
+    /// What a unit of each constant does to the errors of the estimate.
+    response: Effects,
     information: ConstantsCovariance,
     evidence: Constants,
     /// Sum of the normalised squares of the innovations, and how many there were.
@@ -122,11 +120,9 @@ impl SeparateBias {
     /// velocity has not.
     #[must_use]
     pub fn new(view: &View) -> Self {
-        let mut response = Response::zeros();
-        for (row, state) in (GNSS_LEVER.start()..GNSS_LEVER.end()).enumerate() {
-            response[(row, state)] = 1.0;
-        }
-        response[(DELAY_AT, GNSS_DELAY.start())] = 1.0;
+        let mut response = Effects::none(CONSTANTS);
+        response.set(0, GNSS_LEVER, &Matrix3::identity());
+        response.set(DELAY_AT, GNSS_DELAY, &SMatrix::<f64, 1, 1>::identity());
         let mut bias = SeparateBias {
             response,
             information: ConstantsCovariance::zeros(),
@@ -171,78 +167,84 @@ impl SeparateBias {
     fn place(&mut self, view: &View, share: &Vector3<f64>) {
         let taken = view.c_ne.transpose() * Matrix3::from_diagonal(share) * view.c_ne;
         let by_delay = (taken * view.nominal.velocity).transpose();
-        self.set(POSITION.start(), &-(taken * view.c_eb).transpose(), &by_delay);
+        self.set(POSITION, &-(taken * view.c_eb).transpose(), &by_delay);
     }
 
     /// The velocity has been set to what the receiver says: v = v_a - C_eb (omega x l) + a tau, with the
     /// `acceleration` of the antenna in ECEF axes, m/s^2.
     pub fn start(&mut self, view: &View, acceleration: &Vector3<f64>) {
         let by_lever = -(view.c_eb * skew(&view.rate)).transpose();
-        self.set(VELOCITY.start(), &by_lever, &acceleration.transpose());
+        self.set(VELOCITY, &by_lever, &acceleration.transpose());
     }
 
     /// What was heard of late is somebody else's fault, and the estimate is another now: what is known of the
     /// constants stays, and nothing speaks against them.
     pub fn excuse(&mut self, view: &View) {
-        let before = *self;
-        *self = SeparateBias::new(view);
+        let before = std::mem::replace(self, SeparateBias::new(view));
         self.information = before.information;
         (self.heard, self.misfit, self.strain) = (before.heard, before.heard, 1.0);
     }
 
-    fn set(&mut self, state: usize, by_lever: &Matrix3<f64>, by_delay: &SMatrix<f64, 1, 3>) {
-        self.response.fixed_view_mut::<3, 3>(0, state).copy_from(by_lever);
-        self.response.fixed_view_mut::<1, 3>(DELAY_AT, state).copy_from(by_delay);
+    fn set(&mut self, block: Block<3>, by_lever: &Matrix3<f64>, by_delay: &RowVector3<f64>) {
+        self.response.set(0, block, by_lever);
+        self.response.set(DELAY_AT, block, by_delay);
     }
 
-    /// The effect on the errors, to be carried along with them.
-    pub fn response_mut(&mut self) -> &mut Response {
+    /// The effect on the errors of these states, to be carried along with them.
+    pub fn response_on(&mut self, layout: &Layout) -> &mut Effects {
+        self.response.conform(layout);
         &mut self.response
+    }
+
+    /// The unit of a block of states has grown: their numbers are what they were, times a factor.
+    pub fn rescale<const W: usize>(&mut self, block: Block<W>, factor: f64) {
+        self.response.scale_block(block, factor);
     }
 
     /// Hears an innovation of GNSS, used or not, before it is absorbed. What it is off by below `least` strains
     /// nothing, 1-sigma of each component: receivers state what they resolve, and clocks and masts are not that stiff.
-    pub fn hear<const M: usize>(&mut self, weighed: &Weighed<M>, least: f64) {
+    pub fn hear(&mut self, weighed: &Weighed, least: f64) {
         let sigma = weighed.sigma().map(|sigma| sigma.hypot(least));
-        let strains = weighed.z().component_div(&sigma).norm_squared() / M as f64;
-        let mean_square = strains.min(weighed.nis() / M as f64);
-        self.weigh_in(weighed, &SMatrix::zeros());
-        self.strain += (mean_square.min(FAULT) - self.strain) * (M as f64 / self.heard.min(MOMENT));
+        let rows = weighed.rows() as f64;
+        let strains = weighed.z().component_div(&sigma).norm_squared() / rows;
+        let mean_square = strains.min(weighed.nis() / rows);
+        self.weigh_in(weighed, DMatrix::zeros(CONSTANTS, weighed.rows()));
+        self.strain += (mean_square.min(FAULT) - self.strain) * (rows / self.heard.min(MOMENT));
     }
 
     /// Hears an innovation of the log, used or not, before it is absorbed; `by_lever` is its derivative with
     /// respect to the lever arm of the log, which is no state of the filter.
-    pub fn hear_log<const M: usize>(
-        &mut self,
-        weighed: &Weighed<M>,
-        by_lever: &SMatrix<f64, M, 3>,
-    ) {
-        let mut direct = SMatrix::<f64, M, CONSTANTS>::zeros();
-        direct.fixed_columns_mut::<3>(LOG_AT).copy_from(by_lever);
-        self.weigh_in(weighed, &direct);
+    pub fn hear_log(&mut self, weighed: &Weighed, by_lever: &DMatrix<f64>) {
+        let mut direct = DMatrix::zeros(CONSTANTS, weighed.rows());
+        direct.fixed_rows_mut::<3>(LOG_AT).copy_from(&by_lever.transpose());
+        self.weigh_in(weighed, direct);
     }
 
     /// The log was absorbed with a gain: the error of its lever arm came with it.
-    pub fn absorb_log<const M: usize>(
-        &mut self,
-        gain: &SMatrix<f64, STATES, M>,
-        by_lever: &SMatrix<f64, M, 3>,
-    ) {
-        let mut own = self.response.fixed_rows_mut::<3>(LOG_AT);
-        own -= by_lever.transpose() * gain.transpose();
+    pub fn absorb_log(&mut self, gain: &DMatrix<f64>, by_lever: &DMatrix<f64>) {
+        let mut direct = DMatrix::zeros(CONSTANTS, by_lever.nrows());
+        direct.fixed_rows_mut::<3>(LOG_AT).copy_from(&by_lever.transpose());
+        Weighed::pass_on(&mut self.response, &direct, gain);
     }
 
-    fn weigh_in<const M: usize>(
-        &mut self,
-        weighed: &Weighed<M>,
-        direct: &SMatrix<f64, M, CONSTANTS>,
-    ) {
-        let (effect, z) = weighed.whitened_with(&self.response, direct);
-        let kept = 1.0 - M as f64 / SPAN;
-        self.information = self.information * kept + effect * effect.transpose();
-        self.evidence = self.evidence * kept + effect * z;
+    /// An innovation was absorbed with a gain: what the constants did to it came with it.
+    pub fn absorb(&mut self, weighed: &Weighed, gain: &DMatrix<f64>) {
+        let response = self.response_on(weighed.layout());
+        let effect = weighed.effect_of(response, DMatrix::zeros(CONSTANTS, weighed.rows()));
+        Weighed::pass_on(response, &effect, gain);
+    }
+
+    fn weigh_in(&mut self, weighed: &Weighed, direct: DMatrix<f64>) {
+        let response = self.response_on(weighed.layout());
+        let effect = weighed.whiten(weighed.effect_of(response, direct));
+        let z = weighed.whitened();
+        let rows = weighed.rows() as f64;
+        let kept = 1.0 - rows / SPAN;
+        self.information =
+            self.information * kept + (&effect * effect.transpose()).fixed_view(0, 0);
+        self.evidence = self.evidence * kept + (&effect * &z).fixed_rows(0);
         self.misfit = self.misfit * kept + z.norm_squared();
-        self.heard = self.heard * kept + M as f64;
+        self.heard = self.heard * kept + rows;
     }
 
     /// Whether the configured lever arm has been confirmed: nothing speaks against it, and if it were wrong
@@ -332,20 +334,23 @@ impl SeparateBias {
         convinces.then_some((score, finding))
     }
 
-    /// The covariance that the estimate has more if the delay is not known as it was thought, but to `sigma`, s.
-    #[must_use]
-    pub fn supposing_delay(&self, sigma: f64) -> Covariance {
-        let effect = self.response.row(DELAY_AT) * sigma;
-        effect.transpose() * effect
+    /// The delay is not known as it was thought, but to `sigma`, s: the estimate is as unsure.
+    pub fn suppose_delay(&self, sigma: f64, p: &mut Covariance) {
+        let mut supposed = Constants::zeros();
+        supposed[DELAY_AT] = sigma;
+        p.spread(&self.response.total(supposed.as_slice()));
     }
 
-    /// The error of the estimate that a finding means, and the covariance that it adds to it.
-    #[must_use]
-    pub fn correction(&self, finding: &Finding) -> (ErrorState, Covariance) {
+    /// The error of the estimate that a finding means; the covariance is as much wider as the finding is unsure.
+    pub fn correct(&self, finding: &Finding, p: &mut Covariance) -> Errors {
         let Finding { value, covariance } = finding;
         let bent = SMatrix::from_diagonal(&(value.component_mul(value) * (BENT * BENT)));
-        let unsure = self.response.transpose() * (covariance + bent) * self.response;
-        (self.response.transpose() * value, unsure)
+        let unsure = covariance + bent;
+        p.spread_by(
+            &self.response,
+            &DMatrix::from_column_slice(CONSTANTS, CONSTANTS, unsure.as_slice()),
+        );
+        self.response.total(value.as_slice())
     }
 }
 
@@ -386,8 +391,8 @@ impl Finding {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error_state::STATES;
-    use crate::innovation::Innovation;
+    use crate::declaration::all_states;
+    use crate::error_state::{Innovation, Jacobian};
     use insd_base::{Geodetic, earth};
     use nalgebra::Matrix3 as M3;
 
@@ -398,6 +403,12 @@ mod tests {
         View::new(&nominal, &measured, 0.0)
     }
 
+    fn hardly_unsure() -> Covariance {
+        let mut p = Covariance::zeros(&all_states());
+        p.matrix_mut().fill_diagonal(1e-9);
+        p
+    }
+
     /// Velocities of an antenna that is `off` from where it is said to be, on a ship that rolls and yaws;
     /// the filter's own errors are none.
     fn rolling(off: &Vector3<f64>, noise: f64) -> SeparateBias {
@@ -405,13 +416,12 @@ mod tests {
         for second in 0..300 {
             let phase = f64::from(second) * 0.7;
             let view = view(Vector3::new(0.05 * phase.sin(), 0.01 * phase.cos(), 0.02));
-            let mut h = SMatrix::<f64, 3, STATES>::zeros();
             let by_lever = view.c_nb() * skew(&view.rate);
-            GNSS_LEVER.set_columns(&mut h, &by_lever);
+            let h = Jacobian::none(3).with(GNSS_LEVER, &by_lever);
             let scatter = |k: i32| (f64::from(second * second + k) * 0.37).sin() * noise;
             let z = by_lever * off + Vector3::new(scatter(0), scatter(5), scatter(11));
-            let innovation = Innovation { z, h, r: M3::from_diagonal_element(noise * noise) };
-            bias.hear(&innovation.weigh(&Covariance::identity().scale(1e-9)).unwrap(), 0.0);
+            let innovation = Innovation::new(&z, h, &M3::from_diagonal_element(noise * noise));
+            bias.hear(&innovation.weigh(&hardly_unsure()).unwrap(), 0.0);
         }
         bias
     }
@@ -430,13 +440,10 @@ mod tests {
         let mut lying = rolling(&Vector3::zeros(), 0.05);
         let view = view(Vector3::zeros());
         for _ in 0..300 {
-            let h = SMatrix::<f64, 3, STATES>::zeros();
-            let innovation = Innovation {
-                z: view.c_nb() * Vector3::new(3.0, -2.0, 0.0),
-                h,
-                r: M3::from_diagonal_element(0.0025),
-            };
-            lying.hear(&innovation.weigh(&Covariance::identity().scale(1e-9)).unwrap(), 0.0);
+            let z = view.c_nb() * Vector3::new(3.0, -2.0, 0.0);
+            let noise = M3::from_diagonal_element(0.0025);
+            let innovation = Innovation::new(&z, Jacobian::none(3), &noise);
+            lying.hear(&innovation.weigh(&hardly_unsure()).unwrap(), 0.0);
         }
         assert_eq!(lying.finding(), None);
         assert!(lying.strain().unwrap() > 20.0, "but the strain shows");

@@ -2,12 +2,12 @@
 
 use insd_base::attitude::skew;
 use insd_base::{Geodetic, Ned, SolutionSigma, earth};
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use crate::aids::View;
 use crate::dating::Dating;
 use crate::error_state::{
-    ATTITUDE, Covariance, ErrorState, GNSS_DELAY, POSITION, STRAPDOWN_STATES, VELOCITY,
+    ATTITUDE, Covariance, Errors, GNSS_DELAY, POSITION, STRAPDOWN_STATES, VELOCITY,
 };
 
 type Rows = SMatrix<f64, 3, STRAPDOWN_STATES>;
@@ -32,19 +32,22 @@ pub fn solution_sigma(
     dating: &Dating,
     p: &Covariance,
 ) -> SolutionSigma {
-    let corner = p.fixed_view::<STRAPDOWN_STATES, STRAPDOWN_STATES>(0, 0).into_owned();
-    let delay = GNSS_DELAY.start();
-    let with_delay = p.fixed_view::<STRAPDOWN_STATES, 1>(0, delay).into_owned();
+    let corner = p.matrix().fixed_view::<STRAPDOWN_STATES, STRAPDOWN_STATES>(0, 0).into_owned();
+    let mut with_delay = SVector::<f64, STRAPDOWN_STATES>::zeros();
+    for (block, at) in [(POSITION, 0), (VELOCITY, 3), (ATTITUDE, 6)] {
+        with_delay.fixed_rows_mut::<3>(at).copy_from(&block.covariance_with(GNSS_DELAY, p));
+    }
+    let delay = GNSS_DELAY.covariance(p).x;
     let std = |rows: &Rows, by_delay: &Vector3<f64>| {
         let cross = (rows * with_delay).component_mul(by_delay) * (2.0 * dating.share);
-        let unsure = dating.share * dating.share * p[(delay, delay)] + dating.std * dating.std;
+        let unsure = dating.share * dating.share * delay + dating.std * dating.std;
         let own = by_delay.component_mul(by_delay) * unsure;
         let variance = (rows * corner * rows.transpose()).diagonal() + cross + own;
         variance.map(|variance| variance.max(0.0).sqrt())
     };
     let (velocity, angles) = rows(view);
     let mut position = Rows::zeros();
-    position.fixed_columns_mut::<3>(POSITION.start()).copy_from(&view.c_ne);
+    position.fixed_columns_mut::<3>(0).copy_from(&view.c_ne);
     let turning = view.attitude().jacobian_of_ned_rotation() * (view.c_nb() * view.rate);
     let euler = std(&angles, &-turning);
     SolutionSigma {
@@ -58,12 +61,15 @@ pub fn solution_sigma(
 
 /// What an error of the estimate does to each component of a solution, as its size.
 #[must_use]
-pub fn difference(view: &View, error: &ErrorState) -> SolutionSigma {
-    let own = error.fixed_rows::<STRAPDOWN_STATES>(0).into_owned();
+pub fn difference(view: &View, error: &Errors) -> SolutionSigma {
+    let mut own = SVector::<f64, STRAPDOWN_STATES>::zeros();
+    for (block, at) in [(POSITION, 0), (VELOCITY, 3), (ATTITUDE, 6)] {
+        own.fixed_rows_mut::<3>(at).copy_from(&error.of(block));
+    }
     let (velocity, angles) = rows(view);
     let euler = (angles * own).abs();
     SolutionSigma {
-        position: Ned((view.c_ne * POSITION.of(error)).abs()),
+        position: Ned((view.c_ne * error.of(POSITION)).abs()),
         velocity: Ned((velocity * own).abs()),
         roll: euler.x,
         pitch: euler.y,
@@ -76,11 +82,11 @@ fn rows(view: &View) -> (Rows, Rows) {
     let turn = axes_turn(&view.geodetic) * view.c_ne;
     let jacobian = view.attitude().jacobian_of_ned_rotation();
     let mut velocity = Rows::zeros();
-    velocity.fixed_columns_mut::<3>(POSITION.start()).copy_from(&(skew(&view.v_n()) * turn));
-    velocity.fixed_columns_mut::<3>(VELOCITY.start()).copy_from(&view.c_ne);
+    velocity.fixed_columns_mut::<3>(0).copy_from(&(skew(&view.v_n()) * turn));
+    velocity.fixed_columns_mut::<3>(3).copy_from(&view.c_ne);
     let mut angles = Rows::zeros();
-    angles.fixed_columns_mut::<3>(POSITION.start()).copy_from(&(-jacobian * turn));
-    angles.fixed_columns_mut::<3>(ATTITUDE.start()).copy_from(&(jacobian * view.c_ne));
+    angles.fixed_columns_mut::<3>(0).copy_from(&(-jacobian * turn));
+    angles.fixed_columns_mut::<3>(6).copy_from(&(jacobian * view.c_ne));
     (velocity, angles)
 }
 
@@ -97,7 +103,6 @@ pub fn axes_turn(place: &Geodetic) -> Matrix3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error_state::ErrorState;
     use crate::nominal::Nominal;
     use insd_base::Attitude;
     use insd_base::units::wrap_pi;
@@ -112,8 +117,9 @@ mod tests {
         for state in 0..STRAPDOWN_STATES {
             let step = if state < 3 { 0.1 } else { 1e-5 };
             let moved = |amount: f64| {
-                let mut error = ErrorState::zeros();
-                error[state] = amount;
+                let mut error = Errors::none();
+                let block = [POSITION, VELOCITY, ATTITUDE][state / 3];
+                error.set(block, &(Vector3::ith(state % 3, amount)));
                 let mut moved = nominal;
                 moved.inject(&error);
                 view_of(&moved)

@@ -18,7 +18,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, Covariance, ErrorState, GYRO_BIAS, GYRO_DRIFT, POSITION,
+    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, Covariance, Errors, GYRO_BIAS, GYRO_DRIFT, POSITION,
     VELOCITY,
 };
 
@@ -32,35 +32,32 @@ pub fn turn_biases(p: &mut Covariance, from: &Matrix3<f64>, to: &Matrix3<f64>) {
 
 /// Keeps a turn about the berth unknown when position and velocity are corrected by `error`, which
 /// the covariance has absorbed; `down` is the unit vector down, ECEF axes.
-pub fn keep_turn_unknown(p: &mut Covariance, error: &ErrorState, down: &Vector3<f64>) {
+pub fn keep_turn_unknown(p: &mut Covariance, error: &Errors, down: &Vector3<f64>) {
     for block in [POSITION, VELOCITY] {
-        let across = down.cross(&block.of(error));
-        // row of the heading error, phi_D = down . phi
-        let heading = down.transpose() * p.fixed_rows::<3>(ATTITUDE.start());
-        let mut rows = p.fixed_rows_mut::<3>(block.start());
-        rows += across * heading;
-        let heading = p.fixed_columns::<3>(ATTITUDE.start()) * down;
-        let mut columns = p.fixed_columns_mut::<3>(block.start());
-        columns += heading * across.transpose();
+        // phi_D = down . phi
+        let across = down.cross(&error.of(block)) * down.transpose();
+        ATTITUDE.add_to(block, p, &across);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::UnitQuaternion;
+    use nalgebra::{DMatrix, UnitQuaternion};
 
     #[test]
     fn what_is_known_of_heading_and_bias_together_stays_in_ecef_axes() {
-        let root = Covariance::from_fn(|i, j| ((i * 3 + j * 7) as f64).sin());
-        let before = root * root.transpose();
+        let mut before = crate::declaration::no_covariance();
+        let states = before.states();
+        let root = DMatrix::from_fn(states, states, |i, j| ((i * 3 + j * 7) as f64).sin());
+        *before.matrix_mut() = &root * root.transpose();
         let old = UnitQuaternion::from_euler_angles(0.1, -0.2, 1.0);
         let new = UnitQuaternion::new(Vector3::new(0.0, 0.05, -0.1)) * old;
         let (old, new) = (old.to_rotation_matrix(), new.to_rotation_matrix());
-        let mut after = before;
+        let mut after = before.clone();
         turn_biases(&mut after, old.matrix(), new.matrix());
         let cross = |p: &Covariance, c_eb: &Matrix3<f64>| {
-            p.fixed_view::<3, 3>(ATTITUDE.start(), GYRO_BIAS.start()) * c_eb.transpose()
+            ATTITUDE.covariance_with(GYRO_BIAS, p) * c_eb.transpose()
         };
         let (was, is) = (cross(&before, old.matrix()), cross(&after, new.matrix()));
         assert!((was - is).amax() < 1e-12);

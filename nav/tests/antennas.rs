@@ -7,7 +7,7 @@ use insd_base::{
     Body, Ecef, FixQuality, Geodetic, GnssFix, ImuSpec, LeverArms, Message, Ned, Received, Source,
     Time, Triad, earth,
 };
-use insd_nav::error_state::{ATTITUDE, ErrorState, GNSS_LEVER, POSITION, VELOCITY};
+use insd_nav::error_state::{ATTITUDE, GNSS_LEVER, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
 use insd_nav::{
     AidReport, Estimator, Filter, Increment, InitialState, NavConfig, Nominal, Outcome,
@@ -129,10 +129,10 @@ fn antenna_is_known_to(gnss: Body, attitude: f64) -> f64 {
     (told.position_std, told.quality) = (Some(Ned::new(0.01, 0.01, 0.02)), FixQuality::RtkFixed);
     filter.apply(&received);
     let c_ne = earth::c_ne(&place());
-    let to_antenna = |error: &ErrorState| (c_ne * POSITION.of(error) + GNSS_LEVER.of(error)).x;
-    let rows =
-        ErrorState::from_fn(|row, _| to_antenna(&filter.covariance().column(row).into_owned()));
-    to_antenna(&rows).sqrt()
+    let p = filter.covariance();
+    let both = c_ne * POSITION.covariance_with(GNSS_LEVER, p);
+    let antenna = POSITION.covariance_in(p, &c_ne) + both + both.transpose();
+    (antenna + GNSS_LEVER.covariance(p))[(0, 0)].sqrt()
 }
 
 #[test]

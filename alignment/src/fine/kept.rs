@@ -66,7 +66,7 @@ impl Fine {
             Some(KeptHold::WhiteNoise) => Fine::moored(filter, Method::WhiteNoise),
             Some(KeptHold::Prefiltered) => Fine::moored(filter, Method::Autoregressive),
             Some(KeptHold::Moorings(moorings)) => {
-                let hold = Some(Hold::Moorings(Box::new(moorings.shifted(by))));
+                let hold = Some(Hold::Moorings(Box::new(moorings.as_ref().clone().shifted(by))));
                 Fine { hold, ..Fine::under_way(filter) }
             }
         };

@@ -7,7 +7,7 @@
 //! At the handover these memories become the correlations of the full filter.
 
 use insd_nav::NavConfig;
-use nalgebra::{Cholesky, Matrix2, SMatrix, SVector, Vector2};
+use nalgebra::{Cholesky, DMatrix, Matrix2, SMatrix, SVector, Vector2};
 
 /// Number of estimated errors.
 pub const STATES: usize = 8;
@@ -151,6 +151,16 @@ impl Belief {
         put(k::LOG_TURN, 1, square(config.log.misalignment_std));
         put(k::CURRENT, 2, square(config.log.current_std));
         Belief { own: Covariance::zeros(), cross: Cross::zeros(), prior }
+    }
+
+    /// What all errors have to do with each other beyond what is known of the considered ones by themselves.
+    #[must_use]
+    pub fn joint(&self) -> DMatrix<f64> {
+        let mut joint = DMatrix::zeros(STATES + CONSIDERED, STATES + CONSIDERED);
+        joint.fixed_view_mut::<STATES, STATES>(0, 0).copy_from(&self.own);
+        joint.fixed_view_mut::<STATES, CONSIDERED>(0, STATES).copy_from(&self.cross);
+        joint.fixed_view_mut::<CONSIDERED, STATES>(STATES, 0).copy_from(&self.cross.transpose());
+        joint
     }
 
     /// Sets the variance of a pair and forgets its correlations.

@@ -7,14 +7,15 @@
 
 use insd_base::earth;
 use insd_nav::antenna::AntennaMotion;
+use insd_nav::declaration::{Carried, carried};
 use insd_nav::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, CURRENT, ErrorState, GNSS_DELAY, GNSS_LEVER,
+    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, CURRENT, Effects, GNSS_DELAY, GNSS_LEVER,
     GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT,
-    GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, POSITION, STATES as ALL, VELOCITY,
+    GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, POSITION, VELOCITY,
 };
 use insd_nav::initial::sensor_covariance;
 use insd_nav::{InitialState, Nominal};
-use nalgebra::{Matrix2, Matrix3, SMatrix, UnitQuaternion, Vector1, Vector2, Vector3};
+use nalgebra::{Matrix1, Matrix2, Matrix3, SMatrix, UnitQuaternion, Vector1, Vector2, Vector3};
 
 use super::belief::{CONSIDERED, Covariance, Innovation, STATES, considered as k, state as x};
 use super::motion::{across, rotation};
@@ -144,63 +145,60 @@ impl EightState {
             ..Nominal::at(&place, &v_n, &own.motion.c_pb())
         };
         let c_en = earth::c_ne(&place).transpose();
-        let into = own.errors_in_full(&c_en);
-        let learnt = own.sensors_in_full();
         let mut covariance = sensor_covariance(&own.config);
-        let mixed = into * own.belief.cross * learnt.transpose();
-        covariance += into * own.belief.own * into.transpose() + mixed + mixed.transpose();
+        if own.has_heard_log() {
+            carried(Carried::WithLog).for_each(|state| state.join(&mut covariance, &own.config));
+        }
+        covariance.spread_by(&own.errors_in_full(&c_en), &own.belief.joint());
         let (height, down) = own.vertical.variances();
         let up = c_en.column(2) * c_en.column(2).transpose();
         POSITION.add(&mut covariance, &(up * height));
         VELOCITY.add(&mut covariance, &(up * down));
         hang_from_mast(&mut covariance, &c_en, &own.motion.c_pb());
-        covariance = (covariance + covariance.transpose()) * 0.5;
+        covariance.symmetrise();
         Some(InitialState { time: own.time, nominal, covariance, rate: own.rate })
     }
 
-    /// The eight errors as errors of the full filter; the frame being true, s is the heading error.
-    fn errors_in_full(&self, c_en: &Matrix3<f64>) -> SMatrix<f64, ALL, STATES> {
-        let column = |state: usize| {
-            let mut error = ErrorState::zeros();
-            let axis = |i: usize| c_en.column(i).into_owned();
-            match state {
-                x::SINE => ATTITUDE.set(&mut error, &axis(2)),
-                x::VERSINE => {}
-                _ => [POSITION, VELOCITY, ATTITUDE][state / 2].set(&mut error, &axis(state % 2)),
-            }
-            error
-        };
-        SMatrix::from_columns(&std::array::from_fn::<_, STATES, _>(column))
+    /// Whether the estimate depends on the errors of a log.
+    fn has_heard_log(&self) -> bool {
+        self.belief.cross.columns(k::LOG_SCALE, CONSIDERED - k::LOG_SCALE).amax() > 0.0
     }
 
-    /// Expected sensor errors of the full filter for given considered errors. Constant and drifting
-    /// parts of a bias share it by their variances.
-    fn sensors_in_full(&self) -> SMatrix<f64, ALL, CONSIDERED> {
-        let mut m = SMatrix::<f64, ALL, CONSIDERED>::zeros();
+    /// What a unit of each of the eight errors, and of each considered one, is in the full filter; the frame being true, s is
+    /// the heading error. Constant and drifting parts of a bias share it by their variances.
+    fn errors_in_full(&self, c_en: &Matrix3<f64>) -> Effects {
+        let mut into = Effects::none(STATES + CONSIDERED);
+        for axis in 0..2 {
+            let along = c_en.column(axis).transpose();
+            into.set(x::POSITION + axis, POSITION, &along);
+            into.set(x::VELOCITY + axis, VELOCITY, &along);
+            into.set(x::TILT + axis, ATTITUDE, &along);
+        }
+        into.set(x::SINE, ATTITUDE, &c_en.column(2).transpose());
         let prior = &self.belief.prior;
-        let mut put = |row: usize, column: usize, value: f64| m[(row, column)] = value;
         let share = |std: f64, at: usize| std * std / prior[at].max(f64::MIN_POSITIVE);
         let (gyro, accel) = (&self.config.imu.gyro, &self.config.imu.accel);
         for axis in 0..3 {
-            let at = k::GYRO + axis;
-            put(GYRO_BIAS.start() + axis, at, share(gyro.bias_std, at));
-            put(GYRO_DRIFT.start() + axis, at, share(gyro.instability_std, at));
+            let (at, own) = (k::GYRO + axis, Vector3::ith(axis, 1.0).transpose());
+            into.set(STATES + at, GYRO_BIAS, &(own * share(gyro.bias_std, at)));
+            into.set(STATES + at, GYRO_DRIFT, &(own * share(gyro.instability_std, at)));
         }
         for axis in 0..2 {
-            let at = k::ACCEL + axis;
-            put(ACCEL_BIAS.start() + axis, at, share(accel.bias_std, at));
-            put(ACCEL_DRIFT.start() + axis, at, share(accel.instability_std, at));
-            put(GNSS_LEVER.start() + axis, k::LEVER + axis, 1.0);
-            put(GNSS_POSITION_ERROR.start() + axis, k::SLOW_POSITION + axis, 1.0);
-            put(GNSS_VELOCITY_ERROR.start() + axis, k::SLOW_VELOCITY + axis, 1.0);
-            put(CURRENT.start() + axis, k::CURRENT + axis, 1.0);
+            let (at, own) = (k::ACCEL + axis, Vector3::ith(axis, 1.0).transpose());
+            into.set(STATES + at, ACCEL_BIAS, &(own * share(accel.bias_std, at)));
+            into.set(STATES + at, ACCEL_DRIFT, &(own * share(accel.instability_std, at)));
+            into.set(STATES + k::LEVER + axis, GNSS_LEVER, &own);
+            into.set(STATES + k::SLOW_POSITION + axis, GNSS_POSITION_ERROR, &own);
+            into.set(STATES + k::SLOW_VELOCITY + axis, GNSS_VELOCITY_ERROR, &own);
+            into.set(STATES + k::CURRENT + axis, CURRENT, &Vector2::ith(axis, 1.0).transpose());
         }
-        put(GYRO_SCALE.start() + 2, k::GYRO_SCALE_DOWN, 1.0);
-        put(GNSS_DELAY.start(), k::DELAY, 1.0);
-        put(GNSS_VELOCITY_DELAY.start(), k::VELOCITY_DELAY, 1.0);
-        put(LOG_SCALE.start(), k::LOG_SCALE, 1.0);
-        put(LOG_MISALIGNMENT.start() + 1, k::LOG_TURN, 1.0);
-        m
+        let one = Matrix1::identity();
+        into.set(STATES + k::GYRO_SCALE_DOWN, GYRO_SCALE, &Vector3::z().transpose());
+        into.set(STATES + k::DELAY, GNSS_DELAY, &one);
+        into.set(STATES + k::VELOCITY_DELAY, GNSS_VELOCITY_DELAY, &one);
+        into.set(STATES + k::LOG_SCALE, LOG_SCALE, &one);
+        into.set(STATES + k::LOG_TURN, LOG_MISALIGNMENT, &Vector2::y().transpose());
+        into
     }
 }
 
@@ -211,12 +209,5 @@ fn hang_from_mast(
     c_en: &Matrix3<f64>,
     c_nb: &Matrix3<f64>,
 ) {
-    let by_lever = -c_en.column(2) * c_nb.row(2);
-    let lever = GNSS_LEVER.start();
-    let rows = by_lever * p.fixed_rows::<3>(lever);
-    let mut position = p.fixed_rows_mut::<3>(POSITION.start());
-    position += rows;
-    let columns = p.fixed_columns::<3>(lever) * by_lever.transpose();
-    let mut position = p.fixed_columns_mut::<3>(POSITION.start());
-    position += columns;
+    GNSS_LEVER.add_to(POSITION, p, &(-c_en.column(2) * c_nb.row(2)));
 }

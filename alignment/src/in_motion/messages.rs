@@ -170,7 +170,7 @@ impl EightState {
             enter(report, time, source, aid, Rejection::OutOfRange);
             return false;
         };
-        let limit = self.gate.limit::<2>();
+        let limit = self.gate.limit(2);
         let passes = weighed.nis <= limit;
         if passes {
             if let Some(blur) = &mut self.blur {

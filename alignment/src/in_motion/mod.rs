@@ -42,9 +42,9 @@ use insd_base::units::{DEG, wrap_two_pi};
 use insd_base::{
     Attitude, Body, Message, Mode, Ned, Received, Solution, SolutionSigma, Time, earth,
 };
+use insd_estimation::Gate;
 use insd_nav::angular_rate::rate_variance;
 use insd_nav::antenna::AntennaMotion;
-use insd_nav::gate::ChiSquareGate;
 use insd_nav::leap::LeapWatch;
 use insd_nav::{Estimator, Increment, NavConfig, Report};
 use nalgebra::{Matrix2, Rotation3, UnitQuaternion, Vector2, Vector3};
@@ -62,7 +62,7 @@ use vertical::Vertical;
 #[derive(Clone, Debug)]
 pub struct EightState {
     config: NavConfig,
-    gate: ChiSquareGate,
+    gate: Gate,
     time: Time,
     motion: Motion,
     local: Local,
@@ -127,7 +127,7 @@ impl EightState {
         motion.tilt = motion::across(&start.acceleration.xy()) / -local.gravity;
         let mut filter = EightState {
             config: *config,
-            gate: ChiSquareGate::new(config.gate.probability),
+            gate: Gate::new(config.gate.probability),
             time: level.time,
             motion,
             local,

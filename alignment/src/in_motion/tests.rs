@@ -6,7 +6,7 @@ use insd_base::units::{DEG, wrap_pi};
 use insd_base::{
     Attitude, ExternalReference, Geodetic, ImuSpec, Integrity, LeverArms, LogReference,
 };
-use insd_nav::error_state::{ATTITUDE, STATES as ALL};
+use insd_nav::error_state::{ATTITUDE, POSITION, VELOCITY};
 use nalgebra::Cholesky;
 
 use super::aids::{LogReading, Split};
@@ -303,19 +303,20 @@ fn the_full_filter_starts_where_alignment_ends() {
         let mut run = Run::new(&ship, &imu, 200 + seed);
         run.sail(40.0);
         let initial = run.filter.initial_state().unwrap();
-        let mut guarded = initial.covariance;
-        for i in 0..ALL {
+        let mut guarded = initial.covariance.matrix().clone();
+        for i in 0..guarded.nrows() {
             guarded[(i, i)] += 1e-9 * guarded[(i, i)] + 1e-18;
         }
         assert!(Cholesky::new(guarded).is_some(), "not positive definite");
         let truth =
             insd_nav::Nominal::at(&run.true_place(), &run.true_velocity(), &run.truth().c_nb());
         let error = initial.nominal.error_to(&truth);
-        let p = initial.covariance.fixed_view::<9, 9>(0, 0).into_owned();
-        let x = error.fixed_rows::<9>(0).into_owned();
+        let p = initial.covariance.matrix().fixed_view::<9, 9>(0, 0).into_owned();
+        let heads = [POSITION, VELOCITY, ATTITUDE].map(|block| error.of(block));
+        let x = nalgebra::SVector::<f64, 9>::from_fn(|i, _| heads[i / 3][i % 3]);
         let whitened = Cholesky::new(p).unwrap().l().solve_lower_triangular(&x).unwrap();
         assert!(whitened.norm_squared() < 30.0, "seed {seed}: {}", whitened.norm_squared());
-        assert!(ATTITUDE.of(&error).norm() < 5.0 * DEG);
+        assert!(error.of(ATTITUDE).norm() < 5.0 * DEG);
         let filter = insd_nav::Filter::new(run.config(), &initial);
         let said = filter.solution();
         assert!(wrap_pi(said.attitude.heading - run.filter.heading().0).abs() < 0.01);

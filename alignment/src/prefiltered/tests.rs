@@ -37,7 +37,7 @@ fn lying() -> Attitude {
 }
 
 /// A filter whose estimate is wrong by `error`.
-fn filter(error: &ErrorState) -> Filter {
+fn filter(error: &Errors) -> Filter {
     let config = NavConfig::new(imu(), LeverArms::default());
     let mut nominal = Nominal::at(&berth(), &Vector3::zeros(), &lying().c_nb());
     nominal.inject(&-error);
@@ -72,19 +72,19 @@ fn increment(step: usize) -> Increment {
 }
 
 /// Errors of tilt, heading, velocity and sensors as they are while a ship is being aligned.
-fn errors() -> ErrorState {
+fn errors() -> Errors {
     let c_en = earth::c_ne(&berth()).transpose();
-    let mut error = ErrorState::zeros();
-    ATTITUDE.set(&mut error, &(c_en * Vector3::new(1e-5, -2e-5, 0.1 * DEG)));
-    VELOCITY.set(&mut error, &(c_en * Vector3::new(0.005, -0.01, 0.0)));
-    GYRO_BIAS.set(&mut error, &Vector3::new(0.002, -0.003, 0.001).map(|rate| rate * DEG_PER_HOUR));
-    ACCEL_BIAS.set(&mut error, &Vector3::new(4e-5, -3e-5, 0.0));
+    let mut error = Errors::none();
+    error.set(ATTITUDE, &(c_en * Vector3::new(1e-5, -2e-5, 0.1 * DEG)));
+    error.set(VELOCITY, &(c_en * Vector3::new(0.005, -0.01, 0.0)));
+    error.set(GYRO_BIAS, &Vector3::new(0.002, -0.003, 0.001).map(|rate| rate * DEG_PER_HOUR));
+    error.set(ACCEL_BIAS, &Vector3::new(4e-5, -3e-5, 0.0));
     error
 }
 
 #[test]
 fn a_corrected_filter_leaves_the_window_as_if_it_had_always_been_right() {
-    let (mut wrong, mut right) = (filter(&errors()), filter(&ErrorState::zeros()));
+    let (mut wrong, mut right) = (filter(&errors()), filter(&Errors::none()));
     let (mut seen, mut ideal) = (Prefiltered::new(&wrong), Prefiltered::new(&right));
     for step in 0..3000 {
         wrong.advance(&increment(step));
@@ -99,7 +99,7 @@ fn a_corrected_filter_leaves_the_window_as_if_it_had_always_been_right() {
         pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
     };
     assert!(distance(&seen) > 0.04, "the errors make {} m/s", distance(&seen));
-    let covariance = *wrong.covariance();
+    let covariance = wrong.covariance().clone();
     wrong.replace(*right.nominal(), covariance);
     let correction = wrong.take_correction();
     seen.prefilter.shift(&derivatives(&wrong, &correction));
@@ -109,7 +109,7 @@ fn a_corrected_filter_leaves_the_window_as_if_it_had_always_been_right() {
 
 #[test]
 fn the_derivatives_that_are_left_out_are_small() {
-    let all = derivatives(&filter(&ErrorState::zeros()), &errors());
+    let all = derivatives(&filter(&Errors::none()), &errors());
     let share = |n: usize| {
         let factorial: f64 = (1..=n).map(|k| k as f64).product();
         all[n].norm() * WINDOW.powi(n as i32) / factorial
@@ -137,7 +137,7 @@ fn named(at: f64) -> Received {
 #[test]
 fn only_the_moorings_hold_the_position_to_the_berth_once_it_is_named() {
     for method in Method::ALL {
-        let mut fine = Fine::moored(filter(&ErrorState::zeros()), method);
+        let mut fine = Fine::moored(filter(&Errors::none()), method);
         let mut place = Vec::new();
         for second in 0..2 {
             fine.apply(&named(f64::from(second)));
@@ -150,7 +150,7 @@ fn only_the_moorings_hold_the_position_to_the_berth_once_it_is_named() {
 
 #[test]
 fn the_plain_filter_learns_how_fast_the_sea_is() {
-    let mut filter = filter(&ErrorState::zeros());
+    let mut filter = filter(&Errors::none());
     let mut white = WhiteNoise::new(&filter);
     assert!(white.std() > 0.2);
     for step in 0..6000 {

@@ -1,6 +1,6 @@
 //! Error states by name.
 
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 use crate::covariance::Covariance;
@@ -78,6 +78,20 @@ impl<const W: usize> Block<W> {
         (self.covariance(p).trace() / W as f64).max(0.0).sqrt()
     }
 
+    /// 1-sigma of each component.
+    #[must_use]
+    pub fn stds(self, p: &Covariance) -> SVector<f64, W> {
+        self.covariance(p).diagonal().map(|variance| variance.max(0.0).sqrt())
+    }
+
+    /// 1-sigma of each component of the sum of this block and another.
+    #[must_use]
+    pub fn std_of_sum(self, other: Self, p: &Covariance) -> SVector<f64, W> {
+        let both = self.covariance(p) + other.covariance(p);
+        let variance = both.diagonal() + self.covariance_with(other, p).diagonal() * 2.0;
+        variance.map(|variance| variance.max(0.0).sqrt())
+    }
+
     /// Forgets what is known of this block: new covariance, no correlation with the rest. It joins where it is not there.
     pub fn renew(self, p: &mut Covariance, covariance: &SMatrix<f64, W, W>) {
         let Some(start) = p.layout().start(self.key) else { return p.join(self, covariance) };
@@ -92,6 +106,39 @@ impl<const W: usize> Block<W> {
         let Some(start) = p.layout().start(self.key) else { return };
         let mut own = p.matrix_mut().fixed_view_mut::<W, W>(start, start);
         own += (covariance + covariance.transpose()) * 0.5;
+    }
+
+    /// Another block has an error by this one as well from now on, y <- y + A x; the columns of A are those of this block.
+    pub fn add_to<const V: usize>(
+        self,
+        other: Block<V>,
+        p: &mut Covariance,
+        by: &SMatrix<f64, V, W>,
+    ) {
+        let (from, to) = (p.layout().start(self.key), p.layout().start(other.key));
+        let Some((from, to)) = from.zip(to) else { return };
+        let matrix = p.matrix_mut();
+        let more = by * matrix.fixed_rows::<W>(from);
+        let mut rows = matrix.fixed_rows_mut::<V>(to);
+        rows += more;
+        let more = matrix.fixed_columns::<W>(from) * by.transpose();
+        let mut columns = matrix.fixed_columns_mut::<V>(to);
+        columns += more;
+    }
+
+    /// Adds to the covariance of this block (rows) with another (columns), and of that with this, if both are there.
+    pub fn add_between<const V: usize>(
+        self,
+        other: Block<V>,
+        p: &mut Covariance,
+        covariance: &SMatrix<f64, W, V>,
+    ) {
+        let (row, column) = (p.layout().start(self.key), p.layout().start(other.key));
+        let Some((row, column)) = row.zip(column) else { return };
+        let mut own = p.matrix_mut().fixed_view_mut::<W, V>(row, column);
+        own += covariance;
+        let mut transposed = p.matrix_mut().fixed_view_mut::<V, W>(column, row);
+        transposed += covariance.transpose();
     }
 
     /// Adds a variance to each component, if it is there.

@@ -69,6 +69,16 @@ impl Covariance {
         block.renew(self, covariance);
     }
 
+    /// A block of a width that is known at run time joins, each state with this variance and no correlation; one that is there
+    /// stays as it is.
+    pub fn join_diagonal(&mut self, key: Key, width: usize, variance: f64) {
+        if self.layout.start(key).is_none() {
+            let first = self.states();
+            self.append(key, width);
+            (first..first + width).for_each(|i| self.p[(i, i)] = variance);
+        }
+    }
+
     /// A block leaves: of the others stays known what was (the marginal of a normal distribution).
     pub fn leave(&mut self, key: Key) {
         let Some(place) = self.layout.place(key) else { return };
@@ -117,6 +127,30 @@ impl Covariance {
             }
         }
         *self = other;
+    }
+
+    /// Adds a variance to each state of a block, by its name, if it is there.
+    pub fn inflate(&mut self, key: Key, variance: f64) {
+        let Some(place) = self.layout.place(key) else { return };
+        (place.start..place.start + place.width).for_each(|i| self.p[(i, i)] += variance);
+    }
+
+    /// All multiplied by a factor.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Self {
+        self.p *= factor;
+        self
+    }
+
+    /// Adds another covariance, of which only the states that are here count.
+    pub fn add(&mut self, other: &Covariance) {
+        if self.layout == other.layout {
+            self.p += &other.p;
+        } else {
+            let mut other = other.clone();
+            other.conform(&self.layout);
+            self.p += &other.p;
+        }
     }
 
     /// The errors may be off by this one as well: P <- P + x x^T.

@@ -1,8 +1,9 @@
 //! What causes outside of the filter do to its errors.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use crate::block::Block;
+use crate::errors::Errors;
 use crate::layout::Layout;
 
 /// U^T: a row for each cause of unit size, its effect on each error state. Of a state that is not there the effect is
@@ -68,6 +69,20 @@ impl Effects {
         if let Some(start) = self.layout.start(block.key()) {
             self.rows.fixed_view_mut::<R, W>(first, start).copy_from(value);
         }
+    }
+
+    /// What causes of these sizes do together.
+    #[must_use]
+    pub fn total(&self, sizes: &[f64]) -> Errors {
+        debug_assert_eq!(sizes.len(), self.causes());
+        let values = self.rows.tr_mul(&DVector::from_column_slice(sizes));
+        Errors::new(self.layout.clone(), values)
+    }
+
+    /// Some of the causes alone, so many from `first` on.
+    #[must_use]
+    pub fn some(&self, first: usize, count: usize) -> Self {
+        Effects { layout: self.layout.clone(), rows: self.rows.rows(first, count).into_owned() }
     }
 
     /// Multiplies what all do to a block by a factor.

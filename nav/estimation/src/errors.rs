@@ -2,9 +2,9 @@
 
 use std::ops::{AddAssign, Neg, SubAssign};
 
-use nalgebra::{DVector, SVector};
+use nalgebra::{DMatrix, DVector, SVector};
 
-use crate::block::Block;
+use crate::block::{Block, Key};
 use crate::layout::Layout;
 
 /// Errors, true minus estimated, of the states that there are. Of one that is not there the error is zero, so that
@@ -20,6 +20,12 @@ impl Errors {
     #[must_use]
     pub fn none() -> Self {
         Errors::default()
+    }
+
+    /// None of these states.
+    #[must_use]
+    pub fn zeros(layout: &Layout) -> Self {
+        Errors { layout: layout.clone(), values: DVector::zeros(layout.states()) }
     }
 
     /// Values in the order of a layout, of which there must be as many as states.
@@ -58,9 +64,22 @@ impl Errors {
         }
     }
 
+    /// Sets a block that is there, by its name.
+    pub fn fill(&mut self, key: Key, values: impl IntoIterator<Item = f64>) {
+        let Some(place) = self.layout.place(key) else { return };
+        let own = &mut self.values.as_mut_slice()[place.start..place.start + place.width];
+        own.iter_mut().zip(values).for_each(|(own, value)| *own = value);
+    }
+
     /// Multiplies all by a factor.
     pub fn scale(&mut self, factor: f64) {
         self.values *= factor;
+    }
+
+    /// All multiplied by a factor.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Errors { layout: self.layout.clone(), values: &self.values * factor }
     }
 
     /// Multiplies one block by a factor.
@@ -68,6 +87,23 @@ impl Errors {
         if let Some(start) = self.layout.start(block.key()) {
             self.values.fixed_rows_mut::<W>(start).scale_mut(factor);
         }
+    }
+
+    /// As the gain of one row.
+    #[must_use]
+    pub fn to_column(&self) -> DMatrix<f64> {
+        DMatrix::from_column_slice(self.values.len(), 1, self.values.as_slice())
+    }
+
+    /// Takes on the states of a layout in its order: those that it has not are forgotten, new ones are zero.
+    pub fn conform(&mut self, layout: &Layout) {
+        if self.layout != *layout {
+            *self = Errors { layout: layout.clone(), values: self.in_order_of(layout) };
+        }
+    }
+
+    pub(crate) fn values_mut(&mut self) -> &mut [f64] {
+        self.values.as_mut_slice()
     }
 
     /// Adds zeros for states at the end of a layout that begins as its own.

@@ -1,8 +1,9 @@
 //! How a measurement depends on the error states.
 
-use nalgebra::{DMatrix, SMatrix};
+use nalgebra::{DMatrix, DVector, SMatrix};
 
 use crate::block::{Block, Key};
+use crate::errors::Errors;
 use crate::layout::Layout;
 
 /// The columns of a measurement matrix that are not zero, by the names of their blocks.
@@ -98,6 +99,17 @@ impl Jacobian {
             }
         }
         both
+    }
+
+    /// What it makes of errors: H x.
+    #[must_use]
+    pub fn times(&self, errors: &Errors) -> DVector<f64> {
+        let mut product = DVector::zeros(self.rows);
+        for (state, column) in self.columns(errors.layout()) {
+            let x = errors.values()[state];
+            product.iter_mut().zip(column).for_each(|(sum, h)| *sum += h * x);
+        }
+        product
     }
 
     /// Where the values of a block begin, zeros where it was not there.

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, SMatrix, Vector3};
 
 use crate::covariance::Covariance;
 use crate::effects::Effects;
+use crate::errors::Errors;
 
 /// What a stretch of time does to the errors: x <- Phi x. The first N of them go by a matrix and are fed by others;
 /// of the others each goes on by itself, and some decay.
@@ -49,7 +50,7 @@ impl<const N: usize> Transition<'_, N> {
     /// Carries a covariance: P <- Phi P Phi^T, and what keeps the processes that decay as wide as they are.
     pub fn propagate(&self, p: &mut Covariance) {
         let matrix = p.matrix_mut();
-        self.carry_rows(matrix);
+        self.carry_rows(matrix.nrows(), matrix.as_mut_slice());
         let corner = self.corner(matrix);
         for column in N..matrix.ncols() {
             for row in 0..N {
@@ -62,16 +63,25 @@ impl<const N: usize> Transition<'_, N> {
 
     /// Carries the effects of causes: U^T <- U^T Phi^T.
     pub fn carry(&self, effects: &mut Effects) {
-        let matrix = effects.matrix_mut();
-        self.carry_rows(matrix);
+        let causes = effects.causes();
+        self.carry_all(causes, effects.matrix_mut().as_mut_slice());
+    }
+
+    /// Carries errors: x <- Phi x.
+    pub fn carry_errors(&self, errors: &mut Errors) {
+        self.carry_all(1, errors.values_mut());
+    }
+
+    fn carry_all(&self, rows: usize, values: &mut [f64]) {
+        self.carry_rows(rows, values);
         for decay in self.decays {
-            matrix.columns_mut(decay.start, decay.width).scale_mut(decay.left);
+            let own = decay.start * rows..(decay.start + decay.width) * rows;
+            values[own].iter_mut().for_each(|value| *value *= decay.left);
         }
     }
 
-    /// M <- M Phi^T in the first N columns, in place: each row depends on itself alone.
-    fn carry_rows(&self, m: &mut DMatrix<f64>) {
-        let (all, values) = (m.nrows(), m.as_mut_slice());
+    /// M <- M Phi^T in the first N columns of a matrix of so many rows, in place: each row depends on itself alone.
+    fn carry_rows(&self, all: usize, values: &mut [f64]) {
         let mut first = 0;
         while first < all {
             let rows = ROWS.min(all - first);
@@ -124,6 +134,9 @@ impl<const N: usize> Feed<'_, N> {
 }
 
 impl Decay {
+    /// Of nothing.
+    pub const NONE: Self = Decay { start: 0, width: 0, left: 1.0, steady: 0.0 };
+
     fn relax(&self, p: &mut DMatrix<f64>) {
         p.columns_mut(self.start, self.width).scale_mut(self.left);
         p.rows_mut(self.start, self.width).scale_mut(self.left);

@@ -39,6 +39,12 @@ impl Weighed {
         self.innovation.rows()
     }
 
+    /// The states of the covariance that it was weighed with.
+    #[must_use]
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
     /// The innovation.
     #[must_use]
     pub fn z(&self) -> &DVector<f64> {
@@ -70,8 +76,15 @@ impl Weighed {
         self.factor.solve(&self.pht.transpose()).transpose()
     }
 
-    /// L^-1 z.
-    fn whitened(&self) -> DVector<f64> {
+    /// What a unit of one row moves the errors by: a column of the gain.
+    #[must_use]
+    pub fn gain_of(&self, row: usize) -> Errors {
+        Errors::new(self.layout.clone(), self.gain().column(row).into_owned())
+    }
+
+    /// The innovation in units of its sigmas, L^-1 z: white, and one each, if the filter is right.
+    #[must_use]
+    pub fn whitened(&self) -> DVector<f64> {
         let mut z = self.innovation.z.clone();
         self.factor.l_dirty().solve_lower_triangular_mut(&mut z);
         z
@@ -146,39 +159,43 @@ impl Weighed {
         (0..self.rows()).any(|i| s[i] * s[i] > SURE * self.innovation.r[(i, i)])
     }
 
-    /// What causes and `direct` (rows by causes) do to the innovation, H U + D, whitened, and the innovation itself,
-    /// whitened: L^-1 (H U + D) and L^-1 z. The causes have the states of the covariance that was weighed.
+    /// What causes do to the innovation, a row for each cause: (H U + D)^T, D^T what they do to the measurement itself. They
+    /// have the states of the covariance that was weighed.
     #[must_use]
-    pub fn whitened_with(
-        &self,
-        effects: &Effects,
-        direct: &DMatrix<f64>,
-    ) -> (DMatrix<f64>, DVector<f64>) {
-        let mut effect = self.effect_of(effects, direct);
-        self.factor.l_dirty().solve_lower_triangular_mut(&mut effect);
-        (effect, self.whitened())
-    }
-
-    /// What causes and `direct` (rows by causes) do to the innovation: H U + D.
-    #[must_use]
-    pub fn effect_of(&self, effects: &Effects, direct: &DMatrix<f64>) -> DMatrix<f64> {
+    pub fn effect_of(&self, effects: &Effects, direct: DMatrix<f64>) -> DMatrix<f64> {
         debug_assert_eq!(self.layout, *effects.layout());
-        let mut effect = direct.clone();
-        let of_causes = effects.matrix();
+        let mut effect = direct;
         for (state, column) in self.innovation.h.columns(&self.layout) {
-            for (cause, mut own) in effect.column_iter_mut().enumerate() {
-                let by = of_causes[(cause, state)];
-                own.iter_mut().zip(column).for_each(|(own, h)| *own += h * by);
+            let of_causes = effects.matrix().column(state);
+            for (row, weight) in column.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+                effect.column_mut(row).axpy(*weight, &of_causes, 1.0);
             }
         }
         effect
     }
 
+    /// Such an effect in units of the innovation's sigmas, (L^-1 (H U + D))^T.
+    #[must_use]
+    pub fn whiten(&self, mut effect: DMatrix<f64>) -> DMatrix<f64> {
+        let l = self.factor.l_dirty();
+        for row in 0..self.rows() {
+            let (before, mut own) = effect.columns_range_pair_mut(..row, row..=row);
+            for (j, column) in before.column_iter().enumerate() {
+                own.column_mut(0).axpy(-l[(row, j)], &column, 1.0);
+            }
+            own /= l[(row, row)];
+        }
+        effect
+    }
+
     /// Takes from the effects of causes what an update with this gain takes from them, U <- U - K (H U + D); `effect` is
-    /// H U + D.
-    pub fn pass_on(&self, effects: &mut Effects, effect: &DMatrix<f64>, gain: &DMatrix<f64>) {
-        let rows = effects.matrix_mut();
-        rows.gemm(-1.0, &effect.transpose(), &gain.transpose(), 1.0);
+    /// (H U + D)^T.
+    pub fn pass_on(effects: &mut Effects, effect: &DMatrix<f64>, gain: &DMatrix<f64>) {
+        for (mut of_causes, gain) in effects.matrix_mut().column_iter_mut().zip(gain.row_iter()) {
+            for (row, gain) in effect.column_iter().zip(gain.iter()) {
+                of_causes.axpy(-gain, &row, 1.0);
+            }
+        }
     }
 }
 

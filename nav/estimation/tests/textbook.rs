@@ -2,7 +2,9 @@
 //! Hwang, Introduction to Random Signals and Applied Kalman Filtering, section 4.2), on states drawn at random.
 
 use approx::assert_relative_eq;
-use insd_estimation::{Block, Covariance, Decay, Effects, Feed, Innovation, Jacobian, Transition};
+use insd_estimation::{
+    Block, Covariance, Decay, Effects, Feed, Innovation, Jacobian, Transition, Weighed,
+};
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, Vector1, Vector2, Vector3};
 use proptest::prelude::*;
 
@@ -169,13 +171,17 @@ proptest! {
         effects.conform(p.layout());
         effects.set(0, A, &Matrix3::identity());
         effects.set(0, HEAD, &Matrix3::from_column_slice(&numbers[..9]));
-        let direct = DMatrix::from_column_slice(2, 3, &numbers[9..15]);
-        let effect = weighed.effect_of(&effects, &direct);
+        let direct = DMatrix::from_column_slice(3, 2, &numbers[9..15]);
+        let effect = weighed.effect_of(&effects, direct.clone());
         let u = effects.matrix().transpose();
-        assert_relative_eq!(effect, &h * &u + direct, epsilon = 1e-12);
+        assert_relative_eq!(effect.transpose(), &h * &u + direct.transpose(), epsilon = 1e-12);
+        let whitened = weighed.whiten(effect.clone());
+        let s = &h * p.matrix() * h.transpose() + &one.r;
+        let information = &effect * s.try_inverse().unwrap_or_default() * effect.transpose();
+        assert_relative_eq!(&whitened * whitened.transpose(), information, epsilon = 1e-9);
         let gain = weighed.gain();
-        let expected = &u - &gain * &effect;
-        weighed.pass_on(&mut effects, &effect, &gain);
+        let expected = &u - &gain * effect.transpose();
+        Weighed::pass_on(&mut effects, &effect, &gain);
         assert_relative_eq!(effects.matrix(), &expected.transpose(), epsilon = 1e-12);
     }
 

@@ -21,21 +21,19 @@ use insd_base::Geodetic;
 use nalgebra::{Matrix2, SMatrix, Vector2};
 
 use super::{View, reference_position};
-use crate::error_state::{ATTITUDE, BERTH_OFFSET, SWAY};
-use crate::innovation::Innovation;
+use crate::error_state::{ATTITUDE, BERTH_OFFSET, Innovation, SWAY};
 
 /// Innovation of a ship at her berth whose motion in the waves has sigma `std` of each component, m.
 #[must_use]
-pub fn innovation(view: &View, berth: &Geodetic, std: f64) -> Innovation<2> {
-    let here = reference_position::innovation(view, berth, std);
-    let mut h: SMatrix<f64, 2, _> = here.h;
-    BERTH_OFFSET.set_columns(&mut h, &-Matrix2::identity());
-    SWAY.set_columns(
-        &mut h,
-        &-SMatrix::<f64, 2, 4>::from_fn(|i, j| f64::from(u8::from(j % 2 == i))),
-    );
-    let away = -here.z;
+pub fn innovation(view: &View, berth: &Geodetic, std: f64) -> Innovation {
+    let mut innovation = reference_position::innovation(view, berth, std);
+    let away = -Vector2::new(innovation.z[0], innovation.z[1]);
     let across = Vector2::new(away.y, -away.x);
-    ATTITUDE.set_columns(&mut h, &(across * view.c_ne.row(2)));
-    Innovation { z: here.z + view.nominal.berth_offset + view.nominal.swaying(), h, r: here.r }
+    let of_sway = SMatrix::<f64, 2, 4>::from_fn(|i, j| f64::from(u8::from(j % 2 == i)));
+    let h = &mut innovation.h;
+    h.set(BERTH_OFFSET, &-Matrix2::identity());
+    h.set(SWAY, &-of_sway);
+    h.set(ATTITUDE, &(across * view.c_ne.row(2)));
+    innovation.z += view.nominal.berth_offset + view.nominal.swaying();
+    innovation
 }

@@ -13,11 +13,12 @@
 
 use insd_base::attitude::skew;
 use insd_base::{Geodetic, earth};
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use super::View;
-use crate::error_state::{ATTITUDE, GNSS_DELAY, GNSS_LEVER, GNSS_POSITION_ERROR, POSITION};
-use crate::innovation::Innovation;
+use crate::error_state::{
+    ATTITUDE, GNSS_DELAY, GNSS_LEVER, GNSS_POSITION_ERROR, Innovation, Jacobian, POSITION,
+};
 
 /// A fix with its sigmas split into white and slow parts, NED, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,19 +35,16 @@ pub struct PositionFix {
 
 /// Innovation of a GNSS position; `lever` from the IMU to the antenna, body axes, m.
 #[must_use]
-pub fn innovation(view: &View, fix: &PositionFix, lever: &Vector3<f64>) -> Innovation<3> {
+pub fn innovation(view: &View, fix: &PositionFix, lever: &Vector3<f64>) -> Innovation {
     let arm_e = view.c_eb * lever;
     let difference = earth::ecef(&fix.position).0 - view.nominal.position - arm_e;
     let expected_error = fix.slow.component_mul(&view.nominal.gnss_position_error);
-    let mut h = SMatrix::zeros();
-    POSITION.set_columns(&mut h, &view.c_ne);
-    ATTITUDE.set_columns(&mut h, &(-view.c_ne * skew(&arm_e)));
-    GNSS_LEVER.set_columns(&mut h, &view.c_nb());
-    GNSS_DELAY.set_columns(&mut h, &-fix.velocity);
-    GNSS_POSITION_ERROR.set_columns(&mut h, &Matrix3::from_diagonal(&fix.slow));
-    Innovation {
-        z: view.c_ne * difference - expected_error + fix.velocity * view.nominal.gnss_delay,
-        h,
-        r: Matrix3::from_diagonal(&fix.white.component_mul(&fix.white)),
-    }
+    let mut h = Jacobian::none(3);
+    h.set(POSITION, &view.c_ne);
+    h.set(ATTITUDE, &(-view.c_ne * skew(&arm_e)));
+    h.set(GNSS_LEVER, &view.c_nb());
+    h.set(GNSS_DELAY, &-fix.velocity);
+    h.set(GNSS_POSITION_ERROR, &Matrix3::from_diagonal(&fix.slow));
+    let z = view.c_ne * difference - expected_error + fix.velocity * view.nominal.gnss_delay;
+    Innovation::new(&z, h, &Matrix3::from_diagonal(&fix.white.component_mul(&fix.white)))
 }

@@ -12,14 +12,13 @@
 //! Held by `every_measurement_matrix_agrees_with_perturbed_predictions`.
 
 use insd_base::attitude::skew;
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use super::View;
 use crate::error_state::{
     ATTITUDE, GNSS_DELAY, GNSS_LEVER, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS,
-    GYRO_DRIFT, GYRO_SCALE, VELOCITY,
+    GYRO_DRIFT, GYRO_SCALE, Innovation, Jacobian, VELOCITY,
 };
-use crate::innovation::Innovation;
 
 /// A velocity with its sigmas split into white and slow parts, NED, m/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,28 +35,26 @@ pub struct VelocityFix {
 
 /// Innovation of a GNSS velocity; `lever` from the IMU to the antenna, body axes, m.
 #[must_use]
-pub fn innovation(view: &View, fix: &VelocityFix, lever: &Vector3<f64>) -> Innovation<3> {
+pub fn innovation(view: &View, fix: &VelocityFix, lever: &Vector3<f64>) -> Innovation {
     let swing_e = view.c_eb * view.rate.cross(lever);
     let predicted = view.c_ne * (view.nominal.velocity + swing_e);
     let delay = view.nominal.gnss_delay + view.nominal.gnss_velocity_delay;
     let expected_error = fix.slow.component_mul(&view.nominal.gnss_velocity_error);
-    let mut h = SMatrix::zeros();
-    VELOCITY.set_columns(&mut h, &view.c_ne);
+    let mut h = Jacobian::none(3);
+    h.set(VELOCITY, &view.c_ne);
     let by_gyro = view.c_nb() * skew(lever);
     let by_attitude = by_gyro * view.earth_rate_by_attitude() - view.c_ne * skew(&swing_e);
-    ATTITUDE.set_columns(&mut h, &by_attitude);
-    GYRO_BIAS.set_columns(&mut h, &by_gyro);
-    GYRO_DRIFT.set_columns(&mut h, &by_gyro);
+    h.set(ATTITUDE, &by_attitude);
+    h.set(GYRO_BIAS, &by_gyro);
+    h.set(GYRO_DRIFT, &by_gyro);
     let by_scale = by_gyro * Matrix3::from_diagonal(&view.inertial_rate);
-    GYRO_SCALE.set_columns(&mut h, &by_scale);
-    GNSS_LEVER.set_columns(&mut h, &(view.c_nb() * skew(&view.rate)));
-    GNSS_DELAY.set_columns(&mut h, &-fix.acceleration);
-    GNSS_VELOCITY_DELAY.set_columns(&mut h, &-fix.acceleration);
-    GNSS_VELOCITY_ERROR.set_columns(&mut h, &Matrix3::from_diagonal(&fix.slow));
+    h.set(GYRO_SCALE, &by_scale);
+    h.set(GNSS_LEVER, &(view.c_nb() * skew(&view.rate)));
+    h.set(GNSS_DELAY, &-fix.acceleration);
+    h.set(GNSS_VELOCITY_DELAY, &-fix.acceleration);
+    h.set(GNSS_VELOCITY_ERROR, &Matrix3::from_diagonal(&fix.slow));
     let swing_noise = by_gyro * by_gyro.transpose() * view.rate_variance;
-    Innovation {
-        z: fix.velocity - predicted - expected_error + fix.acceleration * delay,
-        h,
-        r: Matrix3::from_diagonal(&fix.white.component_mul(&fix.white)) + swing_noise,
-    }
+    let z = fix.velocity - predicted - expected_error + fix.acceleration * delay;
+    let white = Matrix3::from_diagonal(&fix.white.component_mul(&fix.white));
+    Innovation::new(&z, h, &(white + swing_noise))
 }

@@ -14,22 +14,21 @@
 
 use insd_base::attitude::skew;
 use insd_base::{LogReference, LogVelocity};
-use nalgebra::{Matrix3, SMatrix, Vector1, Vector3};
+use nalgebra::{Matrix3, Vector1, Vector3};
 
 use super::View;
 use crate::error_state::{
-    ATTITUDE, CURRENT, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, LOG_MISALIGNMENT, LOG_SCALE, STATES,
-    VELOCITY,
+    ATTITUDE, CURRENT, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, Innovation, Jacobian, LOG_MISALIGNMENT,
+    LOG_SCALE, VELOCITY,
 };
-use crate::innovation::Innovation;
 
 /// The predicted log velocity and its derivative, all three components.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Prediction {
     /// Predicted output of the log, body axes, m/s.
     pub velocity: Vector3<f64>,
     /// Its derivative with respect to the error state.
-    pub h: SMatrix<f64, 3, STATES>,
+    pub h: Jacobian,
     /// Its derivative with respect to the lever arm, 1/s.
     pub by_lever: Matrix3<f64>,
     /// Covariance of the noise that the lever arm turns from rate to velocity, (m/s)^2.
@@ -47,21 +46,21 @@ pub fn predict(view: &View, reference: LogReference, lever: &Vector3<f64>) -> Pr
     let u = c_be * through + view.rate.cross(lever);
     let m = Vector3::new(0.0, view.nominal.log_misalignment.x, view.nominal.log_misalignment.y);
     let gain = (Matrix3::identity() - skew(&m)) * (1.0 + view.nominal.log_scale);
-    let mut h = SMatrix::zeros();
-    VELOCITY.set_columns(&mut h, &(gain * c_be));
+    let mut h = Jacobian::none(3);
+    h.set(VELOCITY, &(gain * c_be));
     let by_gyro = gain * skew(lever);
     let by_attitude = gain * c_be * skew(&through) + by_gyro * view.earth_rate_by_attitude();
-    ATTITUDE.set_columns(&mut h, &by_attitude);
-    GYRO_BIAS.set_columns(&mut h, &by_gyro);
-    GYRO_DRIFT.set_columns(&mut h, &by_gyro);
+    h.set(ATTITUDE, &by_attitude);
+    h.set(GYRO_BIAS, &by_gyro);
+    h.set(GYRO_DRIFT, &by_gyro);
     let by_scale = by_gyro * Matrix3::from_diagonal(&view.inertial_rate);
-    GYRO_SCALE.set_columns(&mut h, &by_scale);
+    h.set(GYRO_SCALE, &by_scale);
     if water {
-        CURRENT.set_columns(&mut h, &(-gain * c_be * to_north_east.transpose()));
+        h.set(CURRENT, &(-gain * c_be * to_north_east.transpose()));
     }
-    LOG_SCALE.set_columns(&mut h, &(u - m.cross(&u)));
+    h.set(LOG_SCALE, &(u - m.cross(&u)));
     let by_turn = skew(&u) * (1.0 + view.nominal.log_scale);
-    LOG_MISALIGNMENT.set_columns(&mut h, &by_turn.fixed_columns::<2>(1).into_owned());
+    h.set(LOG_MISALIGNMENT, &by_turn.fixed_columns::<2>(1).into_owned());
     let swing_noise = by_gyro * by_gyro.transpose() * view.rate_variance;
     let by_lever = gain * skew(&view.rate);
     Prediction { velocity: gain * u, h, by_lever, swing_noise }
@@ -71,22 +70,17 @@ pub fn predict(view: &View, reference: LogReference, lever: &Vector3<f64>) -> Pr
 ///
 /// A log may give any of the three; they are applied one after the other.
 #[must_use]
-pub fn component(prediction: &Prediction, axis: usize, measured: f64, std: f64) -> Innovation<1> {
-    Innovation {
-        z: Vector1::new(measured - prediction.velocity[axis]),
-        h: prediction.h.fixed_rows::<1>(axis).into_owned(),
-        r: Vector1::new(std * std + prediction.swing_noise[(axis, axis)]),
-    }
+pub fn component(prediction: &Prediction, axis: usize, measured: f64, std: f64) -> Innovation {
+    let z = Vector1::new(measured - prediction.velocity[axis]);
+    let noise = Vector1::new(std * std + prediction.swing_noise[(axis, axis)]);
+    Innovation::new(&z, prediction.h.select(&[axis]), &noise)
 }
 
 /// Innovation of a complete velocity with sigma `std` of each component.
 #[must_use]
-pub fn complete(prediction: &Prediction, measured: &Vector3<f64>, std: f64) -> Innovation<3> {
-    Innovation {
-        z: measured - prediction.velocity,
-        h: prediction.h,
-        r: Matrix3::identity() * (std * std) + prediction.swing_noise,
-    }
+pub fn complete(prediction: &Prediction, measured: &Vector3<f64>, std: f64) -> Innovation {
+    let noise = Matrix3::from_diagonal_element(std * std) + prediction.swing_noise;
+    Innovation::new(&(measured - prediction.velocity), prediction.h.clone(), &noise)
 }
 
 /// The three components if the log gave all of them.

@@ -9,11 +9,10 @@
 //! a compass that drifts is told from one that wanders within minutes.
 
 use insd_base::units::wrap_pi;
-use nalgebra::{Matrix1, SMatrix, Vector1};
+use nalgebra::{Matrix1, Vector1};
 
 use super::View;
-use crate::error_state::{ATTITUDE, HEADING_ERROR};
-use crate::innovation::Innovation;
+use crate::error_state::{ATTITUDE, HEADING_ERROR, Innovation, Jacobian};
 
 /// How long the slow part of the error lasts, s.
 pub const TIME: f64 = 600.0;
@@ -23,17 +22,14 @@ const SHARE: f64 = 0.02;
 
 /// Innovation of a true heading with sigma `std`, both rad.
 #[must_use]
-pub fn innovation(view: &View, heading: f64, std: f64) -> Innovation<1> {
+pub fn innovation(view: &View, heading: f64, std: f64) -> Innovation {
     let slow = SHARE.sqrt() * std;
     let attitude = view.attitude();
     let row = attitude.jacobian_of_ned_rotation().fixed_rows::<1>(2) * view.c_ne;
-    let mut h = SMatrix::zeros();
-    ATTITUDE.set_columns(&mut h, &row);
-    HEADING_ERROR.set_columns(&mut h, &Matrix1::new(slow));
+    let mut h = Jacobian::none(1);
+    h.set(ATTITUDE, &row);
+    h.set(HEADING_ERROR, &Matrix1::new(slow));
     let expected = attitude.heading + slow * view.nominal.heading_error;
-    Innovation {
-        z: Vector1::new(wrap_pi(heading - expected)),
-        h,
-        r: Vector1::new((1.0 - SHARE) * std * std),
-    }
+    let z = Vector1::new(wrap_pi(heading - expected));
+    Innovation::new(&z, h, &Vector1::new((1.0 - SHARE) * std * std))
 }

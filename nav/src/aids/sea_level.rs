@@ -10,24 +10,20 @@
 //! without it, with the uncertainty it was learnt with.
 //! Held by `every_measurement_matrix_agrees_with_perturbed_predictions`.
 
-use nalgebra::{SMatrix, Vector1};
+use nalgebra::Vector1;
 
 use super::View;
-use crate::error_state::{POSITION, SEA_LEVEL, VELOCITY};
-use crate::innovation::Innovation;
+use crate::error_state::{Innovation, Jacobian, POSITION, SEA_LEVEL, VELOCITY};
 
 /// Innovation of the mean height over the last `length` seconds against the sea level; `std` is the
 /// 1-sigma of the heave's mean, m.
 #[must_use]
-pub fn innovation(view: &View, mean_height: f64, length: f64, std: f64) -> Innovation<1> {
+pub fn innovation(view: &View, mean_height: f64, length: f64, std: f64) -> Innovation {
     let up = -view.c_ne.fixed_rows::<1>(2);
-    let mut h = SMatrix::zeros();
-    POSITION.set_columns(&mut h, &up);
-    VELOCITY.set_columns(&mut h, &(up * (-0.5 * length)));
-    SEA_LEVEL.set_columns(&mut h, &Vector1::new(-1.0));
-    Innovation {
-        z: Vector1::new(view.nominal.sea_level - mean_height),
-        h,
-        r: Vector1::new(std * std),
-    }
+    let mut h = Jacobian::none(1);
+    h.set(POSITION, &up);
+    h.set(VELOCITY, &(up * (-0.5 * length)));
+    h.set(SEA_LEVEL, &Vector1::new(-1.0));
+    let z = Vector1::new(view.nominal.sea_level - mean_height);
+    Innovation::new(&z, h, &Vector1::new(std * std))
 }

@@ -2,11 +2,12 @@
 
 use insd_base::units::DEG;
 use insd_base::{Attitude, Geodetic, LogReference};
+use insd_estimation::Place;
 use nalgebra::{Vector2, Vector3, Vector4};
 
 use super::*;
-use crate::error_state::{ErrorState, STATES};
-use crate::innovation::Innovation;
+use crate::declaration::{all_states, no_errors};
+use crate::error_state::Innovation;
 
 const MEASURED_RATE: Vector3<f64> = Vector3::new(0.02, -0.05, 0.03);
 
@@ -29,10 +30,12 @@ fn estimate() -> Nominal {
 }
 
 /// Innovation as a list of rows, whatever its size.
-type Rows = Vec<(f64, [f64; STATES])>;
+type Rows = Vec<(f64, Vec<f64>)>;
 
-fn rows<const M: usize>(innovation: &Innovation<M>) -> Rows {
-    (0..M).map(|i| (innovation.z[i], std::array::from_fn(|j| innovation.h[(i, j)]))).collect()
+fn rows(innovation: &Innovation) -> Rows {
+    let h = innovation.h.to_matrix(&all_states());
+    let row = |i: usize| (innovation.z[i], h.row(i).iter().copied().collect());
+    (0..innovation.rows()).map(row).collect()
 }
 
 /// A named aid and its rows.
@@ -97,8 +100,13 @@ fn log_rows(view: &View, reference: LogReference) -> Rows {
 }
 
 fn view_moved_by(state: usize, amount: f64) -> View {
-    let mut error = ErrorState::zeros();
-    error[state] = amount;
+    let mut error = no_errors();
+    let layout = all_states();
+    let is_there = |place: &&Place| (place.start..place.start + place.width).contains(&state);
+    if let Some(place) = layout.places().iter().find(is_there) {
+        let own = |i: usize| if place.start + i == state { amount } else { 0.0 };
+        error.fill(place.key, (0..place.width).map(own));
+    }
     let mut nominal = estimate();
     nominal.inject(&error);
     View::new(&nominal, &MEASURED_RATE, 0.0)
@@ -113,7 +121,7 @@ fn step_of(state: usize) -> f64 {
 fn every_measurement_matrix_agrees_with_perturbed_predictions() {
     for (name, rows_of) in table() {
         let here = rows_of(&view_moved_by(0, 0.0));
-        for state in 0..STATES {
+        for state in 0..all_states().states() {
             let step = step_of(state);
             let ahead = rows_of(&view_moved_by(state, step));
             let behind = rows_of(&view_moved_by(state, -step));

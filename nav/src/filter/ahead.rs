@@ -6,13 +6,12 @@
 //! g dt^3 / 6 within one step, which the steps after it make good.
 
 use insd_base::{Time, earth};
-use nalgebra::{SMatrix, Vector1, Vector3};
+use nalgebra::{Vector1, Vector3};
 
 use super::Filter;
 use crate::aids::View;
 use crate::aids::gnss_velocity::{self, VelocityFix};
-use crate::error_state::{ATTITUDE, Covariance, STATES};
-use crate::innovation::Innovation;
+use crate::error_state::{ATTITUDE, Covariance, Innovation, Jacobian};
 use crate::propagation::{Regime, Stretch, propagate};
 
 /// The last GNSS velocity that was used: what the next ones will be like.
@@ -48,7 +47,7 @@ pub struct Ahead<'a> {
     view: View,
     regime: Regime,
     second: Stretch,
-    covariance: Box<Covariance>,
+    covariance: Covariance,
 }
 
 impl Filter {
@@ -60,8 +59,8 @@ impl Filter {
     }
 
     /// The covariance with the swaying carried up to the time of the estimate.
-    fn swayed_covariance(&self) -> Box<Covariance> {
-        let mut covariance = Box::new(self.covariance);
+    fn swayed_covariance(&self) -> Covariance {
+        let mut covariance = self.covariance.clone();
         if let Some(sway) = &self.sway {
             sway.propagate(&mut covariance, self.unswayed);
         }
@@ -118,7 +117,7 @@ impl Ahead<'_> {
     }
 
     /// Takes what a measurement of this kind will tell, whatever its value.
-    pub fn observe<const M: usize>(&mut self, innovation: &Innovation<M>) {
+    pub fn observe(&mut self, innovation: &Innovation) {
         if let Some(weighed) = innovation.weigh(&self.covariance) {
             let _ = weighed.update(&mut self.covariance);
         }
@@ -141,13 +140,9 @@ impl Ahead<'_> {
         sample.r *= share;
         self.observe(&sample);
         let variance = fix.white.xy().norm_squared() * 0.5 / (speed * speed).max(1e-9);
-        let mut h = SMatrix::<f64, 1, STATES>::zeros();
-        ATTITUDE.set_columns(&mut h, &self.view.c_ne.row(2).into_owned());
-        self.observe(&Innovation::<1> {
-            z: Vector1::zeros(),
-            h,
-            r: Vector1::new(variance * share),
-        });
+        let h = Jacobian::none(1).with(ATTITUDE, &self.view.c_ne.row(2).into_owned());
+        let noise = Vector1::new(variance * share);
+        self.observe(&Innovation::new(&Vector1::zeros(), h, &noise));
     }
 
     /// 1-sigma of the rotation about down, rad: the heading of a ship that is nearly level.

@@ -2,7 +2,7 @@
 
 use insd_base::{Source, Time};
 
-use crate::innovation::Weighed;
+use crate::error_state::Weighed;
 use crate::report::{AidReport, Outcome, Report};
 
 /// What the gates said of an innovation.
@@ -20,9 +20,9 @@ pub struct Judged {
 pub(crate) const NO_INNOVATION: [(f64, f64); 3] = [(f64::NAN, f64::NAN); 3];
 
 /// Value and expected sigma of each component.
-pub(super) fn detail<const M: usize>(weighed: &Weighed<M>) -> [(f64, f64); 3] {
-    let sigma = weighed.sigma();
-    std::array::from_fn(|i| if i < M { (weighed.z()[i], sigma[i]) } else { (f64::NAN, f64::NAN) })
+pub(super) fn detail(weighed: &Weighed) -> [(f64, f64); 3] {
+    let (z, sigma) = (weighed.z(), weighed.sigma());
+    std::array::from_fn(|i| if i < z.len() { (z[i], sigma[i]) } else { (f64::NAN, f64::NAN) })
 }
 
 /// Enters a judgement in the report of a message.

@@ -10,14 +10,13 @@ use crate::aids::View;
 use crate::aids::gnss_position::{self, PositionFix};
 use crate::aids::gnss_velocity::{self, VelocityFix};
 use crate::antenna::AntennaMotion;
-use crate::block::Block;
 use crate::error_state::{
-    ATTITUDE, GNSS_LEVER, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, POSITION, VELOCITY,
+    ATTITUDE, Block, GNSS_LEVER, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, Innovation, POSITION,
+    VELOCITY,
 };
 use crate::filter::ahead::VelocityEpoch;
 use crate::floors;
 use crate::gate::dop_limit;
-use crate::innovation::Innovation;
 use crate::judge::{Aid, rows};
 use crate::report::{Outcome, Report};
 use crate::separate_bias::SeparateBias;
@@ -86,7 +85,7 @@ impl Filter {
             (self.nominal.gnss_delay, self.redated) = (0.0, None);
             self.lateness = 0.0;
             let begun = SeparateBias::new(&self.view());
-            self.bias.iter_mut().for_each(|bias| *bias = begun);
+            self.bias = self.bias.take().map(|_| begun);
             self.restart_judge();
         }
     }
@@ -117,7 +116,7 @@ impl Filter {
         fix: &GnssFix,
         source: Source,
         report: &mut Report,
-    ) -> Option<(VelocityFix, Innovation<3>)> {
+    ) -> Option<(VelocityFix, Innovation)> {
         let view = self.view();
         let measured = self.velocity_fix(&view, fix, report)?;
         let mut innovation = gnss_velocity::innovation(&view, &measured, &self.antenna_lever());
@@ -175,7 +174,7 @@ impl Filter {
     fn apply_position(
         &mut self,
         fix: &GnssFix,
-        velocity: Option<&(VelocityFix, Innovation<3>)>,
+        velocity: Option<&(VelocityFix, Innovation)>,
         source: Source,
         report: &mut Report,
     ) {
@@ -206,12 +205,12 @@ impl Filter {
     }
 
     /// Of a receiver with a wrong height that counts for nothing, but is watched.
-    fn without_wrong_height(&mut self, mut innovation: Innovation<3>) -> Innovation<3> {
+    fn without_wrong_height(&mut self, mut innovation: Innovation) -> Innovation {
         let now = self.time;
         if self.judge.as_ref().is_none_or(|judge| !judge.docket().tells_wrong_height()) {
             return innovation;
         }
-        let weighed = innovation.component(2).weigh(&self.covariance);
+        let weighed = innovation.select(&[2]).weigh(&self.covariance);
         if let Some((weighed, judge)) = weighed.zip(self.judge_now()) {
             judge.watch_height(now, &weighed);
         }
@@ -247,7 +246,7 @@ impl Filter {
     }
 
     /// Enters an innovation in the statistics of its quantity; tells whether it is a fault.
-    fn agreement(&mut self, aid: Aid, innovation: &Innovation<3>) -> bool {
+    fn agreement(&mut self, aid: Aid, innovation: &Innovation) -> bool {
         let Some(weighed) = innovation.weigh(&self.covariance) else { return true };
         if !self.is_in_court(aid) {
             let least = if aid == Aid::GnssVelocity { SLACK_VELOCITY } else { SLACK };
@@ -258,7 +257,8 @@ impl Filter {
             Aid::GnssVelocity => &mut self.trust.velocity,
             _ => &mut self.trust.position,
         };
-        agreement.learn(&innovation.z.component_div(&weighed.sigma()), mean_square);
+        let off = innovation.z.component_div(&weighed.sigma());
+        agreement.learn(&off.fixed_rows::<3>(0).into_owned(), mean_square);
         mean_square > FAULT
     }
 
@@ -277,13 +277,13 @@ impl Filter {
         self.can_judge() && self.trust.is_refused(self.time, OFF_HOLD)
     }
 
-    fn exceeds_dop_limit(&self, fix: &GnssFix, innovation: &Innovation<3>) -> bool {
+    fn exceeds_dop_limit(&self, fix: &GnssFix, innovation: &Innovation) -> bool {
         let p = POSITION.covariance(&self.covariance);
         let predicted = p.diagonal().max().max(0.0).sqrt();
         let hdop = fix.hdop.filter(|hdop| hdop.is_finite() && *hdop > 0.0).unwrap_or(1.0);
         let since = self.trust.since_used(self.time);
         let limit = dop_limit(&self.config.gate, self.is_rtk(), hdop, predicted, since);
-        innovation.z.xy().norm() > limit
+        innovation.z[0].hypot(innovation.z[1]) > limit
     }
 
     /// When nothing of a receiver has been used for long, it is the filter that is lost: it must not

@@ -1,15 +1,14 @@
 //! Constants of the installation that are otherwise than configured: what the filter makes of them.
 
 use insd_base::Time;
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::Vector3;
 
 use super::Filter;
 use crate::config::is_on_board;
 use crate::dating::Dating;
 use crate::error_state::{
-    ATTITUDE, BERTH_OFFSET, ErrorState, GNSS_LEVER, GNSS_VELOCITY_DELAY, POSITION, STATES, VELOCITY,
+    ATTITUDE, BERTH_OFFSET, Errors, GNSS_LEVER, GNSS_VELOCITY_DELAY, POSITION, VELOCITY,
 };
-use crate::innovation::Weighed;
 use crate::separate_bias::{DELAY, Finding, SeparateBias};
 
 /// A correction of the attitude, rad, that is more than linear: whoever found it found it by a wrong lever arm.
@@ -78,17 +77,6 @@ impl Filter {
         !is_on_board(&arm.zip_map(&unsure, |m, by| m.signum() * (m.abs() - by).max(0.0)))
     }
 
-    /// What an update takes from the effect of the constants of the installation.
-    pub(super) fn pass_on<const M: usize>(
-        &mut self,
-        weighed: &Weighed<M>,
-        gain: &SMatrix<f64, STATES, M>,
-    ) {
-        if let Some(bias) = &mut self.bias {
-            weighed.pass_on(bias.response_mut(), gain);
-        }
-    }
-
     /// What a delay between receiver and IMU is put down to.
     pub(super) fn dating(&self) -> Dating {
         let (all, imu) = (self.config.gnss.delay_std, self.config.gnss.stamps_std);
@@ -99,13 +87,14 @@ impl Filter {
     /// Waves tell soon how old velocities are, but not whether the positions are as old, as whoever dates fixes by when
     /// they are sent makes them: only turns and changes of speed do. Until then the claims allow for it.
     pub(super) fn suspect_delay(&mut self) {
-        let at = GNSS_VELOCITY_DELAY.start();
-        let (lag, sigma) = (self.nominal.gnss_velocity_delay, self.covariance[(at, at)].sqrt());
+        let lag = self.nominal.gnss_velocity_delay;
+        let sigma = GNSS_VELOCITY_DELAY.std(&self.covariance);
         let is_off = !(EARLY..=SMOOTHED).contains(&lag) && lag.abs() > SIGNIFICANT * sigma;
         let supposed = AS_LATE * lag.abs();
-        if let Some(bias) = self.bias.filter(|_| is_off && supposed > GROWN * self.lateness) {
+        let is_new = is_off && supposed > GROWN * self.lateness;
+        if let Some(bias) = self.bias.as_ref().filter(|_| is_new) {
             self.lateness = supposed;
-            self.covariance += bias.supposing_delay(supposed);
+            bias.suppose_delay(supposed, &mut self.covariance);
             self.restart_judge();
         }
     }
@@ -125,9 +114,8 @@ impl Filter {
     /// Where the innovations show that the antenna sits elsewhere than configured, or that its epochs come
     /// later: takes the estimate to be what it would have been with that.
     pub(super) fn mend_installation(&mut self) {
-        let Some((bias, finding)) = self.bias.and_then(|bias| Some((bias, bias.finding()?))) else {
-            return;
-        };
+        let Some(finding) = self.bias.as_ref().and_then(SeparateBias::finding) else { return };
+        let Some(bias) = self.bias.clone() else { return };
         let arm = self.antenna_lever() + finding.gnss_lever();
         if !is_on_board(&arm) || self.may_be_a_lie(&bias) {
             return;
@@ -136,16 +124,15 @@ impl Filter {
             return;
         }
         self.is_impossible |= self.puts_log_off_board(&finding);
-        let (error, unsure) = bias.correction(&finding);
-        self.covariance += unsure;
-        let is_far = ATTITUDE.of(&error).norm() > FAR;
+        let error = bias.correct(&finding, &mut self.covariance);
+        let is_far = error.of(ATTITUDE).norm() > FAR;
         if finding.is_of_delay() {
             self.lateness = self.lateness.max(DELAY);
         }
         self.mended |= finding.is_of_antenna() && is_far;
         self.nominal.inject(&error);
-        self.corrected += error;
-        self.absorbed += VELOCITY.of(&error);
+        self.corrected += &error;
+        self.absorbed += error.of(VELOCITY);
         if let Some((off, sigma)) = finding.log_lever() {
             self.config.lever_arms.log.0 += off;
             self.log_lever_std = Some(sigma);
@@ -165,10 +152,10 @@ impl Filter {
         }
         let view = self.view();
         let off = (view.c_nb() * off).xy().insert_row(2, 0.0);
-        let mut apart = ErrorState::zeros();
-        POSITION.set(&mut apart, &(view.c_ne.transpose() * off));
-        BERTH_OFFSET.set(&mut apart, &off.xy());
-        GNSS_LEVER.set(&mut apart, &-(view.c_nb().transpose() * off));
-        self.covariance += apart * apart.transpose();
+        let mut apart = Errors::none();
+        apart.set(POSITION, &(view.c_ne.transpose() * off));
+        apart.set(BERTH_OFFSET, &off.xy());
+        apart.set(GNSS_LEVER, &-(view.c_nb().transpose() * off));
+        self.covariance.spread(&apart);
     }
 }

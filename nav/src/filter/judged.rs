@@ -4,16 +4,15 @@ use std::sync::Arc;
 
 use insd_base::units::DEG;
 use insd_base::{Fault, Judgement, Mode, Parties, Party, SolutionSigma, Time};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::Filter;
 use super::ahead::heading_std;
+use super::receivers::horizontal_noise;
 use crate::config::WORSE;
 use crate::error_state::{
-    ATTITUDE, ErrorState, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, GYRO_BIAS, VELOCITY,
+    ATTITUDE, Errors, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, GYRO_BIAS, Innovation, VELOCITY,
 };
-use crate::innovation::Innovation;
-use crate::judge::rows::Direct;
 use crate::judge::{Aid, Alternative, Docket, Judge};
 use crate::leap::LeapWatch;
 use crate::propagation::{Regime, Stretch};
@@ -59,7 +58,7 @@ impl Filter {
     /// What the judge has not been told yet is of no account.
     fn forget_unheard(&mut self) {
         self.unjudged = Stretch::new();
-        self.owed = ErrorState::zeros().transpose();
+        self.owed = Errors::none();
     }
 
     /// The judge begins anew with the estimate as it is. Whom that refuses it has not heard yet.
@@ -79,8 +78,7 @@ impl Filter {
             judge.propagate(&self.unjudged, self.gravity.gradient(), &self.config, &regime);
             self.unjudged = Stretch::new();
         }
-        judge.corrected(&self.owed.transpose());
-        self.owed = ErrorState::zeros().transpose();
+        judge.corrected(&std::mem::take(&mut self.owed));
         Some(judge)
     }
 
@@ -95,11 +93,11 @@ impl Filter {
 
     /// Lets the judge hear an innovation before it is absorbed: of somebody who is left out, whether he agrees. What is
     /// said inside a gap of the IMU is no evidence.
-    pub(super) fn consult<const M: usize>(
+    pub(super) fn consult(
         &mut self,
         aid: Aid,
-        innovation: &Innovation<M>,
-        direct: impl Fn(f64) -> Direct<M>,
+        innovation: &Innovation,
+        direct: impl Fn(f64) -> DMatrix<f64>,
     ) {
         let now = self.time;
         if self.is_in_gap() || self.judge.as_ref().is_none_or(|judge| !judge.is_due(aid, now)) {
@@ -121,13 +119,13 @@ impl Filter {
 
     /// Lets the judge follow what a receiver that is left out is off by: its position beside the velocity of the
     /// same epoch.
-    pub(super) fn follow(&mut self, position: &Innovation<3>, velocity: Option<&Innovation<3>>) {
-        let (now, covariance) = (self.time, self.covariance);
+    pub(super) fn follow(&mut self, position: &Innovation, velocity: Option<&Innovation>) {
         if !self.docket().leaves_out_gnss() {
             return;
         }
-        let both = position.beside(velocity.unwrap_or(&Innovation::silent()));
-        let noise = position.r.diagonal().xy().max().sqrt();
+        let (now, covariance) = (self.time, self.covariance.clone());
+        let both = position.beside(velocity.unwrap_or(&Innovation::silent(3)));
+        let noise = horizontal_noise(position);
         let weighed = both.weigh(&covariance);
         let Some(weighed) = weighed else { return };
         match self.judge_now() {
@@ -262,7 +260,7 @@ impl Filter {
     /// at first from now on, and the heading than what was made of the compass.
     fn doubt_gyros(&mut self, mended: &Alternative) {
         if self.config.has_coarse_gyros() {
-            let turned = ATTITUDE.of(&mended.error);
+            let turned = mended.error.of(ATTITUDE);
             ATTITUDE.add(&mut self.covariance, &(turned * turned.transpose()));
             GYRO_BIAS.inflate(&mut self.covariance, self.config.imu.gyro.bias_std.powi(2));
         }
@@ -359,7 +357,7 @@ impl Filter {
         let unbiased = judge.unbiased().filter(|_| refused >= LOCKED_OUT && !withheld);
         if let Some(unbiased) = unbiased {
             self.become_other(&unbiased);
-            self.owed += unbiased.error.transpose();
+            self.owed += &unbiased.error;
         }
         true
     }
@@ -367,9 +365,9 @@ impl Filter {
     fn become_other(&mut self, other: &Alternative) {
         let Alternative { error, covariance } = other;
         self.nominal.inject(error);
-        self.covariance = *covariance;
+        self.covariance.clone_from(covariance);
         self.corrected += error;
-        self.absorbed += VELOCITY.of(error);
+        self.absorbed += error.of(VELOCITY);
         self.turned = Vector3::zeros();
         self.forget_motion();
         let view = self.view();

@@ -1,12 +1,14 @@
 //! A filter as it is kept for the next start of the program, and taken up again.
 
 use insd_base::{Span, Time};
+use insd_estimation::Place;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::Filter;
 use crate::config::NavConfig;
-use crate::error_state::{Covariance, STATES};
+use crate::declaration::{Carried, carried, declaration};
+use crate::error_state::{BERTH_OFFSET, Covariance, SWAY, SWAY_VELOCITY};
 use crate::initial::InitialState;
 use crate::judge::Docket;
 use crate::nominal::Nominal;
@@ -20,8 +22,7 @@ use crate::trust::Trust;
 pub struct KeptFilter {
     time: Time,
     nominal: Nominal,
-    /// The covariance by columns, each down to its diagonal.
-    triangle: Vec<f64>,
+    covariance: Covariance,
     rate: Vector3<f64>,
     lateness: f64,
     trust: Trust,
@@ -37,9 +38,6 @@ pub struct KeptFilter {
     docket: Docket,
 }
 
-/// A correlation may be beyond one by so much: rounding.
-const ROUNDING: f64 = 1e-6;
-
 impl KeptFilter {
     /// Instant of the estimate.
     #[must_use]
@@ -53,28 +51,18 @@ impl KeptFilter {
         self.trust.is_suspect(self.time)
     }
 
-    /// The covariance; `None` unless its size is this program's and it can be one.
-    fn covariance(&self) -> Option<Covariance> {
-        if self.triangle.len() != STATES * (STATES + 1) / 2 {
-            return None;
-        }
-        let mut p = Covariance::zeros();
-        let mut values = self.triangle.iter();
-        for column in 0..STATES {
-            for row in 0..=column {
-                let value = *values.next()?;
-                p[(row, column)] = value;
-                p[(column, row)] = value;
-            }
-        }
-        let root = p.diagonal().map(f64::sqrt);
-        let is_one = p.iter().all(|value| value.is_finite())
-            && root.iter().all(|std| std.is_finite())
-            && (0..STATES).all(|i| {
-                let bound = |j: usize| root[i] * root[j] * (1.0 + ROUNDING) + f64::MIN_POSITIVE;
-                (0..i).all(|j| p[(i, j)].abs() <= bound(j))
-            });
-        is_one.then_some(p)
+    /// Whether its states are those of this program: all that are always carried, as they begin, and whole blocks of others.
+    fn has_states(&self) -> bool {
+        let layout = self.covariance.layout();
+        let mut always = carried(Carried::Always).zip(layout.places());
+        let is_own = |place: &Place| {
+            declaration(place.key).is_some_and(|declared| declared.width == place.width)
+        };
+        let has_sway = [SWAY.key(), SWAY_VELOCITY.key(), BERTH_OFFSET.key()];
+        always.all(|(declared, place)| declared.key == place.key)
+            && carried(Carried::Always).count() <= layout.places().len()
+            && layout.places().iter().all(is_own)
+            && (self.sway.is_none() || has_sway.iter().all(|key| layout.start(*key).is_some()))
     }
 }
 
@@ -87,12 +75,10 @@ impl Filter {
             settled.settle();
             return settled.kept();
         }
-        let p = &self.covariance;
-        let column = |column: usize| (0..=column).map(move |row| p[(row, column)]);
         KeptFilter {
             time: self.time,
             nominal: self.nominal,
-            triangle: (0..STATES).flat_map(column).collect(),
+            covariance: self.covariance.clone(),
             rate: self.rate,
             lateness: self.lateness,
             trust: self.trust,
@@ -113,11 +99,13 @@ impl Filter {
     /// cannot be a filter's.
     #[must_use]
     pub fn taken_up(config: &NavConfig, kept: &KeptFilter, by: Span) -> Option<Filter> {
-        let covariance = kept.covariance()?;
+        if !kept.has_states() {
+            return None;
+        }
         let initial = InitialState {
             time: kept.time + by,
             nominal: kept.nominal,
-            covariance,
+            covariance: kept.covariance.clone(),
             rate: kept.rate,
         };
         let later = |time: Option<Time>| time.map(|time| time + by);
@@ -220,7 +208,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn what_cannot_be_a_covariance_is_refused() {
+    fn states_of_another_program_are_refused() {
         let (config, filter) = filter();
         let kept = filter.kept();
         let spoilt = |change: &dyn Fn(&mut KeptFilter)| {
@@ -228,11 +216,11 @@ pub(super) mod tests {
             change(&mut spoilt);
             Filter::taken_up(&config, &spoilt, Span::ZERO).is_none()
         };
-        assert!(spoilt(&|kept| kept.triangle[0] = -1.0));
-        assert!(spoilt(&|kept| kept.triangle[1] = 1e3));
-        assert!(spoilt(&|kept| kept.triangle[7] = f64::NAN));
-        assert!(spoilt(&|kept| kept.triangle.truncate(7)));
+        assert!(spoilt(&|kept| kept.covariance.leave(VELOCITY.key())));
+        assert!(spoilt(&|kept| kept.covariance = Covariance::none()));
+        assert!(spoilt(&|kept| kept.covariance.join_diagonal(SWAY.key(), 3, 1.0)));
         assert!(spoilt(&|kept| kept.nominal.velocity.x = f64::INFINITY));
+        assert!(!spoilt(&|kept| kept.covariance.join_diagonal(SWAY.key(), 4, 1.0)));
         assert!(!spoilt(&|_| {}));
     }
 }

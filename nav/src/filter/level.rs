@@ -1,12 +1,9 @@
 //! The mean sea level holds the height.
 
-use nalgebra::SMatrix;
-
 use super::Filter;
 use crate::aids::sea_level;
-use crate::error_state::{POSITION, SEA_LEVEL, VELOCITY};
-use crate::innovation::{Innovation, Weighed};
-use crate::judge::{Aid, untouched};
+use crate::error_state::{Errors, Innovation, POSITION, SEA_LEVEL, VELOCITY, Weighed};
+use crate::judge::{Aid, rows};
 
 impl Filter {
     /// Holds the mean height over a window of waves against the sea level.
@@ -14,15 +11,17 @@ impl Filter {
         let (mean, length) = self.level.take_mean();
         let innovation = sea_level::innovation(&self.view(), mean, length, self.level.heave.std());
         let Some(weighed) = innovation.weigh(&self.covariance) else { return };
-        let excess = (weighed.nis() / self.gate.limit::<1>()).max(1.0);
+        let excess = (weighed.nis() / self.gate.limit(1)).max(1.0);
         let is_alone = self.is_carried_by_imu();
         if !is_alone {
             // who is not at sea, in a lock or on a hill, has a level that tells against nobody more than once
-            let r = innovation.r.add_scalar((excess - 1.0) * weighed.sigma().x.powi(2));
-            self.consult(Aid::SeaLevel, &Innovation { r, ..innovation }, untouched::<1>);
+            let r = innovation.r.add_scalar((excess - 1.0) * weighed.sigma()[0].powi(2));
+            self.consult(Aid::SeaLevel, &Innovation { r, ..innovation.clone() }, |_| {
+                rows::untouched(1)
+            });
         }
-        let expected = weighed.sigma().x.powi(2) - innovation.r.x;
-        self.level.heave.learn(innovation.z.x, expected);
+        let expected = weighed.sigma()[0].powi(2) - innovation.r[0];
+        self.level.heave.learn(innovation.z[0], expected);
         if excess > 1.0 {
             return;
         }
@@ -36,19 +35,22 @@ impl Filter {
     /// Lets a height move the vertical channel only. Without any other aid tilt and heading errors
     /// grow until their squares matter to the height, and the linear filter would take them for
     /// knowledge of the horizontal.
-    fn absorb_vertically(&mut self, weighed: &Weighed<1>) {
+    fn absorb_vertically(&mut self, weighed: &Weighed) {
         let up = self.nominal.position.normalize();
-        let optimal = weighed.gain();
-        let mut gain = SMatrix::zeros();
+        let optimal = weighed.gain_of(0);
+        let mut gain = Errors::zeros(weighed.layout());
         for block in [POSITION, VELOCITY] {
-            let along = block.of(&optimal).dot(&up);
-            block.set(&mut gain, &(up * along));
+            let along = optimal.of(block).dot(&up);
+            gain.set(block, &(up * along));
         }
-        SEA_LEVEL.set(&mut gain, &SEA_LEVEL.of(&optimal));
-        self.pass_on(weighed, &gain);
+        gain.set(SEA_LEVEL, &optimal.of(SEA_LEVEL));
+        let gain = gain.to_column();
+        if let Some(bias) = &mut self.bias {
+            bias.absorb(weighed, &gain);
+        }
         let error = weighed.update_with(&mut self.covariance, &gain);
         self.nominal.inject(&error);
-        self.owed += error.transpose();
-        self.absorbed += VELOCITY.of(&error);
+        self.owed += &error;
+        self.absorbed += error.of(VELOCITY);
     }
 }

@@ -1,9 +1,10 @@
 //! The filter of a ship that is taken as lying at her berth.
 
-use nalgebra::{Matrix2, Matrix4, Vector2};
+use nalgebra::{Matrix2, Vector2};
 
 use super::Filter;
-use crate::error_state::{ATTITUDE, BERTH_OFFSET, POSITION, SWAY, SWAY_VELOCITY, VELOCITY};
+use crate::declaration::Carried;
+use crate::error_state::{ATTITUDE, BERTH_OFFSET, POSITION, VELOCITY};
 use crate::sway::Sway;
 
 impl Filter {
@@ -65,9 +66,7 @@ impl Filter {
     pub fn cast_off(&mut self) {
         self.settle();
         self.sway = None;
-        BERTH_OFFSET.renew(&mut self.covariance, &Matrix2::zeros());
-        SWAY.renew(&mut self.covariance, &Matrix4::zeros());
-        SWAY_VELOCITY.renew(&mut self.covariance, &Matrix4::zeros());
+        self.end_to_carry(Carried::AtBerth);
         self.be_judged();
     }
 }

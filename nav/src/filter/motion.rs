@@ -47,19 +47,17 @@ impl Filter {
     pub fn current(&self) -> Option<Current> {
         let last = self.last_water?;
         let fresh = (self.time - last).as_seconds() < CURRENT_TIMEOUT;
-        let (velocity, start) = (self.nominal.current, CURRENT.start());
-        let sigma = |axis: usize| self.covariance[(start + axis, start + axis)].max(0.0).sqrt();
+        let (velocity, sigma) = (self.nominal.current, CURRENT.stds(&self.covariance));
         fresh.then(|| Current {
             velocity: Ned::new(velocity.x, velocity.y, 0.0),
-            sigma: Ned::new(sigma(0), sigma(1), 0.0),
+            sigma: Ned::new(sigma.x, sigma.y, 0.0),
         })
     }
 
     /// North-east element of the covariance of the position, m^2.
     #[must_use]
     pub fn covariance_north_east(&self) -> f64 {
-        let start = POSITION.start();
-        let position = self.covariance.fixed_view::<3, 3>(start, start);
+        let position = POSITION.covariance(&self.covariance);
         let rows = earth::c_ne(&self.nominal.geodetic());
         let horizontal: Matrix3x2<f64> = rows.fixed_rows::<2>(0).transpose();
         (position * horizontal.column(1)).dot(&horizontal.column(0))

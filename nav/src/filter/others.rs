@@ -1,15 +1,15 @@
 //! Log and external reference.
 
 use insd_base::{ExternalReference, LogReference, LogVelocity, Rejection, Source};
-use nalgebra::{Matrix3, SMatrix, Vector2};
+use nalgebra::{DMatrix, Matrix3, Vector2};
 
 use super::Filter;
 use super::entry::enter;
 use crate::aids::log_velocity::Prediction;
 use crate::aids::{log_velocity, reference_heading, reference_position, reference_velocity};
-use crate::error_state::STATES;
+use crate::declaration::Carried;
+use crate::error_state::Innovation;
 use crate::floors::{self, Believable, Floored};
-use crate::innovation::Innovation;
 use crate::judge::{Aid, rows};
 use crate::report::{Outcome, Report};
 
@@ -25,14 +25,15 @@ impl Filter {
         let default = self.config.log.default_std;
         let range = Believable { least: 0.002, greatest: 10.0, default };
         let stated = floored(log.std, &range, aid, report);
+        self.begin_to_carry(Carried::WithLog);
         let prediction = self.predict_log(log);
         if let Some(measured) = log_velocity::all_components(log) {
             let mut innovation = log_velocity::complete(&prediction, &measured, stated);
             innovation.r *= self.noise_of(Aid::Log);
-            let by_lever = prediction.by_lever;
+            let by_lever = by_rows(&prediction.by_lever, &[0, 1, 2]);
             let gain = self.hear_log(&innovation, &by_lever);
             let direct = rows::of_log(&prediction.velocity, &self.view().c_nb());
-            self.consult(Aid::Log, &innovation, |_| direct);
+            self.consult(Aid::Log, &innovation, |_| direct.clone());
             let judged = self.gated(&innovation, self.withheld(Aid::Log));
             self.note_log(log, enter(report, log.time, source, aid, &judged), gain, &by_lever);
             self.told_across = Some(self.time);
@@ -49,11 +50,11 @@ impl Filter {
             let aid_heard = [Aid::Log, Aid::LogStarboard, Aid::LogDown][axis];
             let mut innovation = log_velocity::component(&prediction, axis, measured, stated);
             innovation.r *= self.noise_of(aid_heard);
-            let by_lever = prediction.by_lever.fixed_rows::<1>(axis).into_owned();
+            let by_lever = by_rows(&prediction.by_lever, &[axis]);
             let gain = self.hear_log(&innovation, &by_lever);
             let direct = rows::of_log(&prediction.velocity, &self.view().c_nb());
-            let own = direct.fixed_columns::<1>(axis).into_owned();
-            self.consult(aid_heard, &innovation, |_| own);
+            let own = direct.select_columns(&[axis]);
+            self.consult(aid_heard, &innovation, |_| own.clone());
             let judged = self.gated(&innovation, self.withheld(Aid::Log));
             self.note_log(log, enter(report, log.time, source, aid, &judged), gain, &by_lever);
         }
@@ -73,7 +74,7 @@ impl Filter {
             let innovation = reference_velocity::innovation(&self.view(), &v_ne, std);
             let direct = rows::of_reference_velocity();
             let aid = Aid::ReferenceVelocity;
-            self.consult(aid, &innovation, |_| direct);
+            self.consult(aid, &innovation, |_| direct.clone());
             let judged = self.gated(&innovation, self.withheld(aid));
             self.note(enter(report, reference.time, source, "reference_velocity", &judged));
         }
@@ -89,6 +90,7 @@ impl Filter {
             self.note(enter(report, reference.time, source, "reference_position", &judged));
         }
         if let Some(heading) = reference.heading {
+            self.begin_to_carry(Carried::WithHeading);
             self.note_noise();
             let degree = insd_base::units::DEG;
             let range =
@@ -132,11 +134,11 @@ impl Filter {
 
     /// What a log that is not left out says of the lever arms, whether it is used or not; gives the gain with which it
     /// would be.
-    fn hear_log<const M: usize>(
+    fn hear_log(
         &mut self,
-        innovation: &Innovation<M>,
-        by_lever: &SMatrix<f64, M, 3>,
-    ) -> Option<SMatrix<f64, STATES, M>> {
+        innovation: &Innovation,
+        by_lever: &DMatrix<f64>,
+    ) -> Option<DMatrix<f64>> {
         if self.docket().leaves_out(Aid::Log) {
             return None;
         }
@@ -146,12 +148,12 @@ impl Filter {
         Some(weighed.gain())
     }
 
-    fn note_log<const M: usize>(
+    fn note_log(
         &mut self,
         log: &LogVelocity,
         outcome: Outcome,
-        gain: Option<SMatrix<f64, STATES, M>>,
-        by_lever: &SMatrix<f64, M, 3>,
+        gain: Option<DMatrix<f64>>,
+        by_lever: &DMatrix<f64>,
     ) {
         let used = gain.filter(|_| outcome == Outcome::Accepted);
         if let Some((bias, gain)) = self.bias.as_mut().zip(used) {
@@ -169,6 +171,11 @@ impl Filter {
             self.last_motion = self.last_relative;
         }
     }
+}
+
+/// Some rows of the effect of a lever arm.
+fn by_rows(by_lever: &Matrix3<f64>, rows: &[usize]) -> DMatrix<f64> {
+    DMatrix::from_fn(rows.len(), 3, |row, column| by_lever[(rows[row], column)])
 }
 
 fn floored(stated: Option<f64>, range: &Believable, aid: &'static str, report: &mut Report) -> f64 {

@@ -5,23 +5,30 @@
 //! errors and those of the navigator make it: n positions within the time of these are worth one.
 
 use insd_base::{GnssFix, Party, Source, earth};
-use nalgebra::{Matrix1, Matrix2, Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix1, Matrix3, Vector3};
 
 use super::Filter;
 use crate::aids::View;
 use crate::aids::gnss_position::{self, PositionFix};
 use crate::aids::gnss_velocity::{self, VelocityFix};
-use crate::error_state::{GNSS_DELAY, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR};
+use crate::error_state::{GNSS_DELAY, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, Innovation};
 use crate::floors;
-use crate::innovation::Innovation;
 use crate::judge::{Aid, Judge, rows};
 use crate::separate_bias::SeparateBias;
+
+/// North and east of three components.
+const HORIZONTAL: [usize; 2] = [0, 1];
 
 /// What honest receivers differ by for long, 1-sigma of each component, beside what the one that is compared says of
 /// itself, and for how long, s. Position, m: paths of the signal, datum, the slow errors of the other.
 const APART: [f64; 2] = [2.0, 30.0];
 /// Velocity, m/s: how each averages it over the waves.
 const APART_VELOCITY: [f64; 2] = [0.1, 10.0];
+
+/// 1-sigma of the noise of a position, of the worse of north and east, m.
+pub(super) fn horizontal_noise(position: &Innovation) -> f64 {
+    position.r[(0, 0)].max(position.r[(1, 1)]).sqrt()
+}
 
 impl Filter {
     /// The receiver that sends the fixes to be used: what is known of the slow errors and the delay of the one before is
@@ -45,7 +52,7 @@ impl Filter {
         self.lateness = 0.0;
         self.trust.clear();
         let begun = SeparateBias::new(&self.view());
-        self.bias.iter_mut().for_each(|bias| *bias = begun);
+        self.bias = self.bias.take().map(|_| begun);
         self.restart_judge();
         let [position, velocity, _] = self.noise_of_slow();
         [self.slow_noise[0], self.slow_noise[1]] = [position, velocity];
@@ -66,10 +73,10 @@ impl Filter {
         }
         if let Some(velocity) = velocity {
             let aid = Aid::SpareVelocity;
-            let flat = self.as_slow(aid, &velocity.horizontal(), APART_VELOCITY);
+            let flat = self.as_slow(aid, &velocity.select(&HORIZONTAL), APART_VELOCITY);
             self.consult(aid, &flat, |_| rows::of_spare_velocity());
         }
-        let flat = self.as_slow(Aid::SparePosition, &position.horizontal(), APART);
+        let flat = self.as_slow(Aid::SparePosition, &position.select(&HORIZONTAL), APART);
         self.consult(Aid::SparePosition, &flat, rows::of_spare_position);
     }
 
@@ -81,7 +88,7 @@ impl Filter {
     }
 
     /// The position of a receiver that is compared, with all that it says its errors are, white.
-    fn spare_position(&self, fix: &GnssFix) -> Option<Innovation<3>> {
+    fn spare_position(&self, fix: &GnssFix) -> Option<Innovation> {
         let (view, lever) = (self.view(), self.spare_lever(fix));
         let told = floors::vector(fix.position_std, &floors::gnss_position(fix.quality)).value;
         let unmeasured = if lever.norm() > 0.0 { 0.0 } else { self.config.gnss_lever_std() };
@@ -95,26 +102,26 @@ impl Filter {
     }
 
     /// What has errors that last, by so much more and for so long: as noisy as if each were new.
-    fn as_slow(&self, aid: Aid, told: &Innovation<2>, [by, lasts]: [f64; 2]) -> Innovation<2> {
+    fn as_slow(&self, aid: Aid, told: &Innovation, [by, lasts]: [f64; 2]) -> Innovation {
         let unheard = |judge: &Judge| judge.unheard(aid, self.time);
         let since = self.judge.as_deref().map_or(lasts, unheard);
         let factor = 2.0 * lasts / since.clamp(0.1, 2.0 * lasts) * self.noise_of(aid);
         let slow = told.r.diagonal().map(|variance| (variance + by * by) * factor);
-        Innovation { r: Matrix2::from_diagonal(&slow), ..*told }
+        Innovation { r: DMatrix::from_diagonal(&slow), ..told.clone() }
     }
 
     /// Sees whether a receiver that is left out agrees again, with its position and its velocity.
-    fn follow_spare(&mut self, position: &Innovation<3>, velocity: Option<&Innovation<3>>) {
-        let (now, covariance) = (self.time, self.covariance);
-        let both = position.beside(velocity.unwrap_or(&Innovation::silent()));
-        let noise = position.r.diagonal().xy().max().sqrt();
+    fn follow_spare(&mut self, position: &Innovation, velocity: Option<&Innovation>) {
+        let (now, covariance) = (self.time, self.covariance.clone());
+        let both = position.beside(velocity.unwrap_or(&Innovation::silent(3)));
+        let noise = horizontal_noise(position);
         let weighed = both.weigh(&covariance);
         if let Some((weighed, judge)) = weighed.zip(self.judge_now()) {
             judge.follow((Party::Gnss2, now), &weighed, noise, &covariance);
         }
     }
 
-    fn spare_velocity(&self, fix: &GnssFix) -> Option<Innovation<3>> {
+    fn spare_velocity(&self, fix: &GnssFix) -> Option<Innovation> {
         let (view, lever): (View, _) = (self.view(), self.spare_lever(fix));
         let c_ne = fix.position.map_or(view.c_ne, |antenna| earth::c_ne(&antenna));
         let measured = VelocityFix {

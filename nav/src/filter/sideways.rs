@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use super::Filter;
 use crate::aids::log_velocity;
+use crate::declaration::Carried;
 use crate::error_state::VELOCITY;
 use crate::wheels::Look;
 
@@ -82,12 +83,13 @@ impl Filter {
         sigma: f64,
         spacing: f64,
     ) {
+        self.begin_to_carry(Carried::WithLog);
         let shared = (2.0 * self.vessel().sideways().time / spacing.max(0.05)).max(1.0);
         let prediction = log_velocity::predict(&self.view(), reference, lever);
         let std = sigma * shared.sqrt();
         let innovation = log_velocity::component(&prediction, axis, 0.0, std);
         if let Some(weighed) = innovation.weigh(&self.covariance)
-            && weighed.nis() <= self.gate.limit::<1>()
+            && weighed.nis() <= self.gate.limit(1)
         {
             self.absorb(&weighed);
         }

@@ -1,8 +1,7 @@
 //! Slow errors, which are told in units of their sigmas, where a receiver or a compass is noisier than it says.
 
 use super::Filter;
-use crate::block::Block;
-use crate::error_state::{GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, HEADING_ERROR};
+use crate::error_state::{Block, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, HEADING_ERROR};
 use crate::judge::Aid;
 
 impl Filter {
@@ -31,7 +30,7 @@ impl Filter {
         }
         block.rescale(&mut self.covariance, factor);
         if let Some(bias) = &mut self.bias {
-            block.columns_mut(bias.response_mut()).scale_mut(factor);
+            bias.rescale(block, factor);
         }
         if let Some(judge) = self.judge_now() {
             judge.rescale(block, factor);

@@ -3,7 +3,7 @@
 use insd_base::{Party, Time};
 
 use super::scatter::Scatter;
-use crate::innovation::Innovation;
+use crate::error_state::Innovation;
 
 /// An aid that is heard: each has noise and outliers of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,10 +141,11 @@ impl Hearing {
 
     /// Sees an innovation of which all of the variance of the noise has been raised by what it scatters: what was not would make
     /// the scatter grow by itself. Where it is found to scatter much more than before, by how much, as a variance.
-    pub(super) fn see<const M: usize>(&mut self, innovation: &Innovation<M>) -> Option<f64> {
+    pub(super) fn see(&mut self, innovation: &Innovation) -> Option<f64> {
         let before = self.noise();
         let of = |i: usize| innovation.z[i] / (innovation.r[(i, i)] / before).sqrt();
-        self.scatter.see(std::array::from_fn(|i| if i < M { of(i) } else { f64::NAN }));
+        self.scatter
+            .see(std::array::from_fn(|i| if i < innovation.rows() { of(i) } else { f64::NAN }));
         self.noise = self.scatter.factor();
         self.known = self.known.min(self.noise()).max(1.0);
         let growth = Some(self.noise / self.known).filter(|growth| *growth > MUCH);

@@ -383,10 +383,9 @@ impl Judge {
             Kind::Shapeless => self.dissenter(charge.party()).map(|own| own.shadow.alternative()),
             Kind::Shaped { group, since, sized } => self.begun(since).map(|onset| {
                 let sized = if group == OF_GYROS { sized.untimed() } else { sized };
-                let (error, unsure) = onset.correction(&ALL[group], &sized);
-                let shadow = self.shadow();
-                let covariance = shadow.covariance + unsure;
-                Alternative { error: shadow.error + error, covariance }
+                let mut other = self.shadow();
+                other.error += &onset.correct(&ALL[group], &sized, &mut other.covariance);
+                other
             }),
         }
         .unwrap_or_else(|| self.shadow())
@@ -413,7 +412,7 @@ fn log_sum(a: f64, b: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::config::NavConfig;
-    use crate::error_state::Covariance;
+    use crate::initial::sensor_covariance;
     use crate::judge::Docket;
     use insd_base::units::DEG_PER_HOUR;
     use insd_base::{ImuSpec, LeverArms, Triad};
@@ -429,7 +428,7 @@ mod tests {
         };
         let imu = ImuSpec { rate: 100.0, gyro: triad, accel: triad };
         let config = NavConfig::new(imu, LeverArms::default());
-        let mut judge = Judge::new(&Covariance::identity(), &config, Docket::default());
+        let mut judge = Judge::new(&sensor_covariance(&config), &config, Docket::default());
         for second in (0..=10).chain(70..=80) {
             let now = Time::from_seconds(f64::from(second));
             judge.hearings[Aid::GnssPosition as usize].note(now);

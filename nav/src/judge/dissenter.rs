@@ -10,7 +10,7 @@ use nalgebra::UnitQuaternion;
 
 use super::Aid;
 use super::shadow::{Shadow, agitate};
-use crate::innovation::{Innovation, Weighed};
+use crate::error_state::{Innovation, Weighed};
 
 /// Variance of the noise of whom is not believed, times that stated, at the least.
 const NOISY: f64 = 400.0;
@@ -46,21 +46,22 @@ impl Default for Success {
 
 impl Success {
     /// Enters an innovation as it is weighed there; `others` is how likely who believes all finds it, as a logarithm.
-    fn enter<const M: usize>(&mut self, now: Time, weighed: &Weighed<M>, others: f64) {
+    fn enter(&mut self, now: Time, weighed: &Weighed, others: f64) {
         if self.gain <= 0.0 {
             (self.since, self.worst) = (now, 0.0);
         }
-        self.worst = self.worst.max(weighed.nis() / M as f64);
+        let mean_square = weighed.nis() / weighed.rows() as f64;
+        self.worst = self.worst.max(mean_square);
         self.gain = (self.gain + log_likelihood(weighed) - others).max(0.0);
-        self.strain += (weighed.nis() / M as f64 - self.strain) / LATE;
+        self.strain += (mean_square - self.strain) / LATE;
     }
 
     /// The same for who does not believe a receiver that no estimate lives by: his shadow is that of all.
-    pub(super) fn hear<const M: usize>(
+    pub(super) fn hear(
         &mut self,
         (aid, now): (Aid, Time),
-        innovation: &Innovation<M>,
-        weighed: &Weighed<M>,
+        innovation: &Innovation,
+        weighed: &Weighed,
         shadow: &Shadow,
     ) {
         let others = log_likelihood(weighed);
@@ -87,10 +88,10 @@ impl Dissenter {
 
     /// Hears an innovation of the navigator, said by somebody; `others` is how likely who believes all finds it, as
     /// a logarithm.
-    pub(super) fn hear<const M: usize>(
+    pub(super) fn hear(
         &mut self,
         (aid, now): (Aid, Time),
-        innovation: &Innovation<M>,
+        innovation: &Innovation,
         attitude: &UnitQuaternion<f64>,
         others: f64,
     ) {
@@ -105,13 +106,13 @@ impl Dissenter {
 }
 
 /// The variance of noise, times that stated, of which an innovation is no more than an ordinary sample.
-fn noise_of<const M: usize>(innovation: &Innovation<M>, shadow: &Shadow) -> f64 {
-    let z = innovation.z - innovation.h * shadow.apart;
+fn noise_of(innovation: &Innovation, shadow: &Shadow) -> f64 {
+    let z = &innovation.z - innovation.h.times(&shadow.apart);
     let squares = z.component_mul(&z).component_div(&innovation.r.diagonal());
     squares.iter().copied().fold(NOISY, f64::max)
 }
 
 /// The logarithm of a likelihood, but for a constant.
-pub(super) fn log_likelihood<const M: usize>(weighed: &Weighed<M>) -> f64 {
+pub(super) fn log_likelihood(weighed: &Weighed) -> f64 {
     -0.5 * weighed.nis() - weighed.log_root_determinant()
 }

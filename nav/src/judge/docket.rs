@@ -17,8 +17,8 @@ use serde::{Deserialize, Serialize};
 
 use super::lie::LieOfGnss;
 use super::{Aid, agreement};
+use crate::error_state::Weighed;
 use crate::error_state::{Covariance, POSITION};
-use crate::innovation::Weighed;
 
 /// Who agrees for so long is heard again, s; each time he relapses for twice as long, up to this.
 const QUARANTINE: f64 = 60.0;
@@ -206,7 +206,7 @@ impl Docket {
     pub fn see_receiver(
         &mut self,
         (party, now): (Party, Time),
-        weighed: &Weighed<6>,
+        weighed: &Weighed,
         noise: f64,
         p: &Covariance,
         alone: bool,

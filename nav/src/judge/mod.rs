@@ -27,12 +27,11 @@ mod shadow;
 mod verdict;
 
 use insd_base::{Integrity, Judgement, Parties, Party, Standing, Stands, Time};
-use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
-use crate::block::Block;
 use crate::config::NavConfig;
-use crate::error_state::{Covariance, ErrorState};
-use crate::innovation::{Innovation, Weighed};
+use crate::declaration::Declaration;
+use crate::error_state::{Block, Covariance, Errors, Innovation, Weighed};
 use crate::propagation::{self, Regime, Stretch};
 pub use aid::Aid;
 use aid::{AIDS, Hearing};
@@ -146,18 +145,23 @@ impl Judge {
     }
 
     /// The navigator's estimate was corrected.
-    pub fn corrected(&mut self, error: &ErrorState) {
+    pub fn corrected(&mut self, error: &Errors) {
         self.shadows().for_each(|shadow| shadow.apart -= error);
+    }
+
+    /// A block of states is carried from now on.
+    pub fn join(&mut self, declared: &Declaration, config: &NavConfig) {
+        self.shadows().for_each(|shadow| declared.join(&mut shadow.covariance, config));
     }
 
     /// The errors of a block of three states are no longer those of before, and known to a covariance.
     pub fn renew(&mut self, block: Block<3>, covariance: &Matrix3<f64>) {
         for shadow in self.shadows() {
             block.renew(&mut shadow.covariance, covariance);
-            shadow.apart.fixed_rows_mut::<3>(block.start()).fill(0.0);
+            shadow.apart.scale_block(block, 0.0);
         }
         for onset in &mut self.onsets {
-            block.columns_mut(onset.effects_mut()).fill(0.0);
+            onset.effects_mut().scale_block(block, 0.0);
         }
     }
 
@@ -165,10 +169,10 @@ impl Judge {
     pub fn rescale<const W: usize>(&mut self, block: Block<W>, factor: f64) {
         for shadow in self.shadows() {
             block.rescale(&mut shadow.covariance, factor);
-            shadow.apart.fixed_rows_mut::<W>(block.start()).scale_mut(factor);
+            shadow.apart.scale_block(block, factor);
         }
         for onset in &mut self.onsets {
-            block.columns_mut(onset.effects_mut()).scale_mut(factor);
+            onset.effects_mut().scale_block(block, factor);
         }
     }
 
@@ -186,8 +190,11 @@ impl Judge {
         }
         self.pessimist.shadow.propagate(stretch, gradient, &config.with_worse_imu(), regime);
         self.dissenters.iter_mut().for_each(|dissenter| dissenter.agitate(stretch.duration));
+        let layout = self.shadow.covariance.layout();
         for onset in &mut self.onsets {
-            propagation::carry(onset.effects_mut(), stretch, gradient, config, regime);
+            let effects = onset.effects_mut();
+            effects.conform(layout);
+            propagation::carry(effects, stretch, gradient, config, regime);
         }
     }
 
@@ -211,13 +218,13 @@ impl Judge {
 
     /// Hears an innovation of the navigator before it is absorbed there, used or not, its noise raised by
     /// [`Judge::noise`]; `direct` gives what a fault of such an age, s, adds to it, `attitude` is the navigator's.
-    pub fn hear<const M: usize>(
+    pub fn hear(
         &mut self,
         aid: Aid,
         now: Time,
-        innovation: &Innovation<M>,
+        innovation: &Innovation,
         attitude: &UnitQuaternion<f64>,
-        direct: impl Fn(f64) -> Direct<M>,
+        direct: impl Fn(f64) -> Direct,
     ) {
         let hearing = &mut self.hearings[aid as usize];
         hearing.note(now);
@@ -225,7 +232,7 @@ impl Judge {
             self.acquit_all(aid.party());
         }
         let Some(weighed) = self.shadow.weigh(innovation, 1.0) else { return };
-        let is_outlier = weighed.nis() > OUTLIER * M as f64;
+        let is_outlier = weighed.nis() > OUTLIER * weighed.rows() as f64;
         let (is_first, is_heard) = self.hearings[aid as usize].count(is_outlier);
         self.spawn(now, is_first);
         if !is_heard {
@@ -234,7 +241,7 @@ impl Judge {
         let gain = aid.is_absorbed().then(|| weighed.gain());
         for onset in &mut self.onsets {
             let age = (now - onset.since).as_seconds();
-            onset.hear(&weighed, gain.as_ref(), &direct(age));
+            onset.hear(&weighed, gain.as_ref(), direct(age));
         }
         let likelihood = log_likelihood(&weighed);
         self.spare.hear((aid, now), innovation, &weighed, &self.shadow);
@@ -367,12 +374,12 @@ impl Judge {
     }
 
     /// Sees an innovation of somebody who is left out, as it is and weighed by the navigator.
-    pub fn watch<const M: usize>(
+    pub fn watch(
         &mut self,
         (party, aid): (Party, Aid),
         now: Time,
-        innovation: &Innovation<M>,
-        weighed: &Weighed<M>,
+        innovation: &Innovation,
+        weighed: &Weighed,
     ) {
         let hearing = &mut self.hearings[aid as usize];
         hearing.note(now);
@@ -386,7 +393,7 @@ impl Judge {
     pub fn follow(
         &mut self,
         (party, now): (Party, Time),
-        weighed: &Weighed<6>,
+        weighed: &Weighed,
         noise: f64,
         p: &Covariance,
     ) {
@@ -398,7 +405,7 @@ impl Judge {
     }
 
     /// Sees the height of a receiver of which only that is wrong, weighed by the navigator.
-    pub fn watch_height(&mut self, now: Time, weighed: &Weighed<1>) {
+    pub fn watch_height(&mut self, now: Time, weighed: &Weighed) {
         self.docket.watch(Party::Gnss, now, agreement(weighed));
     }
 
@@ -433,18 +440,12 @@ impl Judge {
 }
 
 /// The mean square of an innovation, of which one is expected, if it agrees: one in 10,000 honest ones does not.
-fn agreement<const M: usize>(weighed: &Weighed<M>) -> Option<f64> {
-    let limit = match M {
+fn agreement(weighed: &Weighed) -> Option<f64> {
+    let limit = match weighed.rows() {
         1 => 15.1,
         2 => 18.4,
         3 => 21.1,
         _ => 27.9,
     };
-    Some(weighed.nis()).filter(|nis| *nis <= limit).map(|nis| nis / M as f64)
-}
-
-/// A measurement that no fault but one of the IMU touches.
-#[must_use]
-pub fn untouched<const M: usize>(_age: f64) -> Direct<M> {
-    SMatrix::zeros()
+    Some(weighed.nis()).filter(|nis| *nis <= limit).map(|nis| nis / weighed.rows() as f64)
 }

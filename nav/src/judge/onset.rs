@@ -12,11 +12,10 @@
 //! ln BF = (s eta)^T A^-1 (s eta) / 2 - ln(det A) / 2.
 
 use insd_base::{Party, Time};
-use nalgebra::{Cholesky, Matrix3, SMatrix, Vector3};
+use nalgebra::{Cholesky, DMatrix, Matrix3, Vector3};
 
-use super::rows::{self, ALL, Direct, Effects, GROUPS, Group};
-use crate::error_state::{Covariance, ErrorState, STATES};
-use crate::innovation::Weighed;
+use super::rows::{self, ALL, Direct, GROUPS, Group};
+use crate::error_state::{Covariance, Effects, Errors, Weighed};
 
 /// What may have begun at an instant.
 #[derive(Clone, Debug)]
@@ -76,26 +75,24 @@ impl Onset {
     }
 
     /// Hears an innovation before it is absorbed with a gain, if it is.
-    pub(super) fn hear<const M: usize>(
-        &mut self,
-        weighed: &Weighed<M>,
-        gain: Option<&SMatrix<f64, STATES, M>>,
-        direct: &Direct<M>,
-    ) {
-        let (effect, whitened, z) = weighed.effect_of(&self.effects, direct);
+    pub(super) fn hear(&mut self, weighed: &Weighed, gain: Option<&DMatrix<f64>>, direct: Direct) {
+        self.effects.conform(weighed.layout());
+        let effect = weighed.effect_of(&self.effects, direct);
+        let z = weighed.whitened();
+        let whitened = weighed.whiten(effect.clone());
         for (i, group) in ALL.iter().enumerate() {
             let (start, width) = (group.rows.start, group.rows.len());
             let own = whitened.rows(start, width);
             let mut information = self.information[i].view_mut((0, 0), (width, width));
             information += own * own.transpose();
             let mut evidence = self.evidence[i].rows_mut(0, width);
-            evidence += own * z;
+            evidence += own * &z;
         }
         if let Some(gain) = gain {
-            self.effects -= effect * gain.transpose();
+            Weighed::pass_on(&mut self.effects, &effect, gain);
         }
         self.misfit += z.norm_squared();
-        self.heard += M as f64;
+        self.heard += weighed.rows() as f64;
     }
 
     /// Forgets what speaks for faults of somebody of whom no estimate takes anything.
@@ -135,13 +132,11 @@ impl Onset {
         value.dot(&self.evidence[group]) - 0.5 * value.dot(&(self.information[group] * value))
     }
 
-    /// What such a fault has done to the errors, and the covariance that not knowing its size adds to theirs.
-    #[must_use]
-    pub(super) fn correction(&self, group: &Group, sized: &Sized) -> (ErrorState, Covariance) {
-        let (start, width) = (group.rows.start, group.rows.len());
-        let own = self.effects.rows(start, width);
-        let error = own.transpose() * sized.value.rows(0, width);
-        let unsure = own.transpose() * sized.covariance.view((0, 0), (width, width)) * own;
-        (error, unsure)
+    /// What such a fault has done to the errors; the covariance of theirs is as much wider as its size is not known.
+    pub(super) fn correct(&self, group: &Group, sized: &Sized, p: &mut Covariance) -> Errors {
+        let width = group.rows.len();
+        let own = self.effects.some(group.rows.start, width);
+        p.spread_by(&own, &sized.covariance.view((0, 0), (width, width)).clone_owned());
+        own.total(&sized.value.as_slice()[..width])
     }
 }

@@ -10,9 +10,8 @@ use nalgebra::UnitQuaternion;
 
 use super::dissenter::log_likelihood;
 use super::shadow::Shadow;
-use crate::error_state::Covariance;
+use crate::error_state::{Covariance, Innovation};
 use crate::initial::take_for_worse;
-use crate::innovation::Innovation;
 
 /// By how much likelier he must be, as a logarithm, and for how long he must have been, s: what is bad of a sudden is
 /// something else.
@@ -41,10 +40,10 @@ impl Pessimist {
     }
 
     /// Hears an innovation of the navigator; `others` is how likely the shadow finds it, as a logarithm.
-    pub(super) fn hear<const M: usize>(
+    pub(super) fn hear(
         &mut self,
         now: Time,
-        innovation: &Innovation<M>,
+        innovation: &Innovation,
         attitude: &UnitQuaternion<f64>,
         others: f64,
     ) {

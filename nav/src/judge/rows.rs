@@ -6,10 +6,10 @@
 use std::ops::Range;
 
 use insd_base::Fault;
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{DMatrix, Matrix3, SMatrix, Vector3};
 
 use crate::error_state::{
-    ACCEL_BIAS, ATTITUDE, GNSS_DELAY, GYRO_BIAS, GYRO_SCALE, STATES, VELOCITY,
+    ACCEL_BIAS, ATTITUDE, Effects, GNSS_DELAY, GYRO_BIAS, GYRO_SCALE, VELOCITY,
 };
 
 const GNSS_JUMP: usize = 0;
@@ -35,10 +35,8 @@ const PUSH: usize = 41;
 /// How many there are.
 pub const ROWS: usize = 44;
 
-/// Transposed: a row for each fault, its effect on the errors of the estimate.
-pub type Effects = SMatrix<f64, ROWS, STATES>;
-/// Transposed: what each fault adds to an innovation of itself.
-pub type Direct<const M: usize> = SMatrix<f64, ROWS, M>;
+/// What each fault adds to an innovation of itself, a row for each fault.
+pub type Direct = DMatrix<f64>;
 
 /// Faults that are sized together.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,22 +111,28 @@ pub const ALL: [Group; GROUPS] = [
 /// told a turn or a push that was none, and the receiver has another delay.
 #[must_use]
 pub fn at_onset() -> Effects {
-    let mut effects = Effects::zeros();
-    for (start, state) in [
-        (GYRO, GYRO_BIAS.start()),
-        (ACCEL, ACCEL_BIAS.start()),
-        (SCALE, GYRO_SCALE.start()),
-        (TURN, ATTITUDE.start()),
-        (PUSH, VELOCITY.start()),
+    let mut effects = Effects::none(ROWS);
+    for (start, block) in [
+        (GYRO, GYRO_BIAS),
+        (ACCEL, ACCEL_BIAS),
+        (SCALE, GYRO_SCALE),
+        (TURN, ATTITUDE),
+        (PUSH, VELOCITY),
     ] {
-        (0..3).for_each(|i| effects[(start + i, state + i)] = 1.0);
+        effects.set(start, block, &Matrix3::identity());
     }
-    effects[(DELAY, GNSS_DELAY.start())] = 1.0;
+    effects.set(DELAY, GNSS_DELAY, &SMatrix::<f64, 1, 1>::identity());
     effects
 }
 
+/// Of nothing that is measured, so many rows.
+#[must_use]
+pub fn untouched(rows: usize) -> Direct {
+    Direct::zeros(ROWS, rows)
+}
+
 fn put<const M: usize, const W: usize>(
-    direct: &mut Direct<M>,
+    direct: &mut Direct,
     row: usize,
     value: &SMatrix<f64, W, M>,
 ) {
@@ -137,8 +141,8 @@ fn put<const M: usize, const W: usize>(
 
 /// Of a GNSS position, `age` seconds after the onset.
 #[must_use]
-pub fn of_gnss_position(age: f64) -> Direct<3> {
-    let mut direct = Direct::zeros();
+pub fn of_gnss_position(age: f64) -> Direct {
+    let mut direct = untouched(3);
     let flat = SMatrix::<f64, 2, 3>::identity();
     put(&mut direct, GNSS_JUMP, &Matrix3::identity());
     put(&mut direct, GNSS_DRAG, &(flat * age));
@@ -149,8 +153,8 @@ pub fn of_gnss_position(age: f64) -> Direct<3> {
 
 /// Of a GNSS velocity.
 #[must_use]
-pub fn of_gnss_velocity(age: f64) -> Direct<3> {
-    let mut direct = Direct::zeros();
+pub fn of_gnss_velocity(age: f64) -> Direct {
+    let mut direct = untouched(3);
     let flat = SMatrix::<f64, 2, 3>::identity();
     put(&mut direct, GNSS_DRAG, &flat);
     put(&mut direct, GNSS_CREEP, &(flat * age));
@@ -160,8 +164,8 @@ pub fn of_gnss_velocity(age: f64) -> Direct<3> {
 
 /// Of all three components of a log that should say `through`, body axes, m/s; `c_nb` from body to NED axes.
 #[must_use]
-pub fn of_log(through: &Vector3<f64>, c_nb: &Matrix3<f64>) -> Direct<3> {
-    let mut direct = Direct::zeros();
+pub fn of_log(through: &Vector3<f64>, c_nb: &Matrix3<f64>) -> Direct {
+    let mut direct = untouched(3);
     let (u, v) = (through.x, through.y);
     put(&mut direct, LOG_GAIN, &SMatrix::<f64, 2, 3>::new(u, v, 0.0, -v, u, 0.0));
     put(&mut direct, LOG_OFFSET, &SMatrix::<f64, 2, 3>::identity());
@@ -171,8 +175,8 @@ pub fn of_log(through: &Vector3<f64>, c_nb: &Matrix3<f64>) -> Direct<3> {
 
 /// Of a heading.
 #[must_use]
-pub fn of_heading(age: f64) -> Direct<1> {
-    let mut direct = Direct::zeros();
+pub fn of_heading(age: f64) -> Direct {
+    let mut direct = untouched(1);
     direct[HEADING_OFFSET] = 1.0;
     direct[HEADING_DRIFT] = age;
     direct
@@ -180,8 +184,8 @@ pub fn of_heading(age: f64) -> Direct<1> {
 
 /// Of the position of another reference, north and east.
 #[must_use]
-pub fn of_reference_position(age: f64) -> Direct<2> {
-    let mut direct = Direct::zeros();
+pub fn of_reference_position(age: f64) -> Direct {
+    let mut direct = untouched(2);
     let flat = SMatrix::<f64, 2, 2>::identity();
     put(&mut direct, REFERENCE_JUMP, &flat);
     put(&mut direct, REFERENCE_DRAG, &(flat * age));
@@ -190,16 +194,16 @@ pub fn of_reference_position(age: f64) -> Direct<2> {
 
 /// Of its velocity, north and east.
 #[must_use]
-pub fn of_reference_velocity() -> Direct<2> {
-    let mut direct = Direct::zeros();
+pub fn of_reference_velocity() -> Direct {
+    let mut direct = untouched(2);
     put(&mut direct, REFERENCE_DRAG, &SMatrix::<f64, 2, 2>::identity());
     direct
 }
 
 /// Of the position of a receiver that is compared, north and east.
 #[must_use]
-pub fn of_spare_position(age: f64) -> Direct<2> {
-    let mut direct = Direct::zeros();
+pub fn of_spare_position(age: f64) -> Direct {
+    let mut direct = untouched(2);
     let flat = SMatrix::<f64, 2, 2>::identity();
     put(&mut direct, SPARE_JUMP, &flat);
     put(&mut direct, SPARE_DRAG, &(flat * age));
@@ -208,8 +212,8 @@ pub fn of_spare_position(age: f64) -> Direct<2> {
 
 /// Of its velocity, north and east.
 #[must_use]
-pub fn of_spare_velocity() -> Direct<2> {
-    let mut direct = Direct::zeros();
+pub fn of_spare_velocity() -> Direct {
+    let mut direct = untouched(2);
     put(&mut direct, SPARE_DRAG, &SMatrix::<f64, 2, 2>::identity());
     direct
 }

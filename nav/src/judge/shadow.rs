@@ -8,8 +8,7 @@ use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::Alternative;
 use crate::config::NavConfig;
-use crate::error_state::{ATTITUDE, Covariance, ErrorState, VELOCITY};
-use crate::innovation::{Innovation, Weighed};
+use crate::error_state::{ATTITUDE, Covariance, Errors, Innovation, VELOCITY, Weighed};
 use crate::propagation::{self, Regime, Stretch};
 use crate::symmetry::turn_biases;
 
@@ -17,7 +16,7 @@ use crate::symmetry::turn_biases;
 #[derive(Clone, Debug)]
 pub(super) struct Shadow {
     /// What the navigator's estimate lacks to it.
-    pub(super) apart: ErrorState,
+    pub(super) apart: Errors,
     /// Covariance of its errors.
     pub(super) covariance: Covariance,
     turned: Vector3<f64>,
@@ -51,12 +50,13 @@ impl Shadow {
     /// The navigator's own.
     #[must_use]
     pub(super) fn of(covariance: &Covariance) -> Self {
-        Shadow { apart: ErrorState::zeros(), covariance: *covariance, turned: Vector3::zeros() }
+        let apart = Errors::zeros(covariance.layout());
+        Shadow { apart, covariance: covariance.clone(), turned: Vector3::zeros() }
     }
 
     /// Its estimate, as one that may be.
     pub(super) fn alternative(&self) -> Alternative {
-        Alternative { error: self.apart, covariance: self.covariance }
+        Alternative { error: self.apart.clone(), covariance: self.covariance.clone() }
     }
 
     /// Carries it over a stretch.
@@ -67,34 +67,26 @@ impl Shadow {
         config: &NavConfig,
         regime: &Regime,
     ) {
-        let mut apart = self.apart.transpose();
-        propagation::carry(&mut apart, stretch, gradient, config, regime);
-        self.apart = apart.transpose();
+        self.apart.conform(self.covariance.layout());
+        propagation::carry_errors(&mut self.apart, stretch, gradient, config, regime);
         propagation::propagate(&mut self.covariance, stretch, gradient, config, regime);
     }
 
     /// An innovation of the navigator as it is here, with a variance of its noise that is so many times as
     /// large; `None` if it cannot be one.
     #[must_use]
-    pub(super) fn weigh<const M: usize>(
-        &self,
-        innovation: &Innovation<M>,
-        noise: f64,
-    ) -> Option<Weighed<M>> {
-        let z = innovation.z - innovation.h * self.apart;
-        Innovation { z, h: innovation.h, r: innovation.r * noise }.weigh(&self.covariance)
+    pub(super) fn weigh(&self, innovation: &Innovation, noise: f64) -> Option<Weighed> {
+        let z = &innovation.z - innovation.h.times(&self.apart);
+        let (h, r) = (innovation.h.clone(), &innovation.r * noise);
+        Innovation { z, h, r }.weigh(&self.covariance)
     }
 
     /// Absorbs it; `attitude` is the navigator's, from body to ECEF axes.
-    pub(super) fn absorb<const M: usize>(
-        &mut self,
-        weighed: &Weighed<M>,
-        attitude: &UnitQuaternion<f64>,
-    ) {
+    pub(super) fn absorb(&mut self, weighed: &Weighed, attitude: &UnitQuaternion<f64>) {
         let error = weighed.update(&mut self.covariance);
-        self.apart += error;
-        self.turned += ATTITUDE.of(&error);
-        if ATTITUDE.of(&self.apart).norm() > ASTRAY {
+        self.apart += &error;
+        self.turned += error.of(ATTITUDE);
+        if self.apart.of(ATTITUDE).norm() > ASTRAY {
             self.turned = Vector3::zeros();
         } else if self.turned.norm() > TURN {
             let axes = |attitude: UnitQuaternion<f64>| -> Matrix3<f64> {

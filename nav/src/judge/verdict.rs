@@ -9,7 +9,7 @@ use super::docket::NO_LIE;
 use super::{Aid, Judge, SCATTERS, UNHEARD, WILD};
 use crate::config::WORST;
 use crate::error_state::{
-    ATTITUDE, Covariance, ErrorState, GNSS_DELAY, GYRO_SCALE, POSITION, VELOCITY,
+    ATTITUDE, Covariance, Errors, GNSS_DELAY, GYRO_SCALE, POSITION, VELOCITY,
 };
 
 /// Mean square of an innovation that only a lie explains.
@@ -46,7 +46,7 @@ pub struct Verdict {
 #[derive(Clone, Debug)]
 pub struct Alternative {
     /// What the navigator's estimate lacks to it.
-    pub error: ErrorState,
+    pub error: Errors,
     /// The covariance of its errors.
     pub covariance: Covariance,
 }
@@ -82,11 +82,10 @@ impl Judge {
             return self.leave_out(charge, now);
         }
         if let Some(late) = late(charge) {
-            let state = GNSS_DELAY.start();
             if late.abs() < SET_BACK {
                 return Verdict { fault: charge.fault, mended: Some(mended) };
             }
-            mended.error[state] = 0.0;
+            mended.error.scale_block(GNSS_DELAY, 0.0);
             GNSS_DELAY
                 .renew(&mut mended.covariance, &GNSS_DELAY.covariance(&self.shadow.covariance));
         }
@@ -103,7 +102,7 @@ impl Judge {
         }
         let plain = push.unwrap_or_else(|| self.plain_fault_of_imu(charge));
         let mut mended = self.alternative(&plain);
-        let turned = ATTITUDE.of(&mended.error).norm();
+        let turned = mended.error.of(ATTITUDE).norm();
         let is_wild = plain.fault == Fault::GyroScale && plain.size() > MENDABLE_SCALE;
         if plain.kind == Kind::Shapeless || turned > MENDABLE || is_wild {
             return self.disbelieve_imu(now);

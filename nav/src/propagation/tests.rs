@@ -2,10 +2,10 @@
 
 use insd_base::units::{DEG, DEG_PER_HOUR, MICRO_G, PPM};
 use insd_base::{Attitude, Geodetic, ImuSpec, LeverArms, Span, Time, Triad};
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Vector3};
 
 use super::*;
-use crate::error_state::ErrorState;
+use crate::declaration::no_covariance;
 use crate::increments::Increment;
 use crate::nominal::Nominal;
 use crate::strapdown::{self, LocalGravity};
@@ -48,23 +48,20 @@ fn sail(start: &Nominal) -> (Nominal, Stretch) {
 }
 
 /// What the rows say becomes of one error.
-fn predicted(state: usize, rows: &StrapdownRows, stretch: &Stretch) -> Vec<f64> {
+fn predicted(block: Block<3>, axis: usize, rows: &StrapdownRows, stretch: &Stretch) -> Vec<f64> {
     let dt = stretch.duration;
-    let axis = |start: usize| state - start;
-    let column: Vec<f64> = if state < STRAPDOWN_STATES {
-        rows.transition.column(state).iter().copied().collect()
-    } else if (GYRO_BIAS.start()..GYRO_BIAS.end()).contains(&state) {
-        rows.gyro.column(axis(GYRO_BIAS.start())).iter().copied().collect()
-    } else if (GYRO_SCALE.start()..GYRO_SCALE.end()).contains(&state) {
-        let i = axis(GYRO_SCALE.start());
-        (rows.gyro.column(i) * (stretch.rotation[i] / dt)).iter().copied().collect()
-    } else if (ACCEL_BIAS.start()..ACCEL_BIAS.end()).contains(&state) {
-        rows.accel.column(axis(ACCEL_BIAS.start())).iter().copied().collect()
-    } else {
-        let i = axis(ACCEL_SCALE.start());
-        (rows.accel.column(i) * (stretch.velocity[i] / dt)).iter().copied().collect()
+    let heads = [POSITION, VELOCITY, ATTITUDE];
+    let column = match block {
+        GYRO_BIAS => rows.gyro.column(axis).into_owned(),
+        GYRO_SCALE => rows.gyro.column(axis) * (stretch.rotation[axis] / dt),
+        ACCEL_BIAS => rows.accel.column(axis).into_owned(),
+        ACCEL_SCALE => rows.accel.column(axis) * (stretch.velocity[axis] / dt),
+        head => {
+            let at = heads.iter().position(|own| *own == head).unwrap_or_default();
+            rows.transition.column(3 * at + axis).into_owned()
+        }
     };
-    column
+    column.iter().copied().collect()
 }
 
 #[test]
@@ -74,29 +71,30 @@ fn the_transition_agrees_with_perturbed_mechanisations() {
     let gravity = LocalGravity::around(&start.position, &start.geodetic());
     let rows = strapdown_rows(&stretch, gravity.gradient());
     let blocks = [
-        (POSITION.start(), 1.0),
-        (VELOCITY.start(), 1e-2),
-        (ATTITUDE.start(), 1e-5),
-        (GYRO_BIAS.start(), 1e-4),
-        (GYRO_SCALE.start(), 1e-4),
-        (ACCEL_BIAS.start(), 1e-2),
-        (ACCEL_SCALE.start(), 1e-3),
+        (POSITION, 1.0),
+        (VELOCITY, 1e-2),
+        (ATTITUDE, 1e-5),
+        (GYRO_BIAS, 1e-4),
+        (GYRO_SCALE, 1e-4),
+        (ACCEL_BIAS, 1e-2),
+        (ACCEL_SCALE, 1e-3),
     ];
-    for (block, step) in blocks {
-        for state in block..block + 3 {
-            let mut error = ErrorState::zeros();
-            error[state] = step;
+    for (at, (block, step)) in blocks.into_iter().enumerate() {
+        for axis in 0..3 {
+            let mut error = Errors::none();
+            error.set(block, &Vector3::ith(axis, step));
             let mut moved = start;
             moved.inject(&error);
-            let slope = end.error_to(&sail(&moved).0) / step;
-            for (row, expected) in predicted(state, &rows, &stretch).into_iter().enumerate() {
+            let slope = end.error_to(&sail(&moved).0).values() / step;
+            let all = predicted(block, axis, &rows, &stretch);
+            for (row, expected) in all.into_iter().enumerate() {
                 // Left out are effects of third order in the stretch: g dt^3 / 6 = 0.0016 m of
                 // position for a gyro bias of 1 rad/s.
                 let tolerance =
-                    [2e-3, 1e-2, 1e-2][row / 3] * [0.1, 1.0][usize::from(state < 9 || row < 3)];
+                    [2e-3, 1e-2, 1e-2][row / 3] * [0.1, 1.0][usize::from(at < 3 || row < 3)];
                 assert!(
                     (slope[row] - expected).abs() < tolerance,
-                    "state {state} row {row}: {} against {expected}",
+                    "{block:?} {axis} row {row}: {} against {expected}",
                     slope[row],
                 );
             }
@@ -129,31 +127,33 @@ fn the_cheap_propagation_is_the_full_matrix_product() {
     let (_, stretch) = sail(&estimate());
     let gravity = LocalGravity::around(&estimate().position, &estimate().geodetic());
     let rows = strapdown_rows(&stretch, gravity.gradient());
-    let mut phi = Covariance::identity();
+    let mut p = no_covariance();
+    let (states, dt) = (p.states(), stretch.duration);
+    let mut phi = DMatrix::<f64>::identity(states, states);
     phi.fixed_view_mut::<9, 9>(0, 0).copy_from(&rows.transition);
+    let at = |block: Block<3>| p.layout().start(block.key()).unwrap();
     let triads = [
-        (GYRO_BIAS.start(), GYRO_DRIFT.start(), GYRO_SCALE.start(), rows.gyro, stretch.rotation),
-        (
-            ACCEL_BIAS.start(),
-            ACCEL_DRIFT.start(),
-            ACCEL_SCALE.start(),
-            rows.accel,
-            stretch.velocity,
-        ),
+        ([GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE], rows.gyro, stretch.rotation),
+        ([ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE], rows.accel, stretch.velocity),
     ];
-    for (bias, drift, scale, input, integral) in triads {
-        phi.fixed_view_mut::<9, 3>(0, bias).copy_from(&input);
-        phi.fixed_view_mut::<9, 3>(0, drift).copy_from(&input);
-        let mean = Matrix3::from_diagonal(&(integral / stretch.duration));
-        phi.fixed_view_mut::<9, 3>(0, scale).copy_from(&(input * mean));
+    for ([bias, drift, scale], input, integral) in triads {
+        phi.fixed_view_mut::<9, 3>(0, at(bias)).copy_from(&input);
+        phi.fixed_view_mut::<9, 3>(0, at(drift)).copy_from(&input);
+        let mean = Matrix3::from_diagonal(&(integral / dt));
+        phi.fixed_view_mut::<9, 3>(0, at(scale)).copy_from(&(input * mean));
     }
-    let root = Covariance::from_fn(|i, j| ((i * 5 + j * 11) as f64).sin() * DEG);
-    let start = root * root.transpose();
-    let mut full = phi * start * phi.transpose();
-    relax_markov(&mut full, stretch.duration, &config(), &REGIME);
-    add_noise(&mut full, &stretch, &config());
-    let mut cheap = start;
-    propagate(&mut cheap, &stretch, gravity.gradient(), &config(), &REGIME);
-    assert!((full - cheap).amax() < 1e-9 * full.amax());
-    assert!((cheap - cheap.transpose()).amax() < 1e-15 * full.amax());
+    let mut added = no_covariance();
+    for (place, std, time) in markov(p.layout(), &config(), &REGIME) {
+        let left = markov_decay(dt, time);
+        (place.start..place.start + place.width).for_each(|i| phi[(i, i)] = left);
+        added.inflate(place.key, std * std * (1.0 - left * left));
+    }
+    add_noise(&mut added, &stretch, &config(), &REGIME);
+    let root = DMatrix::from_fn(states, states, |i, j| ((i * 5 + j * 11) as f64).sin() * DEG);
+    let start = &root * root.transpose();
+    let full = &phi * &start * phi.transpose() + added.matrix();
+    p.matrix_mut().copy_from(&start);
+    propagate(&mut p, &stretch, gravity.gradient(), &config(), &REGIME);
+    assert!((&full - p.matrix()).amax() < 1e-9 * full.amax());
+    assert!((p.matrix() - p.matrix().transpose()).amax() < 1e-15 * full.amax());
 }

@@ -9,9 +9,9 @@ use insd_alignment::white::WhiteNoise;
 use insd_base::units::DEG;
 use insd_base::{Span, Time, Truth, Voyage};
 use insd_nav::aids::{berth, reference_position, reference_velocity};
+use insd_nav::error_state::Innovation;
 use insd_nav::error_state::{ATTITUDE, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
-use insd_nav::innovation::Innovation;
 use insd_nav::{
     Conditioned, Conditioner, Estimator, Filter, InitialState, NavConfig, Nominal, Oscillator,
 };
@@ -165,9 +165,10 @@ fn is_settled(filter: &Filter) -> bool {
 }
 
 /// An innovation in units of its sigma.
-fn normalised(filter: &mut Filter, innovation: &Innovation<2>) -> Option<Vector2<f64>> {
+fn normalised(filter: &mut Filter, innovation: &Innovation) -> Option<Vector2<f64>> {
     filter.settle();
-    Some(innovation.z.component_div(&innovation.weigh(filter.covariance())?.sigma()))
+    let off = innovation.z.component_div(&innovation.weigh(filter.covariance())?.sigma());
+    Some(Vector2::new(off[0], off[1]))
 }
 
 fn start(voyage: &Voyage) -> Filter {
@@ -258,7 +259,8 @@ fn moored(voyage: &Voyage) -> Seen {
     sail(voyage, &mut filter, |filter| {
         if is_due(filter.time()) && is_settled(filter) {
             let view = filter.view();
-            measured.push(-reference_position::innovation(&view, moorings.place(), 0.0).z);
+            let off = reference_position::innovation(&view, moorings.place(), 0.0).z;
+            measured.push(-Vector2::new(off[0], off[1]));
             let innovation = berth::innovation(&view, moorings.place(), moorings.waves_std());
             residual.extend(normalised(filter, &innovation));
         }

@@ -1,0 +1,158 @@
+//! What is declared of an error state, and what follows from it.
+
+use insd_base::Triad;
+use insd_estimation::{Covariance, Errors, Key, Layout};
+
+use crate::config::NavConfig;
+use crate::error_state::DECLARATIONS;
+use crate::nominal::Nominal;
+use crate::propagation::Regime;
+
+/// Everything that the navigator knows of a block of error states.
+///
+/// Its part of the transition and of the process noise, of the initial covariance, of the correction of the estimate and
+/// of its name in what is kept follow from this; a state is added by a row in [`crate::error_state`], a field of
+/// [`Nominal`], and the aids that depend on it.
+#[derive(Clone, Copy, Debug)]
+pub struct Declaration {
+    /// Its key.
+    pub key: Key,
+    /// Number of states.
+    pub width: usize,
+    /// Name in reports.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// Axes it is resolved in.
+    pub axes: Axes,
+    /// When it is carried.
+    pub carried: Carried,
+    /// 1-sigma of each component before anything is known of it.
+    pub first: fn(&NavConfig) -> f64,
+    /// How it goes on by itself.
+    pub process: fn(&NavConfig, &Regime) -> Process,
+    /// What an error of it corrects.
+    pub(crate) correction: Correction,
+}
+
+/// The axes of a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axes {
+    /// Earth-centred, Earth-fixed.
+    Ecef,
+    /// Forward, starboard, down.
+    Body,
+    /// North, east, down, or the first two of them.
+    Ned,
+    /// North and east as the computed heading has them.
+    ComputedNed,
+    /// A number.
+    Scalar,
+}
+
+/// When a block is carried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Carried {
+    /// Always.
+    Always,
+    /// From the first word of a log on.
+    WithLog,
+    /// From the first heading of a reference on.
+    WithHeading,
+    /// While the ship is held at her berth.
+    AtBerth,
+}
+
+/// How a block goes on by itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Process {
+    /// As the mechanisation has it.
+    Mechanised,
+    /// It stays.
+    Constant,
+    /// Random walk of a density, in its unit per root of a second.
+    Walk(f64),
+    /// First-order Gauss-Markov process.
+    Markov {
+        /// Steady 1-sigma.
+        std: f64,
+        /// Time constant, s.
+        time: f64,
+    },
+    /// Oscillators, carried where the berth is looked at ([`crate::sway`]).
+    Swaying,
+}
+
+/// What an error of a block does to the estimate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Correction {
+    /// It is added to this.
+    Adds(fn(&mut Nominal) -> &mut [f64]),
+    /// It turns the attitude.
+    Turns,
+    /// It is added to this, pairs of north and east, which has turned with the heading before.
+    AddsTurned(fn(&mut Nominal) -> &mut [f64]),
+}
+
+impl Process {
+    /// The in-run bias of a triad.
+    pub(crate) fn in_run(triad: &Triad) -> Self {
+        Process::Markov { std: triad.instability_std, time: triad.instability_time }
+    }
+
+    /// What is told in units of its own sigma.
+    pub(crate) fn of_sigmas(time: f64) -> Self {
+        Process::Markov { std: 1.0, time }
+    }
+}
+
+impl Declaration {
+    /// What the estimate has of it, but for the attitude.
+    pub(crate) fn value(self, nominal: &mut Nominal) -> &mut [f64] {
+        match self.correction {
+            Correction::Adds(field) | Correction::AddsTurned(field) => field(nominal),
+            Correction::Turns => &mut [],
+        }
+    }
+
+    /// Whether the estimate of it turns with that of the heading.
+    pub(crate) fn turns_with_heading(&self) -> bool {
+        matches!(self.correction, Correction::AddsTurned(_))
+    }
+
+    /// A block of this kind joins with its first sigma, if it is not there.
+    pub fn join(&self, p: &mut Covariance, config: &NavConfig) {
+        if p.layout().start(self.key).is_none() {
+            p.join_diagonal(self.key, self.width, (self.first)(config).powi(2));
+        }
+    }
+}
+
+/// The declaration of a kind.
+#[must_use]
+pub fn declaration(key: Key) -> Option<&'static Declaration> {
+    DECLARATIONS.get(usize::from(key.kind))
+}
+
+/// All that are carried at such a time.
+pub fn carried(when: Carried) -> impl Iterator<Item = &'static Declaration> {
+    DECLARATIONS.iter().filter(move |declaration| declaration.carried == when)
+}
+
+/// All states that there may be, in the order of their declarations.
+#[must_use]
+pub fn all_states() -> Layout {
+    Layout::of_blocks(DECLARATIONS.iter().map(|own| (own.key, own.width)))
+}
+
+/// All of them known.
+#[must_use]
+pub fn no_covariance() -> Covariance {
+    Covariance::zeros(&all_states())
+}
+
+/// No error of any of them.
+#[must_use]
+pub fn no_errors() -> Errors {
+    Errors::zeros(&all_states())
+}
