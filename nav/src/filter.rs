@@ -252,31 +252,18 @@ impl Filter {
             return;
         }
         let regime = Regime { rtk: self.is_rtk() };
-        propagation::propagate(
-            &mut self.covariance,
+        let effects = self.bias.as_mut().map(SeparateBias::response_mut);
+        let owed = self.judge.is_some().then_some(&mut self.owed);
+        let gradient = self.gravity.gradient();
+        propagation::propagate_all(
+            (&mut self.covariance, effects, owed),
             &self.stretch,
-            self.gravity.gradient(),
+            gradient,
             &self.config,
             &regime,
         );
-        if let Some(bias) = &mut self.bias {
-            let gradient = self.gravity.gradient();
-            let response = bias.response_on(self.covariance.layout());
-            propagation::carry(response, &self.stretch, gradient, &self.config, &regime);
-        }
         if self.is_restless() {
             agitate(&mut self.covariance, self.stretch.duration);
-        }
-        if self.judge.is_some() {
-            let gradient = self.gravity.gradient();
-            self.owed.conform(self.covariance.layout());
-            propagation::carry_errors(
-                &mut self.owed,
-                &self.stretch,
-                gradient,
-                &self.config,
-                &regime,
-            );
         }
         propagation::relax(&mut self.nominal, self.stretch.duration, &self.config, &regime);
         self.unswayed += self.stretch.duration;
@@ -314,18 +301,24 @@ impl Filter {
     /// Applies an innovation if it passes the chi-square gate and nothing else speaks against it.
     /// The covariance must be settled.
     fn gated(&mut self, innovation: &Innovation, refused: Option<Rejection>) -> Judged {
-        let Some(weighed) = innovation.weigh(&self.covariance) else {
+        let weighed = innovation.weigh(&self.covariance);
+        self.gated_as(weighed.as_ref(), refused)
+    }
+
+    /// The same of one that is weighed, if it can be.
+    fn gated_as(&mut self, weighed: Option<&Weighed>, refused: Option<Rejection>) -> Judged {
+        let Some(weighed) = weighed else {
             let outcome = Outcome::Rejected(Rejection::OutOfRange);
             return Judged { outcome, log_likelihood: 0.0, innovation: NO_INNOVATION };
         };
         let passes = weighed.nis() <= self.gate.limit(weighed.rows());
         let refused = refused.or((!passes).then_some(Rejection::ChiSquare));
-        let log_likelihood = self.bounded_likelihood(&weighed);
+        let log_likelihood = self.bounded_likelihood(weighed);
         if refused.is_none() {
-            self.absorb(&weighed);
+            self.absorb(weighed);
         }
         let outcome = refused.map_or(Outcome::Accepted, Outcome::Rejected);
-        Judged { outcome, log_likelihood, innovation: detail(&weighed) }
+        Judged { outcome, log_likelihood, innovation: detail(weighed) }
     }
 
     fn absorb(&mut self, weighed: &Weighed) {

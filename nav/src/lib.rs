@@ -4,6 +4,11 @@
 //! Pure: no I/O, no clock, no thread, no randomness. A [`Filter`] can only be built from an
 //! [`InitialState`], which alignment makes.
 
+/// The examples of the document are held by the compiler.
+#[cfg(doctest)]
+#[doc = include_str!("../../ARCHITECTURE.md")]
+struct Architecture;
+
 pub mod aids;
 pub mod angular_rate;
 pub mod antenna;

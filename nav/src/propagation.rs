@@ -149,14 +149,7 @@ pub fn propagate(
     config: &NavConfig,
     regime: &Regime,
 ) {
-    if stretch.duration <= 0.0 {
-        return;
-    }
-    let layout = p.layout().clone();
-    with_transition(&layout, stretch, gradient, (config, regime), |transition| {
-        transition.propagate(p);
-    });
-    add_noise(p, stretch, config, regime);
+    propagate_all((p, None, None), stretch, gradient, config, regime);
 }
 
 /// Carries the effects of causes on the errors over a stretch: U^T <- U^T Phi^T.
@@ -193,13 +186,39 @@ pub fn carry_errors(
     });
 }
 
+/// Propagates a covariance as [`propagate`] does, and carries what causes do to its errors and a correction of them along.
+pub fn propagate_all(
+    (p, effects, errors): (&mut Covariance, Option<&mut Effects>, Option<&mut Errors>),
+    stretch: &Stretch,
+    gradient: &Matrix3<f64>,
+    config: &NavConfig,
+    regime: &Regime,
+) {
+    if stretch.duration <= 0.0 {
+        return;
+    }
+    let layout = p.layout().clone();
+    with_transition(&layout, stretch, gradient, (config, regime), |transition| {
+        transition.propagate(p);
+        if let Some(effects) = effects {
+            effects.conform(&layout);
+            transition.carry(effects);
+        }
+        if let Some(errors) = errors {
+            errors.conform(&layout);
+            transition.carry_errors(errors);
+        }
+    });
+    add_noise(p, stretch, config, regime);
+}
+
 /// Hands the transition over a stretch, of states that stand so, to who uses it.
 fn with_transition(
     layout: &Layout,
     stretch: &Stretch,
     gradient: &Matrix3<f64>,
     (config, regime): (&NavConfig, &Regime),
-    mut with: impl FnMut(&Transition<'_, STRAPDOWN_STATES>),
+    with: impl FnOnce(&Transition<'_, STRAPDOWN_STATES>),
 ) {
     let dt = stretch.duration;
     let rows = strapdown_rows(stretch, gradient);

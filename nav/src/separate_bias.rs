@@ -190,8 +190,13 @@ impl SeparateBias {
         self.response.set(DELAY_AT, block, by_delay);
     }
 
-    /// The effect on the errors of these states, to be carried along with them.
-    pub fn response_on(&mut self, layout: &Layout) -> &mut Effects {
+    /// The effect on the errors, to be carried along with them.
+    pub fn response_mut(&mut self) -> &mut Effects {
+        &mut self.response
+    }
+
+    /// The same on the errors of these states.
+    fn response_on(&mut self, layout: &Layout) -> &mut Effects {
         self.response.conform(layout);
         &mut self.response
     }

@@ -25,7 +25,7 @@ impl Covariance {
     #[must_use]
     pub fn zeros(layout: &Layout) -> Self {
         let states = layout.states();
-        Covariance { layout: layout.clone(), p: DMatrix::zeros(states, states) }
+        Covariance::new(layout.clone(), DMatrix::zeros(states, states))
     }
 
     pub(crate) fn new(layout: Layout, p: DMatrix<f64>) -> Self {

@@ -18,7 +18,11 @@ impl Effects {
     /// None yet of so many causes.
     #[must_use]
     pub fn none(causes: usize) -> Self {
-        Effects { layout: Layout::empty(), rows: DMatrix::zeros(causes, 0) }
+        Effects::new(Layout::empty(), DMatrix::zeros(causes, 0))
+    }
+
+    fn new(layout: Layout, rows: DMatrix<f64>) -> Self {
+        Effects { layout, rows }
     }
 
     /// Number of causes.
@@ -82,7 +86,7 @@ impl Effects {
     /// Some of the causes alone, so many from `first` on.
     #[must_use]
     pub fn some(&self, first: usize, count: usize) -> Self {
-        Effects { layout: self.layout.clone(), rows: self.rows.rows(first, count).into_owned() }
+        Effects::new(self.layout.clone(), self.rows.rows(first, count).into_owned())
     }
 
     /// Multiplies what all do to a block by a factor.

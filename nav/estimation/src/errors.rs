@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector, SVector};
 
 use crate::block::{Block, Key};
 use crate::layout::Layout;
+use crate::sums::axpy;
 
 /// Errors, true minus estimated, of the states that there are. Of one that is not there the error is zero, so that
 /// vectors of different states may be added: the sum has those of both.
@@ -25,7 +26,7 @@ impl Errors {
     /// None of these states.
     #[must_use]
     pub fn zeros(layout: &Layout) -> Self {
-        Errors { layout: layout.clone(), values: DVector::zeros(layout.states()) }
+        Errors::new(layout.clone(), DVector::zeros(layout.states()))
     }
 
     /// Values in the order of a layout, of which there must be as many as states.
@@ -79,7 +80,7 @@ impl Errors {
     /// All multiplied by a factor.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
-        Errors { layout: self.layout.clone(), values: &self.values * factor }
+        Errors::new(self.layout.clone(), &self.values * factor)
     }
 
     /// Multiplies one block by a factor.
@@ -98,7 +99,7 @@ impl Errors {
     /// Takes on the states of a layout in its order: those that it has not are forgotten, new ones are zero.
     pub fn conform(&mut self, layout: &Layout) {
         if self.layout != *layout {
-            *self = Errors { layout: layout.clone(), values: self.in_order_of(layout) };
+            *self = Errors::new(layout.clone(), self.in_order_of(layout));
         }
     }
 
@@ -130,11 +131,17 @@ impl Errors {
     }
 
     fn add_scaled(&mut self, other: &Errors, factor: f64) {
-        if self.layout != other.layout {
-            let places = other.layout.places().iter();
-            let both = places.fold(self.layout.clone(), |all, p| all.with(p.key, p.width));
-            self.extend(&both);
+        if self.layout.states() == 0 {
+            *self = other.scaled(factor);
+            return;
         }
+        if self.layout == other.layout {
+            axpy(factor, other.values.as_slice(), self.values.as_mut_slice());
+            return;
+        }
+        let places = other.layout.places().iter();
+        let both = places.fold(self.layout.clone(), |all, p| all.with(p.key, p.width));
+        self.extend(&both);
         self.values.axpy(factor, &other.in_order_of(&self.layout), 1.0);
     }
 }
@@ -155,7 +162,7 @@ impl Neg for &Errors {
     type Output = Errors;
 
     fn neg(self) -> Errors {
-        Errors { layout: self.layout.clone(), values: -&self.values }
+        Errors::new(self.layout.clone(), -&self.values)
     }
 }
 

@@ -6,6 +6,9 @@ use crate::block::{Block, Key};
 use crate::errors::Errors;
 use crate::layout::Layout;
 
+/// Blocks that a measurement depends on, as a rule.
+const BLOCKS: usize = 12;
+
 /// The columns of a measurement matrix that are not zero, by the names of their blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Jacobian {
@@ -19,7 +22,11 @@ impl Jacobian {
     /// One of so many rows that depends on nothing.
     #[must_use]
     pub fn none(rows: usize) -> Self {
-        Jacobian { rows, blocks: Vec::new(), values: Vec::new() }
+        Jacobian {
+            rows,
+            blocks: Vec::with_capacity(BLOCKS),
+            values: Vec::with_capacity(2 * BLOCKS * rows),
+        }
     }
 
     /// Number of rows.

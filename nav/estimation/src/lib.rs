@@ -18,6 +18,7 @@ mod innovation;
 mod jacobian;
 mod kept;
 mod layout;
+mod sums;
 mod transition;
 mod weighed;
 

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, SMatrix, Vector3};
 use crate::covariance::Covariance;
 use crate::effects::Effects;
 use crate::errors::Errors;
+use crate::sums::column_mut;
 
 /// What a stretch of time does to the errors: x <- Phi x. The first N of them go by a matrix and are fed by others;
 /// of the others each goes on by itself, and some decay.
@@ -44,7 +45,7 @@ pub struct Decay {
 }
 
 /// Rows that are carried together.
-const ROWS: usize = 16;
+const ROWS: usize = 4;
 
 impl<const N: usize> Transition<'_, N> {
     /// Carries a covariance: P <- Phi P Phi^T, and what keeps the processes that decay as wide as they are.
@@ -52,13 +53,14 @@ impl<const N: usize> Transition<'_, N> {
         let matrix = p.matrix_mut();
         self.carry_rows(matrix.nrows(), matrix.as_mut_slice());
         let corner = self.corner(matrix);
-        for column in N..matrix.ncols() {
-            for row in 0..N {
-                matrix[(row, column)] = matrix[(column, row)];
-            }
+        let states = matrix.nrows();
+        let (head, rest) = matrix.as_mut_slice().split_at_mut(N * states);
+        for (state, own) in rest.chunks_exact_mut(states.max(1)).enumerate() {
+            let row = head[N + state..].iter().step_by(states);
+            own.iter_mut().zip(row).take(N).for_each(|(to, from)| *to = *from);
         }
         matrix.fixed_view_mut::<N, N>(0, 0).copy_from(&corner);
-        self.decays.iter().for_each(|decay| decay.relax(matrix));
+        self.relax(matrix);
     }
 
     /// Carries the effects of causes: U^T <- U^T Phi^T.
@@ -80,25 +82,52 @@ impl<const N: usize> Transition<'_, N> {
         }
     }
 
+    /// What decays does so in rows and columns, and stays as wide as it is.
+    fn relax(&self, p: &mut DMatrix<f64>) {
+        let states = p.nrows().max(1);
+        for own in p.as_mut_slice().chunks_exact_mut(states) {
+            for decay in self.decays {
+                let rows = &mut own[decay.start..decay.start + decay.width];
+                rows.iter_mut().for_each(|value| *value *= decay.left);
+            }
+        }
+        for decay in self.decays {
+            let renewed = decay.steady * (1.0 - decay.left * decay.left);
+            for state in decay.start..decay.start + decay.width {
+                column_mut(p, state).iter_mut().for_each(|value| *value *= decay.left);
+                p[(state, state)] += renewed;
+            }
+        }
+    }
+
     /// M <- M Phi^T in the first N columns of a matrix of so many rows, in place: each row depends on itself alone.
     fn carry_rows(&self, all: usize, values: &mut [f64]) {
         let mut first = 0;
-        while first < all {
-            let rows = ROWS.min(all - first);
-            let mut sum = [[0.0; ROWS]; N];
-            let column = |state: usize| state * all + first..state * all + first + rows;
-            for (i, sum) in sum.iter_mut().enumerate() {
-                for j in 0..N {
-                    axpy(self.head[(i, j)], &values[column(j)], sum);
-                }
-            }
-            for feed in self.feeds {
-                feed.add_to(&mut sum, |state| &values[column(state)]);
-            }
-            for (state, sum) in sum.iter().enumerate() {
-                values[column(state)].copy_from_slice(&sum[..rows]);
-            }
-            first += rows;
+        while first + ROWS <= all {
+            self.carry_some::<ROWS>(all, first, values);
+            first += ROWS;
+        }
+        (first..all).for_each(|row| self.carry_some::<1>(all, row, values));
+    }
+
+    /// The same for L rows from `first` on.
+    fn carry_some<const L: usize>(&self, all: usize, first: usize, values: &mut [f64]) {
+        let rows = |state: usize| -> [f64; L] {
+            let own = &values[state * all + first..][..L];
+            std::array::from_fn(|row| own[row])
+        };
+        let before: [[f64; L]; N] = std::array::from_fn(rows);
+        let mut after = self.head.transpose().data.0.map(|by| sum(&by, &before));
+        for feed in self.feeds {
+            let source: [[f64; L]; 3] = std::array::from_fn(|axis| {
+                let all = feed.from.iter().map(|(at, by)| rows(at + axis).map(|x| by[axis] * x));
+                all.fold([0.0; L], |sum, own| std::array::from_fn(|row| sum[row] + own[row]))
+            });
+            let fed = feed.by.transpose().data.0.map(|by| sum(&by, &source));
+            after.as_flattened_mut().iter_mut().zip(fed.as_flattened()).for_each(|(a, b)| *a += b);
+        }
+        for (state, after) in after.iter().enumerate() {
+            values[state * all + first..][..L].copy_from_slice(after);
         }
     }
 
@@ -119,35 +148,16 @@ impl<const N: usize> Transition<'_, N> {
     }
 }
 
-impl<const N: usize> Feed<'_, N> {
-    fn add_to<'v>(&self, sums: &mut [[f64; ROWS]; N], column: impl Fn(usize) -> &'v [f64]) {
-        for axis in 0..3 {
-            let mut source = [0.0; ROWS];
-            for (start, scale) in self.from {
-                axpy(scale[axis], column(start + axis), &mut source);
-            }
-            for (i, sum) in sums.iter_mut().enumerate() {
-                axpy(self.by[(i, axis)], &source, sum);
-            }
-        }
-    }
-}
-
 impl Decay {
     /// Of nothing.
     pub const NONE: Self = Decay { start: 0, width: 0, left: 1.0, steady: 0.0 };
-
-    fn relax(&self, p: &mut DMatrix<f64>) {
-        p.columns_mut(self.start, self.width).scale_mut(self.left);
-        p.rows_mut(self.start, self.width).scale_mut(self.left);
-        let renewed = self.steady * (1.0 - self.left * self.left);
-        (self.start..self.start + self.width).for_each(|i| p[(i, i)] += renewed);
-    }
 }
 
-/// sum <- sum + a x.
-fn axpy(a: f64, x: &[f64], sum: &mut [f64; ROWS]) {
-    if a != 0.0 {
-        sum.iter_mut().zip(x).for_each(|(sum, x)| *sum += a * x);
+/// Rows times the factors of their states, added up.
+fn sum<const L: usize, const K: usize>(by: &[f64; K], rows: &[[f64; L]; K]) -> [f64; L] {
+    let mut sum = [0.0; L];
+    for (by, rows) in by.iter().zip(rows) {
+        (0..L).for_each(|row| sum[row] += by * rows[row]);
     }
+    sum
 }

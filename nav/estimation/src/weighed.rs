@@ -8,6 +8,7 @@ use crate::effects::Effects;
 use crate::errors::Errors;
 use crate::innovation::Innovation;
 use crate::layout::Layout;
+use crate::sums::{axpy, column, column_mut, solve_right, solve_right_transposed};
 
 /// An innovation with its covariance factored, S = L L^T: ready to be judged and applied.
 #[derive(Clone, Debug)]
@@ -73,7 +74,9 @@ impl Weighed {
     /// The optimal gain, P H^T S^-1.
     #[must_use]
     pub fn gain(&self) -> DMatrix<f64> {
-        self.factor.solve(&self.pht.transpose()).transpose()
+        let mut gain = self.root();
+        solve_right(&mut gain, self.factor.l_dirty());
+        gain
     }
 
     /// What a unit of one row moves the errors by: a column of the gain.
@@ -92,9 +95,9 @@ impl Weighed {
 
     /// W = P H^T L^-T, so that K = W L^-1 and K S K^T = W W^T.
     fn root(&self) -> DMatrix<f64> {
-        let mut w_t = self.pht.transpose();
-        self.factor.l_dirty().solve_lower_triangular_mut(&mut w_t);
-        w_t.transpose()
+        let mut w = self.pht.clone();
+        solve_right_transposed(&mut w, self.factor.l_dirty());
+        w
     }
 
     /// Kalman update: returns the estimated error and lowers the covariance, which must be the one that
@@ -137,9 +140,9 @@ impl Weighed {
         debug_assert_eq!(self.layout, *p.layout());
         let states = p.states();
         let mut left = DMatrix::identity(states, states);
-        for (state, column) in self.innovation.h.columns(&self.layout) {
-            for (row, weight) in column.iter().enumerate() {
-                left.column_mut(state).axpy(-weight, &gain.column(row), 1.0);
+        for (state, weights) in self.innovation.h.columns(&self.layout) {
+            for (row, weight) in weights.iter().enumerate() {
+                axpy(-weight, column(gain, row), column_mut(&mut left, state));
             }
         }
         let matrix = p.matrix_mut();
@@ -165,10 +168,10 @@ impl Weighed {
     pub fn effect_of(&self, effects: &Effects, direct: DMatrix<f64>) -> DMatrix<f64> {
         debug_assert_eq!(self.layout, *effects.layout());
         let mut effect = direct;
-        for (state, column) in self.innovation.h.columns(&self.layout) {
-            let of_causes = effects.matrix().column(state);
-            for (row, weight) in column.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
-                effect.column_mut(row).axpy(*weight, &of_causes, 1.0);
+        for (state, weights) in self.innovation.h.columns(&self.layout) {
+            let of_causes = column(effects.matrix(), state);
+            for (row, weight) in weights.iter().enumerate() {
+                axpy(*weight, of_causes, column_mut(&mut effect, row));
             }
         }
         effect
@@ -177,23 +180,17 @@ impl Weighed {
     /// Such an effect in units of the innovation's sigmas, (L^-1 (H U + D))^T.
     #[must_use]
     pub fn whiten(&self, mut effect: DMatrix<f64>) -> DMatrix<f64> {
-        let l = self.factor.l_dirty();
-        for row in 0..self.rows() {
-            let (before, mut own) = effect.columns_range_pair_mut(..row, row..=row);
-            for (j, column) in before.column_iter().enumerate() {
-                own.column_mut(0).axpy(-l[(row, j)], &column, 1.0);
-            }
-            own /= l[(row, row)];
-        }
+        solve_right_transposed(&mut effect, self.factor.l_dirty());
         effect
     }
 
     /// Takes from the effects of causes what an update with this gain takes from them, U <- U - K (H U + D); `effect` is
     /// (H U + D)^T.
     pub fn pass_on(effects: &mut Effects, effect: &DMatrix<f64>, gain: &DMatrix<f64>) {
-        for (mut of_causes, gain) in effects.matrix_mut().column_iter_mut().zip(gain.row_iter()) {
-            for (row, gain) in effect.column_iter().zip(gain.iter()) {
-                of_causes.axpy(-gain, &row, 1.0);
+        for state in 0..gain.nrows() {
+            let of_causes = column_mut(effects.matrix_mut(), state);
+            for row in 0..gain.ncols() {
+                axpy(-gain[(state, row)], column(effect, row), of_causes);
             }
         }
     }
@@ -206,9 +203,10 @@ pub(crate) fn p_h_transposed(
     rows: usize,
 ) -> DMatrix<f64> {
     let mut pht = DMatrix::zeros(p.nrows(), rows);
-    for (state, column) in columns {
-        for (row, weight) in column.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
-            pht.column_mut(row).axpy(*weight, &p.column(*state), 1.0);
+    for (state, weights) in columns {
+        let of_p = column(p, *state);
+        for (row, weight) in weights.iter().enumerate() {
+            axpy(*weight, of_p, column_mut(&mut pht, row));
         }
     }
     pht
@@ -222,10 +220,9 @@ pub(crate) fn symmetric(s: DMatrix<f64>) -> DMatrix<f64> {
 /// P <- P + sign W W^T, both halves alike to the bit.
 fn add_product(p: &mut DMatrix<f64>, w: &DMatrix<f64>, sign: f64) {
     let states = p.nrows().max(1);
-    for (j, column) in p.as_mut_slice().chunks_exact_mut(states).enumerate() {
+    for (j, own) in p.as_mut_slice().chunks_exact_mut(states).enumerate() {
         for of_w in w.as_slice().chunks_exact(states) {
-            let by = sign * of_w[j];
-            column.iter_mut().zip(of_w).for_each(|(p, w)| *p += by * w);
+            axpy(sign * of_w[j], of_w, own);
         }
     }
 }

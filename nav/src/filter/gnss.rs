@@ -12,7 +12,7 @@ use crate::aids::gnss_velocity::{self, VelocityFix};
 use crate::antenna::AntennaMotion;
 use crate::error_state::{
     ATTITUDE, Block, GNSS_LEVER, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, Innovation, POSITION,
-    VELOCITY,
+    VELOCITY, Weighed,
 };
 use crate::filter::ahead::VelocityEpoch;
 use crate::floors;
@@ -122,13 +122,14 @@ impl Filter {
         let mut innovation = gnss_velocity::innovation(&view, &measured, &self.antenna_lever());
         innovation.r += self.bent_velocity(&view);
         self.consult(Aid::GnssVelocity, &innovation, rows::of_gnss_velocity);
-        let fault = self.agreement(Aid::GnssVelocity, &innovation);
+        let weighed = innovation.weigh(&self.covariance);
+        let fault = self.agreement(Aid::GnssVelocity, weighed.as_ref());
         if fault && self.can_judge() {
             self.trust.suspect(self.time, self.config.gate.suspect_time);
         }
         let suspect =
             self.is_receiver_refused(Aid::GnssVelocity).then_some(Rejection::SourceSuspect);
-        let judged = self.gated(&innovation, suspect);
+        let judged = self.gated_as(weighed.as_ref(), suspect);
         if enter(report, fix.time, source, VELOCITY_AID, &judged) == Outcome::Accepted {
             let before = self.velocity_epoch;
             self.velocity_epoch = Some(VelocityEpoch::after(before, self.time, &measured));
@@ -189,13 +190,14 @@ impl Filter {
         let is_out = self.withholds(Aid::GnssPosition);
         self.follow(&innovation, velocity.map(|(_, innovation)| innovation));
         self.note_origin(&view, &measured);
-        self.agreement(Aid::GnssPosition, &innovation);
+        let weighed = innovation.weigh(&self.covariance);
+        self.agreement(Aid::GnssPosition, weighed.as_ref());
         let refused = if is_out || self.is_receiver_refused(Aid::GnssPosition) {
             Some(Rejection::SourceSuspect)
         } else {
             self.exceeds_dop_limit(fix, &innovation).then_some(Rejection::DopTest)
         };
-        let judged = self.gated(&innovation, refused);
+        let judged = self.gated_as(weighed.as_ref(), refused);
         match enter(report, fix.time, source, POSITION_AID, &judged) {
             Outcome::Accepted => self.trust.used(self.time),
             Outcome::Rejected(_) => {
@@ -246,18 +248,18 @@ impl Filter {
     }
 
     /// Enters an innovation in the statistics of its quantity; tells whether it is a fault.
-    fn agreement(&mut self, aid: Aid, innovation: &Innovation) -> bool {
-        let Some(weighed) = innovation.weigh(&self.covariance) else { return true };
+    fn agreement(&mut self, aid: Aid, weighed: Option<&Weighed>) -> bool {
+        let Some(weighed) = weighed else { return true };
         if !self.is_in_court(aid) {
             let least = if aid == Aid::GnssVelocity { SLACK_VELOCITY } else { SLACK };
-            self.bias.iter_mut().for_each(|bias| bias.hear(&weighed, least));
+            self.bias.iter_mut().for_each(|bias| bias.hear(weighed, least));
         }
         let mean_square = weighed.nis() / 3.0;
         let agreement = match aid {
             Aid::GnssVelocity => &mut self.trust.velocity,
             _ => &mut self.trust.position,
         };
-        let off = innovation.z.component_div(&weighed.sigma());
+        let off = weighed.z().component_div(&weighed.sigma());
         agreement.learn(&off.fixed_rows::<3>(0).into_owned(), mean_square);
         mean_square > FAULT
     }

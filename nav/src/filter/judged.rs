@@ -104,9 +104,10 @@ impl Filter {
             return;
         }
         let attitude = self.nominal.attitude;
-        let weighed = innovation.weigh(&self.covariance);
+        let is_left_out = self.docket().leaves_out(aid);
+        let weighed = is_left_out.then(|| innovation.weigh(&self.covariance)).flatten();
         let Some(judge) = self.judge_now() else { return };
-        match aid.party().filter(|_| judge.docket().leaves_out(aid)) {
+        match aid.party().filter(|_| is_left_out) {
             Some(Party::Gnss) if judge.docket().leaves_out_gnss() => judge.note_word(aid, now),
             Some(party) => {
                 weighed
