@@ -38,7 +38,7 @@ pub struct Moorings {
 /// common, s.
 pub const SPACING: f64 = 4.0;
 /// Natural periods of the two oscillators that cover the one to three minutes of a ship on her
-/// moorings (systems.md S1), s.
+/// moorings (docs/systems.md, S1), s.
 const PERIODS: [f64; 2] = [66.0, 106.0];
 /// Damping that fills the band between them and little beyond.
 const DAMPING: f64 = 0.045;

@@ -101,7 +101,7 @@ pub struct SeaModel {
 pub struct GateModel {
     /// Probability that a good measurement passes the chi-square gate.
     pub probability: f64,
-    /// Base GNSS position error at 99 % for DOP 1, m: dP_GNSS of systems.md (5), code solutions.
+    /// Base GNSS position error at 99 % for DOP 1, m: dP_GNSS of docs/systems.md (5), code solutions.
     pub code_base_error: f64,
     /// The same for RTK solutions, m.
     pub rtk_base_error: f64,

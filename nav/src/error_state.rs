@@ -2,7 +2,7 @@
 //!
 //! Errors are true minus estimated; the attitude error is the small rotation phi in
 //! C_true = (I + [phi x]) C_estimated, resolved in ECEF axes. Blocks 1-15 of JAE's hybrid filter
-//! (systems.md S2) are position, velocity, attitude, gyro and accelerometer errors; the others make
+//! (docs/systems.md, S2) are position, velocity, attitude, gyro and accelerometer errors; the others make
 //! the sensors honest.
 
 use std::slice::from_mut;

@@ -4,7 +4,7 @@ use crate::config::GateModel;
 
 /// Largest horizontal innovation of a GNSS position that is still used, m:
 ///
-/// dP = dP_INS + dP_GNSS * DOP   (systems.md (5), JAE)
+/// dP = dP_INS + dP_GNSS * DOP   (docs/systems.md, eq. (5), JAE)
 ///
 /// dP_INS is three sigma of the predicted position plus the growth since the last fix, dP_GNSS the
 /// base error of the kind of solution.

@@ -4,9 +4,10 @@
 
 use insd_base::units::wrap_pi;
 use insd_base::{Geodetic, earth};
+use insd_estimation::Innovation;
 use nalgebra::{Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 
-use super::belief::{Belief, CONSIDERED, Innovation, STATES, considered as k, state as x};
+use super::belief::{Belief, CONSIDERED, STATES, considered as k, innovation, state as x};
 use super::mast::Mast;
 use super::motion::{Local, Motion, across, rotation};
 
@@ -100,6 +101,13 @@ impl Scene {
         self.c_pb * self.rate.cross(lever)
     }
 
+    /// Variance of the noise that a lever arm turns from rate to velocity, (m/s)^2: noise in what is taken for the motion of
+    /// the hull.
+    #[must_use]
+    pub fn swing_noise(&self, lever: &Vector3<f64>) -> f64 {
+        self.rate_variance * lever.norm_squared()
+    }
+
     /// Where the foot of a mast of unit length is from below its top, computed frame.
     #[must_use]
     pub fn mast(&self) -> Vector2<f64> {
@@ -142,7 +150,7 @@ pub fn gnss_position(
     fix: &Split<Geodetic>,
     lever: &Vector3<f64>,
     leaning: f64,
-) -> Innovation<2> {
+) -> Innovation {
     let (arm, mut h) = scene.motion.carried(&(scene.c_pb * lever));
     h.fixed_view_mut::<2, 2>(0, x::POSITION).fill_with_identity();
     let mut hc = ByConsidered::zeros();
@@ -150,13 +158,8 @@ pub fn gnss_position(
     hc.set_column(k::DELAY, &-scene.motion.velocity);
     set_slow(&mut hc, k::SLOW_POSITION, &fix.slow);
     let white = fix.white.component_mul(&fix.white);
-    Innovation {
-        z: scene.offset(&fix.value) - arm,
-        h,
-        hc,
-        r: Matrix2::from_diagonal(&white.add_scalar(leaning)),
-        blur: 0.0,
-    }
+    let noise = Matrix2::from_diagonal(&white.add_scalar(leaning));
+    innovation(&(scene.offset(&fix.value) - arm), &h, &hc, &noise)
 }
 
 /// GNSS velocity at the antenna: z = dv + (R(dpsi) C_pb (omega x l) and its tilt) - a tau + slow +
@@ -169,7 +172,7 @@ pub fn gnss_velocity(
     lever: &Vector3<f64>,
     acceleration: &Vector2<f64>,
     belief: &Belief,
-) -> Innovation<2> {
+) -> Innovation {
     let (swing, mut h) = scene.motion.carried(&scene.swing(lever));
     h.fixed_view_mut::<2, 2>(0, x::VELOCITY).fill_with_identity();
     let late = scene.motion.turn() * acceleration;
@@ -182,16 +185,10 @@ pub fn gnss_velocity(
     hc.set_column(k::DELAY, &-late);
     hc.set_column(k::VELOCITY_DELAY, &-late);
     set_slow(&mut hc, k::SLOW_VELOCITY, &fix.slow);
-    let swing_noise = scene.rate_variance * lever.norm_squared();
-    let noise = swing_noise + scene.rocking(belief) + unsure * delay;
+    let noise = scene.swing_noise(lever) + scene.rocking(belief) + unsure * delay;
     let white = fix.white.component_mul(&fix.white);
-    Innovation {
-        z: fix.value - scene.motion.velocity - swing,
-        h,
-        hc,
-        r: Matrix2::from_diagonal(&white.add_scalar(noise)),
-        blur: swing_noise,
-    }
+    let z = fix.value - scene.motion.velocity - swing;
+    innovation(&z, &h, &hc, &Matrix2::from_diagonal(&white.add_scalar(noise)))
 }
 
 /// Velocity of a log: R(dpsi) C_pb (u - omega x l) is the velocity over the sea bed, or through the
@@ -205,7 +202,7 @@ pub fn log_velocity(
     reading: &LogReading,
     lever: &Vector3<f64>,
     belief: &Belief,
-) -> Innovation<2> {
+) -> Innovation {
     let c = &scene.c_pb;
     let v = reading.v.unwrap_or(0.0);
     // the down component that fits the vertical channel where the log gives none
@@ -213,7 +210,7 @@ pub fn log_velocity(
     let u = Vector3::new(reading.u, v, reading.w.unwrap_or_else(fitting));
     let at_imu = c * (u - scene.rate.cross(lever));
     let (seen, by_state) = scene.motion.carried(&at_imu);
-    let mut variance = reading.std.powi(2) + scene.rate_variance * lever.norm_squared();
+    let mut variance = reading.std.powi(2) + scene.swing_noise(lever);
     if reading.v.is_none() {
         variance += LEEWAY * LEEWAY;
     }
@@ -233,25 +230,25 @@ pub fn log_velocity(
     if reading.water {
         hc.fixed_view_mut::<2, 2>(0, k::CURRENT).fill_diagonal(-1.0);
     }
-    Innovation { z: seen - through, h, hc, r: Matrix2::from_diagonal_element(variance), blur: 0.0 }
+    innovation(&(seen - through), &h, &hc, &Matrix2::from_diagonal_element(variance))
 }
 
 /// A position of the IMU from an external reference with 1-sigma, m.
 #[must_use]
-pub fn reference_position(scene: &Scene, place: &Geodetic, std: f64) -> Innovation<2> {
+pub fn reference_position(scene: &Scene, place: &Geodetic, std: f64) -> Innovation {
     plain(x::POSITION, &scene.offset(place), std)
 }
 
 /// A velocity north and east from an external reference with 1-sigma, m/s.
 #[must_use]
-pub fn reference_velocity(scene: &Scene, velocity: &Vector2<f64>, std: f64) -> Innovation<2> {
+pub fn reference_velocity(scene: &Scene, velocity: &Vector2<f64>, std: f64) -> Innovation {
     plain(x::VELOCITY, &(velocity - scene.motion.velocity), std)
 }
 
 /// A true heading, rad, with 1-sigma: a point on the circle of (s, c), unsure along it by sigma and
 /// across it by the bulge of the arc.
 #[must_use]
-pub fn reference_heading(scene: &Scene, heading: f64, std: f64) -> Innovation<2> {
+pub fn reference_heading(scene: &Scene, heading: f64, std: f64) -> Innovation {
     let assumed = scene.hull[(1, 0)].atan2(scene.hull[(0, 0)]);
     let (sin, cos) = (heading - assumed).sin_cos();
     let along = Vector2::new(cos, sin);
@@ -259,20 +256,15 @@ pub fn reference_heading(scene: &Scene, heading: f64, std: f64) -> Innovation<2>
     let bulge = std.powi(4).max(1e-8);
     let mut h = SMatrix::<f64, 2, STATES>::zeros();
     h.fixed_view_mut::<2, 2>(0, x::SINE).fill_with_identity();
-    Innovation {
-        z: Vector2::new(sin - scene.motion.sine, 1.0 - cos - scene.motion.versine),
-        h,
-        hc: SMatrix::zeros(),
-        r: along * along.transpose() * (std * std) + outwards * outwards.transpose() * bulge,
-        blur: 0.0,
-    }
+    let z = Vector2::new(sin - scene.motion.sine, 1.0 - cos - scene.motion.versine);
+    let noise = along * along.transpose() * (std * std) + outwards * outwards.transpose() * bulge;
+    innovation(&z, &h, &ByConsidered::zeros(), &noise)
 }
 
-fn plain(at: usize, z: &Vector2<f64>, std: f64) -> Innovation<2> {
+fn plain(at: usize, z: &Vector2<f64>, std: f64) -> Innovation {
     let mut h = SMatrix::<f64, 2, STATES>::zeros();
     h.fixed_view_mut::<2, 2>(0, at).fill_with_identity();
-    let r = Matrix2::from_diagonal_element(std * std);
-    Innovation { z: *z, h, hc: SMatrix::zeros(), r, blur: 0.0 }
+    innovation(z, &h, &ByConsidered::zeros(), &Matrix2::from_diagonal_element(std * std))
 }
 
 fn set_slow(hc: &mut ByConsidered, at: usize, slow: &Vector2<f64>) {

@@ -6,13 +6,16 @@
 //! errors keep their prior variance for ever, and every estimate remembers how it depends on them.
 //! At the handover these memories become the correlations of the full filter.
 
+use insd_estimation::{Block, Decay, Feed, Innovation, Jacobian, Transition, Weighed};
 use insd_nav::NavConfig;
-use nalgebra::{Cholesky, DMatrix, Matrix2, SMatrix, SVector, Vector2};
+use nalgebra::{DMatrix, Matrix2, SMatrix, SVector, Vector2, Vector3};
 
 /// Number of estimated errors.
 pub const STATES: usize = 8;
 /// Number of considered errors.
 pub const CONSIDERED: usize = 18;
+/// Those of gyros and accelerometers, which come first.
+pub const INERTIAL: usize = 6;
 
 /// Where each estimated error stands; pairs are north, east.
 pub mod state {
@@ -62,6 +65,11 @@ use considered as k;
 
 const _: () = assert!(state::VERSINE + 1 == STATES && k::CURRENT + 2 == CONSIDERED);
 
+/// The estimated errors as the kernel knows them.
+pub const OWN: Block<STATES> = Block::new(0);
+/// The considered errors.
+pub const OF_SENSORS: Block<CONSIDERED> = Block::new(1);
+
 /// Errors, true minus estimated.
 pub type Errors = SVector<f64, STATES>;
 /// Their covariance.
@@ -75,12 +83,10 @@ pub type PerConsidered = SVector<f64, CONSIDERED>;
 const LEAK: f64 = 9.8 * 0.05;
 
 /// Covariances of the eight states.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Belief {
-    /// Of the eight.
-    pub own: Covariance,
-    /// Of the eight with the considered errors.
-    pub cross: Cross,
+    /// Of both kinds of errors.
+    all: insd_estimation::Covariance,
     /// Prior variances of the considered errors, which are independent of each other.
     pub prior: PerConsidered,
 }
@@ -88,43 +94,26 @@ pub struct Belief {
 /// What a stretch of time does to the errors: x <- F x + G (considered) + noise(Q), considered errors
 /// decaying by `decay`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Transition {
+pub struct Stretched {
     /// F.
     pub f: Covariance,
-    /// G.
-    pub g: Cross,
+    /// G, of the considered errors of gyros and accelerometers: the first six.
+    pub g: SMatrix<f64, STATES, INERTIAL>,
     /// Q.
     pub q: Covariance,
     /// Share of each considered error that is left.
     pub decay: PerConsidered,
 }
 
-/// Measured minus predicted: z = H x + H_c (considered) + noise(R).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Innovation<const M: usize> {
-    /// z.
-    pub z: SVector<f64, M>,
-    /// H.
-    pub h: SMatrix<f64, M, STATES>,
-    /// H_c.
-    pub hc: SMatrix<f64, M, CONSIDERED>,
-    /// R.
-    pub r: SMatrix<f64, M, M>,
-    /// Variance of the noise in what H takes for the motion of the hull, in the units of z.
-    pub blur: f64,
-}
-
-/// An innovation weighed against a belief.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Weighed<const M: usize> {
-    /// What a unit of each component moves the eight by.
-    pub gain: SMatrix<f64, STATES, M>,
-    /// Covariance of the innovation.
-    pub s: SMatrix<f64, M, M>,
-    /// Normalised innovation squared.
-    pub nis: f64,
-    /// Half the logarithm of det S.
-    pub log_root_determinant: f64,
+/// An innovation of what depends on the estimated errors by `h`, on the considered ones by `hc`.
+#[must_use]
+pub fn innovation<const M: usize>(
+    z: &SVector<f64, M>,
+    h: &SMatrix<f64, M, STATES>,
+    hc: &SMatrix<f64, M, CONSIDERED>,
+    r: &SMatrix<f64, M, M>,
+) -> Innovation {
+    Innovation::new(z, Jacobian::none(M).with(OWN, h).with(OF_SENSORS, hc), r)
 }
 
 impl Belief {
@@ -150,114 +139,135 @@ impl Belief {
         put(k::LOG_SCALE, 1, square(config.log.scale_std));
         put(k::LOG_TURN, 1, square(config.log.misalignment_std));
         put(k::CURRENT, 2, square(config.log.current_std));
-        Belief { own: Covariance::zeros(), cross: Cross::zeros(), prior }
+        let mut all = insd_estimation::Covariance::none();
+        all.join(OWN, &Covariance::zeros());
+        all.join(OF_SENSORS, &SMatrix::from_diagonal(&prior));
+        Belief { all, prior }
+    }
+
+    /// Of the eight.
+    #[must_use]
+    pub fn own(&self) -> Covariance {
+        OWN.covariance(&self.all)
+    }
+
+    /// Of the eight with the considered errors.
+    #[must_use]
+    pub fn cross(&self) -> Cross {
+        OWN.covariance_with(OF_SENSORS, &self.all)
     }
 
     /// What all errors have to do with each other beyond what is known of the considered ones by themselves.
     #[must_use]
     pub fn joint(&self) -> DMatrix<f64> {
-        let mut joint = DMatrix::zeros(STATES + CONSIDERED, STATES + CONSIDERED);
-        joint.fixed_view_mut::<STATES, STATES>(0, 0).copy_from(&self.own);
-        joint.fixed_view_mut::<STATES, CONSIDERED>(0, STATES).copy_from(&self.cross);
-        joint.fixed_view_mut::<CONSIDERED, STATES>(STATES, 0).copy_from(&self.cross.transpose());
+        let mut joint = self.all.matrix().clone();
+        joint.fixed_view_mut::<CONSIDERED, CONSIDERED>(STATES, STATES).fill(0.0);
         joint
+    }
+
+    /// Changes the covariance of an estimated error, at least to a variance.
+    pub fn allow(&mut self, state: usize, variance: f64) {
+        let own = &mut self.all.matrix_mut()[(state, state)];
+        *own = own.max(variance);
     }
 
     /// Sets the variance of a pair and forgets its correlations.
     pub fn renew_pair(&mut self, at: usize, variance: f64) {
-        for i in at..at + 2 {
-            self.own.row_mut(i).fill(0.0);
-            self.own.column_mut(i).fill(0.0);
-            self.cross.row_mut(i).fill(0.0);
-            self.own[(i, i)] = variance;
-        }
+        self.forget(at);
+        self.all.matrix_mut().fixed_view_mut::<2, 2>(at, at).fill_diagonal(variance);
+    }
+
+    /// Sets how a pair hangs together with a considered one.
+    pub fn correlate_pair(&mut self, at: usize, considered: usize, with: &Matrix2<f64>) {
+        let (own, p) = (STATES + considered, self.all.matrix_mut());
+        p.fixed_view_mut::<2, 2>(at, own).copy_from(with);
+        p.fixed_view_mut::<2, 2>(own, at).copy_from(&with.transpose());
     }
 
     /// Takes the error of a pair as that of a considered pair times a matrix, and noise of a variance.
     pub fn tie_pair(&mut self, at: usize, considered: usize, by: &Matrix2<f64>, variance: f64) {
-        let prior = self.prior[considered];
-        let with_others = by * self.cross.fixed_columns::<2>(considered).transpose();
-        self.renew_pair(at, 0.0);
-        let own = by * by.transpose() * prior + Matrix2::from_diagonal_element(variance);
-        self.own.fixed_rows_mut::<2>(at).copy_from(&with_others);
-        self.own.fixed_columns_mut::<2>(at).copy_from(&with_others.transpose());
-        self.own.fixed_view_mut::<2, 2>(at, at).copy_from(&own);
-        self.cross.fixed_view_mut::<2, 2>(at, considered).copy_from(&(by * prior));
+        self.forget(at);
+        let p = self.all.matrix_mut();
+        let rows = by * p.fixed_rows::<2>(STATES + considered);
+        p.fixed_rows_mut::<2>(at).copy_from(&rows);
+        let columns = p.fixed_columns::<2>(STATES + considered) * by.transpose();
+        p.fixed_columns_mut::<2>(at).copy_from(&columns);
+        (at..at + 2).for_each(|i| p[(i, i)] += variance);
     }
 
     /// Forgets how the estimate depends on a considered pair, which is about to be another one.
     pub fn forget_considered_pair(&mut self, at: usize) {
-        self.cross.columns_mut(at, 2).fill(0.0);
+        self.forget(STATES + at);
+        let variance = self.prior.fixed_rows::<2>(at).into_owned();
+        let p = self.all.matrix_mut();
+        (0..2).for_each(|i| p[(STATES + at + i, STATES + at + i)] = variance[i]);
     }
 
     /// Another sensor has another considered pair, of this variance.
     pub fn renew_considered_pair(&mut self, at: usize, variance: f64) {
-        self.forget_considered_pair(at);
         self.prior.rows_mut(at, 2).fill(variance);
+        self.forget_considered_pair(at);
+    }
+
+    /// Of a pair, by its index among all errors, nothing is known.
+    fn forget(&mut self, at: usize) {
+        let p = self.all.matrix_mut();
+        p.fixed_rows_mut::<2>(at).fill(0.0);
+        p.fixed_columns_mut::<2>(at).fill(0.0);
     }
 
     /// Carries the belief over a stretch of time.
-    pub fn propagate(&mut self, transition: &Transition) {
-        let Transition { f, g, q, decay } = transition;
-        let g_prior = scaled(g, &self.prior);
-        let carried = f * self.cross;
-        let mixed = carried * g.transpose();
-        self.own =
-            f * self.own * f.transpose() + mixed + mixed.transpose() + g_prior * g.transpose() + q;
-        self.cross = scaled(&(carried + g_prior), decay);
-        self.own = (self.own + self.own.transpose()) * 0.5;
+    pub fn propagate(&mut self, stretched: &Stretched) {
+        let by = |first: usize| stretched.g.fixed_columns::<3>(first).into_owned();
+        let from = |first: usize| [(STATES + first, Vector3::repeat(1.0))];
+        let (gyro, accel) = (from(0), from(3));
+        let feeds = [Feed { by: by(0), from: &gyro }, Feed { by: by(3), from: &accel }];
+        let decay = |at: usize| Decay {
+            start: STATES + at,
+            width: 1,
+            left: stretched.decay[at],
+            steady: self.prior[at],
+        };
+        let mut decays = [Decay::NONE; CONSIDERED];
+        let mut count = 0;
+        for at in (0..CONSIDERED).filter(|at| stretched.decay[*at] < 1.0) {
+            decays[count] = decay(at);
+            count += 1;
+        }
+        let transition = Transition { head: stretched.f, feeds: &feeds, decays: &decays[..count] };
+        transition.propagate(&mut self.all);
+        OWN.add(&mut self.all, &stretched.q);
     }
 
     /// The belief in other coordinates, x' = T x.
     pub fn transform(&mut self, t: &Covariance) {
-        self.own = t * self.own * t.transpose();
-        self.cross = t * self.cross;
+        OWN.transform(&mut self.all, t);
     }
 
     /// Turns a considered pair with the axes it is given in.
     pub fn turn_considered_pair(&mut self, at: usize, rotation: &Matrix2<f64>) {
-        let turned = self.cross.fixed_columns::<2>(at) * rotation.transpose();
-        self.cross.fixed_columns_mut::<2>(at).copy_from(&turned);
+        let (start, p) = (STATES + at, self.all.matrix_mut());
+        let columns = p.fixed_view::<STATES, 2>(0, start) * rotation.transpose();
+        p.fixed_view_mut::<STATES, 2>(0, start).copy_from(&columns);
+        p.fixed_view_mut::<2, STATES>(start, 0).copy_from(&columns.transpose());
     }
 
     /// Weighs an innovation; `None` if it is not finite or its covariance not positive definite.
     #[must_use]
-    pub fn weigh<const M: usize>(&self, innovation: &Innovation<M>) -> Option<Weighed<M>> {
-        let Innovation { z, h, hc, r, .. } = innovation;
-        if !z.iter().all(|v| v.is_finite()) {
-            return None;
-        }
-        let to_state = self.own * h.transpose() + self.cross * hc.transpose();
-        let to_considered = h * self.cross + scaled(hc, &self.prior);
-        let s = h * to_state + to_considered * hc.transpose() + r;
-        let s = (s + s.transpose()) * 0.5;
-        let factor = Cholesky::new(s)?;
-        let gain = factor.solve(&to_state.transpose()).transpose();
-        let nis = z.dot(&factor.solve(z));
-        let log_root_determinant = factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
-        Some(Weighed { gain, s, nis, log_root_determinant })
+    pub fn weigh(&self, innovation: &Innovation) -> Option<Weighed> {
+        innovation.weigh(&self.all)
     }
 
     /// Updates the belief and returns the estimated errors.
     #[must_use]
-    pub fn absorb<const M: usize>(
-        &mut self,
-        innovation: &Innovation<M>,
-        weighed: &Weighed<M>,
-    ) -> Errors {
-        let Innovation { z, h, hc, .. } = innovation;
-        let gain = &weighed.gain;
-        let seen = h * self.cross + scaled(hc, &self.prior);
-        self.own -= gain * weighed.s * gain.transpose();
-        self.own = (self.own + self.own.transpose()) * 0.5;
-        self.cross -= gain * seen;
-        gain * z
+    pub fn absorb(&mut self, weighed: &Weighed) -> Errors {
+        weighed.update_considering(&mut self.all, &[OF_SENSORS.key()]).of(OWN)
     }
 
     /// Covariance of (1-c, s), as the regression has it.
     #[must_use]
     pub fn direction_covariance(&self) -> Matrix2<f64> {
-        let p = &self.own;
+        let p = self.own();
         let across = -p[(state::SINE, state::VERSINE)];
         let (sine, versine) = (p[(state::SINE, state::SINE)], p[(state::VERSINE, state::VERSINE)]);
         Matrix2::new(versine, across, across, sine)
@@ -266,24 +276,9 @@ impl Belief {
     /// Variances of north and east of a pair.
     #[must_use]
     pub fn pair(&self, at: usize) -> Vector2<f64> {
-        Vector2::new(self.own[(at, at)].max(0.0), self.own[(at + 1, at + 1)].max(0.0))
+        let p = self.all.matrix();
+        Vector2::new(p[(at, at)].max(0.0), p[(at + 1, at + 1)].max(0.0))
     }
-}
-
-impl<const M: usize> Weighed<M> {
-    /// Expected 1-sigma of each component.
-    #[must_use]
-    pub fn sigma(&self) -> SVector<f64, M> {
-        self.s.diagonal().map(|v| v.max(0.0).sqrt())
-    }
-}
-
-/// Columns multiplied by the components of a vector.
-fn scaled<const M: usize>(
-    m: &SMatrix<f64, M, CONSIDERED>,
-    by: &PerConsidered,
-) -> SMatrix<f64, M, CONSIDERED> {
-    SMatrix::from_fn(|row, column| m[(row, column)] * by[column])
 }
 
 #[cfg(test)]
@@ -305,18 +300,18 @@ mod tests {
         let mut belief = Belief::new(&NavConfig::new(imu, LeverArms::default()));
         let lever = considered::LEVER;
         belief.renew_pair(state::VELOCITY, 0.01);
-        belief.cross[(state::VELOCITY, lever)] = 1.5;
-        belief.cross[(state::VELOCITY + 1, lever + 1)] = -1.5;
+        belief.correlate_pair(state::VELOCITY, lever, &Matrix2::new(1.5, 0.0, 0.0, -1.5));
         let by = Matrix2::new(0.6, -0.8, 0.8, 0.6);
         belief.tie_pair(state::POSITION, lever, &by, 0.25);
         let prior = belief.prior[lever];
-        assert!((belief.own[(state::POSITION, state::POSITION)] - prior - 0.25).abs() < 1e-9);
+        let (own, cross) = (belief.own(), belief.cross());
+        assert!((own[(state::POSITION, state::POSITION)] - prior - 0.25).abs() < 1e-9);
         let (p, v) = (state::POSITION, state::VELOCITY);
-        assert!((belief.own[(p, v)] - 0.6 * 1.5).abs() < 1e-12);
-        assert_eq!(belief.own, belief.own.transpose());
+        assert!((own[(p, v)] - 0.6 * 1.5).abs() < 1e-12);
+        assert_eq!(own, own.transpose());
         // what is left of the position, its tie taken away, is the noise alone
-        let tied = by * belief.cross.fixed_view::<2, 2>(p, lever).transpose();
-        let left = belief.own.fixed_view::<2, 2>(p, p) - tied;
+        let tied = by * cross.fixed_view::<2, 2>(p, lever).transpose();
+        let left = own.fixed_view::<2, 2>(p, p) - tied;
         assert!((left - Matrix2::from_diagonal_element(0.25)).amax() < 1e-6, "{left}");
     }
 }

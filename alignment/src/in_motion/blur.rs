@@ -25,9 +25,10 @@
 //! Held by `gyros_that_are_noisy_tell_no_heading_of_a_ship_that_lies_still` and
 //! `roll_and_pitch_are_as_sure_as_claimed_where_nothing_tells_the_heading`.
 
-use nalgebra::{Matrix2, SymmetricEigen, Vector2};
+use insd_estimation::Weighed;
+use nalgebra::{DMatrix, Matrix2, SymmetricEigen, Vector2};
 
-use super::belief::{Covariance, Innovation, Transition, Weighed, state as x};
+use super::belief::{Covariance, OWN, STATES, Stretched, state as x};
 
 /// Information about each of sine and cosine when nothing is known: both have the variance 1/2 on the circle.
 const PRIOR: f64 = 2.0;
@@ -49,9 +50,9 @@ impl Default for Blur {
 
 impl Blur {
     /// Over a stretch of time, after which a share of all information is left.
-    pub fn propagate(&mut self, transition: &Transition, left: f64) {
-        let f = &transition.f;
-        self.noise = f * self.noise * f.transpose() + transition.q;
+    pub fn propagate(&mut self, stretched: &Stretched, left: f64) {
+        let f = &stretched.f;
+        self.noise = f * self.noise * f.transpose() + stretched.q;
         for i in [x::SINE, x::VERSINE] {
             self.noise.row_mut(i).fill(0.0);
             self.noise.column_mut(i).fill(0.0);
@@ -59,25 +60,22 @@ impl Blur {
         self.information *= left;
     }
 
-    /// With a measurement that is about to change a covariance.
-    pub fn absorb<const M: usize>(
-        &mut self,
-        innovation: &Innovation<M>,
-        weighed: &Weighed<M>,
-        own: &Covariance,
-    ) {
-        let h = &innovation.h;
-        let to_state = weighed.gain * weighed.s;
+    /// With a measurement that is about to change a covariance, of which so much variance is noise in what its matrix takes for the
+    /// motion of the hull.
+    pub fn absorb(&mut self, weighed: &Weighed, own: &Covariance, swing: f64) {
+        let h = weighed.innovation().h.of(OWN);
+        let to_state = weighed.cross().rows(0, STATES).into_owned();
+        let s = weighed.covariance();
         let turn = own.fixed_view::<2, 2>(x::SINE, x::SINE).into_owned();
         let Some(inverse) = turn.try_inverse() else { return };
         let seen = to_state.fixed_rows::<2>(x::SINE).into_owned();
-        let known = weighed.s - seen.transpose() * inverse * seen;
+        let known: DMatrix<f64> = &s - seen.transpose() * inverse * &seen;
         let Some(weight) = known.try_inverse() else { return };
         let response = own.fixed_columns::<2>(x::SINE) * inverse;
-        let gain = (to_state - response * seen) * weight;
-        let noise = h * self.noise * h.transpose();
-        self.information += (weight * noise).trace() + innovation.blur * weight.trace();
-        let kept = Covariance::identity() - gain * h;
+        let gain = (to_state - response * seen) * &weight;
+        let noise = &h * self.noise * h.transpose();
+        self.information += (&weight * noise).trace() + swing * weight.trace();
+        let kept = Covariance::identity() - gain * &h;
         self.noise = kept * self.noise * kept.transpose();
     }
 

@@ -17,7 +17,7 @@ use insd_nav::initial::sensor_covariance;
 use insd_nav::{InitialState, Nominal};
 use nalgebra::{Matrix1, Matrix2, Matrix3, SMatrix, UnitQuaternion, Vector1, Vector2, Vector3};
 
-use super::belief::{CONSIDERED, Covariance, Innovation, STATES, considered as k, state as x};
+use super::belief::{CONSIDERED, Covariance, STATES, considered as k, innovation, state as x};
 use super::motion::{across, rotation};
 use super::{ASTRAY, EightState, LEAN};
 
@@ -47,7 +47,7 @@ impl EightState {
 
     fn lean(&self) -> Vector2<f64> {
         let (direction, covariance) = self.direction();
-        let p = &self.belief.own;
+        let p = self.belief.own();
         let cross = p.fixed_view::<2, 2>(x::TILT, x::SINE) * Matrix2::new(0.0, 1.0, -1.0, 0.0);
         let found = self.belief.direction_covariance();
         // what goes together with the direction goes with what noise has not made of it
@@ -85,20 +85,15 @@ impl EightState {
         let mut h = SMatrix::<f64, 1, STATES>::zeros();
         h[x::VERSINE] = 1.0;
         let variance = sigma * sigma;
-        let innovation = Innovation {
-            z: Vector1::new(0.5 * variance - self.motion.versine),
-            h,
-            hc: SMatrix::zeros(),
-            r: Vector1::new((variance * variance).max(1e-10)),
-            blur: 0.0,
-        };
-        if let Some(weighed) = self.belief.weigh(&innovation) {
-            let errors = self.belief.absorb(&innovation, &weighed);
+        let z = Vector1::new(0.5 * variance - self.motion.versine);
+        let noise = Vector1::new((variance * variance).max(1e-10));
+        let on_circle = innovation(&z, &h, &SMatrix::zeros(), &noise);
+        if let Some(weighed) = self.belief.weigh(&on_circle) {
+            let errors = self.belief.absorb(&weighed);
             self.motion.inject(&self.local, &errors);
         }
         // the curvature of the circle, which the tangent leaves out
-        let p = &mut self.belief.own;
-        p[(x::SINE, x::SINE)] = p[(x::SINE, x::SINE)].max(variance);
+        self.belief.allow(x::SINE, variance);
         self.centred = true;
         self.note_heading();
         self.level();
@@ -161,7 +156,7 @@ impl EightState {
 
     /// Whether the estimate depends on the errors of a log.
     fn has_heard_log(&self) -> bool {
-        self.belief.cross.columns(k::LOG_SCALE, CONSIDERED - k::LOG_SCALE).amax() > 0.0
+        self.belief.cross().columns(k::LOG_SCALE, CONSIDERED - k::LOG_SCALE).amax() > 0.0
     }
 
     /// What a unit of each of the eight errors, and of each considered one, is in the full filter; the frame being true, s is

@@ -3,6 +3,7 @@
 use insd_base::{
     ExternalReference, FixQuality, Geodetic, GnssFix, LogReference, LogVelocity, Rejection, Source,
 };
+use insd_estimation::Innovation;
 use insd_nav::antenna::AntennaMotion;
 use insd_nav::floors::{self, Believable};
 use insd_nav::leap::Told;
@@ -11,7 +12,7 @@ use nalgebra::{Vector2, Vector3};
 
 use super::EightState;
 use super::aids::{self, LogReading, Split};
-use super::belief::{Innovation, considered as k, state as x};
+use super::belief::{considered as k, state as x};
 
 /// Attitude that a levelled ship under way is unsure of from moment to moment, rad: it carries the antenna, and where only
 /// positions tell how she moves nothing else may be taken from it.
@@ -44,7 +45,9 @@ impl EightState {
             let moving = self.antenna.acceleration(self.time, &(self.push + swing));
             let innovation =
                 aids::gnss_velocity(&scene, &split, &lever, &moving.xy(), &self.belief);
-            passed.push(self.judge(&innovation, fix.time, source, GNSS_VELOCITY, &mut report));
+            let swing_noise = scene.swing_noise(&lever);
+            let told = (&innovation, swing_noise);
+            passed.push(self.judge(told, fix.time, source, GNSS_VELOCITY, &mut report));
             if std.value.z < floors::UNTOLD {
                 let (white, slow) = shares(std.value.z, share);
                 let white = white.hypot(scene.rocking(&self.belief).sqrt());
@@ -88,7 +91,7 @@ impl EightState {
             enter(report, fix.time, source, GNSS_POSITION, Rejection::SourceSuspect);
             return None;
         }
-        let used = self.judge(&innovation, fix.time, source, GNSS_POSITION, report);
+        let used = self.judge((&innovation, 0.0), fix.time, source, GNSS_POSITION, report);
         if self.config.is_gnss_lever_unknown() {
             self.place(&position, &split.white.component_mul(&split.white));
         }
@@ -120,7 +123,7 @@ impl EightState {
         let reading = LogReading { u, v: log.v, w: log.w, std: std.value, water };
         let lever = self.config.lever_arms.log.0;
         let innovation = aids::log_velocity(&self.scene(), &reading, &lever, &self.belief);
-        self.judge(&innovation, log.time, source, aid, &mut report);
+        self.judge((&innovation, 0.0), log.time, source, aid, &mut report);
         report
     }
 
@@ -132,17 +135,17 @@ impl EightState {
         if let Some(velocity) = reference.velocity() {
             let std = believed(reference.velocity_std, 0.1);
             let innovation = aids::reference_velocity(&self.scene(), &velocity.0.xy(), std);
-            self.judge(&innovation, at, source, "reference_velocity", &mut report);
+            self.judge((&innovation, 0.0), at, source, "reference_velocity", &mut report);
         }
         if let Some(place) = reference.position {
             let std = believed(reference.position_std, 10.0).hypot(self.config.berth_doubt());
             let innovation = aids::reference_position(&self.scene(), &place, std);
-            self.judge(&innovation, at, source, "reference_position", &mut report);
+            self.judge((&innovation, 0.0), at, source, "reference_position", &mut report);
         }
         if let Some(heading) = reference.heading {
             let std = believed(reference.heading_std, 0.02).max(1e-3);
             let innovation = aids::reference_heading(&self.scene(), heading, std);
-            self.judge(&innovation, at, source, "reference_heading", &mut report);
+            self.judge((&innovation, 0.0), at, source, "reference_heading", &mut report);
         }
         report
     }
@@ -157,10 +160,11 @@ impl EightState {
         self.rtk = Some(rtk);
     }
 
-    /// Applies an innovation if it passes the chi-square gate; tells whether it did.
+    /// Applies an innovation if it passes the chi-square gate; tells whether it did. So much of its variance is noise in what
+    /// it takes for the motion of the hull.
     fn judge(
         &mut self,
-        innovation: &Innovation<2>,
+        (innovation, swing_noise): (&Innovation, f64),
         time: insd_base::Time,
         source: Source,
         aid: &'static str,
@@ -171,18 +175,19 @@ impl EightState {
             return false;
         };
         let limit = self.gate.limit(2);
-        let passes = weighed.nis <= limit;
+        let passes = weighed.nis() <= limit;
         if passes {
             if let Some(blur) = &mut self.blur {
-                blur.absorb(innovation, &weighed, &self.belief.own);
+                blur.absorb(&weighed, &self.belief.own(), swing_noise);
             }
-            let errors = self.belief.absorb(innovation, &weighed);
+            let errors = self.belief.absorb(&weighed);
             self.motion.inject(&self.local, &errors);
             self.after_update();
         }
         let sigma = weighed.sigma();
-        let z = innovation.z;
-        report.log_likelihood += -0.5 * weighed.nis.min(limit) - weighed.log_root_determinant;
+        let z = weighed.z();
+        let bounded = weighed.nis().min(limit);
+        report.log_likelihood += -0.5 * bounded - weighed.log_root_determinant();
         report.aids.push(AidReport {
             time,
             source,
@@ -192,7 +197,7 @@ impl EightState {
             } else {
                 Outcome::Rejected(Rejection::ChiSquare)
             },
-            innovation: [(z.x, sigma.x), (z.y, sigma.y), (f64::NAN, f64::NAN)],
+            innovation: [(z[0], sigma[0]), (z[1], sigma[1]), (f64::NAN, f64::NAN)],
         });
         passes
     }

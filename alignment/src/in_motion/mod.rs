@@ -1,6 +1,6 @@
 //! Alignment under way: the ship restarts at sea and only her heading is not small.
 //!
-//! The linear Kalman filter of JAE's hybrid navigation (systems.md S2, "In-motion alignment", eq.
+//! The linear Kalman filter of JAE's hybrid navigation (docs/systems.md, S2, "Starting under way", eq.
 //! (6)): position, velocity and tilt errors along true north and east, s = sin(dpsi) and c = 1 -
 //! cos(dpsi), dpsi = true minus assumed heading. [`motion`] has the equations, linear in (s, c) for
 //! any dpsi; so one filter starts where a bank of headings would need two dozen.
@@ -174,7 +174,7 @@ impl EightState {
         let leaning = Matrix2::new(0.0, 1.0, -1.0, 0.0) / gravity;
         let hull = self.scene().hull;
         let cross = leaning * hull * bias;
-        self.belief.cross.fixed_view_mut::<2, 2>(x::TILT, k::ACCEL).copy_from(&cross);
+        self.belief.correlate_pair(x::TILT, k::ACCEL, &cross);
         self.centred = false;
         self.note_heading();
     }
@@ -238,7 +238,7 @@ impl EightState {
     fn note_heading(&mut self) {
         let (sin, off) = (self.motion.sine, self.motion.versine);
         self.heading = if self.centred {
-            let variance = self.belief.own[(x::SINE, x::SINE)];
+            let variance = self.belief.own()[(x::SINE, x::SINE)];
             (sin.atan2(1.0 - off), variance.max(0.0).sqrt())
         } else {
             let (mean, covariance) = self.direction();
@@ -267,15 +267,15 @@ impl EightState {
         if self.stretch.duration <= 0.0 {
             return;
         }
-        let transition =
+        let stretched =
             self.stretch.transition(&self.motion, &self.local, &self.belief, &self.config);
         let scene = self.scene();
         self.mast.see(&scene.mast(), &scene.hull, self.stretch.duration);
         let before = self.belief.pair(x::SINE).sum();
-        self.belief.propagate(&transition);
+        self.belief.propagate(&stretched);
         let after = self.belief.pair(x::SINE).sum().max(f64::MIN_POSITIVE);
         if let Some(blur) = &mut self.blur {
-            blur.propagate(&transition, (before / after).min(1.0));
+            blur.propagate(&stretched, (before / after).min(1.0));
             if self.motion.velocity.norm() > LEFT {
                 self.leave();
             }

@@ -9,7 +9,7 @@
 //! With that choice of phi every equation is linear in (s, c, phi), whatever dpsi:
 //!
 //! v_N' = (1-c) f_x - s f_y + phi_E f_z + (gravity, Coriolis)_N,
-//! v_E' = s f_x + (1-c) f_y - phi_N f_z + (gravity, Coriolis)_E     (systems.md eq. (6) with tilt),
+//! v_E' = s f_x + (1-c) f_y - phi_N f_z + (gravity, Coriolis)_E     (docs/systems.md, eq. (6) with tilt),
 //!
 //! f the specific force in p. The frame is turned at w = w_ie + w_en, the rate of the true axes, though
 //! it is not theirs, so that the Earth tilts it (gyrocompassing):
@@ -26,7 +26,8 @@ use insd_nav::{Increment, NavConfig};
 use nalgebra::{Matrix2, Matrix3, Quaternion, SMatrix, UnitQuaternion, Vector2, Vector3};
 
 use super::belief::{
-    Belief, Covariance, Cross, Errors, PerConsidered, Transition, considered as k, state as x,
+    Belief, Covariance, Errors, INERTIAL, PerConsidered, STATES, Stretched, considered as k,
+    state as x,
 };
 
 /// The estimate around which the eight errors are linear.
@@ -215,8 +216,8 @@ impl Stretch {
         local: &Local,
         belief: &Belief,
         config: &NavConfig,
-    ) -> Transition {
-        Transition {
+    ) -> Stretched {
+        Stretched {
             f: self.own(motion, local),
             g: self.input(motion),
             q: self.noise(motion, belief, config),
@@ -255,11 +256,11 @@ impl Stretch {
     }
 
     /// A sensor reads true + bias: the estimate runs ahead by it and the error falls behind.
-    fn input(&self, motion: &Motion) -> Cross {
+    fn input(&self, motion: &Motion) -> SMatrix<f64, STATES, INERTIAL> {
         let dt = self.duration;
         let hull = rotation(&self.bow);
         let lean = Matrix2::new(0.0, self.force.z, -self.force.z, 0.0);
-        let mut g = Cross::zeros();
+        let mut g = SMatrix::<f64, STATES, INERTIAL>::zeros();
         let mut put = |row: usize, column: usize, m: &Matrix2<f64>| {
             g.fixed_view_mut::<2, 2>(row, column).copy_from(m);
         };
@@ -285,7 +286,7 @@ impl Stretch {
             q[(x::TILT + axis, x::TILT + axis)] = angle;
         }
         // s' = cos dpsi dpsi', c' = sin dpsi dpsi': second moments, as neither is known at first
-        let p = &belief.own;
+        let p = belief.own();
         let (cos, sin) = (1.0 - motion.versine, motion.sine);
         q[(x::SINE, x::SINE)] = angle * (cos * cos + p[(x::VERSINE, x::VERSINE)]);
         q[(x::VERSINE, x::VERSINE)] = angle * (sin * sin + p[(x::SINE, x::SINE)]);

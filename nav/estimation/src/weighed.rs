@@ -52,6 +52,25 @@ impl Weighed {
         &self.innovation.z
     }
 
+    /// The innovation with all that belongs to it.
+    #[must_use]
+    pub fn innovation(&self) -> &Innovation {
+        &self.innovation
+    }
+
+    /// Covariance of the errors (rows) with the innovation: P H^T.
+    #[must_use]
+    pub fn cross(&self) -> &DMatrix<f64> {
+        &self.pht
+    }
+
+    /// Covariance of the innovation, S.
+    #[must_use]
+    pub fn covariance(&self) -> DMatrix<f64> {
+        let l = self.factor.l();
+        &l * l.transpose()
+    }
+
     /// Normalised innovation squared, z^T S^-1 z: chi-square with as many degrees of freedom as rows.
     #[must_use]
     pub fn nis(&self) -> f64 {
