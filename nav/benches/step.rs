@@ -17,7 +17,7 @@ use insd_base::{
 };
 use insd_nav::error_state::{ATTITUDE, Covariance, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
-use insd_nav::propagation::{Regime, Stretch, propagate};
+use insd_nav::propagation::{Passage, Regime, Stretch};
 use insd_nav::strapdown::{LocalGravity, Step, integrate};
 use insd_nav::{
     Conditioned, Conditioner, Estimator, Filter, Increment, InitialState, NavConfig, Nominal,
@@ -157,7 +157,8 @@ fn covariance_propagation(
 ) -> Box<(Covariance, Stretch, LocalGravity, NavConfig)> {
     let (covariance, stretch, gravity, config) = &mut *run;
     let regime = Regime { rtk: false };
-    propagate(black_box(covariance), stretch, gravity.gradient(), config, &regime);
+    let passage = Passage { stretch, gradient: gravity.gradient(), config, regime };
+    passage.propagate(black_box(covariance));
     run
 }
 

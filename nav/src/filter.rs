@@ -21,7 +21,7 @@ use crate::leap::LeapWatch;
 use crate::nominal::Nominal;
 use crate::own_word::OwnWord;
 use crate::pace::Pace;
-use crate::propagation::{self, Regime, Stretch};
+use crate::propagation::{self, Passage, Regime, Stretch};
 use crate::report::{Outcome, Report};
 use crate::sea_window::LevelWindow;
 use crate::separate_bias::SeparateBias;
@@ -252,16 +252,19 @@ impl Filter {
             return;
         }
         let regime = Regime { rtk: self.is_rtk() };
-        let effects = self.bias.as_mut().map(SeparateBias::response_mut);
-        let owed = self.judge.is_some().then_some(&mut self.owed);
-        let gradient = self.gravity.gradient();
-        propagation::propagate_all(
-            (&mut self.covariance, effects, owed),
-            &self.stretch,
-            gradient,
-            &self.config,
-            &regime,
-        );
+        let passage = Passage {
+            stretch: &self.stretch,
+            gradient: self.gravity.gradient(),
+            config: &self.config,
+            regime,
+        };
+        passage.over(&self.covariance.layout().clone(), |passing| {
+            passing.covariance(&mut self.covariance);
+            self.bias.iter_mut().for_each(|bias| passing.effects(bias.response_mut()));
+            if self.judge.is_some() {
+                passing.errors(&mut self.owed);
+            }
+        });
         if self.is_restless() {
             agitate(&mut self.covariance, self.stretch.duration);
         }

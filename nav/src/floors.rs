@@ -1,6 +1,7 @@
 //! Standard deviations as stated by sensors, made believable: missing, zero, negative, not finite
 //! or absurd ones are replaced, and the caller is told.
 
+use insd_base::units::DEG;
 use insd_base::{FixQuality, Ned};
 use nalgebra::Vector3;
 
@@ -88,6 +89,23 @@ pub fn gnss_velocity() -> [Believable; 3] {
     let horizontal = Believable { least: 0.005, greatest: 50.0, default: 0.1 };
     [horizontal, horizontal, Believable { default: 0.2, ..horizontal }]
 }
+
+/// Believable sigmas of each component of a log, m/s; what is taken where it states none is a matter of its error model.
+#[must_use]
+pub fn log(default: f64) -> Believable {
+    Believable { least: 0.002, greatest: 10.0, default }
+}
+
+/// Believable sigmas of the velocity of an external reference, each component, m/s.
+pub const REFERENCE_VELOCITY: Believable =
+    Believable { least: 0.005, greatest: 50.0, default: 0.5 };
+
+/// Believable sigmas of its position, each component, m.
+pub const REFERENCE_POSITION: Believable = Believable { least: 0.01, greatest: 1e4, default: 20.0 };
+
+/// Believable sigmas of its heading, rad.
+pub const REFERENCE_HEADING: Believable =
+    Believable { least: 0.01 * DEG, greatest: 180.0 * DEG, default: DEG };
 
 #[cfg(test)]
 mod tests {

@@ -141,107 +141,80 @@ pub fn strapdown_rows(stretch: &Stretch, gradient: &Matrix3<f64>) -> StrapdownRo
     StrapdownRows { transition, gyro, accel }
 }
 
-/// Propagates the covariance over a stretch: P <- Phi P Phi^T + Q.
-pub fn propagate(
-    p: &mut Covariance,
-    stretch: &Stretch,
-    gradient: &Matrix3<f64>,
-    config: &NavConfig,
-    regime: &Regime,
-) {
-    propagate_all((p, None, None), stretch, gradient, config, regime);
+/// A stretch of the voyage, and what the errors of an estimate go through in it.
+#[derive(Clone, Copy, Debug)]
+pub struct Passage<'a> {
+    /// The stretch.
+    pub stretch: &'a Stretch,
+    /// Gradient of gravity, ECEF axes, 1/s^2.
+    pub gradient: &'a Matrix3<f64>,
+    /// The error models.
+    pub config: &'a NavConfig,
+    /// What they depend on at the moment.
+    pub regime: Regime,
 }
 
-/// Carries the effects of causes on the errors over a stretch: U^T <- U^T Phi^T.
-pub fn carry(
-    effects: &mut Effects,
-    stretch: &Stretch,
-    gradient: &Matrix3<f64>,
-    config: &NavConfig,
-    regime: &Regime,
-) {
-    if stretch.duration <= 0.0 {
-        return;
-    }
-    let layout = effects.layout().clone();
-    with_transition(&layout, stretch, gradient, (config, regime), |transition| {
-        transition.carry(effects);
-    });
+/// A passage worked out for states that stand in an order: whatever has these states goes along.
+#[derive(Clone, Copy, Debug)]
+pub struct Passing<'a> {
+    transition: Transition<'a, STRAPDOWN_STATES>,
+    layout: &'a Layout,
+    passage: &'a Passage<'a>,
 }
 
-/// Carries errors over a stretch: x <- Phi x.
-pub fn carry_errors(
-    errors: &mut Errors,
-    stretch: &Stretch,
-    gradient: &Matrix3<f64>,
-    config: &NavConfig,
-    regime: &Regime,
-) {
-    if stretch.duration <= 0.0 {
-        return;
+impl Passage<'_> {
+    /// Propagates a covariance: P <- Phi P Phi^T + Q.
+    pub fn propagate(&self, p: &mut Covariance) {
+        self.over(&p.layout().clone(), |passing| passing.covariance(p));
     }
-    let layout = errors.layout().clone();
-    with_transition(&layout, stretch, gradient, (config, regime), |transition| {
-        transition.carry_errors(errors);
-    });
-}
 
-/// Propagates a covariance as [`propagate`] does, and carries what causes do to its errors and a correction of them along.
-pub fn propagate_all(
-    (p, effects, errors): (&mut Covariance, Option<&mut Effects>, Option<&mut Errors>),
-    stretch: &Stretch,
-    gradient: &Matrix3<f64>,
-    config: &NavConfig,
-    regime: &Regime,
-) {
-    if stretch.duration <= 0.0 {
-        return;
-    }
-    let layout = p.layout().clone();
-    with_transition(&layout, stretch, gradient, (config, regime), |transition| {
-        transition.propagate(p);
-        if let Some(effects) = effects {
-            effects.conform(&layout);
-            transition.carry(effects);
+    /// Works the transition out for states that stand so, and hands it to who goes along. Nobody goes nowhere.
+    pub fn over(&self, layout: &Layout, along: impl FnOnce(&Passing<'_>)) {
+        let dt = self.stretch.duration;
+        if dt <= 0.0 {
+            return;
         }
-        if let Some(errors) = errors {
-            errors.conform(&layout);
-            transition.carry_errors(errors);
+        let rows = strapdown_rows(self.stretch, self.gradient);
+        let triad = |blocks: [Block<3>; 3], integral: Vector3<f64>| {
+            let scales = [Vector3::repeat(1.0), Vector3::repeat(1.0), integral / dt];
+            let start = |i: usize| layout.start(blocks[i].key()).unwrap_or(layout.states());
+            std::array::from_fn::<_, 3, _>(|i| (start(i), scales[i]))
+        };
+        let gyro = triad([GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE], self.stretch.rotation);
+        let accel = triad([ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE], self.stretch.velocity);
+        let feeds = [Feed { by: rows.gyro, from: &gyro }, Feed { by: rows.accel, from: &accel }];
+        let mut decays = [Decay::NONE; DECLARATIONS.len()];
+        let mut count = 0;
+        for (place, std, time) in markov(layout, self.config, &self.regime) {
+            let (start, width) = (place.start, place.width);
+            decays[count] = Decay { start, width, left: markov_decay(dt, time), steady: std * std };
+            count += 1;
         }
-    });
-    add_noise(p, stretch, config, regime);
+        let transition =
+            Transition { head: rows.transition, feeds: &feeds, decays: &decays[..count] };
+        along(&Passing { transition, layout, passage: self });
+    }
 }
 
-/// Hands the transition over a stretch, of states that stand so, to who uses it.
-fn with_transition(
-    layout: &Layout,
-    stretch: &Stretch,
-    gradient: &Matrix3<f64>,
-    (config, regime): (&NavConfig, &Regime),
-    with: impl FnOnce(&Transition<'_, STRAPDOWN_STATES>),
-) {
-    let dt = stretch.duration;
-    let rows = strapdown_rows(stretch, gradient);
-    let triad = |bias: Block<3>, drift: Block<3>, scale: Block<3>, mean: Vector3<f64>| {
-        let start = |block: Block<3>| layout.start(block.key()).unwrap_or(layout.states());
-        [
-            (start(bias), Vector3::repeat(1.0)),
-            (start(drift), Vector3::repeat(1.0)),
-            (start(scale), mean),
-        ]
-    };
-    let gyro = triad(GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, stretch.rotation / dt);
-    let accel = triad(ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, stretch.velocity / dt);
-    let feeds = [Feed { by: rows.gyro, from: &gyro }, Feed { by: rows.accel, from: &accel }];
-    let mut decays = [Decay::NONE; DECLARATIONS.len()];
-    let mut count = 0;
-    for (place, std, time) in markov(layout, config, regime) {
-        let left = markov_decay(dt, time);
-        let (start, width) = (place.start, place.width);
-        decays[count] = Decay { start, width, left, steady: std * std };
-        count += 1;
+impl Passing<'_> {
+    /// A covariance of these states: P <- Phi P Phi^T + Q.
+    pub fn covariance(&self, p: &mut Covariance) {
+        let Passage { stretch, config, regime, .. } = self.passage;
+        self.transition.propagate(p);
+        add_noise(p, stretch, config, regime);
     }
-    with(&Transition { head: rows.transition, feeds: &feeds, decays: &decays[..count] });
+
+    /// The effects of causes on the errors of these states: U^T <- U^T Phi^T.
+    pub fn effects(&self, effects: &mut Effects) {
+        effects.conform(self.layout);
+        self.transition.carry(effects);
+    }
+
+    /// Errors of these states: x <- Phi x.
+    pub fn errors(&self, errors: &mut Errors) {
+        errors.conform(self.layout);
+        self.transition.carry_errors(errors);
+    }
 }
 
 /// Gauss-Markov states that are there, with their steady sigma and time constant.

@@ -17,6 +17,8 @@ use super::belief::{considered as k, state as x};
 /// Attitude that a levelled ship under way is unsure of from moment to moment, rad: it carries the antenna, and where only
 /// positions tell how she moves nothing else may be taken from it.
 const UNLEVEL: f64 = 0.01;
+/// A heading is a point on the circle of sine and cosine: no sharper than this, rad.
+const SHARPEST: f64 = 1e-3;
 const GNSS_VELOCITY: &str = "gnss_velocity";
 const GNSS_POSITION: &str = "gnss_position";
 
@@ -114,9 +116,7 @@ impl EightState {
             return report;
         };
         self.settle();
-        let range =
-            Believable { least: 0.005, greatest: 10.0, default: self.config.log.default_std };
-        let std = floors::scalar(log.std, &range);
+        let std = floors::scalar(log.std, &floors::log(self.config.log.default_std));
         if std.replaced {
             report.floored.push(aid);
         }
@@ -133,17 +133,18 @@ impl EightState {
         self.settle();
         let at = reference.time;
         if let Some(velocity) = reference.velocity() {
-            let std = believed(reference.velocity_std, 0.1);
+            let std = believed(reference.velocity_std, &floors::REFERENCE_VELOCITY);
             let innovation = aids::reference_velocity(&self.scene(), &velocity.0.xy(), std);
             self.judge((&innovation, 0.0), at, source, "reference_velocity", &mut report);
         }
         if let Some(place) = reference.position {
-            let std = believed(reference.position_std, 10.0).hypot(self.config.berth_doubt());
+            let std = believed(reference.position_std, &floors::REFERENCE_POSITION)
+                .hypot(self.config.berth_doubt());
             let innovation = aids::reference_position(&self.scene(), &place, std);
             self.judge((&innovation, 0.0), at, source, "reference_position", &mut report);
         }
         if let Some(heading) = reference.heading {
-            let std = believed(reference.heading_std, 0.02).max(1e-3);
+            let std = believed(reference.heading_std, &floors::REFERENCE_HEADING).max(SHARPEST);
             let innovation = aids::reference_heading(&self.scene(), heading, std);
             self.judge((&innovation, 0.0), at, source, "reference_heading", &mut report);
         }
@@ -278,8 +279,8 @@ fn shares(std: f64, slow_share: f64) -> (f64, f64) {
     (std * (1.0 - slow_share).sqrt(), std * slow_share.sqrt())
 }
 
-fn believed(stated: Option<f64>, default: f64) -> f64 {
-    floors::scalar(stated, &Believable { least: 1e-4, greatest: 1000.0, default }).value
+fn believed(stated: Option<f64>, range: &Believable) -> f64 {
+    floors::scalar(stated, range).value
 }
 
 /// Notes a quantity that was not even weighed.

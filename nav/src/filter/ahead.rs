@@ -12,7 +12,7 @@ use super::Filter;
 use crate::aids::View;
 use crate::aids::gnss_velocity::{self, VelocityFix};
 use crate::error_state::{ATTITUDE, Covariance, Innovation, Jacobian};
-use crate::propagation::{Regime, Stretch, propagate};
+use crate::propagation::{Passage, Regime, Stretch};
 
 /// The last GNSS velocity that was used: what the next ones will be like.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,7 +110,9 @@ impl Ahead<'_> {
             ..self.second
         };
         let (gradient, config) = (self.filter.gravity.gradient(), &self.filter.config);
-        propagate(&mut self.covariance, &stretch, gradient, config, &self.regime);
+        let regime = self.regime;
+        let passage = Passage { stretch: &stretch, gradient, config, regime };
+        passage.propagate(&mut self.covariance);
         if let Some(sway) = &self.filter.sway {
             sway.propagate(&mut self.covariance, dt);
         }

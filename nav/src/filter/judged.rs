@@ -15,7 +15,7 @@ use crate::error_state::{
 };
 use crate::judge::{Aid, Alternative, Docket, Judge};
 use crate::leap::LeapWatch;
-use crate::propagation::{Regime, Stretch};
+use crate::propagation::{Passage, Regime, Stretch};
 use crate::separate_bias::SeparateBias;
 use crate::solution_sigma::{difference, solution_sigma};
 
@@ -75,7 +75,12 @@ impl Filter {
         let regime = Regime { rtk: self.is_rtk() };
         let judge = Arc::make_mut(self.judge.as_mut()?);
         if self.unjudged.duration > 0.0 {
-            judge.propagate(&self.unjudged, self.gravity.gradient(), &self.config, &regime);
+            judge.propagate(&Passage {
+                stretch: &self.unjudged,
+                gradient: self.gravity.gradient(),
+                config: &self.config,
+                regime,
+            });
             self.unjudged = Stretch::new();
         }
         judge.corrected(&std::mem::take(&mut self.owed));

@@ -22,8 +22,7 @@ impl Filter {
             LogReference::Bottom => "log_bottom",
             LogReference::Water => "log_water",
         };
-        let default = self.config.log.default_std;
-        let range = Believable { least: 0.002, greatest: 10.0, default };
+        let range = floors::log(self.config.log.default_std);
         let stated = floored(log.std, &range, aid, report);
         self.begin_to_carry(Carried::WithLog);
         let prediction = self.predict_log(log);
@@ -67,8 +66,8 @@ impl Filter {
         report: &mut Report,
     ) {
         if let Some(velocity) = reference.velocity() {
-            let range = Believable { least: 0.005, greatest: 50.0, default: 0.5 };
-            let stated = floored(reference.velocity_std, &range, "reference_velocity", report);
+            let range = &floors::REFERENCE_VELOCITY;
+            let stated = floored(reference.velocity_std, range, "reference_velocity", report);
             let std = stated * self.noise_of(Aid::ReferenceVelocity).sqrt();
             let v_ne = Vector2::new(velocity.0.x, velocity.0.y);
             let innovation = reference_velocity::innovation(&self.view(), &v_ne, std);
@@ -79,8 +78,8 @@ impl Filter {
             self.note(enter(report, reference.time, source, "reference_velocity", &judged));
         }
         if let Some(position) = reference.position {
-            let range = Believable { least: 0.01, greatest: 1e4, default: 20.0 };
-            let stated = floored(reference.position_std, &range, "reference_position", report);
+            let range = &floors::REFERENCE_POSITION;
+            let stated = floored(reference.position_std, range, "reference_position", report);
             let std =
                 stated * self.noise_of(Aid::ReferencePosition).sqrt() * self.repeats(reference);
             let innovation = reference_position::innovation(&self.view(), &position, std);
@@ -92,10 +91,8 @@ impl Filter {
         if let Some(heading) = reference.heading {
             self.begin_to_carry(Carried::WithHeading);
             self.note_noise();
-            let degree = insd_base::units::DEG;
-            let range =
-                Believable { least: 0.01 * degree, greatest: 180.0 * degree, default: degree };
-            let stated = floored(reference.heading_std, &range, "reference_heading", report);
+            let range = &floors::REFERENCE_HEADING;
+            let stated = floored(reference.heading_std, range, "reference_heading", report);
             let std = stated * self.noise_of(Aid::Heading).sqrt();
             let innovation = reference_heading::innovation(&self.view(), heading, std);
             self.consult(Aid::Heading, &innovation, rows::of_heading);

@@ -32,7 +32,7 @@ use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use crate::config::NavConfig;
 use crate::declaration::Declaration;
 use crate::error_state::{Block, Covariance, Errors, Innovation, Weighed};
-use crate::propagation::{self, Regime, Stretch};
+use crate::propagation::Passage;
 pub use aid::Aid;
 use aid::{AIDS, Hearing};
 use charge::{Assessment, Charge, DOUBT};
@@ -177,25 +177,18 @@ impl Judge {
     }
 
     /// Carries everything over a stretch.
-    pub fn propagate(
-        &mut self,
-        stretch: &Stretch,
-        gradient: &Matrix3<f64>,
-        config: &NavConfig,
-        regime: &Regime,
-    ) {
-        let others = self.dissenters.iter_mut().map(|dissenter| &mut dissenter.shadow);
-        for shadow in std::iter::once(&mut self.shadow).chain(others) {
-            shadow.propagate(stretch, gradient, config, regime);
-        }
-        self.pessimist.shadow.propagate(stretch, gradient, &config.with_worse_imu(), regime);
-        self.dissenters.iter_mut().for_each(|dissenter| dissenter.agitate(stretch.duration));
-        let layout = self.shadow.covariance.layout();
-        for onset in &mut self.onsets {
-            let effects = onset.effects_mut();
-            effects.conform(layout);
-            propagation::carry(effects, stretch, gradient, config, regime);
-        }
+    pub fn propagate(&mut self, passage: &Passage<'_>) {
+        let layout = self.shadow.covariance.layout().clone();
+        passage.over(&layout, |passing| {
+            self.shadow.propagate(passing);
+            for dissenter in &mut self.dissenters {
+                dissenter.shadow.propagate(passing);
+                dissenter.agitate(passage.stretch.duration);
+            }
+            self.onsets.iter_mut().for_each(|onset| passing.effects(onset.effects_mut()));
+        });
+        let worse = Passage { config: &passage.config.with_worse_imu(), ..*passage };
+        worse.over(&layout, |passing| self.pessimist.shadow.propagate(passing));
     }
 
     /// Whether it is time to hear an aid.

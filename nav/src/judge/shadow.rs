@@ -7,9 +7,8 @@
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::Alternative;
-use crate::config::NavConfig;
 use crate::error_state::{ATTITUDE, Covariance, Errors, Innovation, VELOCITY, Weighed};
-use crate::propagation::{self, Regime, Stretch};
+use crate::propagation::Passing;
 use crate::symmetry::turn_biases;
 
 /// Its estimate less the navigator's, and the covariance of its errors.
@@ -60,16 +59,9 @@ impl Shadow {
     }
 
     /// Carries it over a stretch.
-    pub(super) fn propagate(
-        &mut self,
-        stretch: &Stretch,
-        gradient: &Matrix3<f64>,
-        config: &NavConfig,
-        regime: &Regime,
-    ) {
-        self.apart.conform(self.covariance.layout());
-        propagation::carry_errors(&mut self.apart, stretch, gradient, config, regime);
-        propagation::propagate(&mut self.covariance, stretch, gradient, config, regime);
+    pub(super) fn propagate(&mut self, passing: &Passing<'_>) {
+        passing.errors(&mut self.apart);
+        passing.covariance(&mut self.covariance);
     }
 
     /// An innovation of the navigator as it is here, with a variance of its noise that is so many times as

@@ -153,7 +153,8 @@ fn the_cheap_propagation_is_the_full_matrix_product() {
     let start = &root * root.transpose();
     let full = &phi * &start * phi.transpose() + added.matrix();
     p.matrix_mut().copy_from(&start);
-    propagate(&mut p, &stretch, gravity.gradient(), &config(), &REGIME);
+    let (gradient, config) = (gravity.gradient(), &config());
+    Passage { stretch: &stretch, gradient, config, regime: REGIME }.propagate(&mut p);
     assert!((&full - p.matrix()).amax() < 1e-9 * full.amax());
     assert!((p.matrix() - p.matrix().transpose()).amax() < 1e-15 * full.amax());
 }
