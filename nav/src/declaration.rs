@@ -122,9 +122,7 @@ impl Declaration {
 
     /// A block of this kind joins with its first sigma, if it is not there.
     pub fn join(&self, p: &mut Covariance, config: &NavConfig) {
-        if p.layout().start(self.key).is_none() {
-            p.join_diagonal(self.key, self.width, (self.first)(config).powi(2));
-        }
+        p.join_diagonal(self.key, self.width, (self.first)(config).powi(2));
     }
 }
 

@@ -22,9 +22,6 @@ pub struct Block<const W: usize> {
 }
 
 impl<const W: usize> Block<W> {
-    /// Number of states.
-    pub const WIDTH: usize = W;
-
     /// The first instance of a declaration.
     #[must_use]
     pub const fn new(kind: u16) -> Self {
@@ -143,9 +140,7 @@ impl<const W: usize> Block<W> {
 
     /// Adds a variance to each component, if it is there.
     pub fn inflate(self, p: &mut Covariance, variance: f64) {
-        let Some(start) = p.layout().start(self.key) else { return };
-        let matrix = p.matrix_mut();
-        (start..start + W).for_each(|i| matrix[(i, i)] += variance);
+        p.inflate(self.key, variance);
     }
 
     /// Transforms this block of the error by a matrix, x <- A x.

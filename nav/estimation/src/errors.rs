@@ -48,10 +48,16 @@ impl Errors {
         &self.values
     }
 
+    /// Where a block of this width begins: what was kept may be another program's.
+    fn start<const W: usize>(&self, block: Block<W>) -> Option<usize> {
+        let place = self.layout.place(block.key())?;
+        (place.width == W).then_some(place.start)
+    }
+
     /// Of one block.
     #[must_use]
     pub fn of<const W: usize>(&self, block: Block<W>) -> SVector<f64, W> {
-        match self.layout.start(block.key()) {
+        match self.start(block) {
             Some(start) => self.values.fixed_rows::<W>(start).into_owned(),
             None => SVector::zeros(),
         }
@@ -60,7 +66,7 @@ impl Errors {
     /// Sets one block.
     pub fn set<const W: usize>(&mut self, block: Block<W>, value: &SVector<f64, W>) {
         self.extend(&self.layout.with(block.key(), W));
-        if let Some(start) = self.layout.start(block.key()) {
+        if let Some(start) = self.start(block) {
             self.values.fixed_rows_mut::<W>(start).copy_from(value);
         }
     }
@@ -85,7 +91,7 @@ impl Errors {
 
     /// Multiplies one block by a factor.
     pub fn scale_block<const W: usize>(&mut self, block: Block<W>, factor: f64) {
-        if let Some(start) = self.layout.start(block.key()) {
+        if let Some(start) = self.start(block) {
             self.values.fixed_rows_mut::<W>(start).scale_mut(factor);
         }
     }
@@ -185,5 +191,7 @@ mod tests {
         assert_eq!(sum.of(A), Vector2::new(21.0, 42.0));
         assert_eq!(sum.of(B), Vector1::new(10.0));
         assert_eq!(sum.of(Block::<1>::new(9)).x, 0.0);
+        let wider: Block<3> = Block::new(1);
+        assert_eq!(sum.of(wider).x, 0.0, "a block of another width is another");
     }
 }

@@ -144,5 +144,10 @@ mod tests {
         assert!(spoilt(&|kept| kept["places"][1]["key"] = kept["places"][0]["key"].clone()));
         assert!(spoilt(&|kept| kept["places"][1]["width"] = u64::MAX.into()));
         assert!(!spoilt(&|_| {}));
+        for value in [f64::NAN, f64::INFINITY] {
+            let mut p = covariance().matrix().clone();
+            (p[(0, 1)], p[(1, 0)]) = (value, value);
+            assert!(!is_covariance(&p));
+        }
     }
 }

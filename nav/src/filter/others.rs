@@ -8,7 +8,7 @@ use super::entry::enter;
 use crate::aids::log_velocity::Prediction;
 use crate::aids::{log_velocity, reference_heading, reference_position, reference_velocity};
 use crate::declaration::Carried;
-use crate::error_state::Innovation;
+use crate::error_state::Weighed;
 use crate::floors::{self, Believable, Floored};
 use crate::judge::{Aid, rows};
 use crate::report::{Outcome, Report};
@@ -30,10 +30,11 @@ impl Filter {
             let mut innovation = log_velocity::complete(&prediction, &measured, stated);
             innovation.r *= self.noise_of(Aid::Log);
             let by_lever = by_rows(&prediction.by_lever, &[0, 1, 2]);
-            let gain = self.hear_log(&innovation, &by_lever);
+            let weighed = innovation.weigh(&self.covariance);
+            let gain = self.hear_log(weighed.as_ref(), &by_lever);
             let direct = rows::of_log(&prediction.velocity, &self.view().c_nb());
             self.consult(Aid::Log, &innovation, |_| direct.clone());
-            let judged = self.gated(&innovation, self.withheld(Aid::Log));
+            let judged = self.gated_as(weighed.as_ref(), self.withheld(Aid::Log));
             self.note_log(log, enter(report, log.time, source, aid, &judged), gain, &by_lever);
             self.told_across = Some(self.time);
             return;
@@ -50,11 +51,12 @@ impl Filter {
             let mut innovation = log_velocity::component(&prediction, axis, measured, stated);
             innovation.r *= self.noise_of(aid_heard);
             let by_lever = by_rows(&prediction.by_lever, &[axis]);
-            let gain = self.hear_log(&innovation, &by_lever);
+            let weighed = innovation.weigh(&self.covariance);
+            let gain = self.hear_log(weighed.as_ref(), &by_lever);
             let direct = rows::of_log(&prediction.velocity, &self.view().c_nb());
             let own = direct.select_columns(&[axis]);
             self.consult(aid_heard, &innovation, |_| own.clone());
-            let judged = self.gated(&innovation, self.withheld(Aid::Log));
+            let judged = self.gated_as(weighed.as_ref(), self.withheld(Aid::Log));
             self.note_log(log, enter(report, log.time, source, aid, &judged), gain, &by_lever);
         }
     }
@@ -133,15 +135,15 @@ impl Filter {
     /// would be.
     fn hear_log(
         &mut self,
-        innovation: &Innovation,
+        weighed: Option<&Weighed>,
         by_lever: &DMatrix<f64>,
     ) -> Option<DMatrix<f64>> {
         if self.docket().leaves_out(Aid::Log) {
             return None;
         }
         let bias = self.bias.as_mut()?;
-        let weighed = innovation.weigh(&self.covariance)?;
-        bias.hear_log(&weighed, by_lever);
+        let weighed = weighed?;
+        bias.hear_log(weighed, by_lever);
         Some(weighed.gain())
     }
 
