@@ -8,13 +8,15 @@ use std::hint::black_box;
 
 use gungraun::{library_benchmark, library_benchmark_group, main};
 use insd_alignment::bank::Kinematics;
-use insd_alignment::{Bank, EightState, Fine, Level, Method};
+use insd_alignment::{Bank, EightState, Level};
 use insd_base::units::{DEG_PER_HOUR, DEG_PER_SQRT_HOUR, MICRO_G, MPS_PER_SQRT_HOUR};
 use insd_base::{Body, Geodetic, ImuSample, ImuSpec, LeverArms, Time, Triad};
+use insd_nav::berth::Method;
 use insd_nav::error_state::{ATTITUDE, Covariance, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
 use insd_nav::{
-    Conditioned, Conditioner, Estimator, Filter, Increment, InitialState, NavConfig, Nominal,
+    Conditioned, Conditioner, Estimator, Filter, Increment, InitialState, NavConfig, Navigator,
+    Nominal,
 };
 use nalgebra::{Matrix3, Vector3};
 
@@ -78,7 +80,7 @@ fn filter() -> Filter {
     VELOCITY.renew(&mut covariance, &Matrix3::from_diagonal_element(1.0));
     ATTITUDE.renew(&mut covariance, &Matrix3::from_diagonal_element(1e-4));
     let rate = Vector3::zeros();
-    Filter::new(&config(), &InitialState { time: Time::START, nominal, covariance, rate })
+    Filter::new(&config(), &InitialState::new(Time::START, nominal, covariance, rate))
 }
 
 /// An estimator and the samples that are counted; on the heap, so that moving it does not count.
@@ -93,12 +95,12 @@ fn prepared<E: Estimator>(mut estimator: E, warm_up: usize) -> Run<E> {
     Box::new((estimator, ahead))
 }
 
-fn navigating() -> Run<Fine> {
-    prepared(Fine::under_way(filter()), 1000)
+fn navigating() -> Run<Navigator> {
+    prepared(Navigator::of(filter(), None), 1000)
 }
 
-fn moored(method: Method) -> Run<Fine> {
-    prepared(Fine::moored(filter(), method), WARM_UP)
+fn moored(method: Method) -> Run<Navigator> {
+    prepared(Navigator::of(filter(), Some(method)), WARM_UP)
 }
 
 fn level() -> Level {
@@ -140,7 +142,7 @@ fn run<E: Estimator>(mut run: Run<E>) -> Run<E> {
 #[bench::moorings(moored(Method::Moorings))]
 #[bench::autoregressive(moored(Method::Autoregressive))]
 #[bench::white_noise(moored(Method::WhiteNoise))]
-fn fine(prepared: Run<Fine>) -> Run<Fine> {
+fn one_heading(prepared: Run<Navigator>) -> Run<Navigator> {
     run(prepared)
 }
 
@@ -156,6 +158,6 @@ fn in_motion(prepared: Run<EightState>) -> Run<EightState> {
     run(prepared)
 }
 
-library_benchmark_group!(name = alignment, benchmarks = [fine, searching, in_motion]);
+library_benchmark_group!(name = alignment, benchmarks = [one_heading, searching, in_motion]);
 
 main!(library_benchmark_groups = alignment);

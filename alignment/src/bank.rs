@@ -10,15 +10,15 @@ use std::f64::consts::TAU;
 
 use insd_base::units::{DEG, wrap_pi};
 use insd_base::{Geodetic, Received, Solution, Span, Time};
+use insd_nav::berth::Method;
 use insd_nav::error_state::{ATTITUDE, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
-use insd_nav::{Estimator, Filter, Increment, InitialState, NavConfig, Nominal, Report};
+use insd_nav::{Estimator, Increment, InitialState, NavConfig, Navigator, Nominal, Report};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::config::{AlignmentConfig, Method};
-use crate::fine::Fine;
+use crate::config::AlignmentConfig;
 use crate::levelling::Level;
-use crate::mixture::{join, mixed};
+use crate::mixture::mixed;
 use crate::stored::StoredState;
 use crate::trial::{ANY, Origin, Shares, Trial, Verdict, explanations, joined_origin};
 
@@ -53,7 +53,7 @@ pub struct Bank {
 
 #[derive(Clone, Debug)]
 struct Member {
-    fine: Box<Fine>,
+    navigator: Box<Navigator>,
     log_weight: f64,
     origin: Origin,
 }
@@ -87,8 +87,8 @@ impl Bank {
                 let heading = TAU * i as f64 / HEADINGS as f64;
                 let spread = OVERLAP * TAU / HEADINGS as f64;
                 let initial = hypothesis(config, level, kinematics, heading, spread);
-                let moored = kinematics.moored.then_some(method);
-                Member::new(config, &initial, moored, 0.0, Origin::Any)
+                let berth = kinematics.moored.then_some(method);
+                Member::new(config, &initial.at_berth(berth), 0.0, Origin::Any)
             })
             .collect();
         Bank { members, next_tidy: level.time + TIDY, trial: None }
@@ -118,8 +118,8 @@ impl Bank {
             if choice.same_power_up {
                 stored.carry_biases(&mut initial.nominal, &mut initial.covariance);
             }
-            let member = Member::new(config, &initial, Some(choice.moored), share.ln(), origin);
-            bank.members.push(member);
+            let initial = initial.at_berth(Some(choice.moored));
+            bank.members.push(Member::new(config, &initial, share.ln(), origin));
         }
         bank
     }
@@ -159,11 +159,11 @@ impl Bank {
 
     /// The one filter left, once it knows its heading well enough to go on alone.
     #[must_use]
-    pub fn winner(&self) -> Option<&Fine> {
+    pub fn winner(&self) -> Option<&Navigator> {
         match self.members.as_slice() {
             // the sigma of the heading is a matter of the covariance: no need to ask between
-            [only] if only.fine.filter().is_settled() => {
-                Some(only.fine.as_ref()).filter(|fine| fine.filter().heading_std() < LINEAR)
+            [only] if only.navigator.filter().is_settled() => {
+                Some(only.navigator.as_ref()).filter(|it| it.filter().heading_std() < LINEAR)
             }
             _ => None,
         }
@@ -172,22 +172,22 @@ impl Bank {
     /// Whether the ship is taken as lying at her berth.
     #[must_use]
     pub fn is_moored(&self) -> bool {
-        self.likeliest().is_some_and(Fine::is_moored)
+        self.likeliest().is_some_and(Navigator::is_moored)
     }
 
     /// The likeliest filter.
     #[must_use]
-    pub fn likeliest(&self) -> Option<&Fine> {
+    pub fn likeliest(&self) -> Option<&Navigator> {
         let heaviest = self.members.iter().max_by(|a, b| a.log_weight.total_cmp(&b.log_weight));
-        heaviest.map(|member| member.fine.as_ref())
+        heaviest.map(|member| member.navigator.as_ref())
     }
 
     /// Lets all go if the likeliest has left the berth: one that stayed would be judged by other
     /// evidence than one that left.
     fn follow_departure(&mut self) {
-        if self.likeliest().is_some_and(Fine::seems_to_leave) {
+        if self.likeliest().is_some_and(Navigator::seems_to_leave) {
             for member in &mut self.members {
-                member.fine.cast_off();
+                member.navigator.cast_off();
             }
         }
     }
@@ -221,11 +221,7 @@ impl Bank {
         let member = &mut self.members[first];
         let share = 1.0 / (1.0 + (member.log_weight - other.log_weight).exp());
         member.origin = joined_origin((member.origin, 1.0 - share), (other.origin, share));
-        let mut settled = other.fine;
-        settled.filter_mut().settle();
-        let filter = member.fine.filter_mut();
-        filter.settle();
-        join(filter, settled.filter(), share);
+        member.navigator.join(*other.navigator, share);
         let (high, low) = if member.log_weight > other.log_weight {
             (member.log_weight, other.log_weight)
         } else {
@@ -234,25 +230,25 @@ impl Bank {
         member.log_weight = high + (low - high).exp().ln_1p();
     }
 
-    fn weighted(&self, solution: impl Fn(&Fine) -> Solution) -> Vec<(f64, Solution)> {
+    fn weighted(&self, solution: impl Fn(&Navigator) -> Solution) -> Vec<(f64, Solution)> {
         let best = self.members.iter().map(|m| m.log_weight).fold(f64::NEG_INFINITY, f64::max);
         self.members
             .iter()
-            .map(|member| ((member.log_weight - best).exp(), solution(&member.fine)))
+            .map(|member| ((member.log_weight - best).exp(), solution(&member.navigator)))
             .collect()
     }
 
     /// What the bank says together; the likeliest member where the mixture is empty of sense.
-    fn together(&self, solution: impl Fn(&Fine) -> Solution) -> Solution {
-        mixed(&self.weighted(&solution)).unwrap_or_else(|| solution(&self.members[0].fine))
+    fn together(&self, solution: impl Fn(&Navigator) -> Solution) -> Solution {
+        mixed(&self.weighted(&solution)).unwrap_or_else(|| solution(&self.members[0].navigator))
     }
 }
 
 impl Estimator for Bank {
     fn advance(&mut self, increment: &Increment) {
         for member in &mut self.members {
-            member.fine.advance(increment);
-            member.log_weight += member.fine.take_likelihood();
+            member.navigator.advance(increment);
+            member.log_weight += member.navigator.take_likelihood();
         }
         let at = increment.to;
         if at >= self.next_tidy {
@@ -270,7 +266,7 @@ impl Estimator for Bank {
         }
         let mut best: Option<(f64, Report)> = None;
         for member in &mut self.members {
-            let report = member.fine.apply(received);
+            let report = member.navigator.apply(received);
             member.log_weight += report.log_likelihood;
             if best.as_ref().is_none_or(|(weight, _)| member.log_weight > *weight) {
                 best = Some((member.log_weight, report));
@@ -280,11 +276,11 @@ impl Estimator for Bank {
     }
 
     fn solution(&self) -> Solution {
-        self.together(Fine::solution)
+        self.together(Navigator::solution)
     }
 
     fn solution_at(&self, increment: &Increment, at: Time) -> Solution {
-        self.together(|fine| fine.solution_at(increment, at))
+        self.together(|navigator| navigator.solution_at(increment, at))
     }
 }
 
@@ -296,21 +292,14 @@ struct Peak {
 }
 
 impl Member {
-    /// A hypothesis; `moored` is how the ship is held if she lies at her berth.
-    fn new(
-        config: &NavConfig,
-        initial: &InitialState,
-        moored: Option<Method>,
-        log_weight: f64,
-        origin: Origin,
-    ) -> Self {
-        let mut filter = Filter::new(config, initial);
-        filter.slow_down(COVARIANCE_INTERVAL);
-        Member { fine: Box::new(Fine::held(filter, moored)), log_weight, origin }
+    fn new(config: &NavConfig, initial: &InitialState, log_weight: f64, origin: Origin) -> Self {
+        let mut navigator = Box::new(Navigator::new(config, initial));
+        navigator.slow_down(COVARIANCE_INTERVAL);
+        Member { navigator, log_weight, origin }
     }
 
     fn peak(&self) -> Peak {
-        let solution = self.fine.solution();
+        let solution = self.navigator.solution();
         let (heading, std) = (solution.attitude.heading, solution.sigma.heading);
         Peak { heading, std, origin: self.origin }
     }
@@ -346,5 +335,5 @@ fn hypothesis(
     let in_ned = Matrix3::from_diagonal(&Vector3::new(tilt * tilt, tilt * tilt, turn * turn));
     let c_en = insd_base::earth::c_ne(&kinematics.position).transpose();
     ATTITUDE.renew(&mut covariance, &(c_en * in_ned * c_en.transpose()));
-    InitialState { time: level.time, nominal, covariance, rate: level.rate }
+    InitialState::new(level.time, nominal, covariance, level.rate)
 }

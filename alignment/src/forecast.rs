@@ -15,11 +15,9 @@
 
 use insd_base::alignment::gyrocompass_sigma;
 use insd_base::{Forecast, ImuSpec, Lack, Limiting, Span, Time, earth};
-use insd_nav::Filter;
 use insd_nav::aids::berth;
-
-use crate::moorings::{Moorings, SPACING};
-use crate::sea_state::WaveMotion;
+use insd_nav::berth::{Moorings, SPACING};
+use insd_nav::{Filter, Navigator};
 
 /// No forecast goes further, s.
 const HORIZON: f64 = 7200.0;
@@ -31,16 +29,14 @@ const IMPROVEMENT: f64 = 0.02;
 /// See [`IMPROVEMENT`], s.
 const PATIENCE: f64 = 600.0;
 
-/// Runs the filter ahead until its heading has this sigma, rad, in waves like these. Its covariance
-/// must be settled.
+/// When the heading of a ship at her berth will have this sigma, rad, if all stays as it is. Its covariance must be
+/// settled.
 #[must_use]
-pub fn at_the_berth(
-    filter: &Filter,
-    moorings: &Moorings,
-    waves: Option<&WaveMotion>,
-    imu: &ImuSpec,
-    target: f64,
-) -> Forecast {
+pub fn at_the_berth(navigator: &Navigator, imu: &ImuSpec, target: f64) -> Forecast {
+    let Some(moorings) = navigator.moorings() else {
+        return Forecast::Unknown { lacks: Lack::Method };
+    };
+    let (filter, waves) = (navigator.filter(), navigator.waves());
     let mut ahead = filter.ahead();
     let mut sample = berth::innovation(ahead.view(), moorings.place(), moorings.waves_std());
     let white = sample.r.clone();

@@ -9,24 +9,15 @@
 
 pub mod bank;
 pub mod config;
-pub mod departure;
-pub mod disturbance;
-pub mod fine;
 pub mod forecast;
 pub mod in_motion;
 pub mod levelling;
 pub mod mixture;
-pub mod moorings;
-pub mod prefiltered;
-pub mod sea_state;
 pub mod stored;
 pub mod trial;
-pub mod white;
 
 pub use bank::Bank;
-pub use config::{AlignmentConfig, InMotion, Method};
-pub use fine::Fine;
-pub use fine::kept::KeptFine;
+pub use config::{AlignmentConfig, InMotion};
 pub use in_motion::EightState;
 pub use levelling::{Level, Levelling};
 pub use stored::StoredState;

@@ -1,28 +1,8 @@
-//! Mixtures of hypotheses: joining filters and reporting what they say together.
+//! Mixtures of hypotheses: what they say together.
 
 use insd_base::units::{wrap_pi, wrap_two_pi};
 use insd_base::{Attitude, Ecef, Ned, Solution, SolutionSigma, earth};
-use insd_nav::filter::Filter;
-use insd_nav::symmetry::turn_biases;
 use nalgebra::Vector3;
-
-/// Joins two filters of one instant into the first: mean and covariance of the mixture
-/// (Bar-Shalom, Li and Kirubarajan, Estimation with Applications to Tracking and Navigation,
-/// eq. (1.4.16-10)), each covariance seen from the mean. `share` is the weight of the second, 0..1.
-pub fn join(first: &mut Filter, second: &Filter, share: f64) {
-    let apart = first.nominal().error_to(second.nominal());
-    let mut nominal = *first.nominal();
-    nominal.inject(&apart.scaled(share));
-    let seen_from_there = |filter: &Filter| {
-        let mut covariance = filter.covariance().clone();
-        turn_biases(&mut covariance, &filter.nominal().c_eb(), &nominal.c_eb());
-        covariance
-    };
-    let mut covariance = seen_from_there(first).scaled(1.0 - share);
-    covariance.add(&seen_from_there(second).scaled(share));
-    covariance.spread(&apart.scaled((share * (1.0 - share)).sqrt()));
-    first.replace(nominal, covariance);
-}
 
 /// What weighted solutions of one instant say together; the sigmas hold the spread between them.
 ///

@@ -13,12 +13,12 @@
 
 use insd_base::units::DEG;
 use insd_base::{Attitude, Geodetic, ImuSpec, StoredDoubt, Time, Triad, earth};
+use insd_nav::berth::Moorings;
 use insd_nav::error_state::{ACCEL_BIAS, ACCEL_DRIFT, Covariance, GYRO_BIAS, GYRO_DRIFT, POSITION};
-use insd_nav::{Estimator, Nominal};
+use insd_nav::{Estimator, Navigator, Nominal};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::bank::Kinematics;
-use crate::fine::Fine;
 use crate::levelling::Level;
 
 /// An aligned state of a moored ship.
@@ -67,11 +67,11 @@ impl StoredState {
     /// What is worth keeping of a filter; `None` unless the ship lies at her berth. That the filter
     /// is aligned is for the caller to know.
     #[must_use]
-    pub fn of(fine: &Fine, imu: &ImuSpec) -> Option<Self> {
-        if !fine.is_moored() {
+    pub fn of(navigator: &Navigator, imu: &ImuSpec) -> Option<Self> {
+        if !navigator.is_moored() {
             return None;
         }
-        let (filter, solution) = (fine.filter(), fine.solution());
+        let (filter, solution) = (navigator.filter(), navigator.solution());
         let (nominal, p) = (filter.nominal(), filter.covariance());
         let sigma = &solution.sigma;
         let stored = StoredState {
@@ -86,7 +86,7 @@ impl StoredState {
             gyro_bias_std: GYRO_BIAS.std_of_sum(GYRO_DRIFT, p),
             accel_bias: nominal.accel_bias + nominal.accel_drift,
             accel_bias_std: ACCEL_BIAS.std_of_sum(ACCEL_DRIFT, p),
-            sway_std: fine.moorings().map_or(0.0, crate::moorings::Moorings::sway_std),
+            sway_std: navigator.moorings().map_or(0.0, Moorings::sway_std),
         };
         stored.is_finite().then_some(stored)
     }

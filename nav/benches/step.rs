@@ -107,12 +107,7 @@ fn fix(seconds: f64) -> Received {
 fn under_way(covariance_interval: f64) -> (Filter, Vec<Increment>) {
     let lever_arms = LeverArms { gnss: Body::new(-6.0, -0.8, -14.0), log: Body::default() };
     let config = NavConfig { covariance_interval, ..NavConfig::new(IMU, lever_arms) };
-    let initial = InitialState {
-        time: Time::START,
-        nominal: nominal(),
-        covariance: covariance(&config),
-        rate: Vector3::zeros(),
-    };
+    let initial = InitialState::new(Time::START, nominal(), covariance(&config), Vector3::zeros());
     let mut filter = Filter::new(&config, &initial);
     filter.begin_navigation();
     let mut increments = increments(WARM_UP + STEPS);

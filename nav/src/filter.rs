@@ -46,6 +46,7 @@ mod estimates;
 mod found_lever;
 mod gnss;
 mod installation;
+mod joined;
 pub mod judged;
 pub mod kept;
 mod leaps;
@@ -140,6 +141,8 @@ impl Filter {
     /// A filter from an initial state.
     #[must_use]
     pub fn new(config: &NavConfig, initial: &InitialState) -> Self {
+        let mut trust = Trust::default();
+        initial.gnss_used.iter().for_each(|time| trust.used(*time));
         Filter {
             config: *config,
             gate: Gate::new(config.gate.probability),
@@ -151,7 +154,7 @@ impl Filter {
             gap_left: 0.0,
             rate: initial.rate,
             rate_variance: rate_variance(&config.imu),
-            trust: Trust::default(),
+            trust,
             rtk: None,
             slow_noise: [1.0; 3],
             level: LevelWindow::new(&config.sea),
@@ -230,14 +233,6 @@ impl Filter {
     /// that run many filters.
     pub fn slow_down(&mut self, interval: f64) {
         self.interval = interval;
-    }
-
-    /// Moves estimate and covariance by an error and a covariance from outside: for alignment, which
-    /// joins hypotheses. It counts as a correction.
-    pub fn replace(&mut self, nominal: Nominal, covariance: Covariance) {
-        self.corrected += &self.nominal.error_to(&nominal);
-        self.nominal = nominal;
-        self.covariance = covariance;
     }
 
     /// Whether the covariance is that of the time of the estimate.

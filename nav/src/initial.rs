@@ -3,6 +3,7 @@
 use insd_base::{ImuSpec, Time};
 use nalgebra::Vector3;
 
+use crate::berth::Method;
 use crate::config::{NavConfig, WORSE};
 use crate::declaration::{Carried, carried};
 use crate::error_state::{
@@ -21,6 +22,24 @@ pub struct InitialState {
     pub covariance: Covariance,
     /// Angular rate measured at the instant, body axes, rad/s: for lever arms.
     pub rate: Vector3<f64>,
+    /// How she is held if she lies at her berth.
+    pub berth: Option<Method>,
+    /// When whoever found it last used GNSS: the filter that goes on from it is aided still.
+    pub gnss_used: Option<Time>,
+}
+
+impl InitialState {
+    /// Of a ship under way, of whom no more is known.
+    #[must_use]
+    pub fn new(time: Time, nominal: Nominal, covariance: Covariance, rate: Vector3<f64>) -> Self {
+        InitialState { time, nominal, covariance, rate, berth: None, gnss_used: None }
+    }
+
+    /// The same of a ship that lies at her berth, held by a method, or does not.
+    #[must_use]
+    pub fn at_berth(self, berth: Option<Method>) -> Self {
+        InitialState { berth, ..self }
+    }
 }
 
 /// Admits that in-run biases and scale factors of an IMU are a step worse than its error model says, and that nothing was

@@ -51,12 +51,12 @@ fn filter_with(gnss: Body, attitude: f64) -> Filter {
     for (block, std) in [(POSITION, 3.0_f64), (VELOCITY, 0.1), (ATTITUDE, attitude)] {
         block.renew(&mut covariance, &Matrix3::from_diagonal_element(std * std));
     }
-    let initial = InitialState {
-        time: Time::START,
-        nominal: Nominal::at(&place(), &Vector3::zeros(), &Matrix3::identity()),
+    let initial = InitialState::new(
+        Time::START,
+        Nominal::at(&place(), &Vector3::zeros(), &Matrix3::identity()),
         covariance,
-        rate: Vector3::zeros(),
-    };
+        Vector3::zeros(),
+    );
     let mut filter = Filter::new(&config, &initial);
     filter.begin_navigation();
     filter

@@ -151,7 +151,8 @@ impl EightState {
         VELOCITY.add(&mut covariance, &(up * down));
         hang_from_mast(&mut covariance, &c_en, &own.motion.c_pb());
         covariance.symmetrise();
-        Some(InitialState { time: own.time, nominal, covariance, rate: own.rate })
+        let initial = InitialState::new(own.time, nominal, covariance, own.rate);
+        Some(InitialState { gnss_used: own.gnss_used, ..initial })
     }
 
     /// Whether the estimate depends on the errors of a log.

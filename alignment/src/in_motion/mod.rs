@@ -185,12 +185,6 @@ impl EightState {
         self.time
     }
 
-    /// When a position of GNSS was last used.
-    #[must_use]
-    pub fn gnss_used(&self) -> Option<Time> {
-        self.gnss_used
-    }
-
     /// The estimate, for tests and tools.
     #[must_use]
     pub fn motion(&self) -> &Motion {

@@ -6,10 +6,10 @@
 //! or a reason, never a panic.
 
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
-use insd_alignment::KeptFine;
 use insd_alignment::stored::fingerprint;
 use insd_base::{ImuSpec, LeverArms, ResumeDoubt};
 use insd_nav::Conditioner;
+use insd_nav::navigator::kept::KeptNavigator;
 use serde::{Deserialize, Serialize};
 
 use crate::herald::KeptHerald;
@@ -34,7 +34,7 @@ pub(crate) struct Kept {
     /// Where the sensors sat, IMU to antenna and to log, body axes, m.
     pub(crate) arms: [[f64; 3]; 2],
     pub(crate) conditioner: Conditioner,
-    pub(crate) fine: KeptFine,
+    pub(crate) navigator: KeptNavigator,
     pub(crate) aligned: bool,
     pub(crate) herald: KeptHerald,
     pub(crate) probation: Probation,

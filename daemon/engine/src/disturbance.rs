@@ -1,9 +1,9 @@
 //! The sea for those who look on: the model of the prefilter where it is what aligns the ship, otherwise
 //! one fitted to the horizontal velocity of the last two and a half minutes.
 
-use insd_alignment::Fine;
-use insd_alignment::disturbance::{Config, Model, Order, Prefilter};
 use insd_base::{Disturbance, Span, Time, earth};
+use insd_nav::Navigator;
+use insd_nav::disturbance::{Config, Model, Order, Prefilter};
 use nalgebra::Vector2;
 
 /// Spacing of the samples: waves down to a period of one second.
@@ -32,8 +32,8 @@ impl Trace {
 
     /// Takes the velocity of the ship, if it is time to: forward and starboard, as the corrections of
     /// the filter have not stepped it.
-    pub(crate) fn watch(&mut self, fine: &Fine) {
-        let filter = fine.filter();
+    pub(crate) fn watch(&mut self, navigator: &Navigator) {
+        let filter = navigator.filter();
         let now = filter.time();
         if self.next.is_some_and(|next| now < next) {
             return;
@@ -57,8 +57,8 @@ impl Trace {
     }
 
     /// The sea; `None` while too little has been seen of it, or nothing is to be seen.
-    pub(crate) fn disturbance(&self, fine: &Fine) -> Option<Disturbance> {
-        if let Some(model) = fine.sea_model() {
+    pub(crate) fn disturbance(&self, navigator: &Navigator) -> Option<Disturbance> {
+        if let Some(model) = navigator.sea_model() {
             return Some(described("prefilter", model));
         }
         let slow = self.window.estimate().ok()?;

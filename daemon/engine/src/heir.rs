@@ -5,8 +5,9 @@
 //! the heading from the beginning, upright as the bank has left her.
 
 use insd_alignment::bank::Kinematics;
-use insd_alignment::{Bank, Level, Method};
+use insd_alignment::{Bank, Level};
 use insd_base::{Message, Received, earth};
+use insd_nav::berth::Method;
 use insd_nav::{Estimator, NavConfig};
 use nalgebra::Vector3;
 
@@ -35,11 +36,11 @@ impl Heir {
     pub(crate) fn called_by(&self, received: &Received, bank: &Bank) -> Option<Ship> {
         let Message::Gnss(fix) = received.message else { return None };
         let position = fix.position.filter(|_| fix.quality.is_measured())?;
-        let fine = bank.likeliest()?;
-        let solution = fine.solution();
+        let navigator = bank.likeliest()?;
+        let solution = navigator.solution();
         let gravity = earth::normal_gravity(position.latitude, position.height);
         let force = solution.attitude.c_nb().transpose() * Vector3::new(0.0, 0.0, -gravity);
-        let level = Level { time: fine.filter().time(), force, rate: solution.rate.0 };
+        let level = Level { time: navigator.filter().time(), force, rate: solution.rate.0 };
         let moored = bank.is_moored();
         let told = fix.velocity.map(|velocity| velocity.0);
         let unsure = if moored { SWAYING } else { SAILING };

@@ -6,14 +6,15 @@
 //! navigation, so it is made again after half a minute or a quarter of the time gone (all of it
 //! where it found no end), whichever is longer, and when the sea has changed or a promise was not kept.
 
-use insd_alignment::{Fine, forecast};
+use insd_alignment::forecast;
 use insd_base::alignment::{NO_HEADING, gyrocompass_sigma, heading_target};
 use insd_base::units::DEG;
 use insd_base::{
     AlignmentPhase, AlignmentStatus, AttitudeSigma, Event, Forecast, Geodetic, ImuSpec, Lack,
     Message, Received, Span, Time,
 };
-use insd_nav::Estimator;
+use insd_nav::berth::Moorings;
+use insd_nav::{Estimator, Navigator};
 use serde::{Deserialize, Serialize};
 
 use crate::ship::Ship;
@@ -178,9 +179,12 @@ impl Herald {
             self.reached.get_or_insert(now);
         }
         let phase = self.phase_of(ship);
-        let fine = ship.likeliest();
-        let ready =
-            self.forecast(ship, fine, &Aim { start, now, latitude, target, sigma: sigma.heading });
+        let navigator = ship.likeliest();
+        let ready = self.forecast(
+            ship,
+            navigator,
+            &Aim { start, now, latitude, target, sigma: sigma.heading },
+        );
         if !self.is_due(phase, now) {
             return None;
         }
@@ -196,8 +200,8 @@ impl Herald {
             target: Some(target),
             gyrocompass: Some(gyrocompass_sigma(&self.imu, latitude)),
             ready,
-            sea: fine.and_then(Fine::sea),
-            shifts: shifts(fine),
+            sea: navigator.and_then(Navigator::sea),
+            shifts: shifts(navigator),
         })
     }
 
@@ -224,32 +228,32 @@ impl Herald {
         }
     }
 
-    fn forecast(&mut self, ship: &Ship, fine: Option<&Fine>, aim: &Aim) -> Forecast {
+    fn forecast(&mut self, ship: &Ship, navigator: Option<&Navigator>, aim: &Aim) -> Forecast {
         if let Some(at) = self.reached {
             return Forecast::Reached { at };
         }
         let by_gyros = forecast::of_the_gyros(&self.imu, aim.latitude, aim.target);
         let can_gyrocompass = gyrocompass_sigma(&self.imu, aim.latitude) < NO_HEADING;
-        match fine.filter(|_| ship.is_moored()) {
+        match navigator.filter(|_| ship.is_moored()) {
             None => Forecast::Unknown { lacks: self.heard.lack(aim.now) },
             Some(_) if !can_gyrocompass => by_gyros,
-            Some(fine) if aim.sigma < VAGUE => self.think(fine, aim),
+            Some(navigator) if aim.sigma < VAGUE => self.think(navigator, aim),
             Some(_) => by_gyros,
         }
     }
 
     /// The last forecast, or a new one if it is time to.
-    fn think(&mut self, fine: &Fine, aim: &Aim) -> Forecast {
-        let sea = fine.moorings().map(|moorings| (moorings.waves_std(), moorings.sway_std()));
+    fn think(&mut self, navigator: &Navigator, aim: &Aim) -> Forecast {
+        let sea = navigator.moorings().map(|moorings| (moorings.waves_std(), moorings.sway_std()));
         if let Some(last) =
-            self.forecast.filter(|last| !last.is_stale(aim.now, sea, shifts(Some(fine))))
+            self.forecast.filter(|last| !last.is_stale(aim.now, sea, shifts(Some(navigator))))
         {
             return last.forecast;
         }
-        let forecast = fine.forecast(&self.imu, aim.target);
+        let forecast = forecast::at_the_berth(navigator, &self.imu, aim.target);
         let next = forecast::next_look(aim.start, aim.now, forecast);
         self.forecast =
-            Some(Thought { at: aim.now, next, forecast, sea, shifts: shifts(Some(fine)) });
+            Some(Thought { at: aim.now, next, forecast, sea, shifts: shifts(Some(navigator)) });
         forecast
     }
 }
@@ -290,6 +294,6 @@ impl Heard {
     }
 }
 
-fn shifts(fine: Option<&Fine>) -> u32 {
-    fine.and_then(Fine::moorings).map_or(0, insd_alignment::moorings::Moorings::shifts)
+fn shifts(navigator: Option<&Navigator>) -> u32 {
+    navigator.and_then(Navigator::moorings).map_or(0, Moorings::shifts)
 }

@@ -1,12 +1,12 @@
 //! What those who look on are told of the engine, whenever they ask.
 
-use insd_alignment::{Fine, StoredState};
+use insd_alignment::StoredState;
 use insd_base::{
     Body, Disturbance, Estimates, Heave, Integrity, Judgement, Mode, Motion, Parties, Solution,
     Standing, Stands, Time,
 };
 use insd_nav::judge::Judge;
-use insd_nav::{Estimator, Filter, Increment};
+use insd_nav::{Estimator, Filter, Increment, Navigator};
 
 use crate::ship::Ship;
 use crate::{Engine, Stage, checks};
@@ -29,7 +29,7 @@ impl Engine {
         }
         let ship = self.ship()?;
         let solution = Some(self.judged(ship.solution())).filter(checks::is_sound)?;
-        let filter = ship.likeliest().map(Fine::filter);
+        let filter = ship.likeliest().map(Navigator::filter);
         let acceleration = filter.zip(self.last.as_ref());
         Some(Motion {
             solution,
@@ -65,8 +65,8 @@ impl Engine {
     /// asked for at most once a second. It changes nothing of the engine.
     #[must_use]
     pub fn disturbance(&self) -> Option<Disturbance> {
-        let fine = self.ship().filter(|ship| ship.has_one_heading())?.likeliest()?;
-        self.trace.disturbance(fine)
+        let navigator = self.ship().filter(|ship| ship.has_one_heading())?.likeliest()?;
+        self.trace.disturbance(navigator)
     }
 
     /// Who is left out, or doubted and cannot be left out, as it is known now.
@@ -131,16 +131,16 @@ impl Engine {
     pub(crate) fn watch(&mut self, increment: &Increment) {
         let Stage::Running(line) = &self.stage else { return };
         let ship = line.estimator();
-        let Some(fine) = ship.likeliest() else { return };
+        let Some(navigator) = ship.likeliest() else { return };
         if let Some(heave) = &mut self.heave {
-            heave.advance(&fine.filter().vertical_step(increment));
+            heave.advance(&navigator.filter().vertical_step(increment));
         }
         if ship.has_one_heading() {
-            self.trace.watch(fine);
+            self.trace.watch(navigator);
         }
         if let Some(resumption) = &mut self.resumption {
-            let sigma = fine.solution().sigma;
-            resumption.feel(fine.filter(), increment, sigma.roll.hypot(sigma.pitch));
+            let sigma = navigator.solution().sigma;
+            resumption.feel(navigator.filter(), increment, sigma.roll.hypot(sigma.pitch));
         }
     }
 }

@@ -1,10 +1,9 @@
 //! Going on after a crash: the engine as bytes, and the next one from them.
 
-use insd_alignment::Fine;
 use insd_alignment::stored::fingerprint;
 use insd_base::units::DEG;
 use insd_base::{Event, ModeReason, ResumeDoubt, Span, Time};
-use insd_nav::{Estimator, Timeline};
+use insd_nav::{Estimator, Navigator, Timeline};
 
 use crate::checkpoint::{self, Kept, places};
 use crate::epochs::epoch_after;
@@ -25,7 +24,7 @@ impl Engine {
     #[must_use]
     pub fn checkpoint(&self) -> Option<Vec<u8>> {
         let Stage::Running(line) = &self.stage else { return None };
-        let Ship::Navigating { fine, aligned, .. } = line.estimator() else { return None };
+        let Ship::Navigating { navigator, aligned, .. } = line.estimator() else { return None };
         if self.is_waiting() || self.shunned.is_some() {
             return None;
         }
@@ -33,7 +32,7 @@ impl Engine {
             imu: fingerprint(&self.config.imu),
             arms: places(&self.config.lever_arms),
             conditioner: self.conditioner.kept(),
-            fine: fine.kept(),
+            navigator: navigator.kept(),
             aligned: *aligned,
             herald: self.herald.kept(),
             probation: self.surveyor.probation(),
@@ -59,9 +58,10 @@ impl Engine {
         if let Some(doubt) = kept.doubt(&self.config.imu, &self.config.lever_arms) {
             return Err(doubt);
         }
-        let by = (now - age) - kept.fine.time();
-        let fine = Fine::taken_up(&self.nav, &kept.fine, by).ok_or(ResumeDoubt::NotFinite)?;
-        let solution = fine.solution();
+        let by = (now - age) - kept.navigator.time();
+        let navigator =
+            Navigator::taken_up(&self.nav, &kept.navigator, by).ok_or(ResumeDoubt::NotFinite)?;
+        let solution = navigator.solution();
         if !checks::is_sound(&solution) {
             return Err(ResumeDoubt::NotFinite);
         }
@@ -70,15 +70,15 @@ impl Engine {
         if turned.z.hypot(solution.sigma.heading) > VAGUE || turned.xy().max() > LEANING {
             return Err(ResumeDoubt::TooVague);
         }
-        let start = fine.filter().time();
-        let (fine, aligned) = (Box::new(fine), kept.aligned);
-        let ship = Ship::Navigating { fine, aligned, verdict: None, trial: None, blind: None };
+        let start = navigator.filter().time();
+        let (navigator, aligned) = (Box::new(navigator), kept.aligned);
+        let ship = Ship::Navigating { navigator, aligned, verdict: None, trial: None, blind: None };
         self.stage = Stage::Running(Box::new(Timeline::new(ship, start)));
         self.conditioner = conditioner;
         self.herald.take_up(&kept.herald, by);
         self.surveyor.take_up(kept.probation.shifted(by));
         self.next_epoch = Some(epoch_after(self.period, now));
-        self.resumption = Some(Resumption::new(!kept.fine.filter().is_receiver_suspect()));
+        self.resumption = Some(Resumption::new(!kept.navigator.filter().is_receiver_suspect()));
         Ok(())
     }
 

@@ -1,17 +1,16 @@
 //! The ship on her time line: finding her heading, then navigating.
 
 use insd_alignment::bank::Kinematics;
-use insd_alignment::{
-    AlignmentConfig, Bank, EightState, Fine, InMotion, Level, Method, StoredState, Verdict,
-};
+use insd_alignment::{AlignmentConfig, Bank, EightState, InMotion, Level, StoredState, Verdict};
 use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::units::DEG;
 use insd_base::{
     Body, Fault, ImuSpec, Message, Mode, Party, Received, Solution, StoredDoubt, Time,
 };
+use insd_nav::berth::Method;
 use insd_nav::filter::judged::ImuState;
 use insd_nav::judge::Docket;
-use insd_nav::{Estimator, Filter, Increment, NavConfig, Report};
+use insd_nav::{Estimator, Increment, NavConfig, Navigator, Report};
 
 use crate::blind::{Blind, Word, tells_heading, unchecked, without_heading};
 use crate::heir::Heir;
@@ -41,7 +40,7 @@ pub(crate) enum Ship {
     /// One is known, `aligned` once well enough to steer by; `verdict` on a stored state; `blind` while a heading
     /// reference that it was found with is not borne out.
     Navigating {
-        fine: Box<Fine>,
+        navigator: Box<Navigator>,
         aligned: bool,
         verdict: Option<Verdict>,
         trial: Option<Trial>,
@@ -101,7 +100,7 @@ impl Ship {
     /// What is worth storing: only of a ship that is aligned and still lies at her berth.
     pub(crate) fn stored_state(&self, imu: &ImuSpec) -> Option<StoredState> {
         match self {
-            Ship::Navigating { fine, aligned: true, .. } => StoredState::of(fine, imu),
+            Ship::Navigating { navigator, aligned: true, .. } => StoredState::of(navigator, imu),
             _ => None,
         }
     }
@@ -112,14 +111,18 @@ impl Ship {
             Ship::InMotion { finder, images, .. } => {
                 images.is_mirrored(finder).then_some(Misled::Imu)
             }
-            Ship::Navigating { fine, .. }
-                if fine.filter().finds_the_impossible()
-                    || (!fine.is_moored() && fine.filter().puts_antenna_off_board()) =>
+            Ship::Navigating { navigator, .. }
+                if navigator.filter().finds_the_impossible()
+                    || (!navigator.is_moored() && navigator.filter().puts_antenna_off_board()) =>
             {
                 Some(Misled::Imu)
             }
-            Ship::Navigating { fine, .. } if fine.filter().is_forsaken() => Some(Misled::Unknown),
-            Ship::Navigating { fine, trial: Some(trial), .. } => trial.refuted_by(fine.filter()),
+            Ship::Navigating { navigator, .. } if navigator.filter().is_forsaken() => {
+                Some(Misled::Unknown)
+            }
+            Ship::Navigating { navigator, trial: Some(trial), .. } => {
+                trial.refuted_by(navigator.filter())
+            }
             _ => None,
         }
     }
@@ -127,7 +130,7 @@ impl Ship {
     /// What is to be done about the IMU.
     pub(crate) fn imu_state(&self) -> ImuState {
         match self {
-            Ship::Navigating { fine, .. } => fine.filter().imu_state(),
+            Ship::Navigating { navigator, .. } => navigator.filter().imu_state(),
             _ => ImuState::Believed,
         }
     }
@@ -135,7 +138,9 @@ impl Ship {
     /// Whether the IMU was found wrong by one witness, who may be so himself.
     pub(crate) fn is_imu_doubted_by_one(&self) -> bool {
         match self {
-            Ship::Navigating { fine, .. } => fine.filter().docket().is_imu_doubted_by_one(),
+            Ship::Navigating { navigator, .. } => {
+                navigator.filter().docket().is_imu_doubted_by_one()
+            }
             _ => false,
         }
     }
@@ -143,22 +148,26 @@ impl Ship {
     /// How much likelier what the others say since an instant is if the gyros turn so much too fast, rad/s.
     pub(crate) fn odds_of_gyros(&mut self, since: Time, excess: &Body) -> Option<f64> {
         match self {
-            Ship::Navigating { fine, .. } => fine.filter_mut().odds_of_gyros(since, &excess.0),
+            Ship::Navigating { navigator, .. } => {
+                navigator.filter_mut().odds_of_gyros(since, &excess.0)
+            }
             _ => None,
         }
     }
 
     /// Somebody is seen to lie by what he says alone.
     pub(crate) fn disbelieve(&mut self, whom: Party) {
-        if let Ship::Navigating { fine, .. } = self {
-            fine.filter_mut().disbelieve(whom);
+        if let Ship::Navigating { navigator, .. } = self {
+            navigator.filter_mut().disbelieve(whom);
         }
     }
 
     /// Whether the trial of her heading is over and GNSS has borne it out.
     pub(crate) fn is_acquitted(&self) -> bool {
         match self {
-            Ship::Navigating { fine, trial: Some(trial), .. } => trial.acquits(fine.filter()),
+            Ship::Navigating { navigator, trial: Some(trial), .. } => {
+                trial.acquits(navigator.filter())
+            }
             _ => false,
         }
     }
@@ -166,7 +175,9 @@ impl Ship {
     /// Whether the trial of her heading has gone well for minutes.
     pub(crate) fn does_well(&self) -> bool {
         match self {
-            Ship::Navigating { fine, trial: Some(trial), .. } => trial.has_gone_well(fine.filter()),
+            Ship::Navigating { navigator, trial: Some(trial), .. } => {
+                trial.has_gone_well(navigator.filter())
+            }
             _ => false,
         }
     }
@@ -181,7 +192,7 @@ impl Ship {
         match self {
             Ship::Aligning { bank, .. } => bank.is_moored(),
             Ship::InMotion { berth, .. } => berth.is_some(),
-            Ship::Navigating { fine, .. } => fine.is_moored(),
+            Ship::Navigating { navigator, .. } => navigator.is_moored(),
         }
     }
 
@@ -199,23 +210,23 @@ impl Ship {
     pub(crate) fn docket(&self) -> Option<Docket> {
         match self {
             Ship::InMotion { finder, .. } => Some(finder.config().docket),
-            _ => self.likeliest().map(|fine| fine.filter().docket()),
+            _ => self.likeliest().map(|navigator| navigator.filter().docket()),
         }
     }
 
     /// The likeliest of her filters, if she has a full one.
-    pub(crate) fn likeliest(&self) -> Option<&Fine> {
+    pub(crate) fn likeliest(&self) -> Option<&Navigator> {
         match self {
             Ship::Aligning { bank, .. } => bank.likeliest(),
             Ship::InMotion { .. } => None,
-            Ship::Navigating { fine, .. } => Some(fine.as_ref()),
+            Ship::Navigating { navigator, .. } => Some(navigator.as_ref()),
         }
     }
 
     fn with_mode(&self, solution: Solution) -> Solution {
         let solution = match self {
-            Ship::Navigating { fine, trial: Some(trial), .. } => {
-                trial.claim(fine.filter(), solution)
+            Ship::Navigating { navigator, trial: Some(trial), .. } => {
+                trial.claim(navigator.filter(), solution)
             }
             _ => solution,
         };
@@ -262,24 +273,27 @@ impl Ship {
         let verdict = self.verdict();
         let found = match self {
             Ship::Aligning { bank, .. } => bank.winner().cloned(),
-            Ship::InMotion { finder, berth, .. } => finder.initial_state().map(|initial| {
-                let mut filter = Filter::new(finder.config(), &initial);
-                finder.gnss_used().iter().for_each(|time| filter.note_gnss_used(*time));
-                Fine::held(filter, *berth)
-            }),
+            Ship::InMotion { finder, berth, .. } => finder
+                .initial_state()
+                .map(|initial| Navigator::new(finder.config(), &initial.at_berth(*berth))),
             Ship::Navigating { .. } => None,
         };
-        if let Some(mut fine) = found {
-            fine.filter_mut().begin_navigation();
+        if let Some(mut navigator) = found {
+            navigator.begin_navigation();
             let is_on_trial = matches!(self, Ship::InMotion { .. });
-            let trial = is_on_trial.then(|| Trial::of(fine.filter()));
+            let trial = is_on_trial.then(|| Trial::of(navigator.filter()));
             let blind = match self {
                 Ship::InMotion { blind, .. } => blind.take(),
                 _ => None,
             };
-            fine.filter_mut().doubt_heading(blind.is_some());
-            *self =
-                Ship::Navigating { fine: Box::new(fine), aligned: false, verdict, trial, blind };
+            navigator.filter_mut().doubt_heading(blind.is_some());
+            *self = Ship::Navigating {
+                navigator: Box::new(navigator),
+                aligned: false,
+                verdict,
+                trial,
+                blind,
+            };
         }
     }
 
@@ -297,29 +311,28 @@ impl Ship {
     /// Does as whoever is blind to the heading reference says: nothing more while it bears out, and the heading that
     /// it found once it refutes.
     fn hear_blind(&mut self) {
-        let Ship::Navigating { fine, aligned, trial, blind: own, .. } = self else { return };
+        let Ship::Navigating { navigator, aligned, trial, blind: own, .. } = self else { return };
         let Some(blind) = own else { return };
-        let solution = fine.filter().is_settled().then(|| fine.filter().solution());
+        let solution = navigator.filter().is_settled().then(|| navigator.filter().solution());
         let word = solution.map(|it| blind.judge(it.attitude.heading, it.sigma.heading));
         match word {
             Some(Word::BornOut) => {
-                fine.filter_mut().doubt_heading(false);
+                navigator.filter_mut().doubt_heading(false);
                 *own = None;
             }
-            Some(Word::Refuted) if fine.filter().docket().imu_doubted_since().is_some() => {
-                fine.filter_mut().condemn_imu();
+            Some(Word::Refuted) if navigator.filter().docket().imu_doubted_since().is_some() => {
+                navigator.filter_mut().condemn_imu();
             }
             Some(Word::Refuted) => {
                 let finder = blind.finder();
                 let Some(initial) = finder.initial_state() else { return };
-                let docket = fine.filter().docket().without(Fault::HeadingOffset, finder.time());
+                let docket =
+                    navigator.filter().docket().without(Fault::HeadingOffset, finder.time());
                 let config = finder.config().with_docket(docket);
-                let mut filter = Filter::new(&config, &initial);
-                finder.gnss_used().iter().for_each(|time| filter.note_gnss_used(*time));
-                filter.begin_navigation();
-                *trial = Some(Trial::of(&filter));
-                let method = fine.is_moored().then_some(Method::Moorings);
-                (**fine, *aligned, *own) = (Fine::held(filter, method), false, None);
+                **navigator = Navigator::new(&config, &initial.at_berth(navigator.berth()));
+                navigator.begin_navigation();
+                *trial = Some(Trial::of(navigator.filter()));
+                (*aligned, *own) = (false, None);
             }
             _ => {}
         }
@@ -329,15 +342,15 @@ impl Ship {
         match self {
             Ship::Aligning { bank, .. } => bank.as_ref(),
             Ship::InMotion { finder, .. } => finder.as_ref(),
-            Ship::Navigating { fine, .. } => fine.as_ref(),
+            Ship::Navigating { navigator, .. } => navigator.as_ref(),
         }
     }
 }
 
 /// Whether the heading is found to be good enough to steer by. Its sigma is a matter of the covariance:
 /// it is only asked for when that is new.
-fn is_steerable(fine: &Fine) -> bool {
-    fine.filter().is_settled() && fine.filter().heading_std() < STEERABLE
+fn is_steerable(navigator: &Navigator) -> bool {
+    navigator.filter().is_settled() && navigator.filter().heading_std() < STEERABLE
 }
 
 /// Whether a message is of a receiver that is not in use.
@@ -373,14 +386,14 @@ impl Estimator for Ship {
                 images.advance(increment);
                 blind.iter_mut().for_each(|blind| blind.advance(increment));
             }
-            Ship::Navigating { fine, aligned, trial, blind, .. } => {
-                fine.advance(increment);
+            Ship::Navigating { navigator, aligned, trial, blind, .. } => {
+                navigator.advance(increment);
                 blind.iter_mut().for_each(|blind| blind.advance(increment));
-                if fine.seems_to_leave() {
-                    fine.cast_off();
-                    *trial = Some(Trial::of(fine.filter()));
+                if navigator.seems_to_leave() {
+                    navigator.cast_off();
+                    *trial = Some(Trial::of(navigator.filter()));
                 }
-                *aligned = *aligned || is_steerable(fine);
+                *aligned = *aligned || is_steerable(navigator);
             }
         }
     }
@@ -388,7 +401,9 @@ impl Estimator for Ship {
     fn apply(&mut self, received: &Received) -> Report {
         self.call_heir(received);
         match self {
-            Ship::Navigating { fine, .. } if is_compared(received) => fine.apply(received),
+            Ship::Navigating { navigator, .. } if is_compared(received) => {
+                navigator.apply(received)
+            }
             _ if is_compared(received) => Report::default(),
             Ship::Aligning { bank, .. } => bank.apply(received),
             Ship::InMotion { finder, blind, images, .. } => {
@@ -403,9 +418,9 @@ impl Estimator for Ship {
                 self.hand_over();
                 report
             }
-            Ship::Navigating { fine, aligned, blind, .. } => {
-                let report = fine.apply(received);
-                *aligned = *aligned || is_steerable(fine);
+            Ship::Navigating { navigator, aligned, blind, .. } => {
+                let report = navigator.apply(received);
+                *aligned = *aligned || is_steerable(navigator);
                 blind.iter_mut().for_each(|blind| blind.apply(received));
                 self.hear_blind();
                 report

@@ -2,7 +2,8 @@
 
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser;
-use insd_alignment::{AlignmentConfig, InMotion, Method};
+use insd_alignment::{AlignmentConfig, InMotion};
+use insd_nav::berth::Method;
 
 /// How the ship finds her attitude and heading.
 #[derive(Clone, Copy, Debug, clap::Args)]

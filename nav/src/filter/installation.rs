@@ -1,6 +1,5 @@
 //! Constants of the installation that are otherwise than configured: what the filter makes of them.
 
-use insd_base::Time;
 use nalgebra::Vector3;
 
 use super::Filter;
@@ -28,11 +27,6 @@ const HIGHEST_LOG: f64 = -15.0;
 const SURELY: f64 = 3.0;
 
 impl Filter {
-    /// Whoever found the initial state used GNSS at this time: the filter that goes on from it is aided still.
-    pub fn note_gnss_used(&mut self, time: Time) {
-        self.trust.used(time);
-    }
-
     /// Mean square of the latest innovations of GNSS, of which one is expected, each counted as a fault at
     /// most; `None` before enough of them are known.
     #[must_use]

@@ -102,12 +102,8 @@ impl Filter {
         if !kept.has_states() {
             return None;
         }
-        let initial = InitialState {
-            time: kept.time + by,
-            nominal: kept.nominal,
-            covariance: kept.covariance.clone(),
-            rate: kept.rate,
-        };
+        let initial =
+            InitialState::new(kept.time + by, kept.nominal, kept.covariance.clone(), kept.rate);
         let later = |time: Option<Time>| time.map(|time| time + by);
         let config = config.with_docket(kept.docket.shifted(by));
         let mut filter = Filter {
@@ -163,10 +159,8 @@ pub(super) mod tests {
             block.renew(&mut covariance, &Matrix3::from_diagonal_element(std * std));
         }
         let time = Time::from_seconds(500.0);
-        let mut filter = Filter::new(
-            &config,
-            &InitialState { time, nominal, covariance, rate: Vector3::zeros() },
-        );
+        let mut filter =
+            Filter::new(&config, &InitialState::new(time, nominal, covariance, Vector3::zeros()));
         filter.begin_navigation();
         for step in 0..55 {
             filter.advance(&still(500.0 + 0.01 * f64::from(step)));

@@ -51,8 +51,7 @@ impl Sailing {
         ATTITUDE.renew(&mut covariance, &Matrix3::from_diagonal_element(tilt * tilt));
         let wrong = Rotation3::new(Vector3::new(0.7, -0.5, 0.8) * tilt).into_inner();
         let nominal = Nominal::at(&truth.position, &v_n, &(wrong * attitude.c_nb()));
-        let initial =
-            InitialState { time: truth.time, nominal, covariance, rate: Vector3::zeros() };
+        let initial = InitialState::new(truth.time, nominal, covariance, Vector3::zeros());
         let mut filter = Filter::new(&config, &initial);
         filter.begin_navigation();
         Sailing {

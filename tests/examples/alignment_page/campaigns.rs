@@ -4,11 +4,12 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 use insd::evaluation::{Component, EpochError, alignment, errors, mean, significant};
-use insd_alignment::{AlignmentConfig, InMotion, Method};
+use insd_alignment::{AlignmentConfig, InMotion};
 use insd_base::Voyage;
 use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::units::DEG;
 use insd_engine::EngineConfig;
+use insd_nav::berth::Method;
 use insd_simulator::{Scenario, limit, simulate};
 use insd_tests::sailing::sail_messages;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};

@@ -2,13 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use insd_alignment::disturbance::Model;
-use insd_alignment::moorings::Moorings;
-use insd_alignment::prefiltered::Prefiltered;
-use insd_alignment::white::WhiteNoise;
 use insd_base::units::DEG;
 use insd_base::{Span, Time, Truth, Voyage};
 use insd_nav::aids::{berth, reference_position, reference_velocity};
+use insd_nav::berth::{Moorings, Prefiltered, WhiteNoise};
+use insd_nav::disturbance::Model;
 use insd_nav::error_state::Innovation;
 use insd_nav::error_state::{ATTITUDE, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
@@ -134,7 +132,7 @@ fn begin(voyage: &Voyage, truth: &Truth) -> Option<Filter> {
         block.renew(&mut covariance, &Matrix3::from_diagonal_element(std * std));
     }
     let rate = Vector3::zeros();
-    Some(Filter::new(&config, &InitialState { time: truth.time, nominal, covariance, rate }))
+    Some(Filter::new(&config, &InitialState::new(truth.time, nominal, covariance, rate)))
 }
 
 /// Sails through a voyage with a filter that `hold` is asked to hold after each sample of the IMU.

@@ -275,10 +275,10 @@ impl Surveyor {
         self.next = Some(now + LOOK);
         let navigating = ship.filter(|ship| ship.has_one_heading()).and_then(Ship::likeliest);
         let mut found = self.of_imu();
-        if let Some(fine) = navigating {
-            let estimates = fine.filter().estimates(fine.is_moored());
+        if let Some(navigator) = navigating {
+            let estimates = navigator.filter().estimates(navigator.is_moored());
             self.note_delay(&estimates);
-            found.extend(self.of_installation(&estimates, fine.filter().imu_is_worse_by()));
+            found.extend(self.of_installation(&estimates, navigator.filter().imu_is_worse_by()));
         }
         found.extend(self.log.finding());
         found.extend(self.still.all().map(|what| Finding::Frozen { what }));

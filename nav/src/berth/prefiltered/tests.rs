@@ -1,15 +1,16 @@
 //! Claims about the reference method.
 
+use crate::initial::sensor_covariance;
+use crate::{Estimator, Increment, InitialState, NavConfig, Nominal};
 use insd_base::units::{DEG, DEG_PER_HOUR, DEG_PER_SQRT_HOUR, MICRO_G};
 use insd_base::{
     Attitude, ExternalReference, Geodetic, ImuSpec, LeverArms, Message, Received, Source, Triad,
 };
-use insd_nav::initial::sensor_covariance;
-use insd_nav::{Estimator, Increment, InitialState, NavConfig, Nominal};
 use nalgebra::{Matrix3, UnitQuaternion};
 
 use super::*;
-use crate::{Fine, Method};
+use crate::Navigator;
+use crate::berth::Method;
 
 const STEP: f64 = 0.1;
 
@@ -45,10 +46,7 @@ fn filter(error: &Errors) -> Filter {
     for block in [POSITION, VELOCITY, ATTITUDE] {
         block.renew(&mut covariance, &Matrix3::from_diagonal_element(1e-2));
     }
-    Filter::new(
-        &config,
-        &InitialState { time: Time::START, nominal, covariance, rate: Vector3::zeros() },
-    )
+    Filter::new(&config, &InitialState::new(Time::START, nominal, covariance, Vector3::zeros()))
 }
 
 /// What the sensors of a ship say that does not move.
@@ -99,8 +97,9 @@ fn a_corrected_filter_leaves_the_window_as_if_it_had_always_been_right() {
         pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
     };
     assert!(distance(&seen) > 0.04, "the errors make {} m/s", distance(&seen));
-    let covariance = wrong.covariance().clone();
-    wrong.replace(*right.nominal(), covariance);
+    wrong.settle();
+    right.settle();
+    wrong.join(&right, 1.0);
     let correction = wrong.take_correction();
     seen.prefilter.shift(&derivatives(&wrong, &correction));
     // the square of the heading error is left
@@ -137,11 +136,11 @@ fn named(at: f64) -> Received {
 #[test]
 fn only_the_moorings_hold_the_position_to_the_berth_once_it_is_named() {
     for method in Method::ALL {
-        let mut fine = Fine::moored(filter(&Errors::none()), method);
+        let mut navigator = Navigator::of(filter(&Errors::none()), Some(method));
         let mut place = Vec::new();
         for second in 0..2 {
-            fine.apply(&named(f64::from(second)));
-            place.push(fine.filter().nominal().position);
+            navigator.apply(&named(f64::from(second)));
+            place.push(navigator.filter().nominal().position);
         }
         let moved = (place[1] - place[0]).norm();
         assert!(moved < 1e-9, "{}: moved by {moved} m", method.as_str());

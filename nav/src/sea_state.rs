@@ -9,8 +9,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::Filter;
 use insd_base::{Span, Time};
-use insd_nav::Filter;
 use nalgebra::Vector3;
 
 /// Watches the motion of one filter.

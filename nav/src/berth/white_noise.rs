@@ -1,5 +1,5 @@
 //! Zero velocity with the sea as white noise: what a plain Kalman filter does at the berth. It is
-//! here to be compared with, and [`crate::prefiltered`] begins with it.
+//! here to be compared with, and [`super::Prefiltered`] begins with it.
 //!
 //! z = -v + w once a second; the variance of w is learnt from what the filter did not foresee, in
 //! the way of R. K. Mehra, IEEE Trans. Automatic Control 15 (1970): E[z z^T] = H P H^T + R.
@@ -7,14 +7,14 @@
 //! White the sea is not. Its displacement is bounded, so that over minutes the velocity averages out
 //! much faster than white noise would, and the filter knows more than it claims. And it lies along the
 //! axes of the computed heading, wherever north is: held along true north and east it seems to show
-//! the heading ([`insd_nav::aids::berth`] has the remedy), so that with gyros of the tactical grade the
+//! the heading ([`crate::aids::berth`] has the remedy), so that with gyros of the tactical grade the
 //! filter ends up sure of a heading that nothing told it.
 
+use crate::aids::reference_velocity;
+use crate::error_state::Innovation;
+use crate::filter::Judged;
+use crate::{Filter, Outcome};
 use insd_base::{Span, Time};
-use insd_nav::aids::reference_velocity;
-use insd_nav::error_state::Innovation;
-use insd_nav::filter::Judged;
-use insd_nav::{Filter, Outcome};
 use nalgebra::Vector2;
 
 /// Holds a filter at zero velocity once a second.

@@ -12,16 +12,16 @@
 //! linear. The first windows are short and take part of the swaying for drift; their covariance is
 //! raised to what such windows were found to be worth ([`crate::disturbance`], table).
 
-use insd_base::{Span, Time, earth};
-use insd_nav::Filter;
-use insd_nav::aids::reference_velocity;
-use insd_nav::error_state::{
+use crate::Filter;
+use crate::aids::reference_velocity;
+use crate::error_state::{
     ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, Errors, GYRO_BIAS, GYRO_DRIFT, POSITION, VELOCITY,
 };
+use insd_base::{Span, Time, earth};
 use nalgebra::{Vector2, Vector3};
 
+use super::white_noise::{self, WhiteNoise};
 use crate::disturbance::{Config, Model, Order, Prefilter, SlowVelocity};
-use crate::white::{self, WhiteNoise};
 
 /// Holds a filter at the berth by its prefiltered velocity.
 #[derive(Clone, Debug)]
@@ -119,7 +119,7 @@ impl Prefiltered {
 ///
 /// z = -slow = dv - dphi_D k x v_waves + w,
 ///
-/// which no turn about the ship changes (as in [`insd_nav::aids::berth`]).
+/// which no turn about the ship changes (as in [`crate::aids::berth`]).
 fn feed(filter: &mut Filter, slow: &SlowVelocity, doubt: f64) -> f64 {
     filter.settle();
     let view = filter.view();
@@ -128,12 +128,12 @@ fn feed(filter: &mut Filter, slow: &SlowVelocity, doubt: f64) -> f64 {
     let across = Vector2::new(waves.y, -waves.x);
     innovation.h.set(ATTITUDE, &(across * view.c_ne.row(2)));
     innovation.r.copy_from(&(slow.covariance * doubt));
-    white::impose(filter, &innovation).log_likelihood
+    white_noise::impose(filter, &innovation).log_likelihood
 }
 
 /// How the velocity of the past would have been other, had an error been corrected always and not
 /// only now: the derivatives by time of the error of the velocity, north and east, from the error
-/// equations of a ship that does not move (`insd_nav::propagation`; her specific force f is -g),
+/// equations of a ship that does not move ([`crate::propagation`]; her specific force f is -g),
 ///
 /// dr' = dv,   dv' = -(g/R) dr_level - 2 omega x dv - f x phi - C db_a,   phi' = -omega x phi - C db_g.
 ///

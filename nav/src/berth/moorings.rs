@@ -2,17 +2,17 @@
 //!
 //! Her mean velocity is zero, but that is the lesser part of what is known: her *displacement* is
 //! bounded, for hours. Her position is the berth's plus a slow swaying, which is a state of the
-//! filter with the spectrum of moorings ([`insd_nav::sway`]), plus the waves, which are nearly white
+//! filter with the spectrum of moorings ([`crate::sway`]), plus the waves, which are nearly white
 //! at the spacing of the samples. The filter then weighs every frequency by what the sea puts there;
 //! taken as white noise, the swaying would be believed to average out within seconds, and would be
 //! found again in tilt and heading.
 //!
 //! A gust or a tug that shifts the ship is found by the innovation, and her mean place set free.
 
+use crate::aids::berth;
+use crate::error_state::{Errors, Innovation, POSITION, SWAY, VELOCITY};
+use crate::{Filter, Oscillator, Outcome, Sway};
 use insd_base::{Geodetic, Span, Time};
-use insd_nav::aids::berth;
-use insd_nav::error_state::{Errors, Innovation, POSITION, SWAY, VELOCITY};
-use insd_nav::{Filter, Oscillator, Outcome, Sway};
 use nalgebra::{DVector, Vector2};
 use serde::{Deserialize, Serialize};
 

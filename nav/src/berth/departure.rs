@@ -1,8 +1,8 @@
 //! Whether a ship that was moored has left her berth, from the estimate alone.
 
+use crate::Filter;
+use crate::error_state::{POSITION, VELOCITY};
 use insd_base::{Geodetic, Span, Time, earth};
-use insd_nav::Filter;
-use insd_nav::error_state::{POSITION, VELOCITY};
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 

@@ -1,0 +1,165 @@
+//! The ship at her berth: what holds a filter that navigates while she lies there, and what tells that she
+//! has left. It comes with the [`crate::InitialState`] and goes when she does.
+
+use insd_base::{ExternalReference, Span};
+use serde::{Deserialize, Serialize};
+
+use crate::disturbance::Model;
+use crate::filter::Filter;
+pub use departure::Departure;
+pub use moorings::{Moorings, SPACING};
+pub use prefiltered::Prefiltered;
+pub use white_noise::WhiteNoise;
+
+mod departure;
+mod moorings;
+mod prefiltered;
+mod white_noise;
+
+/// How the motion of a moored ship is kept apart from the errors of her navigator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Zero velocity with the sea as white noise: the plain Kalman filter, for comparison.
+    WhiteNoise,
+    /// The reference method, of JP3375720B2: an autoregressive model of the velocity in a sliding
+    /// window takes the sea out before the Kalman filter ([`crate::disturbance`]).
+    Autoregressive,
+    /// The ship's swaying on her moorings as states of the Kalman filter, observed by her
+    /// displacement from the berth ([`Moorings`]).
+    #[default]
+    Moorings,
+}
+
+impl Method {
+    /// All of them, in the order of their age.
+    pub const ALL: [Method; 3] = [Method::WhiteNoise, Method::Autoregressive, Method::Moorings];
+
+    /// Its name in configuration: `white_noise`, `autoregressive`, `moorings`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Method::WhiteNoise => "white_noise",
+            Method::Autoregressive => "autoregressive",
+            Method::Moorings => "moorings",
+        }
+    }
+
+    /// The method of a name.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.as_str() == word)
+    }
+}
+
+/// What holds a filter at the berth, by one of the methods.
+#[derive(Clone, Debug)]
+pub(crate) enum Hold {
+    WhiteNoise(WhiteNoise),
+    Prefiltered(Box<Prefiltered>),
+    Moorings(Box<Moorings>),
+}
+
+/// What is worth keeping of it: the moorings go on; the other two methods begin with a new window, as theirs has a gap
+/// in it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) enum KeptHold {
+    WhiteNoise,
+    Prefiltered,
+    Moorings(Box<Moorings>),
+}
+
+impl Hold {
+    /// Takes the ship of a filter as lying where it has her.
+    pub(crate) fn new(method: Method, filter: &mut Filter) -> Self {
+        match method {
+            Method::WhiteNoise => Hold::WhiteNoise(WhiteNoise::new(filter)),
+            Method::Autoregressive => Hold::Prefiltered(Box::new(Prefiltered::new(filter))),
+            Method::Moorings => Hold::Moorings(Box::new(Moorings::new(filter))),
+        }
+    }
+
+    /// Holds the filter if it is time to; returns the log-likelihood.
+    pub(crate) fn hold(&mut self, filter: &mut Filter) -> f64 {
+        match self {
+            Hold::WhiteNoise(white) => white.hold(filter),
+            Hold::Prefiltered(prefiltered) => prefiltered.hold(filter),
+            Hold::Moorings(moorings) => moorings.hold(filter),
+        }
+    }
+
+    pub(crate) fn method(&self) -> Method {
+        match self {
+            Hold::WhiteNoise(_) => Method::WhiteNoise,
+            Hold::Prefiltered(_) => Method::Autoregressive,
+            Hold::Moorings(_) => Method::Moorings,
+        }
+    }
+
+    pub(crate) fn moorings(&self) -> Option<&Moorings> {
+        match self {
+            Hold::Moorings(moorings) => Some(moorings),
+            _ => None,
+        }
+    }
+
+    /// The model of the sea that the prefilter found last.
+    pub(crate) fn sea_model(&self) -> Option<&Model> {
+        match self {
+            Hold::Prefiltered(prefiltered) => prefiltered.model(),
+            _ => None,
+        }
+    }
+
+    /// Whether a filter that is held so moves away as a moored ship does not.
+    pub(crate) fn lets_go(&self, departure: &Departure) -> bool {
+        match self {
+            Hold::Moorings(_) => departure.is_certain(),
+            // nothing bounds the position: only speed tells
+            _ => departure.is_fast(),
+        }
+    }
+
+    /// Takes the place of the berth out of a reference, if it is what holds the ship that is told by it; whether it was.
+    ///
+    /// The moorings hold her displacement from it. The other methods hold her velocity alone: to them
+    /// the berth is where the ship was when it was first named, once; after that her position is what
+    /// her velocity makes of it. Were it given to the filter again and again, it would be the
+    /// displacement that aligns her, and a bad model of it at that.
+    pub(crate) fn take_place(
+        &mut self,
+        filter: &mut Filter,
+        reference: &mut ExternalReference,
+        is_first: bool,
+    ) -> bool {
+        match (self, reference.position) {
+            (_, None) => return false,
+            (Hold::Moorings(moorings), Some(place)) => {
+                let stated = reference.position_std.filter(|std| (0.01..1e3).contains(std));
+                moorings.name_berth(filter, &place, stated);
+            }
+            _ if is_first => return false,
+            _ => {}
+        }
+        reference.position = None;
+        true
+    }
+
+    pub(crate) fn kept(&self) -> KeptHold {
+        match self {
+            Hold::WhiteNoise(_) => KeptHold::WhiteNoise,
+            Hold::Prefiltered(_) => KeptHold::Prefiltered,
+            Hold::Moorings(moorings) => KeptHold::Moorings(moorings.clone()),
+        }
+    }
+
+    /// Goes on from what was kept, on a time line that is later by a span.
+    pub(crate) fn taken_up(kept: &KeptHold, filter: &mut Filter, by: Span) -> Self {
+        match kept {
+            KeptHold::WhiteNoise => Hold::new(Method::WhiteNoise, filter),
+            KeptHold::Prefiltered => Hold::new(Method::Autoregressive, filter),
+            KeptHold::Moorings(moorings) => {
+                Hold::Moorings(Box::new(moorings.as_ref().clone().shifted(by)))
+            }
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! A navigator, as it is kept for the next start of the program.
+
+use insd_base::{Span, Time};
+use serde::{Deserialize, Serialize};
+
+use super::Navigator;
+use crate::berth::{Departure, Hold, KeptHold};
+use crate::config::NavConfig;
+use crate::filter::Filter;
+use crate::filter::kept::KeptFilter;
+
+/// A filter and how it is held at the berth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct KeptNavigator {
+    filter: KeptFilter,
+    hold: Option<KeptHold>,
+    departure: Departure,
+    is_berth_named: bool,
+}
+
+impl KeptNavigator {
+    /// Instant of the estimate.
+    #[must_use]
+    pub fn time(&self) -> Time {
+        self.filter.time()
+    }
+
+    /// The filter.
+    #[must_use]
+    pub fn filter(&self) -> &KeptFilter {
+        &self.filter
+    }
+}
+
+impl Navigator {
+    /// What is worth keeping.
+    #[must_use]
+    pub fn kept(&self) -> KeptNavigator {
+        KeptNavigator {
+            filter: self.filter.kept(),
+            hold: self.hold.as_ref().map(Hold::kept),
+            departure: self.departure,
+            is_berth_named: self.is_berth_named,
+        }
+    }
+
+    /// Goes on from what was kept, on a time line that is later by a span. `None` if it cannot be.
+    #[must_use]
+    pub fn taken_up(config: &NavConfig, kept: &KeptNavigator, by: Span) -> Option<Navigator> {
+        let mut filter = Filter::taken_up(config, &kept.filter, by)?;
+        let hold = kept.hold.as_ref().map(|hold| Hold::taken_up(hold, &mut filter, by));
+        Some(Navigator {
+            hold,
+            departure: kept.departure.shifted(by),
+            is_berth_named: kept.is_berth_named,
+            ..Navigator::of(filter, None)
+        })
+    }
+}
