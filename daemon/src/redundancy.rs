@@ -350,12 +350,8 @@ fn at_home(motion: &Motion, home: &Body) -> Motion {
 }
 
 fn moved(solution: &Solution, home: &Body) -> Solution {
-    let motion = Motion {
-        solution: *solution,
-        acceleration: None,
-        covariance_north_east: None,
-        current: None,
-    };
+    let motion =
+        Motion { solution: *solution, acceleration: None, covariance: None, current: None };
     at_home(&motion, home).solution
 }
 

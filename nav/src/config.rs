@@ -4,6 +4,8 @@ use insd_base::units::{DEG, DEG_PER_HOUR};
 use insd_base::{Body, ImuSpec, LeverArms, VesselKind};
 use nalgebra::Vector3;
 
+use crate::disturbance::Config;
+use crate::floors::Floors;
 use crate::judge::Docket;
 
 /// Gyros with a larger turn-on bias than this, rad/s, are coarse: they do not find north on their own, and are no judges
@@ -77,8 +79,6 @@ pub struct LogModel {
     pub scale_std: f64,
     /// Misalignment about each axis, 1-sigma, rad.
     pub misalignment_std: f64,
-    /// Each component where the log states none or an absurd one, 1-sigma, m/s.
-    pub default_std: f64,
     /// Water current, 1-sigma of each component, m/s.
     pub current_std: f64,
     /// Time constant of the current, s.
@@ -116,6 +116,72 @@ pub struct GateModel {
     pub judged_reset_time: f64,
 }
 
+/// What is assumed of sensors and sea, and what is believed of them: all of it may be chosen, and each default stands here
+/// or with its type.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Models {
+    /// GNSS errors.
+    pub gnss: GnssModel,
+    /// Log errors.
+    pub log: LogModel,
+    /// Ship and sea.
+    pub sea: SeaModel,
+    /// Gates.
+    pub gate: GateModel,
+    /// Which sigmas are believed.
+    pub floors: Floors,
+    /// How the sea is taken out of the velocity at the berth, where that is the method.
+    pub prefilter: Config,
+}
+
+impl Default for GnssModel {
+    fn default() -> Self {
+        GnssModel {
+            position_slow_share: 0.72,
+            rtk_slow_share: 0.5,
+            position_time: 300.0,
+            rtk_position_time: 60.0,
+            velocity_slow_share: 0.1,
+            velocity_time: 100.0,
+            delay_std: SLOPPY,
+            stamps_std: SLOPPY,
+            velocity_delay_std: 0.1,
+            lever_found: None,
+        }
+    }
+}
+
+impl Default for LogModel {
+    fn default() -> Self {
+        LogModel {
+            scale_std: 0.005,
+            misalignment_std: 0.3 * DEG,
+            current_std: 0.5,
+            current_time: 7200.0,
+        }
+    }
+}
+
+impl Default for SeaModel {
+    fn default() -> Self {
+        SeaModel { level_walk: 0.002, least_mean_heave: 0.02, initial_mean_heave: 0.3 }
+    }
+}
+
+impl Default for GateModel {
+    fn default() -> Self {
+        GateModel {
+            probability: 0.9999,
+            code_base_error: 5.0,
+            rtk_base_error: 0.5,
+            ins_growth: 1.0,
+            suspect_time: 3.0,
+            reset_time: 5.0,
+            judged_reset_time: 300.0,
+        }
+    }
+}
+
 /// Everything the filter is told.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NavConfig {
@@ -133,6 +199,10 @@ pub struct NavConfig {
     pub sea: SeaModel,
     /// Gates.
     pub gate: GateModel,
+    /// Which sigmas are believed.
+    pub floors: Floors,
+    /// How the sea is taken out of the velocity at the berth, where that is the method.
+    pub prefilter: Config,
     /// Longest interval between propagations of the covariance, s.
     pub covariance_interval: f64,
     /// How far everybody is believed at the begin.
@@ -143,44 +213,34 @@ impl NavConfig {
     /// Defaults for a ship with this IMU and these lever arms.
     #[must_use]
     pub fn new(imu: ImuSpec, lever_arms: LeverArms) -> Self {
+        NavConfig::with_models(imu, lever_arms, &Models::default())
+    }
+
+    /// The same with models of one's own. How well GNSS and IMU agree in time is by the grade of the IMU.
+    #[must_use]
+    pub fn with_models(imu: ImuSpec, lever_arms: LeverArms, models: &Models) -> Self {
         NavConfig {
             imu,
             lever_arms,
             vessel: VesselKind::default(),
             gnss: GnssModel {
-                position_slow_share: 0.72,
-                rtk_slow_share: 0.5,
-                position_time: 300.0,
-                rtk_position_time: 60.0,
-                velocity_slow_share: 0.1,
-                velocity_time: 100.0,
                 delay_std: synchronisation_std(&imu),
                 stamps_std: synchronisation_std(&imu),
-                velocity_delay_std: 0.1,
-                lever_found: None,
+                ..models.gnss
             },
-            log: LogModel {
-                scale_std: 0.005,
-                misalignment_std: 0.3 * DEG,
-                default_std: 0.1,
-                current_std: 0.5,
-                current_time: 7200.0,
-            },
-            sea: SeaModel { level_walk: 0.002, least_mean_heave: 0.02, initial_mean_heave: 0.3 },
-            gate: GateModel {
-                probability: 0.9999,
-                code_base_error: 5.0,
-                rtk_base_error: 0.5,
-                ins_growth: 1.0,
-                suspect_time: 3.0,
-                reset_time: 5.0,
-                judged_reset_time: 300.0,
-            },
+            log: models.log,
+            sea: models.sea,
+            gate: models.gate,
+            floors: models.floors,
+            prefilter: models.prefilter,
             covariance_interval: 0.1,
             docket: Docket::default(),
         }
     }
 }
+
+/// How well the stamps of a consumer unit agree with GNSS time, 1-sigma, s.
+const SLOPPY: f64 = 0.1;
 
 /// How well an IMU's time base agrees with GNSS time where nobody states it, 1-sigma, s.
 ///
@@ -188,7 +248,7 @@ impl NavConfig {
 /// when the host reads them, tens of milliseconds late. The gyros tell the one from the other.
 fn synchronisation_std(imu: &ImuSpec) -> f64 {
     const SECONDS_PER_RATE: f64 = 1e-4 / DEG_PER_HOUR;
-    (imu.gyro.bias_std * SECONDS_PER_RATE).clamp(1e-6, 0.1)
+    (imu.gyro.bias_std * SECONDS_PER_RATE).clamp(1e-6, SLOPPY)
 }
 
 /// How many times worse than its data sheet an IMU is taken to be with each step.

@@ -42,7 +42,7 @@ pub const UNTOLD: f64 = 1e6;
 
 /// Sigma of each component of a vector; [`UNTOLD`] for a down component whose sigma alone is infinite.
 #[must_use]
-pub fn vector(stated: Option<Ned>, range: &[Believable; 3]) -> Floored<Vector3<f64>> {
+fn vector(stated: Option<Ned>, range: &[Believable; 3]) -> Floored<Vector3<f64>> {
     let untold =
         stated.is_some_and(|std| std.0.z == f64::INFINITY && std.0.xy().amax() != f64::INFINITY);
     let each: [Floored<f64>; 3] = std::array::from_fn(|i| {
@@ -70,42 +70,76 @@ pub fn greatest_told(std: &Vector3<f64>) -> f64 {
     std.iter().copied().filter(|std| *std < 0.1 * UNTOLD).fold(0.0, f64::max)
 }
 
-/// Believable sigmas of a GNSS position by fix quality, NED, m.
-#[must_use]
-pub fn gnss_position(quality: FixQuality) -> [Believable; 3] {
-    let (least, default) = match quality {
-        FixQuality::RtkFixed => (0.003, 0.02),
-        FixQuality::RtkFloat => (0.02, 0.4),
-        FixQuality::Differential | FixQuality::Precise => (0.05, 1.5),
-        _ => (0.2, 3.0),
-    };
-    let horizontal = Believable { least, greatest: 1000.0, default };
-    [horizontal, horizontal, Believable { default: 2.0 * default, ..horizontal }]
+/// The sigmas that are believed of each source.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Floors {
+    /// Of a GNSS position, north and east, m, by its solution: code, differential, float and fixed carrier ambiguities. Where no
+    /// height is stated its sigma is twice as large.
+    pub code: Believable,
+    /// See [`Floors::code`].
+    pub differential: Believable,
+    /// See [`Floors::code`].
+    pub rtk_float: Believable,
+    /// See [`Floors::code`].
+    pub rtk_fixed: Believable,
+    /// Of a GNSS velocity, north and east, m/s; likewise.
+    pub gnss_velocity: Believable,
+    /// Of each component of a log, m/s.
+    pub log: Believable,
+    /// Of the velocity of an external reference, each component, m/s.
+    pub reference_velocity: Believable,
+    /// Of its position, each component, m.
+    pub reference_position: Believable,
+    /// Of its heading, rad.
+    pub reference_heading: Believable,
 }
 
-/// Believable sigmas of a GNSS velocity, NED, m/s.
-#[must_use]
-pub fn gnss_velocity() -> [Believable; 3] {
-    let horizontal = Believable { least: 0.005, greatest: 50.0, default: 0.1 };
-    [horizontal, horizontal, Believable { default: 0.2, ..horizontal }]
+impl Default for Floors {
+    fn default() -> Self {
+        let position = |least, default| Believable { least, greatest: 1000.0, default };
+        Floors {
+            code: position(0.2, 3.0),
+            differential: position(0.05, 1.5),
+            rtk_float: position(0.02, 0.4),
+            rtk_fixed: position(0.003, 0.02),
+            gnss_velocity: Believable { least: 0.005, greatest: 50.0, default: 0.1 },
+            log: Believable { least: 0.002, greatest: 10.0, default: 0.1 },
+            reference_velocity: Believable { least: 0.005, greatest: 50.0, default: 0.5 },
+            reference_position: Believable { least: 0.01, greatest: 1e4, default: 20.0 },
+            reference_heading: Believable {
+                least: 0.01 * DEG,
+                greatest: 180.0 * DEG,
+                default: DEG,
+            },
+        }
+    }
 }
 
-/// Believable sigmas of each component of a log, m/s; what is taken where it states none is a matter of its error model.
-#[must_use]
-pub fn log(default: f64) -> Believable {
-    Believable { least: 0.002, greatest: 10.0, default }
+impl Floors {
+    /// The sigma of a GNSS position, NED, m, by what is stated and the quality of the fix.
+    #[must_use]
+    pub fn gnss_position(&self, stated: Option<Ned>, quality: FixQuality) -> Floored<Vector3<f64>> {
+        vector(
+            stated,
+            &with_height(match quality {
+                FixQuality::RtkFixed => self.rtk_fixed,
+                FixQuality::RtkFloat => self.rtk_float,
+                FixQuality::Differential | FixQuality::Precise => self.differential,
+                _ => self.code,
+            }),
+        )
+    }
+
+    /// The sigma of a GNSS velocity, NED, m/s, by what is stated.
+    #[must_use]
+    pub fn gnss_velocity(&self, stated: Option<Ned>) -> Floored<Vector3<f64>> {
+        vector(stated, &with_height(self.gnss_velocity))
+    }
 }
 
-/// Believable sigmas of the velocity of an external reference, each component, m/s.
-pub const REFERENCE_VELOCITY: Believable =
-    Believable { least: 0.005, greatest: 50.0, default: 0.5 };
-
-/// Believable sigmas of its position, each component, m.
-pub const REFERENCE_POSITION: Believable = Believable { least: 0.01, greatest: 1e4, default: 20.0 };
-
-/// Believable sigmas of its heading, rad.
-pub const REFERENCE_HEADING: Believable =
-    Believable { least: 0.01 * DEG, greatest: 180.0 * DEG, default: DEG };
+fn with_height(horizontal: Believable) -> [Believable; 3] {
+    [horizontal, horizontal, Believable { default: 2.0 * horizontal.default, ..horizontal }]
+}
 
 #[cfg(test)]
 mod tests {
@@ -125,11 +159,12 @@ mod tests {
     #[test]
     fn a_component_that_is_not_told_weighs_nothing() {
         let stated = Ned::new(0.1, 0.2, f64::INFINITY);
-        let std = vector(Some(stated), &gnss_velocity());
+        let std = Floors::default().gnss_velocity(Some(stated));
         assert_eq!(std, Floored { value: Vector3::new(0.1, 0.2, UNTOLD), replaced: false });
         assert_eq!(slow_part(&std.value, 0.25), Vector3::new(0.05, 0.1, 0.0));
         assert_eq!(greatest_told(&std.value), 0.2);
-        let absurd = vector(Some(Ned::new(f64::INFINITY, 0.2, f64::INFINITY)), &gnss_velocity());
+        let absurd =
+            Floors::default().gnss_velocity(Some(Ned::new(f64::INFINITY, 0.2, f64::INFINITY)));
         assert!(absurd.replaced && absurd.value.max() < 1.0);
     }
 }

@@ -20,7 +20,7 @@
 
 use insd_base::attitude::skew;
 use insd_estimation::Layout;
-use nalgebra::{Cholesky, DMatrix, Matrix3, RowVector3, SMatrix, SVector, Vector3};
+use nalgebra::{Cholesky, Const, DMatrix, Matrix3, RowVector3, SMatrix, SVector, Vector3};
 
 use crate::aids::View;
 use crate::error_state::{
@@ -81,6 +81,13 @@ const CONFIRMED: f64 = 0.5;
 /// Share of a correction that it is unsure of, as what it does to the estimate is not quite linear.
 const BENT: f64 = 0.05;
 
+/// What the lever arm of the log does to a measurement itself, of which `by_lever` is the derivative.
+fn of_log_lever(by_lever: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut direct = DMatrix::zeros(CONSTANTS, by_lever.nrows());
+    direct.fixed_rows_mut::<3>(LOG_AT).copy_from(&by_lever.transpose());
+    direct
+}
+
 /// The effect of the constants on the estimate, and what the innovations say of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeparateBias {
@@ -103,7 +110,18 @@ struct Fit {
     score: f64,
     /// Mean square of the innovations that it leaves unexplained.
     left: f64,
-    finding: Finding,
+    /// What it finds in units of the prior sigmas, with the factor of its information.
+    solved: Constants,
+    factor: Cholesky<f64, Const<CONSTANTS>>,
+    prior: Constants,
+}
+
+impl Fit {
+    fn finding(&self) -> Finding {
+        let prior = &self.prior;
+        let covariance = self.factor.inverse().component_mul(&(prior * prior.transpose()));
+        Finding { value: self.solved.component_mul(prior), covariance: covariance * self.left }
+    }
 }
 
 /// What the constants are found to be off by.
@@ -220,28 +238,32 @@ impl SeparateBias {
     /// Hears an innovation of the log, used or not, before it is absorbed; `by_lever` is its derivative with
     /// respect to the lever arm of the log, which is no state of the filter.
     pub fn hear_log(&mut self, weighed: &Weighed, by_lever: &DMatrix<f64>) {
-        let mut direct = DMatrix::zeros(CONSTANTS, weighed.rows());
-        direct.fixed_rows_mut::<3>(LOG_AT).copy_from(&by_lever.transpose());
-        self.weigh_in(weighed, direct);
+        self.weigh_in(weighed, of_log_lever(by_lever));
     }
 
-    /// The log was absorbed with a gain: the error of its lever arm came with it.
-    pub fn absorb_log(&mut self, gain: &DMatrix<f64>, by_lever: &DMatrix<f64>) {
-        let mut direct = DMatrix::zeros(CONSTANTS, by_lever.nrows());
-        direct.fixed_rows_mut::<3>(LOG_AT).copy_from(&by_lever.transpose());
-        Weighed::pass_on(&mut self.response, &direct, gain);
+    /// The log was absorbed: the error of its lever arm came with it.
+    pub fn absorb_log(&mut self, weighed: &Weighed, by_lever: &DMatrix<f64>) {
+        let response = self.response_on(weighed.layout());
+        weighed.pass_on(response, &weighed.whiten(of_log_lever(by_lever)));
     }
 
-    /// An innovation was absorbed with a gain: what the constants did to it came with it.
-    pub fn absorb(&mut self, weighed: &Weighed, gain: &DMatrix<f64>) {
+    /// An innovation is absorbed: what the constants did to it comes with it.
+    pub fn absorb(&mut self, weighed: &Weighed) {
         let response = self.response_on(weighed.layout());
         let effect = weighed.effect_of(response, DMatrix::zeros(CONSTANTS, weighed.rows()));
-        Weighed::pass_on(response, &effect, gain);
+        weighed.pass_on(response, &effect);
+    }
+
+    /// The same of one that is absorbed with another gain than the best.
+    pub fn absorb_by(&mut self, weighed: &Weighed, gain: &DMatrix<f64>) {
+        let response = self.response_on(weighed.layout());
+        let effect = weighed.effect_of(response, DMatrix::zeros(CONSTANTS, weighed.rows()));
+        weighed.pass_on_by(response, &effect, gain);
     }
 
     fn weigh_in(&mut self, weighed: &Weighed, direct: DMatrix<f64>) {
         let response = self.response_on(weighed.layout());
-        let effect = weighed.whiten(weighed.effect_of(response, direct));
+        let effect = weighed.effect_of(response, direct);
         let z = weighed.whitened();
         let rows = weighed.rows() as f64;
         let kept = 1.0 - rows / SPAN;
@@ -256,11 +278,10 @@ impl SeparateBias {
     /// something would.
     #[must_use]
     pub fn is_confirmed(&self) -> bool {
-        let s = SMatrix::from_diagonal(&HYPOTHESES[0]);
-        let factor = Cholesky::new(SMatrix::identity() + s * self.information * s);
-        factor.is_some_and(|factor| {
-            let unsure = s * factor.inverse() * s;
-            (0..3).all(|i| unsure[(i, i)] < CONFIRMED * CONFIRMED)
+        let prior = &HYPOTHESES[0];
+        self.factor(prior).is_some_and(|factor| {
+            let unsure = factor.inverse();
+            (0..3).all(|i| unsure[(i, i)] * prior[i] * prior[i] < CONFIRMED * CONFIRMED)
         })
     }
 
@@ -313,30 +334,35 @@ impl SeparateBias {
     /// How much better a hypothesis fits than the configuration. With S the prior sigmas and A = I + S Lambda S the logarithm of
     /// the ratio of likelihoods is (S eta)^T A^-1 (S eta) / 2 - ln(det A) / 2.
     fn fit(&self, prior: &Constants) -> Option<Fit> {
-        let s = SMatrix::from_diagonal(prior);
-        let factor = Cholesky::new(SMatrix::identity() + s * self.information * s)?;
-        let scaled = s * self.evidence;
+        let factor = self.factor(prior)?;
+        let scaled = prior.component_mul(&self.evidence);
         let solved = factor.solve(&scaled);
         let explained = scaled.dot(&solved);
         let left = ((self.misfit - explained) / self.heard).max(1.0);
         let volume: f64 = factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
         let score = explained / (2.0 * left) - volume;
-        let covariance = s * factor.inverse() * s * left;
-        Some(Fit { score, left, finding: Finding { value: s * solved, covariance } })
+        Some(Fit { score, left, solved, factor, prior: *prior })
+    }
+
+    /// I + S Lambda S, factored.
+    fn factor(&self, prior: &Constants) -> Option<Cholesky<f64, Const<CONSTANTS>>> {
+        let scaled = self.information.component_mul(&(prior * prior.transpose()));
+        Cholesky::new(SMatrix::identity() + scaled)
     }
 
     /// How much better a hypothesis fits than the configuration, and what it finds; `None` unless it is
     /// believed.
     fn weigh(&self, prior: &Constants) -> Option<(f64, Finding)> {
         let fit = self.fit(prior)?;
-        let explains = self.is_explained(&fit);
-        let Fit { score, finding, .. } = fit;
+        if fit.score <= CONVINCING || !self.is_explained(&fit) {
+            return None;
+        }
+        let finding = fit.finding();
         let is_large = |i: usize| {
             let sigma = finding.covariance[(i, i)].max(0.0).sqrt();
             finding.value[i].abs() > LEAST[i].max(SIGNIFICANT * sigma)
         };
-        let convinces = score > CONVINCING && explains && (0..CONSTANTS).any(is_large);
-        convinces.then_some((score, finding))
+        (0..CONSTANTS).any(is_large).then_some((fit.score, finding))
     }
 
     /// The delay is not known as it was thought, but to `sigma`, s: the estimate is as unsure.

@@ -1,7 +1,7 @@
 //! Claimed 1-sigma of what a solution says, from the covariance of the error state.
 
 use insd_base::attitude::skew;
-use insd_base::{Geodetic, Ned, SolutionSigma, earth};
+use insd_base::{Geodetic, MotionCovariance, Ned, SolutionSigma, earth};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use crate::aids::View;
@@ -11,8 +11,10 @@ use crate::error_state::{
 };
 
 type Rows = SMatrix<f64, 3, STRAPDOWN_STATES>;
+type Square = SMatrix<f64, STRAPDOWN_STATES, STRAPDOWN_STATES>;
+type Column = SVector<f64, STRAPDOWN_STATES>;
 
-/// Sigmas of position and velocity along north, east, down and of roll, pitch, heading.
+/// How the errors of a solution come from those of the state.
 ///
 /// North itself depends on where the ship is: an error of position dr_n turns the NED axes by
 /// dtheta = T dr_n, so that
@@ -25,6 +27,56 @@ type Rows = SMatrix<f64, 3, STRAPDOWN_STATES>;
 ///
 /// The solution is given in GNSS time; what is not known of the IMU's delay behind it counts with the
 /// ship's velocity, her acceleration (ECEF axes, m/s^2) and her turning.
+struct Errorwise {
+    rows: Square,
+    /// The rows times the covariance of the strapdown errors.
+    with_state: Square,
+    by_delay: Column,
+    /// Covariance with the delay, as far as it counts; and its own.
+    with_delay: Column,
+    unsure: f64,
+}
+
+impl Errorwise {
+    fn new(view: &View, acceleration: &Vector3<f64>, dating: &Dating, p: &Covariance) -> Self {
+        let corner = p.matrix().fixed_view::<STRAPDOWN_STATES, STRAPDOWN_STATES>(0, 0);
+        let mut delayed = Column::zeros();
+        for (block, at) in [(POSITION, 0), (VELOCITY, 3), (ATTITUDE, 6)] {
+            delayed.fixed_rows_mut::<3>(at).copy_from(&block.covariance_with(GNSS_DELAY, p));
+        }
+        let rows = all_rows(view);
+        let turning = view.attitude().jacobian_of_ned_rotation() * (view.c_nb() * view.rate);
+        let mut by_delay = Column::zeros();
+        by_delay.fixed_rows_mut::<3>(0).copy_from(&-view.v_n());
+        by_delay.fixed_rows_mut::<3>(3).copy_from(&-(view.c_ne * acceleration));
+        by_delay.fixed_rows_mut::<3>(6).copy_from(&-turning);
+        let delay = GNSS_DELAY.covariance(p).x;
+        Errorwise {
+            with_state: rows * corner,
+            with_delay: rows * delayed * dating.share,
+            rows,
+            by_delay,
+            unsure: dating.share * dating.share * delay + dating.std * dating.std,
+        }
+    }
+
+    fn variances(&self) -> Column {
+        let own = self.with_state.component_mul(&self.rows).column_sum();
+        let by_delay = &self.by_delay;
+        own + self.with_delay.component_mul(by_delay) * 2.0
+            + by_delay.component_mul(by_delay) * self.unsure
+    }
+
+    fn covariance(&self) -> MotionCovariance {
+        let crossed = self.with_delay * self.by_delay.transpose();
+        self.with_state * self.rows.transpose()
+            + crossed
+            + crossed.transpose()
+            + self.by_delay * self.by_delay.transpose() * self.unsure
+    }
+}
+
+/// Sigmas of position and velocity along north, east, down and of roll, pitch, heading.
 #[must_use]
 pub fn solution_sigma(
     view: &View,
@@ -32,31 +84,26 @@ pub fn solution_sigma(
     dating: &Dating,
     p: &Covariance,
 ) -> SolutionSigma {
-    let corner = p.matrix().fixed_view::<STRAPDOWN_STATES, STRAPDOWN_STATES>(0, 0).into_owned();
-    let mut with_delay = SVector::<f64, STRAPDOWN_STATES>::zeros();
-    for (block, at) in [(POSITION, 0), (VELOCITY, 3), (ATTITUDE, 6)] {
-        with_delay.fixed_rows_mut::<3>(at).copy_from(&block.covariance_with(GNSS_DELAY, p));
-    }
-    let delay = GNSS_DELAY.covariance(p).x;
-    let std = |rows: &Rows, by_delay: &Vector3<f64>| {
-        let cross = (rows * with_delay).component_mul(by_delay) * (2.0 * dating.share);
-        let unsure = dating.share * dating.share * delay + dating.std * dating.std;
-        let own = by_delay.component_mul(by_delay) * unsure;
-        let variance = (rows * corner * rows.transpose()).diagonal() + cross + own;
-        variance.map(|variance| variance.max(0.0).sqrt())
-    };
-    let (velocity, angles) = rows(view);
-    let mut position = Rows::zeros();
-    position.fixed_columns_mut::<3>(0).copy_from(&view.c_ne);
-    let turning = view.attitude().jacobian_of_ned_rotation() * (view.c_nb() * view.rate);
-    let euler = std(&angles, &-turning);
+    let errors = Errorwise::new(view, acceleration, dating, p);
+    let std = errors.variances().map(|variance| variance.max(0.0).sqrt());
     SolutionSigma {
-        position: Ned(std(&position, &-view.v_n())),
-        velocity: Ned(std(&velocity, &-(view.c_ne * acceleration))),
-        roll: euler.x,
-        pitch: euler.y,
-        heading: euler.z,
+        position: Ned(std.fixed_rows::<3>(0).into_owned()),
+        velocity: Ned(std.fixed_rows::<3>(3).into_owned()),
+        roll: std[6],
+        pitch: std[7],
+        heading: std[8],
     }
+}
+
+/// How the same errors hang together.
+#[must_use]
+pub fn solution_covariance(
+    view: &View,
+    acceleration: &Vector3<f64>,
+    dating: &Dating,
+    p: &Covariance,
+) -> MotionCovariance {
+    Errorwise::new(view, acceleration, dating, p).covariance()
 }
 
 /// What an error of the estimate does to each component of a solution, as its size.
@@ -66,15 +113,24 @@ pub fn difference(view: &View, error: &Errors) -> SolutionSigma {
     for (block, at) in [(POSITION, 0), (VELOCITY, 3), (ATTITUDE, 6)] {
         own.fixed_rows_mut::<3>(at).copy_from(&error.of(block));
     }
-    let (velocity, angles) = rows(view);
-    let euler = (angles * own).abs();
+    let sizes = (all_rows(view) * own).abs();
     SolutionSigma {
-        position: Ned((view.c_ne * error.of(POSITION)).abs()),
-        velocity: Ned((velocity * own).abs()),
-        roll: euler.x,
-        pitch: euler.y,
-        heading: euler.z,
+        position: Ned(sizes.fixed_rows::<3>(0).into_owned()),
+        velocity: Ned(sizes.fixed_rows::<3>(3).into_owned()),
+        roll: sizes[6],
+        pitch: sizes[7],
+        heading: sizes[8],
     }
+}
+
+/// Derivatives of NED position and velocity and of the Euler angles with respect to the strapdown errors.
+fn all_rows(view: &View) -> Square {
+    let (velocity, angles) = rows(view);
+    let mut all = Square::zeros();
+    all.fixed_view_mut::<3, 3>(0, 0).copy_from(&view.c_ne);
+    all.fixed_rows_mut::<3>(3).copy_from(&velocity);
+    all.fixed_rows_mut::<3>(6).copy_from(&angles);
+    all
 }
 
 /// Derivatives of NED velocity and of the Euler angles with respect to the strapdown errors.

@@ -36,7 +36,7 @@ impl EightState {
         let lever = self.config.gnss_lever();
         let mut passed = Vec::new();
         if let Some(velocity) = fix.velocity {
-            let std = floors::vector(fix.velocity_std, &floors::gnss_velocity());
+            let std = self.config.floors.gnss_velocity(fix.velocity_std);
             if std.replaced {
                 report.floored.push(GNSS_VELOCITY);
             }
@@ -76,7 +76,7 @@ impl EightState {
         report: &mut Report,
     ) -> Option<bool> {
         let lever = self.config.gnss_lever();
-        let std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality));
+        let std = self.config.floors.gnss_position(fix.position_std, fix.quality);
         if std.replaced {
             report.floored.push(GNSS_POSITION);
         }
@@ -116,7 +116,7 @@ impl EightState {
             return report;
         };
         self.settle();
-        let std = floors::scalar(log.std, &floors::log(self.config.log.default_std));
+        let std = floors::scalar(log.std, &self.config.floors.log);
         if std.replaced {
             report.floored.push(aid);
         }
@@ -133,18 +133,19 @@ impl EightState {
         self.settle();
         let at = reference.time;
         if let Some(velocity) = reference.velocity() {
-            let std = believed(reference.velocity_std, &floors::REFERENCE_VELOCITY);
+            let std = believed(reference.velocity_std, &self.config.floors.reference_velocity);
             let innovation = aids::reference_velocity(&self.scene(), &velocity.0.xy(), std);
             self.judge((&innovation, 0.0), at, source, "reference_velocity", &mut report);
         }
         if let Some(place) = reference.position {
-            let std = believed(reference.position_std, &floors::REFERENCE_POSITION)
+            let std = believed(reference.position_std, &self.config.floors.reference_position)
                 .hypot(self.config.berth_doubt());
             let innovation = aids::reference_position(&self.scene(), &place, std);
             self.judge((&innovation, 0.0), at, source, "reference_position", &mut report);
         }
         if let Some(heading) = reference.heading {
-            let std = believed(reference.heading_std, &floors::REFERENCE_HEADING).max(SHARPEST);
+            let std = believed(reference.heading_std, &self.config.floors.reference_heading)
+                .max(SHARPEST);
             let innovation = aids::reference_heading(&self.scene(), heading, std);
             self.judge((&innovation, 0.0), at, source, "reference_heading", &mut report);
         }
@@ -256,8 +257,8 @@ impl EightState {
         }
         let spread = |std: Vector3<f64>, arm: f64| std.xy().norm() + arm;
         let lever = self.config.gnss_lever();
-        let place_std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality)).value;
-        let speed_std = floors::vector(fix.velocity_std, &floors::gnss_velocity()).value;
+        let place_std = self.config.floors.gnss_position(fix.position_std, fix.quality).value;
+        let speed_std = self.config.floors.gnss_velocity(fix.velocity_std).value;
         let swing = self.scene().swing(&lever).norm();
         self.motion.place = Geodetic { height: self.vertical.height, ..place };
         self.motion.velocity = velocity.0.xy();

@@ -2,6 +2,7 @@
 
 use insd_alignment::{AlignmentConfig, StoredState};
 use insd_base::{Body, Geodetic, ImuSpec, LeverArms, StartCondition, VesselKind, VoyageHeader};
+use insd_nav::config::Models;
 
 /// What the engine must know before the first message.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +17,8 @@ pub struct EngineConfig {
     pub initial: Option<Geodetic>,
     /// Solutions per second.
     pub output_rate: f64,
+    /// What is assumed of sensors and sea, and what is believed of them.
+    pub models: Models,
     /// How the ship finds her attitude and heading.
     pub alignment: AlignmentConfig,
     /// The state at the last shutdown, offered for a ship that starts at her berth. It is put on
@@ -45,6 +48,7 @@ impl EngineConfig {
             start: header.start,
             initial: header.initial,
             output_rate,
+            models: Models::default(),
             alignment: AlignmentConfig::default(),
             stored: None,
             time_std: header.time_std,

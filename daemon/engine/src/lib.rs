@@ -131,7 +131,7 @@ impl Engine {
     /// An engine that knows nothing yet.
     #[must_use]
     pub fn new(config: EngineConfig) -> Self {
-        let mut nav = NavConfig::new(config.imu, config.lever_arms);
+        let mut nav = NavConfig::with_models(config.imu, config.lever_arms, &config.models);
         nav.vessel = config.vessel;
         nav.gnss.delay_std = config.time_std.unwrap_or(nav.gnss.delay_std);
         nav.gnss.stamps_std = nav.gnss.delay_std;

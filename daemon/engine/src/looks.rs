@@ -34,7 +34,7 @@ impl Engine {
         Some(Motion {
             solution,
             acceleration: acceleration.map(|(filter, last)| filter.acceleration(last)),
-            covariance_north_east: filter.map(Filter::covariance_north_east),
+            covariance: filter.map(Filter::motion_covariance),
             current: filter.and_then(Filter::current),
         })
     }

@@ -10,7 +10,7 @@ use insd_base::units::DEG;
 use insd_base::{
     Attitude, Body, GnssFix, Message, Mode, Motion, Ned, Received, Solution, SolutionSigma, Time,
 };
-use insd_nav::floors;
+use insd_nav::floors::Floors;
 
 /// What is older than this is not passed on, s.
 const STALE: f64 = 3.0;
@@ -55,7 +55,7 @@ impl Relay {
         let (position, age) = (fix.position?, self.age(fix.time).max(0.0));
         let velocity = fix.velocity.map(level).unwrap_or_default();
         let speed_std = self.speed_std(&fix) + UNSEEN * age;
-        let place_std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality)).value;
+        let place_std = Floors::default().gnss_position(fix.position_std, fix.quality).value;
         let across = reach + speed_std * age;
         let (heading, heading_std) = self.heading();
         let solution = Solution {
@@ -74,8 +74,7 @@ impl Relay {
             mode: Mode::Standby,
             judgement: insd_base::Judgement::default(),
         };
-        let motion =
-            Motion { solution, acceleration: None, covariance_north_east: None, current: None };
+        let motion = Motion { solution, acceleration: None, covariance: None, current: None };
         Some(motion.at(self.latest.max(fix.time)))
     }
 
@@ -85,7 +84,7 @@ impl Relay {
 
     fn speed_std(&self, fix: &GnssFix) -> f64 {
         match fix.velocity {
-            Some(_) => floors::vector(fix.velocity_std, &floors::gnss_velocity()).value.xy().max(),
+            Some(_) => Floors::default().gnss_velocity(fix.velocity_std).value.xy().max(),
             None => NO_SPEED,
         }
     }

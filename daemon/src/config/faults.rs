@@ -2,13 +2,15 @@
 
 use insd_drivers::can::CanConfig;
 
-use super::{Config, ImuModel, spare};
+use super::{Config, ImuModel, models, spare};
 
 /// Names, ranges and references: each fault with its place and what was expected.
 pub(super) fn of(config: &Config) -> Vec<String> {
     let mut faults = Vec::new();
     ship(config, &mut faults);
     model("[imu]", &config.imu, &mut faults);
+    let Config { alignment, model, gate, floor, .. } = config;
+    faults.extend(models::faults(alignment, model, gate, floor));
     spare::of(config, &mut faults);
     ports(config, &mut faults);
     for fault in config.intake().faults() {

@@ -9,6 +9,7 @@ mod faults;
 mod filters;
 mod imu;
 mod lan;
+mod models;
 mod node;
 mod output;
 mod policy;
@@ -37,6 +38,7 @@ use crate::speaker::Speaker;
 pub use check::{Examined, Finding, Place, Severity};
 pub use imu::ImuModel;
 pub use lan::LanSection;
+pub use models::{AlignmentSection, FloorSection, GateSection, ModelSection};
 pub use node::{NodeMemory, NodeSection};
 pub use output::{OutputSection, Overfull, PointSection};
 pub use policy::PolicySection;
@@ -59,6 +61,18 @@ pub struct Config {
     pub ship: Ship,
     /// Error model of the IMU.
     pub imu: ImuModel,
+    /// How she finds her attitude and heading.
+    #[serde(default)]
+    pub alignment: AlignmentSection,
+    /// Error models of what is measured, and of the sea.
+    #[serde(default)]
+    pub model: ModelSection,
+    /// What is refused.
+    #[serde(default)]
+    pub gate: GateSection,
+    /// The least sigmas that are believed.
+    #[serde(default)]
+    pub floor: FloorSection,
     /// Ports that are listened to.
     #[serde(default, rename = "port")]
     pub ports: Vec<PortSection>,
@@ -344,7 +358,8 @@ impl Config {
             start,
             initial: place.map(|(lat, lon)| Geodetic::from_degrees(lat, lon, ship.height_m)),
             output_rate: ship.rate_hz,
-            alignment: insd_alignment::AlignmentConfig::default(),
+            models: models::models(&self.alignment, &self.model, &self.gate, &self.floor),
+            alignment: self.alignment.config(),
             stored: None,
             vessel: ship.kind.into(),
             time_std: ship.time_std_s.or_else(|| self.time_std(None)),

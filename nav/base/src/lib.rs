@@ -47,7 +47,7 @@ pub use installation::{Axes, Finding, Frozen};
 pub use messages::{
     ExternalReference, ImuSample, LogReference, LogVelocity, Message, Received, Source,
 };
-pub use motion::{Current, Motion};
+pub use motion::{Current, Motion, MotionCovariance};
 pub use party::{Fault, Integrity, Judgement, Parties, Party, ReceiverChange, Standing, Stands};
 pub use protection::{Availability, Protection};
 pub use sensor::{ImuSpec, LeverArms, Triad};

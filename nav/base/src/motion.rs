@@ -1,15 +1,19 @@
 //! How the ship moves at an instant: a solution and what carries it on for a moment, or to another point
 //! of the hull.
 
-use nalgebra::Rotation3;
+use nalgebra::{Matrix3, Rotation3, SMatrix, Vector3};
 
-use crate::attitude::Attitude;
+use crate::attitude::{Attitude, skew};
 use crate::earth;
 use crate::frames::{Body, Geodetic, Ned};
-use crate::solution::Solution;
+use crate::solution::{Solution, SolutionSigma};
 use crate::time::Time;
 
-/// A solution with its derivatives.
+/// Covariance of the errors of position (north, east, down, m), velocity (the same, m/s) and roll, pitch, heading (rad), in this
+/// order.
+pub type MotionCovariance = SMatrix<f64, 9, 9>;
+
+/// A solution with its covariance and its derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
     /// Where the ship is, how she moves and lies.
@@ -17,8 +21,9 @@ pub struct Motion {
     /// Acceleration over the Earth, m/s^2: the derivative of the velocity. `None` while there is no full
     /// filter to tell it.
     pub acceleration: Option<Ned>,
-    /// North-east element of the covariance of the position, m^2; `None` as for the acceleration.
-    pub covariance_north_east: Option<f64>,
+    /// How the errors of the solution hang together; `None` as for the acceleration. The sigmas of the solution may be larger:
+    /// they cover what speaks against the filter, too.
+    pub covariance: Option<MotionCovariance>,
     /// Velocity of the water over the Earth, if a log tells it.
     pub current: Option<Current>,
 }
@@ -52,9 +57,15 @@ impl Motion {
         Motion { solution, ..*self }
     }
 
+    /// North-east element of the covariance of the position, m^2.
+    #[must_use]
+    pub fn covariance_north_east(&self) -> Option<f64> {
+        self.covariance.map(|covariance| covariance[(0, 1)])
+    }
+
     /// The motion of another point of the hull, `lever` from this one: Groves, 2nd ed., section 2.5.5. What
-    /// is not known of the attitude counts in its position and velocity as if it were independent of
-    /// theirs; the angular acceleration is not known, and left out of its acceleration.
+    /// is not known of the attitude counts in its position and velocity as the covariance has it, and where there is none as
+    /// if it were independent of theirs; the angular acceleration is not known, and left out of its acceleration.
     #[must_use]
     pub fn at_point(&self, lever: &Body) -> Self {
         let from = &self.solution;
@@ -66,19 +77,69 @@ impl Motion {
             velocity: Ned(from.velocity.0 + c_nb * swing),
             ..*from
         };
-        let (sigma, angles) = (&mut solution.sigma, &from.sigma);
-        // tilt and heading errors about north, east and down turn the lever; roll and pitch count alike
-        let tilt = angles.roll.max(angles.pitch);
-        for (part, arm) in [(&mut sigma.position, offset), (&mut sigma.velocity, c_nb * swing)] {
-            part.0.x = part.0.x.hypot(angles.heading * arm.y).hypot(tilt * arm.z);
-            part.0.y = part.0.y.hypot(angles.heading * arm.x).hypot(tilt * arm.z);
-            part.0.z = part.0.z.hypot(tilt * arm.x.hypot(arm.y));
+        let arms = [offset, c_nb * swing];
+        let inverse = from.attitude.jacobian_of_ned_rotation().try_inverse();
+        let covariance = self.covariance.zip(inverse).map(|(own, by_angles)| {
+            let beyond = Beyond::new(&from.sigma, &own);
+            let seen = seen_from(&own, &arms, &by_angles);
+            solution.sigma = beyond.turned(&arms).hypot(&sigma_of(&seen));
+            seen
+        });
+        if covariance.is_none() {
+            solution.sigma = Beyond(from.sigma).turned(&arms);
         }
-        let turn = angles.heading * angles.heading * offset.x * offset.y;
-        let shared = self.covariance_north_east.map(|covariance| covariance - turn);
         let swung = c_nb * from.rate.0.cross(&swing);
         let acceleration = self.acceleration.map(|acceleration| Ned(acceleration.0 + swung));
-        Motion { solution, acceleration, covariance_north_east: shared, ..*self }
+        Motion { solution, acceleration, covariance, ..*self }
+    }
+}
+
+/// What a solution claims beyond its covariance: of that nothing is known but its size.
+struct Beyond(SolutionSigma);
+
+impl Beyond {
+    fn new(claimed: &SolutionSigma, covariance: &MotionCovariance) -> Self {
+        Beyond(
+            claimed.zip(&sigma_of(covariance), |all, own| (all * all - own * own).max(0.0).sqrt()),
+        )
+    }
+
+    /// The same at the end of an arm, of which position and velocity are that of the point less that of the solution, NED, m
+    /// and m/s. Tilt and heading errors about north, east and down turn the arm; roll and pitch count alike.
+    fn turned(&self, arms: &[Vector3<f64>; 2]) -> SolutionSigma {
+        let mut sigma = self.0;
+        let (tilt, heading) = (sigma.roll.max(sigma.pitch), sigma.heading);
+        for (part, arm) in [&mut sigma.position, &mut sigma.velocity].into_iter().zip(arms) {
+            part.0.x = part.0.x.hypot(heading * arm.y).hypot(tilt * arm.z);
+            part.0.y = part.0.y.hypot(heading * arm.x).hypot(tilt * arm.z);
+            part.0.z = part.0.z.hypot(tilt * arm.x.hypot(arm.y));
+        }
+        sigma
+    }
+}
+
+/// The covariance at the end of an arm; `by_angles` is the rotation about NED axes that a change of roll, pitch and heading makes.
+fn seen_from(
+    own: &MotionCovariance,
+    arms: &[Vector3<f64>; 2],
+    by_angles: &Matrix3<f64>,
+) -> MotionCovariance {
+    let mut moved = MotionCovariance::identity();
+    for (row, arm) in [0, 3].into_iter().zip(arms) {
+        moved.fixed_view_mut::<3, 3>(row, 6).copy_from(&(-skew(arm) * by_angles));
+    }
+    moved * own * moved.transpose()
+}
+
+/// The 1-sigma of each component.
+fn sigma_of(covariance: &MotionCovariance) -> SolutionSigma {
+    let std = covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
+    SolutionSigma {
+        position: Ned(std.fixed_rows::<3>(0).into_owned()),
+        velocity: Ned(std.fixed_rows::<3>(3).into_owned()),
+        roll: std[6],
+        pitch: std[7],
+        heading: std[8],
     }
 }
 
@@ -109,7 +170,7 @@ mod tests {
                 judgement: crate::Judgement::default(),
             },
             acceleration: Some(Ned::new(-3.0, 0.0, 0.0)),
-            covariance_north_east: Some(0.0),
+            covariance: None,
             current: None,
         }
     }
@@ -133,5 +194,39 @@ mod tests {
         assert_relative_eq!(bow.solution.velocity.0.x, -40.0 * 20_f64.to_radians(), epsilon = 1e-9);
         assert_relative_eq!(bow.solution.sigma.position.0.x, 0.4, epsilon = 1e-9);
         assert!(bow.acceleration.unwrap().0.y < -4.8, "towards the centre: {:?}", bow.acceleration);
+    }
+
+    #[test]
+    fn an_antenna_that_is_known_better_than_the_imu_is_claimed_so() {
+        // nothing but the heading is unsure, and the position is that of an antenna 40 m ahead of the IMU, to a centimetre
+        let ship = turning();
+        let (arm, heading) = (40.0, 0.01);
+        let mut covariance = MotionCovariance::zeros();
+        // heading for the east, a turn to starboard takes what is ahead to the south: the IMU is as much to the north
+        covariance[(0, 0)] = 1e-4 + (arm * heading) * (arm * heading);
+        covariance[(8, 8)] = heading * heading;
+        covariance[(0, 8)] = arm * heading * heading;
+        covariance[(8, 0)] = covariance[(0, 8)];
+        let sigma = sigma_of(&covariance);
+        let ship = Motion {
+            covariance: Some(covariance),
+            solution: Solution { sigma, ..ship.solution },
+            ..ship
+        };
+        let antenna = ship.at_point(&Body::new(arm, 0.0, 0.0)).solution.sigma.position;
+        assert_relative_eq!(antenna.0.x, 0.01, epsilon = 1e-9);
+        let stern = ship.at_point(&Body::new(-arm, 0.0, 0.0)).solution.sigma.position;
+        assert_relative_eq!(stern.0.x, 0.8, epsilon = 1e-3);
+    }
+
+    #[test]
+    fn what_is_claimed_beyond_the_covariance_is_claimed_of_every_point() {
+        let ship = turning();
+        let doubted = SolutionSigma { position: Ned::new(300.0, 0.0, 0.0), ..ship.solution.sigma };
+        let solution = Solution { sigma: doubted, ..ship.solution };
+        let covariance = Some(MotionCovariance::identity() * 1e-6);
+        let bow = Motion { solution, covariance, ..ship }.at_point(&Body::new(40.0, 0.0, 0.0));
+        assert!(bow.solution.sigma.position.0.x >= 300.0);
+        assert_relative_eq!(bow.solution.sigma.heading, 0.01, epsilon = 1e-6);
     }
 }

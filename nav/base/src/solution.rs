@@ -85,7 +85,7 @@ pub struct SolutionSigma {
 }
 
 impl SolutionSigma {
-    fn zip(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
+    pub(crate) fn zip(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
         SolutionSigma {
             position: Ned(self.position.0.zip_map(&other.position.0, &of)),
             velocity: Ned(self.velocity.0.zip_map(&other.velocity.0, &of)),

@@ -147,10 +147,11 @@ impl<const W: usize> Block<W> {
     pub fn transform(self, p: &mut Covariance, by: &SMatrix<f64, W, W>) {
         let Some(start) = p.layout().start(self.key) else { return };
         let matrix = p.matrix_mut();
-        let columns = matrix.fixed_columns::<W>(start) * by.transpose();
+        let mut columns = matrix.fixed_columns::<W>(start) * by.transpose();
+        let own = by * columns.fixed_rows::<W>(start);
+        columns.fixed_rows_mut::<W>(start).copy_from(&own);
         matrix.fixed_columns_mut::<W>(start).copy_from(&columns);
-        let rows = by * matrix.fixed_rows::<W>(start);
-        matrix.fixed_rows_mut::<W>(start).copy_from(&rows);
+        matrix.fixed_rows_mut::<W>(start).tr_copy_from(&columns);
     }
 
     /// Tells this block in another unit: its numbers become what they were times a factor. What is told in units of its

@@ -1,5 +1,7 @@
 //! The Kalman update.
 
+use std::cell::OnceCell;
+
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::block::Key;
@@ -8,7 +10,7 @@ use crate::effects::Effects;
 use crate::errors::Errors;
 use crate::innovation::Innovation;
 use crate::layout::Layout;
-use crate::sums::{axpy, column, column_mut, solve_right, solve_right_transposed};
+use crate::sums::{add_all, axpy, column, column_mut, solve_right, solve_right_transposed};
 
 /// An innovation with its covariance factored, S = L L^T: ready to be judged and applied.
 #[derive(Clone, Debug)]
@@ -18,6 +20,8 @@ pub struct Weighed {
     /// P H^T.
     pht: DMatrix<f64>,
     factor: Cholesky<f64, Dyn>,
+    /// W = P H^T L^-T, once it is asked for.
+    root: OnceCell<DMatrix<f64>>,
 }
 
 /// Where the innovation is so many times as uncertain as the noise of one of its rows, as variances, the difference of
@@ -31,7 +35,7 @@ impl Weighed {
         pht: DMatrix<f64>,
         factor: Cholesky<f64, Dyn>,
     ) -> Self {
-        Weighed { innovation, layout, pht, factor }
+        Weighed { innovation, layout, pht, factor, root: OnceCell::new() }
     }
 
     /// Number of rows.
@@ -93,7 +97,7 @@ impl Weighed {
     /// The optimal gain, P H^T S^-1.
     #[must_use]
     pub fn gain(&self) -> DMatrix<f64> {
-        let mut gain = self.root();
+        let mut gain = self.root().clone();
         solve_right(&mut gain, self.factor.l_dirty());
         gain
     }
@@ -113,10 +117,12 @@ impl Weighed {
     }
 
     /// W = P H^T L^-T, so that K = W L^-1 and K S K^T = W W^T.
-    fn root(&self) -> DMatrix<f64> {
-        let mut w = self.pht.clone();
-        solve_right_transposed(&mut w, self.factor.l_dirty());
-        w
+    fn root(&self) -> &DMatrix<f64> {
+        self.root.get_or_init(|| {
+            let mut w = self.pht.clone();
+            solve_right_transposed(&mut w, self.factor.l_dirty());
+            w
+        })
     }
 
     /// Kalman update: returns the estimated error and lowers the covariance, which must be the one that
@@ -129,7 +135,7 @@ impl Weighed {
             return self.update_with(p, &self.gain());
         }
         let w = self.root();
-        self.lower(p, &w);
+        self.lower(p, w);
         Errors::new(self.layout.clone(), w * self.whitened())
     }
 
@@ -140,7 +146,7 @@ impl Weighed {
     /// costs D D^T, which for this one is W W^T among the considered states.
     #[must_use]
     pub fn update_considering(&self, p: &mut Covariance, considered: &[Key]) -> Errors {
-        let mut w = self.root();
+        let mut w = self.root().clone();
         let mut kept = DMatrix::zeros(w.nrows(), w.ncols());
         for place in considered.iter().filter_map(|key| self.layout.place(*key)) {
             let own = w.rows(place.start, place.width).into_owned();
@@ -181,8 +187,8 @@ impl Weighed {
         (0..self.rows()).any(|i| s[i] * s[i] > SURE * self.innovation.r[(i, i)])
     }
 
-    /// What causes do to the innovation, a row for each cause: (H U + D)^T, D^T what they do to the measurement itself. They
-    /// have the states of the covariance that was weighed.
+    /// What causes do to the innovation in units of its sigmas, a row for each cause: (L^-1 (H U + D))^T, D^T what they do to
+    /// the measurement itself. They have the states of the covariance that was weighed.
     #[must_use]
     pub fn effect_of(&self, effects: &Effects, direct: DMatrix<f64>) -> DMatrix<f64> {
         debug_assert_eq!(self.layout, *effects.layout());
@@ -193,24 +199,34 @@ impl Weighed {
                 axpy(*weight, of_causes, column_mut(&mut effect, row));
             }
         }
-        effect
+        self.whiten(effect)
     }
 
-    /// Such an effect in units of the innovation's sigmas, (L^-1 (H U + D))^T.
+    /// What causes do to the innovation, a row for each cause, in units of its sigmas: E^T L^-T.
     #[must_use]
     pub fn whiten(&self, mut effect: DMatrix<f64>) -> DMatrix<f64> {
         solve_right_transposed(&mut effect, self.factor.l_dirty());
         effect
     }
 
-    /// Takes from the effects of causes what an update with this gain takes from them, U <- U - K (H U + D); `effect` is
-    /// (H U + D)^T.
-    pub fn pass_on(effects: &mut Effects, effect: &DMatrix<f64>, gain: &DMatrix<f64>) {
-        for state in 0..gain.nrows() {
-            let of_causes = column_mut(effects.matrix_mut(), state);
-            for row in 0..gain.ncols() {
-                axpy(-gain[(state, row)], column(effect, row), of_causes);
-            }
+    /// Takes from the effects of causes what the update takes from them, U <- U - K (H U + D); `effect` is what
+    /// [`Weighed::effect_of`] gave.
+    pub fn pass_on(&self, effects: &mut Effects, effect: &DMatrix<f64>) {
+        debug_assert_eq!(self.layout, *effects.layout());
+        Self::pass_on_with(effects, effect, self.root());
+    }
+
+    /// The same of an update with another gain, states by rows.
+    pub fn pass_on_by(&self, effects: &mut Effects, effect: &DMatrix<f64>, gain: &DMatrix<f64>) {
+        // (H U + D)^T from what is in units of sigmas
+        let told = effect * self.factor.l().transpose();
+        Self::pass_on_with(effects, &told, gain);
+    }
+
+    fn pass_on_with(effects: &mut Effects, effect: &DMatrix<f64>, by: &DMatrix<f64>) {
+        for state in 0..by.nrows() {
+            let terms = (0..by.ncols()).map(|row| (-by[(state, row)], column(effect, row)));
+            add_all(terms, column_mut(effects.matrix_mut(), state));
         }
     }
 }
@@ -236,12 +252,25 @@ pub(crate) fn symmetric(s: DMatrix<f64>) -> DMatrix<f64> {
     (s + transposed) * 0.5
 }
 
-/// P <- P + sign W W^T, both halves alike to the bit.
+/// P <- P + sign W W^T for a symmetric P: the lower half is worked out, the upper one is its image.
 fn add_product(p: &mut DMatrix<f64>, w: &DMatrix<f64>, sign: f64) {
     let states = p.nrows().max(1);
     for (j, own) in p.as_mut_slice().chunks_exact_mut(states).enumerate() {
-        for of_w in w.as_slice().chunks_exact(states) {
-            axpy(sign * of_w[j], of_w, own);
+        let terms = w.as_slice().chunks_exact(states).map(|of_w| (sign * of_w[j], &of_w[j..]));
+        add_all(terms, &mut own[j..]);
+    }
+    mirror(p);
+}
+
+/// Makes the upper half of a square matrix the image of the lower one.
+fn mirror(p: &mut DMatrix<f64>) {
+    let states = p.nrows().max(1);
+    let mut rest = p.as_mut_slice();
+    let mut j = 0;
+    while let Some((own, behind)) = rest.split_at_mut_checked(states) {
+        for (i, column) in behind.chunks_exact_mut(states).enumerate() {
+            column[j] = own[j + 1 + i];
         }
+        (rest, j) = (behind, j + 1);
     }
 }

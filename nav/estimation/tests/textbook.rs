@@ -172,17 +172,21 @@ proptest! {
         effects.set(0, A, &Matrix3::identity());
         effects.set(0, HEAD, &Matrix3::from_column_slice(&numbers[..9]));
         let direct = DMatrix::from_column_slice(3, 2, &numbers[9..15]);
-        let effect = weighed.effect_of(&effects, direct.clone());
         let u = effects.matrix().transpose();
-        assert_relative_eq!(effect.transpose(), &h * &u + direct.transpose(), epsilon = 1e-12);
-        let whitened = weighed.whiten(effect.clone());
+        let told = (&h * &u + direct.transpose()).transpose();
+        let effect = weighed.effect_of(&effects, direct);
         let s = &h * p.matrix() * h.transpose() + &one.r;
-        let information = &effect * s.try_inverse().unwrap_or_default() * effect.transpose();
-        assert_relative_eq!(&whitened * whitened.transpose(), information, epsilon = 1e-9);
-        let gain = weighed.gain();
-        let expected = &u - &gain * effect.transpose();
-        Weighed::pass_on(&mut effects, &effect, &gain);
-        assert_relative_eq!(effects.matrix(), &expected.transpose(), epsilon = 1e-12);
+        let information = &told * s.try_inverse().unwrap_or_default() * told.transpose();
+        assert_relative_eq!(&effect * effect.transpose(), information, epsilon = 1e-9);
+        for gain in [weighed.gain(), DMatrix::from_column_slice(ALL, 2, &numbers[..2 * ALL])] {
+            let expected = &u - &gain * told.transpose();
+            let mut passed = effects.clone();
+            weighed.pass_on_by(&mut passed, &effect, &gain);
+            assert_relative_eq!(passed.matrix(), &expected.transpose(), epsilon = 1e-9);
+        }
+        let expected = &u - weighed.gain() * told.transpose();
+        weighed.pass_on(&mut effects, &effect);
+        assert_relative_eq!(effects.matrix(), &expected.transpose(), epsilon = 1e-9);
     }
 
     #[test]

@@ -231,7 +231,7 @@ fn epoch(boundary: &Boundary, moment: &Moment, point: usize, lever: &Body) -> Ep
     Epoch {
         solution: motion.map(|motion| motion.solution),
         acceleration: motion.and_then(|motion| motion.acceleration),
-        covariance_north_east: motion.and_then(|motion| motion.covariance_north_east),
+        covariance_north_east: motion.and_then(|motion| motion.covariance_north_east()),
         current: motion.and_then(|motion| motion.current).map(|current| current.velocity),
         heave: heave.filter(|heave| is_near(heave.time)).map(|heave| heave.at(boundary.time)),
         utc: boundary.utc,

@@ -33,7 +33,7 @@ fn turning(time: Time) -> Moment {
             judgement: insd_base::Judgement::default(),
         },
         acceleration: Some(Ned::new(-3.49 * sin, 3.49 * cos, 0.0)),
-        covariance_north_east: Some(0.0),
+        covariance: Some(insd_base::MotionCovariance::zeros()),
         current: None,
     };
     Moment { motion: Some(motion), ..Moment::default() }

@@ -21,12 +21,13 @@ use insd_base::{Span, Time, earth};
 use nalgebra::{Vector2, Vector3};
 
 use super::white_noise::{self, WhiteNoise};
-use crate::disturbance::{Config, Model, Order, Prefilter, SlowVelocity};
+use crate::disturbance::{Config, Model, Prefilter, SlowVelocity};
 
 /// Holds a filter at the berth by its prefiltered velocity.
 #[derive(Clone, Debug)]
 pub struct Prefiltered {
     prefilter: Prefilter,
+    config: Config,
     model: Option<Model>,
     beginning: WhiteNoise,
     start: Time,
@@ -34,15 +35,8 @@ pub struct Prefiltered {
     next_estimate: Time,
 }
 
-/// Spacing of samples, s.
-const SAMPLING: Span = Span::from_nanos(1_000_000_000);
-/// Length of the window: longer than the moorings' slowest swaying, over which a Schuler oscillation
-/// is still a parabola, s.
-const WINDOW: f64 = 300.0;
-/// Window that the first estimate is taken from: two periods of swaying, s.
-const FIRST: f64 = 150.0;
-/// Highest order that is tried.
-const HIGHEST_ORDER: usize = 8;
+/// Share of the window that the first estimate is taken from: two periods of swaying of the five that fit into it.
+const FIRST: f64 = 0.5;
 /// The spacing of estimates as share of the window, over which their errors are independent.
 const SHARE: f64 = 0.25;
 /// Factor on the variance of the zero velocity before the first estimate: the sea repeats, and the
@@ -56,16 +50,15 @@ impl Prefiltered {
     /// From now on.
     #[must_use]
     pub fn new(filter: &Filter) -> Self {
-        let order = Order::Chosen { max: HIGHEST_ORDER };
-        let window = Span::from_seconds(WINDOW);
-        let now = filter.time();
+        let (now, config) = (filter.time(), *filter.prefilter());
         Prefiltered {
-            prefilter: Prefilter::new(&Config { interval: SAMPLING, window, order }),
+            prefilter: Prefilter::new(&config),
+            config,
             model: None,
             beginning: WhiteNoise::doubted(filter, DOUBT),
             start: now,
             next_sample: now,
-            next_estimate: now + Span::from_seconds(FIRST),
+            next_estimate: now + Span::from_seconds(FIRST * config.window.as_seconds()),
         }
     }
 
@@ -87,7 +80,7 @@ impl Prefiltered {
         if now < self.next_sample {
             return 0.0;
         }
-        self.next_sample = self.next_sample + SAMPLING;
+        self.next_sample = self.next_sample + self.config.interval;
         self.sample(filter);
         if self.model.is_none() && now < self.next_estimate {
             return self.beginning.hold(filter);
@@ -97,10 +90,11 @@ impl Prefiltered {
         }
         // a window that cannot be read may be readable with the next sample
         let Ok(slow) = self.prefilter.estimate() else { return 0.0 };
-        let filled = (now - self.start).as_seconds().min(WINDOW);
+        let window = self.config.window.as_seconds();
+        let filled = (now - self.start).as_seconds().min(window);
         self.next_estimate = now + Span::from_seconds(SHARE * filled);
         self.model = Some(slow.model.clone());
-        feed(filter, &slow, (WINDOW / filled).powi(2))
+        feed(filter, &slow, (window / filled).powi(2))
     }
 
     /// Corrects the window as the filter has corrected its estimate since the newest sample, and adds

@@ -69,7 +69,8 @@ pub enum Order {
 pub struct Config {
     /// From sample to sample; at least 1 ms.
     pub interval: Span,
-    /// Length of the window; 32 to 3600 samples. At least three periods of the slowest sway.
+    /// Length of the window; 32 to 3600 samples. At least three periods of the slowest sway: that of moorings is one to three
+    /// minutes, and over five a Schuler oscillation is still a parabola.
     pub window: Span,
     /// Order of the model; at most 16.
     pub order: Order,
@@ -143,7 +144,7 @@ impl Default for Config {
     fn default() -> Self {
         Config {
             interval: Span::from_seconds(1.0),
-            window: Span::from_seconds(120.0),
+            window: Span::from_seconds(300.0),
             order: Order::Chosen { max: 8 },
         }
     }

@@ -12,7 +12,8 @@ use super::{Config, Order, Prefilter, Refusal};
 
 /// A prefilter of the last 120 s.
 fn prefilter(order: Order) -> Prefilter {
-    Prefilter::new(&Config { order, ..Config::default() })
+    let window = Span::from_seconds(120.0);
+    Prefilter::new(&Config { order, window, ..Config::default() })
 }
 
 /// Of so many seconds, with the order chosen.

@@ -55,14 +55,14 @@ impl Filter {
     fn still_view(&self) -> View {
         let moving = self.view();
         let rate = moving.c_eb.transpose() * earth::rate_e();
-        View::new(&self.nominal, &rate, moving.rate_variance)
+        View::new(&self.state.nominal, &rate, moving.rate_variance)
     }
 
     /// The covariance with the swaying carried up to the time of the estimate.
     fn swayed_covariance(&self) -> Covariance {
-        let mut covariance = self.covariance.clone();
-        if let Some(sway) = &self.sway {
-            sway.propagate(&mut covariance, self.unswayed);
+        let mut covariance = self.state.covariance.clone();
+        if let Some(sway) = &self.state.sway {
+            sway.propagate(&mut covariance, self.state.unswayed);
         }
         covariance
     }
@@ -85,7 +85,7 @@ impl Filter {
         Ahead {
             filter: self,
             view,
-            regime: Regime { rtk: self.is_rtk() },
+            regime: self.regime(),
             second,
             covariance: self.swayed_covariance(),
         }
@@ -109,11 +109,11 @@ impl Ahead<'_> {
             velocity: self.second.velocity * dt,
             ..self.second
         };
-        let (gradient, config) = (self.filter.gravity.gradient(), &self.filter.config);
+        let (gradient, config) = (self.filter.state.gravity.gradient(), &self.filter.config);
         let regime = self.regime;
         let passage = Passage { stretch: &stretch, gradient, config, regime };
         passage.propagate(&mut self.covariance);
-        if let Some(sway) = &self.filter.sway {
+        if let Some(sway) = &self.filter.state.sway {
             sway.propagate(&mut self.covariance, dt);
         }
     }
@@ -133,9 +133,9 @@ impl Ahead<'_> {
     pub fn observe_gnss_velocity(&mut self, speed: f64, dt: f64) {
         let filter = self.filter;
         let fresh = |epoch: &VelocityEpoch| {
-            (filter.time - epoch.time).as_seconds() < super::mode::GNSS_TIMEOUT
+            (filter.state.time - epoch.time).as_seconds() < super::mode::GNSS_TIMEOUT
         };
-        let Some(epoch) = filter.velocity_epoch.filter(fresh) else { return };
+        let Some(epoch) = filter.receiver.velocity_epoch.filter(fresh) else { return };
         let fix = VelocityFix { acceleration: Vector3::zeros(), ..epoch.fix };
         let mut sample = gnss_velocity::innovation(&self.view, &fix, &filter.antenna_lever());
         let share = (epoch.spacing / dt).min(1.0);

@@ -15,14 +15,14 @@ use crate::error_state::{ATTITUDE, GNSS_LEVER, GYRO_BIAS, GYRO_DRIFT};
 impl Filter {
     /// Covariance of the position of the antenna that is left out, NED, m^2.
     pub(super) fn bent_position(&self, view: &View) -> Matrix3<f64> {
-        let p = &self.covariance;
+        let p = &self.state.covariance;
         let attitude = ATTITUDE.covariance_in(p, &view.c_ne);
         of_product(&attitude, &GNSS_LEVER.covariance_in(p, &view.c_nb()))
     }
 
     /// Covariance of the velocity of the antenna that is left out, NED, m^2/s^2.
     pub(super) fn bent_velocity(&self, view: &View) -> Matrix3<f64> {
-        let (p, c_nb) = (&self.covariance, view.c_nb());
+        let (p, c_nb) = (&self.state.covariance, view.c_nb());
         let attitude = ATTITUDE.covariance_in(p, &view.c_ne);
         let swing = GNSS_LEVER.covariance_in(p, &(c_nb * skew(&view.rate)));
         let gyro = GYRO_BIAS.covariance_in(p, &c_nb) + GYRO_DRIFT.covariance_in(p, &c_nb);

@@ -14,12 +14,12 @@ impl Filter {
     /// The errors of the sensors; whether the ship is `moored` is for the caller to know. Some 100 ns.
     #[must_use]
     pub fn estimates(&self, moored: bool) -> Estimates {
-        let (nominal, p) = (&self.nominal, &self.covariance);
+        let (nominal, p) = (&self.state.nominal, &self.state.covariance);
         let estimate = |value: f64, sigma: f64| Estimate { value, sigma };
         let scale = self.unless_carried(LOG_SCALE, |config| config.log.scale_std).x;
         let misalignment =
             self.unless_carried(LOG_MISALIGNMENT, |config| config.log.misalignment_std);
-        let redated = self.redated.unwrap_or_default();
+        let redated = self.receiver.redated.unwrap_or_default();
         Estimates {
             gyro_bias: Body(nominal.gyro_error().bias),
             gyro_bias_sigma: Body(GYRO_BIAS.std_of_sum(GYRO_DRIFT, p)),
@@ -33,9 +33,12 @@ impl Filter {
             gnss_lever: Body(self.antenna_lever()),
             gnss_lever_sigma: Body(GNSS_LEVER.stds(p)),
             gnss_delay: estimate(nominal.gnss_delay + redated, GNSS_DELAY.std(p)),
-            log_lever: self.log_lever_std.map(|sigma| (self.config.lever_arms.log, Body(sigma))),
+            log_lever: self
+                .installation
+                .log_lever_std
+                .map(|sigma| (self.config.lever_arms.log, Body(sigma))),
             course_less_heading: None,
-            goes_on_wheels: self.wheels.are_proven(),
+            goes_on_wheels: self.conduct.wheels.are_proven(),
             moored,
         }
     }
@@ -46,8 +49,8 @@ impl Filter {
         block: Block<W>,
         first: fn(&NavConfig) -> f64,
     ) -> SVector<f64, W> {
-        if self.covariance.has(block) {
-            block.stds(&self.covariance)
+        if self.state.covariance.has(block) {
+            block.stds(&self.state.covariance)
         } else {
             SVector::repeat(first(&self.config))
         }

@@ -78,36 +78,38 @@ impl Filter {
     fn note_antenna(&mut self, fix: &GnssFix) {
         if fix.lever.is_some_and(|arm| self.config.hear_antenna(arm)) {
             let variance = self.config.gnss_lever_std().powi(2);
-            GNSS_LEVER.renew(&mut self.covariance, &Matrix3::from_diagonal_element(variance));
-            self.nominal.gnss_lever = self.config.gnss_lever() - self.config.lever_arms.gnss.0;
-            self.antenna = AntennaMotion::default();
-            self.found_lever = FoundLever::default();
-            (self.nominal.gnss_delay, self.redated) = (0.0, None);
-            self.lateness = 0.0;
+            GNSS_LEVER.renew(&mut self.state.covariance, &Matrix3::from_diagonal_element(variance));
+            self.state.nominal.gnss_lever =
+                self.config.gnss_lever() - self.config.lever_arms.gnss.0;
+            self.receiver.antenna = AntennaMotion::default();
+            self.receiver.found_lever = FoundLever::default();
+            (self.state.nominal.gnss_delay, self.receiver.redated) = (0.0, None);
+            self.receiver.lateness = 0.0;
             let begun = SeparateBias::new(&self.view());
-            self.bias = self.bias.take().map(|_| begun);
+            self.installation.bias = self.installation.bias.take().map(|_| begun);
             self.restart_judge();
         }
     }
 
     /// What a fix was set back by is no delay any more.
     fn note_redating(&mut self, redated: f64) {
-        self.nominal.gnss_delay -= self.redated.map_or(0.0, |before| redated - before);
-        self.redated = Some(redated);
+        self.state.nominal.gnss_delay -=
+            self.receiver.redated.map_or(0.0, |before| redated - before);
+        self.receiver.redated = Some(redated);
     }
 
     /// The slow errors of code and carrier solutions have nothing to do with each other.
     fn note_quality(&mut self, quality: FixQuality) {
         let is_honest = self.noise_of(Aid::GnssPosition) < DISHONEST;
         let rtk = quality == FixQuality::RtkFixed && is_honest;
-        if self.rtk.is_some_and(|before| before != rtk) {
-            GNSS_POSITION_ERROR.renew(&mut self.covariance, &Matrix3::identity());
-            GNSS_VELOCITY_ERROR.renew(&mut self.covariance, &Matrix3::identity());
-            self.nominal.gnss_position_error = Vector3::zeros();
-            self.nominal.gnss_velocity_error = Vector3::zeros();
+        if self.receiver.rtk.is_some_and(|before| before != rtk) {
+            GNSS_POSITION_ERROR.renew(&mut self.state.covariance, &Matrix3::identity());
+            GNSS_VELOCITY_ERROR.renew(&mut self.state.covariance, &Matrix3::identity());
+            self.state.nominal.gnss_position_error = Vector3::zeros();
+            self.state.nominal.gnss_velocity_error = Vector3::zeros();
             self.renew_judged();
         }
-        self.rtk = Some(rtk);
+        self.receiver.rtk = Some(rtk);
     }
 
     /// Returns the velocity as it was offered to the filter, used or not.
@@ -122,33 +124,34 @@ impl Filter {
         let mut innovation = gnss_velocity::innovation(&view, &measured, &self.antenna_lever());
         innovation.r += self.bent_velocity(&view);
         self.consult(Aid::GnssVelocity, &innovation, rows::of_gnss_velocity);
-        let weighed = innovation.weigh(&self.covariance);
+        let weighed = innovation.weigh(&self.state.covariance);
         let fault = self.agreement(Aid::GnssVelocity, weighed.as_ref());
         if fault && self.can_judge() {
-            self.trust.suspect(self.time, self.config.gate.suspect_time);
+            self.receiver.trust.suspect(self.state.time, self.config.gate.suspect_time);
         }
         let suspect =
             self.is_receiver_refused(Aid::GnssVelocity).then_some(Rejection::SourceSuspect);
         let judged = self.gated_as(weighed.as_ref(), suspect);
         if enter(report, fix.time, source, VELOCITY_AID, &judged) == Outcome::Accepted {
-            let before = self.velocity_epoch;
-            self.velocity_epoch = Some(VelocityEpoch::after(before, self.time, &measured));
+            let before = self.receiver.velocity_epoch;
+            self.receiver.velocity_epoch =
+                Some(VelocityEpoch::after(before, self.state.time, &measured));
         }
         Some((measured, innovation))
     }
 
     fn velocity_fix(&self, view: &View, fix: &GnssFix, report: &mut Report) -> Option<VelocityFix> {
         let velocity = fix.velocity?;
-        let std = floors::vector(fix.velocity_std, &floors::gnss_velocity());
+        let std = self.config.floors.gnss_velocity(fix.velocity_std);
         if std.replaced {
             report.floored.push(VELOCITY_AID);
         }
         let share = self.config.gnss.velocity_slow_share;
         let noise = self.noise_of(Aid::GnssVelocity);
-        let factor = self.trust.velocity.variance_factor().max(noise);
+        let factor = self.receiver.trust.velocity.variance_factor().max(noise);
         // near a pole north at the antenna is not north at the IMU, and is known no better than the fix
         let c_ne = fix.position.map_or(view.c_ne, |antenna| earth::c_ne(&antenna));
-        let place = floors::vector(fix.position_std, &floors::gnss_position(fix.quality)).value;
+        let place = self.config.floors.gnss_position(fix.position_std, fix.quality).value;
         let north_std = place.xy().max() * axes_turn(&view.geodetic).amax();
         let by_north = (velocity.0.xy().norm() * north_std).powi(2);
         Some(VelocityFix {
@@ -156,20 +159,20 @@ impl Filter {
             white: std.value.map(|s| (s * s * (1.0 - share) * factor + by_north).sqrt()),
             slow: floors::slow_part(&(std.value * noise.sqrt()), share),
             acceleration: view.c_ne
-                * self.antenna.acceleration(self.time, &self.antenna_velocity()),
+                * self.receiver.antenna.acceleration(self.state.time, &self.antenna_velocity()),
         })
     }
 
     /// Lever arm from the IMU to the antenna as now known, body axes, m.
     pub(super) fn antenna_lever(&self) -> Vector3<f64> {
-        self.config.lever_arms.gnss.0 + self.nominal.gnss_lever
+        self.config.lever_arms.gnss.0 + self.state.nominal.gnss_lever
     }
 
     /// Velocity of the antenna, ECEF axes, m/s.
     pub(super) fn antenna_velocity(&self) -> Vector3<f64> {
-        let rate = earth_relative_rate(&self.nominal, &self.rate);
+        let rate = earth_relative_rate(&self.state.nominal, &self.state.rate);
         let swing = rate.cross(&self.antenna_lever());
-        self.nominal.velocity + self.nominal.attitude.transform_vector(&swing)
+        self.state.nominal.velocity + self.state.nominal.attitude.transform_vector(&swing)
     }
 
     fn apply_position(
@@ -190,7 +193,7 @@ impl Filter {
         let is_out = self.withholds(Aid::GnssPosition);
         self.follow(&innovation, velocity.map(|(_, innovation)| innovation));
         self.note_origin(&view, &measured);
-        let weighed = innovation.weigh(&self.covariance);
+        let weighed = innovation.weigh(&self.state.covariance);
         self.agreement(Aid::GnssPosition, weighed.as_ref());
         let refused = if is_out || self.is_receiver_refused(Aid::GnssPosition) {
             Some(Rejection::SourceSuspect)
@@ -199,7 +202,7 @@ impl Filter {
         };
         let judged = self.gated_as(weighed.as_ref(), refused);
         match enter(report, fix.time, source, POSITION_AID, &judged) {
-            Outcome::Accepted => self.trust.used(self.time),
+            Outcome::Accepted => self.receiver.trust.used(self.state.time),
             Outcome::Rejected(_) => {
                 self.consider_reset(&measured, velocity.map(|(fix, _)| fix), report);
             }
@@ -208,11 +211,11 @@ impl Filter {
 
     /// Of a receiver with a wrong height that counts for nothing, but is watched.
     fn without_wrong_height(&mut self, mut innovation: Innovation) -> Innovation {
-        let now = self.time;
-        if self.judge.as_ref().is_none_or(|judge| !judge.docket().tells_wrong_height()) {
+        let now = self.state.time;
+        if self.court.judge.as_ref().is_none_or(|judge| !judge.docket().tells_wrong_height()) {
             return innovation;
         }
-        let weighed = innovation.select(&[2]).weigh(&self.covariance);
+        let weighed = innovation.select(&[2]).weigh(&self.state.covariance);
         if let Some((weighed, judge)) = weighed.zip(self.judge_now()) {
             judge.watch_height(now, &weighed);
         }
@@ -222,13 +225,13 @@ impl Filter {
 
     fn position_fix(&self, view: &View, fix: &GnssFix, report: &mut Report) -> Option<PositionFix> {
         let position = fix.position?;
-        let std = floors::vector(fix.position_std, &floors::gnss_position(fix.quality));
+        let std = self.config.floors.gnss_position(fix.position_std, fix.quality);
         if std.replaced {
             report.floored.push(POSITION_AID);
         }
-        let share = self.config.gnss.position_slow_share_for(self.is_rtk());
+        let share = self.config.gnss.position_slow_share_for(self.receiver.is_rtk());
         let noise = self.noise_of(Aid::GnssPosition);
-        let factor = self.trust.position.variance_factor().max(noise);
+        let factor = self.receiver.trust.position.variance_factor().max(noise);
         Some(PositionFix {
             position,
             white: std.value * ((1.0 - share) * factor).sqrt(),
@@ -240,8 +243,10 @@ impl Filter {
     /// A filter that has begun does not know where its position came from. One that is known far better than the slow
     /// errors of a receiver let it, as that of a ship at a surveyed berth, did not come by way of the antenna.
     fn note_origin(&mut self, view: &View, measured: &PositionFix) {
-        let Some(bias) = self.bias.as_mut().filter(|bias| !bias.knows_origin()) else { return };
-        let own = POSITION.covariance_in(&self.covariance, &view.c_ne);
+        let Some(bias) = self.installation.bias.as_mut().filter(|bias| !bias.knows_origin()) else {
+            return;
+        };
+        let own = POSITION.covariance_in(&self.state.covariance, &view.c_ne);
         let least = (measured.slow * OF_GNSS).map(|std| std * std);
         let share = own.diagonal().zip_map(&least, |own, least| (own / least).clamp(0.0, 1.0));
         bias.came_from(view, &share);
@@ -252,12 +257,12 @@ impl Filter {
         let Some(weighed) = weighed else { return true };
         if !self.is_in_court(aid) {
             let least = if aid == Aid::GnssVelocity { SLACK_VELOCITY } else { SLACK };
-            self.bias.iter_mut().for_each(|bias| bias.hear(weighed, least));
+            self.installation.bias.iter_mut().for_each(|bias| bias.hear(weighed, least));
         }
         let mean_square = weighed.nis() / 3.0;
         let agreement = match aid {
-            Aid::GnssVelocity => &mut self.trust.velocity,
-            _ => &mut self.trust.position,
+            Aid::GnssVelocity => &mut self.receiver.trust.velocity,
+            _ => &mut self.receiver.trust.position,
         };
         let off = weighed.z().component_div(&weighed.sigma());
         agreement.learn(&off.fixed_rows::<3>(0).into_owned(), mean_square);
@@ -268,23 +273,23 @@ impl Filter {
     /// for by another sensor, or its gyros are good.
     fn can_judge(&self) -> bool {
         let vouched =
-            self.last_relative.is_some_and(|last| (self.time - last).as_seconds() < VOUCHED);
+            self.heard.relative.is_some_and(|last| (self.state.time - last).as_seconds() < VOUCHED);
         self.navigating && (vouched || !self.config.has_coarse_gyros())
     }
 
     fn is_receiver_refused(&mut self, aid: Aid) -> bool {
-        if self.judge.is_some() || self.withholds(aid) {
+        if self.court.judge.is_some() || self.withholds(aid) {
             return self.withholds(aid);
         }
-        self.can_judge() && self.trust.is_refused(self.time, OFF_HOLD)
+        self.can_judge() && self.receiver.trust.is_refused(self.state.time, OFF_HOLD)
     }
 
     fn exceeds_dop_limit(&self, fix: &GnssFix, innovation: &Innovation) -> bool {
-        let p = POSITION.covariance(&self.covariance);
+        let p = POSITION.covariance(&self.state.covariance);
         let predicted = p.diagonal().max().max(0.0).sqrt();
         let hdop = fix.hdop.filter(|hdop| hdop.is_finite() && *hdop > 0.0).unwrap_or(1.0);
-        let since = self.trust.since_used(self.time);
-        let limit = dop_limit(&self.config.gate, self.is_rtk(), hdop, predicted, since);
+        let since = self.receiver.trust.since_used(self.state.time);
+        let limit = dop_limit(&self.config.gate, self.receiver.is_rtk(), hdop, predicted, since);
         innovation.z[0].hypot(innovation.z[1]) > limit
     }
 
@@ -304,8 +309,9 @@ impl Filter {
         if !self.navigating {
             return;
         }
-        let refused = self.trust.refused(self.time);
-        let may_be_mistake = || self.bias.as_ref().is_some_and(SeparateBias::is_suspicious);
+        let refused = self.receiver.trust.refused(self.state.time);
+        let may_be_mistake =
+            || self.installation.bias.as_ref().is_some_and(SeparateBias::is_suspicious);
         if refused < patience || (refused < MISTAKEN && may_be_mistake()) {
             return;
         }
@@ -315,23 +321,24 @@ impl Filter {
     /// Whether velocity and attitude are so vague that nothing is linear in their errors, and a receiver that nothing
     /// speaks against tells where she is.
     fn is_lost(&self) -> bool {
-        let sigma = |block: Block<3>| block.covariance(&self.covariance).trace().max(0.0).sqrt();
+        let sigma =
+            |block: Block<3>| block.covariance(&self.state.covariance).trace().max(0.0).sqrt();
         let left_out = sigma(VELOCITY) * sigma(ATTITUDE);
         self.navigating && left_out > LOST && !self.withholds(Aid::GnssPosition)
     }
 
     /// Whether a receiver that may still lie of where she is was not heard for long.
     fn hears_a_liar_again(&self) -> bool {
-        let is_unproven = self.docket().unproven_std(self.time) > 0.0;
+        let is_unproven = self.docket().unproven_std(self.state.time) > 0.0;
         is_unproven
-            && self.trust.since_used(self.time) > UNHEARD
+            && self.receiver.trust.since_used(self.state.time) > UNHEARD
             && !self.withholds(Aid::GnssPosition)
     }
 
     /// What is left of a lie about the place must tell nothing of how fast she goes and where her bow points.
     fn untie_position(&mut self) {
-        let own = POSITION.covariance(&self.covariance);
-        POSITION.renew(&mut self.covariance, &own);
+        let own = POSITION.covariance(&self.state.covariance);
+        POSITION.renew(&mut self.state.covariance, &own);
         self.restart_judge();
     }
 
@@ -357,22 +364,22 @@ impl Filter {
         let view = self.view();
         let place = imu_position(&view, &measured.position, &lever);
         let variance = floors::greatest_told(&(measured.white + measured.slow)).powi(2);
-        POSITION.renew(&mut self.covariance, &Matrix3::from_diagonal_element(variance));
-        self.nominal.position = place.0;
+        POSITION.renew(&mut self.state.covariance, &Matrix3::from_diagonal_element(variance));
+        self.state.nominal.position = place.0;
         if let Some(velocity) = velocity {
             let swing = view.c_eb * view.rate.cross(&lever);
             let variance = floors::greatest_told(&(velocity.white + velocity.slow)).powi(2);
-            VELOCITY.renew(&mut self.covariance, &Matrix3::from_diagonal_element(variance));
-            self.nominal.velocity = view.c_ne.transpose() * velocity.velocity - swing;
+            VELOCITY.renew(&mut self.state.covariance, &Matrix3::from_diagonal_element(variance));
+            self.state.nominal.velocity = view.c_ne.transpose() * velocity.velocity - swing;
         }
-        ATTITUDE.inflate(&mut self.covariance, LOST_ATTITUDE * LOST_ATTITUDE);
+        ATTITUDE.inflate(&mut self.state.covariance, LOST_ATTITUDE * LOST_ATTITUDE);
         let acceleration = velocity.map(|fix| view.c_ne.transpose() * fix.acceleration);
-        if let Some(bias) = &mut self.bias {
+        if let Some(bias) = &mut self.installation.bias {
             bias.excuse(&view);
             acceleration.iter().for_each(|acceleration| bias.start(&view, acceleration));
         }
-        self.trust.clear();
-        self.trust.used(self.time);
+        self.receiver.trust.clear();
+        self.receiver.trust.used(self.state.time);
         self.forget_motion();
         self.restart_judge();
         report.position_reset = true;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use insd_base::units::DEG;
-use insd_base::{Fault, Judgement, Mode, Parties, Party, SolutionSigma, Time};
+use insd_base::{Fault, Judgement, Parties, Party, SolutionSigma, Time};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::Filter;
@@ -11,11 +11,10 @@ use super::ahead::heading_std;
 use super::receivers::horizontal_noise;
 use crate::config::WORSE;
 use crate::error_state::{
-    ATTITUDE, Errors, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, GYRO_BIAS, Innovation, VELOCITY,
+    ATTITUDE, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, GYRO_BIAS, Innovation,
 };
 use crate::judge::{Aid, Alternative, Docket, Judge};
-use crate::leap::LeapWatch;
-use crate::propagation::{Passage, Regime, Stretch};
+use crate::propagation::{Passage, Stretch};
 use crate::separate_bias::SeparateBias;
 use crate::solution_sigma::{difference, solution_sigma};
 
@@ -29,8 +28,6 @@ const LOST_HEADING: f64 = 5.0 * DEG;
 const SETTLED: f64 = 300.0;
 /// Who has spoken within this time speaks, s.
 const SPEAKS: f64 = 3.0;
-/// Who has not been heard for so long is no witness of the heading, s.
-const ALONE: f64 = 60.0;
 
 /// What is to be done about the IMU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,44 +43,36 @@ pub enum ImuState {
 impl Filter {
     /// Has a judge from now on, if the filter navigates and nothing holds the ship.
     pub(super) fn be_judged(&mut self) {
-        let is_free = self.navigating && self.sway.is_none();
+        let is_free = self.navigating && self.state.sway.is_none();
         let docket = self.docket();
         self.config = self.config.with_docket(docket);
-        self.leap = LeapWatch::default();
-        self.judge = is_free.then(|| Arc::new(Judge::new(&self.covariance, &self.config, docket)));
-        self.judged_since = self.time;
-        self.forget_unheard();
-    }
-
-    /// What the judge has not been told yet is of no account.
-    fn forget_unheard(&mut self) {
-        self.unjudged = Stretch::new();
-        self.owed = Errors::none();
+        let judge = is_free.then(|| Judge::new(&self.state.covariance, &self.config, docket));
+        self.court.sit(judge, self.state.time);
     }
 
     /// The judge begins anew with the estimate as it is. Whom that refuses it has not heard yet.
     pub(super) fn restart_judge(&mut self) {
-        self.forget_unheard();
-        self.trust.count_anew();
-        if let Some(judge) = &mut self.judge {
-            Arc::make_mut(judge).restart(&self.covariance, &self.config);
+        self.court.forget_unheard();
+        self.receiver.trust.count_anew();
+        if let Some(judge) = &mut self.court.judge {
+            Arc::make_mut(judge).restart(&self.state.covariance, &self.config);
         }
     }
 
     /// Brings the judge up to the time of the estimate. It must be settled.
     pub(super) fn judge_now(&mut self) -> Option<&mut Judge> {
-        let regime = Regime { rtk: self.is_rtk() };
-        let judge = Arc::make_mut(self.judge.as_mut()?);
-        if self.unjudged.duration > 0.0 {
+        let regime = self.regime();
+        let judge = Arc::make_mut(self.court.judge.as_mut()?);
+        if self.court.unjudged.duration > 0.0 {
             judge.propagate(&Passage {
-                stretch: &self.unjudged,
-                gradient: self.gravity.gradient(),
+                stretch: &self.court.unjudged,
+                gradient: self.state.gravity.gradient(),
                 config: &self.config,
                 regime,
             });
-            self.unjudged = Stretch::new();
+            self.court.unjudged = Stretch::new();
         }
-        judge.corrected(&std::mem::take(&mut self.owed));
+        judge.corrected(&std::mem::take(&mut self.court.owed));
         Some(judge)
     }
 
@@ -104,13 +93,15 @@ impl Filter {
         innovation: &Innovation,
         direct: impl Fn(f64) -> DMatrix<f64>,
     ) {
-        let now = self.time;
-        if self.is_in_gap() || self.judge.as_ref().is_none_or(|judge| !judge.is_due(aid, now)) {
+        let now = self.state.time;
+        if self.state.is_in_gap()
+            || self.court.judge.as_ref().is_none_or(|judge| !judge.is_due(aid, now))
+        {
             return;
         }
-        let attitude = self.nominal.attitude;
+        let attitude = self.state.nominal.attitude;
         let is_left_out = self.docket().leaves_out(aid);
-        let weighed = is_left_out.then(|| innovation.weigh(&self.covariance)).flatten();
+        let weighed = is_left_out.then(|| innovation.weigh(&self.state.covariance)).flatten();
         let Some(judge) = self.judge_now() else { return };
         match aid.party().filter(|_| is_left_out) {
             Some(Party::Gnss) if judge.docket().leaves_out_gnss() => judge.note_word(aid, now),
@@ -129,7 +120,7 @@ impl Filter {
         if !self.docket().leaves_out_gnss() {
             return;
         }
-        let (now, covariance) = (self.time, self.covariance.clone());
+        let (now, covariance) = (self.state.time, self.state.covariance.clone());
         let both = position.beside(velocity.unwrap_or(&Innovation::silent(3)));
         let noise = horizontal_noise(position);
         let weighed = both.weigh(&covariance);
@@ -140,7 +131,7 @@ impl Filter {
                 let mut docket = self.config.docket;
                 docket.see_receiver((Party::Gnss, now), &weighed, noise, &covariance, false);
                 self.config = self.config.with_docket(docket);
-                self.covered = self.cover();
+                self.court.covered = self.cover();
             }
         }
     }
@@ -148,7 +139,7 @@ impl Filter {
     /// Whether what a receiver says now may be somebody's lie, and not the installer's mistake, which is there from
     /// the begin.
     pub(super) fn is_in_court(&self, aid: Aid) -> bool {
-        let Some(judge) = &self.judge else { return self.withholds(aid) };
+        let Some(judge) = &self.court.judge else { return self.withholds(aid) };
         let is_suspect = judge.is_in_doubt() || judge.withholds(aid);
         let is_no_mistake = judge.leaps(Party::Gnss) || judge.docket().leaves_out(aid);
         let may_be_mistake = self.is_early() || !self.is_lever_confirmed();
@@ -157,13 +148,13 @@ impl Filter {
 
     /// By how much the variance of an aid's noise is larger than stated.
     pub(super) fn noise_of(&self, aid: Aid) -> f64 {
-        self.judge.as_ref().map_or(1.0, |judge| judge.noise(aid))
+        self.court.judge.as_ref().map_or(1.0, |judge| judge.noise(aid))
     }
 
     /// Whether what somebody says with an aid is not to be used now.
     pub(super) fn withholds(&self, aid: Aid) -> bool {
-        let Some(judge) = &self.judge else {
-            let leapt = aid == Aid::GnssPosition && self.leap.is_suspected();
+        let Some(judge) = &self.court.judge else {
+            let leapt = aid == Aid::GnssPosition && self.court.leap.is_suspected();
             return leapt || self.config.docket.leaves_out(aid);
         };
         judge.withholds(aid)
@@ -171,19 +162,19 @@ impl Filter {
 
     /// The heading was found with a reference that nothing bears out yet, or is borne out now.
     pub fn doubt_heading(&mut self, is_doubted: bool) {
-        self.heading_doubted = is_doubted;
+        self.court.heading_doubted = is_doubted;
     }
 
     /// The IMU is of no use.
     pub fn condemn_imu(&mut self) {
-        let now = self.time;
-        if let Some(judge) = &mut self.judge {
+        let now = self.state.time;
+        if let Some(judge) = &mut self.court.judge {
             Arc::make_mut(judge).condemn_imu(now);
         }
     }
 
     fn excused(&self) -> Parties {
-        if self.heading_doubted {
+        if self.court.heading_doubted {
             Party::ALL.into_iter().collect()
         } else if self.is_early() {
             Parties::default().with(Party::Gnss).with(Party::Imu)
@@ -196,20 +187,17 @@ impl Filter {
     /// nobody is named for that, but the heading is one.
     #[must_use]
     pub fn is_forsaken(&self) -> bool {
-        let now = self.time;
+        let now = self.state.time;
         let speaks = |judge: &Judge| {
             [Aid::GnssPosition, Aid::Log].iter().all(|aid| judge.has_spoken(*aid, now, SPEAKS))
         };
-        self.is_early() && self.is_carried_by_imu() && self.judge.as_deref().is_some_and(speaks)
+        self.is_early()
+            && self.is_carried_by_imu()
+            && self.court.judge.as_deref().is_some_and(speaks)
     }
 
     pub(super) fn is_early(&self) -> bool {
-        (self.time - self.judged_since).as_seconds() < SETTLED
-    }
-
-    /// Whether the IMU is not believed.
-    pub(super) fn is_restless(&self) -> bool {
-        self.judge.as_ref().is_some_and(|judge| judge.docket().is_restless())
+        (self.state.time - self.court.since).as_seconds() < SETTLED
     }
 
     /// How many times as large in-run biases and scale factors of the IMU are taken to be as its data sheet says.
@@ -221,14 +209,14 @@ impl Filter {
     /// What is to be done about an IMU that was found wrong.
     #[must_use]
     pub fn imu_state(&self) -> ImuState {
-        let Some(judge) = &self.judge else { return ImuState::Believed };
+        let Some(judge) = &self.court.judge else { return ImuState::Believed };
         let docket = judge.docket();
         // what two say that lie alike is no reason to find a heading anew
-        let is_vague = judge.finds_a_lie_likely() && !docket.may_be_two(self.time);
-        let own = || heading_std(&self.view(), &self.covariance);
+        let is_vague = judge.finds_a_lie_likely() && !docket.may_be_two(self.state.time);
+        let own = || heading_std(&self.view(), &self.state.covariance);
         let std = || if is_vague { self.heading_std() } else { own() };
         let is_heading_lost = || self.is_settled() && std() > LOST_HEADING;
-        let is_doubted = docket.imu_doubted_since().is_some_and(|at| at >= self.judged_since);
+        let is_doubted = docket.imu_doubted_since().is_some_and(|at| at >= self.court.since);
         if docket.is_imu_condemned() || docket.wrong_imu_for() > PATIENCE {
             ImuState::Wrong
         } else if is_doubted && !docket.is_restless() && is_heading_lost() {
@@ -240,12 +228,12 @@ impl Filter {
 
     /// Does as the judge says, after a message.
     pub(super) fn heed(&mut self) {
-        let now = self.time;
+        let now = self.state.time;
         let excused = self.excused();
-        if self.judge.as_ref().is_none_or(|judge| !judge.is_look_due(now)) {
+        if self.court.judge.as_ref().is_none_or(|judge| !judge.is_look_due(now)) {
             return;
         }
-        let mistake = self.bias.as_ref().map_or(0.0, SeparateBias::odds);
+        let mistake = self.installation.bias.as_ref().map_or(0.0, SeparateBias::odds);
         let Some(judge) = self.judge_now() else { return };
         if let Some(verdict) = judge.look(now, excused, mistake) {
             if let Some(mended) = &verdict.mended {
@@ -254,12 +242,12 @@ impl Filter {
                     self.doubt_gyros(mended);
                 }
             }
-            if let Some(judge) = self.judge.as_ref() {
+            if let Some(judge) = self.court.judge.as_ref() {
                 self.config = self.config.with_docket(*judge.docket());
             }
             self.restart_judge();
         }
-        self.covered = self.cover();
+        self.court.covered = self.cover();
     }
 
     /// A compass that drifts and coarse gyros that do are alike, and what was known of their biases came from it: it is known no better than
@@ -267,72 +255,14 @@ impl Filter {
     fn doubt_gyros(&mut self, mended: &Alternative) {
         if self.config.has_coarse_gyros() {
             let turned = mended.error.of(ATTITUDE);
-            ATTITUDE.add(&mut self.covariance, &(turned * turned.transpose()));
-            GYRO_BIAS.inflate(&mut self.covariance, self.config.imu.gyro.bias_std.powi(2));
-        }
-    }
-
-    /// Without GNSS the estimate does what no craft of its kind can, and this one never did: the IMU is not believed.
-    pub(super) fn look_at_pace(&mut self) {
-        if !self.pace.is_due(self.time) {
-            return;
-        }
-        let (now, kind) = (self.time, self.vessel());
-        let athwart = (self.nominal.attitude.inverse() * self.nominal.velocity).y;
-        let change = self.pace.see(now, self.nominal.velocity.norm());
-        let lurch = self.lurch.see(now, athwart);
-        if self.mode() == Mode::Aided {
-            self.pace.learn(change);
-            self.lurch.learn(lurch);
-            self.look_for_wheels();
-            return;
-        }
-        let farthest =
-            self.lurch.limit(kind.greatest_lurch()) + 3.0 * VELOCITY.std(&self.covariance);
-        // at first a lever arm may be configured wrongly
-        let is_beyond = change > self.pace.limit(kind.greatest_spurt())
-            || (lurch > farthest && !self.is_early());
-        if is_beyond && !self.is_restless() {
-            self.disbelieve_imu();
-        }
-    }
-
-    /// The estimate is not that of before: how it moved since is of no account.
-    pub(super) fn forget_motion(&mut self) {
-        self.pace.restart();
-        self.lurch.restart();
-        self.slip.restart();
-        self.echo.restart();
-    }
-
-    /// With nothing but a receiver the heading turns as no craft does: the IMU is not believed.
-    pub(super) fn look_at_slip(&mut self) {
-        let now = self.time;
-        let is_alone = |judge: &Judge| {
-            [Aid::Heading, Aid::Log].iter().all(|aid| !judge.has_heard(*aid, now, ALONE))
-        };
-        let is_judged = self.judge.as_deref().is_some_and(is_alone) && !self.is_early();
-        if !is_judged || !self.slip.is_due(now) {
-            return;
-        }
-        if !matches!(self.mode(), Mode::Aided | Mode::Inertial) || self.is_restless() {
-            self.slip.restart();
-            return;
-        }
-        let view = self.view();
-        let velocity = (view.c_ne * self.nominal.velocity).xy();
-        let bow = view.c_nb().column(0).xy();
-        // of her course without a receiver
-        let unsure =
-            self.heading_std().hypot(VELOCITY.std(&self.covariance) / velocity.norm().max(1.0));
-        if self.slip.see(now, velocity, bow.y.atan2(bow.x), unsure) {
-            self.disbelieve_imu();
+            ATTITUDE.add(&mut self.state.covariance, &(turned * turned.transpose()));
+            GYRO_BIAS.inflate(&mut self.state.covariance, self.config.imu.gyro.bias_std.powi(2));
         }
     }
 
     /// Somebody is seen to lie by what he says alone: the estimate becomes that of who has not believed him.
     pub fn disbelieve(&mut self, whom: Party) {
-        let now = self.time;
+        let now = self.state.time;
         self.settle();
         if let Some(verdict) = self.judge_now().and_then(|judge| judge.disbelieve(whom, now)) {
             verdict.mended.iter().for_each(|mended| self.become_other(mended));
@@ -340,8 +270,8 @@ impl Filter {
         }
     }
 
-    fn disbelieve_imu(&mut self) {
-        let now = self.time;
+    pub(super) fn disbelieve_imu(&mut self) {
+        let now = self.state.time;
         self.settle();
         let verdict = self.judge_now().map(|judge| judge.disbelieve_imu(now));
         if let Some(mended) = verdict.and_then(|verdict| verdict.mended) {
@@ -353,7 +283,7 @@ impl Filter {
 
     /// A filter that refuses a receiver against whom nothing speaks is wrong itself. Tells whether it has a judge at all.
     pub(super) fn consider_rejoining(&mut self) -> bool {
-        let refused = self.trust.refused(self.time);
+        let refused = self.receiver.trust.refused(self.state.time);
         let withheld = self.withholds(Aid::GnssPosition);
         let is_early = self.is_early();
         let Some(judge) = self.judge_now() else { return false };
@@ -363,35 +293,29 @@ impl Filter {
         let unbiased = judge.unbiased().filter(|_| refused >= LOCKED_OUT && !withheld);
         if let Some(unbiased) = unbiased {
             self.become_other(&unbiased);
-            self.owed += &unbiased.error;
+            self.court.owed += &unbiased.error;
         }
         true
     }
 
     fn become_other(&mut self, other: &Alternative) {
         let Alternative { error, covariance } = other;
-        self.nominal.inject(error);
-        self.covariance.clone_from(covariance);
-        self.corrected += error;
-        self.absorbed += error.of(VELOCITY);
-        self.turned = Vector3::zeros();
+        self.state.become_other(error, covariance);
         self.forget_motion();
         let view = self.view();
-        self.bias.iter_mut().for_each(|bias| bias.excuse(&view));
-        self.trust.clear();
+        self.installation.bias.iter_mut().for_each(|bias| bias.excuse(&view));
+        self.receiver.trust.clear();
     }
 
     /// Sigmas that cover all that the estimate may be instead.
     fn cover(&self) -> Option<SolutionSigma> {
-        let acceleration = self.antenna.acceleration(self.time, &self.antenna_velocity());
-        let dating = self.dating();
-        let view = self.view().at_gnss_time(&acceleration, &dating);
+        let ((view, acceleration), dating) = (self.dated_view(), self.dating());
         let of = |other: &Alternative| {
             let apart = difference(&view, &other.error);
             let own = solution_sigma(&view, &acceleration, &dating, &other.covariance);
             apart.scaled(0.5).plus(&own)
         };
-        let judge = self.judge.as_deref();
+        let judge = self.court.judge.as_deref();
         let claims = judge.map(Judge::claims).unwrap_or_default();
         // the second moment of a mixture: how far each would be off, as often as it may be so
         let share = |(chance, other): &(f64, Alternative)| {
@@ -400,7 +324,7 @@ impl Filter {
         let chances = judge.map(Judge::chances).unwrap_or_default();
         let hedge = chances.iter().map(share).reduce(|a, b| a.hypot(&b));
         let mut all = claims.iter().map(of).chain(hedge).reduce(|a, b| a.greatest(&b));
-        let unproven = self.docket().unproven_std(self.time);
+        let unproven = self.docket().unproven_std(self.state.time);
         if unproven > 0.0 {
             let mut floor = all.unwrap_or_default();
             floor.position.0.x = floor.position.0.x.max(unproven);
@@ -413,25 +337,25 @@ impl Filter {
     /// How much likelier what was said since an instant is if the gyros have told so much too much since then, rad/s,
     /// body axes, as a logarithm; `None` without a judge.
     pub fn odds_of_gyros(&mut self, since: Time, excess: &Vector3<f64>) -> Option<f64> {
-        let now = self.time;
+        let now = self.state.time;
         Some(self.judge_now()?.odds_of_gyros(now, since, excess))
     }
 
     /// What is made of all that is said.
     pub(super) fn judgement(&self) -> Judgement {
         let alone = || self.config.docket.judgement();
-        self.judge.as_ref().map_or_else(alone, |judge| judge.judgement())
+        self.court.judge.as_ref().map_or_else(alone, |judge| judge.judgement())
     }
 
     /// How far everybody is believed.
     #[must_use]
     pub fn docket(&self) -> Docket {
-        self.judge.as_ref().map_or(self.config.docket, |judge| *judge.docket())
+        self.court.judge.as_ref().map_or(self.config.docket, |judge| *judge.docket())
     }
 
     /// The judge, if there is one.
     #[must_use]
     pub fn judge(&self) -> Option<&Judge> {
-        self.judge.as_deref()
+        self.court.judge.as_deref()
     }
 }

@@ -6,6 +6,9 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::Filter;
+use super::heard::Heard;
+use super::receiver::Receiver;
+use super::state::State;
 use crate::config::NavConfig;
 use crate::declaration::{Carried, carried, declaration};
 use crate::error_state::{BERTH_OFFSET, Covariance, SWAY, SWAY_VELOCITY};
@@ -76,21 +79,24 @@ impl Filter {
             return settled.kept();
         }
         KeptFilter {
-            time: self.time,
-            nominal: self.nominal,
-            covariance: self.covariance.clone(),
-            rate: self.rate,
-            lateness: self.lateness,
-            trust: self.trust,
-            rtk: self.rtk,
-            slow_noise: self.slow_noise,
-            level: self.level,
-            sway: self.sway,
-            last_relative: self.last_relative,
-            last_motion: self.last_motion,
-            last_water: self.last_water,
-            turned: self.turned,
-            unswayed: self.unswayed,
+            time: self.state.time,
+            nominal: self.state.nominal,
+            covariance: self.state.covariance.clone(),
+            rate: self.state.rate,
+            lateness: self.receiver.lateness,
+            trust: self.receiver.trust,
+            rtk: self.receiver.rtk,
+            slow_noise: {
+                let [position, velocity] = self.receiver.slow_noise;
+                [position, velocity, self.compass_noise]
+            },
+            level: self.state.level,
+            sway: self.state.sway,
+            last_relative: self.heard.relative,
+            last_motion: self.heard.motion,
+            last_water: self.heard.water,
+            turned: self.state.turned,
+            unswayed: self.state.unswayed,
             docket: self.docket(),
         }
     }
@@ -106,19 +112,28 @@ impl Filter {
             InitialState::new(kept.time + by, kept.nominal, kept.covariance.clone(), kept.rate);
         let later = |time: Option<Time>| time.map(|time| time + by);
         let config = config.with_docket(kept.docket.shifted(by));
-        let mut filter = Filter {
+        let [position, velocity, heading] = kept.slow_noise;
+        let mut filter = Filter::new(&config, &initial);
+        filter.receiver = Receiver {
             lateness: kept.lateness,
             trust: kept.trust.shifted(by),
             rtk: kept.rtk,
-            slow_noise: kept.slow_noise,
+            slow_noise: [position, velocity],
+            ..filter.receiver
+        };
+        filter.compass_noise = heading;
+        filter.state = State {
             level: kept.level,
             sway: kept.sway,
-            last_relative: later(kept.last_relative),
-            last_motion: later(kept.last_motion),
-            last_water: later(kept.last_water),
             turned: kept.turned,
             unswayed: kept.unswayed,
-            ..Filter::new(&config, &initial)
+            ..filter.state
+        };
+        filter.heard = Heard {
+            relative: later(kept.last_relative),
+            motion: later(kept.last_motion),
+            water: later(kept.last_water),
+            ..Heard::default()
         };
         filter.begin_navigation();
         let is_noise = |noise: &f64| noise.is_finite() && *noise > 0.0;

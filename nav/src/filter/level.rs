@@ -8,9 +8,10 @@ use crate::judge::{Aid, rows};
 impl Filter {
     /// Holds the mean height over a window of waves against the sea level.
     pub(super) fn hold_sea_level(&mut self) {
-        let (mean, length) = self.level.take_mean();
-        let innovation = sea_level::innovation(&self.view(), mean, length, self.level.heave.std());
-        let Some(weighed) = innovation.weigh(&self.covariance) else { return };
+        let (mean, length) = self.state.level.take_mean();
+        let innovation =
+            sea_level::innovation(&self.view(), mean, length, self.state.level.heave.std());
+        let Some(weighed) = innovation.weigh(&self.state.covariance) else { return };
         let excess = (weighed.nis() / self.gate.limit(1)).max(1.0);
         let is_alone = self.is_carried_by_imu();
         if !is_alone {
@@ -21,7 +22,7 @@ impl Filter {
             });
         }
         let expected = weighed.sigma()[0].powi(2) - innovation.r[0];
-        self.level.heave.learn(innovation.z[0], expected);
+        self.state.level.heave.learn(innovation.z[0], expected);
         if excess > 1.0 {
             return;
         }
@@ -36,7 +37,7 @@ impl Filter {
     /// grow until their squares matter to the height, and the linear filter would take them for
     /// knowledge of the horizontal.
     fn absorb_vertically(&mut self, weighed: &Weighed) {
-        let up = self.nominal.position.normalize();
+        let up = self.state.nominal.position.normalize();
         let optimal = weighed.gain_of(0);
         let mut gain = Errors::zeros(weighed.layout());
         for block in [POSITION, VELOCITY] {
@@ -45,12 +46,11 @@ impl Filter {
         }
         gain.set(SEA_LEVEL, &optimal.of(SEA_LEVEL));
         let gain = gain.to_column();
-        if let Some(bias) = &mut self.bias {
-            bias.absorb(weighed, &gain);
+        if let Some(bias) = &mut self.installation.bias {
+            bias.absorb_by(weighed, &gain);
         }
-        let error = weighed.update_with(&mut self.covariance, &gain);
-        self.nominal.inject(&error);
-        self.owed += &error;
-        self.absorbed += error.of(VELOCITY);
+        let error = weighed.update_with(&mut self.state.covariance, &gain);
+        self.state.correct(&error);
+        self.court.owed += &error;
     }
 }

@@ -11,21 +11,25 @@ const RELATIVE_TIMEOUT: f64 = 15.0;
 
 impl Filter {
     fn gnss_is_fresh(&self) -> bool {
-        self.trust.last_used().is_some_and(|last| (self.time - last).as_seconds() < GNSS_TIMEOUT)
+        self.receiver
+            .trust
+            .last_used()
+            .is_some_and(|last| (self.state.time - last).as_seconds() < GNSS_TIMEOUT)
     }
 
     /// Whether nothing tells how she moves but the IMU, with a heading or without.
     pub(super) fn is_carried_by_imu(&self) -> bool {
-        let is_fresh = |last: Time| (self.time - last).as_seconds() < RELATIVE_TIMEOUT;
-        !self.gnss_is_fresh() && !self.last_motion.is_some_and(is_fresh)
+        let is_fresh = |last: Time| (self.state.time - last).as_seconds() < RELATIVE_TIMEOUT;
+        !self.gnss_is_fresh() && !self.heard.motion.is_some_and(is_fresh)
     }
 
     /// Which aids carry the solution.
     #[must_use]
     pub fn mode(&self) -> Mode {
         let relative = self
-            .last_relative
-            .is_some_and(|last| (self.time - last).as_seconds() < RELATIVE_TIMEOUT);
+            .heard
+            .relative
+            .is_some_and(|last| (self.state.time - last).as_seconds() < RELATIVE_TIMEOUT);
         if self.gnss_is_fresh() {
             Mode::Aided
         } else if relative {

@@ -12,11 +12,11 @@ impl Filter {
     /// known to `offset_std` of each component, m.
     pub fn moor(&mut self, sway: Sway, offset_std: f64) {
         self.settle_sway();
-        sway.begin(&mut self.nominal, &mut self.covariance);
-        self.nominal.berth_offset = Vector2::zeros();
+        sway.begin(&mut self.state.nominal, &mut self.state.covariance);
+        self.state.nominal.berth_offset = Vector2::zeros();
         let offset = Matrix2::from_diagonal_element(offset_std * offset_std);
-        BERTH_OFFSET.renew(&mut self.covariance, &offset);
-        self.sway = Some(sway);
+        BERTH_OFFSET.renew(&mut self.state.covariance, &offset);
+        self.state.sway = Some(sway);
         self.be_judged();
     }
 
@@ -29,43 +29,39 @@ impl Filter {
     /// How the ship sways, as far as she is taken as moored.
     #[must_use]
     pub fn sway(&self) -> Option<&Sway> {
-        self.sway.as_ref()
+        self.state.sway.as_ref()
     }
 
     /// Changes what is assumed of the swaying from now on.
     pub fn set_sway(&mut self, sway: Sway) {
         self.settle_sway();
-        self.sway = Some(sway);
+        self.state.sway = Some(sway);
     }
 
     /// Admits that the ship's mean place at the berth has shifted by as much as this, 1-sigma of each
     /// component, m.
     pub fn loosen_berth(&mut self, std: f64) {
-        BERTH_OFFSET.inflate(&mut self.covariance, std * std);
+        BERTH_OFFSET.inflate(&mut self.state.covariance, std * std);
     }
 
     /// Admits that position, m, velocity, m/s, and attitude, rad, are off by as much as this, 1-sigma of each component.
     pub fn doubt_motion(&mut self, [position, velocity, attitude]: [f64; 3]) {
         self.settle_sway();
         let each = [(POSITION, position), (VELOCITY, velocity), (ATTITUDE, attitude)];
-        each.iter().for_each(|(block, std)| block.inflate(&mut self.covariance, std * std));
+        each.iter().for_each(|(block, std)| block.inflate(&mut self.state.covariance, std * std));
     }
 
     /// Carries the swaying up to the time of the estimate. Nothing but the berth depends on it, so it
     /// waits until the berth is looked at.
     pub fn settle_sway(&mut self) {
         self.settle();
-        if let Some(sway) = &self.sway {
-            sway.propagate(&mut self.covariance, self.unswayed);
-            sway.relax(&mut self.nominal, self.unswayed);
-        }
-        self.unswayed = 0.0;
+        self.state.settle_sway();
     }
 
     /// The ship is no longer taken as moored.
     pub fn cast_off(&mut self) {
         self.settle();
-        self.sway = None;
+        self.state.sway = None;
         self.end_to_carry(Carried::AtBerth);
         self.be_judged();
     }

@@ -1,10 +1,10 @@
 //! What the newest increment tells of the ship's motion, for outputs.
 
 use insd_base::{Current, Ned, earth};
-use nalgebra::{Matrix3x2, UnitQuaternion};
+use nalgebra::UnitQuaternion;
 
 use super::Filter;
-use crate::error_state::{CURRENT, POSITION};
+use crate::error_state::CURRENT;
 use crate::heave::VerticalStep;
 use crate::increments::Increment;
 use crate::strapdown;
@@ -18,8 +18,8 @@ impl Filter {
     /// gravity and Coriolis. Groves, 2nd ed., eq. (5.84).
     #[must_use]
     pub fn acceleration(&self, increment: &Increment) -> Ned {
-        let c_ne = earth::c_ne(&self.nominal.geodetic());
-        Ned(c_ne * strapdown::acceleration(&self.nominal, &self.gravity, increment))
+        let c_ne = earth::c_ne(&self.state.nominal.geodetic());
+        Ned(c_ne * strapdown::acceleration(&self.state.nominal, &self.state.gravity, increment))
     }
 
     /// The vertical part of an increment that the filter has just moved over, for heave. The estimated
@@ -27,10 +27,10 @@ impl Filter {
     /// leaves no heave.
     #[must_use]
     pub fn vertical_step(&self, increment: &Increment) -> VerticalStep {
-        let (h, nominal) = (increment.duration(), &self.nominal);
+        let (h, nominal) = (increment.duration(), &self.state.nominal);
         let rotation = increment.rotation - nominal.gyro_error().bias * h;
         let middle = nominal.attitude * UnitQuaternion::new(-0.5 * rotation);
-        let weight = self.gravity.at(&nominal.position);
+        let weight = self.state.gravity.at(&nominal.position);
         let up = -weight.normalize();
         let coriolis = 2.0 * earth::rate_e().cross(&nominal.velocity);
         let rise = nominal.velocity.dot(&up);
@@ -45,21 +45,12 @@ impl Filter {
     /// Velocity of the water, while a log tells the speed through it.
     #[must_use]
     pub fn current(&self) -> Option<Current> {
-        let last = self.last_water?;
-        let fresh = (self.time - last).as_seconds() < CURRENT_TIMEOUT;
-        let (velocity, sigma) = (self.nominal.current, CURRENT.stds(&self.covariance));
+        let last = self.heard.water?;
+        let fresh = (self.state.time - last).as_seconds() < CURRENT_TIMEOUT;
+        let (velocity, sigma) = (self.state.nominal.current, CURRENT.stds(&self.state.covariance));
         fresh.then(|| Current {
             velocity: Ned::new(velocity.x, velocity.y, 0.0),
             sigma: Ned::new(sigma.x, sigma.y, 0.0),
         })
-    }
-
-    /// North-east element of the covariance of the position, m^2.
-    #[must_use]
-    pub fn covariance_north_east(&self) -> f64 {
-        let position = POSITION.covariance(&self.covariance);
-        let rows = earth::c_ne(&self.nominal.geodetic());
-        let horizontal: Matrix3x2<f64> = rows.fixed_rows::<2>(0).transpose();
-        (position * horizontal.column(1)).dot(&horizontal.column(0))
     }
 }

@@ -22,7 +22,7 @@ impl Filter {
             LogReference::Bottom => "log_bottom",
             LogReference::Water => "log_water",
         };
-        let range = floors::log(self.config.log.default_std);
+        let range = self.config.floors.log;
         let stated = floored(log.std, &range, aid, report);
         self.begin_to_carry(Carried::WithLog);
         let prediction = self.predict_log(log);
@@ -30,17 +30,18 @@ impl Filter {
             let mut innovation = log_velocity::complete(&prediction, &measured, stated);
             innovation.r *= self.noise_of(Aid::Log);
             let by_lever = by_rows(&prediction.by_lever, &[0, 1, 2]);
-            let weighed = innovation.weigh(&self.covariance);
-            let gain = self.hear_log(weighed.as_ref(), &by_lever);
+            let weighed = innovation.weigh(&self.state.covariance);
+            let is_heard = self.hear_log(weighed.as_ref(), &by_lever);
             let direct = rows::of_log(&prediction.velocity, &self.view().c_nb());
             self.consult(Aid::Log, &innovation, |_| direct.clone());
             let judged = self.gated_as(weighed.as_ref(), self.withheld(Aid::Log));
-            self.note_log(log, enter(report, log.time, source, aid, &judged), gain, &by_lever);
-            self.told_across = Some(self.time);
+            let outcome = enter(report, log.time, source, aid, &judged);
+            self.note_log(log, outcome, weighed.as_ref().filter(|_| is_heard), &by_lever);
+            self.heard.across = Some(self.state.time);
             return;
         }
         if log.v.is_some() {
-            self.told_across = Some(self.time);
+            self.heard.across = Some(self.state.time);
         } else if log.u.is_some() && !self.withholds(Aid::Log) {
             self.hold_leeway(log);
         }
@@ -51,13 +52,14 @@ impl Filter {
             let mut innovation = log_velocity::component(&prediction, axis, measured, stated);
             innovation.r *= self.noise_of(aid_heard);
             let by_lever = by_rows(&prediction.by_lever, &[axis]);
-            let weighed = innovation.weigh(&self.covariance);
-            let gain = self.hear_log(weighed.as_ref(), &by_lever);
+            let weighed = innovation.weigh(&self.state.covariance);
+            let is_heard = self.hear_log(weighed.as_ref(), &by_lever);
             let direct = rows::of_log(&prediction.velocity, &self.view().c_nb());
             let own = direct.select_columns(&[axis]);
             self.consult(aid_heard, &innovation, |_| own.clone());
             let judged = self.gated_as(weighed.as_ref(), self.withheld(Aid::Log));
-            self.note_log(log, enter(report, log.time, source, aid, &judged), gain, &by_lever);
+            let outcome = enter(report, log.time, source, aid, &judged);
+            self.note_log(log, outcome, weighed.as_ref().filter(|_| is_heard), &by_lever);
         }
     }
 
@@ -68,7 +70,7 @@ impl Filter {
         report: &mut Report,
     ) {
         if let Some(velocity) = reference.velocity() {
-            let range = &floors::REFERENCE_VELOCITY;
+            let range = &self.config.floors.reference_velocity;
             let stated = floored(reference.velocity_std, range, "reference_velocity", report);
             let std = stated * self.noise_of(Aid::ReferenceVelocity).sqrt();
             let v_ne = Vector2::new(velocity.0.x, velocity.0.y);
@@ -80,7 +82,7 @@ impl Filter {
             self.note(enter(report, reference.time, source, "reference_velocity", &judged));
         }
         if let Some(position) = reference.position {
-            let range = &floors::REFERENCE_POSITION;
+            let range = &self.config.floors.reference_position;
             let stated = floored(reference.position_std, range, "reference_position", report);
             let std =
                 stated * self.noise_of(Aid::ReferencePosition).sqrt() * self.repeats(reference);
@@ -93,7 +95,7 @@ impl Filter {
         if let Some(heading) = reference.heading {
             self.begin_to_carry(Carried::WithHeading);
             self.note_noise();
-            let range = &floors::REFERENCE_HEADING;
+            let range = &self.config.floors.reference_heading;
             let stated = floored(reference.heading_std, range, "reference_heading", report);
             let std = stated * self.noise_of(Aid::Heading).sqrt();
             let innovation = reference_heading::innovation(&self.view(), heading, std);
@@ -102,7 +104,7 @@ impl Filter {
             if enter(report, reference.time, source, "reference_heading", &judged)
                 == Outcome::Accepted
             {
-                self.last_relative = Some(self.time);
+                self.heard.relative = Some(self.state.time);
             }
         }
     }
@@ -110,7 +112,7 @@ impl Filter {
     /// By how much the sigma of a position is larger for what it shares with the ones before it: n positions within
     /// the time of their slow errors are worth one. That of the one before is taken note of.
     fn repeats(&mut self, reference: &ExternalReference) -> f64 {
-        let before = self.last_reference.replace(reference.time);
+        let before = self.heard.position.replace(reference.time);
         let apart = before.map_or(SHARED, |before| (reference.time - before).as_seconds());
         (2.0 * SHARED / apart.clamp(0.1, 2.0 * SHARED)).sqrt()
     }
@@ -124,50 +126,41 @@ impl Filter {
     fn predict_log(&self, log: &LogVelocity) -> Prediction {
         let lever = self.config.lever_arms.log.0;
         let mut prediction = log_velocity::predict(&self.view(), log.reference, &lever);
-        if let Some(std) = self.log_lever_std {
+        if let Some(std) = self.installation.log_lever_std {
             let by_std = prediction.by_lever * Matrix3::from_diagonal(&std);
             prediction.swing_noise += by_std * by_std.transpose();
         }
         prediction
     }
 
-    /// What a log that is not left out says of the lever arms, whether it is used or not; gives the gain with which it
-    /// would be.
-    fn hear_log(
-        &mut self,
-        weighed: Option<&Weighed>,
-        by_lever: &DMatrix<f64>,
-    ) -> Option<DMatrix<f64>> {
-        if self.docket().leaves_out(Aid::Log) {
-            return None;
-        }
-        let bias = self.bias.as_mut()?;
-        let weighed = weighed?;
-        bias.hear_log(weighed, by_lever);
-        Some(weighed.gain())
+    /// What a log that is not left out says of the lever arms, whether it is used or not; tells whether it is heard.
+    fn hear_log(&mut self, weighed: Option<&Weighed>, by_lever: &DMatrix<f64>) -> bool {
+        let is_left_out = self.docket().leaves_out(Aid::Log);
+        let heard = self.installation.bias.as_mut().zip(weighed).filter(|_| !is_left_out);
+        heard.map(|(bias, weighed)| bias.hear_log(weighed, by_lever)).is_some()
     }
 
     fn note_log(
         &mut self,
         log: &LogVelocity,
         outcome: Outcome,
-        gain: Option<DMatrix<f64>>,
+        heard: Option<&Weighed>,
         by_lever: &DMatrix<f64>,
     ) {
-        let used = gain.filter(|_| outcome == Outcome::Accepted);
-        if let Some((bias, gain)) = self.bias.as_mut().zip(used) {
-            bias.absorb_log(&gain, by_lever);
+        let used = heard.filter(|_| outcome == Outcome::Accepted);
+        if let Some((bias, weighed)) = self.installation.bias.as_mut().zip(used) {
+            bias.absorb_log(weighed, by_lever);
         }
         if outcome == Outcome::Accepted && log.reference == LogReference::Water {
-            self.last_water = Some(self.time);
+            self.heard.water = Some(self.state.time);
         }
         self.note(outcome);
     }
 
     pub(super) fn note(&mut self, outcome: Outcome) {
         if outcome == Outcome::Accepted {
-            self.last_relative = Some(self.time);
-            self.last_motion = self.last_relative;
+            self.heard.relative = Some(self.state.time);
+            self.heard.motion = self.heard.relative;
         }
     }
 }

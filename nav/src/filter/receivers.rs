@@ -12,7 +12,6 @@ use crate::aids::View;
 use crate::aids::gnss_position::{self, PositionFix};
 use crate::aids::gnss_velocity::{self, VelocityFix};
 use crate::error_state::{GNSS_DELAY, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, Innovation};
-use crate::floors;
 use crate::judge::{Aid, Judge, rows};
 use crate::separate_bias::SeparateBias;
 
@@ -34,8 +33,8 @@ impl Filter {
     /// The receiver that sends the fixes to be used: what is known of the slow errors and the delay of the one before is
     /// not its. The position carries on.
     pub(super) fn take_up(&mut self, source: Source) {
-        let (Source::Gnss(number), now) = (source, self.time) else { return };
-        let docket = self.judge.as_deref().map_or(&self.config.docket, Judge::docket);
+        let (Source::Gnss(number), now) = (source, self.state.time) else { return };
+        let docket = self.court.judge.as_deref().map_or(&self.config.docket, Judge::docket);
         if docket.receiver_in_use() == Party::receiver(number) {
             return;
         }
@@ -43,26 +42,27 @@ impl Filter {
             Some(judge) => judge.use_receiver(number, now),
             None => self.config.docket.use_receiver(number, now),
         }
-        GNSS_POSITION_ERROR.renew(&mut self.covariance, &Matrix3::identity());
-        GNSS_VELOCITY_ERROR.renew(&mut self.covariance, &Matrix3::identity());
-        GNSS_DELAY.renew(&mut self.covariance, &Matrix1::new(self.config.gnss.delay_std.powi(2)));
-        self.nominal.gnss_position_error = Vector3::zeros();
-        self.nominal.gnss_velocity_error = Vector3::zeros();
-        (self.nominal.gnss_delay, self.redated, self.rtk) = (0.0, None, None);
-        self.lateness = 0.0;
-        self.trust.clear();
+        GNSS_POSITION_ERROR.renew(&mut self.state.covariance, &Matrix3::identity());
+        GNSS_VELOCITY_ERROR.renew(&mut self.state.covariance, &Matrix3::identity());
+        GNSS_DELAY
+            .renew(&mut self.state.covariance, &Matrix1::new(self.config.gnss.delay_std.powi(2)));
+        self.state.nominal.gnss_position_error = Vector3::zeros();
+        self.state.nominal.gnss_velocity_error = Vector3::zeros();
+        (self.state.nominal.gnss_delay, self.receiver.redated, self.receiver.rtk) =
+            (0.0, None, None);
+        self.receiver.lateness = 0.0;
+        self.receiver.trust.clear();
         let begun = SeparateBias::new(&self.view());
-        self.bias = self.bias.take().map(|_| begun);
+        self.installation.bias = self.installation.bias.take().map(|_| begun);
         self.restart_judge();
-        let [position, velocity, _] = self.noise_of_slow();
-        [self.slow_noise[0], self.slow_noise[1]] = [position, velocity];
+        self.receiver.slow_noise = self.noise_of_slow();
     }
 
     /// Lets the judge compare a receiver that is not in use.
     pub(super) fn compare(&mut self, fix: &GnssFix, source: Source) {
-        let (Source::Gnss(number), now) = (source, self.time) else { return };
+        let (Source::Gnss(number), now) = (source, self.state.time) else { return };
         let is_due = |judge: &Judge| judge.is_due(Aid::SparePosition, now);
-        if !fix.quality.is_measured() || !self.judge.as_deref().is_some_and(is_due) {
+        if !fix.quality.is_measured() || !self.court.judge.as_deref().is_some_and(is_due) {
             return;
         }
         let is_admitted = self.judge_now().is_some_and(|judge| judge.admits_spare(number, now));
@@ -90,7 +90,7 @@ impl Filter {
     /// The position of a receiver that is compared, with all that it says its errors are, white.
     fn spare_position(&self, fix: &GnssFix) -> Option<Innovation> {
         let (view, lever) = (self.view(), self.spare_lever(fix));
-        let told = floors::vector(fix.position_std, &floors::gnss_position(fix.quality)).value;
+        let told = self.config.floors.gnss_position(fix.position_std, fix.quality).value;
         let unmeasured = if lever.norm() > 0.0 { 0.0 } else { self.config.gnss_lever_std() };
         let measured = PositionFix {
             position: fix.position?,
@@ -103,8 +103,8 @@ impl Filter {
 
     /// What has errors that last, by so much more and for so long: as noisy as if each were new.
     fn as_slow(&self, aid: Aid, told: &Innovation, [by, lasts]: [f64; 2]) -> Innovation {
-        let unheard = |judge: &Judge| judge.unheard(aid, self.time);
-        let since = self.judge.as_deref().map_or(lasts, unheard);
+        let unheard = |judge: &Judge| judge.unheard(aid, self.state.time);
+        let since = self.court.judge.as_deref().map_or(lasts, unheard);
         let factor = 2.0 * lasts / since.clamp(0.1, 2.0 * lasts) * self.noise_of(aid);
         let slow = told.r.diagonal().map(|variance| (variance + by * by) * factor);
         Innovation { r: DMatrix::from_diagonal(&slow), ..told.clone() }
@@ -112,7 +112,7 @@ impl Filter {
 
     /// Sees whether a receiver that is left out agrees again, with its position and its velocity.
     fn follow_spare(&mut self, position: &Innovation, velocity: Option<&Innovation>) {
-        let (now, covariance) = (self.time, self.covariance.clone());
+        let (now, covariance) = (self.state.time, self.state.covariance.clone());
         let both = position.beside(velocity.unwrap_or(&Innovation::silent(3)));
         let noise = horizontal_noise(position);
         let weighed = both.weigh(&covariance);
@@ -126,10 +126,10 @@ impl Filter {
         let c_ne = fix.position.map_or(view.c_ne, |antenna| earth::c_ne(&antenna));
         let measured = VelocityFix {
             velocity: view.c_ne * c_ne.transpose() * fix.velocity?.0,
-            white: floors::vector(fix.velocity_std, &floors::gnss_velocity()).value,
+            white: self.config.floors.gnss_velocity(fix.velocity_std).value,
             slow: Vector3::zeros(),
             acceleration: view.c_ne
-                * self.antenna.acceleration(self.time, &self.antenna_velocity()),
+                * self.receiver.antenna.acceleration(self.state.time, &self.antenna_velocity()),
         };
         Some(gnss_velocity::innovation(&view, &measured, &lever))
     }

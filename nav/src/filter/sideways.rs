@@ -23,26 +23,26 @@ const TOLD_TO: f64 = 0.2;
 impl Filter {
     /// What kind of craft she is: as configured, or as she is seen to be.
     pub(super) fn vessel(&self) -> VesselKind {
-        if self.wheels.are_proven() { VesselKind::Car } else { self.config.vessel }
+        if self.conduct.wheels.are_proven() { VesselKind::Car } else { self.config.vessel }
     }
 
     /// A ship does not climb: what does, as it points, and never slides, goes on wheels. Looked at once a second while a
     /// receiver tells her velocity.
     pub(super) fn look_for_wheels(&mut self) {
         let is_asked = self.navigating && !self.config.vessel.has_wheels();
-        let is_told = VELOCITY.std(&self.covariance) < TOLD_TO && !self.is_restless();
+        let is_told = VELOCITY.std(&self.state.covariance) < TOLD_TO && !self.court.is_restless();
         if is_asked && is_told {
             let view = self.view();
             let (velocity, attitude) = (view.v_n(), view.attitude());
             let body = view.c_nb().tr_mul(&velocity);
             let look = Look { velocity: body, rise: -velocity.z, pitch: attitude.pitch };
-            self.wheels.see(self.time, &look);
+            self.conduct.wheels.see(self.state.time, &look);
         }
     }
 
     /// A log without a component across: the ship makes little leeway.
     pub(super) fn hold_leeway(&mut self, log: &LogVelocity) {
-        if self.navigating && self.sway.is_none() {
+        if self.navigating && self.state.sway.is_none() {
             let lever = self.config.lever_arms.log.0;
             self.hold_across(log.reference, &lever);
         }
@@ -50,7 +50,8 @@ impl Filter {
 
     /// A car goes where its wheels let it, whatever else is heard.
     pub(super) fn hold_to_wheels(&mut self) {
-        let since = self.held.map_or(f64::INFINITY, |last| (self.time - last).as_seconds());
+        let since =
+            self.heard.held.map_or(f64::INFINITY, |last| (self.state.time - last).as_seconds());
         if !self.vessel().has_wheels() || !self.navigating || since < EVERY {
             return;
         }
@@ -62,14 +63,15 @@ impl Filter {
     }
 
     fn hold_across(&mut self, reference: LogReference, lever: &Vector3<f64>) {
-        let is_told = self.told_across.is_some_and(|at| (self.time - at).as_seconds() < TOLD);
-        let since = self.held.replace(self.time);
+        let is_told =
+            self.heard.across.is_some_and(|at| (self.state.time - at).as_seconds() < TOLD);
+        let since = self.heard.held.replace(self.state.time);
         if is_told {
             return;
         }
         let Sideways { drift, pivot, .. } = self.vessel().sideways();
-        let spacing = since.map_or(EVERY, |since| (self.time - since).as_seconds());
-        let turning = pivot * self.rate.z;
+        let spacing = since.map_or(EVERY, |since| (self.state.time - since).as_seconds());
+        let turning = pivot * self.state.rate.z;
         self.hold(reference, lever, 1, drift.hypot(turning), spacing.min(LONGEST));
     }
 
@@ -88,7 +90,7 @@ impl Filter {
         let prediction = log_velocity::predict(&self.view(), reference, lever);
         let std = sigma * shared.sqrt();
         let innovation = log_velocity::component(&prediction, axis, 0.0, std);
-        if let Some(weighed) = innovation.weigh(&self.covariance)
+        if let Some(weighed) = innovation.weigh(&self.state.covariance)
             && weighed.nis() <= self.gate.limit(1)
         {
             self.absorb(&weighed);

@@ -8,28 +8,32 @@ impl Filter {
     /// When somebody is found to be noisier than he says, or not any more, his slow errors are what they were, in
     /// metres or radians; and may be off by as much more as they are larger now.
     pub(super) fn note_noise(&mut self) {
-        let now = self.noise_of_slow();
-        let before = std::mem::replace(&mut self.slow_noise, now);
+        let [position, velocity] = self.noise_of_slow();
+        let now = [position, velocity, self.noise_of(Aid::Heading)];
+        let [of_position, of_velocity] =
+            std::mem::replace(&mut self.receiver.slow_noise, [position, velocity]);
+        let of_heading = std::mem::replace(&mut self.compass_noise, now[2]);
+        let before = [of_position, of_velocity, of_heading];
         let [position, velocity, heading] = [0, 1, 2].map(|i: usize| (before[i] / now[i]).sqrt());
-        self.nominal.gnss_position_error *= position;
-        self.nominal.gnss_velocity_error *= velocity;
-        self.nominal.heading_error *= heading;
+        self.state.nominal.gnss_position_error *= position;
+        self.state.nominal.gnss_velocity_error *= velocity;
+        self.state.nominal.heading_error *= heading;
         self.rescale_slow(GNSS_POSITION_ERROR, position);
         self.rescale_slow(GNSS_VELOCITY_ERROR, velocity);
         self.rescale_slow(HEADING_ERROR, heading);
     }
 
-    /// By how much the variances of position and velocity of GNSS and of a reference's heading are larger than stated.
-    pub(super) fn noise_of_slow(&self) -> [f64; 3] {
-        [Aid::GnssPosition, Aid::GnssVelocity, Aid::Heading].map(|aid| self.noise_of(aid))
+    /// By how much the variances of position and velocity of the receiver are larger than stated.
+    pub(super) fn noise_of_slow(&self) -> [f64; 2] {
+        [Aid::GnssPosition, Aid::GnssVelocity].map(|aid| self.noise_of(aid))
     }
 
     fn rescale_slow<const W: usize>(&mut self, block: Block<W>, factor: f64) {
         if factor == 1.0 {
             return;
         }
-        block.rescale(&mut self.covariance, factor);
-        if let Some(bias) = &mut self.bias {
+        block.rescale(&mut self.state.covariance, factor);
+        if let Some(bias) = &mut self.installation.bias {
             bias.rescale(block, factor);
         }
         if let Some(judge) = self.judge_now() {
@@ -48,11 +52,11 @@ mod tests {
     /// error of two and a half metres, half of a variance of one, and that of the compass.
     fn filter(noise: f64) -> Filter {
         let (_, mut filter) = tests::filter();
-        filter.nominal.gnss_position_error = Vector3::repeat(2.5 / noise.sqrt());
+        filter.state.nominal.gnss_position_error = Vector3::repeat(2.5 / noise.sqrt());
         let half = Matrix3::from_diagonal_element(0.5);
-        GNSS_POSITION_ERROR.renew(&mut filter.covariance, &half);
-        filter.nominal.heading_error = 2.5 / noise.sqrt();
-        (filter.slow_noise[0], filter.slow_noise[2]) = (noise, noise);
+        GNSS_POSITION_ERROR.renew(&mut filter.state.covariance, &half);
+        filter.state.nominal.heading_error = 2.5 / noise.sqrt();
+        (filter.receiver.slow_noise[0], filter.compass_noise) = (noise, noise);
         filter
     }
 
@@ -61,10 +65,10 @@ mod tests {
         for noise in [4.0, 0.25] {
             let mut filter = filter(noise);
             filter.note_noise();
-            let error = filter.nominal.gnss_position_error;
+            let error = filter.state.nominal.gnss_position_error;
             assert!((error - Vector3::repeat(2.5)).norm() < 1e-12, "{noise}: {error}");
-            assert!((filter.nominal.heading_error - 2.5).abs() < 1e-12);
-            assert_eq!(filter.slow_noise, [1.0; 3]);
+            assert!((filter.state.nominal.heading_error - 2.5).abs() < 1e-12);
+            assert_eq!((filter.receiver.slow_noise, filter.compass_noise), ([1.0; 2], 1.0));
         }
     }
 
@@ -74,7 +78,7 @@ mod tests {
         for (noise, variance) in [(4.0, 0.5 * 4.0), (0.25, 0.5 * 0.25 + 0.75)] {
             let mut filter = filter(noise);
             filter.note_noise();
-            let known = GNSS_POSITION_ERROR.covariance(&filter.covariance);
+            let known = GNSS_POSITION_ERROR.covariance(&filter.state.covariance);
             assert!((known - Matrix3::from_diagonal_element(variance)).norm() < 1e-12, "{known}");
         }
     }

@@ -231,10 +231,9 @@ impl Judge {
         if !is_heard {
             return;
         }
-        let gain = aid.is_absorbed().then(|| weighed.gain());
         for onset in &mut self.onsets {
             let age = (now - onset.since).as_seconds();
-            onset.hear(&weighed, gain.as_ref(), direct(age));
+            onset.hear(&weighed, aid.is_absorbed(), direct(age));
         }
         let likelihood = log_likelihood(&weighed);
         self.spare.hear((aid, now), innovation, &weighed, &self.shadow);

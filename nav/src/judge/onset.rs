@@ -12,7 +12,7 @@
 //! ln BF = (s eta)^T A^-1 (s eta) / 2 - ln(det A) / 2.
 
 use insd_base::{Party, Time};
-use nalgebra::{Cholesky, DMatrix, Matrix3, Vector3};
+use nalgebra::{Cholesky, Matrix3, Vector3};
 
 use super::rows::{self, ALL, Direct, GROUPS, Group};
 use crate::error_state::{Covariance, Effects, Errors, Weighed};
@@ -74,22 +74,21 @@ impl Onset {
         &mut self.effects
     }
 
-    /// Hears an innovation before it is absorbed with a gain, if it is.
-    pub(super) fn hear(&mut self, weighed: &Weighed, gain: Option<&DMatrix<f64>>, direct: Direct) {
+    /// Hears an innovation before it is absorbed, if it is.
+    pub(super) fn hear(&mut self, weighed: &Weighed, is_absorbed: bool, direct: Direct) {
         self.effects.conform(weighed.layout());
         let effect = weighed.effect_of(&self.effects, direct);
         let z = weighed.whitened();
-        let whitened = weighed.whiten(effect.clone());
         for (i, group) in ALL.iter().enumerate() {
             let (start, width) = (group.rows.start, group.rows.len());
-            let own = whitened.rows(start, width);
+            let own = effect.rows(start, width);
             let mut information = self.information[i].view_mut((0, 0), (width, width));
             information += own * own.transpose();
             let mut evidence = self.evidence[i].rows_mut(0, width);
             evidence += own * &z;
         }
-        if let Some(gain) = gain {
-            Weighed::pass_on(&mut self.effects, &effect, gain);
+        if is_absorbed {
+            weighed.pass_on(&mut self.effects, &effect);
         }
         self.misfit += z.norm_squared();
         self.heard += weighed.rows() as f64;

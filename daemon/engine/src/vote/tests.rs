@@ -30,7 +30,7 @@ fn truth(seconds: f64) -> Motion {
             judgement: insd_base::Judgement::default(),
         },
         acceleration: None,
-        covariance_north_east: None,
+        covariance: None,
         current: None,
     }
 }

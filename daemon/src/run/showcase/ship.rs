@@ -25,7 +25,7 @@ pub(super) fn motion(
     let course = policy.has_course(solution).then(|| solution.course() / DEG);
     let speed = solution.speed();
     let speed_sigma = sigma.velocity.0.x.hypot(sigma.velocity.0.y) / std::f64::consts::SQRT_2;
-    let ellipse = motion.covariance_north_east.and_then(|own| Ellipse::new(&sigma.position, own));
+    let ellipse = motion.covariance_north_east().and_then(|own| Ellipse::new(&sigma.position, own));
     let current = motion.current.map(|current| current.velocity.0);
     let ahead = current.map(|current| ahead(&(velocity - current), attitude.heading));
     Shown {

@@ -31,8 +31,7 @@ fn report(now: f64, heard: f64) -> Report {
         mode: Mode::Aided,
         judgement: insd_base::Judgement::default(),
     };
-    let motion =
-        Motion { solution, acceleration: None, covariance_north_east: None, current: None };
+    let motion = Motion { solution, acceleration: None, covariance: None, current: None };
     Report {
         stamp: Stamp { monotonic: Time::from_seconds(now), system },
         utc: None,

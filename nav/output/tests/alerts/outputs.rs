@@ -62,7 +62,7 @@ fn moment(now: &Boundary, mode: Option<Mode>) -> Moment {
     let motion = mode.map(|mode| Motion {
         solution: insd_base::Solution { mode, ..solution(now.time) },
         acceleration: None,
-        covariance_north_east: None,
+        covariance: None,
         current: None,
     });
     Moment { motion, ..Moment::default() }
