@@ -35,6 +35,10 @@ lint:
     cargo fmt --all --check
     cargo clippy --workspace --all-targets -- -D warnings
 
+# the crates for researchers, all in one go: `just publish --dry-run`
+publish *options:
+    cargo publish --locked -p insd-base -p insd-estimation -p insd-nav {{options}}
+
 # formats everything
 fmt:
     cargo fmt --all
