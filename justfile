@@ -43,6 +43,10 @@ deny *checks:
 publish *options:
     cargo publish --locked -p insd-base -p insd-estimation -p insd-nav {{options}}
 
+# the book of docs/, in target/book; needs `cargo install mdbook@0.5.4 --locked`
+book *options:
+    mdbook build docs {{options}}
+
 # formats everything
 fmt:
     cargo fmt --all

@@ -5,6 +5,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
 
+mod documents;
 mod manifest;
 mod source;
 
