@@ -21,7 +21,7 @@ vm *options:
     CARGO_TARGET_X86_64_UNKNOWN_LINUX_GNU_RUNNER="{{justfile_directory()}}/tests/vm/runner" VM_TIMEOUT=400 \
         cargo test --workspace --test vm_pps --test vm_can --test vm_bus -- --ignored {{options}}
 
-# the Debian package; needs `cargo install cargo-deb --version 3.8.0 --locked`
+# the Debian package; needs `cargo install cargo-deb@3.8.0 cargo-cyclonedx@0.5.9 --locked`
 deb *options:
     systemd/package {{options}}
 
@@ -34,6 +34,18 @@ vm-service:
 lint:
     cargo fmt --all --check
     cargo clippy --workspace --all-targets -- -D warnings
+
+# known weaknesses, licences and sources of all crates; needs `cargo install cargo-deny@0.20.2 --locked`
+deny *checks:
+    cargo deny check {{checks}}
+
+# the crates for researchers, all in one go: `just publish --dry-run`
+publish *options:
+    cargo publish --locked -p insd-base -p insd-estimation -p insd-nav {{options}}
+
+# the book of docs/, in target/book; needs `cargo install mdbook@0.5.4 --locked`
+book *options:
+    mdbook build docs {{options}}
 
 # formats everything
 fmt:

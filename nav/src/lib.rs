@@ -3,11 +3,8 @@
 //!
 //! Pure: no I/O, no clock, no thread, no randomness. A [`Filter`] can only be built from an
 //! [`InitialState`], which alignment makes.
-
-/// The examples of the document are held by the compiler.
-#[cfg(doctest)]
-#[doc = include_str!("../../ARCHITECTURE.md")]
-struct Architecture;
+//!
+#![doc = include_str!("../README.md")]
 
 pub mod aids;
 pub mod angular_rate;

@@ -3,6 +3,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
 
+/// The examples of the document are held by the compiler.
+#[cfg(doctest)]
+#[doc = include_str!("../../ARCHITECTURE.md")]
+struct Architecture;
+
 pub mod engines;
 pub mod noise_free;
 pub mod recorded;

@@ -5,6 +5,11 @@
 //! forward, starboard, down of the hull (FRD); `e` = Earth-centred, Earth-fixed (ECEF, WGS-84);
 //! `c_eb` rotates a vector from `b` to `e`.
 
+/// Its example is held by the compiler.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub mod alignment;
 pub mod attitude;
 pub mod can;

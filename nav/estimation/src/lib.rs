@@ -9,6 +9,11 @@
 //! Errors are true minus estimated. The estimate itself is not here: what an error means for it is known to who
 //! declares the state.
 
+/// Its example is held by the compiler.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod block;
 mod covariance;
 mod effects;
