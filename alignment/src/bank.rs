@@ -47,6 +47,9 @@ pub struct Kinematics {
 #[derive(Clone, Debug)]
 pub struct Bank {
     members: Vec<Member>,
+    /// What the members have not been carried over yet: they are many and need no detail. The likeliest, who is asked
+    /// between, does not wait.
+    waiting: Option<Increment>,
     next_tidy: Time,
     trial: Option<Trial>,
 }
@@ -54,6 +57,8 @@ pub struct Bank {
 #[derive(Clone, Debug)]
 struct Member {
     navigator: Box<Navigator>,
+    /// It has been carried over what waits for the others.
+    is_ahead: bool,
     log_weight: f64,
     origin: Origin,
 }
@@ -74,7 +79,9 @@ const LINEAR: f64 = 5.0 * DEG;
 /// Sigma of roll and pitch after levelling, sensor bias aside.
 const LEVEL_STD: f64 = 2.0 * DEG;
 /// Interval between propagations of the covariances, s: the search needs no more, and there are many.
-const COVARIANCE_INTERVAL: f64 = 0.5;
+const COVARIANCE_INTERVAL: f64 = 1.0;
+/// All but the likeliest go in steps of so long, s.
+const STRIDE: f64 = 0.1;
 /// How often the bank is tidied.
 const TIDY: Span = Span::from_nanos(1_000_000_000);
 
@@ -91,7 +98,7 @@ impl Bank {
                 Member::new(config, &initial.at_berth(berth), 0.0, Origin::Any)
             })
             .collect();
-        Bank { members, next_tidy: level.time + TIDY, trial: None }
+        Bank { members, waiting: None, next_tidy: level.time + TIDY, trial: None }
     }
 
     /// The same with a stored state put on trial among all headings.
@@ -178,8 +185,38 @@ impl Bank {
     /// The likeliest filter.
     #[must_use]
     pub fn likeliest(&self) -> Option<&Navigator> {
-        let heaviest = self.members.iter().max_by(|a, b| a.log_weight.total_cmp(&b.log_weight));
-        heaviest.map(|member| member.navigator.as_ref())
+        self.index_of_likeliest().map(|index| self.members[index].navigator.as_ref())
+    }
+
+    fn index_of_likeliest(&self) -> Option<usize> {
+        let weight = |index: &usize| self.members[*index].log_weight;
+        (0..self.members.len()).max_by(|a, b| weight(a).total_cmp(&weight(b)))
+    }
+
+    /// Carries all over what waits.
+    fn catch_up(&mut self) {
+        let Some(waiting) = self.waiting.take() else { return };
+        for member in &mut self.members {
+            if !std::mem::take(&mut member.is_ahead) {
+                member.advance(&waiting);
+            }
+        }
+    }
+
+    /// Lets an increment wait for the next ones, but not for the likeliest.
+    fn let_wait(&mut self, increment: &Increment) {
+        let both = self.waiting.map_or(*increment, |waiting| waiting.then(increment));
+        let ahead = self.members.iter_mut().filter(|member| member.is_ahead);
+        ahead.for_each(|member| member.advance(increment));
+        self.waiting = Some(both);
+        if both.duration() > STRIDE - 1e-6 {
+            return self.catch_up();
+        }
+        let likeliest = self.index_of_likeliest().map(|index| &mut self.members[index]);
+        if let Some(member) = likeliest.filter(|member| !member.is_ahead) {
+            member.advance(&both);
+            member.is_ahead = true;
+        }
     }
 
     /// Lets all go if the likeliest has left the berth: one that stayed would be judged by other
@@ -230,29 +267,32 @@ impl Bank {
         member.log_weight = high + (low - high).exp().ln_1p();
     }
 
-    fn weighted(&self, solution: impl Fn(&Navigator) -> Solution) -> Vec<(f64, Solution)> {
+    fn weighted(&self, solution: impl Fn(&Member) -> Solution) -> Vec<(f64, Solution)> {
         let best = self.members.iter().map(|m| m.log_weight).fold(f64::NEG_INFINITY, f64::max);
         self.members
             .iter()
-            .map(|member| ((member.log_weight - best).exp(), solution(&member.navigator)))
+            .map(|member| ((member.log_weight - best).exp(), solution(member)))
             .collect()
     }
 
     /// What the bank says together; the likeliest member where the mixture is empty of sense.
-    fn together(&self, solution: impl Fn(&Navigator) -> Solution) -> Solution {
-        mixed(&self.weighted(&solution)).unwrap_or_else(|| solution(&self.members[0].navigator))
+    fn together(&self, solution: impl Fn(&Member) -> Solution) -> Solution {
+        mixed(&self.weighted(&solution)).unwrap_or_else(|| solution(&self.members[0]))
     }
 }
 
 impl Estimator for Bank {
     fn advance(&mut self, increment: &Increment) {
-        for member in &mut self.members {
-            member.navigator.advance(increment);
-            member.log_weight += member.navigator.take_likelihood();
+        if increment.bridged.is_some() {
+            self.catch_up();
+            self.members.iter_mut().for_each(|member| member.advance(increment));
+        } else {
+            self.let_wait(increment);
         }
         let at = increment.to;
         if at >= self.next_tidy {
             self.next_tidy = at + TIDY;
+            self.catch_up();
             self.tidy();
             self.follow_departure();
         }
@@ -264,6 +304,7 @@ impl Estimator for Bank {
             trial.drop_as_moved(time);
             self.drop_members(|origin| origin != Origin::Any);
         }
+        self.catch_up();
         let mut best: Option<(f64, Report)> = None;
         for member in &mut self.members {
             let report = member.navigator.apply(received);
@@ -276,11 +317,11 @@ impl Estimator for Bank {
     }
 
     fn solution(&self) -> Solution {
-        self.together(Navigator::solution)
+        self.together(|member| member.solution(self.waiting.as_ref()))
     }
 
     fn solution_at(&self, increment: &Increment, at: Time) -> Solution {
-        self.together(|navigator| navigator.solution_at(increment, at))
+        self.together(|member| member.solution_at(self.waiting.as_ref(), increment, at))
     }
 }
 
@@ -295,7 +336,39 @@ impl Member {
     fn new(config: &NavConfig, initial: &InitialState, log_weight: f64, origin: Origin) -> Self {
         let mut navigator = Box::new(Navigator::new(config, initial));
         navigator.slow_down(COVARIANCE_INTERVAL);
-        Member { navigator, log_weight, origin }
+        Member { navigator, is_ahead: false, log_weight, origin }
+    }
+
+    fn advance(&mut self, increment: &Increment) {
+        self.navigator.advance(increment);
+        self.log_weight += self.navigator.take_likelihood();
+    }
+
+    /// What waits for it: nothing where it is ahead.
+    fn waiting<'a>(&self, waiting: Option<&'a Increment>) -> Option<&'a Increment> {
+        waiting.filter(|_| !self.is_ahead)
+    }
+
+    fn solution(&self, waiting: Option<&Increment>) -> Solution {
+        match self.waiting(waiting) {
+            Some(waiting) => self.navigator.solution_at(waiting, waiting.to),
+            None => self.navigator.solution(),
+        }
+    }
+
+    fn solution_at(&self, waiting: Option<&Increment>, next: &Increment, at: Time) -> Solution {
+        match self.waiting(waiting) {
+            Some(waiting) if next.bridged.is_some() => {
+                let mut ahead = self.navigator.clone();
+                ahead.advance(waiting);
+                ahead.solution_at(next, at)
+            }
+            Some(waiting) => {
+                let head = if at < next.to { next.split(at).0 } else { *next };
+                self.navigator.solution_at(&waiting.then(&head), at)
+            }
+            None => self.navigator.solution_at(next, at),
+        }
     }
 
     fn peak(&self) -> Peak {

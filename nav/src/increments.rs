@@ -2,7 +2,7 @@
 //! compensated, and cut at any instant where a measurement falls inside the interval.
 
 use insd_base::{ImuSample, ImuSpec, Rejection, Span, Time};
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::angular_rate::AngularRate;
@@ -42,6 +42,29 @@ impl Increment {
     #[must_use]
     pub fn duration(&self) -> f64 {
         (self.to - self.from).as_seconds()
+    }
+
+    /// It and the one that follows as one, for whoever may go in longer steps; neither is a part of a gap.
+    ///
+    /// The rotations one after the other, and the velocity that turned by half of both is the sum of what each was turned by
+    /// half its own, to the order that [`crate::strapdown::integrate`] keeps. Noise is that of both, by their lengths.
+    #[must_use]
+    pub fn then(&self, next: &Increment) -> Increment {
+        let [first, second] = [self, next].map(|part| UnitQuaternion::new(part.rotation * 0.5));
+        let turn = first * first * second * second;
+        let rotation = turn.scaled_axis();
+        let velocity = first * self.velocity + first * first * (second * next.velocity);
+        let velocity = UnitQuaternion::new(rotation * -0.5) * velocity;
+        let (own, rest) = (self.duration(), next.duration());
+        let share = own / (own + rest);
+        Increment {
+            from: self.from,
+            rotation,
+            velocity: velocity - rotation.cross(&rotation.cross(&velocity)) / 24.0,
+            rate_noise: self.rate_noise * share + next.rate_noise * (1.0 - share),
+            force_noise: self.force_noise * share + next.force_noise * (1.0 - share),
+            ..*next
+        }
     }
 
     /// The part up to an instant inside the interval, and the rest.

@@ -67,11 +67,10 @@ pub fn integrate(nominal: &mut Nominal, gravity: &LocalGravity, increment: &Incr
     let h = increment.duration();
     let rotation = corrected(&increment.rotation, h, &nominal.gyro_error());
     let velocity = corrected(&increment.velocity, h, &nominal.accel_error());
-    let earth_turn = earth::rate_e() * h;
-    let half_turn = UnitQuaternion::new(rotation * 0.5);
-    let c_eb = (UnitQuaternion::new(-0.5 * earth_turn) * nominal.attitude * half_turn)
-        .to_rotation_matrix()
-        .into_inner();
+    let (earth_turn, turn) =
+        (UnitQuaternion::new(earth::rate_e() * (-0.5 * h)), UnitQuaternion::new(rotation * 0.5));
+    let halfway = earth_turn * nominal.attitude * turn;
+    let c_eb = halfway.to_rotation_matrix().into_inner();
     // Turned by half the rotation the increment needs no half-angle term; the next order of the
     // mean rotation matrix over the step differs by theta x (theta x dv) / 24.
     let force = c_eb * (velocity + rotation.cross(&rotation.cross(&velocity)) / 24.0);
@@ -81,8 +80,7 @@ pub fn integrate(nominal: &mut Nominal, gravity: &LocalGravity, increment: &Incr
     let pull = weight - 2.0 * earth::rate_e().cross(&middle);
     nominal.velocity += force + pull * h;
     nominal.position += 0.5 * h * (old_velocity + nominal.velocity);
-    nominal.attitude =
-        UnitQuaternion::new(-earth_turn) * nominal.attitude * UnitQuaternion::new(rotation);
+    nominal.attitude = earth_turn * halfway * turn;
     Step { duration: h, c_eb, rotation, velocity }
 }
 

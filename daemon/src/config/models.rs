@@ -333,3 +333,85 @@ impl FloorSection {
         ]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Config;
+
+    /// The file that is installed.
+    const FILE: &str = include_str!("../../../systemd/insd.toml");
+
+    /// The same with what it says of the models, which is commented, said.
+    fn said() -> String {
+        let start = FILE.find("#[alignment]").unwrap();
+        let end = start + FILE[start..].find("# What is plugged in").unwrap();
+        let said: String = FILE[start..end]
+            .lines()
+            .map(|line| format!("{}\n", line.trim_start_matches('#')))
+            .collect();
+        format!("{}{said}{}", &FILE[..start], &FILE[end..])
+    }
+
+    #[test]
+    fn the_commented_file_says_every_key_with_its_default() {
+        let (silent, said) = (Config::of_text(FILE).unwrap(), Config::of_text(&said()).unwrap());
+        assert_eq!(said.engine(), silent.engine());
+        let count = |text: &str| text.lines().filter(|line| line.contains(" = ")).count();
+        let keys = said_keys(&said);
+        assert_eq!(keys, count(&said_text()), "each key is one line");
+    }
+
+    fn said_text() -> String {
+        let text = said();
+        let start = text.find("[alignment]").unwrap();
+        let end = text.find("# What is plugged in").unwrap();
+        text[start..end].to_owned()
+    }
+
+    /// How many keys the sections have that are given a value.
+    fn said_keys(config: &Config) -> usize {
+        let (model, gate, floor) = (&config.model, &config.gate, &config.floor);
+        let given = |ranges: &[Range]| ranges.iter().filter(|range| range.1.is_some()).count();
+        // two of the alignment are words, and two ranges of the model share a key
+        2 + given(&config.alignment.ranges()) + given(&model.ranges()) - 1
+            + given(&gate.ranges())
+            + given(&floor.ranges())
+    }
+
+    #[test]
+    fn what_is_said_reaches_the_engine() {
+        let text = said()
+            .replace("moored = \"moorings\"", "moored = \"autoregressive\"")
+            .replace("in_motion = \"eight_state\"", "in_motion = \"bank\"")
+            .replace("prefilter_order = 8", "prefilter_order = 3")
+            .replace("prefilter_window_s = 300.0", "prefilter_window_s = 120.0")
+            .replace("probability = 0.9999", "probability = 0.99")
+            .replace("log_scale_std = 0.005", "log_scale_std = 0.02")
+            .replace("reference_heading_deg = 0.01", "reference_heading_deg = 0.5");
+        let engine = Config::of_text(&text).unwrap().engine();
+        assert_eq!(engine.alignment.moored, Method::Autoregressive);
+        assert_eq!(engine.alignment.in_motion, InMotion::Bank);
+        let Models { log, gate, floors, prefilter, .. } = engine.models;
+        assert_eq!(prefilter.order, Order::Chosen { max: 3 });
+        assert_eq!(prefilter.window, Span::from_seconds(120.0));
+        assert_eq!((gate.probability, log.scale_std), (0.99, 0.02));
+        assert!((floors.reference_heading.least - 0.5 * DEG).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_out_of_its_range_is_told_with_its_place() {
+        let text = said()
+            .replace("accuracy_deg = 0.1", "accuracy_deg = 0.0")
+            .replace("probability = 0.9999", "probability = 1.0")
+            .replace("mean_heave_std_m = [0.02, 0.3]", "mean_heave_std_m = [0.02, 99.0]");
+        let message = Config::of_text(&text).unwrap_err();
+        for part in [
+            "[alignment]: accuracy_deg: expected 0.001 to 10",
+            "[gate]: probability: expected 0.9 to 0.9999999",
+            "[model]: mean_heave_std_m: expected 0.001 to 10",
+        ] {
+            assert!(message.contains(part), "{part} is not in: {message}");
+        }
+    }
+}

@@ -146,12 +146,17 @@ impl<const W: usize> Block<W> {
     /// Transforms this block of the error by a matrix, x <- A x.
     pub fn transform(self, p: &mut Covariance, by: &SMatrix<f64, W, W>) {
         let Some(start) = p.layout().start(self.key) else { return };
-        let matrix = p.matrix_mut();
-        let mut columns = matrix.fixed_columns::<W>(start) * by.transpose();
-        let own = by * columns.fixed_rows::<W>(start);
-        columns.fixed_rows_mut::<W>(start).copy_from(&own);
-        matrix.fixed_columns_mut::<W>(start).copy_from(&columns);
-        matrix.fixed_rows_mut::<W>(start).tr_copy_from(&columns);
+        let (states, matrix) = (p.states(), p.matrix_mut());
+        let columns = &mut matrix.as_mut_slice()[start * states..(start + W) * states];
+        for state in 0..states {
+            let turned = by * SVector::<f64, W>::from_fn(|k, _| columns[k * states + state]);
+            (0..W).for_each(|k| columns[k * states + state] = turned[k]);
+        }
+        let own = by * matrix.fixed_view::<W, W>(start, start);
+        matrix.fixed_view_mut::<W, W>(start, start).copy_from(&own);
+        for state in (0..states).filter(|state| !(start..start + W).contains(state)) {
+            (start..start + W).for_each(|k| matrix[(k, state)] = matrix[(state, k)]);
+        }
     }
 
     /// Tells this block in another unit: its numbers become what they were times a factor. What is told in units of its

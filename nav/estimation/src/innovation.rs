@@ -4,6 +4,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, SMatrix, SVector};
 
 use crate::covariance::Covariance;
 use crate::jacobian::Jacobian;
+use crate::sums::{axpy, column_mut};
 use crate::weighed::{Weighed, p_h_transposed, symmetric};
 
 /// Measured minus predicted, and how it depends on the error state: z = H x + noise(R).
@@ -72,9 +73,8 @@ impl Innovation {
         let pht = p_h_transposed(p.matrix(), &columns, self.rows());
         let mut s = self.r.clone();
         for (state, column) in &columns {
-            for (j, mut of_s) in s.column_iter_mut().enumerate() {
-                let with = pht[(*state, j)];
-                of_s.iter_mut().zip(*column).for_each(|(s, h)| *s += h * with);
+            for row in 0..self.rows() {
+                axpy(pht[(*state, row)], column, column_mut(&mut s, row));
             }
         }
         let factor = Cholesky::new(symmetric(s))?;

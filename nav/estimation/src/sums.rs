@@ -12,20 +12,14 @@ pub(crate) fn axpy(a: f64, x: &[f64], y: &mut [f64]) {
 /// y <- y + a_1 x_1 + a_2 x_2 + ..., the terms three at a time.
 pub(crate) fn add_all<'a>(terms: impl Iterator<Item = (f64, &'a [f64])>, y: &mut [f64]) {
     let mut terms = terms.fuse();
-    while let Some(first) = terms.next() {
-        match (terms.next(), terms.next()) {
-            (Some(second), Some(third)) => add_some([first, second, third], y),
-            (Some(second), None) => add_some([first, second], y),
-            (None, _) => add_some([first], y),
-        }
-    }
-}
-
-fn add_some<const N: usize>(terms: [(f64, &[f64]); N], y: &mut [f64]) {
-    let rows = y.len();
-    let terms = terms.map(|(a, x)| (a, &x[..rows]));
-    for (i, y) in y.iter_mut().enumerate() {
-        *y = terms.iter().fold(*y, |sum, (a, x)| sum + a * x[i]);
+    while let Some((a, x)) = terms.next() {
+        let Some((b, second)) = terms.next() else { return axpy(a, x, y) };
+        let Some((c, third)) = terms.next() else {
+            axpy(a, x, y);
+            return axpy(b, second, y);
+        };
+        let all = y.iter_mut().zip(x).zip(second).zip(third);
+        all.for_each(|(((y, x), second), third)| *y = *y + a * x + b * second + c * third);
     }
 }
 

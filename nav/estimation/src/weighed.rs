@@ -193,11 +193,11 @@ impl Weighed {
     pub fn effect_of(&self, effects: &Effects, direct: DMatrix<f64>) -> DMatrix<f64> {
         debug_assert_eq!(self.layout, *effects.layout());
         let mut effect = direct;
-        for (state, weights) in self.innovation.h.columns(&self.layout) {
-            let of_causes = column(effects.matrix(), state);
-            for (row, weight) in weights.iter().enumerate() {
-                axpy(*weight, of_causes, column_mut(&mut effect, row));
-            }
+        let columns = self.innovation.h.columns(&self.layout);
+        for row in 0..self.rows() {
+            let terms =
+                columns.iter().map(|(state, by)| (by[row], column(effects.matrix(), *state)));
+            add_all(terms, column_mut(&mut effect, row));
         }
         self.whiten(effect)
     }
@@ -224,9 +224,11 @@ impl Weighed {
     }
 
     fn pass_on_with(effects: &mut Effects, effect: &DMatrix<f64>, by: &DMatrix<f64>) {
-        for state in 0..by.nrows() {
-            let terms = (0..by.ncols()).map(|row| (-by[(state, row)], column(effect, row)));
-            add_all(terms, column_mut(effects.matrix_mut(), state));
+        let causes = effects.causes().max(1);
+        let states = effects.matrix_mut().as_mut_slice().chunks_exact_mut(causes);
+        for (state, own) in states.enumerate() {
+            let rows = effect.as_slice().chunks_exact(causes).enumerate();
+            add_all(rows.map(|(row, told)| (-by[(state, row)], told)), own);
         }
     }
 }
@@ -238,11 +240,9 @@ pub(crate) fn p_h_transposed(
     rows: usize,
 ) -> DMatrix<f64> {
     let mut pht = DMatrix::zeros(p.nrows(), rows);
-    for (state, weights) in columns {
-        let of_p = column(p, *state);
-        for (row, weight) in weights.iter().enumerate() {
-            axpy(*weight, of_p, column_mut(&mut pht, row));
-        }
+    for row in 0..rows {
+        let terms = columns.iter().map(|(state, by)| (by[row], column(p, *state)));
+        add_all(terms.filter(|(by, _)| *by != 0.0), column_mut(&mut pht, row));
     }
     pht
 }
@@ -252,25 +252,10 @@ pub(crate) fn symmetric(s: DMatrix<f64>) -> DMatrix<f64> {
     (s + transposed) * 0.5
 }
 
-/// P <- P + sign W W^T for a symmetric P: the lower half is worked out, the upper one is its image.
+/// P <- P + sign W W^T, both halves alike to the bit.
 fn add_product(p: &mut DMatrix<f64>, w: &DMatrix<f64>, sign: f64) {
     let states = p.nrows().max(1);
     for (j, own) in p.as_mut_slice().chunks_exact_mut(states).enumerate() {
-        let terms = w.as_slice().chunks_exact(states).map(|of_w| (sign * of_w[j], &of_w[j..]));
-        add_all(terms, &mut own[j..]);
-    }
-    mirror(p);
-}
-
-/// Makes the upper half of a square matrix the image of the lower one.
-fn mirror(p: &mut DMatrix<f64>) {
-    let states = p.nrows().max(1);
-    let mut rest = p.as_mut_slice();
-    let mut j = 0;
-    while let Some((own, behind)) = rest.split_at_mut_checked(states) {
-        for (i, column) in behind.chunks_exact_mut(states).enumerate() {
-            column[j] = own[j + 1 + i];
-        }
-        (rest, j) = (behind, j + 1);
+        add_all(w.as_slice().chunks_exact(states).map(|of_w| (sign * of_w[j], of_w)), own);
     }
 }

@@ -113,3 +113,41 @@ fn coning_at_five_hertz_leaves_a_hundredth_of_its_drift_even_with_uneven_interva
         assert!(compensated < 0.03 * plain, "{compensated} against {plain}");
     }
 }
+
+#[test]
+fn several_increments_as_one_carry_an_estimate_to_the_same_place() {
+    use crate::nominal::Nominal;
+    use crate::strapdown::{LocalGravity, integrate};
+    use insd_base::Geodetic;
+    use nalgebra::Matrix3;
+
+    let place = Geodetic::from_degrees(54.0, 8.0, 20.0);
+    let mut fine = Nominal::at(&place, &Vector3::new(3.0, 1.0, 0.1), &Matrix3::identity());
+    let mut coarse = fine;
+    let gravity = LocalGravity::around(&fine.position, &place);
+    let mut conditioner = Conditioner::new(&imu(100.0));
+    let mut waiting: Option<Increment> = None;
+    for step in 1..=6000 {
+        // a ship that rolls and pitches by degrees
+        let t = f64::from(step) * 0.01;
+        let rate = Vector3::new(0.1 * (0.7 * t).cos(), 0.06 * (0.9 * t).sin(), 0.02);
+        let force = Vector3::new(0.8 * (0.7 * t).sin(), 0.5 * (0.9 * t).cos(), -9.81);
+        let sample = ImuSample {
+            time: Time::from_seconds(t),
+            delta_theta: Body(rate * 0.01),
+            delta_velocity: Body(force * 0.01),
+        };
+        let Conditioned::Sample(increment) = conditioner.take(&sample) else { continue };
+        integrate(&mut fine, &gravity, &increment);
+        let both = waiting.map_or(increment, |waiting| waiting.then(&increment));
+        waiting = Some(both);
+        if step % 5 == 0 {
+            integrate(&mut coarse, &gravity, &both);
+            waiting = None;
+        }
+    }
+    assert!(fine.attitude.angle_to(&coarse.attitude) < 1e-9);
+    let (by, moved) = (fine.velocity - coarse.velocity, fine.position - coarse.position);
+    assert!(by.norm() < 1e-5, "{} m/s", by.norm());
+    assert!(moved.norm() < 1e-3, "{} m after a minute", moved.norm());
+}
