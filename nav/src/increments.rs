@@ -53,8 +53,12 @@ impl Increment {
         let [first, second] = [self, next].map(|part| UnitQuaternion::new(part.rotation * 0.5));
         let turn = first * first * second * second;
         let rotation = turn.scaled_axis();
-        let velocity = first * self.velocity + first * first * (second * next.velocity);
-        let velocity = UnitQuaternion::new(rotation * -0.5) * velocity;
+        let [own_sum, next_sum] = [self, next].map(|part| {
+            let by = &part.rotation;
+            part.velocity + by.cross(&by.cross(&part.velocity)) / 24.0
+        });
+        let sum = first * own_sum + first * first * (second * next_sum);
+        let velocity = UnitQuaternion::new(rotation * -0.5) * sum;
         let (own, rest) = (self.duration(), next.duration());
         let share = own / (own + rest);
         Increment {
