@@ -62,7 +62,7 @@ pub(crate) enum Hold {
 /// What is worth keeping of it: the moorings go on; the other two methods begin with a new window, as theirs has a gap
 /// in it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) enum KeptHold {
+pub(crate) enum HoldCheckpoint {
     WhiteNoise,
     Prefiltered,
     Moorings(Box<Moorings>),
@@ -144,20 +144,20 @@ impl Hold {
         true
     }
 
-    pub(crate) fn kept(&self) -> KeptHold {
+    pub(crate) fn kept(&self) -> HoldCheckpoint {
         match self {
-            Hold::WhiteNoise(_) => KeptHold::WhiteNoise,
-            Hold::Prefiltered(_) => KeptHold::Prefiltered,
-            Hold::Moorings(moorings) => KeptHold::Moorings(moorings.clone()),
+            Hold::WhiteNoise(_) => HoldCheckpoint::WhiteNoise,
+            Hold::Prefiltered(_) => HoldCheckpoint::Prefiltered,
+            Hold::Moorings(moorings) => HoldCheckpoint::Moorings(moorings.clone()),
         }
     }
 
     /// Goes on from what was kept, on a time line that is later by a span.
-    pub(crate) fn taken_up(kept: &KeptHold, filter: &mut Filter, by: Span) -> Self {
+    pub(crate) fn taken_up(kept: &HoldCheckpoint, filter: &mut Filter, by: Span) -> Self {
         match kept {
-            KeptHold::WhiteNoise => Hold::new(Method::WhiteNoise, filter),
-            KeptHold::Prefiltered => Hold::new(Method::Autoregressive, filter),
-            KeptHold::Moorings(moorings) => {
+            HoldCheckpoint::WhiteNoise => Hold::new(Method::WhiteNoise, filter),
+            HoldCheckpoint::Prefiltered => Hold::new(Method::Autoregressive, filter),
+            HoldCheckpoint::Moorings(moorings) => {
                 Hold::Moorings(Box::new(moorings.as_ref().clone().shifted(by)))
             }
         }

@@ -32,6 +32,7 @@ use state::State;
 
 pub mod ahead;
 mod bent;
+pub mod checkpoint;
 mod conduct;
 mod court;
 mod entry;
@@ -42,7 +43,6 @@ mod heard;
 mod installation;
 mod joined;
 pub mod judged;
-pub mod kept;
 mod leaps;
 mod level;
 mod mode;

@@ -3,7 +3,7 @@
 //! Alignment searches with navigators and hands over the last one; nothing steps, and nothing of alignment goes
 //! along. When the ship leaves her berth a navigator is its filter.
 
-pub mod kept;
+pub mod checkpoint;
 
 use insd_base::{Message, Received, SeaEstimate, Solution, Time};
 

@@ -9,10 +9,10 @@ use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use insd_alignment::stored::fingerprint;
 use insd_base::{ImuSpec, LeverArms, ResumeDoubt};
 use insd_nav::Conditioner;
-use insd_nav::navigator::kept::KeptNavigator;
+use insd_nav::navigator::checkpoint::NavigatorCheckpoint;
 use serde::{Deserialize, Serialize};
 
-use crate::herald::KeptHerald;
+use crate::alignment_status::StatusCheckpoint;
 use crate::surveyor::Probation;
 
 /// What begins each checkpoint.
@@ -34,9 +34,9 @@ pub(crate) struct Kept {
     /// Where the sensors sat, IMU to antenna and to log, body axes, m.
     pub(crate) arms: [[f64; 3]; 2],
     pub(crate) conditioner: Conditioner,
-    pub(crate) navigator: KeptNavigator,
+    pub(crate) navigator: NavigatorCheckpoint,
     pub(crate) aligned: bool,
-    pub(crate) herald: KeptHerald,
+    pub(crate) alignment_status: StatusCheckpoint,
     pub(crate) probation: Probation,
 }
 

@@ -4,6 +4,7 @@
 //! Sans-I/O: [`Engine::handle`] takes one message; then [`Engine::poll_output`] is drained. Pure: no
 //! I/O, no clock, no thread, no randomness.
 
+mod alignment_status;
 mod blind;
 mod checkpoint;
 mod checks;
@@ -13,7 +14,6 @@ mod disturbance;
 mod doubts;
 mod epochs;
 mod heir;
-mod herald;
 mod images;
 mod ledger;
 mod looks;
@@ -42,11 +42,11 @@ use insd_nav::{
     Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Report, Timeline,
 };
 
+use alignment_status::StatusTeller;
 use coarse::Coarse;
 pub use config::EngineConfig;
 use disturbance::Trace;
 use epochs::{due_at, epochs};
-use herald::Herald;
 use mode::{Facts, Machine};
 use receivers::Receivers;
 use recent::Recent;
@@ -90,7 +90,7 @@ pub struct Engine {
     twin: Option<Twin>,
     conditioner: Conditioner,
     stage: Stage,
-    herald: Herald,
+    alignment_status: StatusTeller,
     surveyor: Surveyor,
     /// What makes the IMU of no use, while something does.
     shunned: Option<Finding>,
@@ -140,7 +140,7 @@ impl Engine {
             twin: None,
             conditioner: Conditioner::new(&config.imu),
             stage: Stage::Levelling(Box::new(Coarse::new(&config))),
-            herald: Herald::new(&config.imu, config.alignment.accuracy),
+            alignment_status: StatusTeller::new(&config.imu, config.alignment.accuracy),
             surveyor: Surveyor::new(&config.lever_arms, config.accept_mounting),
             period: Span::from_seconds(1.0 / config.output_rate),
             shunned: None,
@@ -258,7 +258,7 @@ impl Engine {
     fn start_over(&mut self, time: Time, why: ModeReason) {
         self.nav = self.nav.with_docket(self.docket().begun_anew(time));
         self.stage = Stage::Levelling(Box::new(Coarse::new(&self.config)));
-        self.herald = Herald::new(&self.config.imu, self.config.alignment.accuracy);
+        self.alignment_status = StatusTeller::new(&self.config.imu, self.config.alignment.accuracy);
         self.surveyor.begin_anew();
         self.next_epoch = None;
         self.resumption = None;
@@ -310,14 +310,16 @@ impl Engine {
     fn tell_levelling(&mut self, now: Time) {
         let Stage::Levelling(coarse) = &self.stage else { return };
         let place = coarse.place();
-        if let Some(status) = self.herald.levelling(now, coarse.is_moored(), place.as_ref()) {
+        if let Some(status) =
+            self.alignment_status.levelling(now, coarse.is_moored(), place.as_ref())
+        {
             self.outputs.push_back(Output::Alignment(status));
         }
     }
 
     fn tell_alignment(&mut self) {
         let Stage::Running(line) = &self.stage else { return };
-        let (departure, status) = self.herald.look(line.estimator(), line.now());
+        let (departure, status) = self.alignment_status.look(line.estimator(), line.now());
         if departure.is_some() {
             // an alignment that is begun anew does not find her there
             self.config.start = StartCondition::Underway;
@@ -371,7 +373,7 @@ impl Engine {
             self.reject(received, aid, Rejection::OutOfRange);
         }
         let checked = self.surveyor.completed(&checked);
-        self.herald.hear(&checked);
+        self.alignment_status.hear(&checked);
         self.relay.hear(&checked);
         self.surveyor.hear(&self.unrefuted(&checked));
         self.heed_frozen();

@@ -34,7 +34,7 @@ impl Engine {
             conditioner: self.conditioner.kept(),
             navigator: navigator.kept(),
             aligned: *aligned,
-            herald: self.herald.kept(),
+            alignment_status: self.alignment_status.kept(),
             probation: self.surveyor.probation(),
         })
     }
@@ -75,7 +75,7 @@ impl Engine {
         let ship = Ship::Navigating { navigator, aligned, verdict: None, trial: None, blind: None };
         self.stage = Stage::Running(Box::new(Timeline::new(ship, start)));
         self.conditioner = conditioner;
-        self.herald.take_up(&kept.herald, by);
+        self.alignment_status.take_up(&kept.alignment_status, by);
         self.surveyor.take_up(kept.probation.shifted(by));
         self.next_epoch = Some(epoch_after(self.period, now));
         self.resumption = Some(Resumption::new(!kept.navigator.filter().is_receiver_suspect()));

@@ -15,13 +15,13 @@
 struct Readme;
 
 mod block;
+mod checkpoint;
 mod covariance;
 mod effects;
 mod errors;
 mod gate;
 mod innovation;
 mod jacobian;
-mod kept;
 mod layout;
 mod sums;
 mod transition;

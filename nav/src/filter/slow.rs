@@ -45,7 +45,7 @@ impl Filter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::filter::kept::tests;
+    use crate::filter::checkpoint::tests;
     use nalgebra::{Matrix3, Vector3};
 
     /// A filter whose receiver and compass were so much noisier than they say until now, and which knows the receiver's slow

@@ -1,6 +1,6 @@
 //! What of the installation is otherwise than configured: read off what the filter has found.
 //!
-//! It looks every ten seconds at the newest state, as the herald does, or when samples of the IMU are found to
+//! It looks every ten seconds at the newest state, as the alignment_status does, or when samples of the IMU are found to
 //! make no sense, and is no part of what the time line takes back.
 
 mod axes;

@@ -22,7 +22,7 @@ use crate::trust::Trust;
 /// Estimate, covariance and memory of a filter that navigates. What a moment brings back is left out: the
 /// acceleration of the antenna, the pace of the receiver.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct KeptFilter {
+pub struct FilterCheckpoint {
     time: Time,
     nominal: Nominal,
     covariance: Covariance,
@@ -41,7 +41,7 @@ pub struct KeptFilter {
     docket: Docket,
 }
 
-impl KeptFilter {
+impl FilterCheckpoint {
     /// Instant of the estimate.
     #[must_use]
     pub fn time(&self) -> Time {
@@ -72,13 +72,13 @@ impl KeptFilter {
 impl Filter {
     /// What is worth keeping of a filter that navigates.
     #[must_use]
-    pub fn kept(&self) -> KeptFilter {
+    pub fn kept(&self) -> FilterCheckpoint {
         if !self.is_settled() {
             let mut settled = self.clone();
             settled.settle();
             return settled.kept();
         }
-        KeptFilter {
+        FilterCheckpoint {
             time: self.state.time,
             nominal: self.state.nominal,
             covariance: self.state.covariance.clone(),
@@ -104,7 +104,7 @@ impl Filter {
     /// A filter that goes on from what was kept, on a time line that is later by a span. `None` if it
     /// cannot be a filter's.
     #[must_use]
-    pub fn taken_up(config: &NavConfig, kept: &KeptFilter, by: Span) -> Option<Filter> {
+    pub fn taken_up(config: &NavConfig, kept: &FilterCheckpoint, by: Span) -> Option<Filter> {
         if !kept.has_states() {
             return None;
         }
@@ -220,7 +220,7 @@ pub(super) mod tests {
     fn states_of_another_program_are_refused() {
         let (config, filter) = filter();
         let kept = filter.kept();
-        let spoilt = |change: &dyn Fn(&mut KeptFilter)| {
+        let spoilt = |change: &dyn Fn(&mut FilterCheckpoint)| {
             let mut spoilt = kept.clone();
             change(&mut spoilt);
             Filter::taken_up(&config, &spoilt, Span::ZERO).is_none()

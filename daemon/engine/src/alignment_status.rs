@@ -34,7 +34,7 @@ const SILENT: f64 = 15.0;
 
 /// What was said, and what it takes to say the next.
 #[derive(Clone, Debug)]
-pub(crate) struct Herald {
+pub(crate) struct StatusTeller {
     imu: ImuSpec,
     accuracy: f64,
     start: Option<Time>,
@@ -50,7 +50,7 @@ pub(crate) struct Herald {
 
 /// What of it is kept for the next start of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct KeptHerald {
+pub(crate) struct StatusCheckpoint {
     reached: Option<Time>,
     was_moored: bool,
     told_departure: bool,
@@ -73,9 +73,9 @@ struct Heard {
     other: Option<Time>,
 }
 
-impl Herald {
+impl StatusTeller {
     pub(crate) fn new(imu: &ImuSpec, accuracy: f64) -> Self {
-        Herald {
+        StatusTeller {
             imu: *imu,
             accuracy,
             start: None,
@@ -90,13 +90,13 @@ impl Herald {
         }
     }
 
-    pub(crate) fn kept(&self) -> KeptHerald {
-        let Herald { reached, was_moored, told_departure, .. } = *self;
-        KeptHerald { reached, was_moored, told_departure }
+    pub(crate) fn kept(&self) -> StatusCheckpoint {
+        let StatusTeller { reached, was_moored, told_departure, .. } = *self;
+        StatusCheckpoint { reached, was_moored, told_departure }
     }
 
     /// Goes on from what was kept, on a time line that is later by a span.
-    pub(crate) fn take_up(&mut self, kept: &KeptHerald, by: Span) {
+    pub(crate) fn take_up(&mut self, kept: &StatusCheckpoint, by: Span) {
         self.reached = kept.reached.map(|time| time + by);
         self.was_moored = kept.was_moored;
         self.told_departure = kept.told_departure;

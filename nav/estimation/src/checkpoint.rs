@@ -48,7 +48,7 @@ impl<'de> Deserialize<'de> for Covariance {
 
 /// What is written of a vector.
 #[derive(Serialize, Deserialize)]
-struct KeptErrors {
+struct ErrorsCheckpoint {
     places: Layout,
     values: Vec<f64>,
 }
@@ -56,14 +56,14 @@ struct KeptErrors {
 impl Serialize for Errors {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let values = self.values().as_slice().to_vec();
-        KeptErrors { places: self.layout().clone(), values }.serialize(serializer)
+        ErrorsCheckpoint { places: self.layout().clone(), values }.serialize(serializer)
     }
 }
 
 impl<'de> Deserialize<'de> for Errors {
     /// Fails unless there is a value for each state.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let KeptErrors { places, values } = KeptErrors::deserialize(deserializer)?;
+        let ErrorsCheckpoint { places, values } = ErrorsCheckpoint::deserialize(deserializer)?;
         (places.states() == values.len())
             .then(|| Errors::new(places, DVector::from_vec(values)))
             .ok_or_else(|| D::Error::custom("a value for each state was expected"))
