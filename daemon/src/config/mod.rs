@@ -27,12 +27,12 @@ use insd_engine::EngineConfig;
 use insd_intake::config::{IntakeConfig, PortSpec, Role, SensorConfig};
 use insd_intake::port::Link;
 use insd_intake::sensor::TimeBase;
-use insd_output::{Rate, Station};
+use insd_output::Rate;
+use insd_vessel::{OutputPlan, Pipeline, Plan};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::cli::BadInput;
-use crate::speaker::Speaker;
 
 pub use check::{Examined, Finding, Place, Severity};
 pub use imu::ImuModel;
@@ -42,7 +42,6 @@ pub use output::{OutputSection, Overfull, PointSection};
 pub use policy::PolicySection;
 pub use service::{LogSection, StateSection, WebSection};
 pub use spare::SpareSection;
-pub use succession::Change;
 
 /// How well receiver and IMU agree in time where neither a pulse nor the IMU's own UTC ties them, s.
 const TIME_STD: f64 = 0.02;
@@ -313,6 +312,25 @@ impl Config {
         }
     }
 
+    /// A pipeline that knows nothing yet.
+    #[must_use]
+    pub fn pipeline(&self) -> Pipeline<Config> {
+        Pipeline::new(self.plan(), self.clone())
+    }
+
+    /// What the vessel is told.
+    #[must_use]
+    pub fn plan(&self) -> Plan {
+        self.plan_with(self.engine())
+    }
+
+    /// The same, its engines told otherwise than the configuration has it.
+    #[must_use]
+    pub fn plan_with(&self, engine: EngineConfig) -> Plan {
+        let spares = self.spares(&engine);
+        Plan { intake: self.intake(), engine, spares, outputs: self.output_plan() }
+    }
+
     /// What the intake is told.
     #[must_use]
     pub fn intake(&self) -> IntakeConfig {
@@ -377,15 +395,19 @@ impl Config {
         self.points.iter().any(|point| point.name == name)
     }
 
-    /// What speaks to the ports.
+    /// What is said at the ports, and who may command there.
     #[must_use]
-    pub fn speaker(&self) -> Speaker {
+    pub fn output_plan(&self) -> OutputPlan {
         let ports =
             self.outputs.iter().map(|output| output.port(self.point(output.point.as_deref())));
-        let groups = (!self.nodes.is_empty()).then(|| Rate::from_hertz(GROUPS_RATE));
         let numbered = self.ports.iter().zip((0..).map(PortId));
         let obeyed = numbered.filter(|(port, _)| port.alerts).map(|(_, number)| number);
-        Speaker::new(Station::new(ports, self.levers(), groups)).obeying(obeyed)
+        OutputPlan {
+            ports: ports.collect(),
+            points: self.levers(),
+            groups: (!self.nodes.is_empty()).then(|| Rate::from_hertz(GROUPS_RATE)),
+            obeyed: obeyed.collect(),
+        }
     }
 
     /// What each port is opened as.

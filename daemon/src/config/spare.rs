@@ -5,11 +5,11 @@ use insd_base::{Body, LeverArms};
 use insd_engine::EngineConfig;
 use insd_engine::vote::Voice;
 use insd_intake::config::{IntakeConfig, Role, SensorConfig};
+use insd_vessel::{FIRST, Spare};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Config, ImuModel, faults};
-use crate::redundancy::{FIRST, Spare};
 
 /// More engines than these beside the first are of no use.
 const MOST: usize = 2;

@@ -1,24 +1,21 @@
 //! What a configuration that is read again may change while the ship sails.
 
+use insd_alignment::StoredState;
+use insd_vessel::{Change, OrderReader, Plan};
+
 use super::Config;
+use crate::stored;
 
-/// What is different after a configuration was read again.
-#[derive(Clone, Debug, PartialEq, Eq, Default)]
-pub struct Change {
-    /// Ports that are listened to, or sensors on them.
-    pub inputs: bool,
-    /// Ports that are written to, what they say, or the points they speak of.
-    pub outputs: bool,
-    /// Sections whose changes wait for the next start, because navigation would have to begin anew, or
-    /// because what they describe is made once.
-    pub waiting: Vec<&'static str>,
-}
+/// The configuration that holds reads the next one.
+impl OrderReader for Config {
+    fn replan(&mut self, text: &str) -> Result<(Plan, Change), String> {
+        let (config, change) = Config::of_text(text)?.succeeding(self);
+        *self = config;
+        Ok((self.plan(), change))
+    }
 
-impl Change {
-    /// Whether nothing is different.
-    #[must_use]
-    pub fn is_nothing(&self) -> bool {
-        *self == Change::default()
+    fn stored_state(&self, text: &str) -> Result<StoredState, String> {
+        stored::parse(text)
     }
 }
 

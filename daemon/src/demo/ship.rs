@@ -3,9 +3,9 @@
 
 use insd_base::{Body, Event, Geodetic, Message, Mode, Received, Solution, Time, Voyage};
 use insd_engine::{Engine, EngineConfig, Output};
-use insd_output::{Manner, PortConfig, Profile, Station};
+use insd_output::{Manner, PortConfig, Profile};
 
-use crate::speaker::{Speaker, Spoken};
+use insd_vessel::{OutputPlan, Speaker, Spoken};
 
 use super::board::{Board, Phase};
 use super::rejections;
@@ -49,7 +49,11 @@ impl Ship {
         Ship {
             messages: voyage.received().into_iter(),
             engine: Engine::new(EngineConfig::for_voyage(&voyage.header, OUTPUT_RATE)),
-            speaker: Speaker::new(Station::new([bridge()], vec![Body::default()], None)),
+            speaker: Speaker::new(OutputPlan {
+                ports: vec![bridge()],
+                points: vec![Body::default()],
+                ..OutputPlan::default()
+            }),
             calendar: Calendar::new(&voyage.header.start_utc),
             origin,
             sensors: Sensors::of(&voyage),

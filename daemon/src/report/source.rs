@@ -10,7 +10,6 @@ use insd_engine::{Engine, EngineConfig};
 use super::{Faults, Report};
 use crate::calendar::Calendar;
 use crate::cli::BadInput;
-use crate::pipeline::Pipeline;
 use crate::raw_run::RawRun;
 use crate::run::Names;
 
@@ -28,7 +27,7 @@ impl Report {
         let mut raw = RawRun::open(path, config, run)?;
         let (settings, engine) = (raw.config.clone(), raw.config.engine());
         let mut names = Names::of(&settings);
-        let mut pipeline = Pipeline::new(&settings);
+        let mut pipeline = settings.pipeline();
         let mut report: Option<Report> = None;
         let mut told = super::Bounded::new(super::FAULTS);
         let (mut last, mut now_in) = (None, 1);
@@ -42,7 +41,7 @@ impl Report {
                     report.collected.product(now, &names, &product);
                 });
                 if matches!(arrival.input, Input::Order(Order::Configuration(_))) {
-                    names = Names::of(pipeline.config());
+                    names = Names::of(pipeline.reader());
                 }
                 report.collected.arrival(&arrival, &pipeline);
                 Ok(())

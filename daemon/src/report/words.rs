@@ -9,10 +9,10 @@ use insd_output::alerts::AlertView;
 use insd_wire::nmea::{Acn, AlertCommand, AlertPriority, AlertState};
 
 use crate::demo::words::mode_short;
-use crate::pipeline::Obeyed;
-use crate::redundancy::Vote;
 use crate::run::Names;
-use crate::speaker::Commanded;
+use insd_vessel::Commanded;
+use insd_vessel::Obeyed;
+use insd_vessel::Vote;
 
 /// An event of the engine: its kind, and its words unless it is only counted.
 pub(crate) fn engine(event: &Event) -> (&'static str, Option<String>) {

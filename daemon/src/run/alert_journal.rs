@@ -8,8 +8,8 @@ use insd_wire::nmea::{AlertPriority, AlertState};
 use super::journal::Audience;
 use super::report::Report;
 use super::told::Names;
-use crate::pipeline::Product;
 use crate::report::words::priority;
+use insd_vessel::Product;
 
 /// Remembers how each alert stood last.
 #[derive(Debug, Default)]

@@ -10,7 +10,7 @@ use std::thread::{Builder, JoinHandle};
 use super::report::Report;
 use super::told::{Names, tell};
 use crate::config::Config;
-use crate::pipeline::Product;
+use insd_vessel::Product;
 
 /// What may wait to be told: some seconds of a ship in trouble.
 const WAITING: usize = 1024;

@@ -36,7 +36,6 @@ use crate::clock::{HostClock, boot_now};
 use crate::config::{Config, Recording, StateSection};
 use crate::logging::Log;
 use crate::output_file::OutputFile;
-use crate::pipeline::Pipeline;
 use crate::state::{self, Folders, Remains, Saver};
 
 use alert_journal::AlertJournal;
@@ -79,7 +78,7 @@ pub fn run(config: &Config, text: &str, options: &RunOptions, log: &Log) -> anyh
     let (queue, receiver) = ports::queue(WAITING);
     let surroundings = Surroundings { clock: Arc::new(clock), queue, judge: Some(told::judge()) };
     let guard = runtime.enter();
-    let pipeline = Pipeline::new(config);
+    let pipeline = config.pipeline();
     let made = pipeline.speaker().station().ports();
     let connections = Connections::open(config, made, &surroundings, runtime.handle());
     drop(surroundings);

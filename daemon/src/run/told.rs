@@ -9,11 +9,11 @@ use insd_intake::event::{Happening, IntakeEvent};
 use insd_web::SECURITY;
 use insd_wire::stream::{Cutter, Protocol};
 
-use crate::config::{Change, Config};
-use crate::pipeline::{Obeyed, Product};
-use crate::redundancy::Vote;
+use crate::config::Config;
 use crate::report::words;
-use crate::speaker::Commanded;
+use insd_vessel::Commanded;
+use insd_vessel::Vote;
+use insd_vessel::{Change, Obeyed, Product};
 
 /// Good frames at which a baud rate is taken as right.
 const CONVINCED: usize = 3;

@@ -2,12 +2,10 @@
 //! every few seconds on the disk, and the state of a ship at her berth ([`crate::stored`]).
 
 mod boot;
-mod checkpoints;
 mod saver;
 mod store;
 
 pub use boot::Boot;
-pub use checkpoints::Checkpoints;
 pub use saver::{Folders, Saver, SaverState};
 pub use store::{Kept, Loaded, Store};
 

@@ -5,10 +5,10 @@ use anyhow::Context;
 use super::ReplayArgs;
 use super::sent::Sent;
 use super::sink::Sink;
-use crate::pipeline::{Pipeline, Product};
 use crate::raw_run::RawRun;
 use crate::run::{Names, tell};
 use crate::stored;
+use insd_vessel::{Pipeline, Product};
 
 /// Replays a recording.
 pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
@@ -17,7 +17,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     engine.output_rate = args.rate.unwrap_or(engine.output_rate);
     engine.alignment = args.alignment.config();
     engine.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
-    let mut pipeline = Pipeline::with_engine(&raw.config, engine);
+    let mut pipeline = Pipeline::new(raw.config.plan_with(engine), raw.config.clone());
     let names = Names::of(&raw.config);
     let mut sink = Sink::create(args)?;
     let sent = args.sent.as_deref().map(|folder| Sent::create(folder, &raw.config));

@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::config::Config;
 use crate::evaluation::RowWriter;
 use crate::output_file::OutputFile;
-use crate::speaker::Spoken;
+use insd_vessel::Spoken;
 
 /// The files of a folder.
 pub(super) struct Sent {

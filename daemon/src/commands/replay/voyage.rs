@@ -13,8 +13,8 @@ use super::sink::Sink;
 use crate::calendar::Calendar;
 use crate::cli::BadInput;
 use crate::config::Config;
-use crate::speaker::Speaker;
 use crate::stored;
+use insd_vessel::Speaker;
 
 /// Solutions per second where nothing else is asked for.
 const RATE: f64 = 10.0;
@@ -70,7 +70,7 @@ impl Ports {
         };
         let (config, _) = Config::load(file)?;
         Ok(Some(Ports {
-            speaker: config.speaker(),
+            speaker: Speaker::new(config.output_plan()),
             sent: Sent::create(folder, &config)?,
             levers: config.levers(),
             calendar: Calendar::new(start_utc),

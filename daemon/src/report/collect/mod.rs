@@ -24,9 +24,10 @@ use self::trust::Trust;
 use super::statistics::Statistics;
 use super::times::Times;
 use super::words;
-use crate::pipeline::{Pipeline, Product};
+use crate::config::Config;
 use crate::run::Names;
-use crate::speaker::Spoken;
+use insd_vessel::Spoken;
+use insd_vessel::{Pipeline, Product};
 
 /// Spacing of looks at the clocks.
 const LOOK: Span = Span::from_nanos(1_000_000_000);
@@ -71,7 +72,7 @@ impl Collected {
     }
 
     /// Takes an arrival that the pipeline has handled.
-    pub(crate) fn arrival(&mut self, arrival: &Arrival, pipeline: &Pipeline) {
+    pub(crate) fn arrival(&mut self, arrival: &Arrival, pipeline: &Pipeline<Config>) {
         let now = arrival.stamp.monotonic;
         if self.looked.is_none_or(|last| now - last >= LOOK) {
             self.looked = Some(now);

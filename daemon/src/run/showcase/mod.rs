@@ -25,8 +25,8 @@ use super::told::Names;
 use crate::calendar;
 use crate::config::Config;
 use crate::logging::Log;
-use crate::pipeline::{Obeyed, Product};
-use crate::redundancy::Dispute;
+use insd_vessel::Dispute;
+use insd_vessel::{Obeyed, Product};
 
 use aids::Aids;
 pub(super) use program::{Origin, hash};

@@ -3,21 +3,21 @@
 
 use std::sync::Arc;
 
+use insd_alignment::StoredState;
 use insd_base::{
     AlertOrder, Arrival, Counts, Heave, Input, Mode, Motion, Order, ResumeDoubt, Time, UtcTime,
 };
-use insd_engine::{Engine, EngineConfig, Output};
-use insd_intake::config::IntakeConfig;
+use insd_engine::{Engine, Output};
 use insd_intake::event::IntakeEvent;
 use insd_intake::status::IntakeStatus;
 use insd_intake::{Intake, Intaken};
+use insd_output::WakeUp;
 use insd_wire::nmea::AlertCommand;
 
-use crate::config::{Change, Config};
-use crate::redundancy::{Dispute, EngineStatus, FIRST, InUse, Redundancy, Said, Spare, Vote};
+use crate::checkpoints::Checkpoints;
+use crate::plan::{Change, Plan};
+use crate::spares::{Dispute, EngineStatus, FIRST, InUse, Redundancy, Said, Vote};
 use crate::speaker::{Commanded, Knows, Speaker, Spoken};
-use crate::state::Checkpoints;
-use crate::stored;
 
 /// What an arrival led to.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,23 +64,26 @@ pub enum Obeyed {
     StoredStateRefused(String),
 }
 
-/// What a pipeline is made of.
-#[derive(Debug)]
-pub struct Parts {
-    /// What is plugged in.
-    pub intake: IntakeConfig,
-    /// What the first engine is told.
-    pub engine: EngineConfig,
-    /// What speaks to the ports.
-    pub speaker: Speaker,
-    /// Further engines.
-    pub spares: Vec<Spare>,
+/// Who reads the orders that come as text: this crate knows no format of a file. What it reads may hang on
+/// the texts alone, or a recording would not replay.
+pub trait OrderReader {
+    /// The plan that another configuration makes of the one that holds, and what it changes.
+    ///
+    /// # Errors
+    /// Its faults; what held before still holds.
+    fn replan(&mut self, text: &str) -> Result<(Plan, Change), String>;
+
+    /// The state of a ship at her berth.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    fn stored_state(&self, text: &str) -> Result<StoredState, String>;
 }
 
 /// Intake, engine and what speaks to the ports.
 #[derive(Debug)]
-pub struct Pipeline {
-    config: Config,
+pub struct Pipeline<R> {
+    reader: R,
     intake: Intake,
     engine: Engine,
     speaker: Speaker,
@@ -88,31 +91,17 @@ pub struct Pipeline {
     redundancy: Option<Redundancy>,
 }
 
-impl Pipeline {
+impl<R: OrderReader> Pipeline<R> {
     /// A pipeline that knows nothing yet.
     #[must_use]
-    pub fn new(config: &Config) -> Self {
-        Self::with_engine(config, config.engine())
-    }
-
-    /// The same, its engines told otherwise than the configuration has it.
-    #[must_use]
-    pub fn with_engine(config: &Config, engine: EngineConfig) -> Self {
-        let spares = config.spares(&engine);
-        let parts = Parts { intake: config.intake(), engine, speaker: config.speaker(), spares };
-        Self::of(config, parts)
-    }
-
-    /// A pipeline of parts of which the configuration says nothing.
-    #[must_use]
-    pub fn of(config: &Config, parts: Parts) -> Self {
-        let Parts { intake, engine, speaker, spares } = parts;
+    pub fn new(plan: Plan, reader: R) -> Self {
+        let Plan { intake, engine, spares, outputs } = plan;
         Pipeline {
+            reader,
             intake: Intake::new(&intake),
             engine: Engine::new(engine),
-            speaker,
+            speaker: Speaker::new(outputs),
             redundancy: (!spares.is_empty()).then(|| Redundancy::new(spares)),
-            config: config.clone(),
         }
     }
 
@@ -186,8 +175,8 @@ impl Pipeline {
                 let done = self.speaker.obey(*identifier, ordered, now, utc);
                 Obeyed::Alert { identifier: *identifier, command: *command, done }
             }
-            Order::Configuration(text) => match Config::of_text(text) {
-                Ok(config) => Obeyed::Configured(self.configure(config)),
+            Order::Configuration(text) => match self.reader.replan(text) {
+                Ok((plan, change)) => Obeyed::Configured(self.configure(plan, change)),
                 Err(faults) => Obeyed::ConfigurationRefused(faults),
             },
             Order::Checkpoint { age, state } => {
@@ -205,7 +194,7 @@ impl Pipeline {
                     _ => Obeyed::Resumed,
                 }
             }
-            Order::StoredState(text) => match stored::parse(text) {
+            Order::StoredState(text) => match self.reader.stored_state(text) {
                 Ok(state) => {
                     self.engine.offer(state);
                     Obeyed::StoredStateOffered
@@ -216,19 +205,15 @@ impl Pipeline {
     }
 
     /// Takes over what may change while the ship sails: alignment and navigation go on.
-    fn configure(&mut self, config: Config) -> Change {
-        let (config, change) = config.succeeding(&self.config);
-        let engine = config.engine();
-        let spares = config.spares(&engine);
+    fn configure(&mut self, plan: Plan, change: Change) -> Change {
         if change.inputs {
-            self.intake = Intake::new(&config.intake());
+            self.intake = Intake::new(&plan.intake);
         }
         if change.outputs || change.inputs {
-            self.speaker.succeed(config.speaker());
-            self.engine.observe_points(engine.points);
-            self.redundancy.iter_mut().for_each(|own| own.configure(&spares, change.inputs));
+            self.speaker.succeed(Speaker::new(plan.outputs));
+            self.engine.observe_points(plan.engine.points);
+            self.redundancy.iter_mut().for_each(|own| own.configure(&plan.spares, change.inputs));
         }
-        self.config = config;
         change
     }
 
@@ -240,10 +225,10 @@ impl Pipeline {
         Checkpoints(first.into_iter().chain(spares).collect()).bytes()
     }
 
-    /// The configuration that holds.
+    /// Who reads its orders, and so knows the configuration that holds.
     #[must_use]
-    pub fn config(&self) -> &Config {
-        &self.config
+    pub fn reader(&self) -> &R {
+        &self.reader
     }
 
     /// The first engine.
@@ -301,9 +286,9 @@ impl Pipeline {
         self.redundancy.as_ref().map(Redundancy::disputes).unwrap_or_default()
     }
 
-    /// When the next [`Input::Tick`] is wanted: something is then due at a port that is written to.
+    /// When the next [`Input::Tick`] is wanted, and why; `None` if never. All else hangs on arrivals.
     #[must_use]
-    pub fn next_tick(&self, now: Time) -> Option<Time> {
+    pub fn wake_up(&self, now: Time) -> Option<WakeUp> {
         self.speaker.next(now, self.intake.utc_at(now))
     }
 

@@ -9,7 +9,7 @@ const SPEAKERS: usize = 32;
 
 /// The ports that may command our alerts.
 #[derive(Debug, Default)]
-pub(crate) struct Ears {
+pub(crate) struct AlertCommands {
     ports: Vec<PortId>,
     speakers: Vec<Speaker>,
 }
@@ -32,10 +32,10 @@ pub struct Who {
     pub may_command: bool,
 }
 
-impl Ears {
-    /// Ears for these ports.
+impl AlertCommands {
+    /// Those of these ports.
     pub(crate) fn new(ports: impl IntoIterator<Item = PortId>) -> Self {
-        Ears { ports: ports.into_iter().collect(), speakers: Vec::new() }
+        AlertCommands { ports: ports.into_iter().collect(), speakers: Vec::new() }
     }
 
     /// The sentences in what arrived, if it came to one of the ports, and who said them.

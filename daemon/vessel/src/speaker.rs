@@ -2,16 +2,16 @@
 //! a recording replays to the bytes that were sent.
 
 use insd_base::{
-    AlignmentStatus, Arrival, Geodetic, Heave, Message as Measurement, Motion, PortId, Received,
-    Span, StorageFaults, Time, UtcTime,
+    AlignmentStatus, Arrival, Geodetic, Heave, Message as Measurement, Motion, Received, Span,
+    StorageFaults, Time, UtcTime,
 };
 use insd_engine::{Engine, Output};
 use insd_n2k::pgn::TimeSource;
-use insd_output::{Doubts, Epoch, Message, Moment, Receiver, Station, Variation};
+use insd_output::{Doubts, Epoch, Message, Moment, Receiver, Station, Variation, WakeUp};
 use insd_wire::nmea::{Acn, AlertCommand, Sentence};
 
-use crate::ears::Ears;
-pub use crate::ears::Who;
+use crate::alert_commands::{AlertCommands, Who};
+use crate::plan::OutputPlan;
 
 /// The year of the World Magnetic Model in use.
 const MODEL: u16 = 2025;
@@ -77,7 +77,7 @@ pub enum Spoken {
 #[derive(Debug)]
 pub struct Speaker {
     station: Station,
-    ears: Ears,
+    commands: AlertCommands,
     alignment: Option<AlignmentStatus>,
     receiver: Option<(Time, Receiver)>,
     variation: Option<(Time, Variation)>,
@@ -89,23 +89,16 @@ pub struct Speaker {
 impl Speaker {
     /// A speaker for these ports.
     #[must_use]
-    pub fn new(station: Station) -> Self {
-        let ears = Ears::default();
+    pub fn new(plan: OutputPlan) -> Self {
         Speaker {
-            station,
-            ears,
+            station: Station::new(plan.ports, plan.points, plan.groups),
+            commands: AlertCommands::new(plan.obeyed),
             alignment: None,
             receiver: None,
             variation: None,
             storage: StorageFaults::default(),
             strangers: (0, None),
         }
-    }
-
-    /// The same, obeying the alert management of the bridge on these ports.
-    #[must_use]
-    pub fn obeying(self, ports: impl IntoIterator<Item = PortId>) -> Self {
-        Speaker { ears: Ears::new(ports), ..self }
     }
 
     /// Takes note of what arrived: commands about alerts, and the heartbeat of who gives them. Tells what
@@ -117,7 +110,7 @@ impl Speaker {
         mut tell: impl FnMut(Commanded),
     ) {
         let now = arrival.stamp.monotonic;
-        let Some((who, sentences)) = self.ears.hear(arrival) else { return };
+        let Some((who, sentences)) = self.commands.hear(arrival) else { return };
         for sentence in sentences {
             match sentence {
                 Sentence::Acn(command) => {
@@ -164,9 +157,9 @@ impl Speaker {
 
     /// Speaks from now on to other ports, knowing and alerting of what it did.
     pub fn succeed(&mut self, next: Speaker) {
-        let Speaker { mut station, ears, .. } = next;
+        let Speaker { mut station, commands, .. } = next;
         station.inherit(&self.station);
-        (self.station, self.ears) = (station, ears);
+        (self.station, self.commands) = (station, commands);
     }
 
     /// Its ports.
@@ -198,9 +191,9 @@ impl Speaker {
         }
     }
 
-    /// The next instant at which something is due.
+    /// The next instant at which something is due, and what.
     #[must_use]
-    pub fn next(&self, now: Time, utc: Option<UtcTime>) -> Option<Time> {
+    pub fn next(&self, now: Time, utc: Option<UtcTime>) -> Option<WakeUp> {
         self.station.next(now, utc)
     }
 
@@ -256,7 +249,7 @@ impl Speaker {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use insd_base::{Body, Input, Sent, Stamp};
+    use insd_base::{Body, Input, PortId, Sent, Stamp};
     use insd_engine::EngineConfig;
     use insd_output::{Manner, MessageKind, PortConfig, Rate};
     use insd_wire::nmea::{Acn, AlertCommand, AlertId, Manufacturer, Talker, TimeOfDay};
@@ -271,6 +264,11 @@ mod tests {
             manner: Manner { simulated: true, ..Manner::default() },
             ..PortConfig::default()
         }
+    }
+
+    fn obeying_the_bridge() -> Speaker {
+        let (ports, points) = (vec![simulated()], vec![Body::default()]);
+        Speaker::new(OutputPlan { ports, points, obeyed: vec![BRIDGE], groups: None })
     }
 
     /// Formatters of what is told in some seconds.
@@ -316,8 +314,7 @@ mod tests {
 
     #[test]
     fn commands_about_alerts_are_taken_from_the_port_that_is_obeyed_and_from_no_other() {
-        let station = Station::new([simulated()], vec![Body::default()], None);
-        let mut speaker = Speaker::new(station).obeying([BRIDGE]);
+        let mut speaker = obeying_the_bridge();
         assert!(told(&mut speaker, 0..5).contains(&"ALF".to_owned()));
         speaker.overhear(&command(PortId(2)), None, |_| {});
         assert_eq!(told(&mut speaker, 5..8), Vec::<String>::new());
@@ -337,8 +334,7 @@ mod tests {
 
     #[test]
     fn a_command_of_a_host_that_is_not_listed_is_refused_counted_and_told() {
-        let station = Station::new([simulated()], vec![Body::default()], None);
-        let mut speaker = Speaker::new(station).obeying([BRIDGE]);
+        let mut speaker = obeying_the_bridge();
         told(&mut speaker, 0..5);
         let stranger = sent("10.0.0.9", false, &acn());
         let name = Some("10.0.0.9".to_owned());
@@ -352,8 +348,7 @@ mod tests {
 
     #[test]
     fn what_two_hosts_say_is_not_put_together() {
-        let station = Station::new([simulated()], vec![Body::default()], None);
-        let mut speaker = Speaker::new(station).obeying([BRIDGE]);
+        let mut speaker = obeying_the_bridge();
         let line = acn();
         let (first, second) = line.split_at(10);
         assert_eq!(heard(&mut speaker, &sent("10.0.0.9", false, first)), []);

@@ -11,36 +11,20 @@ use insd_base::{
 use insd_engine::vote::{
     Difference, Disagreement, Doubt, Gyros, Record, Testimony, Voice, VoteEvent, Voter,
 };
-use insd_engine::{Engine, EngineConfig, Output};
+use insd_engine::{Engine, Output};
 use insd_intake::choice::Quantity;
-use insd_intake::config::IntakeConfig;
 use insd_intake::{Intake, Intaken};
 use insd_output::Doubts;
 
+use crate::checkpoints::Checkpoints;
+use crate::plan::Spare;
 use crate::speaker::Knows;
-use crate::state::Checkpoints;
 
 /// Name of the engine that is no spare.
 pub const FIRST: &str = "first";
 
 /// Time between two looks at the engines.
 const LOOK: Span = Span::from_nanos(100_000_000);
-
-/// A further engine.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Spare {
-    /// Its name.
-    pub name: String,
-    /// What is plugged in, with its own IMU.
-    pub intake: IntakeConfig,
-    /// Its engine. The first of its monitoring points is its own IMU, the second the first engine's IMU, and
-    /// then come those of the ship; all from its own IMU.
-    pub engine: EngineConfig,
-    /// Where its IMU sits from the first engine's, body axes, m.
-    pub offset: Body,
-    /// Which IMU it has; the first engine's is number 0.
-    pub voice: Voice,
-}
 
 /// What the voter found, with the names of the engines.
 #[derive(Clone, Debug, PartialEq)]
