@@ -1,11 +1,11 @@
 //! A ship with several IMUs and an engine on each: her bytes through the whole pipeline.
 
-use insd::config::Config;
 use insd_base::units::wrap_pi;
 use insd_base::{
     Arrival, Body, ImuSample, Input, LeverArms, PortId, Received, Solution, Stamped, Time, Truth,
     Voyage, earth,
 };
+use insd_config::Config;
 use insd_engine::vote::{Gyros, Record, Testimony, Voice, VoteEvent, Voter};
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_intake::config::{IntakeConfig, Role};

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use insd::config::Config;
 use insd_base::{Arrival, Input, PortId, PortState, Span, Stamp, Time, Voyage};
+use insd_config::Config;
 use insd_drivers::raw::{RawHeader, RawWriter, RecordingConfig};
 use insd_vessel::Pipeline;
 use insd_wire::nmea::{Acn, AlertCommand, AlertId, Talker};

@@ -8,9 +8,9 @@ use std::path::Path;
 use std::time::Duration;
 
 use insd::clock::Clock;
-use insd::config::Config;
 use insd::logging::Log;
 use insd::run::{RunOptions, run};
+use insd_config::Config;
 use insd_drivers::raw::RawReader;
 use insd_drivers::recording::NavWriter;
 use insd_engine::Output;

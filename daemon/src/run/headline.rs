@@ -7,7 +7,7 @@ use tokio::sync::watch;
 
 use super::journal::Audience;
 use super::report::Report;
-use super::told::Names;
+use insd_vessel::Names;
 use insd_vessel::Product;
 
 /// Says how everything stands, every few seconds.

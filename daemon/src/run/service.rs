@@ -11,8 +11,8 @@ use tokio::sync::{oneshot, watch};
 use super::control::Commander;
 use super::heart::Heart;
 use super::manager::{Manager, Word};
-use crate::config::Config;
 use crate::logging::Log;
+use insd_config::Config;
 use insd_vessel::Obeyed;
 
 /// Time between two looks where no watchdog asks for shorter ones.

@@ -13,17 +13,16 @@ use insd_engine::Output;
 use insd_output::WakeUp;
 use insd_vessel::{Obeyed, Pipeline, Product, Spoken};
 
-use super::NOWHERE;
-use super::connections::Connections;
+use super::connections::{Connections, NOWHERE};
 use super::control::Control;
 use super::heart::{Heart, Progress};
 use super::journal::{Journal, Note};
 use super::report::{Report, Slow};
 use crate::clock::{HostClock, boot_now};
-use crate::config::Config;
-use crate::output_file::OutputFile;
 use crate::state::{Kept, Remains, Saver};
-use crate::stored;
+use insd_config::Config;
+use insd_config::OutputFile;
+use insd_config::stored;
 
 /// Longest wait for an arrival: time passes even when nothing comes.
 const TURN: Duration = Duration::from_millis(25);
@@ -206,7 +205,7 @@ impl Worker {
     fn save_berth(&self, now: Time) {
         let state = self.pipeline.engine().stored_state();
         let (Some(saver), Some(state)) = (&self.saver, state) else { return };
-        let utc = self.pipeline.utc_at(now).map(crate::calendar::rfc3339).unwrap_or_default();
+        let utc = self.pipeline.utc_at(now).map(insd_config::calendar::rfc3339).unwrap_or_default();
         match stored::text(&state, &utc) {
             Ok(text) => saver.berth(text),
             Err(error) => tracing::warn!(%error, "the state at the berth cannot be put into words"),

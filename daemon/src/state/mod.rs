@@ -1,5 +1,5 @@
 //! What a run leaves for the next one: its navigation ([`Kept`]), saved a few times a second in memory and
-//! every few seconds on the disk, and the state of a ship at her berth ([`crate::stored`]).
+//! every few seconds on the disk, and the state of a ship at her berth ([`insd_config::stored`]).
 
 mod boot;
 mod saver;

@@ -8,13 +8,16 @@
 
 mod alert_commands;
 mod checkpoints;
+mod names;
 mod pipeline;
 mod plan;
 mod spares;
 mod speaker;
+pub mod words;
 
 pub use alert_commands::Who;
 pub use checkpoints::Checkpoints;
+pub use names::Names;
 pub use pipeline::{Obeyed, OrderReader, Pipeline, Product};
 pub use plan::{Change, OutputPlan, Plan, Spare};
 pub use spares::{Dispute, EngineStatus, FIRST, Vote, loosened};

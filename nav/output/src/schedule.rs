@@ -3,8 +3,6 @@
 
 use insd_base::{Span, Time, UtcTime};
 
-use crate::epoch::Epoch;
-
 /// How often a message is sent, in times in 30000 s, so that boundaries are exact: those of whole hertz, and
 /// those of 30 s.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -185,8 +183,8 @@ pub(crate) struct Beat {
 impl Beat {
     /// Whether this epoch is the first one of an interval, so that messages of one rate leave
     /// together and a late or missing epoch does not shift the ones after it.
-    pub(crate) fn is_due(&mut self, epoch: &Epoch, interval: Span) -> bool {
-        let grid = epoch.boundary().grid();
+    pub(crate) fn is_due(&mut self, now: &Boundary, interval: Span) -> bool {
+        let grid = now.grid();
         let length = interval.as_nanos().max(1);
         let number = |grid: i64| grid.div_euclid(length);
         let due = self.last.is_none_or(|last| {

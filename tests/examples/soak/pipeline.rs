@@ -4,12 +4,13 @@ use std::io::{BufReader, stdin};
 use std::process::ExitCode;
 
 use insd::clock::{Clock, HostClock, boot_now};
-use insd::config::Config;
 use insd::state::{Folders, Kept, Saver};
 use insd_base::{Arrival, Event, Input, PortId, Span, Time};
+use insd_config::Config;
 use insd_drivers::raw::{RawHeader, RawWriter, Recorder, RecordingConfig};
 use insd_engine::Output;
-use insd_vessel::{Pipeline, Product, Spoken};
+use insd_vessel::Spoken;
+use insd_vessel::{Pipeline, Product};
 
 use super::pipe;
 

@@ -8,9 +8,9 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use insd::clock::{Clock, HostClock, boot_now};
-use insd::config::Config;
 use insd::state::{Kept, Store};
 use insd_base::{Time, Voyage};
+use insd_config::Config;
 use insd_simulator::simulate;
 use insd_tests::feed::{Encoding, FeedConfig, Reception, Sending, arrivals, feed};
 
