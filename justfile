@@ -155,7 +155,7 @@ fuzz-all seconds="60":
 
 # the README's picture of the demo, the same bytes every time
 picture:
-    cargo run --release -p insd --example demo_picture -- docs/demo.svg
+    cargo run --release -p insd-lab --example demo_picture -- docs/demo.svg
 
 # the status page with a made-up ship: alignment, underway, fault
 page scene="underway" address="127.0.0.1:8470":

@@ -2,15 +2,16 @@
 
 use std::io;
 use std::process::ExitCode;
+use std::sync::Arc;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
+use insd_config::BadInput;
 use insd_drivers::recording::RecordingError;
+use insd_lab::commands::{campaign, convert, evaluate, feed, limit, replay, report, simulate};
+use insd_lab::demo;
 
-use crate::commands::{
-    campaign, check_config, convert, doctor, evaluate, example_config, feed, generate, limit,
-    monitor, ports, replay, report, run, simulate, sniff,
-};
-use crate::demo;
+use crate::clock::HostClock;
+use crate::commands::{check_config, doctor, example_config, generate, monitor, ports, run, sniff};
 use crate::logging::Log;
 
 /// Exit status when the input is to blame.
@@ -65,16 +66,6 @@ enum Command {
     Generate(generate::GenerateArgs),
 }
 
-/// The input is to blame, not the machine: ends with exit status 2.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct BadInput(pub String);
-
-/// There are warnings, and they count: ends with exit status 1.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct Warned(pub String);
-
 impl Cli {
     /// What is logged where the environment (`RUST_LOG`) says nothing: the daemon tells what happens,
     /// the other commands only what is wrong.
@@ -92,9 +83,9 @@ impl Cli {
             Command::Run(args) => run::run(&args, log),
             Command::Monitor(args) => monitor::run(&args),
             Command::Convert(args) => convert::run(&args),
-            Command::Demo(args) => demo::run(args),
+            Command::Demo(args) => demo::run(args, Arc::new(HostClock::start())),
             Command::Simulate(args) => simulate::run(&args),
-            Command::Replay(args) => replay::run(&args),
+            Command::Replay(args) => replay::run(&args, crate::run::tell),
             Command::Report(args) => report::run(&args),
             Command::Evaluate(args) => evaluate::run(&args),
             Command::Campaign(args) => campaign::run(&args),
@@ -102,8 +93,8 @@ impl Cli {
             Command::CheckConfig(args) => check_config::run(&args),
             Command::Doctor(args) => doctor::run(&args),
             Command::ExampleConfig(args) => example_config::run(&args),
-            Command::Feed(args) => feed::run(&args),
-            Command::Generate(args) => generate::run(&args),
+            Command::Feed(args) => feed::run(&args, &HostClock::start()),
+            Command::Generate(args) => generate::run(&args, &Cli::command()),
             Command::Ports(args) => ports::run(&args),
             Command::Sniff(args) => sniff::run(&args),
         }
@@ -137,7 +128,6 @@ fn is_about_input(fault: &RecordingError) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_command_line_is_well_formed() {

@@ -1,28 +1,15 @@
-//! `insd`, the inertial navigation system of a ship: the commands around the engine.
+//! `insd`, the inertial navigation system of a ship: the daemon, and the one program.
 //!
-//! The engine and all below it are pure. Here are the files, the terminal, the threads and the one
-//! clock ([`clock`]).
+//! The engine and all below it are pure. Here are the threads, the page, the journal and the one
+//! clock ([`clock`]); what is done with voyages afterwards is `insd_lab`.
 
-#![warn(clippy::print_stdout)] // it panics when the reader has gone: `commands::print` does not
+#![warn(clippy::print_stdout)] // it panics when the reader has gone: `insd_lab::terminal::print` does not
 
-mod calendar;
 pub mod cli;
 pub mod clock;
 pub mod commands;
-pub mod config;
-pub mod demo;
 pub mod doctor;
-mod ears;
-pub mod evaluation;
 pub mod logging;
 pub mod monitor;
-mod output_file;
-pub mod pipeline;
-pub mod raw_run;
-pub mod redundancy;
-pub mod report;
 pub mod run;
-pub mod sniff;
-pub mod speaker;
 pub mod state;
-pub mod stored;

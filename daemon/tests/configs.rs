@@ -7,9 +7,9 @@ use std::path::Path;
 
 use assert_cmd::Command;
 use insd::commands::example_config::EXAMPLES;
-use insd::config::Config;
-use insd::config::check::shape::{Key, Shape, sections};
 use insd_base::Voyage;
+use insd_config::Config;
+use insd_config::check::shape::{Key, Shape, sections};
 use insd_intake::config::Kind;
 use insd_simulator::feed::{Encoding, FeedConfig};
 use insd_simulator::{Scenario, shipped, simulate};

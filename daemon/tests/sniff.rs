@@ -7,9 +7,9 @@ use std::process::{Command as Process, Stdio};
 use std::time::Duration;
 
 use assert_cmd::Command;
-use insd::demo::pty::Pty;
 use insd_base::{Arrival, Input, PortId, PortState, Span, Stamp, Time, UtcTime};
 use insd_drivers::raw::{RawHeader, RawWriter, RecordingConfig};
+use insd_lab::pty::Pty;
 use serde_json::Value;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_insd");

@@ -1,20 +1,18 @@
 //! A ship with several IMUs and an engine on each: her bytes through the whole pipeline.
 
-use insd::config::Config;
-use insd::pipeline::{Parts, Pipeline, Product};
-use insd::redundancy::{Spare, loosened};
-use insd::speaker::{Speaker, Spoken};
 use insd_base::units::wrap_pi;
 use insd_base::{
     Arrival, Body, ImuSample, Input, LeverArms, PortId, Received, Solution, Stamped, Time, Truth,
     Voyage, earth,
 };
+use insd_config::Config;
 use insd_engine::vote::{Gyros, Record, Testimony, Voice, VoteEvent, Voter};
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_intake::config::{IntakeConfig, Role};
 use insd_output::alerts::Condition;
-use insd_output::{MessageKind, PortConfig, Rate, Station};
+use insd_output::{MessageKind, PortConfig, Rate};
 use insd_simulator::{Scenario, further_imu, simulate};
+use insd_vessel::{OutputPlan, Pipeline, Plan, Product, Spare, Spoken, loosened};
 use insd_wire::nmea::AlertState;
 use nalgebra::Vector3;
 
@@ -213,18 +211,19 @@ impl Fleet {
 
     /// A pipeline for her.
     #[must_use]
-    pub fn pipeline(&self) -> Pipeline {
+    pub fn pipeline(&self) -> Pipeline<Config> {
         let rate = Rate::from_hertz(10.0);
         let kinds = ["HDT", "GGA", "ALF"];
         let messages = kinds.map(|kind| (MessageKind::named(kind).unwrap(), rate)).to_vec();
         let bridge = PortConfig { messages, ..PortConfig::default() };
-        let speaker = Speaker::new(Station::new([bridge], vec![Body::default()], [rate]));
+        let (ports, points) = (vec![bridge], vec![Body::default()]);
+        let outputs = OutputPlan { ports, points, groups: Some(rate), ..OutputPlan::default() };
         let feeds = self.feeds();
         let imu = Some(format!("sensor {}", port(self.engines[0])));
         let intake = IntakeConfig { imu, ..feeds.intake(&self.voyage) };
         let config = Config::of_text(include_str!("../../systemd/examples/minimal.toml")).unwrap();
         let (engine, spares) = (self.engine(), self.spares(&feeds));
-        Pipeline::of(&config, Parts { intake, engine, speaker, spares })
+        Pipeline::new(Plan { intake, engine, spares, outputs }, config)
     }
 
     /// Sails her.
@@ -249,7 +248,7 @@ impl Fleet {
             self.hand(&mut pipeline, arrival, reception, &mut log);
             taken.push(arrival.clone());
             let now = arrival.stamp;
-            if pipeline.next_tick(now.monotonic).is_some_and(|due| due <= now.monotonic) {
+            if pipeline.wake_up(now.monotonic).is_some_and(|due| due.at <= now.monotonic) {
                 let tick = Arrival { stamp: now, port: PortId(u16::MAX), input: Input::Tick };
                 self.hand(&mut pipeline, &tick, reception, &mut log);
                 taken.push(tick);
@@ -270,7 +269,7 @@ impl Fleet {
 
     fn hand(
         &self,
-        pipeline: &mut Pipeline,
+        pipeline: &mut Pipeline<Config>,
         arrival: &Arrival,
         reception: &Reception,
         log: &mut Log,

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use insd::config::Config;
-use insd::pipeline::Pipeline;
 use insd_base::{Arrival, Input, PortId, PortState, Span, Stamp, Time, Voyage};
+use insd_config::Config;
 use insd_drivers::raw::{RawHeader, RawWriter, RecordingConfig};
+use insd_vessel::Pipeline;
 use insd_wire::nmea::{Acn, AlertCommand, AlertId, Talker};
 
 use crate::feed::{Encoding, FeedConfig, Reception, arrivals, feed};
@@ -80,7 +80,7 @@ impl Recorded {
     /// Writes it, with the ticks at which the daemon would have spoken.
     pub fn write(&self, folder: &Path) {
         let config = Config::of_text(&self.config).unwrap();
-        let mut pipeline = Pipeline::new(&config);
+        let mut pipeline = config.pipeline();
         let recording = RecordingConfig {
             name: "insd".to_owned(),
             rotate_bytes: u64::MAX,
@@ -90,7 +90,7 @@ impl Recorded {
         let program = format!("insd {}", env!("CARGO_PKG_VERSION"));
         let header = RawHeader { program, config: self.config.clone() };
         let mut writer = RawWriter::create(folder, recording, header).unwrap();
-        let mut take = |arrival: &Arrival, pipeline: &mut Pipeline| {
+        let mut take = |arrival: &Arrival, pipeline: &mut Pipeline<Config>| {
             writer.record(arrival).unwrap();
             pipeline.handle(arrival, |_| {});
         };
@@ -98,9 +98,9 @@ impl Recorded {
         let mut now = first.unwrap_or(Time::START);
         for arrival in &self.arrivals {
             while let Some(due) =
-                pipeline.next_tick(now).filter(|due| *due < arrival.stamp.monotonic)
+                pipeline.wake_up(now).filter(|due| due.at < arrival.stamp.monotonic)
             {
-                now = due.max(now);
+                now = due.at.max(now);
                 let early = arrival.stamp.monotonic - now;
                 let system = arrival.stamp.system.plus(Span::from_nanos(-early.as_nanos()));
                 let stamp = Stamp { monotonic: now, system };

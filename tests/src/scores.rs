@@ -2,8 +2,8 @@
 
 use std::ops::RangeInclusive;
 
-use insd::evaluation::{self, Component, EpochError, Summary};
 use insd_base::{Solution, Time, Truth};
+use insd_lab::evaluation::{self, Component, EpochError, Summary};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Errors at the epochs of a stretch of a passage.

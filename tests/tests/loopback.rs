@@ -8,11 +8,9 @@ use std::path::Path;
 use std::time::Duration;
 
 use insd::clock::Clock;
-use insd::config::Config;
 use insd::logging::Log;
-use insd::pipeline::{Pipeline, Product};
 use insd::run::{RunOptions, run};
-use insd::speaker::Spoken;
+use insd_config::Config;
 use insd_drivers::raw::RawReader;
 use insd_drivers::recording::NavWriter;
 use insd_engine::Output;
@@ -20,6 +18,8 @@ use insd_simulator::simulate;
 use insd_tests::feed::{Encoding, FeedConfig, Sending, feed};
 use insd_tests::scenario;
 use insd_tests::wire::Wire;
+use insd_vessel::Product;
+use insd_vessel::Spoken;
 
 /// Seconds of the voyage that are sailed, and when the receiver is unplugged and plugged in again.
 const SAILED: f64 = 25.0;
@@ -110,7 +110,7 @@ fn send(dir: &Path, sendings: &[Sending]) {
 
 /// The solutions of the recording as `nav.csv`, what the port was sent, and the states of ports in it.
 fn replay(dir: &Path, config: &Config) -> (Vec<u8>, Vec<u8>, Vec<String>) {
-    let mut pipeline = Pipeline::new(config);
+    let mut pipeline = config.pipeline();
     let mut nav = NavWriter::new(Vec::new()).unwrap();
     let (mut sent, mut states) = (Vec::new(), Vec::new());
     for arrival in RawReader::open(&dir.join("recording")).unwrap() {

@@ -5,9 +5,15 @@ use std::path::{Path, PathBuf};
 
 use insd_drivers::ports::{Destination, Transport};
 
-use crate::cli::{BadInput, Warned};
-use crate::config::{Config, OutputSection, Severity, check};
 use crate::doctor::{Diagnosis, text};
+use insd_config::BadInput;
+use insd_config::{Config, OutputSection, Severity, check};
+use insd_lab::terminal::print;
+
+/// There are warnings, and they count: ends with exit status 1.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct Warned(pub String);
 
 /// Options of `insd check-config`.
 #[derive(Clone, Debug, clap::Args)]
@@ -59,7 +65,7 @@ impl Outcome<'_> {
     pub(super) fn tell(&self, diagnosis: &Diagnosis, summary: &str) -> anyhow::Result<()> {
         let (file, sum) = (self.file.display(), text::sum(diagnosis));
         // what was found counts, whether it is read or not
-        let printed = super::print(&if self.json {
+        let printed = print(&if self.json {
             serde_json::to_string_pretty(diagnosis)? + "\n"
         } else {
             format!("{}{file}: {sum}\n{summary}", text::report(diagnosis))

@@ -4,6 +4,8 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use insd_config::BadInput;
+
 use super::check_config::{Outcome, read};
 use crate::doctor::{Diagnosis, Extent, Person};
 
@@ -21,7 +23,7 @@ pub struct DoctorArgs {
     #[arg(value_name = "FILE", default_value = INSTALLED)]
     file: PathBuf,
     /// Listen at the ports for so long; 0 for not at all
-    #[arg(long, value_name = "S", default_value_t = 5.0, value_parser = super::seconds)]
+    #[arg(long, value_name = "S", default_value_t = 5.0, value_parser = insd_lab::commands::seconds)]
     seconds: f64,
     /// As which user the daemon runs [default: insd for the installed file, else who asks]
     #[arg(long, value_name = "NAME")]
@@ -37,12 +39,13 @@ pub struct DoctorArgs {
 /// Runs the command.
 ///
 /// # Errors
-/// [`crate::cli::BadInput`] if there are errors, or if the file cannot be read.
+/// [`BadInput`] if there are errors, or if the file cannot be read.
 pub fn run(args: &DoctorArgs) -> anyhow::Result<()> {
     let text = read(&args.file)?;
     let person = match &args.user {
-        Some(name) => Person::named(name)
-            .ok_or_else(|| crate::cli::BadInput(format!("there is no user {name}")))?,
+        Some(name) => {
+            Person::named(name).ok_or_else(|| BadInput(format!("there is no user {name}")))?
+        }
         None if args.file == std::path::Path::new(INSTALLED) => {
             Person::named(SERVICE).unwrap_or_else(Person::here)
         }

@@ -1,6 +1,7 @@
 //! `insd example-config`: commented configurations to start from.
 
-use crate::cli::BadInput;
+use insd_config::BadInput;
+use insd_lab::terminal::print;
 
 /// Options of `insd example-config`.
 #[derive(Clone, Debug, clap::Args)]
@@ -60,12 +61,12 @@ pub const EXAMPLES: [Example; 5] = [
 pub fn run(args: &ExampleConfigArgs) -> anyhow::Result<()> {
     if args.list {
         let line = |example: Example| format!("{:<10} {}\n", example.name, example.what);
-        return Ok(super::print(&EXAMPLES.map(line).concat())?);
+        return Ok(print(&EXAMPLES.map(line).concat())?);
     }
     let found = EXAMPLES.iter().find(|example| example.name == args.profile);
     let example = found.ok_or_else(|| {
         let names = EXAMPLES.map(|example| example.name).join(", ");
         BadInput(format!("{}: expected one of {names}", args.profile))
     })?;
-    Ok(super::print(example.text)?)
+    Ok(print(example.text)?)
 }

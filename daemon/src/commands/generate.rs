@@ -5,11 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use clap::{CommandFactory, ValueEnum};
+use clap::{Command, ValueEnum};
 use clap_complete::Shell;
 
-use crate::cli::Cli;
-use crate::config::reference;
+use insd_config::reference;
 
 /// Options of `insd generate`.
 #[derive(Clone, Debug, clap::Args)]
@@ -33,20 +32,20 @@ enum What {
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn run(args: &GenerateArgs) -> anyhow::Result<()> {
+pub fn run(args: &GenerateArgs, program: &Command) -> anyhow::Result<()> {
     fs::create_dir_all(&args.folder).with_context(|| format!("{}", args.folder.display()))?;
     match args.what {
-        What::Man => clap_mangen::generate_to(Cli::command(), &args.folder)
+        What::Man => clap_mangen::generate_to(program.clone(), &args.folder)
             .and_then(|()| fs::write(args.folder.join("insd.toml.5"), reference::manual_page()))
             .with_context(|| format!("{}", args.folder.display())),
         What::Completions => [Shell::Bash, Shell::Zsh, Shell::Fish]
             .into_iter()
-            .try_for_each(|shell| completions(shell, &args.folder)),
+            .try_for_each(|shell| completions(shell, program, &args.folder)),
     }
 }
 
-fn completions(shell: Shell, folder: &Path) -> anyhow::Result<()> {
-    clap_complete::generate_to(shell, &mut Cli::command(), "insd", folder)
+fn completions(shell: Shell, program: &Command, folder: &Path) -> anyhow::Result<()> {
+    clap_complete::generate_to(shell, &mut program.clone(), "insd", folder)
         .with_context(|| format!("{}", folder.display()))
         .map(drop)
 }

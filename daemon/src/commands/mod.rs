@@ -1,61 +1,10 @@
 //! One command, one file.
 
-pub mod alignment;
-pub mod campaign;
 pub mod check_config;
-pub mod convert;
 pub mod doctor;
-pub mod evaluate;
 pub mod example_config;
-pub mod feed;
 pub mod generate;
-pub mod limit;
 pub mod monitor;
-mod outage;
 pub mod ports;
-pub mod replay;
-pub mod report;
 pub mod run;
-pub(crate) mod scenario;
-pub mod simulate;
 pub mod sniff;
-mod stored_start;
-mod summary;
-
-pub use outage::SensorOutage;
-
-use std::io::{self, Write as _};
-use std::path::PathBuf;
-
-/// Writes to standard output. A reader that has seen enough (`| head`) is an error like any other, which
-/// ends the program quietly: [`crate::cli::is_enough`].
-fn print(text: &str) -> io::Result<()> {
-    let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes()).and_then(|()| out.flush())
-}
-
-/// The rate that a command line may ask for, Hz.
-fn rate(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(rate) if (0.01..=1000.0).contains(&rate) => Ok(rate),
-        _ => Err("expected a number from 0.01 to 1000 Hz".to_owned()),
-    }
-}
-
-/// A time on the command line, s.
-fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(seconds) if seconds.abs() <= 1e9 => Ok(seconds),
-        _ => Err("expected a number of seconds".to_owned()),
-    }
-}
-
-/// A file to draw to.
-fn picture(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
-    match extension.as_ref().and_then(|extension| extension.to_str()) {
-        Some("png" | "svg") => Ok(path),
-        _ => Err("expected a file ending in .png or .svg".to_owned()),
-    }
-}

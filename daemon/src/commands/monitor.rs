@@ -7,8 +7,8 @@ use std::time::Duration;
 use anyhow::{Context, bail};
 use insd_web::snapshot::Snapshot;
 
-use crate::demo::screen::{Farewell, Screen, quit_was_pressed};
 use crate::monitor::{self, Board, Client, Link};
+use insd_lab::terminal::{Farewell, Screen, print, quit_was_pressed};
 
 /// Time between two pictures.
 const FRAME: Duration = Duration::from_millis(200);
@@ -39,7 +39,7 @@ pub struct MonitorArgs {
 pub fn run(args: &MonitorArgs) -> anyhow::Result<()> {
     let client = Client::new(&args.url);
     if args.json {
-        super::print(&format!("{}\n", client.fetch()?))?;
+        print(&format!("{}\n", client.fetch()?))?;
         return Ok(());
     }
     if args.once {
@@ -57,7 +57,7 @@ pub fn run(args: &MonitorArgs) -> anyhow::Result<()> {
 fn once(client: &Client) -> anyhow::Result<()> {
     let snapshot: Snapshot =
         serde_json::from_str(&client.fetch()?).context("this is no status of insd")?;
-    super::print(&monitor::summary(&snapshot).to_string())?;
+    print(&monitor::summary(&snapshot).to_string())?;
     if !snapshot.is_navigating() {
         bail!("not navigating: {}", snapshot.mode.name.replace('_', " "));
     }

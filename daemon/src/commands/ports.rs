@@ -8,7 +8,8 @@ use std::path::Path;
 use insd_drivers::ports::{FoundKind, FoundPort, list};
 use serde::Serialize;
 
-use crate::evaluation::{Align, Table};
+use insd_lab::table::{Align, Table};
+use insd_lab::terminal::print;
 
 /// Options of `insd ports`.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -46,7 +47,7 @@ struct Shown {
 pub fn run(args: &PortsArgs) -> anyhow::Result<()> {
     let ports: Vec<Shown> = list(Path::new("/")).iter().map(shown).collect();
     let text = if args.json { serde_json::to_string_pretty(&ports)? + "\n" } else { table(&ports) };
-    Ok(super::print(&text)?)
+    Ok(print(&text)?)
 }
 
 fn shown(port: &FoundPort) -> Shown {

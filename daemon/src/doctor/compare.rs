@@ -6,9 +6,9 @@ use insd_wire::stream::Protocol;
 use serde::Deserialize;
 
 use super::listen::Heard;
-use super::{Finding, Place, Severity};
-use crate::config::{Config, PortSection};
-use crate::sniff::report::{PortReport, State};
+use insd_config::check::{Finding, Place, Severity};
+use insd_config::{Config, PortSection};
+use insd_lab::sniff::report::{PortReport, State};
 
 /// Share of damaged frames from which it is told, and the least number of frames that tell it.
 const DAMAGED: f64 = 0.01;

@@ -8,8 +8,8 @@ use std::path::Path;
 use insd_web::MIN_TOKEN;
 
 use super::people::{Person, Wish, group_name};
-use super::{Finding, Place, Severity};
-use crate::config::Config;
+use insd_config::Config;
+use insd_config::check::{Finding, Place, Severity};
 
 /// Bytes of a megabyte, as quotas count.
 const MEGABYTE: u64 = 1_000_000;

@@ -10,10 +10,10 @@ use insd_drivers::ports::{
 };
 use insd_wire::stream::{Cutter, Protocol};
 
-use super::Place;
 use crate::clock::HostClock;
-use crate::config::Config;
-use crate::sniff::{Plan, Report, Sniffed, is_proof};
+use insd_config::Config;
+use insd_config::check::Place;
+use insd_lab::sniff::{Plan, Report, Sniffed, is_proof};
 
 /// Rates that are tried where nothing can be read at the configured one.
 const BAUDS: [u32; 9] = [115_200, 38_400, 4_800, 9_600, 460_800, 921_600, 230_400, 57_600, 19_200];
@@ -59,7 +59,7 @@ pub(super) fn listen(
     if !doubtful.is_empty() {
         let longest = Duration::from_secs_f64(PROBE_S * (BAUDS.len() + 1) as f64);
         let searched = runtime.block_on(hear(&doubtful, longest));
-        let found = |port: &crate::sniff::report::PortReport| {
+        let found = |port: &insd_lab::sniff::report::PortReport| {
             Some((port.name.clone(), port.baud.filter(|_| port.frames > 0)?))
         };
         bauds.extend(searched.ports.iter().filter_map(found));

@@ -18,11 +18,11 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-pub use crate::config::check::{Finding, Place, Severity, examine};
+use insd_config::check::{Finding, Place, Severity, examine};
 pub use people::Person;
 
-use crate::config::{Config, Examined};
-use crate::sniff::Report;
+use insd_config::{Config, Examined};
+use insd_lab::sniff::Report;
 
 /// What came of looking.
 #[derive(Clone, Debug, Serialize)]
@@ -95,7 +95,7 @@ impl Diagnosis {
     /// What was found in the world, with the places of the text.
     fn add(&mut self, found: Vec<Finding>, text: &str) {
         let mut found = found;
-        crate::config::check::locate(&mut found, text);
+        insd_config::check::locate(&mut found, text);
         // what cannot be read was replaced, and says nothing of the world
         let same = |own: &Place, other: &Place| {
             (&own.section, &own.name, &own.key) == (&other.section, &other.name, &other.key)

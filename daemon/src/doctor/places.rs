@@ -10,10 +10,11 @@ use insd_drivers::ports::{self, Cable, FoundKind, FoundPort, Transport};
 
 use super::files::reason;
 use super::people::{Person, Wish, group_name};
-use super::{Finding, Place, Severity, processes};
-use crate::config::Config;
-use crate::config::check::nearest::nearest;
-use crate::config::check::uses::{self, Device, DeviceKind};
+use super::processes;
+use insd_config::Config;
+use insd_config::check::nearest::nearest;
+use insd_config::check::uses::{self, Device, DeviceKind};
+use insd_config::check::{Finding, Place, Severity};
 
 pub(super) fn look(config: &Config, person: &Person, is_running: bool) -> Vec<Finding> {
     let here = ports::list(Path::new("/"));

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{Diagnosis, Severity};
-use crate::sniff::report::PortReport;
+use insd_lab::sniff::report::PortReport;
 
 /// Every finding with what to do about it, what arrives, and the sum.
 #[must_use]

@@ -2,9 +2,9 @@
 
 use insd_web::snapshot::{Estimate, Estimates, Snapshot};
 
-use crate::config::Config;
-use crate::config::check::{Finding, Place, Severity};
 use crate::monitor::Client;
+use insd_config::Config;
+use insd_config::check::{Finding, Place, Severity};
 use insd_intake::config::Role;
 
 /// A lever arm that is not known better, m, or a log whose scale is not, share, is not worth a line.

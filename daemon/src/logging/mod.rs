@@ -7,7 +7,7 @@ pub(crate) mod sink;
 
 use std::io::{self, IsTerminal};
 
-use insd_web::SECURITY;
+use insd_config::filter;
 use insd_web::snapshot::Event as Line;
 use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::util::SubscriberInitExt;
@@ -77,29 +77,9 @@ impl Log {
     }
 }
 
-/// A filter of a level or of directives as `RUST_LOG` has them. What is about security passes it whatever
-/// they say.
-///
-/// # Errors
-/// They are not understood, or are about security.
-pub(crate) fn filter(directives: &str) -> Result<EnvFilter, String> {
-    if directives.to_ascii_lowercase().contains(SECURITY) {
-        return Err(format!("`{SECURITY}` cannot be filtered: those lines are always written"));
-    }
-    // the longest target counts, so that no directive without it or for fields alone comes before this
-    EnvFilter::try_new(directives).map(always_told).map_err(|fault| fault.to_string())
-}
-
 /// A level that is understood in any case.
 fn own(level: &str) -> EnvFilter {
-    filter(level).unwrap_or_else(|_| always_told(EnvFilter::new("info")))
-}
-
-fn always_told(filter: EnvFilter) -> EnvFilter {
-    match format!("{SECURITY}=info").parse() {
-        Ok(directive) => filter.add_directive(directive),
-        Err(_) => filter,
-    }
+    filter(level).or_else(|_| filter("info")).unwrap_or_default()
 }
 
 /// The journal, if our standard error goes there (systemd.exec(5), `$JOURNAL_STREAM`).
@@ -120,6 +100,7 @@ where
 mod tests {
     use super::sink::Sink;
     use super::*;
+    use insd_web::SECURITY;
 
     #[test]
     fn no_level_and_no_directive_silences_what_is_about_security() {
@@ -134,14 +115,6 @@ mod tests {
             });
             let told = sink.told();
             assert!(told.contains("refused") && !told.contains("chatter"), "{text}: {told}");
-        }
-    }
-
-    #[test]
-    fn a_directive_about_security_is_refused() {
-        for text in ["security=off", "info,SECURITY=error", "security[{host}]=off", "info,security"]
-        {
-            assert!(filter(text).unwrap_err().contains("always written"), "{text}");
         }
     }
 }

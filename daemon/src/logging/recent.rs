@@ -10,8 +10,8 @@ use tracing::{Event, Level, Subscriber};
 use tracing_subscriber::Layer;
 use tracing_subscriber::layer::Context;
 
-use crate::calendar;
 use crate::clock::HostClock;
+use insd_config::calendar;
 
 /// Longest line that is kept, bytes.
 const LONGEST: usize = 500;

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use insd_web::snapshot::{AlertState, Motion, Snapshot};
 use serde::Serialize;
 
-use crate::demo::words;
+use insd_lab::words;
 
 /// What is not known.
 pub(super) const DASH: &str = "-";

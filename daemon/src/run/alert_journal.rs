@@ -7,9 +7,9 @@ use insd_wire::nmea::{AlertPriority, AlertState};
 
 use super::journal::Audience;
 use super::report::Report;
-use super::told::Names;
-use crate::pipeline::Product;
-use crate::report::words::priority;
+use insd_vessel::Names;
+use insd_vessel::Product;
+use insd_vessel::words::priority;
 
 /// Remembers how each alert stood last.
 #[derive(Debug, Default)]

@@ -11,8 +11,8 @@ use insd_output::Epoch;
 use insd_output::n2k::Voice;
 use insd_web::SECURITY;
 
-use crate::config::{Config, NodeMemory, NodeSection, PortSection};
-use crate::output_file;
+use insd_config::output_file;
+use insd_config::{Config, NodeMemory, NodeSection, PortSection};
 
 /// Time between two looks at what became of a node.
 const LOOK: Duration = Duration::from_millis(200);

@@ -9,7 +9,10 @@ use tokio::runtime::Handle;
 use super::bus::{self, Buses, NodeOfPort};
 use super::outputs::Outputs;
 use super::time_out::TimeOut;
-use crate::config::{Config, PortSection};
+use insd_config::{Config, PortSection};
+
+/// The port of what comes from our own clock and from the operator: none of the configuration.
+pub(super) const NOWHERE: PortId = PortId(u16::MAX);
 
 /// Numbers of what is written to; all below are ports that are listened to.
 const FIRST_OUTPUT: u16 = 0x8000;
@@ -62,7 +65,7 @@ impl Connections {
 
     /// Whether something arrived at a port on which the navigation depends.
     pub(super) fn is_input(arrival: &Arrival) -> bool {
-        arrival.port.0 < FIRST_OUTPUT || arrival.port == super::NOWHERE
+        arrival.port.0 < FIRST_OUTPUT || arrival.port == NOWHERE
     }
 
     /// Closes what the next configuration has otherwise.

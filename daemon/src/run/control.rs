@@ -6,7 +6,7 @@ use std::time::Duration;
 use insd_base::Order;
 use tokio::sync::oneshot;
 
-use crate::pipeline::Obeyed;
+use insd_vessel::Obeyed;
 
 /// Orders that may wait.
 const WAITING: usize = 16;

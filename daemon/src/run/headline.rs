@@ -7,8 +7,8 @@ use tokio::sync::watch;
 
 use super::journal::Audience;
 use super::report::Report;
-use super::told::Names;
-use crate::pipeline::Product;
+use insd_vessel::Names;
+use insd_vessel::Product;
 
 /// Says how everything stands, every few seconds.
 pub(super) struct Headline {

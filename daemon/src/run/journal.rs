@@ -8,9 +8,10 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{Builder, JoinHandle};
 
 use super::report::Report;
-use super::told::{Names, tell};
-use crate::config::Config;
-use crate::pipeline::Product;
+use super::told::tell;
+use insd_config::Config;
+use insd_vessel::Names;
+use insd_vessel::Product;
 
 /// What may wait to be told: some seconds of a ship in trouble.
 const WAITING: usize = 1024;
@@ -81,7 +82,7 @@ fn write(receiver: &Receiver<Note>, audience: &mut [Box<dyn Audience>]) {
     for note in receiver {
         match note {
             Note::Configuration(config, text) => {
-                names = Names::of(&config);
+                names = Names::of(&config.intake());
                 audience.iter_mut().for_each(|one| one.configure(&config, &text));
             }
             Note::Product(product) => {

@@ -25,7 +25,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use anyhow::Context;
-use insd_base::{PortId, Span};
+use insd_base::Span;
 use insd_drivers::ports::{self, Surroundings};
 use insd_drivers::raw::{RawHeader, RawWriter, Recorder, RecordingConfig};
 use insd_drivers::recording::NavWriter;
@@ -33,11 +33,10 @@ use insd_web::SECURITY;
 use tokio::sync::oneshot;
 
 use crate::clock::{HostClock, boot_now};
-use crate::config::{Config, Recording, StateSection};
 use crate::logging::Log;
-use crate::output_file::OutputFile;
-use crate::pipeline::Pipeline;
 use crate::state::{self, Folders, Remains, Saver};
+use insd_config::OutputFile;
+use insd_config::{Config, Recording, StateSection};
 
 use alert_journal::AlertJournal;
 use connections::Connections;
@@ -47,14 +46,11 @@ use journal::{Audience, Journal};
 use manager::Manager;
 use service::Service;
 use showcase::Origin;
-pub use told::{Names, tell};
+pub use told::tell;
 use worker::{Agenda, Worker};
 
 /// Bytes that may wait for the engine at one port.
 const WAITING: usize = 256 * 1024;
-
-/// The port of what comes from our own clock and from the operator: none of the configuration.
-const NOWHERE: PortId = PortId(u16::MAX);
 
 /// What the command line adds to the configuration.
 #[derive(Clone, Debug, Default)]
@@ -79,7 +75,7 @@ pub fn run(config: &Config, text: &str, options: &RunOptions, log: &Log) -> anyh
     let (queue, receiver) = ports::queue(WAITING);
     let surroundings = Surroundings { clock: Arc::new(clock), queue, judge: Some(told::judge()) };
     let guard = runtime.enter();
-    let pipeline = Pipeline::new(config);
+    let pipeline = config.pipeline();
     let made = pipeline.speaker().station().ports();
     let connections = Connections::open(config, made, &surroundings, runtime.handle());
     drop(surroundings);

@@ -9,7 +9,7 @@ use insd_output::{Lan, Message, MessageKind, Port};
 use insd_web::SECURITY;
 use insd_wire::nmea::TransmissionGroup;
 
-use crate::config::{Config, LanSection, OutputSection};
+use insd_config::{Config, LanSection, OutputSection};
 
 /// All ports that are written to.
 pub(super) struct Outputs {

@@ -4,8 +4,8 @@ use insd_web::orders::{self, OrderReceiver};
 use insd_web::{Listen, WebConfig, WebHandle};
 
 use super::showcase::{Origin, Showcase};
-use crate::config::{Config, WebSection};
 use crate::logging::Log;
+use insd_config::{Config, WebSection};
 
 /// The page, and its two ends inside.
 pub(super) struct Page {

@@ -10,8 +10,8 @@ use insd_n2k::node::NodeStatus;
 use insd_output::alerts::AlertView;
 
 use super::outputs::OutputReport;
-use crate::redundancy::{Dispute, EngineStatus};
 use crate::state::SaverState;
+use insd_vessel::{Dispute, EngineStatus};
 
 /// How everything stands at one moment. What is costly to find is looked at once a second and is `None` in
 /// between.

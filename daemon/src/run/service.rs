@@ -11,9 +11,9 @@ use tokio::sync::{oneshot, watch};
 use super::control::Commander;
 use super::heart::Heart;
 use super::manager::{Manager, Word};
-use crate::config::Config;
 use crate::logging::Log;
-use crate::pipeline::Obeyed;
+use insd_config::Config;
+use insd_vessel::Obeyed;
 
 /// Time between two looks where no watchdog asks for shorter ones.
 const LOOK: Duration = Duration::from_secs(1);

@@ -3,7 +3,7 @@
 use insd_base::{PortId, Span, Stamp, UtcTime};
 use insd_drivers::ports::{ChronySock, Leap, Sample, Surroundings};
 
-use crate::config::Config;
+use insd_config::Config;
 
 /// Sends a sample each second while UTC is known.
 pub(super) struct TimeOut {

@@ -1,7 +1,7 @@
 //! Events in words, for the journal.
 
 use insd_base::units::DEG;
-use insd_base::{Event, Fault, Mode, PortId, PortState};
+use insd_base::{Event, Fault, Mode, PortState};
 use insd_drivers::ports::{Judge, Judgement};
 use insd_engine::Output;
 use insd_engine::vote::{Doubt, VoteEvent};
@@ -9,44 +9,12 @@ use insd_intake::event::{Happening, IntakeEvent};
 use insd_web::SECURITY;
 use insd_wire::stream::{Cutter, Protocol};
 
-use crate::config::{Change, Config};
-use crate::pipeline::{Obeyed, Product};
-use crate::redundancy::Vote;
-use crate::report::words;
-use crate::speaker::Commanded;
+use insd_vessel::Commanded;
+use insd_vessel::Vote;
+use insd_vessel::{Change, Names, Obeyed, Product, words};
 
 /// Good frames at which a baud rate is taken as right.
 const CONVINCED: usize = 3;
-
-/// Names of ports and sensors, by their places in the configuration.
-#[derive(Clone, Debug, Default)]
-pub struct Names {
-    ports: Vec<String>,
-    sensors: Vec<String>,
-}
-
-impl Names {
-    /// Those of a configuration.
-    #[must_use]
-    pub fn of(config: &Config) -> Self {
-        Names {
-            ports: config.ports.iter().map(|port| port.name.clone()).collect(),
-            sensors: config.sensors.iter().map(|sensor| sensor.name.clone()).collect(),
-        }
-    }
-
-    /// That of a port.
-    #[must_use]
-    pub fn port(&self, port: PortId) -> &str {
-        self.ports.get(usize::from(port.0)).map_or("?", String::as_str)
-    }
-
-    /// That of a sensor.
-    #[must_use]
-    pub fn sensor(&self, sensor: usize) -> &str {
-        self.sensors.get(sensor).map_or("?", String::as_str)
-    }
-}
 
 /// Tells what is worth telling of a product.
 pub fn tell(names: &Names, product: &Product) {
@@ -268,6 +236,7 @@ mod tests {
 
     use super::*;
     use crate::logging::sink::Sink;
+    use insd_base::PortId;
 
     /// The line that is written of something that happened.
     fn line(what: Happening) -> String {

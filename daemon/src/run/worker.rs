@@ -10,20 +10,19 @@ use insd_drivers::ports::Receiver;
 use insd_drivers::raw::Recorder;
 use insd_drivers::recording::NavWriter;
 use insd_engine::Output;
+use insd_output::WakeUp;
+use insd_vessel::{Obeyed, Pipeline, Product, Spoken};
 
-use super::NOWHERE;
-use super::connections::Connections;
+use super::connections::{Connections, NOWHERE};
 use super::control::Control;
 use super::heart::{Heart, Progress};
 use super::journal::{Journal, Note};
 use super::report::{Report, Slow};
 use crate::clock::{HostClock, boot_now};
-use crate::config::Config;
-use crate::output_file::OutputFile;
-use crate::pipeline::{Obeyed, Pipeline, Product};
-use crate::speaker::Spoken;
 use crate::state::{Kept, Remains, Saver};
-use crate::stored;
+use insd_config::Config;
+use insd_config::OutputFile;
+use insd_config::stored;
 
 /// Longest wait for an arrival: time passes even when nothing comes.
 const TURN: Duration = Duration::from_millis(25);
@@ -44,7 +43,7 @@ const ACCOUNT: f64 = 3600.0;
 
 /// What runs on the engine's thread.
 pub(super) struct Worker {
-    pub(super) pipeline: Pipeline,
+    pub(super) pipeline: Pipeline<Config>,
     pub(super) connections: Connections,
     pub(super) receiver: Receiver,
     pub(super) controls: mpsc::Receiver<Control>,
@@ -84,6 +83,18 @@ fn is_due(last: &mut Option<Time>, now: Time, interval: f64) -> bool {
     due
 }
 
+impl Agenda {
+    /// Counts an epoch that begins now.
+    fn begin(&mut self, due: &WakeUp, now: Time) {
+        let is_late = now - due.at > PUNCTUAL;
+        self.epochs = (self.epochs.0 + 1, self.epochs.1 + u64::from(is_late));
+        if is_late {
+            let late = (now - due.at).as_seconds();
+            tracing::debug!(why = ?due.why, late, "an epoch begins late");
+        }
+    }
+}
+
 impl Worker {
     /// Works until it is told to stop.
     pub(super) fn run(mut self, remains: Remains, stop: &AtomicBool) -> anyhow::Result<()> {
@@ -97,10 +108,9 @@ impl Worker {
                 Err(RecvTimeoutError::Disconnected) => break,
             }
             let now = self.clock.now();
-            let due = self.pipeline.next_tick(now.monotonic);
-            if let Some(due) = due.filter(|due| *due <= now.monotonic) {
-                self.agenda.epochs.0 += 1;
-                self.agenda.epochs.1 += u64::from(now.monotonic - due > PUNCTUAL);
+            let due = self.pipeline.wake_up(now.monotonic);
+            if let Some(due) = due.filter(|due| due.at <= now.monotonic) {
+                self.agenda.begin(&due, now.monotonic);
                 self.take(&Arrival { stamp: now, port: NOWHERE, input: Input::Tick })?;
             }
             while let Ok(control) = self.controls.try_recv() {
@@ -130,8 +140,9 @@ impl Worker {
     /// How long to wait for an arrival: until something is due.
     fn patience(&self) -> Duration {
         let now = self.clock.now().monotonic;
-        let wait = |due: Time| Duration::from_nanos((due - now).as_nanos().max(0).unsigned_abs());
-        self.pipeline.next_tick(now).map_or(TURN, wait).min(TURN)
+        let wait =
+            |due: WakeUp| Duration::from_nanos((due.at - now).as_nanos().max(0).unsigned_abs());
+        self.pipeline.wake_up(now).map_or(TURN, wait).min(TURN)
     }
 
     /// What is done now and then.
@@ -194,7 +205,7 @@ impl Worker {
     fn save_berth(&self, now: Time) {
         let state = self.pipeline.engine().stored_state();
         let (Some(saver), Some(state)) = (&self.saver, state) else { return };
-        let utc = self.pipeline.utc_at(now).map(crate::calendar::rfc3339).unwrap_or_default();
+        let utc = self.pipeline.utc_at(now).map(insd_config::calendar::rfc3339).unwrap_or_default();
         match stored::text(&state, &utc) {
             Ok(text) => saver.berth(text),
             Err(error) => tracing::warn!(%error, "the state at the berth cannot be put into words"),
@@ -255,7 +266,7 @@ impl Worker {
         let Ok(next) = Config::of_text(&text) else {
             return self.order(Order::Configuration(text));
         };
-        let (next, change) = next.succeeding(self.pipeline.config());
+        let (next, change) = next.succeeding(self.pipeline.reader());
         if change.inputs || change.outputs {
             self.connections.close_changed(&next);
             while let Ok(arrival) = self.receiver.try_recv() {
@@ -265,12 +276,12 @@ impl Worker {
         let obeyed = self.order(Order::Configuration(text.clone()))?;
         self.tell_configuration(&text);
         let made = self.pipeline.speaker().station().ports();
-        self.connections.reopen(self.pipeline.config(), made);
+        self.connections.reopen(self.pipeline.reader(), made);
         Ok(obeyed)
     }
 
     fn tell_configuration(&self, text: &str) {
-        let (config, text) = (Box::new(self.pipeline.config().clone()), text.to_owned());
+        let (config, text) = (Box::new(self.pipeline.reader().clone()), text.to_owned());
         self.journal.tell(Note::Configuration(config, text));
     }
 

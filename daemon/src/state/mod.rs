@@ -1,13 +1,11 @@
 //! What a run leaves for the next one: its navigation ([`Kept`]), saved a few times a second in memory and
-//! every few seconds on the disk, and the state of a ship at her berth ([`crate::stored`]).
+//! every few seconds on the disk, and the state of a ship at her berth ([`insd_config::stored`]).
 
 mod boot;
-mod checkpoints;
 mod saver;
 mod store;
 
 pub use boot::Boot;
-pub use checkpoints::Checkpoints;
 pub use saver::{Folders, Saver, SaverState};
 pub use store::{Kept, Loaded, Store};
 

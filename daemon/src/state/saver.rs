@@ -9,7 +9,7 @@ use std::thread::{Builder, JoinHandle};
 use insd_base::Span;
 
 use super::{Boot, Kept, NAVIGATION, Store, berth};
-use crate::output_file;
+use insd_config::output_file;
 
 /// Where is saved, and how often.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@
 mod table;
 mod world;
 
-use insd::config::{Config, Examined, Finding, Severity, check::examine};
+use insd_config::{Config, Examined, Finding, Severity, check::examine};
 use table::{Mistake, TABLE};
 
 /// A ship as she should be.

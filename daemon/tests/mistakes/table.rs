@@ -1,6 +1,6 @@
 //! The mistakes that a configuration alone shows.
 
-use insd::config::Severity::{self, Error, Note, Warning};
+use insd_config::Severity::{self, Error, Note, Warning};
 
 /// How a mistake gets into the configuration.
 #[derive(Clone, Copy, Debug)]

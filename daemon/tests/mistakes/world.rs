@@ -6,8 +6,8 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::time::Duration;
 
-use insd::config::Severity::{self, Error, Warning};
 use insd::doctor::{Diagnosis, Extent, Person};
+use insd_config::Severity::{self, Error, Warning};
 
 /// What is tried below, for the documentation.
 pub(crate) const ROWS: &[(&str, Severity, &str)] = &[
@@ -41,7 +41,7 @@ fn causes(text: &str, listen: f64) -> Vec<(Severity, &'static str, String)> {
 fn causes_for(text: &str, listen: f64, person: Person) -> Vec<(Severity, &'static str, String)> {
     let listen = Duration::from_secs_f64(listen);
     let diagnosis = Diagnosis::of_ship(text, &Extent { listen, person, file: None }).unwrap();
-    let told = |own: &insd::config::Finding| (own.severity, own.cause, own.to_string());
+    let told = |own: &insd_config::Finding| (own.severity, own.cause, own.to_string());
     diagnosis.findings.iter().map(told).collect()
 }
 

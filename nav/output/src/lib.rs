@@ -30,5 +30,5 @@ pub use policy::{Policy, PositionLimits};
 pub use port::{Message, Port, PortConfig};
 pub use profile::Profile;
 pub use said::Ellipse;
-pub use schedule::{Boundary, Pacer, Rate};
+pub use schedule::{Boundary, Due, Pacer, Rate, WakeUp};
 pub use station::{Moment, Station};

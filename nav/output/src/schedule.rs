@@ -3,8 +3,6 @@
 
 use insd_base::{Span, Time, UtcTime};
 
-use crate::epoch::Epoch;
-
 /// How often a message is sent, in times in 30000 s, so that boundaries are exact: those of whole hertz, and
 /// those of 30 s.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -83,6 +81,28 @@ impl Boundary {
     }
 }
 
+/// When somebody wants to be woken, and why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WakeUp {
+    /// On the ship's time line; it may have passed.
+    pub at: Time,
+    /// Why.
+    pub why: Due,
+}
+
+/// What is due at an instant; of several things the first of these.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Due {
+    /// Its place in UTC: that has become known or is lost, or nobody has looked yet.
+    Grid,
+    /// Messages of the port of this index.
+    Messages(usize),
+    /// A look at the groups of NMEA 2000.
+    Groups,
+    /// A look at alerts and at the distance run.
+    Upkeep,
+}
+
 /// Tells when the next of several rates is due.
 #[derive(Clone, Debug)]
 pub struct Pacer {
@@ -101,18 +121,20 @@ impl Pacer {
         Pacer { rates, is_utc: None, skipped: 0 }
     }
 
-    /// The next instant at which something is due, by what is known of UTC now; `None` without rates. At
-    /// first, and when UTC becomes known or is lost, that is now: the grid is to be found.
+    /// The next instant at which something is due, by what is known of UTC now, and of which rate; `None`
+    /// without rates. At first, and when UTC becomes known or is lost, that is now, of no rate: the grid is
+    /// to be found.
     #[must_use]
-    pub fn next(&self, now: Time, utc: Option<UtcTime>) -> Option<Time> {
+    pub fn next(&self, now: Time, utc: Option<UtcTime>) -> Option<(Time, Option<Rate>)> {
         let grid = Boundary { time: now, utc }.grid();
         let next = |(rate, last): &(Rate, i64)| {
             let is_behind = last.saturating_sub(grid) > STEP;
-            rate.next(if is_behind { grid } else { *last })
+            (rate.next(if is_behind { grid } else { *last }), *rate)
         };
-        let next = self.rates.iter().map(next).min()?;
+        let (next, rate) = self.rates.iter().map(next).min()?;
         let known = self.is_utc == Some(utc.is_some());
-        Some(if known { now + Span::from_nanos(next.saturating_sub(grid)) } else { now })
+        let wait = Span::from_nanos(next.saturating_sub(grid));
+        Some(if known { (now + wait, Some(rate)) } else { (now, None) })
     }
 
     /// What has become due up to now, the oldest first: of each rate its newest boundary, once.
@@ -161,8 +183,8 @@ pub(crate) struct Beat {
 impl Beat {
     /// Whether this epoch is the first one of an interval, so that messages of one rate leave
     /// together and a late or missing epoch does not shift the ones after it.
-    pub(crate) fn is_due(&mut self, epoch: &Epoch, interval: Span) -> bool {
-        let grid = epoch.boundary().grid();
+    pub(crate) fn is_due(&mut self, now: &Boundary, interval: Span) -> bool {
+        let grid = now.grid();
         let length = interval.as_nanos().max(1);
         let number = |grid: i64| grid.div_euclid(length);
         let due = self.last.is_none_or(|last| {
@@ -210,7 +232,7 @@ mod tests {
         let mut now = at(0);
         let mut found = Vec::new();
         for _ in 0..7 {
-            now = pacer.next(now, utc(now)).unwrap();
+            now = pacer.next(now, utc(now)).unwrap().0;
             for boundary in pacer.due(now, utc(now)) {
                 assert_eq!(boundary.time, now);
                 found.push(boundary.grid() / MILLISECOND % 1000);
@@ -226,7 +248,7 @@ mod tests {
         let mut count = 0;
         while now < at(1000) {
             let known = (now > at(500)).then(|| utc(now)).flatten();
-            now = pacer.next(now, known).unwrap().max(now);
+            now = pacer.next(now, known).unwrap().0.max(now);
             let known = (now > at(500)).then(|| utc(now)).flatten();
             count += pacer.due(now, known).len();
         }
@@ -265,6 +287,7 @@ mod tests {
         let back =
             |time: Time| utc(time).map(|utc| UtcTime::from_nanos(utc.as_nanos() - 2_000_000));
         assert!(pacer.due(at(201), back(at(201))).is_empty());
-        assert_eq!(pacer.next(at(201), back(at(201))), Some(Time::from_nanos(301_750_000)));
+        let ten = Some(Rate::from_hertz(10.0));
+        assert_eq!(pacer.next(at(201), back(at(201))), Some((Time::from_nanos(301_750_000), ten)));
     }
 }

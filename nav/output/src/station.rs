@@ -8,7 +8,7 @@ use crate::alerts::{AlertBoard, AlertConfig, Watch};
 use crate::epoch::{Distance, Doubts, Epoch, Receiver, Variation};
 use crate::policy::Policy;
 use crate::port::{Message, Port, PortConfig};
-use crate::schedule::{Boundary, Pacer, Rate};
+use crate::schedule::{Boundary, Due, Pacer, Rate, WakeUp};
 
 /// Longest time over which a motion is carried on. After it nothing is known: the IMU is silent.
 const CARRIED: Span = Span::from_nanos(200_000_000);
@@ -49,6 +49,7 @@ pub struct Moment {
 pub struct Station {
     ports: Vec<Port>,
     points: Vec<Body>,
+    groups: Option<Rate>,
     pacer: Pacer,
     odometer: Odometer,
     standing: Standing,
@@ -57,20 +58,21 @@ pub struct Station {
 }
 
 impl Station {
-    /// Ports, and the monitoring points as levers from the IMU, body axes, m; the first is the IMU itself. `others` are the rates at
-    /// which epochs are wanted beside the ports' own.
+    /// Ports, and the monitoring points as levers from the IMU, body axes, m; the first is the IMU itself. `groups` is the rate at
+    /// which epochs are wanted for those of NMEA 2000.
     #[must_use]
     pub fn new(
         ports: impl IntoIterator<Item = PortConfig>,
         points: Vec<Body>,
-        others: impl IntoIterator<Item = Rate>,
+        groups: Option<Rate>,
     ) -> Self {
         let ports: Vec<Port> = ports.into_iter().map(Port::new).collect();
         let own = ports.iter().flat_map(Port::rates);
-        let rates: Vec<Rate> = own.chain(others).chain([Rate::from_hertz(UPKEEP)]).collect();
+        let rates: Vec<Rate> = own.chain(groups).chain([Rate::from_hertz(UPKEEP)]).collect();
         Station {
             ports,
             points,
+            groups,
             pacer: Pacer::new(rates),
             odometer: Odometer::default(),
             standing: Standing::default(),
@@ -132,10 +134,19 @@ impl Station {
         self.board.hear(heartbeat, now);
     }
 
-    /// The next instant at which something is due; `None` if nothing ever is.
+    /// The next instant at which something is due, and what; `None` if nothing ever is.
     #[must_use]
-    pub fn next(&self, now: Time, utc: Option<UtcTime>) -> Option<Time> {
-        self.pacer.next(now, utc)
+    pub fn next(&self, now: Time, utc: Option<UtcTime>) -> Option<WakeUp> {
+        let (at, rate) = self.pacer.next(now, utc)?;
+        Some(WakeUp { at, why: rate.map_or(Due::Grid, |rate| self.due_at(rate)) })
+    }
+
+    fn due_at(&self, rate: Rate) -> Due {
+        match self.ports.iter().position(|port| port.rates().any(|own| own == rate)) {
+            Some(port) => Due::Messages(port),
+            None if self.groups == Some(rate) => Due::Groups,
+            None => Due::Upkeep,
+        }
     }
 
     /// What has become due up to now; see [`Pacer::due`].

@@ -6,7 +6,7 @@ use insd_base::units::DEG;
 use insd_base::{
     Attitude, Body, Geodetic, Mode, Motion, Ned, Solution, SolutionSigma, Time, UtcTime,
 };
-use insd_output::{Boundary, MessageKind, Moment, PortConfig, Profile, Rate, Station};
+use insd_output::{Boundary, Due, MessageKind, Moment, PortConfig, Profile, Rate, Station};
 
 /// UTC that is 12.345 ms ahead of a second of the time line.
 fn utc(time: Time) -> UtcTime {
@@ -52,7 +52,7 @@ fn sent(station: &mut Station, from: i64, to: i64, age: i64) -> Vec<(Boundary, S
     let mut said = Vec::new();
     let mut now = at(from);
     loop {
-        now = station.next(now, Some(utc(now))).unwrap();
+        now = station.next(now, Some(utc(now))).unwrap().at;
         if now > at(to) {
             return said;
         }
@@ -83,6 +83,26 @@ fn a_heading_is_that_of_its_utc_boundary_however_old_the_last_sample_is() {
             assert!((told - true_heading).abs() < 0.006, "{age} ms: {told} for {true_heading}");
         }
     }
+}
+
+#[test]
+fn whoever_is_to_be_woken_is_told_what_for() {
+    let ports = [port(&[("HDT", 4.0)]), port(&[("THS", 40.0)])];
+    let mut station = Station::new(ports, vec![Body::default()], Some(Rate::from_hertz(100.0)));
+    let at = |ms: i64| Time::from_nanos(ms * 1_000_000);
+    assert_eq!(station.next(at(0), None).unwrap().why, Due::Grid);
+    station.due(at(0), None);
+    let mut reasons = Vec::new();
+    let mut now = at(0);
+    while now < at(100) {
+        let wake_up = station.next(now, None).unwrap();
+        reasons.push((wake_up.at.as_nanos() / 1_000_000, wake_up.why));
+        now = wake_up.at;
+        station.due(now, None);
+    }
+    assert_eq!(reasons[..3], [(10, Due::Groups), (20, Due::Groups), (25, Due::Messages(1))]);
+    assert_eq!(reasons.last(), Some(&(100, Due::Upkeep)), "the slowest first");
+    assert_eq!(station.next(now, Some(utc(now))).unwrap().why, Due::Grid, "UTC became known");
 }
 
 #[test]
@@ -188,7 +208,7 @@ fn relayed(age: i64, messages: &[(&str, f64)]) -> String {
     station.due(at(0), Some(utc(at(0))));
     let (mut now, mut said) = (at(0), String::new());
     while now < at(1_000) {
-        now = station.next(now, Some(utc(now))).unwrap();
+        now = station.next(now, Some(utc(now))).unwrap().at;
         let mut moment = turning(now - insd_base::Span::from_nanos(age * 1_000_000));
         let solution = &mut moment.motion.as_mut().unwrap().solution;
         solution.mode = Mode::Standby;

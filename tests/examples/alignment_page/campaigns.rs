@@ -3,12 +3,13 @@
 use std::fmt::Write as _;
 use std::ops::Range;
 
-use insd::evaluation::{Component, EpochError, alignment, errors, mean, significant};
 use insd_alignment::{AlignmentConfig, InMotion};
 use insd_base::Voyage;
 use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::units::DEG;
 use insd_engine::EngineConfig;
+use insd_lab::evaluation::{Component, EpochError, alignment, errors, mean};
+use insd_lab::table::significant;
 use insd_nav::berth::Method;
 use insd_simulator::{Scenario, limit, simulate};
 use insd_tests::sailing::sail_messages;
@@ -106,7 +107,7 @@ impl Campaign {
     /// all claim to be.
     fn aligned(&self, bar: f64) -> [String; 3] {
         let times: Vec<_> = self.runs.iter().map(|run| alignment(run, bar)).collect();
-        let sorted = |pick: fn(&insd::evaluation::Alignment) -> Option<f64>| {
+        let sorted = |pick: fn(&insd_lab::evaluation::Alignment) -> Option<f64>| {
             let mut sorted: Vec<f64> =
                 times.iter().map(|time| pick(time).unwrap_or(f64::INFINITY)).collect();
             sorted.sort_by(f64::total_cmp);

@@ -4,13 +4,13 @@ use std::io::{BufReader, stdin};
 use std::process::ExitCode;
 
 use insd::clock::{Clock, HostClock, boot_now};
-use insd::config::Config;
-use insd::pipeline::{Pipeline, Product};
-use insd::speaker::Spoken;
 use insd::state::{Folders, Kept, Saver};
 use insd_base::{Arrival, Event, Input, PortId, Span, Time};
+use insd_config::Config;
 use insd_drivers::raw::{RawHeader, RawWriter, Recorder, RecordingConfig};
 use insd_engine::Output;
+use insd_vessel::Spoken;
+use insd_vessel::{Pipeline, Product};
 
 use super::pipe;
 
@@ -39,7 +39,7 @@ struct Account {
 /// Runs to the end of what is sent.
 pub(crate) fn run(text: &str) -> ExitCode {
     let config = Config::of_text(text).unwrap();
-    let mut pipeline = Pipeline::new(&config);
+    let mut pipeline = config.pipeline();
     let folder = std::env::temp_dir().join(format!("insd-soak-{}", std::process::id()));
     let mut recorder = Recorder::start(recording(&folder, text)).unwrap();
     let folders =
@@ -52,7 +52,7 @@ pub(crate) fn run(text: &str) -> ExitCode {
     while let Some(arrival) = pipe::read(&mut from) {
         let now = arrival.stamp.monotonic;
         // as the daemon does when it is awake: what is due by now is due
-        if pipeline.next_tick(now).is_some_and(|due| due <= now) {
+        if pipeline.wake_up(now).is_some_and(|due| due.at <= now) {
             let tick = Arrival { stamp: arrival.stamp, port: PortId(u16::MAX), input: Input::Tick };
             account.take(&mut pipeline, &mut recorder, &tick);
         }
@@ -103,7 +103,7 @@ fn recording(folder: &std::path::Path, text: &str) -> RawWriter {
     RawWriter::create(folder, config, header).unwrap()
 }
 
-fn whole(pipeline: &Pipeline) -> bool {
+fn whole(pipeline: &Pipeline<Config>) -> bool {
     let ports = pipeline.status().ports;
     ports.iter().all(|port| port.counts.damaged == 0 && port.counts.skipped == 0)
 }
@@ -126,7 +126,12 @@ impl Account {
         Account { messages: vec![0; outputs], gaps: vec![(0.0, None); outputs], ..Self::default() }
     }
 
-    fn take(&mut self, pipeline: &mut Pipeline, recorder: &mut Recorder, arrival: &Arrival) {
+    fn take(
+        &mut self,
+        pipeline: &mut Pipeline<Config>,
+        recorder: &mut Recorder,
+        arrival: &Arrival,
+    ) {
         self.arrivals += 1;
         match &arrival.input {
             Input::Bytes(bytes) => self.bytes += bytes.len() as u64,

@@ -6,8 +6,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use insd::report::Report;
 use insd_base::{Input, PortState};
+use insd_lab::report::Report;
 use insd_simulator::{Scenario, simulate};
 use insd_tests::feed::{Encoding, noise};
 use insd_tests::recorded::{Recorded, alert};
@@ -219,7 +219,7 @@ fn a_recording_without_arrivals_is_refused() {
         let path = empty.path().join("none-000001.insdraw");
         fs::write(&path, bytes).unwrap();
         let fault = Report::of_recording(&path, None, 1).unwrap_err();
-        assert!(fault.is::<insd::cli::BadInput>(), "{fault:?}");
+        assert!(fault.is::<insd_config::BadInput>(), "{fault:?}");
         assert!(fault.to_string().contains(words), "{fault}");
     }
 }

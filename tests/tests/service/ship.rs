@@ -8,10 +8,9 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use insd::clock::{Clock, HostClock, boot_now};
-use insd::config::Config;
-use insd::pipeline::Pipeline;
 use insd::state::{Kept, Store};
 use insd_base::{Time, Voyage};
+use insd_config::Config;
 use insd_simulator::simulate;
 use insd_tests::feed::{Encoding, FeedConfig, Reception, Sending, arrivals, feed};
 
@@ -121,7 +120,7 @@ impl Ship {
     /// state.
     pub(crate) fn leave_state(&self, until: f64) {
         let config = Config::of_text(&self.text("")).unwrap();
-        let mut pipeline = Pipeline::new(&config);
+        let mut pipeline = config.pipeline();
         let early = self.sendings.iter().take_while(|sending| sending.at.as_seconds() < until);
         let early: Vec<Sending> = early.cloned().collect();
         let reception = Reception::new(self.feeds.sensors[0].calendar.start, 1);

@@ -1,8 +1,8 @@
 //! Measurements that arrive late and out of order.
 
-use insd::evaluation::Component;
 use insd_base::{Message, Received, Solution, Voyage, earth};
 use insd_engine::EngineConfig;
+use insd_lab::evaluation::Component;
 use insd_simulator::simulate;
 use insd_tests::sailing::{OUTPUT_RATE, delayed, prompt, sail_messages};
 use insd_tests::scores::{Scores, pooled};

@@ -1,7 +1,7 @@
 //! At the berth: near the limit, honest, and not to be upset by gusts, tugs and steep swells.
 
-use insd::evaluation::Component;
 use insd_base::units::{DEG, wrap_pi};
+use insd_lab::evaluation::Component;
 use insd_simulator::limit;
 use insd_tests::sailing::{Passage, sail_all};
 use insd_tests::scores::{Scores, pooled};

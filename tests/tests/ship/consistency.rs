@@ -1,6 +1,6 @@
 //! Honest claims over a few seeds. `insd campaign` does it over many seeds and hours.
 
-use insd::evaluation::{Component, EpochError, normalised};
+use insd_lab::evaluation::{Component, EpochError, normalised};
 use insd_tests::sailing::sail_all;
 use insd_tests::scenario;
 use insd_tests::scores::{Scores, dishonest};

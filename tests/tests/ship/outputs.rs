@@ -1,11 +1,11 @@
 //! What the ports are told of a ship that turns hard and rolls, against the truth of that very instant.
 
-use insd::speaker::{Speaker, Spoken};
 use insd_base::units::{DEG, wrap_pi};
 use insd_base::{Body, Time, UtcTime, Voyage};
 use insd_engine::{Engine, EngineConfig};
-use insd_output::{MessageKind, PortConfig, Rate, Station};
+use insd_output::{MessageKind, PortConfig, Rate};
 use insd_simulator::{Scenario, simulate};
+use insd_vessel::{OutputPlan, Speaker, Spoken};
 use insd_wire::nmea::Sentence;
 
 use super::figure;
@@ -73,7 +73,11 @@ fn said(voyage: &Voyage, kinds: &[&str]) -> Vec<(Time, Sentence)> {
     let rate = Rate::from_hertz(50.0);
     let messages = kinds.iter().map(|kind| (MessageKind::named(kind).unwrap(), rate)).collect();
     let port = PortConfig { messages, ..PortConfig::default() };
-    let mut speaker = Speaker::new(Station::new([port], vec![Body::default()], None));
+    let mut speaker = Speaker::new(OutputPlan {
+        ports: vec![port],
+        points: vec![Body::default()],
+        ..OutputPlan::default()
+    });
     let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 10.0));
     let start = UtcTime::from_civil((2026, 1, 1), (0, 0, 0), 3_000_000).unwrap();
     let mut sentences = Vec::new();

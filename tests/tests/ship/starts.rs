@@ -1,7 +1,7 @@
 //! Berthing, lying at the berth, starting under way.
 
-use insd::evaluation::Component;
 use insd_base::Mode;
+use insd_lab::evaluation::Component;
 use insd_tests::sailing::sail_all;
 use insd_tests::scenario;
 use insd_tests::scores::{Scores, dishonest, pooled};

@@ -1,10 +1,10 @@
 //! Warm starts: the state stored at one visit to the berth, offered at the next.
 
-use insd::evaluation::Component;
 use insd_alignment::StoredState;
 use insd_base::units::{DEG, wrap_two_pi};
 use insd_base::{Event, Geodetic, StoredDoubt};
 use insd_engine::{Engine, EngineConfig};
+use insd_lab::evaluation::Component;
 use insd_simulator::{Scenario, simulate};
 use insd_tests::sailing::{Logbook, OUTPUT_RATE, sail, sail_messages};
 use insd_tests::scenario;
@@ -40,14 +40,15 @@ fn turned(state: StoredState, degrees: f64) -> StoredState {
 
 /// When the claim first is below so many degrees, s.
 fn claims(scores: &Scores, degrees: f64) -> f64 {
-    let below =
-        |epoch: &&insd::evaluation::EpochError| epoch.sigma_of(Component::Heading) < degrees * DEG;
+    let below = |epoch: &&insd_lab::evaluation::EpochError| {
+        epoch.sigma_of(Component::Heading) < degrees * DEG
+    };
     scores.epochs.iter().find(below).unwrap().time.as_seconds()
 }
 
 /// The boldest claim of the heading, in sigmas.
 fn boldest(scores: &Scores) -> f64 {
-    insd::evaluation::worst_heading(&scores.epochs).unwrap().ratio
+    insd_lab::evaluation::worst_heading(&scores.epochs).unwrap().ratio
 }
 
 /// When and why the state was dropped, told once.

@@ -1,8 +1,8 @@
 //! Under way: with GNSS, without it for a while, and without it for good.
 
-use insd::evaluation::Component;
 use insd_base::units::DEG;
 use insd_base::{Mode, Time};
+use insd_lab::evaluation::Component;
 use insd_simulator::simulate;
 use insd_tests::noise_free::{self, Loss};
 use insd_tests::sailing::{Passage, sail_all};

@@ -43,11 +43,18 @@ pub(crate) fn text_files(folder: &Path) -> Vec<(String, String)> {
 }
 
 impl Source {
-    fn new(path: String, text: String) -> Self {
+    pub(crate) fn new(path: String, text: String) -> Self {
         let bare = blank_text(&text);
-        let is_test = path.contains("tests/") || path.ends_with("tests.rs");
-        let code = if is_test { String::new() } else { blank_tests(&bare) };
-        Source { path, text, code }
+        let mut source = Source { path, text, code: String::new() };
+        if !source.is_test() {
+            source.code = blank_tests(&bare);
+        }
+        source
+    }
+
+    /// Whether it is compiled for tests only.
+    pub(crate) fn is_test(&self) -> bool {
+        self.path.contains("tests/") || self.path.ends_with("tests.rs")
     }
 
     /// Name, line and length of every function with a body, tests included.

@@ -7,8 +7,8 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use insd::clock::HostClock;
-use insd::config::{NodeMemory, NodeSection};
 use insd_base::{BusEvent, Input, PortId};
+use insd_config::{NodeMemory, NodeSection};
 use insd_drivers::can::{CanConfig, SharedSpeaker, Socketcan, spawn};
 use insd_drivers::ports::{
     PortConfig, PortHandle, Receiver, Surroundings, Transport, WAITING_LIMIT, queue,

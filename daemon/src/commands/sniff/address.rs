@@ -10,9 +10,10 @@ use insd_drivers::ports::{
 };
 use insd_drivers::raw;
 
-use super::{can, captured};
-use crate::sniff::bus::file::BusFile;
-use crate::sniff::{Plan, Transport as Suggested};
+use super::can::{self, Opened};
+use super::captured;
+use insd_lab::sniff::bus::file::BusFile;
+use insd_lab::sniff::{Plan, Transport as Suggested};
 
 /// Rates at which a serial line is listened to when none is given, the most common first.
 const BAUDS: [u32; 9] = [115_200, 38_400, 4_800, 9_600, 460_800, 921_600, 230_400, 57_600, 19_200];
@@ -81,8 +82,6 @@ pub fn parse(text: &str) -> Result<Address, String> {
     let plan = Plan { name: text.to_owned(), timed, transport: suggested };
     Ok(Address { plan, source: Source::Port(Box::new(PortConfig::new(transport))) })
 }
-
-pub(super) type Opened = (Transport, bool, Option<Suggested>);
 
 fn udp(rest: &str) -> Result<Opened, String> {
     let (interface, address) = match rest.split_once('@') {
@@ -248,7 +247,7 @@ fn serial(path: &Path, rate: Option<u32>) -> Opened {
 }
 
 fn quoted(path: &Path) -> String {
-    crate::sniff::quoted(&path.display().to_string())
+    insd_lab::sniff::quoted(&path.display().to_string())
 }
 
 #[cfg(test)]

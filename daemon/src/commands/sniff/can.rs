@@ -9,8 +9,10 @@ use insd_drivers::can::{Candump, GatewayFormat, GatewayTcp, GatewayUdp, Socketca
 use insd_drivers::ports::Transport;
 use insd_n2k::text::candump;
 
-use super::address::Opened;
-use crate::sniff::{Transport as Suggested, quoted};
+use insd_lab::sniff::{Transport as Suggested, quoted};
+
+/// What is opened, whether its times are those of receipt, and what to write into a configuration.
+pub(super) type Opened = (Transport, bool, Option<Suggested>);
 
 /// Longest name of an interface.
 const NAME: usize = 15;

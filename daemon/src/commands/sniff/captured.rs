@@ -9,8 +9,8 @@ use insd_base::{Arrival, Input, PortId, PortState, Stamp, Time, UtcTime};
 use insd_wire::stream::Protocol;
 
 use super::frames;
-use crate::sniff::bus::file::{BusFile, Frames};
-use crate::sniff::{Plan, Report, Sniffed};
+use insd_lab::sniff::bus::file::{BusFile, Frames};
+use insd_lab::sniff::{Plan, Report, Sniffed};
 
 /// Bytes of a file that are looked at to find out what it is.
 const HEAD: u64 = 16 * 1024;

@@ -6,8 +6,8 @@ use std::io::{self, Write as _};
 use insd_base::UtcTime;
 use insd_wire::describe::Reading;
 
-use crate::sniff::text::printable;
-use crate::sniff::{Seen, SeenWhat};
+use insd_lab::sniff::text::printable;
+use insd_lab::sniff::{Seen, SeenWhat};
 
 /// Bytes of one line of a dump.
 const ROW: usize = 16;

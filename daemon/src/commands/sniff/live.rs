@@ -14,10 +14,10 @@ use insd_wire::stream::{Cutter, Protocol};
 use tokio::time::{MissedTickBehavior, interval};
 
 use super::asker::Asker;
-use super::{Plan, frames, screen};
+use super::{frames, screen};
 use crate::clock::HostClock;
-use crate::demo::screen::Farewell;
-use crate::sniff::{Report, Sniffed, is_proof, text};
+use insd_lab::sniff::{Plan, Report, Sniffed, is_proof, text};
+use insd_lab::terminal::Farewell;
 
 /// Time between two looks at the clock, and how many of them make a picture.
 const TICK: Duration = Duration::from_millis(100);

@@ -16,8 +16,8 @@ use anyhow::Context;
 use insd_drivers::ports::PortConfig;
 use insd_wire::stream::Protocol;
 
-use crate::sniff::report::PortReport;
-use crate::sniff::{Plan, Report, text};
+use insd_lab::sniff::report::PortReport;
+use insd_lab::sniff::{Report, text};
 
 pub use address::{Address, Source, parse};
 

@@ -8,8 +8,8 @@ use insd_drivers::raw::{FileHeader, RawReader};
 use insd_wire::stream::Protocol;
 
 use super::frames;
-use crate::cli::BadInput;
-use crate::sniff::{Plan, Report, Sniffed};
+use insd_config::BadInput;
+use insd_lab::sniff::{Plan, Report, Sniffed};
 
 /// What the ports of a recording heard. Faults of its files are told on standard error.
 pub(super) fn read(

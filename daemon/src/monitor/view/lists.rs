@@ -10,7 +10,7 @@ use ratatui::text::{Line, Text};
 use ratatui::widgets::{Paragraph, Row, Table};
 
 use super::super::text::{bytes, fixed, state, time_of_day};
-use super::{bad, dim, panel, strong};
+use super::style::{bad, dim, panel, strong};
 
 fn right(text: String) -> Line<'static> {
     Line::from(text).right_aligned()

@@ -2,6 +2,7 @@
 
 mod lists;
 mod ship;
+mod style;
 
 #[cfg(test)]
 mod tests;
@@ -11,10 +12,11 @@ use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Style};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, BorderType, Paragraph, Wrap};
+use ratatui::widgets::{Paragraph, Wrap};
 
 use super::board::{Board, Link};
 use super::text::{line, span, time_of_day, word};
+use style::{bad, dim, strong};
 
 /// Smallest terminal that the picture fits into.
 const LEAST: (u16, u16) = (72, 20);
@@ -128,27 +130,4 @@ fn colour(mode: &str) -> Color {
         "" | "standby" => Color::Gray,
         _ => Color::Cyan,
     }
-}
-
-/// A box with a title.
-fn panel(title: &str) -> Block<'_> {
-    Block::bordered()
-        .border_type(BorderType::Rounded)
-        .border_style(dim())
-        .title(Line::styled(format!(" {title} "), Style::new().bold().fg(Color::Reset)))
-}
-
-/// Of what matters less.
-fn dim() -> Style {
-    Style::new().fg(Color::DarkGray)
-}
-
-/// Of what the eye should find first.
-fn strong() -> Style {
-    Style::new().bold()
-}
-
-/// Of what is wrong.
-fn bad() -> Style {
-    Style::new().fg(Color::Red).bold()
 }

@@ -7,7 +7,7 @@ use ratatui::text::{Line, Text};
 use ratatui::widgets::{Paragraph, Row, Table, Wrap};
 
 use super::super::text::{DASH, bytes, fixed, place, span, state as word_of, word};
-use super::{dim, panel, strong};
+use super::style::{dim, panel, strong};
 
 /// Rows of what is told of the ship.
 pub(super) const ROWS: u16 = 5;

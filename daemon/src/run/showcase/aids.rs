@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use insd_base::{Counts, Innovation, Time};
 use insd_web::snapshot::{Aid, Cause, Samples};
 
-use super::age;
+use super::spans::age;
 
 /// An aid that was used so long ago is still in use, s.
 const IN_USE: f64 = 15.0;

@@ -8,7 +8,7 @@ use insd_web::snapshot::{Alert, AlertPriority, AlertState};
 use insd_wire::nmea;
 
 use super::super::report::Report;
-use crate::calendar;
+use insd_config::calendar;
 
 /// What was seen of each alert last.
 #[derive(Debug, Default)]

@@ -7,7 +7,7 @@ use insd_web::snapshot::{
 };
 
 use super::super::report::Report;
-use crate::redundancy::{Dispute, EngineStatus};
+use insd_vessel::{Dispute, EngineStatus};
 
 /// Parts of a ratio in a million.
 const PPM: f64 = 1e-6;

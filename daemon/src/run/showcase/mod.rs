@@ -11,6 +11,7 @@ mod program;
 mod rates;
 mod sensors;
 mod ship;
+mod spans;
 #[cfg(test)]
 mod tests;
 
@@ -21,16 +22,17 @@ use insd_web::snapshot::{MAX_MODES, MAX_REJECTIONS, Mode, Rejected, Snapshot, Tr
 
 use super::journal::Audience;
 use super::report::{Report, Slow};
-use super::told::Names;
-use crate::calendar;
-use crate::config::Config;
 use crate::logging::Log;
-use crate::pipeline::{Obeyed, Product};
-use crate::redundancy::Dispute;
+use insd_config::Config;
+use insd_config::calendar;
+use insd_vessel::Dispute;
+use insd_vessel::Names;
+use insd_vessel::{Obeyed, Product};
 
 use aids::Aids;
 pub(super) use program::{Origin, hash};
 use rates::Rates;
+use spans::age;
 
 /// Keeps what is shown, and shows it.
 pub(super) struct Showcase {
@@ -224,14 +226,4 @@ fn keep<T>(all: &mut Vec<T>, one: T, most: usize) {
         all.remove(0);
     }
     all.push(one);
-}
-
-/// How long ago something was, s.
-fn age(now: Time, then: Option<Time>) -> Option<f64> {
-    then.map(|then| (now - then).as_seconds())
-}
-
-/// Milliseconds.
-fn ms(span: Span) -> f64 {
-    (span.as_seconds() * 1e6).round() / 1e3
 }

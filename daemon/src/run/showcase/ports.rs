@@ -10,8 +10,8 @@ use insd_web::snapshot::{
 use super::super::outputs::OutputReport;
 use super::super::report::Slow;
 use super::rates::Rates;
-use super::{age, ms};
-use crate::config::{Config, OutputSection, PortSection};
+use super::spans::{age, ms};
+use insd_config::{Config, OutputSection, PortSection};
 
 pub(super) fn inputs(config: &Config, slow: &Slow, rates: &Rates, now: Time) -> Vec<Input> {
     let ports = config.ports.iter().zip(&slow.intake.ports).enumerate();

@@ -10,10 +10,10 @@ use insd_web::snapshot::{Program, Recording, RecordingState, Saving};
 use rustix::time::{ClockId, clock_gettime};
 
 use super::super::report::Slow;
-use crate::calendar;
 use crate::clock::HostClock;
-use crate::config::Config;
 use crate::state::SaverState;
+use insd_config::Config;
+use insd_config::calendar;
 
 /// Bytes of a page of memory where the system says nothing else.
 const PAGE: u64 = 4096;

@@ -7,10 +7,10 @@ use insd_intake::status::{ChoiceStatus, SensorStatus};
 use insd_web::snapshot::{Cause, Choice, Sensor, SensorState};
 
 use super::super::report::Slow;
-use super::age;
 use super::meaning::meaning;
 use super::rates::Rates;
-use crate::config::Config;
+use super::spans::age;
+use insd_config::Config;
 
 pub(super) fn sensors(config: &Config, slow: &Slow, rates: &Rates, now: Time) -> Vec<Sensor> {
     let sections = config.sensors.iter().zip(&slow.intake.sensors).enumerate();

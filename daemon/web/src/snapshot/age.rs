@@ -4,49 +4,16 @@
 //! Every group of the snapshot carries its time of validity, and the snapshot the time at which it is
 //! shown. [`Snapshot::after`] lets time go on: what grows old is marked, and a moment later it is gone.
 
-use serde::{Deserialize, Serialize};
-
+use super::freshness::{Freshness, GONE};
 use super::{
     Aid, Alignment, BusState, Engine, Input, Mode, Motion, Output, PortState, RecordingState,
     Sensor, SensorState, Snapshot, TimeInfo,
 };
 
-/// Age beyond which a value is not the present any more, s.
-pub const OLD: f64 = 0.5;
-/// Age beyond which a value is not told any more, s.
-pub const GONE: f64 = 1.0;
 /// What the alignment says is repeated every 10 s; when it is older than this nobody aligns, s.
 const ALIGNMENT_GONE: f64 = 15.0;
 /// Measurements that a sensor may leave out before its row is called silent.
 const LEFT_OUT: f64 = 3.0;
-
-/// Whether a value may be taken as the present.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Freshness {
-    /// It may.
-    #[default]
-    Fresh,
-    /// It is a moment old: shown as such, and not to be used.
-    Old,
-    /// It is so old that it is not told at all; a word that this version does not know is taken so, too.
-    #[serde(other)]
-    Gone,
-}
-
-impl Freshness {
-    /// That of a value of an age, s. What is not a number is gone.
-    #[must_use]
-    pub fn of_age(age_s: f64) -> Self {
-        if age_s <= OLD {
-            Freshness::Fresh
-        } else if age_s <= GONE {
-            Freshness::Old
-        } else {
-            Freshness::Gone
-        }
-    }
-}
 
 impl Snapshot {
     /// What is to be shown of it so long after it was published or came, s. Letting time go on in two steps
@@ -220,6 +187,7 @@ impl Output {
 #[cfg(test)]
 mod tests {
     use super::super::Heave;
+    use super::super::freshness::OLD;
     use super::*;
 
     /// A ship that sails, told at once.

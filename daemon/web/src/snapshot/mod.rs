@@ -15,15 +15,16 @@ mod age;
 mod aids;
 mod alerts;
 mod alignment;
+mod freshness;
 mod ports;
 mod program;
 mod sensors;
 mod ship;
 
-pub use age::{Freshness, GONE, OLD};
 pub use aids::{Aid, Cause, Rejected, Samples};
 pub use alerts::{Alert, AlertPriority, AlertState, Event, Severity};
 pub use alignment::{Alignment, Disturbance, DisturbanceAxis};
+pub use freshness::{Freshness, GONE, OLD};
 pub use ports::{Age, Bus, BusNode, BusState, Input, Output, OutputMessage, PortState, Schedule};
 pub use program::{
     Engine, Log, Mode, Program, Recording, RecordingState, Saving, TimeInfo, Transition,

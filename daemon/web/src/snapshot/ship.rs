@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::age::Freshness;
+use super::freshness::Freshness;
 
 /// Where the ship is, how she moves and lies, at the IMU or the point named, and how sure that is. All
 /// sigmas are 1-sigma.

@@ -5,8 +5,8 @@ use insd_wire::nmea::{
     AlertCategory, AlertCommand, AlertEntry, AlertPriority, AlertState, Alf, CivilTime, Text,
 };
 
-use super::board::{AlertConfig, Escalation};
 use super::conditions::Condition;
+use super::patience::{AlertConfig, Escalation};
 use super::view::AlertView;
 use crate::schedule::Boundary;
 

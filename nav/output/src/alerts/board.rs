@@ -7,6 +7,7 @@ use insd_wire::nmea::{Acn, AlertCommand, AlertEntry, AlertState, Alf, Arc, Civil
 
 use super::alert::Alert;
 use super::conditions::Condition;
+use super::patience::AlertConfig;
 use super::view::AlertView;
 use crate::schedule::Boundary;
 
@@ -18,32 +19,6 @@ const USUAL_BEAT: f64 = 60.0;
 
 /// Refusals that wait to be told; who sends more commands at a time gets no answer to the first.
 const MAX_REFUSALS: usize = 16;
-
-/// What becomes of a warning that nobody has acknowledged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Escalation {
-    /// It is raised again as a warning, and again.
-    #[default]
-    Repeat,
-    /// It becomes an alarm.
-    Alarm,
-}
-
-/// How the bridge's patience is tried.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AlertConfig {
-    /// Time after which a warning that nobody has acknowledged is raised again. Default 5 min.
-    pub patience: Span,
-    /// As what.
-    pub escalation: Escalation,
-}
-
-impl Default for AlertConfig {
-    fn default() -> Self {
-        let patience = Span::from_nanos(300_000_000_000);
-        AlertConfig { patience, escalation: Escalation::default() }
-    }
-}
 
 /// Something that there is to tell.
 #[derive(Clone, Copy, Debug, PartialEq)]

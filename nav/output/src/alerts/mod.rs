@@ -35,8 +35,10 @@
 mod alert;
 mod board;
 mod conditions;
+mod patience;
 mod view;
 
-pub use board::{AlertBoard, AlertConfig, Announcement, Escalation};
+pub use board::{AlertBoard, Announcement};
 pub use conditions::{Condition, Watch};
+pub use patience::{AlertConfig, Escalation};
 pub use view::AlertView;

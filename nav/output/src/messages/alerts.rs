@@ -2,7 +2,7 @@
 
 use insd_wire::nmea::{Alc, Alf, Talker};
 
-use super::{Content, Entry, one};
+use super::entry::{Content, Entry, one};
 use crate::alerts::Announcement;
 use crate::said::Said;
 

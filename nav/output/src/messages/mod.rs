@@ -1,6 +1,7 @@
 //! The messages that a port can send, by family: an epoch as each of them.
 
 mod alerts;
+mod entry;
 mod heading;
 mod motion;
 mod octans;
@@ -18,39 +19,12 @@ mod transducers;
 
 use std::fmt;
 
-use insd_wire::nmea::{Line, Talker};
+use insd_wire::nmea::Talker;
 
 use crate::said::Said;
 
-/// What one message is made of.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Content {
-    /// Sentences that belong together and leave in this order.
-    Lines(Vec<Line>),
-    /// A binary telegram.
-    Binary(Vec<u8>),
-}
-
-/// A kind of message.
-pub(crate) struct Entry {
-    /// Its name in the configuration.
-    pub(crate) name: &'static str,
-    /// Who speaks, if nothing else is configured; `None` for makers' own.
-    pub(crate) talker: Option<Talker>,
-    /// Bytes of the longest that a ship can bring about.
-    pub(crate) longest: usize,
-    /// The message of an epoch; `None` where silence is the only honest answer.
-    pub(crate) make: Make,
-}
-
-type Make = fn(&Said<'_>, Talker) -> Option<Content>;
-
-impl Entry {
-    /// A maker's own, which has no talker.
-    const fn own(name: &'static str, longest: usize, make: Make) -> Self {
-        Entry { name, talker: None, longest, make }
-    }
-}
+pub use entry::Content;
+use entry::Entry;
 
 /// All families, in the order in which their messages leave a port at one epoch: time first, as others have
 /// none of their own. gpsd of 3.23 and later publishes the roll and pitch of PASHR only when a heading or a
@@ -135,27 +109,4 @@ impl fmt::Debug for MessageKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
-}
-
-impl Content {
-    /// The bytes for the wire.
-    #[must_use]
-    pub fn to_bytes(&self) -> Vec<u8> {
-        match self {
-            Content::Lines(lines) => {
-                lines.iter().flat_map(|line| line.as_bytes().iter().copied()).collect()
-            }
-            Content::Binary(bytes) => bytes.clone(),
-        }
-    }
-}
-
-/// One sentence without a mark for simulated data: from a simulator there is none.
-fn unmarked(said: &Said<'_>, write: fn(&Said<'_>) -> Line) -> Option<Content> {
-    if said.is_muted() { None } else { one(write(said)) }
-}
-
-/// One sentence.
-fn one(line: Line) -> Option<Content> {
-    Some(Content::Lines(vec![line]))
 }

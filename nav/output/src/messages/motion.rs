@@ -18,7 +18,7 @@ use insd_wire::motion::tss1::{self, Tss1, Tss1Aiding};
 use insd_wire::motion::{DelayedHeave, Place, Rated, Tilt, Vertical, roll_from_horizon};
 use insd_wire::nmea::Talker;
 
-use super::{Content, Entry};
+use super::entry::{Content, Entry};
 use crate::said::Said;
 
 pub(super) static ENTRIES: &[Entry] = &[

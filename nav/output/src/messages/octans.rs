@@ -18,7 +18,7 @@ use insd_wire::nmea::{
     Line, Marked, OctansStatus, Phcmp, Phinf, Phlin, Phoct, PhoctState, Phspd, Phtro, WaveMotion,
 };
 
-use super::{Entry, unmarked};
+use super::entry::{Entry, unmarked};
 use crate::said::Said;
 
 pub(super) static ENTRIES: &[Entry] = &[

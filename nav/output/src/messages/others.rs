@@ -5,7 +5,7 @@
 
 use insd_wire::nmea::{Line, PfecAttitude, Prdid, Ptnthtm};
 
-use super::{Entry, unmarked};
+use super::entry::{Entry, unmarked};
 use crate::said::Said;
 
 pub(super) static ENTRIES: &[Entry] = &[

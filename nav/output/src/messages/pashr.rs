@@ -13,7 +13,7 @@
 use insd_base::{FixQuality, Mode};
 use insd_wire::nmea::{Line, Pashr, PashrDialect, PashrStatus};
 
-use super::{Entry, Make, unmarked};
+use super::entry::{Entry, Make, unmarked};
 use crate::said::Said;
 
 pub(super) static ENTRIES: &[Entry] = &[

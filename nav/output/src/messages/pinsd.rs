@@ -23,7 +23,7 @@ use insd_wire::nmea::{
     ProtectionState, Talker, TimeOfDay,
 };
 
-use super::{Content, Entry, one, unmarked};
+use super::entry::{Content, Entry, one, unmarked};
 use crate::said::Said;
 
 pub(super) static ENTRIES: &[Entry] = &[

@@ -32,7 +32,7 @@ use insd_wire::nmea::{
     Line, Pixse, PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus, Position,
 };
 
-use super::{Content, Entry, unmarked};
+use super::entry::{Content, Entry, unmarked};
 use crate::said::Said;
 
 pub(super) static ENTRIES: &[Entry] = &[

@@ -4,7 +4,7 @@ use insd_wire::nmea::{
     Gbs, Gga, Gll, Gns, Gst, MAX_SYSTEMS, NavStatus, Position, PositionMode, Rmc, Talker,
 };
 
-use super::{Content, Entry, one};
+use super::entry::{Content, Entry, one};
 use crate::said::Said;
 
 pub(super) static ENTRIES: &[Entry] = &[

@@ -19,7 +19,7 @@
 use insd_base::{FixQuality, HeaveQuality};
 use insd_wire::nmea::{Line, Psxn, PsxnQuality};
 
-use super::{Entry, Make, unmarked};
+use super::entry::{Entry, Make, unmarked};
 use crate::said::Said;
 
 pub(super) static ENTRIES: &[Entry] = &[

@@ -6,8 +6,8 @@
 use insd_wire::nmea::Talker;
 use insd_wire::signalk::Delta;
 
+use super::entry::{Content, Entry};
 use super::state::words;
-use super::{Content, Entry};
 use crate::said::Said;
 
 pub(super) static ENTRIES: &[Entry] = &[Entry::own("SIGNALK", Delta::LONGEST, delta)];

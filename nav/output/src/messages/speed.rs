@@ -2,7 +2,7 @@
 
 use insd_wire::nmea::{Talker, Vbw, VbwVelocity, Vhw, Vlw, Vtg};
 
-use super::{Content, Entry, one};
+use super::entry::{Content, Entry, one};
 use crate::said::{Level, Said};
 
 pub(super) static ENTRIES: &[Entry] = &[

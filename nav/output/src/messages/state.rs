@@ -3,8 +3,8 @@
 use insd_base::{Mode, Span};
 use insd_wire::nmea::{Hbt, Talker, Txt};
 
-use super::one;
-use super::{Content, Entry};
+use super::entry::one;
+use super::entry::{Content, Entry};
 use crate::said::Said;
 
 pub(super) static ENTRIES: &[Entry] = &[

@@ -2,7 +2,7 @@
 
 use insd_wire::nmea::{Datum, Dtm, Talker, Zda};
 
-use super::{Content, Entry, one};
+use super::entry::{Content, Entry, one};
 use crate::said::Said;
 
 pub(super) static ENTRIES: &[Entry] = &[

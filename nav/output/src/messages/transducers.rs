@@ -6,7 +6,7 @@
 
 use insd_wire::nmea::{Talker, Text, Xdr, XdrMeasurement};
 
-use super::{Content, Entry, one};
+use super::entry::{Content, Entry, one};
 use crate::said::Said;
 
 pub(super) static ENTRIES: &[Entry] = &[

@@ -34,10 +34,10 @@ impl Voice {
     /// [`super::default_transmit`], are not sent. The table may change from epoch to epoch.
     pub fn messages(&mut self, epoch: &Epoch, transmit: &[Transmit]) -> Vec<(u32, Vec<u8>)> {
         let said = Said::new(epoch, &self.manner).with_sid(Some(self.sid));
-        let mut messages = Vec::new();
+        let (now, mut messages) = (epoch.boundary(), Vec::new());
         for line in transmit.iter().filter(|line| line.enabled) {
             if let Some(entry) = Entry::of(line.pgn)
-                && self.sent.entry(line.pgn).or_default().is_due(epoch, line.interval)
+                && self.sent.entry(line.pgn).or_default().is_due(&now, line.interval)
             {
                 messages.push((line.pgn, (entry.contents)(&said)));
             }

@@ -1,0 +1,50 @@
+//! The configuration file: TOML with environment overrides, typed, checked, all faults at once; what it makes of
+//! the ship ([`Config::plan`]); and the small files that ship and laboratory share.
+//!
+//! The text is held against what it may say ([`check`]) and read twice: first strictly by `toml`, which
+//! bends no type into another; then by `config`, which lays `INSD__SECTION__KEY` of the environment over it.
+
+mod bad_input;
+pub mod calendar;
+pub mod check;
+mod environment;
+mod faults;
+mod file;
+mod filters;
+mod imu;
+mod lan;
+mod log_filter;
+mod models;
+mod node;
+mod output;
+pub mod output_file;
+mod plan;
+mod policy;
+mod port;
+mod read;
+pub mod reference;
+mod service;
+mod ship;
+mod spare;
+mod spares;
+pub mod stored;
+mod succession;
+#[cfg(test)]
+mod tests;
+
+pub use bad_input::BadInput;
+pub use calendar::Calendar;
+pub use check::{Examined, Finding, Place, Severity};
+pub use file::Config;
+pub use imu::ImuModel;
+pub use lan::LanSection;
+pub use log_filter::filter;
+pub use models::{AlignmentSection, FloorSection, GateSection, ModelSection};
+pub use node::{NodeMemory, NodeSection};
+pub use output::{OutputSection, Overfull, PointSection};
+pub use output_file::OutputFile;
+pub use policy::PolicySection;
+pub use port::PortSection;
+pub use service::{Chrony, LogSection, Recording, StateSection, WebSection};
+pub use ship::{Kind, Ship, Start};
+pub use spare::SpareSection;

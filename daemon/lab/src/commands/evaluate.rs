@@ -1,0 +1,82 @@
+//! `insd evaluate`: a solution against truth.
+
+use std::path::PathBuf;
+
+use insd_base::{Solution, Time};
+use insd_drivers::recording::{read_nav_rows, read_truth_rows};
+
+use crate::evaluation::plot::Picture;
+use crate::evaluation::{Evidence, Report, drifts, errors, outages, read_rows};
+use insd_config::BadInput;
+
+/// Options of `insd evaluate`.
+///
+/// Errors are solution minus truth. NEES is the mean of (error / claimed sigma)^2, 1 when the
+/// claims are honest; honest claims hold 68.3, 95.4 and 99.7 % of errors within 1, 2 and 3 sigma.
+///
+/// Evidence is what the solution said of how far it may be relied on. A position is usable at an alert
+/// limit while its protection level (hpl_m, or five horizontal sigmas) is within it and neither mode nor
+/// integrity says otherwise; a heading while it claims less than 2 deg. It misleads while it is usable and
+/// off by more than the limit, a heading by more than 3 deg and three sigmas. More than 10 s of that in a
+/// piece, or 60 s in all, is hazardous.
+#[derive(Clone, Debug, clap::Args)]
+pub struct EvaluateArgs {
+    /// Solution to score
+    #[arg(value_name = "NAV.csv")]
+    nav: PathBuf,
+    /// Truth, plain or compressed
+    #[arg(value_name = "TRUTH.csv")]
+    truth: PathBuf,
+    /// Leave out what is before this time, s
+    #[arg(long, value_name = "T", value_parser = super::seconds)]
+    from: Option<f64>,
+    /// Print JSON instead of a table
+    #[arg(long)]
+    json: bool,
+    /// Draw track, errors with claimed 3-sigma bands and innovations
+    #[arg(long, value_name = "FILE.png|.svg", value_parser = super::picture)]
+    plot: Option<PathBuf>,
+    /// Innovations written by `insd replay --innovations`, for the plot
+    #[arg(long, value_name = "FILE.csv", requires = "plot")]
+    innovations: Option<PathBuf>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A file cannot be read, or the two have no common time.
+pub fn run(args: &EvaluateArgs) -> anyhow::Result<()> {
+    let nav = read_nav_rows(&args.nav)?;
+    let truth = read_truth_rows(&args.truth)?;
+    let from = args.from.map(Time::from_seconds);
+    let solutions: Vec<Solution> = nav.rows.iter().map(|row| row.solution).collect();
+    let found = errors(&solutions, &truth.rows, from);
+    if found.epochs.is_empty() {
+        let (nav, truth) = (args.nav.display(), args.truth.display());
+        return Err(BadInput(format!("{nav} and {truth} have no common time to compare")).into());
+    }
+    let drifts = drifts(&outages(&solutions), &found.epochs);
+    let report = Report {
+        nav: args.nav.display().to_string(),
+        truth: args.truth.display().to_string(),
+        skipped_nav_rows: nav.report.faulty(),
+        skipped_truth_rows: truth.report.faulty(),
+        ..Report::new(&found, drifts, Evidence::new(&nav, &found, from))
+    };
+    if args.json {
+        crate::terminal::print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
+    } else {
+        crate::terminal::print(&report.to_string())?;
+    }
+    let Some(file) = &args.plot else { return Ok(()) };
+    let innovations = args.innovations.as_deref().map(read_rows).transpose()?;
+    let name = args.nav.file_name().unwrap_or(args.nav.as_os_str()).to_string_lossy();
+    Picture {
+        title: &format!("{name}: errors with claimed ±3σ bands"),
+        nav: &solutions,
+        truth: &truth.rows,
+        errors: &found,
+        innovations: innovations.as_deref().unwrap_or_default(),
+    }
+    .draw(file)
+}

@@ -1,0 +1,81 @@
+//! The voyage that the simulated ship makes.
+
+use std::path::Path;
+
+use insd_base::{Message, Stamped, Time, Voyage};
+use insd_drivers::recording::{VoyageReader, read_truth};
+use insd_simulator::{Override, simulate};
+
+use crate::scenario;
+
+/// A voyage directory, or a voyage of a scenario.
+pub(super) fn find(word: &str, seed: u64, sets: &[Override]) -> anyhow::Result<Voyage> {
+    let path = Path::new(word);
+    if path.is_dir() {
+        return read(path);
+    }
+    Ok(simulate(&scenario::find(word, sets)?.scenario, seed))
+}
+
+fn read(dir: &Path) -> anyhow::Result<Voyage> {
+    let mut reader = VoyageReader::open(dir)?;
+    let header = reader.header().clone();
+    let has_truth = ["truth.csv", "truth.csv.zst"].iter().any(|name| dir.join(name).exists());
+    let mut voyage = Voyage {
+        header,
+        imu: Vec::new(),
+        gnss: Vec::new(),
+        log: Vec::new(),
+        reference: Vec::new(),
+        truth: if has_truth { read_truth(&dir.join("truth.csv"))? } else { Vec::new() },
+    };
+    for received in &mut reader {
+        match received?.message {
+            Message::Imu(own) => voyage.imu.push(Stamped::prompt(own)),
+            Message::Gnss(own) => voyage.gnss.push(Stamped::prompt(own)),
+            Message::Log(own) => voyage.log.push(Stamped::prompt(own)),
+            Message::Reference(own) => voyage.reference.push(Stamped::prompt(own)),
+        }
+    }
+    Ok(voyage)
+}
+
+/// When the IMU falls silent.
+pub(super) fn end(voyage: &Voyage) -> Time {
+    voyage.imu.last().map_or(Time::START, |last| last.message.time)
+}
+
+/// What is measured from an instant on and before another.
+pub(super) fn window(voyage: &Voyage, from: Time, to: Time) -> Voyage {
+    fn part<T: Clone>(all: &[T], time: impl Fn(&T) -> Time, from: Time, to: Time) -> Vec<T> {
+        let first = all.partition_point(|own| time(own) < from);
+        let end = all.partition_point(|own| time(own) < to);
+        all.get(first..end).unwrap_or_default().to_vec()
+    }
+    Voyage {
+        header: voyage.header.clone(),
+        imu: part(&voyage.imu, |own| own.message.time, from, to),
+        gnss: part(&voyage.gnss, |own| own.message.time, from, to),
+        log: part(&voyage.log, |own| own.message.time, from, to),
+        reference: part(&voyage.reference, |own| own.message.time, from, to),
+        truth: part(&voyage.truth, |own| own.time, from, to),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_together_are_the_voyage() {
+        let scenario = scenario::find("01", &[]).unwrap().scenario.with_duration(3.0);
+        let voyage = simulate(&scenario, 1);
+        let at = Time::from_seconds;
+        let parts = [(0.0, 1.25), (1.25, 2.5), (2.5, 9.0)];
+        let windows = parts.map(|(from, to)| window(&voyage, at(from), at(to)));
+        let imu: Vec<_> = windows.iter().flat_map(|part| part.imu.clone()).collect();
+        let log: Vec<_> = windows.iter().flat_map(|part| part.log.clone()).collect();
+        assert!(imu == voyage.imu && log == voyage.log);
+        assert_eq!(end(&voyage), voyage.imu.last().unwrap().message.time);
+    }
+}

@@ -1,0 +1,51 @@
+//! What a replay is asked for.
+
+use std::path::PathBuf;
+
+use insd_vessel::{Names, Product};
+
+use super::super::alignment::AlignmentArgs;
+use super::super::outage::SensorOutage;
+
+/// Tells the journal of a product as the daemon does.
+pub type Tell = fn(&Names, &Product);
+
+/// Options of `insd replay`.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ReplayArgs {
+    /// Voyage directory, or a raw recording: one of its files, or its folder
+    pub(super) dir: PathBuf,
+    /// File to write the solution to
+    #[arg(long, value_name = "NAV.csv")]
+    pub(super) out: PathBuf,
+    /// Solutions per second [default: 10; of a raw recording, those of its configuration]
+    #[arg(long, value_name = "HZ", value_parser = super::super::rate)]
+    pub(super) rate: Option<f64>,
+    /// For a raw recording: another configuration than the one it was made with. For a voyage: where
+    /// the ports for --sent are
+    #[arg(long, value_name = "FILE")]
+    pub(super) config: Option<PathBuf>,
+    /// Also write what each port is sent, to NAME.sent, and what is known at its epochs, to epochs.csv
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) sent: Option<PathBuf>,
+    /// For a raw recording that spans restarts of the program: which run, from 1
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(super) run: u32,
+    /// Take a sensor (imu, gnss, log, reference) away while FROM <= t_s < TO; may be repeated
+    #[arg(long = "outage", value_name = "SENSOR:FROM..TO")]
+    pub(super) outages: Vec<SensorOutage>,
+    #[command(flatten)]
+    pub(super) alignment: AlignmentArgs,
+    /// Start warm: the state stored at the last shutdown, believed once the sensors confirm it
+    #[arg(long, value_name = "FILE")]
+    pub(super) stored_state: Option<PathBuf>,
+    /// Store the state at the end for the next start, if the ship is aligned and lies at her berth
+    #[arg(long, value_name = "FILE")]
+    pub(super) save_state: Option<PathBuf>,
+    /// Also write the innovations of all aids
+    #[arg(long, value_name = "FILE.csv")]
+    pub(super) innovations: Option<PathBuf>,
+    /// Also write what the alignment says of itself: phase, sigmas, forecast, sea
+    #[arg(long, value_name = "FILE.csv")]
+    pub(super) alignment_log: Option<PathBuf>,
+}

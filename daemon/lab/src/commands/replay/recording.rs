@@ -1,0 +1,42 @@
+//! A raw recording, through the very same intake and engine as the daemon.
+
+use anyhow::Context;
+
+use super::args::{ReplayArgs, Tell};
+use super::sent::Sent;
+use super::sink::Sink;
+use crate::raw_run::RawRun;
+use insd_config::stored;
+use insd_vessel::Names;
+use insd_vessel::{Pipeline, Product};
+
+/// Replays a recording.
+pub(super) fn run(args: &ReplayArgs, tell: Tell) -> anyhow::Result<()> {
+    let mut raw = RawRun::open(&args.dir, args.config.as_deref(), args.run)?;
+    let mut engine = raw.config.engine();
+    engine.output_rate = args.rate.unwrap_or(engine.output_rate);
+    engine.alignment = args.alignment.config();
+    engine.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
+    let mut pipeline = Pipeline::new(raw.config.plan_with(engine), raw.config.clone());
+    let names = Names::of(&raw.config.intake());
+    let mut sink = Sink::create(args)?;
+    let sent = args.sent.as_deref().map(|folder| Sent::create(folder, &raw.config));
+    let mut sent = sent.transpose()?;
+    raw.for_each(|arrival| {
+        let mut written = Ok(());
+        pipeline.handle(arrival, |product| {
+            tell(&names, &product);
+            if written.is_ok() {
+                written = match (&product, &mut sent) {
+                    (Product::Engine(output), _) => sink.take(output),
+                    (Product::Spoken(spoken), Some(sent)) => sent.take(spoken),
+                    _ => Ok(()),
+                };
+            }
+        });
+        written.context("cannot write what comes of it")
+    })?;
+    eprint!("{}", sink.summary(pipeline.counts(), 0, Vec::new()));
+    sent.map_or(Ok(()), Sent::finish)?;
+    sink.finish()
+}

@@ -1,0 +1,100 @@
+//! A voyage directory, straight into the engine.
+
+use std::path::Path;
+
+use anyhow::Context;
+use insd_base::{Body, Received};
+use insd_drivers::recording::VoyageReader;
+use insd_engine::{Engine, EngineConfig};
+
+use super::args::ReplayArgs;
+use super::sent::Sent;
+use super::sink::Sink;
+use insd_config::BadInput;
+use insd_config::Calendar;
+use insd_config::Config;
+use insd_config::stored;
+use insd_vessel::Speaker;
+
+/// Solutions per second where nothing else is asked for.
+const RATE: f64 = 10.0;
+
+/// Replays a voyage.
+pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
+    let mut reader = VoyageReader::open(&args.dir)?;
+    let mut config = EngineConfig::for_voyage(reader.header(), args.rate.unwrap_or(RATE));
+    config.alignment = args.alignment.config();
+    config.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
+    let mut ports = Ports::of(args, &reader.header().start_utc)?;
+    config.points = ports.as_ref().map(|ports| ports.levers.clone()).unwrap_or_default();
+    let mut engine = Engine::new(config);
+    let mut sink = Sink::create(args)?;
+    let mut dropped = 0_u64;
+    for received in &mut reader {
+        let received = received?;
+        if args.outages.iter().any(|outage| outage.drops(&received)) {
+            dropped += 1;
+            continue;
+        }
+        engine.handle(&received);
+        while let Some(output) = engine.poll_output() {
+            ports.iter_mut().for_each(|ports| ports.speaker.note(&output));
+            sink.take(&output).context("cannot write the solution")?;
+        }
+        ports.iter_mut().try_for_each(|ports| ports.speak(&engine, &received))?;
+    }
+    ports.map_or(Ok(()), |ports| ports.sent.finish())?;
+    eprint!("{}", sink.summary(engine.counts(), dropped, reader.skipped()));
+    sink.finish()?;
+    match &args.save_state {
+        Some(path) => save(path, &engine, &reader.header().start_utc),
+        None => Ok(()),
+    }
+}
+
+/// The ports of a configuration, as they would be with the sensors of the voyage.
+struct Ports {
+    speaker: Speaker,
+    sent: Sent,
+    levers: Vec<Body>,
+    calendar: Option<Calendar>,
+}
+
+impl Ports {
+    fn of(args: &ReplayArgs, start_utc: &str) -> anyhow::Result<Option<Self>> {
+        let Some(folder) = &args.sent else { return Ok(None) };
+        let Some(file) = &args.config else {
+            return Err(
+                BadInput("--sent: the ports of which configuration? --config".into()).into()
+            );
+        };
+        let (config, _) = Config::load(file)?;
+        Ok(Some(Ports {
+            speaker: Speaker::new(config.output_plan()),
+            sent: Sent::create(folder, &config)?,
+            levers: config.levers(),
+            calendar: Calendar::new(start_utc),
+        }))
+    }
+
+    /// A voyage has no clock but its messages: what is due is said when the next one is received.
+    fn speak(&mut self, engine: &Engine, received: &Received) -> anyhow::Result<()> {
+        self.speaker.hear(received);
+        let utc = self.calendar.map(|calendar| calendar.utc(received.receipt));
+        let mut written = Ok(());
+        self.speaker.speak(engine, received.receipt, utc, |spoken| {
+            if written.is_ok() {
+                written = self.sent.take(&spoken);
+            }
+        });
+        written.context("cannot write what is sent")
+    }
+}
+
+fn save(path: &Path, engine: &Engine, start_utc: &str) -> anyhow::Result<()> {
+    let Some(state) = engine.stored_state() else {
+        let path = path.display();
+        anyhow::bail!("{path}: no state stored, as the ship is not aligned, or not at her berth");
+    };
+    stored::write(path, &state, start_utc)
+}

@@ -1,0 +1,58 @@
+//! `insd simulate`: makes a voyage directory with truth.
+
+use std::path::PathBuf;
+
+use anyhow::Context;
+use insd_drivers::recording::{Compression, write_voyage};
+use insd_simulator::{Override, simulate};
+
+use crate::scenario;
+
+/// Options of `insd simulate`.
+#[derive(Clone, Debug, clap::Args)]
+pub struct SimulateArgs {
+    /// Scenario file, or name or number of a shipped scenario
+    #[arg(required_unless_present = "list")]
+    scenario: Option<String>,
+    /// Tell which scenarios are shipped
+    #[arg(long, conflicts_with_all = ["scenario", "seed", "out", "sets", "compress"])]
+    list: bool,
+    /// Seed of all random streams
+    #[arg(long, value_name = "N", required_unless_present = "list")]
+    seed: Option<u64>,
+    /// Directory to write
+    #[arg(long, value_name = "DIR", required_unless_present = "list")]
+    out: Option<PathBuf>,
+    /// Set a key of the scenario to another value, as start.lat_deg=60; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<Override>,
+    /// Compress imu.csv and truth.csv
+    #[arg(long)]
+    compress: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// The scenario is faulty or the directory cannot be written.
+pub fn run(args: &SimulateArgs) -> anyhow::Result<()> {
+    let SimulateArgs { scenario: Some(word), seed: Some(seed), out: Some(out), .. } = args else {
+        return Ok(crate::terminal::print(&scenario::list())?);
+    };
+    let scenario = scenario::find(word, &args.sets)?;
+    let voyage = simulate(&scenario.scenario, *seed);
+    let compression = if args.compress { Compression::Zstd } else { Compression::None };
+    write_voyage(out, &voyage, compression).context("cannot write the voyage")?;
+    eprintln!(
+        "{}, seed {}: {} imu, {} gnss, {} log, {} reference, {} truth rows in {}",
+        scenario.name,
+        seed,
+        voyage.imu.len(),
+        voyage.gnss.len(),
+        voyage.log.len(),
+        voyage.reference.len(),
+        voyage.truth.len(),
+        out.display()
+    );
+    Ok(())
+}

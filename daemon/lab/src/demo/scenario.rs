@@ -1,0 +1,35 @@
+//! Which voyage the demo sails.
+
+use insd_base::Voyage;
+use insd_simulator::{Scenario, simulate};
+
+use crate::scenario;
+
+/// A scenario and a seed: one voyage, not yet made.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    scenario: Scenario,
+    seed: u64,
+}
+
+impl Choice {
+    /// Finds a scenario as all commands do: by the number or name of a shipped one, or as a file.
+    ///
+    /// # Errors
+    /// With the list of shipped scenarios if there is no such one, or with what is wrong in it.
+    pub fn find(wanted: &str, seed: u64) -> anyhow::Result<Self> {
+        Ok(Choice { scenario: scenario::find(wanted, &[])?.scenario, seed })
+    }
+
+    /// What to call it on the screen.
+    #[must_use]
+    pub fn title(&self) -> String {
+        format!("{}, seed {}", self.scenario.name(), self.seed)
+    }
+
+    /// Makes the voyage. It takes a second or two for hours at sea.
+    #[must_use]
+    pub fn sail(&self) -> Voyage {
+        simulate(&self.scenario, self.seed)
+    }
+}

@@ -1,0 +1,75 @@
+//! Scores of a navigation solution against truth: errors, consistency of its claims, drift.
+//!
+//! Pure functions over lists of solutions and truths; the commands `evaluate` and `campaign` and
+//! the tests of the house all use these.
+
+mod aligned;
+mod alignment;
+mod alignment_log;
+mod campaign;
+mod component;
+mod drift;
+mod errors;
+mod evidence;
+mod innovation;
+mod instants;
+mod interval;
+pub mod plot;
+mod promises;
+mod report;
+mod rows;
+mod series;
+mod statistics;
+mod stored;
+
+pub use aligned::{AlignedEstimates, Times, WorstHeading, WorstRun, worst_heading};
+pub use alignment::{Alignment, alignment};
+pub use alignment_log::AlignmentRow;
+pub use campaign::{CampaignReport, ComponentEstimates, OutageEstimates, Run, Yardstick};
+pub use component::Component;
+pub use drift::{Drift, Outage, drifts, outages};
+pub use errors::{EpochError, Errors, LeftOut, errors, normalised};
+pub use evidence::{Evidence, Exclusion, Pieces, Share, Told, Use, Worst};
+pub use innovation::InnovationRow;
+pub use instants::{Instant, InstantEstimates, Moment, moments};
+pub use interval::Estimate;
+pub use promises::PromiseEstimates;
+pub use report::Report;
+pub use rows::{RowWriter, read_rows};
+pub use statistics::{Summary, mean, quantile, summarise, summarise_horizontal};
+pub use stored::{StoredEstimates, StoredFate};
+
+#[cfg(test)]
+pub(crate) mod testing {
+    //! Plain solutions and truths for tests.
+
+    use insd_base::{Attitude, Body, Geodetic, Mode, Ned, Solution, SolutionSigma, Time, Truth};
+
+    pub(crate) fn solution(seconds: f64, position: Geodetic) -> Solution {
+        Solution {
+            time: Time::from_seconds(seconds),
+            position,
+            velocity: Ned::default(),
+            attitude: Attitude::default(),
+            rate: Body::default(),
+            sigma: SolutionSigma {
+                position: Ned::new(1.0, 1.0, 1.0),
+                velocity: Ned::new(0.1, 0.1, 0.1),
+                roll: 1e-3,
+                pitch: 1e-3,
+                heading: 1e-2,
+            },
+            mode: Mode::Aided,
+            judgement: insd_base::Judgement::default(),
+        }
+    }
+
+    pub(crate) fn truth(seconds: f64, position: Geodetic) -> Truth {
+        Truth {
+            time: Time::from_seconds(seconds),
+            position,
+            velocity: Some(Ned::default()),
+            attitude: Some(Attitude::default()),
+        }
+    }
+}

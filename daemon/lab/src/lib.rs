@@ -1,0 +1,17 @@
+//! What is done with voyages: made, replayed, scored, told, shown. For who builds and judges the navigation.
+//!
+//! It runs the very engine and vessel of the daemon, but reads no clock: it is told the time.
+
+#![warn(clippy::print_stdout)] // it panics when the reader has gone: `terminal::print` does not
+
+pub mod commands;
+pub mod demo;
+pub mod evaluation;
+pub mod pty;
+pub mod raw_run;
+pub mod report;
+pub mod scenario;
+pub mod sniff;
+pub mod table;
+pub mod terminal;
+pub mod words;

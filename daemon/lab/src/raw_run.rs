@@ -1,0 +1,117 @@
+//! One run of the daemon out of a raw recording.
+
+use std::path::Path;
+
+use insd_base::Arrival;
+use insd_drivers::raw::{EXTENSION, FileHeader, RawFault, RawRead, RawReader};
+
+use insd_config::BadInput;
+use insd_config::Config;
+
+/// The arrivals of one run, and the configuration that it had.
+pub struct RawRun {
+    /// The configuration.
+    pub config: Config,
+    reader: RawReader,
+    run: u32,
+    header: Option<FileHeader>,
+}
+
+/// Whether a path is a raw recording, or a folder that holds one.
+#[must_use]
+pub fn is_recording(path: &Path) -> bool {
+    let is_own = |path: &Path| path.extension().is_some_and(|extension| extension == EXTENSION);
+    if path.is_dir() {
+        let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
+        return entries.into_iter().any(|entry| is_own(&entry.path()));
+    }
+    is_own(path)
+}
+
+impl RawRun {
+    /// Opens a recording for its run of this number, from 1. `config` replaces the recorded
+    /// configuration.
+    ///
+    /// # Errors
+    /// It is no recording, or there is no configuration that could be read.
+    pub fn open(path: &Path, config: Option<&Path>, run: u32) -> anyhow::Result<Self> {
+        let reader = RawReader::open(path).map_err(|fault| BadInput(fault.to_string()))?;
+        let config = match config {
+            Some(file) => Config::load(file)?.0,
+            None => {
+                let header = reader.header().ok_or_else(|| {
+                    let hint = "its configuration is not known: give one with --config";
+                    BadInput(format!("{}: {hint}", path.display()))
+                })?;
+                Config::of_text(&header.config).map_err(|fault| {
+                    BadInput(format!("{}: recorded configuration: {fault}", path.display()))
+                })?
+            }
+        };
+        let header = reader.header().cloned();
+        Ok(RawRun { config, reader, run, header })
+    }
+
+    /// Hands over the arrivals in their order. What is wrong with the recording is told on standard
+    /// error, and reading goes on behind it.
+    ///
+    /// # Errors
+    /// The first that `each` returns; or there is no such run.
+    pub fn for_each(
+        &mut self,
+        mut each: impl FnMut(&Arrival) -> anyhow::Result<()>,
+    ) -> anyhow::Result<()> {
+        let runs = self.walk(|item| match item {
+            Ok(arrival) => each(&arrival),
+            Err(fault) => {
+                eprintln!("{fault}");
+                Ok(())
+            }
+        })?;
+        if runs > 1 {
+            eprintln!("run {} of {runs} was read; choose another with --run", self.run);
+        }
+        Ok(())
+    }
+
+    /// Hands over the arrivals in their order, and between them what is wrong with the recording, that
+    /// of its other runs included. Gives the number of runs.
+    ///
+    /// # Errors
+    /// The first that `each` returns; or there is no such run.
+    pub fn walk(
+        &mut self,
+        mut each: impl FnMut(Result<Arrival, RawFault>) -> anyhow::Result<()>,
+    ) -> anyhow::Result<u32> {
+        let mut run = 1;
+        let mut begun = false;
+        while let Some(item) = self.reader.next() {
+            run += u32::from(matches!(item, Err(RawFault::NewRun { .. })));
+            if item.is_ok() && run != self.run {
+                continue;
+            }
+            if item.is_ok() && !begun {
+                begun = true;
+                self.header = self.reader.header().cloned();
+            }
+            each(item)?;
+        }
+        if run < self.run {
+            return Err(BadInput(format!("there are {run} runs in this recording")).into());
+        }
+        Ok(run)
+    }
+
+    /// What the file says in which the run begins: the program and its configuration. `None` if every
+    /// header up to there was damaged.
+    #[must_use]
+    pub fn header(&self) -> Option<&FileHeader> {
+        self.header.as_ref()
+    }
+
+    /// What was read so far, of all runs.
+    #[must_use]
+    pub fn read(&self) -> RawRead {
+        self.reader.counts()
+    }
+}
