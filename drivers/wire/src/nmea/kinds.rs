@@ -123,7 +123,7 @@ impl Decimal {
         Decimal { beside: Beside::RoundedSignLetter(letters), ..self }
     }
 
-    /// Without zeros at its end.
+    /// Without a point where it is whole.
     pub(super) const fn short(self) -> Self {
         Decimal { short: true, ..self }
     }
@@ -159,7 +159,8 @@ impl Kind for Decimal {
 
     fn write(&self, line: &mut Composer, value: &Option<f64>) {
         let number = value.and_then(|value| self.number(value));
-        let form = if self.short { shortened(self.form, number) } else { self.form };
+        let whole = number.is_none_or(|number| number.fract() == 0.0);
+        let form = if self.short && whole { Form { decimals: 0, ..self.form } } else { self.form };
         match self.beside {
             Beside::Nothing => line.number(number, form),
             Beside::Sign => line.with_sign(number, form),
@@ -262,7 +263,9 @@ impl Kind for KnotsAndKmh {
     type Value = Option<f64>;
 
     fn write(&self, line: &mut Composer, speed: &Option<f64>) {
-        let fits = speed.filter(|speed| (speed / KMH).abs() <= self.0.form.limit);
+        // a speed with a sign is told in both units or in none
+        let is_told = |speed: &f64| self.0.least == 0.0 || (speed / KMH).abs() <= self.0.form.limit;
+        let fits = speed.filter(is_told);
         let as_told = fits.map(|speed| (speed / KNOT * 100.0).round() / 100.0 * KNOT);
         self.0.knots().with(b'N').write(line, &fits);
         self.0.of(KMH).with(b'K').write(line, &as_told);

@@ -90,7 +90,7 @@ const WORD: Field<u32> = Field { write: |line, bits| word(line, Some(bits)), rea
 
 sentence! {
     /// A status word as it was sent, before someone says whose it is.
-    own Phinf "PHINF", longest 20: Default;
+    own Phinf "PHINF", longest 20: Default Eq;
     /// The word, eight hexadecimal digits; see [`Phinf::octans`] and [`Phinf::ins`].
     1 word: Option<u32> = WORD;
 }

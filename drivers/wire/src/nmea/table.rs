@@ -13,7 +13,7 @@ macro_rules! sentence {
     (
         $(#[doc = $about:literal])*
         $sort:ident $name:ident $address:literal $($word:literal)?, longest $longest:literal
-            $(: $derive:ident)? $(, written as $told:ident)? $(, read as $heard:ident)?;
+            $(: $($derive:ident)+)? $(, written as $told:ident)? $(, read as $heard:ident)?;
         $(
             $(#[doc = $doc:literal])*
             $number:literal $field:ident: $type:ty = $kind:expr $(, $($how:ident)+)?;
@@ -26,7 +26,7 @@ macro_rules! sentence {
         $(#[doc = concat!(
             "| ", $number, " | ", stringify!($field), " | `", stringify!($kind $(, $($how)+)?), "` |",
         )])*
-        #[derive(Clone, Copy, Debug, PartialEq $(, $derive)?)]
+        #[derive(Clone, Copy, Debug, PartialEq $($(, $derive)+)?)]
         pub struct $name {
             $($(#[doc = $doc])* pub $field: $type,)*
         }
