@@ -54,8 +54,7 @@ const HEAVE: Number = Number::signed(16, 100.0).unit("m");
 
 group! {
     /// 127250 Vessel heading.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    127_250 Heading, priority 2, every millis(100), least 3;
+    127_250 Heading: Copy, priority 2, every millis(100), least 3;
     /// Links the messages of one epoch.
     0 sid: Sid = SID;
     /// Clockwise from north, rad, 0 to 2 pi.
@@ -70,8 +69,7 @@ group! {
 
 group! {
     /// 127251 Rate of turn.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    127_251 RateOfTurn, priority 2, every millis(100), least 5;
+    127_251 RateOfTurn: Copy, priority 2, every millis(100), least 5;
     /// Links the messages of one epoch.
     0 sid: Sid = SID;
     /// Change of heading, rad/s, bow to starboard positive.
@@ -80,8 +78,7 @@ group! {
 
 group! {
     /// 127252 Heave. A later edition is said to have a delay in the reserved bits, which is not read.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    127_252 Heave, priority 3, every None, least 3;
+    127_252 Heave: Copy, priority 3, every None, least 3;
     /// Links the messages of one epoch.
     0 sid: Sid = SID;
     /// Displacement from the mean, m, up positive.
@@ -90,8 +87,7 @@ group! {
 
 group! {
     /// 127257 Attitude. Many devices leave the yaw out.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    127_257 Attitude, priority 3, every millis(1000), least 3;
+    127_257 Attitude: Copy, priority 3, every millis(1000), least 3;
     /// Links the messages of one epoch.
     0 sid: Sid = SID;
     /// Yaw: heading, rad, -pi to pi; it may be written from any angle.
@@ -104,8 +100,7 @@ group! {
 
 group! {
     /// 127258 Magnetic variation.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    127_258 MagneticVariation, priority 7, every millis(1000), least 4;
+    127_258 MagneticVariation: Copy, priority 7, every millis(1000), least 4;
     /// Links the messages of one epoch.
     0 sid: Sid = SID;
     /// Where it comes from.

@@ -52,6 +52,7 @@ impl Number {
         match (self.per_unit, self.unit) {
             (1.0, "") => format!("{sign}{}", self.bits),
             (1.0, unit) => format!("{sign}{}, {unit}", self.bits),
+            (steps, "") => format!("{sign}{}, {:e}", self.bits, steps.recip()),
             (steps, unit) => format!("{sign}{}, {:e} {unit}", self.bits, steps.recip()),
         }
     }

@@ -113,7 +113,6 @@ group! {
     ///
     /// The altitude: the title of NMEA's field is "altitude referenced to WGS-84", and some receivers
     /// nevertheless send the height above the geoid. Whoever reads must know his receiver.
-    #[derive(Clone, Debug, PartialEq)]
     129_029 GnssPosition, priority 3, every millis(1000), least 7;
     /// Links the messages of one epoch.
     0 sid: Sid = SID;
@@ -147,8 +146,7 @@ group! {
 
 group! {
     /// 129539 GNSS dilutions of precision.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    129_539 Dops, priority 6, every millis(1000), least 4;
+    129_539 Dops: Copy, priority 6, every millis(1000), least 4;
     /// Links the messages of one epoch.
     0 sid: Sid = SID;
     /// What was asked for.
@@ -167,8 +165,7 @@ group! {
     /// 129542 GNSS pseudorange noise statistics.
     ///
     /// Both sources of the layout agree, but no log at hand has this group: not verified against a device.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    129_542 PseudorangeNoise, priority 6, every millis(1000), least 3;
+    129_542 PseudorangeNoise: Copy, priority 6, every millis(1000), least 3;
     /// Links the messages of one epoch.
     0 sid: Sid = SID;
     /// Root mean square of the residuals of ranges ("of position uncertainty"), m.

@@ -15,8 +15,7 @@ const LONGITUDE: Degrees =
 
 group! {
     /// 129025 Position, rapid update. It has neither a SID nor a time.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    129_025 PositionRapid, priority 2, every millis(100), least 4;
+    129_025 PositionRapid: Copy, priority 2, every millis(100), least 4;
     /// Geodetic latitude, rad, north positive.
     0 latitude: Option<f64> = LATITUDE;
     /// Longitude, rad, east positive.
@@ -25,8 +24,7 @@ group! {
 
 group! {
     /// 129026 Course and speed over ground, rapid update.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    129_026 CourseSpeed, priority 2, every millis(250), least 4;
+    129_026 CourseSpeed: Copy, priority 2, every millis(250), least 4;
     /// Links the messages of one epoch.
     0 sid: Sid = SID;
     /// Which north the course counts from.

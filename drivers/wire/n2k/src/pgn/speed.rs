@@ -35,8 +35,7 @@ group! {
     /// canboat.json 8 names the direction but not its numbers, and the field table of 2009 has reserved
     /// bits in its place: the numbers are not verified, and no log at hand has anything but "not
     /// available" here.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    128_259 Speed, priority 2, every millis(1000), least 3;
+    128_259 Speed: Copy, priority 2, every millis(1000), least 3;
     /// Links the messages of one epoch.
     0 sid: Sid = SID;
     /// Through the water, m/s, not negative.
@@ -51,8 +50,7 @@ group! {
 
 group! {
     /// 128275 Distance log.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    128_275 DistanceLog, priority 6, every millis(1000), least 2;
+    128_275 DistanceLog: Copy, priority 6, every millis(1000), least 2;
     /// Days since 1970-01-01.
     0 date: Option<u16> = DATE;
     /// UTC, seconds of the day.
@@ -65,8 +63,7 @@ group! {
 
 group! {
     /// 129291 Set and drift, rapid update.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    129_291 SetDrift, priority 3, every millis(1000), least 4;
+    129_291 SetDrift: Copy, priority 3, every millis(1000), least 4;
     /// Links the messages of one epoch.
     0 sid: Sid = SID;
     /// Which north the set counts from.
@@ -79,8 +76,7 @@ group! {
 
 group! {
     /// 130578 Vessel speed components: forward and starboard positive, m/s. There is no SID.
-    #[derive(Clone, Copy, Debug, PartialEq, Default)]
-    130_578 SpeedComponents, priority 2, every millis(250), least 2;
+    130_578 SpeedComponents: Copy Default, priority 2, every millis(250), least 2;
     /// Forward, through the water.
     0 forward_water: Option<f64> = FINE_SPEED;
     /// To starboard, through the water.

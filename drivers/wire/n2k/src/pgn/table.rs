@@ -1,20 +1,26 @@
 //! Groups as tables: a row for each field, from which type, reader, writer and documentation follow.
 
-/// A group: its struct and its [`super::Group`]. A row is the field's first bit, its name, type and
-/// kind, and how many reserved bits stand behind it.
+/// A group: its struct and its [`super::Group`]. Its head is number, name, what the struct derives beside
+/// the usual, priority and interval where nothing else is said, and how many bytes say something at least.
+/// A row is the field's first bit, its name, type and kind, and how many reserved bits stand behind it.
 macro_rules! group {
     (
-        $(#[$attribute:meta])*
-        $pgn:literal $name:ident, priority $priority:literal, every $interval:expr, least $least:literal;
-        $($(#[$doc:meta])* $at:literal $field:ident: $type:ty = $kind:expr $(, reserved $gap:literal)?;)*
+        $(#[doc = $about:literal])*
+        $pgn:literal $name:ident $(: $($derive:ident)+)?, priority $priority:literal,
+            every $interval:expr, least $least:literal;
+        $(
+            $(#[doc = $doc:literal])*
+            $at:literal $field:ident: $type:ty = $kind:expr $(, reserved $gap:literal)?;
+        )*
     ) => {
-        $(#[$attribute])*
+        $(#[doc = $about])*
         ///
         /// | bit | field | kind |
         /// |---:|---|---|
         $(#[doc = concat!("| ", $at, " | ", stringify!($field), " | ", stringify!($kind), " |")])*
+        #[derive(Clone, Debug, PartialEq $($(, $derive)+)?)]
         pub struct $name {
-            $($(#[$doc])* pub $field: $type,)*
+            $($(#[doc = $doc])* pub $field: $type,)*
         }
 
         impl super::Group for $name {
@@ -54,6 +60,7 @@ macro_rules! group {
                     reserved: 0 $(+ $gap)?,
                     field: stringify!($field),
                     form: $kind.form(),
+                    about: concat!($($doc),*).trim(),
                 }),*]
             }
         }
@@ -104,4 +111,6 @@ pub struct Row {
     pub field: &'static str,
     /// Its bits, its unit and steps, or its codes.
     pub form: String,
+    /// What it is.
+    pub about: &'static str,
 }

@@ -29,8 +29,7 @@ const OFFSET: Count<i16> = Count::of(Number::signed(16, 1.0).unit("min"));
 
 group! {
     /// 129033 Time and date.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    129_033 TimeDate, priority 3, every millis(1000), least 2;
+    129_033 TimeDate: Copy, priority 3, every millis(1000), least 2;
     /// Days since 1970-01-01.
     0 date: Option<u16> = DATE;
     /// UTC, seconds of the day.
@@ -41,8 +40,7 @@ group! {
 
 group! {
     /// 126992 System time.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    126_992 SystemTime, priority 3, every millis(1000), least 4;
+    126_992 SystemTime: Copy, priority 3, every millis(1000), least 4;
     /// Links the messages of one epoch.
     0 sid: Sid = SID;
     /// Where it comes from.
