@@ -12,6 +12,7 @@
 use super::fault::Fault;
 use super::fields::Fields;
 use super::gns::letter_of;
+use super::kinds::Kind;
 use super::line::Composer;
 use super::mode::letters;
 
@@ -139,6 +140,21 @@ impl AlertId {
         let manufacturer = fields.convert(Manufacturer::new)?;
         let identifier = fields.whole(IDENTIFIER_MAX)?.ok_or_else(|| fields.malformed())?;
         Ok(AlertId { manufacturer, identifier, instance: fields.whole(INSTANCE_MAX)? })
+    }
+}
+
+/// Which alert, in three fields.
+pub(super) struct Alert;
+
+impl Kind for Alert {
+    type Value = AlertId;
+
+    fn write(&self, line: &mut Composer, alert: &AlertId) {
+        alert.write(line);
+    }
+
+    fn read(&self, fields: &mut Fields<'_>) -> Result<AlertId, Fault> {
+        AlertId::read(fields)
     }
 }
 

@@ -1,25 +1,8 @@
 //! HCR: which corrections a gyro compass has made to its heading.
-//!
-//! ```text
-//! $HEHCR,x.x,a,a,x.x*hh
-//!        1   2 3 4
-//! 1 heading, deg true
-//! 2 mode: A autonomous, E estimated, M manual, S simulator, V not valid; never empty
-//! 3 corrections in the heading: A for speed and latitude and for acceleration, D for acceleration
-//!   (dynamic), S for speed and latitude, N none, V not known; never empty
-//! 4 their sum, deg
-//! ```
-//! The example of a Kongsberg MGC R3 is read by a test; the letters of field 3 are those of two public
-//! parsers. Which way field 4 is positive is not stated where we could look.
 
-use super::alert::lettered;
-use super::decimal::Form;
-use super::fault::Fault;
-use super::frame::Frame;
-use super::line::{Line, Talker};
+use super::kinds::{Decimal, Needed, Turn, letter};
 use super::mode::{HeadingMode, letters};
-
-const CORRECTION: Form = Form { decimals: 1, width: 1, limit: 180.0 };
+use super::table::sentence;
 
 /// Corrections that a heading has in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -42,49 +25,18 @@ letters! {
     }
 }
 
-/// A heading and its corrections.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hcr {
-    /// Heading, rad, clockwise from true north.
-    pub heading: Option<f64>,
-    /// How it was found.
-    pub mode: HeadingMode,
-    /// Which corrections are in it.
-    pub corrections: HeadingCorrections,
-    /// Their sum as it was sent, rad.
-    pub correction: Option<f64>,
-}
-
-impl Hcr {
-    /// The three letters after the talker.
-    pub const FORMATTER: &'static str = "HCR";
-
-    /// Bytes of the longest sentence, CR LF included, with a correction below 100 deg.
-    pub const LONGEST: usize = 27;
-
-    /// Writes the sentence, both angles to 0.1 deg.
-    #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
-        Line::compose(talker, Self::FORMATTER, |line| {
-            line.degrees(self.heading, 1);
-            line.letter(self.mode.letter());
-            line.letter(self.corrections.letter());
-            line.number(self.correction.map(f64::to_degrees), CORRECTION);
-        })
-    }
-
-    /// Reads the sentence.
+sentence! {
+    /// A heading and its corrections.
     ///
-    /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
-        let mut fields = frame.fields_of(Self::FORMATTER)?;
-        let heading = fields.degrees()?;
-        let mode = lettered(&mut fields, HeadingMode::from_letter)?;
-        let mode = mode.ok_or_else(|| fields.malformed())?;
-        let corrections = lettered(&mut fields, HeadingCorrections::from_letter)?;
-        let corrections = corrections.ok_or_else(|| fields.malformed())?;
-        let correction = fields.number_in(-CORRECTION.limit..=CORRECTION.limit)?;
-        Ok(Hcr { heading, mode, corrections, correction: correction.map(f64::to_radians) })
-    }
+    /// The example of a Kongsberg MGC R3 is read by a test; the letters of field 3 are those of two public
+    /// parsers. Which way field 4 is positive is not stated where we could look.
+    approved Hcr "HCR", longest 27;
+    /// Heading, rad, clockwise from true north.
+    1 heading: Option<f64> = Turn::of(1);
+    /// How it was found; never empty.
+    2 mode: HeadingMode = Needed(letter());
+    /// Which corrections are in it; never empty.
+    3 corrections: HeadingCorrections = Needed(letter());
+    /// Their sum as it was sent, rad.
+    4 correction: Option<f64> = Decimal::signed(1, 180.0).degrees();
 }

@@ -1,5 +1,8 @@
 //! NMEA 0183 / IEC 61162-1 and -450: framing, checksum, TAG blocks, and the sentences, one file each.
 //!
+//! A sentence is a table of its fields (`table.rs`) of a few kinds (`kinds.rs`), from which struct, writer,
+//! reader, documentation and tests follow; one whose fields depend on one another is written out by hand.
+//!
 //! What holds for all of them:
 //! - an approved sentence is at most [`MAX_LEN`] bytes from `$` to line feed, a maker's own
 //!   [`MAX_LEN_OWN`]; a writer that would be longer first drops optional fields, then decimals, longest
@@ -27,6 +30,7 @@ mod decimal;
 mod fault;
 mod fields;
 mod frame;
+mod kinds;
 mod line;
 mod look;
 mod mode;
@@ -34,6 +38,7 @@ mod network;
 pub mod others;
 mod parts;
 mod position;
+mod table;
 mod tag;
 mod text;
 

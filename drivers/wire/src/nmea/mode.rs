@@ -71,6 +71,16 @@ macro_rules! letters {
                 match letter { $($letter => Some($mode::$variant),)* _ => None }
             }
         }
+
+        impl $crate::nmea::kinds::Lettered for $mode {
+            fn to_letter(self) -> u8 {
+                self.letter()
+            }
+
+            fn of_letter(letter: u8) -> Option<Self> {
+                $mode::from_letter(letter)
+            }
+        }
     )*};
 }
 

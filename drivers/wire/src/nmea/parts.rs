@@ -60,10 +60,13 @@ pub(super) fn read_within(fields: &mut Fields<'_>, limit: f64) -> Result<Option<
     fields.number_in(-limit..=limit)
 }
 
-/// Reads a status word of one to eight hexadecimal digits.
+/// Reads a status word.
 pub(super) fn read_word(fields: &mut Fields<'_>) -> Result<Option<u32>, Fault> {
-    fields.convert(|text| {
-        let plain = text.len() <= 8 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
-        if plain { u32::from_str_radix(text, 16).ok() } else { None }
-    })
+    fields.convert(word_of)
+}
+
+/// The word of one to eight hexadecimal digits.
+pub(super) fn word_of(text: &str) -> Option<u32> {
+    let plain = text.len() <= 8 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+    if plain { u32::from_str_radix(text, 16).ok() } else { None }
 }

@@ -1,8 +1,5 @@
 //! PHINF: status word of Octans, Phins and the units that speak like them.
 //!
-//! ```text
-//! $PHINF,hhhhhhhh*hh
-//! ```
 //! The word has one of two tables of bits, and nothing in the sentence tells which: an Octans (an AHRS),
 //! and SBG Systems when it speaks like one, send [`OctansStatus`]; a Phins (an INS) sends its user
 //! status, [`InsUserStatus`]. Bit 27 is "an angle is invalid" in one and "alignment" in the other.
@@ -13,10 +10,9 @@
 //! second table only.
 
 use super::bits::status_word;
-use super::fault::Fault;
-use super::frame::Frame;
-use super::line::Line;
-use super::parts::{read_word, word};
+use super::kinds::Field;
+use super::parts::{word, word_of};
+use super::table::sentence;
 
 status_word! {
     /// Status of an Octans, as SBG Systems gives it, too.
@@ -90,20 +86,16 @@ status_word! {
     }
 }
 
-/// A status word as it was sent, before someone says whose it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Phinf {
-    /// The word; see [`Phinf::octans`] and [`Phinf::ins`].
-    pub word: Option<u32>,
+const WORD: Field<u32> = Field { write: |line, bits| word(line, Some(bits)), read: word_of };
+
+sentence! {
+    /// A status word as it was sent, before someone says whose it is.
+    own Phinf "PHINF", longest 20: Default Eq;
+    /// The word, eight hexadecimal digits; see [`Phinf::octans`] and [`Phinf::ins`].
+    1 word: Option<u32> = WORD;
 }
 
 impl Phinf {
-    /// All before the first comma.
-    pub const ADDRESS: &'static str = "PHINF";
-
-    /// Greatest length, bytes with CR LF.
-    pub const LONGEST: usize = 20;
-
     /// The sentence of a unit that is taken for an Octans.
     #[must_use]
     pub fn of_octans(status: OctansStatus) -> Self {
@@ -126,21 +118,6 @@ impl Phinf {
     #[must_use]
     pub fn ins(&self) -> Option<InsUserStatus> {
         self.word.map(InsUserStatus)
-    }
-
-    /// Writes the sentence.
-    #[must_use]
-    pub fn write(&self) -> Line {
-        Line::compose_own(Self::ADDRESS, |line| word(line, self.word))
-    }
-
-    /// Reads the sentence.
-    ///
-    /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
-        let mut fields = frame.fields_of_own(Self::ADDRESS)?;
-        Ok(Phinf { word: read_word(&mut fields)? })
     }
 }
 

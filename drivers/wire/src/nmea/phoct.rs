@@ -1,45 +1,20 @@
 //! PHOCT: attitude and motion with time, by Octans, Phins and the units that speak like them ("TAH").
 //!
-//! ```text
-//! $PHOCT,01,hhmmss.sss,G,AA,HHH.HHH,N,eRRR.RRR,L,ePP.PPP,K,eFF.FFF,M,
-//!        1  2          3 4  5       6 7        8 9       10 11     12
-//!   eHH.HHH,eSS.SSS,eWW.WWW,eZZ.ZZZ,eYY.YYY,eXX.XXX,eQQQQ.QQ*hh
-//!   13      14      15      16      17      18      19
-//! 1      version of the layout: 01
-//! 2, 3   UTC; T valid, E invalid
-//! 4      latency of heading, roll and pitch, ms
-//! 5, 6   heading, deg true
-//! 7, 8   roll, deg, positive with port up
-//! 9, 10  pitch, deg, positive with the bow **down**
-//! 11     heave at the primary lever arm, m, positive **up**
-//! 12     state of 11 and of 13 to 18
-//! 13..15 heave (up), surge (forward), sway (to **port**) at the chosen lever arm, m
-//! 16..18 rates of the same, m/s
-//! 19     rate of turn, deg/min, positive to starboard
-//! ```
-//! States: T valid, E invalid, I initialising. Signs (`e`) are always shown, and digits are fixed; the
-//! line, of 128 bytes, is longer than the standard allows.
-//!
 //! From the makers' manuals (INS Interface Library MU-INSIII-AN-001, as quoted by open parsers, and SBG
 //! Systems `nmeaMessages.md`), and the layout verified against records.
 
 use super::civil::TimeOfDay;
-use super::decimal::Form;
 use super::fault::Fault;
 use super::fields::Fields;
-use super::frame::Frame;
-use super::line::{Composer, Line};
+use super::kinds::{Clock, Decimal, Flag, Kind, Needed, Turn, Whole, letter};
+use super::line::Composer;
 use super::mode::letters;
-use super::parts::{degrees_with_sign, heading, negated, read_degrees, read_within};
+use super::table::sentence;
 
-const HEADING: Form = Form { decimals: 3, width: 3, limit: 360.0 };
-const ROLL: Form = Form { decimals: 3, width: 3, limit: 180.0 };
-const PITCH: Form = Form { decimals: 3, width: 2, limit: 90.0 };
-const METRES: Form = Form { decimals: 3, width: 2, limit: 99.999 };
-const TURN: Form = Form { decimals: 2, width: 4, limit: 9999.994 };
-
-/// Greatest rate of turn that is read, deg/min.
-const MAX_TURN: f64 = 9999.99;
+const ROLL: Decimal = Decimal::signed(3, 180.0).degrees().width(3).with_sign();
+const PITCH: Decimal = Decimal::signed(3, 90.0).degrees().width(2).with_sign().reversed();
+const METRES: Decimal = Decimal::signed(3, 99.999).width(2).with_sign();
+const TURN: Decimal = Decimal::signed(2, 9999.994).minutes().width(4).with_sign();
 
 /// State of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
@@ -77,29 +52,30 @@ pub struct WaveMotion {
     pub sway: Option<f64>,
 }
 
-/// Attitude and motion.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Phoct {
+sentence! {
+    /// Attitude and motion. Signs are always shown, and digits are fixed; the line is longer than the
+    /// standard allows. Field 1 is the version of the layout.
+    own Phoct "PHOCT" "01", longest 128: Default, written as honest, read as honest;
     /// UTC.
-    pub time: Option<TimeOfDay>,
+    2 time: Option<TimeOfDay> = Clock(3);
     /// Whether it is synchronised; never so if unknown.
-    pub time_valid: bool,
+    3 time_valid: bool = Flag(b'T', b'E');
     /// Latency of heading, roll and pitch, ms, at most 99.
-    pub latency_ms: Option<u8>,
+    4 latency_ms: Option<u8> = Whole::of(2, 99);
     /// Heading, rad, clockwise from true north.
-    pub heading: Marked,
+    5 heading: Marked = WithState(Turn::of(3).full_width());
     /// Roll, rad, starboard down positive.
-    pub roll: Marked,
+    7 roll: Marked = WithState(ROLL);
     /// Pitch, rad, **bow up** positive; the sentence has it the other way.
-    pub pitch: Marked,
+    9 pitch: Marked = WithState(PITCH);
     /// Heave at the primary lever arm, m, up positive. Its state is that of all motion.
-    pub heave: Marked,
-    /// Motion at the chosen lever arm.
-    pub motion: WaveMotion,
-    /// Its rates.
-    pub rates: WaveMotion,
-    /// Rate of turn, rad/s, bow to starboard positive.
-    pub rate_of_turn: Option<f64>,
+    11 heave: Marked = WithState(METRES);
+    /// Motion at the chosen lever arm: heave, surge, sway, m.
+    13 motion: WaveMotion = Waves;
+    /// Its rates, m/s.
+    16 rates: WaveMotion = Waves;
+    /// Rate of turn, rad/s, bow to starboard positive; deg/min in the sentence.
+    19 rate_of_turn: Option<f64> = TURN;
 }
 
 impl Marked {
@@ -115,107 +91,48 @@ impl Marked {
         let valid = state == PhoctState::Valid;
         Marked { value: None, state: if valid { PhoctState::Invalid } else { state } }
     }
-
-    /// Writes the letter, which is not that of a valid value if nothing stands before it.
-    fn write_state(self, line: &mut Composer, written: bool) {
-        let state = if written { self.state } else { Marked::unknown(self.state).state };
-        line.letter(state.letter());
-    }
 }
 
 impl Phoct {
-    /// All before the first comma.
-    pub const ADDRESS: &'static str = "PHOCT";
-
-    /// Greatest length, bytes with CR LF.
-    pub const LONGEST: usize = 128;
-
-    /// Writes the sentence: time truncated to 1 ms, angles to 0.001 deg, motion to 1 mm, rate of turn to
-    /// 0.01 deg/min.
-    #[must_use]
-    pub fn write(&self) -> Line {
-        let turn = self.rate_of_turn.map(|rate| rate.to_degrees() * 60.0);
-        let pitch = Marked { value: negated(self.pitch.value), ..self.pitch };
-        Line::compose_own(Self::ADDRESS, |line| {
-            line.text("01");
-            let known = line.filled(|line| line.time_of_day_to(self.time, 3));
-            line.letter(if known && self.time_valid { b'T' } else { b'E' });
-            line.whole(self.latency_ms.map(u32::from), 2, 99);
-            let known = line.filled(|line| heading(line, self.heading.value, HEADING));
-            self.heading.write_state(line, known);
-            for (angle, form) in [(self.roll, ROLL), (pitch, PITCH)] {
-                let known = line.filled(|line| degrees_with_sign(line, angle.value, form));
-                angle.write_state(line, known);
-            }
-            let known = line.filled(|line| line.with_sign(self.heave.value, METRES));
-            self.heave.write_state(line, known);
-            self.motion.write(line);
-            self.rates.write(line);
-            line.with_sign(turn, TURN);
-        })
-    }
-
-    /// Reads the sentence.
-    ///
-    /// # Errors
-    /// The first [`Fault`] of its fields; [`Fault::OtherSentence`] for another version than 01.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
-        let mut fields = frame.fields_of_own(Self::ADDRESS)?;
-        if fields.text()? != "01" {
-            return Err(Fault::OtherSentence);
-        }
-        let time = fields.time_of_day()?;
-        let time_valid = match fields.text()? {
-            "T" => true,
-            "E" => false,
-            _ => return Err(fields.malformed()),
-        };
-        let latency_ms = fields.whole(99)?.and_then(|latency| u8::try_from(latency).ok());
-        let heading = marked(&mut fields, Fields::degrees)?;
-        let roll = marked(&mut fields, |fields| read_degrees(fields, ROLL.limit))?;
-        let pitch = marked(&mut fields, |fields| read_degrees(fields, PITCH.limit).map(negated))?;
-        let heave = marked(&mut fields, |fields| read_within(fields, METRES.limit))?;
-        let motion = WaveMotion::read(&mut fields)?;
-        let rates = WaveMotion::read(&mut fields)?;
-        let turn = read_within(&mut fields, MAX_TURN)?;
-        let rate_of_turn = turn.map(|turn| (turn / 60.0).to_radians());
-        let time_valid = time_valid && time.is_some();
-        Ok(Phoct {
-            time,
-            time_valid,
-            latency_ms,
-            heading,
-            roll,
-            pitch,
-            heave,
-            motion,
-            rates,
-            rate_of_turn,
-        })
+    fn honest(&self) -> Self {
+        let known = self.time.is_some_and(TimeOfDay::is_valid);
+        Phoct { time_valid: self.time_valid && known, ..*self }
     }
 }
 
-impl WaveMotion {
-    fn write(&self, line: &mut Composer) {
-        line.with_sign(self.heave, METRES);
-        line.with_sign(self.surge, METRES);
-        line.with_sign(negated(self.sway), METRES);
+/// A quantity and the letter of its state, which is not that of a valid one if it is empty.
+pub(super) struct WithState<K>(pub(super) K);
+
+impl<K: Kind<Value = Option<f64>>> Kind for WithState<K> {
+    type Value = Marked;
+
+    fn write(&self, line: &mut Composer, marked: &Marked) {
+        let written = line.filled(|line| self.0.write(line, &marked.value));
+        let state = if written { marked.state } else { Marked::unknown(marked.state).state };
+        line.letter(state.letter());
     }
 
-    fn read(fields: &mut Fields<'_>) -> Result<Self, Fault> {
-        let heave = read_within(fields, METRES.limit)?;
-        let surge = read_within(fields, METRES.limit)?;
-        let sway = negated(read_within(fields, METRES.limit)?);
-        Ok(WaveMotion { heave, surge, sway })
+    fn read(&self, fields: &mut Fields<'_>) -> Result<Marked, Fault> {
+        let value = self.0.read(fields)?;
+        let state = Needed(letter()).read(fields)?;
+        Ok(if value.is_some() { Marked { value, state } } else { Marked::unknown(state) })
     }
 }
 
-fn marked<'a>(
-    fields: &mut Fields<'a>,
-    read: impl FnOnce(&mut Fields<'a>) -> Result<Option<f64>, Fault>,
-) -> Result<Marked, Fault> {
-    let value = read(fields)?;
-    let letter = fields.letter()?.and_then(PhoctState::from_letter);
-    let state = letter.ok_or_else(|| fields.malformed())?;
-    Ok(if value.is_some() { Marked { value, state } } else { Marked::unknown(state) })
+/// Heave (up), surge (forward), sway (to **port**).
+pub(super) struct Waves;
+
+impl Kind for Waves {
+    type Value = WaveMotion;
+
+    fn write(&self, line: &mut Composer, motion: &WaveMotion) {
+        METRES.write(line, &motion.heave);
+        METRES.write(line, &motion.surge);
+        METRES.reversed().write(line, &motion.sway);
+    }
+
+    fn read(&self, fields: &mut Fields<'_>) -> Result<WaveMotion, Fault> {
+        let (heave, surge) = (METRES.read(fields)?, METRES.read(fields)?);
+        Ok(WaveMotion { heave, surge, sway: METRES.reversed().read(fields)? })
+    }
 }

@@ -15,29 +15,46 @@ use super::Short;
 /// How a number lies in its bits, and which numbers are data.
 #[derive(Clone, Copy)]
 pub(super) struct Number {
-    bits: u32,
+    pub(super) bits: u32,
     /// Steps of one unit: whole numbers that doubles hold exactly, where a resolution like 1e-4 would
     /// not be.
     per_unit: f64,
     least: i64,
     most: i64,
+    unit: &'static str,
 }
 
 impl Number {
     /// An unsigned number of fewer than 64 bits.
     pub(super) const fn unsigned(bits: u32, per_unit: f64) -> Self {
-        Number { bits, per_unit, least: 0, most: largest(bits) as i64 - codes(bits) }
+        Number { bits, per_unit, least: 0, most: largest(bits) as i64 - codes(bits), unit: "" }
     }
 
     /// A signed number of up to 64 bits. The most negative is not data: it has no opposite.
     pub(super) const fn signed(bits: u32, per_unit: f64) -> Self {
         let largest = largest(bits - 1) as i64;
-        Number { bits, per_unit, least: -largest, most: largest - codes(bits) }
+        Number { bits, per_unit, least: -largest, most: largest - codes(bits), unit: "" }
     }
 
     /// The same bits, with narrower limits: whole steps.
     pub(super) const fn within(self, least: i64, most: i64) -> Self {
         Number { least, most, ..self }
+    }
+
+    /// The same in a unit with a name.
+    pub(super) const fn unit(self, unit: &'static str) -> Self {
+        Number { unit, ..self }
+    }
+
+    /// Its bits, its steps and its unit in words.
+    pub(super) fn form(&self) -> String {
+        let sign = if self.least < 0 { "i" } else { "u" };
+        match (self.per_unit, self.unit) {
+            (1.0, "") => format!("{sign}{}", self.bits),
+            (1.0, unit) => format!("{sign}{}, {unit}", self.bits),
+            (steps, "") => format!("{sign}{}, {:e}", self.bits, steps.recip()),
+            (steps, unit) => format!("{sign}{}, {:e} {unit}", self.bits, steps.recip()),
+        }
     }
 }
 
@@ -56,23 +73,15 @@ const fn codes(bits: u32) -> i64 {
     }
 }
 
-/// Speed, 0.01 m/s.
-pub(super) const SPEED: Number = Number::unsigned(16, 100.0);
-/// Speed with a sign, 0.001 m/s.
-pub(super) const FINE_SPEED: Number = Number::signed(16, 1000.0);
-/// Signed angle, 1e-4 rad, up to half a turn to the nearest step.
-const ANGLE: Number = Number::signed(16, 1e4).within(-31_416, 31_416);
-/// Time of the day, 1e-4 s; its second 86400 is a leap second.
-pub(super) const TIME: Number = Number::unsigned(32, 1e4).within(0, 864_010_000);
-/// Dilution of precision, 0.01.
-pub(super) const DILUTION: Number = Number::signed(16, 100.0);
+/// Signed angle, up to half a turn to the nearest step.
+pub(super) const ANGLE: Number = Number::signed(16, 1e4).within(-31_416, 31_416).unit("rad");
 
 /// Steps of 1e-4 rad in a turn, to the nearest.
 const TURN: i64 = 62_832;
 /// The last step below half a turn.
 const LAST_ANGLE: i64 = 31_415;
 /// The number of bits of every direction, 0 to 2 pi.
-const DIRECTION: Number = Number::unsigned(16, 1e4).within(0, TURN);
+pub(super) const DIRECTION: Number = Number::unsigned(16, 1e4).within(0, TURN).unit("rad");
 
 /// Takes contents apart, field after field.
 pub(super) struct Reader<'a> {
@@ -92,12 +101,6 @@ impl<'a> Reader<'a> {
     /// Steps over bits that say nothing.
     pub(super) fn skip(&mut self, bits: u32) {
         self.at += bits as usize;
-    }
-
-    /// The reader, past bits that say nothing.
-    pub(super) fn after(&mut self, bits: u32) -> &mut Self {
-        self.skip(bits);
-        self
     }
 
     /// Whether so many bits are left.
@@ -131,11 +134,6 @@ impl<'a> Reader<'a> {
         self.steps(field).map(|steps| steps as f64 / field.per_unit)
     }
 
-    /// An angle in radians of a field in degrees.
-    pub(super) fn degrees(&mut self, field: Number) -> Option<f64> {
-        self.number(field).map(f64::to_radians)
-    }
-
     /// A signed angle, rad, -pi to pi; the step nearest to half a turn is above pi.
     pub(super) fn angle(&mut self) -> Option<f64> {
         self.number(ANGLE).map(|angle| angle.clamp(-PI, PI))
@@ -144,16 +142,6 @@ impl<'a> Reader<'a> {
     /// A direction, rad, 0 to 2 pi.
     pub(super) fn direction(&mut self) -> Option<f64> {
         self.number(DIRECTION).map(wrap_two_pi)
-    }
-
-    /// An unsigned number of 8 bits.
-    pub(super) fn byte(&mut self) -> Option<u8> {
-        self.steps(Number::unsigned(8, 1.0)).map(|steps| steps as u8)
-    }
-
-    /// An unsigned number of 12 or 16 bits.
-    pub(super) fn short(&mut self, bits: u32) -> Option<u16> {
-        self.steps(Number::unsigned(bits, 1.0)).map(|steps| steps as u16)
     }
 
     /// One of a list, by its place; a code that is data but not in the list is what `other` makes of
@@ -222,11 +210,6 @@ impl Writer {
         self.steps(field, value.and_then(|value| nearest(value * field.per_unit)))
     }
 
-    /// An angle in radians, in a field in degrees.
-    pub(super) fn degrees(&mut self, field: Number, radians: Option<f64>) -> &mut Self {
-        self.number(field, radians.map(f64::to_degrees))
-    }
-
     /// A signed angle in radians. Half a turn itself is written as the last step below: the nearest
     /// step is above the standard's limit of pi, where strict readers see no angle at all.
     pub(super) fn angle(&mut self, radians: Option<f64>) -> &mut Self {
@@ -240,16 +223,6 @@ impl Writer {
         let steps = radians.and_then(|radians| nearest(wrap_two_pi(radians) * DIRECTION.per_unit));
         // the last half step before a full turn is nearer to north than to any number below it
         self.steps(DIRECTION, steps.map(|steps| steps % TURN))
-    }
-
-    /// An unsigned number of 8 bits.
-    pub(super) fn byte(&mut self, value: Option<u8>) -> &mut Self {
-        self.steps(Number::unsigned(8, 1.0), value.map(i64::from))
-    }
-
-    /// An unsigned number of 12 or 16 bits.
-    pub(super) fn short(&mut self, bits: u32, value: Option<u16>) -> &mut Self {
-        self.steps(Number::unsigned(bits, 1.0), value.map(i64::from))
     }
 
     /// A code of a list, or "not available".
@@ -270,6 +243,7 @@ pub(super) fn place_of<T: PartialEq>(list: &[T], value: &T) -> Option<u8> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::kinds::{DILUTION, SPEED};
     use super::*;
 
     #[test]

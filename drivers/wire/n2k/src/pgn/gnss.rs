@@ -1,13 +1,15 @@
 //! What a receiver, or an integrated system, says of its fix.
 
-use insd_base::Span;
+use super::bits::{Number, Reader, Writer};
+use super::kinds::{
+    Always, COUNT, Count, DATE, DEVIATION, DILUTION, DIRECTION, Degrees, Kind, SID, TIME,
+};
+use super::table::{codes, group};
+use super::{Sid, millis};
 
-use super::bits::{DILUTION, Number, Reader, TIME, Writer, place_of};
-use super::{Group, Short, Sid, millis};
-
-/// What a fix is made from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GnssSystem {
+codes! {
+    /// What a fix is made from.
+    GnssSystem as SYSTEM, 4 bits;
     /// GPS.
     Gps,
     /// GLONASS.
@@ -26,13 +28,12 @@ pub enum GnssSystem {
     Surveyed,
     /// Galileo.
     Galileo,
-    /// Another number, as it stands.
-    Other(u8),
+    ..Other
 }
 
-/// How a fix was made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FixMethod {
+codes! {
+    /// How a fix was made.
+    FixMethod as METHOD, 4 bits;
     /// There is none.
     NoFix,
     /// GNSS alone.
@@ -51,13 +52,12 @@ pub enum FixMethod {
     Manual,
     /// A simulator.
     Simulated,
-    /// Another number, as it stands.
-    Other(u8),
+    ..Other
 }
 
-/// What a receiver's own watch says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Integrity {
+codes! {
+    /// What a receiver's own watch says.
+    Integrity as WATCH, 2 bits;
     /// Nobody watches.
     NoChecking,
     /// Safe.
@@ -66,6 +66,122 @@ pub enum Integrity {
     Caution,
     /// Unsafe.
     Unsafe,
+}
+
+codes! {
+    /// The number of dimensions of a fix.
+    FixMode as MODE, 3 bits;
+    /// Clock only.
+    OneD,
+    /// Horizontal.
+    TwoD,
+    /// With height.
+    ThreeD,
+    /// Chosen by the receiver.
+    Auto,
+    ..Other
+}
+
+/// Latitude. The steps are finer than those of a double: reading and writing each lose some units in its
+/// last place, about 1e-9 m.
+const LATITUDE: Degrees = Degrees(
+    Number::signed(64, 1e16).within(-900_000_000_000_000_000, 900_000_000_000_000_000).unit("deg"),
+);
+/// Longitude.
+const LONGITUDE: Degrees = Degrees(
+    Number::signed(64, 1e16)
+        .within(-1_800_000_000_000_000_000, 1_800_000_000_000_000_000)
+        .unit("deg"),
+);
+/// Altitude.
+const ALTITUDE: Number = Number::signed(64, 1e6).unit("m");
+/// Height of the geoid.
+const GEOID: Number = Number::signed(32, 100.0).unit("m");
+/// There is no number for "not available".
+const INTEGRITY: Always<Integrity> = WATCH.always(Integrity::NoChecking);
+/// Age of corrections.
+const AGE: Number = Number::unsigned(16, 100.0).unit("s");
+/// Number of a reference station.
+const STATION: Count<u16> = Count::of(Number::unsigned(12, 1.0));
+
+group! {
+    /// 129029 GNSS position data.
+    ///
+    /// The integrity has no number for "not available": unknown is written as [`Integrity::NoChecking`],
+    /// and read as `None` only where the contents end before it. At most 45 stations fit a message; more
+    /// are left out.
+    ///
+    /// The altitude: the title of NMEA's field is "altitude referenced to WGS-84", and some receivers
+    /// nevertheless send the height above the geoid. Whoever reads must know his receiver.
+    129_029 GnssPosition, priority 3, every millis(1000), least 7;
+    /// Links the messages of one epoch.
+    0 sid: Sid = SID;
+    /// Days since 1970-01-01.
+    8 date: Option<u16> = DATE;
+    /// UTC, seconds of the day.
+    24 time: Option<f64> = TIME;
+    /// Geodetic latitude, rad, north positive.
+    56 latitude: Option<f64> = LATITUDE;
+    /// Longitude, rad, east positive.
+    120 longitude: Option<f64> = LONGITUDE;
+    /// Altitude, m: above the ellipsoid of WGS-84, or with some receivers above the geoid.
+    184 altitude: Option<f64> = ALTITUDE;
+    /// What the fix is made from.
+    248 system: Option<GnssSystem> = SYSTEM;
+    /// How.
+    252 method: Option<FixMethod> = METHOD;
+    /// What the receiver's own watch says.
+    256 integrity: Option<Integrity> = INTEGRITY, reserved 6;
+    /// Satellites used.
+    264 satellites: Option<u8> = COUNT;
+    /// Horizontal dilution of precision.
+    272 hdop: Option<f64> = DILUTION;
+    /// Position dilution of precision.
+    288 pdop: Option<f64> = DILUTION;
+    /// Height of the geoid above the ellipsoid, m.
+    304 geoid: Option<f64> = GEOID;
+    /// Reference stations.
+    336 stations: Vec<Station> = Stations;
+}
+
+group! {
+    /// 129539 GNSS dilutions of precision.
+    129_539 Dops: Copy, priority 6, every millis(1000), least 4;
+    /// Links the messages of one epoch.
+    0 sid: Sid = SID;
+    /// What was asked for.
+    8 desired: Option<FixMode> = MODE;
+    /// What there is.
+    11 actual: Option<FixMode> = MODE, reserved 2;
+    /// Horizontal.
+    16 hdop: Option<f64> = DILUTION;
+    /// Vertical.
+    32 vdop: Option<f64> = DILUTION;
+    /// Of time.
+    48 tdop: Option<f64> = DILUTION;
+}
+
+group! {
+    /// 129542 GNSS pseudorange noise statistics.
+    ///
+    /// Both sources of the layout agree, but no log at hand has this group: not verified against a device.
+    129_542 PseudorangeNoise: Copy, priority 6, every millis(1000), least 3;
+    /// Links the messages of one epoch.
+    0 sid: Sid = SID;
+    /// Root mean square of the residuals of ranges ("of position uncertainty"), m.
+    8 range_rms: Option<f64> = DEVIATION;
+    /// 1-sigma along the major axis of the ellipse of position errors, m.
+    24 major: Option<f64> = DEVIATION;
+    /// 1-sigma along its minor axis, m.
+    40 minor: Option<f64> = DEVIATION;
+    /// Direction of its major axis from true north, rad.
+    56 orientation: Option<f64> = DIRECTION;
+    /// 1-sigma of the latitude, m.
+    72 latitude_std: Option<f64> = DEVIATION;
+    /// 1-sigma of the longitude, m.
+    88 longitude_std: Option<f64> = DEVIATION;
+    /// 1-sigma of the altitude, m.
+    104 altitude_std: Option<f64> = DEVIATION;
 }
 
 /// A reference station of a differential fix.
@@ -79,342 +195,51 @@ pub struct Station {
     pub age: Option<f64>,
 }
 
-/// 129029 GNSS position data.
-///
-/// | bit | field |
-/// |---:|---|
-/// | 0 | SID, u8 |
-/// | 8 | date, u16, days |
-/// | 24 | time, u32, 1e-4 s |
-/// | 56 | latitude, i64, 1e-16 deg |
-/// | 120 | longitude, i64, 1e-16 deg |
-/// | 184 | altitude, i64, 1e-6 m |
-/// | 248 | system, 4 bits, [`GnssSystem`] in its order from 0 |
-/// | 252 | method, 4 bits, [`FixMethod`] in its order from 0 |
-/// | 256 | integrity, 2 bits, [`Integrity`] in its order from 0 |
-/// | 258 | reserved, 6 bits |
-/// | 264 | satellites, u8 |
-/// | 272 | HDOP, i16, 0.01 |
-/// | 288 | PDOP, i16, 0.01 |
-/// | 304 | height of the geoid, i32, 0.01 m |
-/// | 336 | number of reference stations, u8 |
-/// | 344 | for each: system, 4 bits; id, 12 bits; age, u16, 0.01 s |
-///
-/// The integrity has no number for "not available": unknown is written as [`Integrity::NoChecking`],
-/// and read as `None` only where the contents end before it. At most 45 stations fit a message; more
-/// are left out.
-///
-/// The altitude: the title of NMEA's field is "altitude referenced to WGS-84", and some receivers
-/// nevertheless send the height above the geoid. Whoever reads must know his receiver.
-#[derive(Clone, Debug, PartialEq)]
-pub struct GnssPosition {
-    /// Links the messages of one epoch.
-    pub sid: Sid,
-    /// Days since 1970-01-01.
-    pub date: Option<u16>,
-    /// UTC, seconds of the day.
-    pub time: Option<f64>,
-    /// Geodetic latitude, rad, north positive.
-    pub latitude: Option<f64>,
-    /// Longitude, rad, east positive.
-    pub longitude: Option<f64>,
-    /// Altitude, m: above the ellipsoid of WGS-84, or with some receivers above the geoid.
-    pub altitude: Option<f64>,
-    /// What the fix is made from.
-    pub system: Option<GnssSystem>,
-    /// How.
-    pub method: Option<FixMethod>,
-    /// What the receiver's own watch says.
-    pub integrity: Option<Integrity>,
-    /// Satellites used.
-    pub satellites: Option<u8>,
-    /// Horizontal dilution of precision.
-    pub hdop: Option<f64>,
-    /// Position dilution of precision.
-    pub pdop: Option<f64>,
-    /// Height of the geoid above the ellipsoid, m.
-    pub geoid: Option<f64>,
-    /// Reference stations.
-    pub stations: Vec<Station>,
+/// How many stations there are, and each of them.
+struct Stations;
+
+impl Stations {
+    /// Bits of one.
+    const ONE: u32 = 32;
+    /// Those that fit into the 223 bytes of a fast packet.
+    const MOST: usize = 45;
 }
 
-/// The number of dimensions of a fix.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FixMode {
-    /// Clock only.
-    OneD,
-    /// Horizontal.
-    TwoD,
-    /// With height.
-    ThreeD,
-    /// Chosen by the receiver.
-    Auto,
-    /// Another number, as it stands.
-    Other(u8),
-}
+impl Kind for Stations {
+    type Value = Vec<Station>;
 
-/// 129539 GNSS dilutions of precision.
-///
-/// | bit | field |
-/// |---:|---|
-/// | 0 | SID, u8 |
-/// | 8 | desired mode, 3 bits, [`FixMode`] in its order from 0 |
-/// | 11 | actual mode, 3 bits |
-/// | 14 | reserved, 2 bits |
-/// | 16 | HDOP, i16, 0.01 |
-/// | 32 | VDOP, i16, 0.01 |
-/// | 48 | TDOP, i16, 0.01 |
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dops {
-    /// Links the messages of one epoch.
-    pub sid: Sid,
-    /// What was asked for.
-    pub desired: Option<FixMode>,
-    /// What there is.
-    pub actual: Option<FixMode>,
-    /// Horizontal.
-    pub hdop: Option<f64>,
-    /// Vertical.
-    pub vdop: Option<f64>,
-    /// Of time.
-    pub tdop: Option<f64>,
-}
-
-/// 129542 GNSS pseudorange noise statistics.
-///
-/// | bit | field |
-/// |---:|---|
-/// | 0 | SID, u8 |
-/// | 8 | RMS of residuals ("of position uncertainty"), u16, 0.01 m |
-/// | 24 | major axis, u16, 0.01 m |
-/// | 40 | minor axis, u16, 0.01 m |
-/// | 56 | orientation of the major axis, u16, 1e-4 rad |
-/// | 72 | latitude, u16, 0.01 m |
-/// | 88 | longitude, u16, 0.01 m |
-/// | 104 | altitude, u16, 0.01 m |
-///
-/// Both sources of the layout agree, but no log at hand has this group: not verified against a device.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PseudorangeNoise {
-    /// Links the messages of one epoch.
-    pub sid: Sid,
-    /// Root mean square of the residuals of ranges, m.
-    pub range_rms: Option<f64>,
-    /// 1-sigma along the major axis of the ellipse of position errors, m.
-    pub major: Option<f64>,
-    /// 1-sigma along its minor axis, m.
-    pub minor: Option<f64>,
-    /// Direction of its major axis from true north, rad.
-    pub orientation: Option<f64>,
-    /// 1-sigma of the latitude, m.
-    pub latitude_std: Option<f64>,
-    /// 1-sigma of the longitude, m.
-    pub longitude_std: Option<f64>,
-    /// 1-sigma of the altitude, m.
-    pub altitude_std: Option<f64>,
-}
-
-/// Latitude, 1e-16 deg. The steps are finer than those of a double: reading and writing each lose
-/// some units in its last place, about 1e-9 m.
-const LATITUDE: Number =
-    Number::signed(64, 1e16).within(-900_000_000_000_000_000, 900_000_000_000_000_000);
-/// Longitude, 1e-16 deg.
-const LONGITUDE: Number =
-    Number::signed(64, 1e16).within(-1_800_000_000_000_000_000, 1_800_000_000_000_000_000);
-/// Altitude, 1e-6 m.
-const ALTITUDE: Number = Number::signed(64, 1e6);
-/// Height of the geoid, 0.01 m.
-const GEOID: Number = Number::signed(32, 100.0);
-/// Age of corrections, 0.01 s.
-const AGE: Number = Number::unsigned(16, 100.0);
-/// A standard deviation, 0.01 m.
-const DEVIATION: Number = Number::unsigned(16, 100.0);
-/// Every one of the four numbers is data.
-const INTEGRITY: Number = Number::unsigned(2, 1.0).within(0, 3);
-/// Bits of a station.
-const STATION: u32 = 32;
-/// The stations that fit into the 223 bytes of a fast packet.
-const MOST_STATIONS: usize = 45;
-
-impl GnssSystem {
-    /// By their codes.
-    const LIST: [GnssSystem; 9] = [
-        GnssSystem::Gps,
-        GnssSystem::Glonass,
-        GnssSystem::GpsGlonass,
-        GnssSystem::GpsSbas,
-        GnssSystem::GpsSbasGlonass,
-        GnssSystem::Chayka,
-        GnssSystem::Integrated,
-        GnssSystem::Surveyed,
-        GnssSystem::Galileo,
-    ];
-
-    fn read(fields: &mut Reader<'_>) -> Option<Self> {
-        fields.choice(4, &Self::LIST, |code| Some(GnssSystem::Other(code)))
+    /// Those of the number; the stations come behind all fields of fixed place.
+    fn bits(&self) -> u32 {
+        COUNT.bits()
     }
 
-    fn code(self) -> Option<u8> {
-        if let GnssSystem::Other(code) = self { Some(code) } else { place_of(&Self::LIST, &self) }
-    }
-}
-
-impl FixMethod {
-    /// By their codes.
-    const LIST: [FixMethod; 9] = [
-        FixMethod::NoFix,
-        FixMethod::Gnss,
-        FixMethod::Differential,
-        FixMethod::Precise,
-        FixMethod::RtkFixed,
-        FixMethod::RtkFloat,
-        FixMethod::DeadReckoning,
-        FixMethod::Manual,
-        FixMethod::Simulated,
-    ];
-
-    fn code(self) -> Option<u8> {
-        if let FixMethod::Other(code) = self { Some(code) } else { place_of(&Self::LIST, &self) }
-    }
-}
-
-impl Integrity {
-    /// By their codes.
-    const LIST: [Integrity; 4] =
-        [Integrity::NoChecking, Integrity::Safe, Integrity::Caution, Integrity::Unsafe];
-}
-
-impl FixMode {
-    /// By their codes.
-    const LIST: [FixMode; 4] = [FixMode::OneD, FixMode::TwoD, FixMode::ThreeD, FixMode::Auto];
-
-    fn read(fields: &mut Reader<'_>) -> Option<Self> {
-        fields.choice(3, &Self::LIST, |code| Some(FixMode::Other(code)))
-    }
-
-    fn code(self) -> Option<u8> {
-        if let FixMode::Other(code) = self { Some(code) } else { place_of(&Self::LIST, &self) }
-    }
-}
-
-impl Group for GnssPosition {
-    const PGN: u32 = 129_029;
-    const PRIORITY: u8 = 3;
-    const INTERVAL: Option<Span> = millis(1000);
-
-    fn read(data: &[u8]) -> Result<Self, Short> {
-        let mut fields = Reader::new(data, 7)?;
-        let mut fix = GnssPosition {
-            sid: fields.byte(),
-            date: fields.short(16),
-            time: fields.number(TIME),
-            latitude: fields.degrees(LATITUDE),
-            longitude: fields.degrees(LONGITUDE),
-            altitude: fields.number(ALTITUDE),
-            system: GnssSystem::read(&mut fields),
-            method: fields.choice(4, &FixMethod::LIST, |code| Some(FixMethod::Other(code))),
-            integrity: fields.choice(2, &Integrity::LIST, |_| None),
-            satellites: fields.after(6).byte(),
-            hdop: fields.number(DILUTION),
-            pdop: fields.number(DILUTION),
-            geoid: fields.number(GEOID),
-            stations: Vec::new(),
-        };
-        for _ in 0..fields.byte().unwrap_or(0) {
-            if fields.has(STATION) {
-                fix.stations.push(Station::read(&mut fields));
+    fn read(&self, fields: &mut Reader<'_>) -> Vec<Station> {
+        let mut stations = Vec::new();
+        for _ in 0..COUNT.read(fields).unwrap_or(0) {
+            if fields.has(Self::ONE) {
+                let (system, id) = (SYSTEM.read(fields), STATION.read(fields));
+                stations.push(Station { system, id, age: AGE.read(fields) });
             }
         }
-        Ok(fix)
+        stations
     }
 
-    fn write(&self) -> Vec<u8> {
-        let integrity = self.integrity.unwrap_or(Integrity::NoChecking);
-        let integrity = place_of(&Integrity::LIST, &integrity).map(i64::from);
-        let stations = self.stations.iter().take(MOST_STATIONS);
-        let mut fields = Writer::default();
-        fields.byte(self.sid).short(16, self.date).number(TIME, self.time);
-        fields.degrees(LATITUDE, self.latitude).degrees(LONGITUDE, self.longitude);
-        fields.number(ALTITUDE, self.altitude);
-        fields.code(4, self.system.and_then(GnssSystem::code));
-        fields.code(4, self.method.and_then(FixMethod::code));
-        fields.steps(INTEGRITY, integrity).reserved(6).byte(self.satellites);
-        fields.number(DILUTION, self.hdop).number(DILUTION, self.pdop);
-        fields.number(GEOID, self.geoid).byte(u8::try_from(stations.len()).ok());
-        for station in stations {
-            station.write(&mut fields);
+    fn write(&self, fields: &mut Writer, stations: &Vec<Station>) {
+        let fitting = stations.iter().take(Self::MOST);
+        COUNT.write(fields, &u8::try_from(fitting.len()).ok());
+        for station in fitting {
+            SYSTEM.write(fields, &station.system);
+            STATION.write(fields, &station.id);
+            AGE.write(fields, &station.age);
         }
-        fields.done()
-    }
-}
-
-impl Station {
-    fn read(fields: &mut Reader<'_>) -> Self {
-        Station { system: GnssSystem::read(fields), id: fields.short(12), age: fields.number(AGE) }
     }
 
-    fn write(&self, fields: &mut Writer) {
-        fields.code(4, self.system.and_then(GnssSystem::code));
-        fields.short(12, self.id).number(AGE, self.age);
-    }
-}
-
-impl Group for Dops {
-    const PGN: u32 = 129_539;
-    const PRIORITY: u8 = 6;
-    const INTERVAL: Option<Span> = millis(1000);
-
-    fn read(data: &[u8]) -> Result<Self, Short> {
-        let mut fields = Reader::new(data, 4)?;
-        let sid = fields.byte();
-        let desired = FixMode::read(&mut fields);
-        let actual = FixMode::read(&mut fields);
-        fields.skip(2);
-        Ok(Dops {
-            sid,
-            desired,
-            actual,
-            hdop: fields.number(DILUTION),
-            vdop: fields.number(DILUTION),
-            tdop: fields.number(DILUTION),
-        })
-    }
-
-    fn write(&self) -> Vec<u8> {
-        let mut fields = Writer::default();
-        fields.byte(self.sid);
-        fields.code(3, self.desired.and_then(FixMode::code));
-        fields.code(3, self.actual.and_then(FixMode::code)).reserved(2);
-        fields.number(DILUTION, self.hdop).number(DILUTION, self.vdop).number(DILUTION, self.tdop);
-        fields.done()
-    }
-}
-
-impl Group for PseudorangeNoise {
-    const PGN: u32 = 129_542;
-    const PRIORITY: u8 = 6;
-    const INTERVAL: Option<Span> = millis(1000);
-
-    fn read(data: &[u8]) -> Result<Self, Short> {
-        let mut fields = Reader::new(data, 3)?;
-        Ok(PseudorangeNoise {
-            sid: fields.byte(),
-            range_rms: fields.number(DEVIATION),
-            major: fields.number(DEVIATION),
-            minor: fields.number(DEVIATION),
-            orientation: fields.direction(),
-            latitude_std: fields.number(DEVIATION),
-            longitude_std: fields.number(DEVIATION),
-            altitude_std: fields.number(DEVIATION),
-        })
-    }
-
-    fn write(&self) -> Vec<u8> {
-        let mut fields = Writer::default();
-        fields.byte(self.sid).number(DEVIATION, self.range_rms);
-        fields.number(DEVIATION, self.major).number(DEVIATION, self.minor);
-        fields.direction(self.orientation).number(DEVIATION, self.latitude_std);
-        fields.number(DEVIATION, self.longitude_std).number(DEVIATION, self.altitude_std);
-        fields.done()
+    fn form(&self) -> String {
+        let parts = [SYSTEM.bits(), STATION.bits()].map(|bits| bits.to_string());
+        let [system, id] = parts;
+        format!(
+            "u8: how many; of each the system, {system} bits, the id, {id} bits, the age, {}",
+            AGE.form()
+        )
     }
 }

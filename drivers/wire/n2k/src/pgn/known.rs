@@ -2,7 +2,7 @@
 
 use super::{
     Attitude, CourseSpeed, DistanceLog, Dops, GnssPosition, Group, Heading, Heave,
-    MagneticVariation, PositionRapid, PseudorangeNoise, RateOfTurn, SetDrift, Short, Speed,
+    MagneticVariation, PositionRapid, PseudorangeNoise, RateOfTurn, Row, SetDrift, Short, Speed,
     SpeedComponents, SystemTime, TimeDate,
 };
 
@@ -18,6 +18,12 @@ macro_rules! known {
         impl Known {
             /// The numbers of the groups that are understood, in rising order.
             pub const PGNS: &[u32] = &[$($group::PGN),*];
+
+            /// Title and fields of each of them.
+            #[must_use]
+            pub fn tables() -> Vec<(&'static str, Vec<Row>)> {
+                vec![$(($title, $group::rows())),*]
+            }
 
             /// Reads the contents of a message of any group; `None` if the group is none of these.
             #[must_use]

@@ -1,4 +1,5 @@
-//! Parameter groups of navigation, one struct each: its reader and its writer.
+//! Parameter groups of navigation, each as one table of its fields (`table.rs`), from which its struct,
+//! reader, writer and documentation follow.
 //!
 //! Facts of layout: canboat.json 8 (Apache-2.0) and the field table of NMEA in canboat's
 //! `nmea_1300.json` (version 1.300 of 2009; it has all groups but 127252). A bit's number in the tables
@@ -10,10 +11,12 @@
 mod attitude;
 mod bits;
 mod gnss;
+mod kinds;
 mod known;
 mod names;
 mod position;
 mod speed;
+mod table;
 mod time;
 
 pub use attitude::{
@@ -26,6 +29,7 @@ pub use known::Known;
 pub use names::name;
 pub use position::{CourseSpeed, PositionRapid};
 pub use speed::{Direction, DistanceLog, SetDrift, Speed, SpeedComponents, SpeedKind};
+pub use table::Row;
 pub use time::{SystemTime, TimeDate, TimeSource, days_and_seconds, utc};
 
 use insd_base::Span;

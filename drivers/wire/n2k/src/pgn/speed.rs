@@ -1,13 +1,13 @@
 //! Speed, distance and current.
 
-use insd_base::Span;
+use super::attitude::NORTH;
+use super::kinds::{DATE, DIRECTION, DISTANCE, FINE_SPEED, SID, SPEED, TIME};
+use super::table::{codes, group};
+use super::{North, Sid, millis};
 
-use super::bits::{FINE_SPEED, Number, Reader, SPEED, TIME, Writer, place_of};
-use super::{Group, North, Short, Sid, millis};
-
-/// How a log measures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SpeedKind {
+codes! {
+    /// How a log measures.
+    SpeedKind as SPEED_KIND, 8 bits;
     /// A paddle wheel.
     PaddleWheel,
     /// A pitot tube.
@@ -20,216 +20,73 @@ pub enum SpeedKind {
     Electromagnetic,
 }
 
-/// The way a ship goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Direction {
+codes! {
+    /// The way a ship goes.
+    Direction as WAY, 4 bits;
     /// Ahead.
     Forward,
     /// Astern.
     Reverse,
 }
 
-/// 128259 Speed, water referenced.
-///
-/// | bit | field |
-/// |---:|---|
-/// | 0 | SID, u8 |
-/// | 8 | speed through water, u16, 0.01 m/s |
-/// | 24 | speed over ground, u16, 0.01 m/s |
-/// | 40 | kind, u8: 0 paddle wheel, 1 pitot tube, 2 Doppler, 3 correlation, 4 electromagnetic |
-/// | 48 | direction, 4 bits: 0 forward, 1 reverse |
-/// | 52 | reserved, 12 bits |
-///
-/// canboat.json 8 names the direction but not its numbers, and the field table of 2009 has reserved
-/// bits in its place: the numbers are not verified, and no log at hand has anything but "not
-/// available" here.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Speed {
+group! {
+    /// 128259 Speed, water referenced.
+    ///
+    /// canboat.json 8 names the direction but not its numbers, and the field table of 2009 has reserved
+    /// bits in its place: the numbers are not verified, and no log at hand has anything but "not
+    /// available" here.
+    128_259 Speed: Copy, priority 2, every millis(1000), least 3;
     /// Links the messages of one epoch.
-    pub sid: Sid,
+    0 sid: Sid = SID;
     /// Through the water, m/s, not negative.
-    pub water: Option<f64>,
+    8 water: Option<f64> = SPEED;
     /// Over ground, m/s, not negative.
-    pub ground: Option<f64>,
+    24 ground: Option<f64> = SPEED;
     /// How the speed through the water is measured.
-    pub kind: Option<SpeedKind>,
+    40 kind: Option<SpeedKind> = SPEED_KIND;
     /// The way the ship goes; many devices do not tell.
-    pub direction: Option<Direction>,
+    48 direction: Option<Direction> = WAY, reserved 12;
 }
 
-/// 128275 Distance log.
-///
-/// | bit | field |
-/// |---:|---|
-/// | 0 | date, u16, days |
-/// | 16 | time, u32, 1e-4 s |
-/// | 48 | log, u32, m |
-/// | 80 | trip, u32, m |
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DistanceLog {
+group! {
+    /// 128275 Distance log.
+    128_275 DistanceLog: Copy, priority 6, every millis(1000), least 2;
     /// Days since 1970-01-01.
-    pub date: Option<u16>,
+    0 date: Option<u16> = DATE;
     /// UTC, seconds of the day.
-    pub time: Option<f64>,
+    16 time: Option<f64> = TIME;
     /// Distance in all, m.
-    pub log: Option<f64>,
+    48 log: Option<f64> = DISTANCE;
     /// Distance since the last reset, m.
-    pub trip: Option<f64>,
+    80 trip: Option<f64> = DISTANCE;
 }
 
-/// 129291 Set and drift, rapid update.
-///
-/// | bit | field |
-/// |---:|---|
-/// | 0 | SID, u8 |
-/// | 8 | reference of the set, 2 bits: 0 true, 1 magnetic, 2 error |
-/// | 10 | reserved, 6 bits |
-/// | 16 | set, u16, 1e-4 rad |
-/// | 32 | drift, u16, 0.01 m/s |
-/// | 48 | reserved, 16 bits |
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SetDrift {
+group! {
+    /// 129291 Set and drift, rapid update.
+    129_291 SetDrift: Copy, priority 3, every millis(1000), least 4;
     /// Links the messages of one epoch.
-    pub sid: Sid,
+    0 sid: Sid = SID;
     /// Which north the set counts from.
-    pub reference: Option<North>,
+    8 reference: Option<North> = NORTH, reserved 6;
     /// Whither the current flows, rad, 0 to 2 pi.
-    pub set: Option<f64>,
+    16 set: Option<f64> = DIRECTION;
     /// Its speed, m/s.
-    pub drift: Option<f64>,
+    32 drift: Option<f64> = SPEED, reserved 16;
 }
 
-/// 130578 Vessel speed components: forward and starboard positive, m/s.
-///
-/// Six fields of i16, 0.001 m/s, in the order of this struct; there is no SID.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct SpeedComponents {
+group! {
+    /// 130578 Vessel speed components: forward and starboard positive, m/s. There is no SID.
+    130_578 SpeedComponents: Copy Default, priority 2, every millis(250), least 2;
     /// Forward, through the water.
-    pub forward_water: Option<f64>,
+    0 forward_water: Option<f64> = FINE_SPEED;
     /// To starboard, through the water.
-    pub starboard_water: Option<f64>,
+    16 starboard_water: Option<f64> = FINE_SPEED;
     /// Forward, over ground.
-    pub forward_ground: Option<f64>,
+    32 forward_ground: Option<f64> = FINE_SPEED;
     /// To starboard, over ground.
-    pub starboard_ground: Option<f64>,
+    48 starboard_ground: Option<f64> = FINE_SPEED;
     /// The stern's to starboard, through the water.
-    pub stern_starboard_water: Option<f64>,
+    64 stern_starboard_water: Option<f64> = FINE_SPEED;
     /// The stern's to starboard, over ground.
-    pub stern_starboard_ground: Option<f64>,
-}
-
-/// A distance, m.
-const DISTANCE: Number = Number::unsigned(32, 1.0);
-
-impl SpeedKind {
-    /// By their codes.
-    const LIST: [SpeedKind; 5] = [
-        SpeedKind::PaddleWheel,
-        SpeedKind::PitotTube,
-        SpeedKind::Doppler,
-        SpeedKind::Correlation,
-        SpeedKind::Electromagnetic,
-    ];
-}
-
-impl Direction {
-    /// By their codes.
-    const LIST: [Direction; 2] = [Direction::Forward, Direction::Reverse];
-}
-
-impl Group for Speed {
-    const PGN: u32 = 128_259;
-    const PRIORITY: u8 = 2;
-    const INTERVAL: Option<Span> = millis(1000);
-
-    fn read(data: &[u8]) -> Result<Self, Short> {
-        let mut fields = Reader::new(data, 3)?;
-        Ok(Speed {
-            sid: fields.byte(),
-            water: fields.number(SPEED),
-            ground: fields.number(SPEED),
-            kind: fields.choice(8, &SpeedKind::LIST, |_| None),
-            direction: fields.choice(4, &Direction::LIST, |_| None),
-        })
-    }
-
-    fn write(&self) -> Vec<u8> {
-        let kind = self.kind.and_then(|kind| place_of(&SpeedKind::LIST, &kind));
-        let direction = self.direction.and_then(|way| place_of(&Direction::LIST, &way));
-        let mut fields = Writer::default();
-        fields.byte(self.sid).number(SPEED, self.water).number(SPEED, self.ground);
-        fields.code(8, kind).code(4, direction).reserved(12);
-        fields.done()
-    }
-}
-
-impl Group for DistanceLog {
-    const PGN: u32 = 128_275;
-    const PRIORITY: u8 = 6;
-    const INTERVAL: Option<Span> = millis(1000);
-
-    fn read(data: &[u8]) -> Result<Self, Short> {
-        let mut fields = Reader::new(data, 2)?;
-        Ok(DistanceLog {
-            date: fields.short(16),
-            time: fields.number(TIME),
-            log: fields.number(DISTANCE),
-            trip: fields.number(DISTANCE),
-        })
-    }
-
-    fn write(&self) -> Vec<u8> {
-        let mut fields = Writer::default();
-        fields.short(16, self.date).number(TIME, self.time);
-        fields.number(DISTANCE, self.log).number(DISTANCE, self.trip);
-        fields.done()
-    }
-}
-
-impl Group for SetDrift {
-    const PGN: u32 = 129_291;
-    const PRIORITY: u8 = 3;
-    const INTERVAL: Option<Span> = millis(1000);
-
-    fn read(data: &[u8]) -> Result<Self, Short> {
-        let mut fields = Reader::new(data, 4)?;
-        let sid = fields.byte();
-        let reference = North::read(&mut fields);
-        fields.skip(6);
-        Ok(SetDrift { sid, reference, set: fields.direction(), drift: fields.number(SPEED) })
-    }
-
-    fn write(&self) -> Vec<u8> {
-        let mut fields = Writer::default();
-        fields.byte(self.sid).code(2, self.reference.and_then(North::code)).reserved(6);
-        fields.direction(self.set).number(SPEED, self.drift).reserved(16);
-        fields.done()
-    }
-}
-
-impl Group for SpeedComponents {
-    const PGN: u32 = 130_578;
-    const PRIORITY: u8 = 2;
-    const INTERVAL: Option<Span> = millis(250);
-
-    fn read(data: &[u8]) -> Result<Self, Short> {
-        let mut fields = Reader::new(data, 2)?;
-        Ok(SpeedComponents {
-            forward_water: fields.number(FINE_SPEED),
-            starboard_water: fields.number(FINE_SPEED),
-            forward_ground: fields.number(FINE_SPEED),
-            starboard_ground: fields.number(FINE_SPEED),
-            stern_starboard_water: fields.number(FINE_SPEED),
-            stern_starboard_ground: fields.number(FINE_SPEED),
-        })
-    }
-
-    fn write(&self) -> Vec<u8> {
-        let mut fields = Writer::default();
-        fields.number(FINE_SPEED, self.forward_water).number(FINE_SPEED, self.starboard_water);
-        fields.number(FINE_SPEED, self.forward_ground).number(FINE_SPEED, self.starboard_ground);
-        fields.number(FINE_SPEED, self.stern_starboard_water);
-        fields.number(FINE_SPEED, self.stern_starboard_ground);
-        fields.done()
-    }
+    80 stern_starboard_ground: Option<f64> = FINE_SPEED;
 }

@@ -2,12 +2,14 @@
 
 use insd_base::{Span, UtcTime};
 
-use super::bits::{Number, Reader, TIME, Writer, place_of};
-use super::{Group, Short, Sid, millis};
+use super::bits::Number;
+use super::kinds::{Count, DATE, SID, TIME};
+use super::table::{codes, group};
+use super::{Sid, millis};
 
-/// Where a time comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TimeSource {
+codes! {
+    /// Where a time comes from.
+    TimeSource as TIME_SOURCE, 4 bits;
     /// GPS.
     Gps,
     /// GLONASS.
@@ -22,101 +24,31 @@ pub enum TimeSource {
     LocalCrystal,
 }
 
-/// 129033 Time and date.
-///
-/// | bit | field |
-/// |---:|---|
-/// | 0 | date, u16, days |
-/// | 16 | time, u32, 1e-4 s |
-/// | 48 | local offset, i16, minutes |
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TimeDate {
+/// Offset of the local time.
+const OFFSET: Count<i16> = Count::of(Number::signed(16, 1.0).unit("min"));
+
+group! {
+    /// 129033 Time and date.
+    129_033 TimeDate: Copy, priority 3, every millis(1000), least 2;
     /// Days since 1970-01-01.
-    pub date: Option<u16>,
+    0 date: Option<u16> = DATE;
     /// UTC, seconds of the day.
-    pub time: Option<f64>,
+    16 time: Option<f64> = TIME;
     /// Local time minus UTC, minutes. Neither source of the layout tells the sign: not verified.
-    pub local_offset: Option<i16>,
+    48 local_offset: Option<i16> = OFFSET;
 }
 
-/// 126992 System time.
-///
-/// | bit | field |
-/// |---:|---|
-/// | 0 | SID, u8 |
-/// | 8 | source, 4 bits: 0 GPS, 1 GLONASS, 2 radio, 3 caesium, 4 rubidium, 5 crystal |
-/// | 12 | reserved, 4 bits |
-/// | 16 | date, u16, days |
-/// | 32 | time, u32, 1e-4 s |
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SystemTime {
+group! {
+    /// 126992 System time.
+    126_992 SystemTime: Copy, priority 3, every millis(1000), least 4;
     /// Links the messages of one epoch.
-    pub sid: Sid,
+    0 sid: Sid = SID;
     /// Where it comes from.
-    pub source: Option<TimeSource>,
+    8 source: Option<TimeSource> = TIME_SOURCE, reserved 4;
     /// Days since 1970-01-01.
-    pub date: Option<u16>,
+    16 date: Option<u16> = DATE;
     /// UTC, seconds of the day.
-    pub time: Option<f64>,
-}
-
-/// Local offset, minutes.
-const OFFSET: Number = Number::signed(16, 1.0);
-
-impl TimeSource {
-    /// By their codes.
-    const LIST: [TimeSource; 6] = [
-        TimeSource::Gps,
-        TimeSource::Glonass,
-        TimeSource::RadioStation,
-        TimeSource::LocalCesium,
-        TimeSource::LocalRubidium,
-        TimeSource::LocalCrystal,
-    ];
-}
-
-impl Group for TimeDate {
-    const PGN: u32 = 129_033;
-    const PRIORITY: u8 = 3;
-    const INTERVAL: Option<Span> = millis(1000);
-
-    fn read(data: &[u8]) -> Result<Self, Short> {
-        let mut fields = Reader::new(data, 2)?;
-        Ok(TimeDate {
-            date: fields.short(16),
-            time: fields.number(TIME),
-            local_offset: fields.steps(OFFSET).map(|minutes| minutes as i16),
-        })
-    }
-
-    fn write(&self) -> Vec<u8> {
-        let mut fields = Writer::default();
-        fields.short(16, self.date).number(TIME, self.time);
-        fields.steps(OFFSET, self.local_offset.map(i64::from));
-        fields.done()
-    }
-}
-
-impl Group for SystemTime {
-    const PGN: u32 = 126_992;
-    const PRIORITY: u8 = 3;
-    const INTERVAL: Option<Span> = millis(1000);
-
-    fn read(data: &[u8]) -> Result<Self, Short> {
-        let mut fields = Reader::new(data, 4)?;
-        let sid = fields.byte();
-        let source = fields.choice(4, &TimeSource::LIST, |_| None);
-        fields.skip(4);
-        Ok(SystemTime { sid, source, date: fields.short(16), time: fields.number(TIME) })
-    }
-
-    fn write(&self) -> Vec<u8> {
-        let source = self.source.and_then(|source| place_of(&TimeSource::LIST, &source));
-        let mut fields = Writer::default();
-        fields.byte(self.sid).code(4, source).reserved(4);
-        fields.short(16, self.date).number(TIME, self.time);
-        fields.done()
-    }
+    32 time: Option<f64> = TIME;
 }
 
 const DAY: i64 = 86_400;

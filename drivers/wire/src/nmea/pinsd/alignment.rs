@@ -1,29 +1,13 @@
 //! ALI: how the alignment gets on.
-//!
-//! ```text
-//! $PINSD,ALI,hhmmss.ss,p,b,s,t,x,g*hh
-//!            1         2 3 4 5 6 7
-//! 1 UTC
-//! 2 phase: L levelling, S searching for the heading at the berth, F fine alignment at the berth, M in
-//!   motion, A aligned
-//! 3 1 if the ship is taken as lying at her berth, else 0
-//! 4 1-sigma of the heading now, deg
-//! 5 1-sigma of the heading that is asked for here, deg
-//! 6 whole seconds until then; 0 if it is reached, empty if unknown or out of reach
-//! 7 1-sigma of the heading that the gyros leave to a gyrocompass here, deg
-//! ```
-//! Three significant digits, but no more than 0.001 deg. Beyond 180 deg a sigma is empty.
 
 use insd_base::{AlignmentPhase, AlignmentStatus, Forecast};
 
-use super::{flag, read_flag, read_letter, read_magnitude, significant};
 use crate::nmea::civil::TimeOfDay;
-use crate::nmea::fault::Fault;
-use crate::nmea::fields::Fields;
-use crate::nmea::line::Composer;
+use crate::nmea::kinds::{Clock, DIGIT, Decimal, Needed, Significant, Whole, letter};
 use crate::nmea::mode::letters;
+use crate::nmea::table::sentence;
 
-const MAX_DEGREES: f64 = 180.0;
+const SIGMA: Significant = Significant(Decimal::magnitude(3, 180.0).degrees());
 const MAX_SECONDS: u32 = 999_999;
 
 /// Where the alignment stands.
@@ -57,32 +41,27 @@ impl From<AlignmentPhase> for PinsdPhase {
     }
 }
 
-/// How the alignment gets on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PinsdAlignment {
+sentence! {
+    /// How the alignment gets on. Sigmas have three significant digits, but no more than 0.001 deg; beyond
+    /// 180 deg they are empty.
+    part PinsdAlignment "PINSD" "ALI", longest 54;
     /// UTC.
-    pub time: Option<TimeOfDay>,
+    1 time: Option<TimeOfDay> = Clock(2);
     /// Where it stands.
-    pub phase: PinsdPhase,
+    2 phase: PinsdPhase = Needed(letter());
     /// Whether the ship is taken as lying at her berth.
-    pub moored: bool,
+    3 moored: bool = DIGIT;
     /// 1-sigma of the heading now, rad.
-    pub sigma: Option<f64>,
+    4 sigma: Option<f64> = SIGMA;
     /// 1-sigma of the heading that is asked for here, rad.
-    pub target: Option<f64>,
+    5 target: Option<f64> = SIGMA;
     /// Whole s until then: 0 if it is reached, none if unknown or out of reach.
-    pub seconds_left: Option<u32>,
+    6 seconds_left: Option<u32> = Whole::of(1, MAX_SECONDS);
     /// 1-sigma of the heading that the gyros leave to a gyrocompass here, rad.
-    pub gyrocompass: Option<f64>,
+    7 gyrocompass: Option<f64> = SIGMA;
 }
 
 impl PinsdAlignment {
-    /// The word after the address.
-    pub const NAME: &'static str = "ALI";
-
-    /// Greatest length, bytes with CR LF.
-    pub const LONGEST: usize = 54;
-
     /// What the aligner says of itself, at a UTC.
     #[must_use]
     pub fn of(time: Option<TimeOfDay>, status: &AlignmentStatus) -> Self {
@@ -103,35 +82,6 @@ impl PinsdAlignment {
             seconds_left,
             gyrocompass: status.gyrocompass,
         }
-    }
-
-    pub(super) fn write_fields(&self, line: &mut Composer) {
-        let sigma = |line: &mut Composer, sigma: Option<f64>| {
-            significant(line, sigma.map(f64::to_degrees), 3, MAX_DEGREES);
-        };
-        line.text(Self::NAME);
-        line.time_of_day(self.time);
-        line.letter(self.phase.letter());
-        flag(line, self.moored);
-        sigma(line, self.sigma);
-        sigma(line, self.target);
-        line.whole(self.seconds_left, 1, MAX_SECONDS);
-        sigma(line, self.gyrocompass);
-    }
-
-    pub(super) fn read_fields(fields: &mut Fields<'_>) -> Result<Self, Fault> {
-        let sigma = |fields: &mut Fields<'_>| {
-            read_magnitude(fields, MAX_DEGREES).map(|sigma| sigma.map(f64::to_radians))
-        };
-        Ok(PinsdAlignment {
-            time: fields.time_of_day()?,
-            phase: read_letter(fields, PinsdPhase::from_letter)?,
-            moored: read_flag(fields)?,
-            sigma: sigma(fields)?,
-            target: sigma(fields)?,
-            seconds_left: fields.whole(MAX_SECONDS)?,
-            gyrocompass: sigma(fields)?,
-        })
     }
 }
 

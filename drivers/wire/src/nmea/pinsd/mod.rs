@@ -27,9 +27,8 @@ pub use status::{PinsdIntegrity, PinsdMode, PinsdStatus, PinsdTime};
 
 use super::decimal::Form;
 use super::fault::Fault;
-use super::fields::Fields;
 use super::frame::Frame;
-use super::line::{Composer, Line};
+use super::line::Line;
 use super::position::Position;
 
 /// Decimals of minutes: 0.02 m.
@@ -85,10 +84,22 @@ impl Pinsd {
                 line.degrees(*heading, 2);
                 line.number(std.map(f64::to_degrees), DEGREES);
             }
-            Pinsd::Status(status) => status.write_fields(line),
-            Pinsd::Sigma(sigma) => sigma.write_fields(line),
-            Pinsd::Alignment(alignment) => alignment.write_fields(line),
-            Pinsd::Protection(protection) => protection.write_fields(line),
+            Pinsd::Status(status) => {
+                line.text(PinsdStatus::NAME);
+                status.write_fields(line);
+            }
+            Pinsd::Sigma(sigma) => {
+                line.text(PinsdSigma::NAME);
+                sigma.write_fields(line);
+            }
+            Pinsd::Alignment(alignment) => {
+                line.text(PinsdAlignment::NAME);
+                alignment.write_fields(line);
+            }
+            Pinsd::Protection(protection) => {
+                line.text(PinsdProtection::NAME);
+                protection.write_fields(line);
+            }
         })
     }
 
@@ -116,47 +127,11 @@ impl Pinsd {
     }
 }
 
-/// Writes what cannot be negative with three significant digits, at most `decimals` of them after the
-/// point, which makes five characters up to 99999. Beyond `limit` it is unknown.
-fn significant(line: &mut Composer, value: Option<f64>, decimals: u8, limit: f64) {
-    let fitting = match value {
-        Some(value) if value < 0.9995 => 3,
-        Some(value) if value < 9.995 => 2,
-        Some(value) if value < 99.95 => 1,
-        _ => 0,
-    };
-    line.magnitude(value, Form { decimals: decimals.min(fitting), width: 1, limit });
-}
-
-/// Writes yes or no as 1 or 0.
-fn flag(line: &mut Composer, flag: bool) {
-    line.letter(if flag { b'1' } else { b'0' });
-}
-
-/// Reads what cannot be negative.
-fn read_magnitude(fields: &mut Fields<'_>, limit: f64) -> Result<Option<f64>, Fault> {
-    fields.number_in(0.0..=limit)
-}
-
-/// Reads 1 or 0.
-fn read_flag(fields: &mut Fields<'_>) -> Result<bool, Fault> {
-    match fields.text()? {
-        "1" => Ok(true),
-        "0" => Ok(false),
-        _ => Err(fields.malformed()),
-    }
-}
-
-/// Reads a letter that must be there and stand for something.
-fn read_letter<T>(fields: &mut Fields<'_>, of: impl FnOnce(u8) -> Option<T>) -> Result<T, Fault> {
-    let read = fields.letter()?.and_then(of);
-    read.ok_or_else(|| fields.malformed())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::nmea::Sentence;
+    use crate::nmea::kinds::{Decimal, Kind, Significant};
 
     #[test]
     fn what_the_operator_says_is_read_back() {
@@ -177,7 +152,8 @@ mod tests {
     #[test]
     fn three_digits_are_kept_and_never_more_than_five_characters_written() {
         let text = |value: f64| {
-            let line = Line::compose_own("PX", |line| significant(line, Some(value), 3, 99_999.0));
+            let kind = Significant(Decimal::magnitude(3, 99_999.0));
+            let line = Line::compose_own("PX", |line| kind.write(line, &Some(value)));
             line.as_str().split([',', '*']).nth(1).unwrap().to_owned()
         };
         for (value, written) in [

@@ -1,26 +1,16 @@
 //! PRO: how far wrong the position may be.
-//!
-//! ```text
-//! $PINSD,PRO,hhmmss.ss,x.xx,x.xx,x.xx,e,x.xx,a*hh
-//!            1         2    3    4    5 6    7
-//! 1 UTC
-//! 2 radius of the circle in which the ship is with 95 %, m
-//! 3 horizontal protection level, m: the error is below it but for the probability of field 5
-//! 4 vertical protection level, m
-//! 5 exponent of that probability: 5 stands for 1e-5
-//! 6 alert limit of the horizontal error, m; empty if none is set
-//! 7 A: field 3 is below field 6; V: it is not; N: not known, or no limit is set
-//! ```
 
-use super::{read_letter, read_magnitude};
 use crate::nmea::civil::TimeOfDay;
-use crate::nmea::decimal::Form;
-use crate::nmea::fault::Fault;
-use crate::nmea::fields::Fields;
-use crate::nmea::line::Composer;
+use crate::nmea::kinds::{Clock, Decimal, Field, Needed, letter};
 use crate::nmea::mode::letters;
+use crate::nmea::table::sentence;
 
-const METRES: Form = Form { decimals: 2, width: 1, limit: 99_999.99 };
+const METRES: Decimal = Decimal::magnitude(2, 99_999.99);
+/// A digit but 0.
+const EXPONENT: Field<u8> = Field {
+    write: |line, exponent| line.whole(Some(exponent.into()).filter(|one| *one > 0), 1, 9),
+    read: |text| text.parse().ok().filter(|one| (1..=9).contains(one) && text.len() == 1),
+};
 
 /// Whether the protection level is below the alert limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
@@ -50,58 +40,23 @@ impl ProtectionState {
     }
 }
 
-/// How far wrong the position may be.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct PinsdProtection {
+sentence! {
+    /// How far wrong the position may be.
+    part PinsdProtection "PINSD" "PRO", longest 65: Default;
     /// UTC.
-    pub time: Option<TimeOfDay>,
-    /// Radius of the circle of 95 %, m.
-    pub radius_95: Option<f64>,
-    /// Horizontal protection level, m.
-    pub horizontal: Option<f64>,
+    1 time: Option<TimeOfDay> = Clock(2);
+    /// Radius of the circle in which the ship is with 95 %, m.
+    2 radius_95: Option<f64> = METRES;
+    /// Horizontal protection level, m: the error is below it but for the probability of field 5.
+    3 horizontal: Option<f64> = METRES;
     /// Vertical protection level, m.
-    pub vertical: Option<f64>,
+    4 vertical: Option<f64> = METRES;
     /// The probability that an error exceeds its level is 10 to minus this, 1 to 9.
-    pub exponent: Option<u8>,
-    /// Alert limit of the horizontal error, m.
-    pub alert_limit: Option<f64>,
+    5 exponent: Option<u8> = EXPONENT;
+    /// Alert limit of the horizontal error, m; unknown if none is set.
+    6 alert_limit: Option<f64> = METRES;
     /// Whether the horizontal level is below the limit.
-    pub state: ProtectionState,
-}
-
-impl PinsdProtection {
-    /// The word after the address.
-    pub const NAME: &'static str = "PRO";
-
-    /// Greatest length, bytes with CR LF.
-    pub const LONGEST: usize = 65;
-
-    pub(super) fn write_fields(&self, line: &mut Composer) {
-        line.text(Self::NAME);
-        line.time_of_day(self.time);
-        for metres in [self.radius_95, self.horizontal, self.vertical] {
-            line.magnitude(metres, METRES);
-        }
-        line.whole(self.exponent.filter(|exponent| *exponent > 0).map(u32::from), 1, 9);
-        line.magnitude(self.alert_limit, METRES);
-        line.letter(self.state.letter());
-    }
-
-    pub(super) fn read_fields(fields: &mut Fields<'_>) -> Result<Self, Fault> {
-        let metres = |fields: &mut Fields<'_>| read_magnitude(fields, METRES.limit);
-        Ok(PinsdProtection {
-            time: fields.time_of_day()?,
-            radius_95: metres(fields)?,
-            horizontal: metres(fields)?,
-            vertical: metres(fields)?,
-            exponent: fields.convert(|text| match text.as_bytes() {
-                [digit @ b'1'..=b'9'] => Some(digit - b'0'),
-                _ => None,
-            })?,
-            alert_limit: metres(fields)?,
-            state: read_letter(fields, ProtectionState::from_letter)?,
-        })
-    }
+    7 state: ProtectionState = Needed(letter());
 }
 
 #[cfg(test)]
