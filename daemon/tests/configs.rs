@@ -9,7 +9,7 @@ use assert_cmd::Command;
 use insd::commands::example_config::EXAMPLES;
 use insd_base::Voyage;
 use insd_config::Config;
-use insd_config::check::shape::{Key, Shape, sections};
+use insd_config::check::shape::{ConfigKey, Shape, sections};
 use insd_intake::config::Kind;
 use insd_simulator::feed::{Encoding, FeedConfig};
 use insd_simulator::{Scenario, shipped, simulate};
@@ -41,7 +41,7 @@ fn uncommented(text: &str) -> String {
 /// The keys of a section, or all sections.
 fn keys(section: &str) -> Vec<String> {
     let sections = sections();
-    let names = |keys: &[Key]| keys.iter().map(|key| key.name.clone()).collect();
+    let names = |keys: &[ConfigKey]| keys.iter().map(|key| key.name.clone()).collect();
     if section.is_empty() {
         return names(&sections);
     }

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use assert_cmd::cargo::cargo_bin;
-use insd_web::snapshot::{Motion, Snapshot};
+use insd_web::snapshot::{ShownMotion, Snapshot};
 use insd_web::{Listen, Publisher, WebConfig, WebHandle};
 
 fn serving(mode: &str) -> (WebHandle, Publisher) {
@@ -24,7 +24,7 @@ fn serving(mode: &str) -> (WebHandle, Publisher) {
 }
 
 fn snapshot(mode: &str) -> Snapshot {
-    let motion = Motion { heading_deg: Some(62.04), ..Motion::default() };
+    let motion = ShownMotion { heading_deg: Some(62.04), ..ShownMotion::default() };
     let mut snapshot = Snapshot { motion: Some(motion), ..Snapshot::default() };
     snapshot.mode.name = mode.to_owned();
     snapshot

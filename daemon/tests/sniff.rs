@@ -9,7 +9,7 @@ use std::time::Duration;
 use assert_cmd::Command;
 use insd_base::{Arrival, Input, PortId, PortState, Span, Stamp, Time, UtcTime};
 use insd_drivers::raw::{RawHeader, RawWriter, RecordingConfig};
-use insd_lab::pty::Pty;
+use insd_lab::pty::PseudoTerminal;
 use serde_json::Value;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_insd");
@@ -27,7 +27,7 @@ fn corpus(name: &str) -> String {
 
 /// What the command says while the test speaks into a pseudo terminal.
 fn spoken(arguments: &[&str], speech: &[u8], times: usize) -> String {
-    let mut pty = Pty::open().unwrap();
+    let mut pty = PseudoTerminal::open().unwrap();
     let path = pty.path().display().to_string();
     let device = |argument: &&str| argument.replace("PTY", &path);
     let arguments: Vec<String> = arguments.iter().map(device).collect();

@@ -10,7 +10,7 @@ use insd_engine::vote::{Gyros, Record, Testimony, Voice, VoteEvent, Voter};
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_intake::config::{IntakeConfig, Role};
 use insd_output::alerts::Condition;
-use insd_output::{MessageKind, PortConfig, Rate};
+use insd_output::{MessageKind, OutputPortConfig, Rate};
 use insd_simulator::{Scenario, further_imu, simulate};
 use insd_vessel::{OutputPlan, Pipeline, Plan, Product, Spare, Spoken, loosened};
 use insd_wire::nmea::AlertState;
@@ -215,7 +215,7 @@ impl Fleet {
         let rate = Rate::from_hertz(10.0);
         let kinds = ["HDT", "GGA", "ALF"];
         let messages = kinds.map(|kind| (MessageKind::named(kind).unwrap(), rate)).to_vec();
-        let bridge = PortConfig { messages, ..PortConfig::default() };
+        let bridge = OutputPortConfig { messages, ..OutputPortConfig::default() };
         let (ports, points) = (vec![bridge], vec![Body::default()]);
         let outputs = OutputPlan { ports, points, groups: Some(rate), ..OutputPlan::default() };
         let feeds = self.feeds();

@@ -19,18 +19,18 @@ pub fn rfc3339_millis(utc: UtcTime) -> String {
 
 /// The calendar of one voyage: UTC of its start.
 #[derive(Clone, Copy, Debug)]
-pub struct Calendar {
+pub struct VoyageCalendar {
     start: UtcTime,
 }
 
-impl Calendar {
+impl VoyageCalendar {
     /// The calendar of a voyage that starts at this RFC 3339 instant; `None` if it is none, or outside
     /// the years that [`UtcTime`] holds.
     #[must_use]
     pub fn new(start_utc: &str) -> Option<Self> {
         let start: jiff::Timestamp = start_utc.parse().ok()?;
         let nanos = i64::try_from(start.as_nanosecond()).ok()?;
-        Some(Calendar { start: UtcTime::from_nanos(nanos) })
+        Some(VoyageCalendar { start: UtcTime::from_nanos(nanos) })
     }
 
     /// UTC of an instant.
@@ -53,7 +53,7 @@ mod tests {
 
     #[test]
     fn a_voyage_sails_across_a_leap_day_into_march() {
-        let calendar = Calendar::new("2028-02-28T23:59:59.5Z").unwrap();
+        let calendar = VoyageCalendar::new("2028-02-28T23:59:59.5Z").unwrap();
         let utc = calendar.civil(Time::from_seconds(0.75)).unwrap();
         assert_eq!(utc.date, Date { year: 2028, month: 2, day: 29 });
         assert_eq!(utc.time.nanosecond, 250_000_000);
@@ -63,6 +63,6 @@ mod tests {
 
     #[test]
     fn a_start_that_is_no_instant_has_no_calendar() {
-        assert!(Calendar::new("yesterday").is_none());
+        assert!(VoyageCalendar::new("yesterday").is_none());
     }
 }

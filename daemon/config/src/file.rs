@@ -12,8 +12,8 @@ use crate::models::{AlignmentSection, FloorSection, GateSection, ModelSection};
 use crate::node::NodeSection;
 use crate::output::{OutputSection, PointSection};
 use crate::port::PortSection;
-use crate::service::{Chrony, LogSection, Recording, StateSection, WebSection};
-use crate::ship::Ship;
+use crate::service::{ChronySection, LogSection, RecordingSection, StateSection, WebSection};
+use crate::ship::ShipSection;
 use crate::spare::SpareSection;
 
 /// How well receiver and IMU agree in time where neither a pulse nor the IMU's own UTC ties them, s.
@@ -24,7 +24,7 @@ pub(crate) const TIME_STD: f64 = 0.02;
 #[serde(deny_unknown_fields)]
 pub struct Config {
     /// Ship and start.
-    pub ship: Ship,
+    pub ship: ShipSection,
     /// Error model of the IMU.
     pub imu: ImuModel,
     /// How she finds her attitude and heading.
@@ -58,9 +58,9 @@ pub struct Config {
     #[serde(default, rename = "node")]
     pub nodes: Vec<NodeSection>,
     /// Recording of all that arrives.
-    pub recording: Option<Recording>,
+    pub recording: Option<RecordingSection>,
     /// Where chronyd listens for time.
-    pub chrony: Option<Chrony>,
+    pub chrony: Option<ChronySection>,
     /// Where it is kept what the next start goes on from.
     #[serde(default)]
     pub state: StateSection,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use insd_base::Body;
 use insd_drivers::ports::{Destination, OutputConfig};
-use insd_output::{Manner, MessageKind, Port, PortConfig, Profile, Rate, Talker};
+use insd_output::{Manner, MessageKind, OutputPortConfig, Port, Profile, Rate, Talker};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -84,14 +84,14 @@ impl OutputSection {
     /// What makes its messages; `point` is the index of its monitoring point. What is not known is left
     /// out: see [`OutputSection::faults`].
     #[must_use]
-    pub fn port(&self, point: usize) -> PortConfig {
+    pub fn port(&self, point: usize) -> OutputPortConfig {
         let talker = |name: &String| Talker::new(name);
         let talkers = self
             .talkers
             .iter()
             .filter_map(|(kind, own)| Some((MessageKind::named(kind)?, Talker::new(own)?)));
         let profile = self.named_profile().map(Profile::port).unwrap_or_default();
-        PortConfig {
+        OutputPortConfig {
             messages: self.rates(&profile),
             manner: Manner {
                 policy: self.policy.policy(profile.manner.policy),
@@ -135,7 +135,7 @@ impl OutputSection {
         }
     }
 
-    fn rates(&self, profile: &PortConfig) -> Vec<(MessageKind, Rate)> {
+    fn rates(&self, profile: &OutputPortConfig) -> Vec<(MessageKind, Rate)> {
         let own = |kind: MessageKind| self.messages.as_ref()?.get(kind.name()).copied();
         let usual = |kind: MessageKind| {
             let line = profile.messages.iter().find(|(other, _)| *other == kind);

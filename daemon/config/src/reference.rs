@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::check::shape::{Key, Shape, Word, sections};
+use super::check::shape::{ConfigKey, Shape, Word, sections};
 use super::check::walk::words;
 
 /// What stands before the sections.
@@ -97,7 +97,7 @@ fn collect(all: &mut Vec<String>, path: &str, shape: &Shape) {
 }
 
 /// A key, and what is below it.
-fn entry(page: &mut String, key: &Key, inside: &str) {
+fn entry(page: &mut String, key: &ConfigKey, inside: &str) {
     let name = format!("{inside}{}", key.name);
     let _ = writeln!(page, ".TP\n.B {}\n{}", escaped(&name), escaped(&key.doc));
     let mut facts = vec![short(&key.shape)];
@@ -196,7 +196,7 @@ mod tests {
                 names.sort();
                 let text = wrap("no_such_key = 1");
                 assert_eq!(read(&text), names, "{text}");
-                let below = |key: &Key| {
+                let below = |key: &ConfigKey| {
                     hold(&key.shape, &|inner| match &key.shape {
                         Shape::List(..) => wrap(&format!("{} = [ {{ {inner} }} ]", key.name)),
                         _ => wrap(&format!("{} = {{ {inner} }}", key.name)),
@@ -205,7 +205,7 @@ mod tests {
                 names.len() + keys.iter().map(below).sum::<usize>()
             }
             Shape::Kinds(tag, kinds) => {
-                let own = |(word, keys): &(Word, Vec<Key>)| {
+                let own = |(word, keys): &(Word, Vec<ConfigKey>)| {
                     let wrap = |inner: &str| wrap(&format!("{tag} = \"{}\", {inner}", word.name));
                     hold(&Shape::Table(keys.clone()), &wrap)
                 };
@@ -239,7 +239,7 @@ mod tests {
 
     #[test]
     fn every_key_and_section_says_what_it_means() {
-        fn silent(keys: &[Key], path: &str, all: &mut Vec<String>) {
+        fn silent(keys: &[ConfigKey], path: &str, all: &mut Vec<String>) {
             for key in keys {
                 let path = format!("{path}.{}", key.name);
                 if key.doc.is_empty() {

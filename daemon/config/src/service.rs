@@ -11,7 +11,7 @@ use crate::log_filter;
 /// Recording of all that arrives.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Recording {
+pub struct RecordingSection {
     /// Where the files go.
     pub folder: PathBuf,
     /// Their name.
@@ -30,7 +30,7 @@ pub struct Recording {
 /// Where chronyd listens for time.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Chrony {
+pub struct ChronySection {
     /// The socket of its `refclock SOCK`.
     pub socket: PathBuf,
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Ship and start.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Ship {
+pub struct ShipSection {
     /// What is known of her motion at the start: at the berth, or under way.
     #[serde(default)]
     pub start: Start,
@@ -40,7 +40,7 @@ pub struct Ship {
     pub rate_hz: f64,
     /// What carries the sensors: `ship`, `boat` or `car`.
     #[serde(default)]
-    pub kind: Kind,
+    pub kind: CarrierKind,
     /// How well receiver and IMU agree in time, 1-sigma, s. Left out: by what ties them.
     #[serde(alias = "gnss_delay_std_s")]
     #[schemars(extend("x-alias" = "gnss_delay_std_s"))]
@@ -53,7 +53,7 @@ pub struct Ship {
 /// What carries the sensors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Kind {
+pub enum CarrierKind {
     /// A displacement ship.
     #[default]
     Ship,
@@ -63,12 +63,12 @@ pub enum Kind {
     Car,
 }
 
-impl From<Kind> for VesselKind {
-    fn from(kind: Kind) -> Self {
+impl From<CarrierKind> for VesselKind {
+    fn from(kind: CarrierKind) -> Self {
         match kind {
-            Kind::Ship => VesselKind::Ship,
-            Kind::Boat => VesselKind::Boat,
-            Kind::Car => VesselKind::Car,
+            CarrierKind::Ship => VesselKind::Ship,
+            CarrierKind::Boat => VesselKind::Boat,
+            CarrierKind::Car => VesselKind::Car,
         }
     }
 }

@@ -8,9 +8,9 @@ use std::fmt::Write as _;
 
 use anyhow::Context;
 use insd_base::Time;
-use insd_lab::demo::board::{Board, PortStatus};
-use insd_lab::demo::scenario::Choice;
-use insd_lab::demo::ship::Ship;
+use insd_lab::demo::board::{Board, DemoPort};
+use insd_lab::demo::scenario::DemoVoyage;
+use insd_lab::demo::ship::DemoShip;
 use insd_lab::demo::view;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
@@ -29,10 +29,10 @@ const FOREGROUND: &str = "#d6d9dc";
 fn main() -> anyhow::Result<()> {
     let path = std::env::args().nth(1).unwrap_or_else(|| "docs/demo.svg".to_owned());
     let (scenario, seed, time) = SCENARIO;
-    let choice = Choice::find(scenario, seed)?;
-    let port = PortStatus { path: "/dev/pts/3".to_owned(), ..PortStatus::default() };
+    let choice = DemoVoyage::find(scenario, seed)?;
+    let port = DemoPort { path: "/dev/pts/3".to_owned(), ..DemoPort::default() };
     let board = Board { title: choice.title(), speed: 1.0, port, ..Board::default() };
-    let mut ship = Ship::new(choice.sail(), board);
+    let mut ship = DemoShip::new(choice.sail(), board);
     let mut written = 0;
     for second in 1..=time as u32 {
         ship.advance(Time::from_seconds(f64::from(second)), &mut |bytes| written += bytes.len());

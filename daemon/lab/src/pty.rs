@@ -22,7 +22,7 @@ const WAITING_LIMIT: u64 = 3000;
 
 /// The near end, and the far end held open.
 #[derive(Debug)]
-pub struct Pty {
+pub struct PseudoTerminal {
     near: OwnedFd,
     far: OwnedFd,
     path: PathBuf,
@@ -34,7 +34,7 @@ pub struct Pty {
     dropped: u64,
 }
 
-impl Pty {
+impl PseudoTerminal {
     /// Opens a pair and puts it into raw mode, so that bytes pass unchanged and without echo.
     ///
     /// # Errors
@@ -51,7 +51,15 @@ impl Pty {
         settings.make_raw();
         tcsetattr(&far, OptionalActions::Now, &settings)?;
         fcntl_setfl(&near, fcntl_getfl(&near)? | OFlags::NONBLOCK)?;
-        Ok(Pty { near, far, path, queue: VecDeque::new(), left: 0, produced: 0, dropped: 0 })
+        Ok(PseudoTerminal {
+            near,
+            far,
+            path,
+            queue: VecDeque::new(),
+            left: 0,
+            produced: 0,
+            dropped: 0,
+        })
     }
 
     /// Path of the end that programs open.
@@ -87,7 +95,7 @@ impl Pty {
         self.dropped
     }
 
-    /// Takes whole sentences; they leave with the next [`Pty::pump`].
+    /// Takes whole sentences; they leave with the next [`PseudoTerminal::pump`].
     pub fn push(&mut self, sentences: &[u8]) {
         self.produced += sentences.len() as u64;
         self.queue.push_back(sentences.to_vec());
@@ -140,7 +148,7 @@ mod tests {
     use super::*;
     use std::io::Read;
 
-    fn reader(pty: &Pty) -> std::fs::File {
+    fn reader(pty: &PseudoTerminal) -> std::fs::File {
         let flags = OFlags::RDONLY | OFlags::NOCTTY | OFlags::NONBLOCK;
         open(pty.path(), flags, Mode::empty()).unwrap().into()
     }
@@ -150,7 +158,7 @@ mod tests {
     }
 
     /// Waits until the kernel has handed over what was written, which on a busy machine takes its time.
-    fn arrive(pty: &Pty) {
+    fn arrive(pty: &PseudoTerminal) {
         const PATIENCE: u32 = 500;
         for _ in 0..PATIENCE {
             settle();
@@ -186,7 +194,7 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_unchanged() {
-        let mut pty = Pty::open().unwrap();
+        let mut pty = PseudoTerminal::open().unwrap();
         pty.push(b"$HETHS,316.70,E*1A\r\n");
         pty.pump();
         assert_eq!(read_all(&mut reader(&pty)), "$HETHS,316.70,E*1A\r\n");
@@ -195,7 +203,7 @@ mod tests {
 
     #[test]
     fn writing_without_a_reader_never_waits_and_the_newest_bytes_stay() {
-        let mut pty = Pty::open().unwrap();
+        let mut pty = PseudoTerminal::open().unwrap();
         for number in 0..200 {
             pty.push(group(number).as_bytes());
             pty.push(group(number).as_bytes());
@@ -210,7 +218,7 @@ mod tests {
 
     #[test]
     fn a_reader_gets_whole_sentences_even_when_there_are_too_many() {
-        let mut pty = Pty::open().unwrap();
+        let mut pty = PseudoTerminal::open().unwrap();
         let mut reader = reader(&pty);
         let mut text = String::new();
         for number in 0..50 {

@@ -6,7 +6,7 @@ use insd_wire::stream::Protocol;
 use serde::Deserialize;
 
 use super::listen::Heard;
-use insd_config::check::{Finding, Place, Severity};
+use insd_config::check::{ConfigFinding, ConfigPlace, Severity};
 use insd_config::{Config, PortSection};
 use insd_lab::sniff::report::{PortReport, State};
 
@@ -29,7 +29,7 @@ struct SuggestedSensor {
     rate_hz: Option<f64>,
 }
 
-pub(super) fn all(config: &Config, heard: &Heard) -> Vec<Finding> {
+pub(super) fn all(config: &Config, heard: &Heard) -> Vec<ConfigFinding> {
     let mut found = Vec::new();
     for report in &heard.report.ports {
         let Some(port) = config.ports.iter().find(|port| port.name == report.name) else {
@@ -45,11 +45,11 @@ fn one(
     port: &PortSection,
     report: &PortReport,
     fitting: Option<u32>,
-) -> Vec<Finding> {
-    let place = Place::of("port", &port.name).key("transport");
+) -> Vec<ConfigFinding> {
+    let place = ConfigPlace::of("port", &port.name).key("transport");
     let hint = report.hints.first().cloned().unwrap_or_default();
     let tell = |severity, cause, text: &str, advice: String| {
-        let finding = Finding::new(severity, cause, place.clone(), text);
+        let finding = ConfigFinding::new(severity, cause, place.clone(), text);
         vec![if advice.is_empty() { finding } else { finding.advise(advice) }]
     };
     match &report.state {
@@ -79,7 +79,7 @@ fn one(
         let text = format!("{} bytes arrived, and none of them can be read", report.bytes);
         return tell(Severity::Error, "unreadable", &text, hint);
     }
-    let mut found: Vec<Finding> = config
+    let mut found: Vec<ConfigFinding> = config
         .sensors
         .iter()
         .filter(|sensor| sensor.port == port.name)
@@ -94,11 +94,11 @@ fn one(
 }
 
 /// What a sensor is configured as against what is spoken at its port.
-fn against(sensor: &SensorConfig, report: &PortReport) -> Option<Finding> {
+fn against(sensor: &SensorConfig, report: &PortReport) -> Option<ConfigFinding> {
     let own = sensor.kind.protocol()?;
     let suggested = suggested(report);
     let name = kind_name(sensor.kind);
-    let place = |key: &str| Place::of("sensor", &sensor.name).key(key);
+    let place = |key: &str| ConfigPlace::of("sensor", &sensor.name).key(key);
     if own == Protocol::Nmea && reads(sensor, report) {
         return bare(sensor, report);
     }
@@ -108,7 +108,8 @@ fn against(sensor: &SensorConfig, report: &PortReport) -> Option<Finding> {
             return None;
         }
         let text = format!("{rate} samples a second arrive, configured as {}", sensor.rate_hz);
-        let finding = Finding::new(Severity::Error, "imu-rate-arrives", place("rate_hz"), &text);
+        let finding =
+            ConfigFinding::new(Severity::Error, "imu-rate-arrives", place("rate_hz"), &text);
         return Some(finding.advise(format!("rate_hz = {rate:?}")));
     }
     let spoken = report.protocols();
@@ -125,7 +126,7 @@ fn against(sensor: &SensorConfig, report: &PortReport) -> Option<Finding> {
     } else {
         format!("this port speaks {}{what}, configured as {name}", names.join(" and "))
     };
-    let finding = Finding::new(Severity::Error, "kind-arrives", place("kind"), &text);
+    let finding = ConfigFinding::new(Severity::Error, "kind-arrives", place("kind"), &text);
     let role = |kind: &str| kind_of(kind).is_some_and(|kind| kind.role() == sensor.kind.role());
     let fitting = suggested.iter().find(|other| role(&other.kind)).or(suggested.first());
     Some(match fitting {
@@ -147,15 +148,15 @@ fn reads(sensor: &SensorConfig, report: &PortReport) -> bool {
 }
 
 /// Sentences that arrive without a checksum, where one is asked for.
-fn bare(sensor: &SensorConfig, report: &PortReport) -> Option<Finding> {
+fn bare(sensor: &SensorConfig, report: &PortReport) -> Option<ConfigFinding> {
     let is_bare = |reason: &str| reason == "no checksum";
     let refused = report.messages.iter().filter_map(|message| message.refusal.as_ref());
     let bare = refused.filter(|refusal| is_bare(&refusal.reason)).count();
     let used = report.messages.iter().any(|message| message.used > 0);
     (bare > 0 && !used && !sensor.no_checksum).then(|| {
-        let place = Place::of("sensor", &sensor.name).key("no_checksum");
+        let place = ConfigPlace::of("sensor", &sensor.name).key("no_checksum");
         let text = "its sentences have no checksum, and are refused";
-        Finding::new(Severity::Error, "no-checksum", place, text)
+        ConfigFinding::new(Severity::Error, "no-checksum", place, text)
             .advise("switch the checksum on in the device, or no_checksum = true")
     })
 }

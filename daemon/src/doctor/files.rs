@@ -9,18 +9,18 @@ use insd_web::MIN_TOKEN;
 
 use super::people::{Person, Wish, group_name};
 use insd_config::Config;
-use insd_config::check::{Finding, Place, Severity};
+use insd_config::check::{ConfigFinding, ConfigPlace, Severity};
 
 /// Bytes of a megabyte, as quotas count.
 const MEGABYTE: u64 = 1_000_000;
 
-pub(super) fn look(config: &Config, person: &Person) -> Vec<Finding> {
+pub(super) fn look(config: &Config, person: &Person) -> Vec<ConfigFinding> {
     let mut found = Vec::new();
     if let Some(file) = config.web.token_file.as_deref().filter(|_| config.web.enabled) {
         found.extend(token(file, person));
     }
     if let Some(recording) = &config.recording {
-        let place = Place::one("recording").key("folder");
+        let place = ConfigPlace::one("recording").key("folder");
         let own = folder("recording-folder", place, &recording.folder, person);
         if own.is_none() {
             found.extend(room(&recording.folder, recording.quota_mb));
@@ -30,7 +30,7 @@ pub(super) fn look(config: &Config, person: &Person) -> Vec<Finding> {
     let state = &config.state;
     for (key, path) in [("folder", &state.folder), ("runtime_folder", &state.runtime_folder)] {
         if let Some(path) = path.as_deref().filter(|_| state.enabled) {
-            let place = Place::one("state").key(key);
+            let place = ConfigPlace::one("state").key(key);
             found.extend(folder("state-folder", place, path, person));
         }
     }
@@ -41,8 +41,8 @@ pub(super) fn look(config: &Config, person: &Person) -> Vec<Finding> {
 }
 
 /// The file with the word that allows changes.
-fn token(file: &Path, person: &Person) -> Vec<Finding> {
-    let place = || Place::one("web").key("token_file");
+fn token(file: &Path, person: &Person) -> Vec<ConfigFinding> {
+    let place = || ConfigPlace::one("web").key("token_file");
     let path = file.display();
     let make = format!(
         "sudo install -m 640 -g insd /dev/null {path}; openssl rand -base64 24 | sudo tee {path}"
@@ -51,33 +51,40 @@ fn token(file: &Path, person: &Person) -> Vec<Finding> {
         Ok(data) => data,
         Err(error) => {
             let text = format!("{path}: {}", reason(&error));
-            let finding = Finding::new(Severity::Error, "token-absent", place(), &text);
+            let finding = ConfigFinding::new(Severity::Error, "token-absent", place(), &text);
             return vec![finding.advise(make)];
         }
     };
     let mut found = Vec::new();
     if !person.may(Wish::Read, &data) {
         let text = format!("{path} cannot be read by {}", person.name);
-        let finding = Finding::new(Severity::Error, "token-denied", place(), &text);
+        let finding = ConfigFinding::new(Severity::Error, "token-denied", place(), &text);
         found.push(finding.advise(format!("sudo chgrp insd {path}; sudo chmod 640 {path}")));
     }
     if data.mode() & 0o004 != 0 {
         let text = format!("{path} can be read by everybody on this computer");
-        let finding = Finding::new(Severity::Warning, "token-open", place(), &text);
+        let finding = ConfigFinding::new(Severity::Warning, "token-open", place(), &text);
         found.push(finding.advise(format!("sudo chgrp insd {path}; sudo chmod 640 {path}")));
     }
     if let Ok(text) = fs::read_to_string(file) {
         let length = text.trim().chars().count();
         if length < MIN_TOKEN {
             let text = format!("the token has {length} characters; {MIN_TOKEN} is the least");
-            found.push(Finding::new(Severity::Error, "token-short", place(), &text).advise(make));
+            found.push(
+                ConfigFinding::new(Severity::Error, "token-short", place(), &text).advise(make),
+            );
         }
     }
     found
 }
 
 /// A folder in which the daemon writes.
-fn folder(cause: &'static str, place: Place, path: &Path, person: &Person) -> Option<Finding> {
+fn folder(
+    cause: &'static str,
+    place: ConfigPlace,
+    path: &Path,
+    person: &Person,
+) -> Option<ConfigFinding> {
     let shown = path.display();
     let make = format!("sudo install -d -o {0} -g {0} -m 750 {shown}", person.name);
     let text = match fs::metadata(path) {
@@ -88,23 +95,23 @@ fn folder(cause: &'static str, place: Place, path: &Path, person: &Person) -> Op
         }
         Ok(_) => return None,
     };
-    Some(Finding::new(Severity::Error, cause, place, &text).advise(make))
+    Some(ConfigFinding::new(Severity::Error, cause, place, &text).advise(make))
 }
 
 /// Whether the disk has room for the quota.
-fn room(folder: &Path, quota_mb: Option<u64>) -> Option<Finding> {
+fn room(folder: &Path, quota_mb: Option<u64>) -> Option<ConfigFinding> {
     let disk = rustix::fs::statvfs(folder).ok()?;
     let free_mb = disk.f_bavail.saturating_mul(disk.f_frsize) / MEGABYTE;
     let quota = quota_mb.filter(|quota| *quota > free_mb)?;
-    let place = Place::one("recording").key("quota_mb");
+    let place = ConfigPlace::one("recording").key("quota_mb");
     let text = format!("{quota} MB are more than the {free_mb} MB that are free on this disk");
-    let finding = Finding::new(Severity::Warning, "recording-room", place, &text);
+    let finding = ConfigFinding::new(Severity::Warning, "recording-room", place, &text);
     Some(finding.advise(format!("quota_mb = {}", free_mb * 8 / 10)))
 }
 
 /// The socket of chronyd.
-fn socket(path: &Path, person: &Person) -> Option<Finding> {
-    let place = Place::one("chrony").key("socket");
+fn socket(path: &Path, person: &Person) -> Option<ConfigFinding> {
+    let place = ConfigPlace::one("chrony").key("socket");
     let shown = path.display();
     let advice = format!("`refclock SOCK {shown}` in chrony's configuration; docs/service.md");
     let text = match fs::metadata(path) {
@@ -113,15 +120,22 @@ fn socket(path: &Path, person: &Person) -> Option<Finding> {
         Ok(data) if !person.may(Wish::Write, &data) => return denied(&place, path, &data, person),
         Ok(_) => return None,
     };
-    Some(Finding::new(Severity::Warning, "chrony-socket", place, &text).advise(advice))
+    Some(ConfigFinding::new(Severity::Warning, "chrony-socket", place, &text).advise(advice))
 }
 
-fn denied(place: &Place, path: &Path, data: &Metadata, person: &Person) -> Option<Finding> {
+fn denied(
+    place: &ConfigPlace,
+    path: &Path,
+    data: &Metadata,
+    person: &Person,
+) -> Option<ConfigFinding> {
     let (shown, group) = (path.display(), group_name(data.gid()));
     let text = format!("{shown} is for the group {group}, and {} is not in it", person.name);
     let advice =
         format!("setfacl -m u:{}:rw {shown}, each time it is made: docs/service.md", person.name);
-    Some(Finding::new(Severity::Warning, "chrony-socket", place.clone(), &text).advise(advice))
+    Some(
+        ConfigFinding::new(Severity::Warning, "chrony-socket", place.clone(), &text).advise(advice),
+    )
 }
 
 /// What the system says, without its number.

@@ -12,8 +12,8 @@ use insd_wire::stream::{Cutter, Protocol};
 
 use crate::clock::HostClock;
 use insd_config::Config;
-use insd_config::check::Place;
-use insd_lab::sniff::{Plan, Report, Sniffed, is_proof};
+use insd_config::check::ConfigPlace;
+use insd_lab::sniff::{PortToHear, SniffReport, Sniffed, is_proof};
 
 /// Rates that are tried where nothing can be read at the configured one.
 const BAUDS: [u32; 9] = [115_200, 38_400, 4_800, 9_600, 460_800, 921_600, 230_400, 57_600, 19_200];
@@ -27,7 +27,7 @@ const ENOUGH: u64 = 32;
 /// What was heard.
 pub(super) struct Heard {
     /// Of each port by its name.
-    pub(super) report: Report,
+    pub(super) report: SniffReport,
     /// Rates at which lines can be read that cannot at the configured one, by the name of the port.
     pub(super) bauds: BTreeMap<String, u32>,
 }
@@ -35,7 +35,7 @@ pub(super) struct Heard {
 /// Listens to all ports but those of these sections.
 pub(super) fn listen(
     config: &Config,
-    without: &[&Place],
+    without: &[&ConfigPlace],
     span: Duration,
 ) -> std::io::Result<Heard> {
     let sound = |name: &str| {
@@ -90,13 +90,13 @@ fn searching(opened: &PortConfig) -> Option<PortConfig> {
     Some(PortConfig { transport: Transport::Serial(line), ..opened.clone() })
 }
 
-async fn hear(own: &[(String, PortConfig)], span: Duration) -> Report {
+async fn hear(own: &[(String, PortConfig)], span: Duration) -> SniffReport {
     let clock = HostClock::start();
     let (queue, mut receiver) = ports::queue(WAITING_LIMIT);
     let mut sniffed = Sniffed::new(&Protocol::ALL);
     let mut handles = Vec::new();
     for (id, (name, opened)) in (0..).map(PortId).zip(own) {
-        sniffed.announce(id, Plan { name: name.clone(), timed: true, transport: None });
+        sniffed.announce(id, PortToHear { name: name.clone(), timed: true, transport: None });
         let surroundings =
             Surroundings { clock: Arc::new(clock), queue: queue.clone(), judge: Some(judge()) };
         handles.push(ports::spawn(id, opened.clone(), surroundings));

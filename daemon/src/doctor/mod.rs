@@ -18,11 +18,11 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use insd_config::check::{Finding, Place, Severity, examine};
+use insd_config::check::{ConfigFinding, ConfigPlace, Severity, examine};
 pub use people::Person;
 
 use insd_config::{Config, Examined};
-use insd_lab::sniff::Report;
+use insd_lab::sniff::SniffReport;
 
 /// What came of looking.
 #[derive(Clone, Debug, Serialize)]
@@ -30,9 +30,9 @@ pub struct Diagnosis {
     /// Whether `insd run` would start with this configuration.
     pub accepted: bool,
     /// What was found, the worst first.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<ConfigFinding>,
     /// What arrived at the ports, if they were listened to.
-    pub heard: Option<Report>,
+    pub heard: Option<SniffReport>,
 }
 
 /// How far to look.
@@ -67,13 +67,14 @@ impl Diagnosis {
             let text = format!(
                 "insd runs with this file, as process {number}: its ports are not listened to"
             );
-            let finding = Finding::new(Severity::Note, "daemon-running", Place::default(), &text);
+            let finding =
+                ConfigFinding::new(Severity::Note, "daemon-running", ConfigPlace::default(), &text);
             found.push(
                 finding.advise("its page shows what arrives; `systemctl stop insd` to listen here"),
             );
             found.extend(under_way::look(&config));
         } else if !extent.listen.is_zero() {
-            let taken: Vec<&Place> = found
+            let taken: Vec<&ConfigPlace> = found
                 .iter()
                 .filter(|finding| finding.severity == Severity::Error)
                 .map(|finding| &finding.place)
@@ -93,14 +94,14 @@ impl Diagnosis {
     }
 
     /// What was found in the world, with the places of the text.
-    fn add(&mut self, found: Vec<Finding>, text: &str) {
+    fn add(&mut self, found: Vec<ConfigFinding>, text: &str) {
         let mut found = found;
         insd_config::check::locate(&mut found, text);
         // what cannot be read was replaced, and says nothing of the world
-        let same = |own: &Place, other: &Place| {
+        let same = |own: &ConfigPlace, other: &ConfigPlace| {
             (&own.section, &own.name, &own.key) == (&other.section, &other.name, &other.key)
         };
-        let refused: Vec<Place> =
+        let refused: Vec<ConfigPlace> =
             self.findings.iter().filter(|own| own.refused).map(|own| own.place.clone()).collect();
         found.retain(|own| !refused.iter().any(|place| same(place, &own.place)));
         self.findings.extend(found);

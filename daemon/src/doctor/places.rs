@@ -13,13 +13,13 @@ use super::people::{Person, Wish, group_name};
 use super::processes;
 use insd_config::Config;
 use insd_config::check::nearest::nearest;
-use insd_config::check::uses::{self, Device, DeviceKind};
-use insd_config::check::{Finding, Place, Severity};
+use insd_config::check::uses::{self, DeviceKind, UsedDevice};
+use insd_config::check::{ConfigFinding, ConfigPlace, Severity};
 
-pub(super) fn look(config: &Config, person: &Person, is_running: bool) -> Vec<Finding> {
+pub(super) fn look(config: &Config, person: &Person, is_running: bool) -> Vec<ConfigFinding> {
     let here = ports::list(Path::new("/"));
     let mut found = Vec::new();
-    let mut seen = BTreeMap::<PathBuf, Device>::new();
+    let mut seen = BTreeMap::<PathBuf, UsedDevice>::new();
     for device in uses::devices(config) {
         if let Some(finding) = device_fault(&device, &here, person) {
             found.push(finding);
@@ -45,18 +45,18 @@ pub(super) fn look(config: &Config, person: &Person, is_running: bool) -> Vec<Fi
 }
 
 /// The same device under two names.
-fn same(device: &Device, other: &Device, real: &Path) -> Finding {
-    let section = Place { key: None, ..other.place.clone() };
+fn same(device: &UsedDevice, other: &UsedDevice, real: &Path) -> ConfigFinding {
+    let section = ConfigPlace { key: None, ..other.place.clone() };
     let cause =
         if device.is_output && !other.is_output { "output-on-input" } else { "device-twice" };
     let (path, real) = (device.path.display(), real.display());
     let text = format!("{path} is {real}, which {section} uses by another name");
-    Finding::new(Severity::Error, cause, device.place.clone(), &text)
+    ConfigFinding::new(Severity::Error, cause, device.place.clone(), &text)
 }
 
-fn device_fault(device: &Device, here: &[FoundPort], person: &Person) -> Option<Finding> {
+fn device_fault(device: &UsedDevice, here: &[FoundPort], person: &Person) -> Option<ConfigFinding> {
     let tell = |cause, text: &str, advice: String| {
-        Some(Finding::new(Severity::Error, cause, device.place.clone(), text).advise(advice))
+        Some(ConfigFinding::new(Severity::Error, cause, device.place.clone(), text).advise(advice))
     };
     let path = device.path.display();
     if matches!(device.kind, DeviceKind::Written | DeviceKind::Made) {
@@ -95,7 +95,7 @@ fn device_fault(device: &Device, here: &[FoundPort], person: &Person) -> Option<
 }
 
 /// What there is instead of a device that is not there.
-fn meant(device: &Device, here: &[FoundPort]) -> String {
+fn meant(device: &UsedDevice, here: &[FoundPort]) -> String {
     let kind = if device.kind == DeviceKind::Pulses { FoundKind::Pps } else { FoundKind::Serial };
     let names: Vec<String> = here
         .iter()
@@ -109,7 +109,7 @@ fn meant(device: &Device, here: &[FoundPort]) -> String {
     format!("there are: {}", names.join(", "))
 }
 
-fn busy(device: &Device) -> Option<Finding> {
+fn busy(device: &UsedDevice) -> Option<ConfigFinding> {
     let holder = processes::holder(&device.path)?;
     let text = format!(
         "{} is open in another program: {}, process {}",
@@ -122,43 +122,43 @@ fn busy(device: &Device) -> Option<Finding> {
         "ModemManager" => "sudo systemctl disable --now ModemManager",
         _ => "stop that program, or give it another device",
     };
-    let finding = Finding::new(Severity::Error, "device-busy", device.place.clone(), &text);
+    let finding = ConfigFinding::new(Severity::Error, "device-busy", device.place.clone(), &text);
     Some(finding.advise(advice))
 }
 
 /// Whether somebody is at the other end of an output, as far as the control lines tell.
-fn plug(device: &Device) -> Option<Finding> {
+fn plug(device: &UsedDevice) -> Option<ConfigFinding> {
     let place = device.place.clone();
     match ports::cable(&device.path) {
         Ok(Cable::Held) => None,
         Ok(Cable::Quiet) => {
             let text = "nobody at the other end holds DSR, CTS or DCD: is the cable plugged in?";
-            let finding = Finding::new(Severity::Note, "cable-quiet", place, text);
+            let finding = ConfigFinding::new(Severity::Note, "cable-quiet", place, text);
             Some(finding.advise("a cable of two or three wires has none of these lines"))
         }
         Ok(Cable::Unknown) => {
             let text = "whether a cable is plugged in is not known: the driver does not tell";
-            Some(Finding::new(Severity::Note, "cable-unknown", place, text))
+            Some(ConfigFinding::new(Severity::Note, "cable-unknown", place, text))
         }
         Err(error) => {
             let text = format!("{} cannot be opened: {error}", device.path.display());
-            Some(Finding::new(Severity::Error, "port-closed", place, &text))
+            Some(ConfigFinding::new(Severity::Error, "port-closed", place, &text))
         }
     }
 }
 
-fn interfaces(config: &Config, here: &[FoundPort]) -> Vec<Finding> {
+fn interfaces(config: &Config, here: &[FoundPort]) -> Vec<ConfigFinding> {
     let mut found = Vec::new();
     for port in &config.ports {
         let Transport::Socketcan(own) = &port.transport else { continue };
-        let place = Place::of("port", &port.name).key("transport.interface");
+        let place = ConfigPlace::of("port", &port.name).key("transport.interface");
         let known = here.iter().filter(|other| other.kind == FoundKind::Can);
         let names: Vec<&str> = known.map(|other| other.name.as_str()).collect();
         let state = here.iter().find(|other| other.name == own.interface);
         match state.and_then(|other| other.state.as_deref()) {
             None if state.is_none() => {
                 let text = format!("there is no interface {}", own.interface);
-                let finding = Finding::new(Severity::Error, "interface-absent", place, &text);
+                let finding = ConfigFinding::new(Severity::Error, "interface-absent", place, &text);
                 let advice = match nearest(&own.interface, names.iter().copied()) {
                     Some(near) => format!("did you mean `{near}`?"),
                     None => "`insd ports` lists them; docs/service.md sets one up".to_owned(),
@@ -167,7 +167,7 @@ fn interfaces(config: &Config, here: &[FoundPort]) -> Vec<Finding> {
             }
             Some("down") => {
                 let text = format!("the interface {} is down", own.interface);
-                let finding = Finding::new(Severity::Error, "interface-down", place, &text);
+                let finding = ConfigFinding::new(Severity::Error, "interface-down", place, &text);
                 found.push(finding.advise("its bit rate is the system's affair: docs/service.md"));
             }
             _ => {}
@@ -176,7 +176,7 @@ fn interfaces(config: &Config, here: &[FoundPort]) -> Vec<Finding> {
     found
 }
 
-fn addresses(config: &Config, here: &[FoundPort], is_running: bool) -> Vec<Finding> {
+fn addresses(config: &Config, here: &[FoundPort], is_running: bool) -> Vec<ConfigFinding> {
     let own: Vec<IpAddr> = here.iter().flat_map(|port| port.addresses.iter().copied()).collect();
     let is_own = |address: IpAddr| {
         let general = address.is_unspecified() || address.is_loopback() || address.is_multicast();
@@ -189,20 +189,20 @@ fn addresses(config: &Config, here: &[FoundPort], is_running: bool) -> Vec<Findi
             let text = format!("{} is no address of this computer", address.ip());
             let all: Vec<String> = own.iter().map(ToString::to_string).collect();
             let advice = format!("0.0.0.0 for all, or one of {}", all.join(", "));
-            let finding = Finding::new(Severity::Error, "address-foreign", place, &text);
+            let finding = ConfigFinding::new(Severity::Error, "address-foreign", place, &text);
             found.push(finding.advise(advice));
         } else if !is_running && let Some(error) = taken(&listener.address, listener.tcp) {
             let text = format!("{address} cannot be listened at: {error}");
-            let finding = Finding::new(Severity::Error, "address-busy", place, &text);
+            let finding = ConfigFinding::new(Severity::Error, "address-busy", place, &text);
             found.push(finding.advise("another program has it: `ss -lntup` tells which"));
         }
     }
     for port in &config.ports {
         let Transport::Udp(udp) = &port.transport else { continue };
         if let Some(interface) = udp.interface.filter(|own| !is_own(IpAddr::V4(*own))) {
-            let place = Place::of("port", &port.name).key("transport.interface");
+            let place = ConfigPlace::of("port", &port.name).key("transport.interface");
             let text = format!("{interface} is no address of this computer");
-            found.push(Finding::new(Severity::Error, "address-foreign", place, &text));
+            found.push(ConfigFinding::new(Severity::Error, "address-foreign", place, &text));
         }
     }
     found

@@ -2,8 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::{Diagnosis, Severity};
+use insd_config::check::{ConfigFinding, Severity};
 use insd_lab::sniff::report::PortReport;
+
+use super::Diagnosis;
 
 /// Every finding with what to do about it, what arrives, and the sum.
 #[must_use]
@@ -11,7 +13,7 @@ pub fn report(diagnosis: &Diagnosis) -> String {
     let mut text = String::new();
     for finding in &diagnosis.findings {
         let severity = finding.severity.name();
-        let plain = super::Finding { advice: None, ..finding.clone() };
+        let plain = ConfigFinding { advice: None, ..finding.clone() };
         let _ = writeln!(text, "{severity}: {plain}");
         if let Some(advice) = &finding.advice {
             let _ = writeln!(text, "    {advice}");

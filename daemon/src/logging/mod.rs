@@ -8,7 +8,7 @@ pub(crate) mod sink;
 use std::io::{self, IsTerminal};
 
 use insd_config::filter;
-use insd_web::snapshot::Event as Line;
+use insd_web::snapshot::ShownEvent as Line;
 use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::util::SubscriberInitExt;
 use tracing_subscriber::{EnvFilter, Layer, Registry, fmt, reload};

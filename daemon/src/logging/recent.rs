@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::fmt::{self, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use insd_web::snapshot::{Event as Line, MAX_EVENTS, Severity};
+use insd_web::snapshot::{MAX_EVENTS, ShownEvent as Line, ShownSeverity};
 use tracing::field::{Field, Visit};
 use tracing::{Event, Level, Subscriber};
 use tracing_subscriber::Layer;
@@ -38,9 +38,9 @@ impl Recent {
 impl<S: Subscriber> Layer<S> for Recent {
     fn on_event(&self, event: &Event<'_>, _: Context<'_, S>) {
         let severity = match *event.metadata().level() {
-            Level::ERROR => Severity::Error,
-            Level::WARN => Severity::Warn,
-            Level::INFO => Severity::Info,
+            Level::ERROR => ShownSeverity::Error,
+            Level::WARN => ShownSeverity::Warn,
+            Level::INFO => ShownSeverity::Info,
             Level::DEBUG | Level::TRACE => return,
         };
         let mut words = Words::default();

@@ -4,7 +4,7 @@
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use insd_web::snapshot::{Alignment, Freshness, Mode, Motion, Snapshot, TimeInfo};
+use insd_web::snapshot::{Freshness, ShownAlignment, ShownMode, ShownMotion, Snapshot, TimeInfo};
 use serde::Deserialize;
 
 use crate::clock::Clock;
@@ -41,9 +41,9 @@ struct Seen {
 #[derive(Debug, Deserialize)]
 struct Live {
     time: TimeInfo,
-    mode: Mode,
-    motion: Option<Motion>,
-    alignment: Option<Alignment>,
+    mode: ShownMode,
+    motion: Option<ShownMotion>,
+    alignment: Option<ShownAlignment>,
 }
 
 impl Default for Board {

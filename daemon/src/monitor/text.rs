@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use insd_web::snapshot::{AlertState, Motion, Snapshot};
+use insd_web::snapshot::{ShownAlertState, ShownMotion, Snapshot};
 use serde::Serialize;
 
 use insd_lab::words;
@@ -60,7 +60,7 @@ pub(super) fn time_of_day(utc: Option<&str>) -> &str {
 }
 
 /// Latitude and longitude.
-pub(super) fn place(motion: &Motion) -> [String; 2] {
+pub(super) fn place(motion: &ShownMotion) -> [String; 2] {
     let told = |angle: Option<f64>, write: fn(f64) -> String| {
         angle.map_or_else(|| DASH.to_owned(), |angle| write(angle.to_radians()))
     };
@@ -70,7 +70,7 @@ pub(super) fn place(motion: &Motion) -> [String; 2] {
 /// One line.
 #[must_use]
 pub fn line(snapshot: &Snapshot) -> String {
-    let nothing = Motion::default();
+    let nothing = ShownMotion::default();
     let motion = snapshot.present().unwrap_or(&nothing);
     let [lat, lon] = place(motion);
     format!(
@@ -103,7 +103,7 @@ pub fn summary(snapshot: &Snapshot) -> String {
     let reason = mode.reason.as_deref().map(|reason| format!(": {reason}"));
     let since = span(mode.since_s);
     row("mode", &format!("{} for {since}{}", word(&mode.name), reason.unwrap_or_default()));
-    let nothing = Motion::default();
+    let nothing = ShownMotion::default();
     ship(snapshot.present().unwrap_or(&nothing), &mut row);
     if let Some(alignment) = &snapshot.alignment {
         row("alignment", &alignment.text);
@@ -123,14 +123,14 @@ pub fn summary(snapshot: &Snapshot) -> String {
         let fate = format!("{} sent, {} dropped", port.sent, port.dropped);
         row("output", &format!("{}: {}, {fate}", port.name, state(&port.state)));
     }
-    for alert in snapshot.alerts.iter().filter(|alert| alert.state != AlertState::Normal) {
+    for alert in snapshot.alerts.iter().filter(|alert| alert.state != ShownAlertState::Normal) {
         let (priority, state) = (state(&alert.priority), state(&alert.state));
         row("alert", &format!("{} {}: {priority}, {state}", alert.id, alert.title));
     }
     text
 }
 
-fn ship(motion: &Motion, row: &mut impl FnMut(&str, &str)) {
+fn ship(motion: &ShownMotion, row: &mut impl FnMut(&str, &str)) {
     let [lat, lon] = place(motion);
     let within = fixed(motion.ellipse_major_m, 1);
     row("position", &format!("{lat} {lon}, 1-sigma {within} m"));
@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn what_is_unknown_is_a_dash() {
-        let mut snapshot = Snapshot { motion: Some(Motion::default()), ..Snapshot::default() };
+        let mut snapshot = Snapshot { motion: Some(ShownMotion::default()), ..Snapshot::default() };
         snapshot.mode.name = "fine_alignment".to_owned();
         let text = summary(&snapshot);
         assert!(text.contains("heading     - deg\n"), "{text}");
@@ -161,12 +161,12 @@ mod tests {
 
     #[test]
     fn values_come_with_their_sigmas() {
-        let motion = Motion {
+        let motion = ShownMotion {
             lat_deg: Some(53.5),
             lon_deg: Some(-8.25),
             heading_deg: Some(62.041),
             sigma_heading_deg: Some(0.062),
-            ..Motion::default()
+            ..ShownMotion::default()
         };
         let text = summary(&Snapshot { motion: Some(motion), ..Snapshot::default() });
         assert!(text.contains("heading     62.04 ± 0.06 deg\n"), "{text}");

@@ -7,8 +7,8 @@ use std::time::Duration;
 use insd_base::Time;
 use insd_drivers::can::SharedSpeaker;
 use insd_n2k::node::{Node, NodeEvent, NodeStatus};
-use insd_output::Epoch;
-use insd_output::n2k::Voice;
+use insd_output::OutputEpoch;
+use insd_output::n2k::PgnSchedule;
 use insd_web::SECURITY;
 
 use insd_config::output_file;
@@ -20,7 +20,7 @@ const LOOK: Duration = Duration::from_millis(200);
 /// What is said on one bus.
 struct Bus {
     port: String,
-    voice: Voice,
+    voice: PgnSchedule,
     node: SharedSpeaker<Node>,
     geoid: Option<f64>,
     /// Index of its monitoring point.
@@ -49,7 +49,7 @@ impl Buses {
             let (port, state) = (section.port.clone(), section.state.clone());
             named.push(NodeOfPort { port, node: node.clone(), state });
             let point = config.point(section.point.as_deref());
-            let (voice, geoid) = (Voice::new(section.voice()), section.geoid_m);
+            let (voice, geoid) = (PgnSchedule::new(section.voice()), section.geoid_m);
             Bus { port: section.port.clone(), voice, node, geoid, point }
         });
         let buses = Buses { buses: buses.collect() };
@@ -72,12 +72,12 @@ impl Buses {
     }
 
     /// Says what is known of the monitoring points at an instant.
-    pub(super) fn send(&mut self, epochs: &[Epoch], now: Time) {
+    pub(super) fn send(&mut self, epochs: &[OutputEpoch], now: Time) {
         for bus in &mut self.buses {
             let Some(epoch) = epochs.get(bus.point) else { continue };
             let (voice, geoid) = (&mut bus.voice, bus.geoid);
             bus.node.with(|node| {
-                let epoch = Epoch { geoid, ..*epoch };
+                let epoch = OutputEpoch { geoid, ..*epoch };
                 for (pgn, data) in voice.messages(&epoch, node.transmit()) {
                     node.send(pgn, &data, now);
                 }

@@ -36,7 +36,7 @@ use crate::clock::{HostClock, boot_now};
 use crate::logging::Log;
 use crate::state::{self, Folders, Remains, Saver};
 use insd_config::OutputFile;
-use insd_config::{Config, Recording, StateSection};
+use insd_config::{Config, RecordingSection, StateSection};
 
 use alert_journal::AlertJournal;
 use connections::Connections;
@@ -188,7 +188,7 @@ fn hasten(priority: Option<u8>) {
     }
 }
 
-fn start_recorder(config: &Recording, text: &str) -> anyhow::Result<Recorder> {
+fn start_recorder(config: &RecordingSection, text: &str) -> anyhow::Result<Recorder> {
     let megabyte = 1024 * 1024;
     let recording = RecordingConfig {
         name: config.name.clone(),

@@ -5,7 +5,7 @@ use insd_drivers::ports::{
     self, AgeStatus, Destination, Outgoing, OutputConfig, OutputPort, OutputStatus, Surroundings,
     UdpOutput,
 };
-use insd_output::{Lan, Message, MessageKind, Port};
+use insd_output::{Lan, MessageKind, Port, PortMessage};
 use insd_web::SECURITY;
 use insd_wire::nmea::TransmissionGroup;
 
@@ -97,10 +97,10 @@ impl Outputs {
     }
 
     /// Hands the messages of an epoch over to the port of this index; never waits.
-    pub(super) fn send(&mut self, port: usize, messages: &[Message]) {
+    pub(super) fn send(&mut self, port: usize, messages: &[PortMessage]) {
         match self.ports.get_mut(port).map(|output| &mut output.link) {
             Some(Link::One(carrier)) => {
-                for Message { slot, content, valid, period, .. } in messages {
+                for PortMessage { slot, content, valid, period, .. } in messages {
                     let (slot, bytes) = (*slot, content.to_bytes());
                     carrier.send(Outgoing { slot, bytes, valid: *valid, period: *period });
                 }

@@ -83,9 +83,9 @@ impl Service {
     fn obey(&self, request: Request) {
         let order = |identifier, command| Order::Alert { identifier, command };
         let ordered = match &request.order {
-            insd_web::Order::Acknowledge { id, .. } => order(*id, AlertOrder::Acknowledge),
-            insd_web::Order::Silence { id, .. } => order(*id, AlertOrder::Silence),
-            insd_web::Order::LogLevel(level) => {
+            insd_web::PageOrder::Acknowledge { id, .. } => order(*id, AlertOrder::Acknowledge),
+            insd_web::PageOrder::Silence { id, .. } => order(*id, AlertOrder::Silence),
+            insd_web::PageOrder::LogLevel(level) => {
                 tracing::info!(target: SECURITY, level, "what is logged is changed on the page");
                 let outcome = self.log.set(level);
                 return request.answer(outcome);

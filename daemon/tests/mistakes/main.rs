@@ -6,7 +6,7 @@
 mod table;
 mod world;
 
-use insd_config::{Config, Examined, Finding, Severity, check::examine};
+use insd_config::{Config, ConfigFinding, Examined, Severity, check::examine};
 use table::{Mistake, TABLE};
 
 /// A ship as she should be.
@@ -27,7 +27,7 @@ impl Mistake {
     }
 
     /// The finding that names it.
-    fn found(&self) -> Option<Finding> {
+    fn found(&self) -> Option<ConfigFinding> {
         let findings = examine(&self.text()).findings;
         findings.into_iter().find(|finding| finding.cause == self.cause)
     }

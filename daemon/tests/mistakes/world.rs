@@ -41,7 +41,7 @@ fn causes(text: &str, listen: f64) -> Vec<(Severity, &'static str, String)> {
 fn causes_for(text: &str, listen: f64, person: Person) -> Vec<(Severity, &'static str, String)> {
     let listen = Duration::from_secs_f64(listen);
     let diagnosis = Diagnosis::of_ship(text, &Extent { listen, person, file: None }).unwrap();
-    let told = |own: &insd_config::Finding| (own.severity, own.cause, own.to_string());
+    let told = |own: &insd_config::ConfigFinding| (own.severity, own.cause, own.to_string());
     diagnosis.findings.iter().map(told).collect()
 }
 

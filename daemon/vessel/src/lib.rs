@@ -9,16 +9,16 @@
 mod alert_commands;
 mod checkpoints;
 mod names;
+mod outputs;
 mod pipeline;
 mod plan;
 mod spares;
-mod speaker;
 pub mod words;
 
 pub use alert_commands::Who;
 pub use checkpoints::Checkpoints;
 pub use names::Names;
+pub use outputs::{Commanded, Knows, Outputs, Spoken};
 pub use pipeline::{Obeyed, OrderReader, Pipeline, Product};
 pub use plan::{Change, OutputPlan, Plan, Spare};
 pub use spares::{Dispute, EngineStatus, FIRST, Vote, loosened};
-pub use speaker::{Commanded, Knows, Speaker, Spoken};

@@ -15,9 +15,9 @@ use insd_output::WakeUp;
 use insd_wire::nmea::AlertCommand;
 
 use crate::checkpoints::Checkpoints;
+use crate::outputs::{Commanded, Knows, Outputs, Spoken};
 use crate::plan::{Change, Plan};
 use crate::spares::{Dispute, EngineStatus, FIRST, InUse, Redundancy, Said, Vote};
-use crate::speaker::{Commanded, Knows, Speaker, Spoken};
 
 /// What an arrival led to.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,7 +86,7 @@ pub struct Pipeline<R> {
     reader: R,
     intake: Intake,
     engine: Engine,
-    speaker: Speaker,
+    speaker: Outputs,
     /// The spare engines, if there are any.
     redundancy: Option<Redundancy>,
 }
@@ -100,7 +100,7 @@ impl<R: OrderReader> Pipeline<R> {
             reader,
             intake: Intake::new(&intake),
             engine: Engine::new(engine),
-            speaker: Speaker::new(outputs),
+            speaker: Outputs::new(outputs),
             redundancy: (!spares.is_empty()).then(|| Redundancy::new(spares)),
         }
     }
@@ -210,7 +210,7 @@ impl<R: OrderReader> Pipeline<R> {
             self.intake = Intake::new(&plan.intake);
         }
         if change.outputs || change.inputs {
-            self.speaker.succeed(Speaker::new(plan.outputs));
+            self.speaker.succeed(Outputs::new(plan.outputs));
             self.engine.observe_points(plan.engine.points);
             self.redundancy.iter_mut().for_each(|own| own.configure(&plan.spares, change.inputs));
         }
@@ -294,7 +294,7 @@ impl<R: OrderReader> Pipeline<R> {
 
     /// What speaks to the ports.
     #[must_use]
-    pub fn speaker(&self) -> &Speaker {
+    pub fn speaker(&self) -> &Outputs {
         &self.speaker
     }
 

@@ -4,7 +4,7 @@ use insd_base::{Body, PortId};
 use insd_engine::EngineConfig;
 use insd_engine::vote::Voice;
 use insd_intake::config::IntakeConfig;
-use insd_output::{PortConfig, Rate};
+use insd_output::{OutputPortConfig, Rate};
 
 /// What a pipeline is made of.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ pub struct Spare {
 #[derive(Clone, Debug, Default)]
 pub struct OutputPlan {
     /// Ports that are written to.
-    pub ports: Vec<PortConfig>,
+    pub ports: Vec<OutputPortConfig>,
     /// Monitoring points as levers from the IMU, body axes, m; the first is the IMU itself.
     pub points: Vec<Body>,
     /// How often the groups of NMEA 2000 are looked at, where there is a node.

@@ -17,8 +17,8 @@ use insd_intake::{Intake, Intaken};
 use insd_output::Doubts;
 
 use crate::checkpoints::Checkpoints;
+use crate::outputs::Knows;
 use crate::plan::Spare;
-use crate::speaker::Knows;
 
 /// Name of the engine that is no spare.
 pub const FIRST: &str = "first";

@@ -9,9 +9,9 @@ use insd_output::alerts::AlertView;
 use insd_wire::nmea::{Acn, AlertCommand, AlertPriority, AlertState};
 
 use crate::names::Names;
+use crate::outputs::Commanded;
 use crate::pipeline::Obeyed;
 use crate::spares::Vote;
-use crate::speaker::Commanded;
 
 /// What the system does, in a few words.
 #[must_use]

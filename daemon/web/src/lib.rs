@@ -18,5 +18,5 @@ pub use config::{Listen, MIN_TOKEN, WebConfig, WebError};
 
 /// Target of the lines of the journal that are about security: no level switches them off.
 pub const SECURITY: &str = "security";
-pub use orders::{Order, OrderReceiver, OrderSender, Request};
+pub use orders::{OrderReceiver, OrderSender, PageOrder, Request};
 pub use server::{WebHandle, start};

@@ -14,7 +14,7 @@ const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Something that is to be changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Order {
+pub enum PageOrder {
     /// An alert was seen.
     Acknowledge {
         /// Its identifier.
@@ -33,12 +33,12 @@ pub enum Order {
     LogLevel(String),
 }
 
-impl fmt::Display for Order {
+impl fmt::Display for PageOrder {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Order::Acknowledge { id, .. } => write!(f, "acknowledge alert {id}"),
-            Order::Silence { id, .. } => write!(f, "silence alert {id}"),
-            Order::LogLevel(level) => write!(f, "log at level {level}"),
+            PageOrder::Acknowledge { id, .. } => write!(f, "acknowledge alert {id}"),
+            PageOrder::Silence { id, .. } => write!(f, "silence alert {id}"),
+            PageOrder::LogLevel(level) => write!(f, "log at level {level}"),
         }
     }
 }
@@ -47,7 +47,7 @@ impl fmt::Display for Order {
 #[derive(Debug)]
 pub struct Request {
     /// What is to be changed.
-    pub order: Order,
+    pub order: PageOrder,
     answer: oneshot::Sender<Result<(), String>>,
 }
 
@@ -99,7 +99,7 @@ impl OrderReceiver {
 
 impl OrderSender {
     /// Gives an order and waits for its answer, but not for long.
-    pub(crate) async fn send(&self, order: Order) -> Result<(), Failure> {
+    pub(crate) async fn send(&self, order: PageOrder) -> Result<(), Failure> {
         let (answer, answered) = oneshot::channel();
         self.0.try_send(Request { order, answer }).map_err(|_| Failure::Busy)?;
         match tokio::time::timeout(PATIENCE, answered).await {
@@ -131,11 +131,11 @@ mod tests {
                 }
                 std::thread::yield_now();
             };
-            assert_eq!(request.order, Order::LogLevel("debug".to_owned()));
+            assert_eq!(request.order, PageOrder::LogLevel("debug".to_owned()));
             request.answer(Err("not now".to_owned()));
         });
         let plain = tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap();
-        let outcome = plain.block_on(sender.send(Order::LogLevel("debug".to_owned())));
+        let outcome = plain.block_on(sender.send(PageOrder::LogLevel("debug".to_owned())));
         assert_eq!(outcome, Err(Failure::Refused("not now".to_owned())));
         engine.join().unwrap();
     }
@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn an_engine_that_does_not_look_makes_nobody_wait_for_long() {
         let (sender, _receiver) = channel();
-        let order = Order::Acknowledge { id: 3062, instance: None };
+        let order = PageOrder::Acknowledge { id: 3062, instance: None };
         for _ in 0..WAITING {
             let outcome = runtime().block_on(sender.send(order.clone()));
             assert_eq!(outcome, Err(Failure::Silent));

@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use house::{House, TOKEN, body, with_token};
-use insd_web::snapshot::{AlertState, SensorState, Snapshot};
+use insd_web::snapshot::{SensorState, ShownAlertState, Snapshot};
 use insd_web::{Listen, WebConfig, WebError};
 use scene::{Scene, Show};
 use serde_json::Value;
@@ -98,14 +98,17 @@ fn readers_of_this_version_bear_what_later_ones_add_or_leave_out() {
     let text = r#"{ "version": 1, "a_field_to_come": [1], "alerts": [{ "id": 7, "priority": "to_come" }] }"#;
     let read: Snapshot = serde_json::from_str(text).unwrap();
     assert_eq!(read.alerts[0].id, 7);
-    assert_eq!(read.alerts[0].state, AlertState::Unknown);
+    assert_eq!(read.alerts[0].state, ShownAlertState::Unknown);
     assert_eq!(read.motion, None);
 }
 
 #[test]
 fn unknown_is_null_and_never_zero() {
     let snapshot = Snapshot {
-        motion: Some(insd_web::snapshot::Motion { roll_deg: Some(f64::NAN), ..Default::default() }),
+        motion: Some(insd_web::snapshot::ShownMotion {
+            roll_deg: Some(f64::NAN),
+            ..Default::default()
+        }),
         ..Snapshot::default()
     };
     let value = serde_json::to_value(snapshot).unwrap();
@@ -242,7 +245,10 @@ fn who_has_the_token_can_acknowledge_and_who_has_not_cannot() {
         let snapshot: Snapshot = serde_json::from_str(body(&house.get("/api/v1/status"))).unwrap();
         snapshot.alerts.iter().find(|alert| alert.id == id).unwrap().state
     };
-    assert_eq!((state(10_001), state(10_002)), (AlertState::Acknowledged, AlertState::Silenced));
+    assert_eq!(
+        (state(10_001), state(10_002)),
+        (ShownAlertState::Acknowledged, ShownAlertState::Silenced)
+    );
 }
 
 #[test]

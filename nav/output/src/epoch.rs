@@ -13,7 +13,7 @@ const LEVELLING: Span = Span::from_nanos(15_000_000_000);
 
 /// What is known at one instant; what is not known is `None` and is sent as not available.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Epoch {
+pub struct OutputEpoch {
     /// The instant: time of validity of everything here. It decides which messages are due.
     pub time: Time,
     /// Where that point is, how the ship moves and lies.
@@ -40,7 +40,7 @@ pub struct Epoch {
     /// Velocity of the water over ground, m/s: the current. Its down component is not used.
     pub current: Option<Ned>,
     /// What the receiver in use says of its fix.
-    pub receiver: Option<Receiver>,
+    pub receiver: Option<SatelliteGeometry>,
     /// Distance run since the start, through the water and over ground, m.
     pub distance: Distance,
     /// How the alignment stands.
@@ -103,7 +103,7 @@ pub struct Variation {
 
 /// What a receiver says of its fix beside position and velocity.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Receiver {
+pub struct SatelliteGeometry {
     /// Satellites used.
     pub satellites: Option<u16>,
     /// Horizontal dilution of precision.
@@ -116,7 +116,7 @@ pub struct Receiver {
     pub tdop: Option<f64>,
 }
 
-impl Epoch {
+impl OutputEpoch {
     /// Its instant on the grid of the outputs: that of UTC as soon as it is known.
     pub(crate) fn boundary(&self) -> Boundary {
         Boundary { time: self.time, utc: self.utc }
@@ -125,7 +125,7 @@ impl Epoch {
     /// An instant of which nothing else is known.
     #[must_use]
     pub fn unknown(time: Time) -> Self {
-        Epoch {
+        OutputEpoch {
             time,
             solution: None,
             acceleration: None,

@@ -19,7 +19,7 @@ use insd_wire::nmea::{
 };
 
 use crate::messages::{Content, MessageKind};
-use crate::port::{Message, Port};
+use crate::port::{Port, PortMessage};
 
 /// Greatest count of lines.
 const MAX_LINE: u16 = 999;
@@ -81,13 +81,13 @@ struct Counts {
 /// A message with the group it goes to, and its lines.
 struct Addressed<'a> {
     group: TransmissionGroup,
-    message: &'a Message,
+    message: &'a PortMessage,
     lines: &'a [Line],
 }
 
 /// Lines of a message that stay in one datagram.
 struct Piece<'a> {
-    message: &'a Message,
+    message: &'a PortMessage,
     /// Which piece of its message it is.
     part: u16,
     lines: Vec<Tagged<'a>>,
@@ -125,7 +125,7 @@ impl Lan {
 
     /// The datagrams of the messages of one epoch, whose instant this is in UTC. Groups follow each
     /// other in the order of their first messages.
-    pub fn datagrams(&mut self, messages: &[Message], utc: Option<UtcTime>) -> Vec<Datagram> {
+    pub fn datagrams(&mut self, messages: &[PortMessage], utc: Option<UtcTime>) -> Vec<Datagram> {
         let mut datagrams = Vec::new();
         let source = self.config.source;
         let time = utc.filter(|_| self.config.time);
@@ -155,7 +155,7 @@ impl Lan {
     }
 
     /// The messages that have lines.
-    fn addressed<'a>(&mut self, messages: &'a [Message]) -> Vec<Addressed<'a>> {
+    fn addressed<'a>(&mut self, messages: &'a [PortMessage]) -> Vec<Addressed<'a>> {
         let mut addressed = Vec::new();
         for message in messages {
             match &message.content {
@@ -248,7 +248,7 @@ fn bundles(pieces: Vec<Piece<'_>>, single: bool) -> Vec<Bundle<'_>> {
 
 impl<'a> Bundle<'a> {
     fn empty(piece: &Piece<'a>) -> Self {
-        let Message { valid, period, .. } = *piece.message;
+        let PortMessage { valid, period, .. } = *piece.message;
         Bundle { lines: Vec::new(), bytes: Vec::new(), parts: Vec::new(), valid, period }
     }
 

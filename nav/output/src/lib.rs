@@ -4,7 +4,7 @@
 //! Pure: no I/O, no clock; time and UTC are handed in as values. Nothing is invented: what is not known
 //! stays empty, and what is not sure is marked so or not sent.
 //!
-//! [`Station`] knows when something is due, carries the newest motion on to that instant and to each
+//! [`OutputStation`] knows when something is due, carries the newest motion on to that instant and to each
 //! port's monitoring point, and lets the ports speak. `docs/outputs.md` has the messages field by field,
 //! the profiles and the policy.
 
@@ -17,18 +17,18 @@ pub mod n2k;
 mod policy;
 mod port;
 mod profile;
-mod said;
+mod redacted_epoch;
 mod schedule;
 mod station;
 
-pub use epoch::{Distance, Doubts, Epoch, Receiver, Variation};
+pub use epoch::{Distance, Doubts, OutputEpoch, SatelliteGeometry, Variation};
 pub use insd_wire::nmea::{CivilTime, Date, Sfi, Talker, TimeOfDay, TransmissionGroup};
 pub use lan::{Datagram, Lan, LanConfig};
 pub use manner::Manner;
 pub use messages::{Content, MessageKind};
 pub use policy::{Policy, PositionLimits};
-pub use port::{Message, Port, PortConfig};
+pub use port::{OutputPortConfig, Port, PortMessage};
 pub use profile::Profile;
-pub use said::Ellipse;
+pub use redacted_epoch::Ellipse;
 pub use schedule::{Boundary, Due, Pacer, Rate, WakeUp};
-pub use station::{Moment, Station};
+pub use station::{OutputStation, Situation};

@@ -4,15 +4,15 @@ use insd_base::{Span, Time, UtcTime};
 use insd_wire::nmea::Talker;
 
 use crate::alerts::AlertBoard;
-use crate::epoch::Epoch;
+use crate::epoch::OutputEpoch;
 use crate::manner::Manner;
 use crate::messages::{Content, MessageKind};
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 use crate::schedule::Rate;
 
 /// One port.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct PortConfig {
+pub struct OutputPortConfig {
     /// Messages and their rates. They leave in the order of [`MessageKind::all`].
     pub messages: Vec<(MessageKind, Rate)>,
     /// How it speaks of quality and of simulated data.
@@ -31,7 +31,7 @@ pub struct PortConfig {
 
 /// A message on its way to a port.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Message {
+pub struct PortMessage {
     /// Place of its kind in the port's list: a newer message of one slot replaces one that waits. Each
     /// alert has a slot of its own behind those of the list.
     pub slot: u16,
@@ -50,7 +50,7 @@ pub struct Message {
 /// Turns epochs into the messages of one port.
 #[derive(Clone, Debug)]
 pub struct Port {
-    config: PortConfig,
+    config: OutputPortConfig,
     lines: Vec<LineUp>,
     turn: Option<(Time, f64)>,
     /// Stamp of the board up to which alerts were told.
@@ -68,7 +68,7 @@ struct LineUp {
 impl Port {
     /// A port that has sent nothing yet.
     #[must_use]
-    pub fn new(config: PortConfig) -> Self {
+    pub fn new(config: OutputPortConfig) -> Self {
         let talker = |kind: MessageKind| {
             let own = config.talkers.iter().find(|(own, _)| *own == kind);
             own.map(|(_, talker)| *talker).or(config.talker)
@@ -82,7 +82,7 @@ impl Port {
 
     /// What the port was made from.
     #[must_use]
-    pub fn config(&self) -> &PortConfig {
+    pub fn config(&self) -> &OutputPortConfig {
         &self.config
     }
 
@@ -115,19 +115,23 @@ impl Port {
     }
 
     /// The messages that are due with this epoch, which is that of the port's monitoring point.
-    pub fn messages(&mut self, epoch: &Epoch) -> Vec<Message> {
+    pub fn messages(&mut self, epoch: &OutputEpoch) -> Vec<PortMessage> {
         self.messages_with(epoch, None)
     }
 
     /// The same, where a board has the alerts; without one nothing is said of them.
-    pub fn messages_with(&mut self, epoch: &Epoch, board: Option<&AlertBoard>) -> Vec<Message> {
+    pub fn messages_with(
+        &mut self,
+        epoch: &OutputEpoch,
+        board: Option<&AlertBoard>,
+    ) -> Vec<PortMessage> {
         let rate_of_turn = self.damped(epoch);
         let geoid = self.config.geoid_separation.or(epoch.geoid);
-        let epoch = Epoch { rate_of_turn, geoid, ..*epoch };
+        let epoch = OutputEpoch { rate_of_turn, geoid, ..*epoch };
         let grid = epoch.boundary().grid();
         let manner = &self.config.manner;
         let alerts = board.map(|board| board.list(|condition| manner.shows(condition)));
-        let said = Said::new(&epoch, manner).with_alerts(alerts.as_deref());
+        let said = RedactedEpoch::new(&epoch, manner).with_alerts(alerts.as_deref());
         let slots = u16::try_from(self.lines.len()).unwrap_or(u16::MAX);
         let mut messages = Vec::new();
         for (slot, line) in (0..).zip(&mut self.lines).filter(|(_, line)| line.rate.is_on(grid)) {
@@ -146,7 +150,7 @@ impl Port {
     }
 
     /// The rate of turn through a low pass of first order.
-    fn damped(&mut self, epoch: &Epoch) -> Option<f64> {
+    fn damped(&mut self, epoch: &OutputEpoch) -> Option<f64> {
         let solution = epoch.solution.filter(|solution| solution.mode.is_navigating());
         let rate = solution.map(|solution| solution.rate_of_turn());
         let Some(rate) = rate.filter(|rate| rate.is_finite()) else {
@@ -168,12 +172,12 @@ impl Port {
 
 impl LineUp {
     /// One message, if there is anything to say.
-    fn say(&mut self, slot: u16, said: &Said<'_>) -> Option<Message> {
+    fn say(&mut self, slot: u16, said: &RedactedEpoch<'_>) -> Option<PortMessage> {
         let (kind, period) = (self.kind, self.rate.period());
         let said = said.with_count(self.sent).with_period(period);
         let content = kind.make(&said, self.talker)?;
         self.sent += 1;
         let (valid, utc) = (said.time(), said.utc());
-        Some(Message { slot, kind, content, valid, utc, period })
+        Some(PortMessage { slot, kind, content, valid, utc, period })
     }
 }

@@ -3,7 +3,7 @@
 use crate::manner::Manner;
 use crate::messages::MessageKind;
 use crate::policy::Policy;
-use crate::port::PortConfig;
+use crate::port::OutputPortConfig;
 use crate::schedule::Rate;
 
 /// A ready-made port.
@@ -224,18 +224,18 @@ impl Profile {
 
     /// A port with it.
     #[must_use]
-    pub fn port(&self) -> PortConfig {
+    pub fn port(&self) -> OutputPortConfig {
         let kind = |(name, hertz): &(&str, f64)| {
             Some((MessageKind::named(name)?, Rate::from_hertz(*hertz)))
         };
-        PortConfig {
+        OutputPortConfig {
             messages: self.messages.iter().filter_map(kind).collect(),
             turn_damping: self.turn_damping,
             manner: Manner {
                 policy: Policy { estimated_is_valid: self.estimated_is_valid, ..Policy::default() },
                 ..Manner::default()
             },
-            ..PortConfig::default()
+            ..OutputPortConfig::default()
         }
     }
 }

@@ -5,9 +5,9 @@ use insd_n2k::pgn::TimeSource;
 use insd_wire::nmea::{Acn, AlertCommand, Hbt};
 
 use crate::alerts::{AlertBoard, AlertConfig, Watch};
-use crate::epoch::{Distance, Doubts, Epoch, Receiver, Variation};
+use crate::epoch::{Distance, Doubts, OutputEpoch, SatelliteGeometry, Variation};
 use crate::policy::Policy;
-use crate::port::{Message, Port, PortConfig};
+use crate::port::{OutputPortConfig, Port, PortMessage};
 use crate::schedule::{Boundary, Due, Pacer, Rate, WakeUp};
 
 /// Longest time over which a motion is carried on. After it nothing is known: the IMU is silent.
@@ -23,7 +23,7 @@ const UNDER_WAY: f64 = 0.1;
 
 /// The newest there is to know, each with its own time.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Moment {
+pub struct Situation {
     /// How the IMU moves.
     pub motion: Option<Motion>,
     /// Heave of each monitoring point.
@@ -33,7 +33,7 @@ pub struct Moment {
     /// Magnetic variation at the ship.
     pub variation: Option<Variation>,
     /// What the receiver in use says of its fix.
-    pub receiver: Option<Receiver>,
+    pub receiver: Option<SatelliteGeometry>,
     /// How the alignment stands.
     pub alignment: Option<AlignmentStatus>,
     /// Whether two engines are apart by more than they claim.
@@ -46,7 +46,7 @@ pub struct Moment {
 
 /// All ports of a ship.
 #[derive(Clone, Debug)]
-pub struct Station {
+pub struct OutputStation {
     ports: Vec<Port>,
     points: Vec<Body>,
     groups: Option<Rate>,
@@ -57,19 +57,19 @@ pub struct Station {
     board: AlertBoard,
 }
 
-impl Station {
+impl OutputStation {
     /// Ports, and the monitoring points as levers from the IMU, body axes, m; the first is the IMU itself. `groups` is the rate at
     /// which epochs are wanted for those of NMEA 2000.
     #[must_use]
     pub fn new(
-        ports: impl IntoIterator<Item = PortConfig>,
+        ports: impl IntoIterator<Item = OutputPortConfig>,
         points: Vec<Body>,
         groups: Option<Rate>,
     ) -> Self {
         let ports: Vec<Port> = ports.into_iter().map(Port::new).collect();
         let own = ports.iter().flat_map(Port::rates);
         let rates: Vec<Rate> = own.chain(groups).chain([Rate::from_hertz(UPKEEP)]).collect();
-        Station {
+        OutputStation {
             ports,
             points,
             groups,
@@ -84,7 +84,7 @@ impl Station {
     /// The same with another patience with warnings that nobody acknowledges.
     #[must_use]
     pub fn with_alerts(self, config: AlertConfig) -> Self {
-        Station { board: AlertBoard::new(config), ..self }
+        OutputStation { board: AlertBoard::new(config), ..self }
     }
 
     /// Its ports.
@@ -122,7 +122,7 @@ impl Station {
     }
 
     /// Other ports of the same ship: alerts and the distance run go on from those of `before`.
-    pub fn inherit(&mut self, before: &Station) {
+    pub fn inherit(&mut self, before: &OutputStation) {
         self.odometer.clone_from(&before.odometer);
         self.standing.clone_from(&before.standing);
         self.watch = before.watch;
@@ -165,10 +165,10 @@ impl Station {
     pub fn messages(
         &mut self,
         boundary: &Boundary,
-        moment: &Moment,
-        mut send: impl FnMut(usize, Vec<Message>),
-    ) -> Vec<Epoch> {
-        let mut epochs: Vec<Epoch> = self
+        moment: &Situation,
+        mut send: impl FnMut(usize, Vec<PortMessage>),
+    ) -> Vec<OutputEpoch> {
+        let mut epochs: Vec<OutputEpoch> = self
             .points
             .iter()
             .enumerate()
@@ -196,7 +196,7 @@ impl Station {
     }
 
     /// Raises and rectifies alerts.
-    fn keep_watch(&mut self, epoch: &Epoch, now: &Boundary) {
+    fn keep_watch(&mut self, epoch: &OutputEpoch, now: &Boundary) {
         let mut judges = self.ports.iter().filter(|port| port.tells_alerts());
         let policy = judges.next().map_or_else(Policy::default, |port| port.config().manner.policy);
         let simulated = self.ports.iter().any(|port| port.config().manner.simulated);
@@ -219,7 +219,7 @@ struct Standing {
 }
 
 impl Standing {
-    fn note(&mut self, epoch: &Epoch) {
+    fn note(&mut self, epoch: &OutputEpoch) {
         let mode = epoch.solution.map(|solution| solution.mode);
         if self.since.is_none() || mode != self.mode {
             *self = Standing { mode, since: Some(epoch.time) };
@@ -229,7 +229,7 @@ impl Standing {
 
 /// What is known of a monitoring point at a boundary. The newest motion is carried on to it, but not
 /// for longer than 0.2 s: nothing is told with a new time that is not new.
-fn epoch(boundary: &Boundary, moment: &Moment, point: usize, lever: &Body) -> Epoch {
+fn epoch(boundary: &Boundary, moment: &Situation, point: usize, lever: &Body) -> OutputEpoch {
     let within =
         |time: Time, span: Span| (boundary.time - time).as_nanos().abs() <= span.as_nanos();
     let is_near = |time: Time| within(time, CARRIED);
@@ -239,7 +239,7 @@ fn epoch(boundary: &Boundary, moment: &Moment, point: usize, lever: &Body) -> Ep
     });
     let motion = motion.map(|motion| motion.at(boundary.time).at_point(lever));
     let heave = moment.heaves.get(point).copied().flatten();
-    Epoch {
+    OutputEpoch {
         solution: motion.map(|motion| motion.solution),
         acceleration: motion.and_then(|motion| motion.acceleration),
         covariance_north_east: motion.and_then(|motion| motion.covariance_north_east()),
@@ -253,7 +253,7 @@ fn epoch(boundary: &Boundary, moment: &Moment, point: usize, lever: &Body) -> Ep
         engines_differ: moment.engines_differ,
         doubts: moment.doubts,
         storage: moment.storage,
-        ..Epoch::unknown(boundary.time)
+        ..OutputEpoch::unknown(boundary.time)
     }
 }
 
@@ -265,7 +265,7 @@ struct Odometer {
 }
 
 impl Odometer {
-    fn note(&mut self, epoch: &Epoch) {
+    fn note(&mut self, epoch: &OutputEpoch) {
         let passed = self.last.replace(epoch.time).map(|last| (epoch.time - last).as_seconds());
         let solution = epoch.solution.filter(|solution| solution.mode.is_navigating());
         let Some((solution, passed)) = solution.zip(passed.filter(|passed| *passed > 0.0)) else {

@@ -7,7 +7,7 @@ use insd_base::{
     AlignmentPhase, AlignmentStatus, Attitude, Body, Forecast, Geodetic, Heave, HeaveQuality, Lack,
     Mode, Ned, Solution, SolutionSigma, Time, UtcTime,
 };
-use insd_output::{Epoch, Manner, MessageKind, Port, PortConfig, Rate, Talker};
+use insd_output::{Manner, MessageKind, OutputEpoch, OutputPortConfig, Port, Rate, Talker};
 use insd_wire::nmea::Sentence;
 
 fn solution(mode: Mode) -> Solution {
@@ -33,31 +33,34 @@ fn heave(quality: HeaveQuality) -> Option<Heave> {
     Some(Heave { time, heave: 0.42, rate, acceleration, sigma, quality, delayed: None })
 }
 
-fn epoch(mode: Mode) -> Epoch {
-    Epoch {
+fn epoch(mode: Mode) -> OutputEpoch {
+    OutputEpoch {
         solution: Some(solution(mode)),
         heave: heave(HeaveQuality::Settled),
         utc: UtcTime::from_civil((2026, 1, 2), (3, 4, 0), 0),
-        ..Epoch::unknown(Time::START)
+        ..OutputEpoch::unknown(Time::START)
     }
 }
 
-fn port(kind: &str) -> PortConfig {
+fn port(kind: &str) -> OutputPortConfig {
     let kind = MessageKind::named(kind).unwrap();
-    PortConfig { messages: vec![(kind, Rate::from_hertz(0.1))], ..PortConfig::default() }
+    OutputPortConfig {
+        messages: vec![(kind, Rate::from_hertz(0.1))],
+        ..OutputPortConfig::default()
+    }
 }
 
-fn simulated(kind: &str) -> PortConfig {
-    PortConfig { manner: Manner { simulated: true, ..Manner::default() }, ..port(kind) }
+fn simulated(kind: &str) -> OutputPortConfig {
+    OutputPortConfig { manner: Manner { simulated: true, ..Manner::default() }, ..port(kind) }
 }
 
-fn said(config: PortConfig, epoch: &Epoch) -> String {
+fn said(config: OutputPortConfig, epoch: &OutputEpoch) -> String {
     let messages = Port::new(config).messages(epoch);
     messages.iter().map(|message| String::from_utf8(message.content.to_bytes()).unwrap()).collect()
 }
 
 /// Without its checksum.
-fn stem(config: PortConfig, epoch: &Epoch) -> String {
+fn stem(config: OutputPortConfig, epoch: &OutputEpoch) -> String {
     said(config, epoch).split('*').next().unwrap().to_owned()
 }
 
@@ -73,18 +76,18 @@ fn roll_and_pitch_are_named_as_the_consumer_reads_them() {
     let aided = epoch(Mode::Aided);
     let xdr = "$INXDR,A,-0.30,D,PITCH,A,-3.40,D,ROLL,D,0.42,M,HEAVE";
     assert_eq!(stem(port("XDR"), &aided), xdr);
-    let ii = PortConfig { talker: Talker::new("II"), ..port("XDR.PTCH") };
+    let ii = OutputPortConfig { talker: Talker::new("II"), ..port("XDR.PTCH") };
     assert_eq!(said(ii, &aided), "$IIXDR,A,-0.3,D,PTCH,A,-3.4,D,ROLL*58\r\n");
 }
 
 #[test]
 fn a_measurement_that_is_not_known_is_left_out_and_none_is_silence() {
-    let level = Epoch { heave: heave(HeaveQuality::Unsettled), ..epoch(Mode::Aided) };
+    let level = OutputEpoch { heave: heave(HeaveQuality::Unsettled), ..epoch(Mode::Aided) };
     assert_eq!(stem(port("XDR"), &level), "$INXDR,A,-0.30,D,PITCH,A,-3.40,D,ROLL");
     let mut heaving = epoch(Mode::Aided);
     heaving.solution.as_mut().unwrap().sigma.roll = 1.0;
     assert_eq!(stem(port("XDR"), &heaving), "$INXDR,D,0.42,M,HEAVE");
-    assert_eq!(said(port("XDR"), &Epoch { heave: None, ..heaving }), "");
+    assert_eq!(said(port("XDR"), &OutputEpoch { heave: None, ..heaving }), "");
     assert_eq!(said(simulated("XDR"), &epoch(Mode::Aided)), "", "it has no mark");
 }
 
@@ -102,7 +105,7 @@ fn a_sign_of_life_has_its_interval_and_counts_to_nine() {
     let mut sentences = Vec::new();
     for step in 0..12 {
         let time = Time::from_nanos(step * 10_000_000_000);
-        let epoch = Epoch { time, utc: None, ..epoch(Mode::CoarseAlignment) };
+        let epoch = OutputEpoch { time, utc: None, ..epoch(Mode::CoarseAlignment) };
         let [message] = &port.messages(&epoch)[..] else { continue };
         sentences.push(String::from_utf8(message.content.to_bytes()).unwrap());
     }
@@ -114,7 +117,7 @@ fn a_sign_of_life_has_its_interval_and_counts_to_nine() {
 
 #[test]
 fn a_system_that_has_failed_says_so_as_long_as_it_lives() {
-    let silent = Epoch { solution: None, ..epoch(Mode::Aided) };
+    let silent = OutputEpoch { solution: None, ..epoch(Mode::Aided) };
     for config in [port("HBT"), simulated("HBT")] {
         assert_eq!(stem(config.clone(), &epoch(Mode::Aided)), "$INHBT,10,A,0");
         assert_eq!(stem(config.clone(), &epoch(Mode::Fault)), "$INHBT,10,V,0");
@@ -136,7 +139,7 @@ fn a_system_that_levels_has_not_failed_but_one_that_has_come_to_a_halt_has() {
             sea: None,
             shifts: 0,
         };
-        Epoch { solution: None, alignment: Some(alignment), ..epoch(Mode::Aided) }
+        OutputEpoch { solution: None, alignment: Some(alignment), ..epoch(Mode::Aided) }
     };
     assert_eq!(stem(port("HBT"), &levelling(-10.0)), "$INHBT,10,A,0");
     assert_eq!(stem(port("TXT"), &levelling(-10.0)), "$INTXT,01,01,02,insd: levelling");

@@ -6,8 +6,8 @@ use std::collections::HashSet;
 
 use insd_base::{Span, Time, UtcTime};
 use insd_output::{
-    Content, Datagram, Lan, LanConfig, Message, MessageKind, Port, PortConfig, Rate, Sfi, Talker,
-    TransmissionGroup,
+    Content, Datagram, Lan, LanConfig, MessageKind, OutputPortConfig, Port, PortMessage, Rate, Sfi,
+    Talker, TransmissionGroup,
 };
 use insd_wire::nmea::{
     DATAGRAM_HEADER, Frame, HeadingMode, Line, MAX_DATAGRAM, Psxn, Sentence, TagBlock, Ths, Txt,
@@ -27,9 +27,9 @@ fn kind(name: &str) -> MessageKind {
     MessageKind::named(name).unwrap()
 }
 
-fn message(name: &str, lines: Vec<Line>) -> Message {
+fn message(name: &str, lines: Vec<Line>) -> PortMessage {
     let slot = MessageKind::all().position(|own| own.name() == name).unwrap();
-    Message {
+    PortMessage {
         slot: u16::try_from(slot).unwrap(),
         kind: kind(name),
         content: Content::Lines(lines),
@@ -43,11 +43,11 @@ fn ths(degrees: f64) -> Line {
     Ths { heading: Some(degrees.to_radians()), mode: HeadingMode::Autonomous }.write(Talker::HE)
 }
 
-fn heading() -> Message {
+fn heading() -> PortMessage {
     message("THS", vec![ths(316.7)])
 }
 
-fn text(lines: usize) -> Message {
+fn text(lines: usize) -> PortMessage {
     let sentences = Txt::message(2, &"x".repeat(lines * Txt::ROOM));
     message("TXT", sentences.iter().map(|sentence| sentence.write(Talker::IN)).collect())
 }
@@ -154,14 +154,14 @@ fn the_groups_of_a_port_are_those_of_its_talkers() {
         Lan::new(LanConfig { groups: vec![(kind("ROT"), TransmissionGroup::Usr1)], ..config() });
     let rate = Rate::from_hertz(1.0);
     let kinds = ["PSXN.23", "ZDA", "GGA", "HDT", "ROT", "XDR"];
-    let port = Port::new(PortConfig {
+    let port = Port::new(OutputPortConfig {
         messages: kinds.map(|name| (kind(name), rate)).to_vec(),
         talkers: vec![
             (kind("ZDA"), Talker::new("ZA").unwrap()),
             (kind("PSXN.23"), Talker::IN),
             (kind("XDR"), Talker::new("II").unwrap()),
         ],
-        ..PortConfig::default()
+        ..OutputPortConfig::default()
     });
     use TransmissionGroup::{Misc, Navd, Prop, Satd, Time, Usr1};
     assert_eq!(lan.groups(&port), [Misc, Satd, Navd, Time, Prop, Usr1]);
@@ -170,7 +170,7 @@ fn the_groups_of_a_port_are_those_of_its_talkers() {
 #[test]
 fn a_binary_telegram_is_not_sent_and_counted() {
     let mut lan = Lan::new(config());
-    let binary = Message { content: Content::Binary(vec![0, 0x90]), ..heading() };
+    let binary = PortMessage { content: Content::Binary(vec![0, 0x90]), ..heading() };
     assert_eq!(lan.datagrams(&[binary.clone(), heading(), binary], None).len(), 1);
     assert_eq!(lan.unsent(), 2);
 }
@@ -179,7 +179,7 @@ fn a_binary_telegram_is_not_sent_and_counted() {
 fn only_datagrams_with_the_same_messages_share_a_slot() {
     let mut lan = Lan::new(config());
     let gga = message("GGA", vec![ths(1.0)]);
-    let mut slots = |messages: &[Message]| -> Vec<u16> {
+    let mut slots = |messages: &[PortMessage]| -> Vec<u16> {
         lan.datagrams(messages, None).iter().map(|datagram| datagram.slot).collect()
     };
     let (alone, both) = (slots(&[heading()]), slots(&[heading(), gga.clone()]));
@@ -195,7 +195,8 @@ fn slots_stay_few_however_many_sets_of_messages_there_are() {
     for slot in 0..5000 {
         let usual = lan.datagrams(&[heading()], None)[0].slot;
         assert_eq!(usual, 0, "what is always sent keeps its slot");
-        let other = lan.datagrams(&[Message { slot: 10_000 + slot, ..heading() }], None)[0].slot;
+        let other =
+            lan.datagrams(&[PortMessage { slot: 10_000 + slot, ..heading() }], None)[0].slot;
         assert!((1..1024).contains(&other), "{other}");
     }
 }
@@ -203,8 +204,8 @@ fn slots_stay_few_however_many_sets_of_messages_there_are() {
 #[test]
 fn a_datagram_is_as_old_as_its_oldest_message_and_due_with_its_most_frequent() {
     let mut lan = Lan::new(config());
-    let fast = Message { period: Span::from_nanos(1000), ..heading() };
-    let old = Message { valid: Time::from_nanos(-5), ..heading() };
+    let fast = PortMessage { period: Span::from_nanos(1000), ..heading() };
+    let old = PortMessage { valid: Time::from_nanos(-5), ..heading() };
     let [datagram] = &lan.datagrams(&[fast, old], None)[..] else { panic!() };
     assert_eq!((datagram.valid, datagram.period.as_nanos()), (Time::from_nanos(-5), 1000));
 }
@@ -220,14 +221,14 @@ fn any_line() -> impl Strategy<Value = Line> {
     prop_oneof![(0.0..360.0).prop_map(ths), text, psxn]
 }
 
-fn any_message() -> impl Strategy<Value = Message> {
+fn any_message() -> impl Strategy<Value = PortMessage> {
     let kinds: Vec<&str> = MessageKind::all().map(MessageKind::name).collect();
     let lines = prop::collection::vec(any_line(), 0..40);
     (prop::sample::select(kinds), lines).prop_map(|(name, lines)| message(name, lines))
 }
 
 /// The group that the first line of a message decides, and all its lines.
-fn expected(messages: &[Message], group: TransmissionGroup) -> String {
+fn expected(messages: &[PortMessage], group: TransmissionGroup) -> String {
     let mut all = String::new();
     for message in messages {
         let text = String::from_utf8(message.content.to_bytes()).unwrap();

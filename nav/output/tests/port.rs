@@ -5,7 +5,9 @@
 use insd_base::geoid::undulation;
 use insd_base::units::{DEG, KNOT};
 use insd_base::{Attitude, Body, Geodetic, Mode, Ned, Solution, SolutionSigma, Time, UtcTime};
-use insd_output::{Epoch, Manner, MessageKind, Policy, Port, PortConfig, Profile, Rate};
+use insd_output::{
+    Manner, MessageKind, OutputEpoch, OutputPortConfig, Policy, Port, Profile, Rate,
+};
 use proptest::prelude::*;
 
 /// 2026-01-02 03:04:05 and so many milliseconds.
@@ -13,17 +15,17 @@ fn utc(ms: u32) -> Option<UtcTime> {
     UtcTime::from_civil((2026, 1, 2), (3, 4, 5), ms * 1_000_000)
 }
 
-fn epoch(solution: &Solution) -> Epoch {
-    Epoch { solution: Some(*solution), utc: utc(0), ..Epoch::unknown(solution.time) }
+fn epoch(solution: &Solution) -> OutputEpoch {
+    OutputEpoch { solution: Some(*solution), utc: utc(0), ..OutputEpoch::unknown(solution.time) }
 }
 
-fn bridge() -> PortConfig {
+fn bridge() -> OutputPortConfig {
     Profile::named("bridge").unwrap().port()
 }
 
-fn simulated(unmarked_when_simulated: bool) -> PortConfig {
+fn simulated(unmarked_when_simulated: bool) -> OutputPortConfig {
     let manner = Manner { simulated: true, unmarked_when_simulated, policy: Policy::default() };
-    PortConfig { manner, ..bridge() }
+    OutputPortConfig { manner, ..bridge() }
 }
 
 fn solution() -> Solution {
@@ -45,18 +47,18 @@ fn solution() -> Solution {
     }
 }
 
-fn said(config: &PortConfig, solution: &Solution) -> Vec<String> {
+fn said(config: &OutputPortConfig, solution: &Solution) -> Vec<String> {
     lines(&mut Port::new(config.clone()), &epoch(solution))
 }
 
-fn lines(port: &mut Port, epoch: &Epoch) -> Vec<String> {
+fn lines(port: &mut Port, epoch: &OutputEpoch) -> Vec<String> {
     let bytes =
         port.messages(epoch).iter().flat_map(|message| message.content.to_bytes()).collect();
     String::from_utf8(bytes).unwrap().split_terminator("\r\n").map(str::to_owned).collect()
 }
 
 /// The sentence with this address, without checksum.
-fn one(config: &PortConfig, solution: &Solution, address: &str) -> Option<String> {
+fn one(config: &OutputPortConfig, solution: &Solution, address: &str) -> Option<String> {
     let line = said(config, solution).into_iter().find(|line| line[1..].starts_with(address))?;
     Some(line.split('*').next().unwrap().to_owned())
 }
@@ -166,7 +168,7 @@ fn a_course_that_the_velocity_does_not_support_is_left_empty() {
 
 #[test]
 fn height_above_sea_level_is_never_empty_and_by_the_geoid_that_is_configured_else_by_egm96() {
-    let config = PortConfig { geoid_separation: Some(36.7), ..bridge() };
+    let config = OutputPortConfig { geoid_separation: Some(36.7), ..bridge() };
     let gga = one(&config, &solution(), "INGGA").unwrap();
     assert!(gga.ends_with(",W,1,,,3.30,M,36.70,M,,"), "{gga}");
     let gga = one(&bridge(), &solution(), "INGGA").unwrap();
@@ -181,9 +183,9 @@ fn the_altitude_of_every_sentence_is_height_minus_geoid_all_round_the_world() {
             let here = Solution { position: place, ..solution() };
             let geoid = undulation(&place).unwrap();
             for name in ["GGA", "GNS"] {
-                let config = PortConfig {
+                let config = OutputPortConfig {
                     messages: vec![(MessageKind::named(name).unwrap(), Rate::from_hertz(1.0))],
-                    ..PortConfig::default()
+                    ..OutputPortConfig::default()
                 };
                 let line = one(&config, &here, &format!("IN{name}")).unwrap();
                 let fields: Vec<&str> = line.split(',').collect();
@@ -220,7 +222,7 @@ fn one_second_of_solutions_gives_ten_headings_and_one_position() {
     let mut formatters = Vec::new();
     for step in 0..10 {
         let time = Time::from_nanos(i64::from(step) * 100_000_000);
-        let epoch = Epoch { time, utc: utc(step * 100), ..epoch(&solution()) };
+        let epoch = OutputEpoch { time, utc: utc(step * 100), ..epoch(&solution()) };
         formatters.extend(lines(&mut port, &epoch).into_iter().map(|line| line[3..6].to_owned()));
     }
     let count = |formatter: &str| formatters.iter().filter(|line| *line == formatter).count();
@@ -253,7 +255,7 @@ proptest! {
             judgement: insd_base::Judgement::default(),
         };
         let manner = Manner { simulated, ..Manner::default() };
-        let config = PortConfig { manner, geoid_separation: Some(sn), ..bridge() };
+        let config = OutputPortConfig { manner, geoid_separation: Some(sn), ..bridge() };
         for line in said(&config, &solution) {
             prop_assert!(line.len() <= 80);
             prop_assert!(insd_wire::nmea::Sentence::read(line.as_bytes()).is_ok(), "{}", line);

@@ -9,7 +9,8 @@ use insd_base::{
     UtcTime,
 };
 use insd_output::{
-    Epoch, Manner, MessageKind, Port, PortConfig, Profile, Rate, Receiver, Variation,
+    Manner, MessageKind, OutputEpoch, OutputPortConfig, Port, Profile, Rate, SatelliteGeometry,
+    Variation,
 };
 use serde_json::Value;
 
@@ -35,23 +36,27 @@ fn solution(side: f64) -> Solution {
     }
 }
 
-fn epoch(side: f64) -> Epoch {
+fn epoch(side: f64) -> OutputEpoch {
     let (time, sigma, quality) = (Time::START, 0.02, HeaveQuality::Settled);
     let (heave, rate, acceleration) = (side * 0.5, 0.0, 0.0);
-    Epoch {
+    OutputEpoch {
         solution: Some(solution(side)),
         heave: Some(Heave { time, heave, rate, acceleration, sigma, quality, delayed: None }),
         utc: UtcTime::from_civil((2026, 1, 2), (3, 4, 5), 100_000_000),
         variation: Some(Variation { value: side * 4.0 * DEG, model: 2025, day: None }),
         current: Some(Ned::new(-2.0, 0.0, 0.0)),
-        receiver: Some(Receiver { satellites: Some(17), hdop: Some(0.7), ..Receiver::default() }),
-        ..Epoch::unknown(Time::START)
+        receiver: Some(SatelliteGeometry {
+            satellites: Some(17),
+            hdop: Some(0.7),
+            ..SatelliteGeometry::default()
+        }),
+        ..OutputEpoch::unknown(Time::START)
     }
 }
 
-fn line(manner: Manner, epoch: &Epoch) -> String {
+fn line(manner: Manner, epoch: &OutputEpoch) -> String {
     let messages = vec![(MessageKind::named("SIGNALK").unwrap(), Rate::from_hertz(10.0))];
-    let config = PortConfig { messages, manner, ..PortConfig::default() };
+    let config = OutputPortConfig { messages, manner, ..OutputPortConfig::default() };
     let message = Port::new(config).messages(epoch).remove(0);
     String::from_utf8(message.content.to_bytes()).unwrap()
 }
@@ -117,7 +122,7 @@ fn a_delta_has_position_motion_and_attitude_in_the_units_and_signs_of_signal_k()
 fn what_is_not_known_is_null_and_every_path_is_there_to_say_so() {
     let (full, empty) = (
         line(Manner::default(), &epoch(1.0)),
-        line(Manner::default(), &Epoch::unknown(Time::START)),
+        line(Manner::default(), &OutputEpoch::unknown(Time::START)),
     );
     assert_eq!(paths(&full), paths(&empty), "a value that was told is taken back");
     for path in paths(&empty) {
@@ -139,7 +144,7 @@ fn a_delta_passes_the_policy_like_every_sentence() {
     let with = |change: &dyn Fn(&mut Solution)| {
         let mut own = solution(1.0);
         change(&mut own);
-        line(Manner::default(), &Epoch { solution: Some(own), ..epoch(1.0) })
+        line(Manner::default(), &OutputEpoch { solution: Some(own), ..epoch(1.0) })
     };
     let unsure = with(&|own| own.sigma.heading = 3.0 * DEG);
     for path in
@@ -199,7 +204,7 @@ fn a_simulated_ship_is_marked_and_what_has_no_mark_is_null() {
 fn the_longest_delta_is_within_what_the_budget_reckons_with() {
     let mut own = solution(-1.0);
     own.position = Geodetic::from_degrees(-89.123_456_78, -179.123_456_78, -9999.999);
-    let line = line(Manner::default(), &Epoch { solution: Some(own), ..epoch(-1.0) });
+    let line = line(Manner::default(), &OutputEpoch { solution: Some(own), ..epoch(-1.0) });
     let longest = MessageKind::named("SIGNALK").unwrap().longest();
     assert!(line.len() <= longest && line.len() * 5 > longest * 4, "{} {longest}", line.len());
 }

@@ -6,7 +6,9 @@ use insd_base::units::DEG;
 use insd_base::{
     Attitude, Body, Geodetic, Mode, Motion, Ned, Solution, SolutionSigma, Time, UtcTime,
 };
-use insd_output::{Boundary, Due, MessageKind, Moment, PortConfig, Profile, Rate, Station};
+use insd_output::{
+    Boundary, Due, MessageKind, OutputPortConfig, OutputStation, Profile, Rate, Situation,
+};
 
 /// UTC that is 12.345 ms ahead of a second of the time line.
 fn utc(time: Time) -> UtcTime {
@@ -14,7 +16,7 @@ fn utc(time: Time) -> UtcTime {
 }
 
 /// The last IMU sample of a ship that turns to starboard at 20 deg/s and runs at 10 m/s.
-fn turning(time: Time) -> Moment {
+fn turning(time: Time) -> Situation {
     let turned = 20.0 * DEG * time.as_seconds();
     let (sin, cos) = turned.sin_cos();
     let motion = Motion {
@@ -36,17 +38,20 @@ fn turning(time: Time) -> Moment {
         covariance: Some(insd_base::MotionCovariance::zeros()),
         current: None,
     };
-    Moment { motion: Some(motion), ..Moment::default() }
+    Situation { motion: Some(motion), ..Situation::default() }
 }
 
-fn port(messages: &[(&str, f64)]) -> PortConfig {
+fn port(messages: &[(&str, f64)]) -> OutputPortConfig {
     let kind =
         |(name, hertz): &(&str, f64)| (MessageKind::named(name).unwrap(), Rate::from_hertz(*hertz));
-    PortConfig { messages: messages.iter().map(kind).collect(), ..PortConfig::default() }
+    OutputPortConfig {
+        messages: messages.iter().map(kind).collect(),
+        ..OutputPortConfig::default()
+    }
 }
 
 /// What leaves from `from` to `to`, ms, if the newest IMU sample is so many milliseconds old.
-fn sent(station: &mut Station, from: i64, to: i64, age: i64) -> Vec<(Boundary, String)> {
+fn sent(station: &mut OutputStation, from: i64, to: i64, age: i64) -> Vec<(Boundary, String)> {
     let at = |ms: i64| Time::from_nanos(ms * 1_000_000);
     station.due(at(from), Some(utc(at(from))));
     let mut said = Vec::new();
@@ -72,8 +77,11 @@ fn sent(station: &mut Station, from: i64, to: i64, age: i64) -> Vec<(Boundary, S
 #[test]
 fn a_heading_is_that_of_its_utc_boundary_however_old_the_last_sample_is() {
     for age in [0, 5, 20, 50] {
-        let mut station =
-            Station::new([port(&[("HDT", 50.0), ("THS", 10.0)])], vec![Body::default()], None);
+        let mut station = OutputStation::new(
+            [port(&[("HDT", 50.0), ("THS", 10.0)])],
+            vec![Body::default()],
+            None,
+        );
         let said = sent(&mut station, 1000, 3000, age);
         assert_eq!(said.len(), 100 + 20);
         for (boundary, line) in said {
@@ -88,7 +96,8 @@ fn a_heading_is_that_of_its_utc_boundary_however_old_the_last_sample_is() {
 #[test]
 fn whoever_is_to_be_woken_is_told_what_for() {
     let ports = [port(&[("HDT", 4.0)]), port(&[("THS", 40.0)])];
-    let mut station = Station::new(ports, vec![Body::default()], Some(Rate::from_hertz(100.0)));
+    let mut station =
+        OutputStation::new(ports, vec![Body::default()], Some(Rate::from_hertz(100.0)));
     let at = |ms: i64| Time::from_nanos(ms * 1_000_000);
     assert_eq!(station.next(at(0), None).unwrap().why, Due::Grid);
     station.due(at(0), None);
@@ -107,7 +116,7 @@ fn whoever_is_to_be_woken_is_told_what_for() {
 
 #[test]
 fn what_has_not_advanced_is_not_repeated_with_a_new_time() {
-    let mut station = Station::new(
+    let mut station = OutputStation::new(
         [port(&[("HDT", 1.0), ("THS", 1.0), ("GGA", 1.0)])],
         vec![Body::default()],
         None,
@@ -120,9 +129,9 @@ fn what_has_not_advanced_is_not_repeated_with_a_new_time() {
 
 #[test]
 fn a_port_speaks_of_its_own_monitoring_point() {
-    let bow = PortConfig { point: 1, ..port(&[("GGA", 1.0), ("VTG", 1.0)]) };
+    let bow = OutputPortConfig { point: 1, ..port(&[("GGA", 1.0), ("VTG", 1.0)]) };
     let points = vec![Body::default(), Body::new(100.0, 0.0, 0.0)];
-    let mut station = Station::new([bow], points, None);
+    let mut station = OutputStation::new([bow], points, None);
     // heading 180 when 9 s have gone
     let said = sent(&mut station, 8500, 9400, 0);
     let (_, gga) = &said[0];
@@ -138,8 +147,8 @@ fn a_port_speaks_of_its_own_monitoring_point() {
 
 #[test]
 fn the_rate_of_turn_is_damped_by_the_time_constant_of_its_port() {
-    let damped = PortConfig { turn_damping: 2.0, ..port(&[("ROT", 10.0)]) };
-    let mut station = Station::new([damped], vec![Body::default()], None);
+    let damped = OutputPortConfig { turn_damping: 2.0, ..port(&[("ROT", 10.0)]) };
+    let mut station = OutputStation::new([damped], vec![Body::default()], None);
     let still = |time| {
         let mut moment = turning(time);
         moment.motion.as_mut().unwrap().solution.rate = Body::default();
@@ -182,7 +191,8 @@ fn every_message_of_every_profile_exists() {
 
 #[test]
 fn the_time_in_a_mode_begins_anew_with_the_mode() {
-    let mut station = Station::new([port(&[("PINSD.STA", 1.0)])], vec![Body::default()], None);
+    let mut station =
+        OutputStation::new([port(&[("PINSD.STA", 1.0)])], vec![Body::default()], None);
     let mut said = Vec::new();
     for second in 0..8 {
         let time = Time::from_nanos(second * 1_000_000_000);
@@ -204,7 +214,7 @@ fn the_time_in_a_mode_begins_anew_with_the_mode() {
 /// What a second's boundaries say to a port, if receivers and compass said it so long before, ms.
 fn relayed(age: i64, messages: &[(&str, f64)]) -> String {
     let at = |ms: i64| Time::from_nanos(ms * 1_000_000);
-    let mut station = Station::new([port(messages)], vec![Body::default()], None);
+    let mut station = OutputStation::new([port(messages)], vec![Body::default()], None);
     station.due(at(0), Some(utc(at(0))));
     let (mut now, mut said) = (at(0), String::new());
     while now < at(1_000) {

@@ -107,7 +107,7 @@ impl Campaign {
     /// all claim to be.
     fn aligned(&self, bar: f64) -> [String; 3] {
         let times: Vec<_> = self.runs.iter().map(|run| alignment(run, bar)).collect();
-        let sorted = |pick: fn(&insd_lab::evaluation::Alignment) -> Option<f64>| {
+        let sorted = |pick: fn(&insd_lab::evaluation::RunAlignment) -> Option<f64>| {
             let mut sorted: Vec<f64> =
                 times.iter().map(|time| pick(time).unwrap_or(f64::INFINITY)).collect();
             sorted.sort_by(f64::total_cmp);

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use insd_base::{Input, PortState};
-use insd_lab::report::Report;
+use insd_lab::report::VoyageReport;
 use insd_simulator::{Scenario, simulate};
 use insd_tests::feed::{Encoding, noise};
 use insd_tests::recorded::{Recorded, alert};
@@ -98,7 +98,7 @@ fn eventful() -> &'static (TempDir, String) {
 }
 
 fn page(recording: &Path) -> String {
-    Report::of_recording(recording, None, 1).unwrap().html()
+    VoyageReport::of_recording(recording, None, 1).unwrap().html()
 }
 
 fn file_of(folder: &Path) -> PathBuf {
@@ -218,7 +218,7 @@ fn a_recording_without_arrivals_is_refused() {
         let empty = tempfile::tempdir().unwrap();
         let path = empty.path().join("none-000001.insdraw");
         fs::write(&path, bytes).unwrap();
-        let fault = Report::of_recording(&path, None, 1).unwrap_err();
+        let fault = VoyageReport::of_recording(&path, None, 1).unwrap_err();
         assert!(fault.is::<insd_config::BadInput>(), "{fault:?}");
         assert!(fault.to_string().contains(words), "{fault}");
     }

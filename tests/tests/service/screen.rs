@@ -13,7 +13,7 @@ use std::time::Duration;
 
 use insd::clock::Clock;
 use insd::monitor::{self, Board};
-use insd_web::snapshot::{Motion, Snapshot};
+use insd_web::snapshot::{ShownMotion, Snapshot};
 use insd_web::{Listen, Publisher, WebConfig, WebHandle};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
@@ -54,7 +54,7 @@ struct Stage {
     told: VecDeque<(f64, [f64; 3])>,
 }
 
-fn numbers(motion: &Motion) -> [f64; 3] {
+fn numbers(motion: &ShownMotion) -> [f64; 3] {
     [motion.heading_deg, motion.roll_deg, motion.speed_kn].map(Option::unwrap_or_default)
 }
 

@@ -3,9 +3,9 @@
 use insd_base::units::{DEG, wrap_pi};
 use insd_base::{Body, Time, UtcTime, Voyage};
 use insd_engine::{Engine, EngineConfig};
-use insd_output::{MessageKind, PortConfig, Rate};
+use insd_output::{MessageKind, OutputPortConfig, Rate};
 use insd_simulator::{Scenario, simulate};
-use insd_vessel::{OutputPlan, Speaker, Spoken};
+use insd_vessel::{OutputPlan, Outputs, Spoken};
 use insd_wire::nmea::Sentence;
 
 use super::figure;
@@ -72,8 +72,8 @@ fn truth_at(voyage: &Voyage, time: Time) -> Option<[f64; 4]> {
 fn said(voyage: &Voyage, kinds: &[&str]) -> Vec<(Time, Sentence)> {
     let rate = Rate::from_hertz(50.0);
     let messages = kinds.iter().map(|kind| (MessageKind::named(kind).unwrap(), rate)).collect();
-    let port = PortConfig { messages, ..PortConfig::default() };
-    let mut speaker = Speaker::new(OutputPlan {
+    let port = OutputPortConfig { messages, ..OutputPortConfig::default() };
+    let mut speaker = Outputs::new(OutputPlan {
         ports: vec![port],
         points: vec![Body::default()],
         ..OutputPlan::default()

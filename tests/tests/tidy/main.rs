@@ -8,12 +8,14 @@
 mod documents;
 mod manifest;
 mod modules;
+mod names;
 mod source;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use manifest::{Member, members, root};
 use modules::{Module, Modules};
+use names::public_types;
 use source::{Source, rust_sources, text_files};
 
 /// Longest file, lines.
@@ -152,6 +154,51 @@ const TIED: [(&str, usize); 9] = [
     ("insd-engine", 6),
 ];
 
+/// Public types that still have a namesake in another crate, all below the daemon: the list only shrinks.
+const NAMESAKES: [&str; 41] = [
+    "Attitude",
+    "Axes",
+    "Config",
+    "Covariance",
+    "DelayedHeave",
+    "Direction",
+    "Epoch",
+    "Errors",
+    "Fault",
+    "Finding",
+    "Frame",
+    "Group",
+    "Heave",
+    "Innovation",
+    "Integrity",
+    "Judge",
+    "Judgement",
+    "Kind",
+    "Layout",
+    "Line",
+    "LogReading",
+    "Look",
+    "Message",
+    "Mode",
+    "Motion",
+    "North",
+    "Order",
+    "Pace",
+    "Place",
+    "Quantity",
+    "Reading",
+    "Refusal",
+    "Sending",
+    "Solution",
+    "Stamp",
+    "Step",
+    "Stretch",
+    "Told",
+    "Verdict",
+    "Vertical",
+    "WaveMotion",
+];
+
 /// Words that do not enter the repository: promises to do it later, praise, and paths of one desk.
 const BANNED: [&str; 10] = [
     concat!("TO", "DO"),
@@ -259,6 +306,28 @@ fn no_modules_go_round_in_circles() {
         }
     }
     none("modules need each other", &complaints);
+}
+
+#[test]
+fn no_public_type_has_a_namesake_in_another_crate() {
+    let mut crates: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for member in members() {
+        for name in public_types(&sources_of(&member)) {
+            crates.entry(name).or_default().push(member.name.clone());
+        }
+    }
+    let shared = crates.iter().filter(|(_, crates)| crates.len() > 1);
+    let complaints: Vec<String> = shared
+        .filter(|(name, _)| !NAMESAKES.contains(&name.as_str()))
+        .map(|(name, crates)| format!("{name}: {}", crates.join(", ")))
+        .chain(
+            NAMESAKES
+                .iter()
+                .filter(|name| crates.get(**name).is_none_or(|c| c.len() < 2))
+                .map(|name| format!("{name} has no namesake any more: take it out of NAMESAKES")),
+        )
+        .collect();
+    none("a public type has a namesake", &complaints);
 }
 
 #[test]

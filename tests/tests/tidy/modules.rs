@@ -17,11 +17,11 @@ pub(crate) struct Modules {
 
 /// A path that a module names.
 #[derive(Debug)]
-struct Named {
+pub(crate) struct Named {
     /// Its parts.
-    path: Vec<String>,
+    pub(crate) path: Vec<String>,
     /// Whether it is given on: named by a `pub use`.
-    is_given_on: bool,
+    pub(crate) is_given_on: bool,
 }
 
 impl Modules {
@@ -30,6 +30,11 @@ impl Modules {
         let production = sources.iter().filter(|source| !source.is_test());
         let named = production.map(|source| (module(&source.path), named(&source.code)));
         Modules { named: named.collect() }
+    }
+
+    /// Modules and the paths that they name.
+    pub(crate) fn named(&self) -> impl Iterator<Item = (&Module, &Vec<Named>)> {
+        self.named.iter()
     }
 
     /// The module that a path leads to from another, and what is left of the path.

@@ -15,8 +15,8 @@ use insd_drivers::ports::{
 };
 use insd_n2k::Name;
 use insd_n2k::node::{Node, NodeCounts, NodeEvent};
-use insd_output::Epoch;
-use insd_output::n2k::Voice;
+use insd_output::OutputEpoch;
+use insd_output::n2k::PgnSchedule;
 use tokio::runtime::Runtime;
 
 use super::guest::SECOND;
@@ -71,7 +71,7 @@ impl Unit {
             }),
             std::thread::spawn({
                 let (node, stop) = (node.clone(), Arc::clone(&stop));
-                let voice = Voice::new(section.voice());
+                let voice = PgnSchedule::new(section.voice());
                 move || speak(voice, &node, &clock, &stop)
             }),
         ];
@@ -152,7 +152,7 @@ fn consume(mut receiver: Receiver, got: &Mutex<Got>, stop: &AtomicBool) {
 }
 
 /// Hands in what is to be said at each epoch, of which nothing is known.
-fn speak(mut voice: Voice, node: &SharedSpeaker<Node>, clock: &HostClock, stop: &AtomicBool) {
+fn speak(mut voice: PgnSchedule, node: &SharedSpeaker<Node>, clock: &HostClock, stop: &AtomicBool) {
     let begun = clock.now().monotonic;
     for epoch in 1_u32.. {
         let due = begun + insd_base::Span::from_seconds(EPOCH.as_secs_f64() * f64::from(epoch));
@@ -163,7 +163,7 @@ fn speak(mut voice: Voice, node: &SharedSpeaker<Node>, clock: &HostClock, stop: 
         }
         let now = clock.now().monotonic;
         node.with(|node| {
-            for (pgn, data) in voice.messages(&Epoch::unknown(now), node.transmit()) {
+            for (pgn, data) in voice.messages(&OutputEpoch::unknown(now), node.transmit()) {
                 node.send(pgn, &data, now);
             }
         });

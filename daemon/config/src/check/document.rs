@@ -3,7 +3,7 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::finding::{Finding, Place, Severity};
+use super::finding::{ConfigFinding, ConfigPlace, Severity};
 
 /// A text that was read, as far as it could be.
 pub(super) struct Document<'a> {
@@ -12,7 +12,7 @@ pub(super) struct Document<'a> {
     /// Keys that the environment sets, with what it sets them to.
     overrides: Vec<(Vec<String>, String)>,
     /// What is not TOML.
-    pub(super) syntax: Vec<Finding>,
+    pub(super) syntax: Vec<ConfigFinding>,
 }
 
 /// What stands at a place.
@@ -34,14 +34,14 @@ impl<'a> Document<'a> {
         let mut document = Document { text, table, overrides, syntax: Vec::new() };
         for fault in faults {
             let line = fault.span().map(|span| document.line(span.start));
-            let place = Place { line, ..Place::default() };
-            let finding = Finding::new(Severity::Error, "syntax", place, fault.message());
+            let place = ConfigPlace { line, ..ConfigPlace::default() };
+            let finding = ConfigFinding::new(Severity::Error, "syntax", place, fault.message());
             let finding = match line.and_then(|line| text.lines().nth(line - 1)) {
                 Some(own) if has_comma(own) => finding.advise("a decimal point, not a comma?"),
                 Some(own) => finding.advise(format!("the line is `{}`", own.trim())),
                 None => finding,
             };
-            let same = |other: &Finding| other.place.line == line && line.is_some();
+            let same = |other: &ConfigFinding| other.place.line == line && line.is_some();
             // one slip makes several faults of one line
             if !document.syntax.iter().any(same) {
                 document.syntax.push(finding.refused());
@@ -89,7 +89,7 @@ impl<'a> Document<'a> {
     }
 
     /// The path of a section: the `nth` of those with this name.
-    pub(super) fn section(&self, place: &Place, nth: usize) -> Option<Vec<String>> {
+    pub(super) fn section(&self, place: &ConfigPlace, nth: usize) -> Option<Vec<String>> {
         let bare = place.bare().to_owned();
         let (_, value) = member(self.table.get_ref(), &bare)?;
         let DeValue::Array(list) = value.get_ref() else { return Some(vec![bare]) };
@@ -115,7 +115,7 @@ impl<'a> Document<'a> {
     }
 
     /// Puts line and value into a place that tells section and key.
-    pub(super) fn locate(&self, finding: &mut Finding, nth: usize) {
+    pub(super) fn locate(&self, finding: &mut ConfigFinding, nth: usize) {
         if finding.place.line.is_some() {
             return;
         }
@@ -158,9 +158,9 @@ mod tests {
     const TEXT: &str = "# a ship\n[ship]\nlat_deg = 100 # north\n\n[[port]]\nname = \"a\"\n\
         transport = { baud = 1 }\n[[port]]\nname = \"b\"\ntransport = { baud = 2 }\n";
 
-    fn located(place: Place) -> (Option<usize>, Option<String>) {
+    fn located(place: ConfigPlace) -> (Option<usize>, Option<String>) {
         let document = Document::read(TEXT, Vec::new());
-        let mut finding = Finding::new(Severity::Note, "test", place, "");
+        let mut finding = ConfigFinding::new(Severity::Note, "test", place, "");
         document.locate(&mut finding, 0);
         (finding.place.line, finding.value)
     }
@@ -169,13 +169,13 @@ mod tests {
     fn a_fault_is_given_the_line_of_its_key_or_of_its_section() {
         let value = |text: &str| Some(text.to_owned());
         for (place, line, found) in [
-            (Place::one("ship").key("lat_deg"), Some(3), value("100")),
-            (Place::one("ship").key("rate_hz"), Some(2), None),
-            (Place::of("port", "b").key("transport.baud"), Some(10), value("2")),
-            (Place::of("port", "b").key("transport.bits"), Some(10), None),
-            (Place::of("port", "a"), Some(5), None),
-            (Place::of("port", "c"), None, None),
-            (Place::one("imu"), None, None),
+            (ConfigPlace::one("ship").key("lat_deg"), Some(3), value("100")),
+            (ConfigPlace::one("ship").key("rate_hz"), Some(2), None),
+            (ConfigPlace::of("port", "b").key("transport.baud"), Some(10), value("2")),
+            (ConfigPlace::of("port", "b").key("transport.bits"), Some(10), None),
+            (ConfigPlace::of("port", "a"), Some(5), None),
+            (ConfigPlace::of("port", "c"), None, None),
+            (ConfigPlace::one("imu"), None, None),
         ] {
             assert_eq!(located(place.clone()), (line, found), "{place}");
         }
@@ -186,7 +186,7 @@ mod tests {
         let own = (vec!["ship".to_owned(), "lat_deg".to_owned()], "7".to_owned());
         let document = Document::read(TEXT, vec![own]);
         let mut finding =
-            Finding::new(Severity::Note, "test", Place::one("ship").key("lat_deg"), "");
+            ConfigFinding::new(Severity::Note, "test", ConfigPlace::one("ship").key("lat_deg"), "");
         document.locate(&mut finding, 0);
         assert_eq!((finding.place.line, finding.value.as_deref()), (None, Some("7")));
     }

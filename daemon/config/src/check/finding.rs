@@ -30,7 +30,7 @@ impl Severity {
 
 /// Where it stands.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Place {
+pub struct ConfigPlace {
     /// The section as the file writes it: `[ship]`, `[[sensor]]`; empty for the file as a whole.
     pub section: String,
     /// Name of the section, where there are several.
@@ -41,24 +41,24 @@ pub struct Place {
     pub line: Option<usize>,
 }
 
-impl Place {
+impl ConfigPlace {
     /// A section of which there is one.
     #[must_use]
     pub fn one(section: &str) -> Self {
-        Place { section: format!("[{section}]"), ..Place::default() }
+        ConfigPlace { section: format!("[{section}]"), ..ConfigPlace::default() }
     }
 
     /// A section of which there are several.
     #[must_use]
     pub fn of(section: &str, name: &str) -> Self {
         let name = Some(name.to_owned());
-        Place { section: format!("[[{section}]]"), name, ..Place::default() }
+        ConfigPlace { section: format!("[[{section}]]"), name, ..ConfigPlace::default() }
     }
 
     /// A key of it.
     #[must_use]
     pub fn key(self, key: &str) -> Self {
-        Place { key: Some(key.to_owned()), ..self }
+        ConfigPlace { key: Some(key.to_owned()), ..self }
     }
 
     /// The name of the section without its brackets.
@@ -69,8 +69,8 @@ impl Place {
 
     /// Whether another place is in the same section, and under the same key as far as both tell one.
     #[must_use]
-    pub(super) fn touches(&self, other: &Place) -> bool {
-        let first = |place: &Place| {
+    pub(super) fn touches(&self, other: &ConfigPlace) -> bool {
+        let first = |place: &ConfigPlace| {
             place.key.as_ref().map(|key| key.split('.').next().unwrap_or_default().to_owned())
         };
         let keys = first(self).zip(first(other));
@@ -80,7 +80,7 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for ConfigPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(line) = self.line {
             write!(f, "line {line}: ")?;
@@ -99,7 +99,7 @@ impl fmt::Display for Place {
 
 /// One thing that was found.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Finding {
+pub struct ConfigFinding {
     /// How bad it is.
     pub severity: Severity,
     /// A lasting name of what it is, for programs: `unknown-key`, `lever-sign`.
@@ -107,7 +107,7 @@ pub struct Finding {
     /// Whether `insd run` refuses to start with it.
     pub refused: bool,
     /// Where.
-    pub place: Place,
+    pub place: ConfigPlace,
     /// What stands there.
     pub value: Option<String>,
     /// What is wrong, or what was expected.
@@ -116,28 +116,28 @@ pub struct Finding {
     pub advice: Option<String>,
 }
 
-impl Finding {
+impl ConfigFinding {
     /// Something at a place.
     #[must_use]
-    pub fn new(severity: Severity, cause: &'static str, place: Place, text: &str) -> Self {
+    pub fn new(severity: Severity, cause: &'static str, place: ConfigPlace, text: &str) -> Self {
         let text = text.to_owned();
-        Finding { severity, cause, refused: false, place, value: None, text, advice: None }
+        ConfigFinding { severity, cause, refused: false, place, value: None, text, advice: None }
     }
 
     /// With what to do about it.
     #[must_use]
     pub fn advise(self, advice: impl Into<String>) -> Self {
-        Finding { advice: Some(advice.into()), ..self }
+        ConfigFinding { advice: Some(advice.into()), ..self }
     }
 
     /// With which the daemon does not start.
     #[must_use]
     pub fn refused(self) -> Self {
-        Finding { refused: true, ..self }
+        ConfigFinding { refused: true, ..self }
     }
 }
 
-impl fmt::Display for Finding {
+impl fmt::Display for ConfigFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let place = self.place.to_string();
         if !place.is_empty() {

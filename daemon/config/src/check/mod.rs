@@ -16,7 +16,7 @@ use toml::Table;
 use document::Document;
 use walk::Walk;
 
-pub use finding::{Finding, Place, Severity};
+pub use finding::{ConfigFinding, ConfigPlace, Severity};
 
 use super::{Config, environment, faults};
 
@@ -26,7 +26,7 @@ pub struct Examined {
     /// The configuration, with whatever cannot be read taken out of it; `None` if too little is left.
     pub config: Option<Config>,
     /// What was found, the worst first.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<ConfigFinding>,
 }
 
 impl Examined {
@@ -54,8 +54,9 @@ pub fn examine(text: &str) -> Examined {
         Ok(mut table) => {
             walk.sections(&mut table, &shape::sections());
             let is_whole = findings.is_empty() && walk.findings.is_empty();
-            let sound =
-                |finding: &Finding| finding.place.line.is_none_or(|line| !slips.contains(&line));
+            let sound = |finding: &ConfigFinding| {
+                finding.place.line.is_none_or(|line| !slips.contains(&line))
+            };
             findings.extend(walk.findings.into_iter().filter(sound));
             if is_whole {
                 read(text, text).map_err(|fault| findings.push(*fault)).ok()
@@ -70,9 +71,11 @@ pub fn examine(text: &str) -> Examined {
     };
     if let Some(config) = &config {
         let deeper = deeper(config, &document);
-        let touched =
-            |finding: &Finding| findings.iter().any(|known| known.place.touches(&finding.place));
-        let new: Vec<Finding> = deeper.into_iter().filter(|finding| !touched(finding)).collect();
+        let touched = |finding: &ConfigFinding| {
+            findings.iter().any(|known| known.place.touches(&finding.place))
+        };
+        let new: Vec<ConfigFinding> =
+            deeper.into_iter().filter(|finding| !touched(finding)).collect();
         findings.extend(new);
     }
     findings.sort_by_key(|finding| (std::cmp::Reverse(finding.severity), finding.place.line));
@@ -80,12 +83,13 @@ pub fn examine(text: &str) -> Examined {
 }
 
 /// What types cannot refuse, and what is allowed but strange.
-fn deeper(config: &Config, document: &Document<'_>) -> Vec<Finding> {
+fn deeper(config: &Config, document: &Document<'_>) -> Vec<ConfigFinding> {
     let mut all = told::findings(&faults::of(config), config, document);
     for mut finding in lint::all(config) {
         document.locate(&mut finding, 0);
         // what is out of its range needs no second word
-        let same = |known: &Finding| known.place.key.is_some() && known.place == finding.place;
+        let same =
+            |known: &ConfigFinding| known.place.key.is_some() && known.place == finding.place;
         if !all.iter().any(same) {
             all.push(finding);
         }
@@ -94,18 +98,18 @@ fn deeper(config: &Config, document: &Document<'_>) -> Vec<Finding> {
 }
 
 /// Puts lines and values of a text into the places of findings.
-pub fn locate(findings: &mut [Finding], text: &str) {
+pub fn locate(findings: &mut [ConfigFinding], text: &str) {
     let document = Document::read(text, environment::keys(text));
     findings.iter_mut().for_each(|finding| document.locate(finding, 0));
 }
 
-fn unreadable(text: &str, line: Option<usize>) -> Finding {
-    let place = Place { line, ..Place::default() };
-    Finding::new(Severity::Error, "unreadable", place, text.trim()).refused()
+fn unreadable(text: &str, line: Option<usize>) -> ConfigFinding {
+    let place = ConfigPlace { line, ..ConfigPlace::default() };
+    ConfigFinding::new(Severity::Error, "unreadable", place, text.trim()).refused()
 }
 
 /// Reads strictly, and again with the environment laid over it.
-fn read(text: &str, with: &str) -> Result<Config, Box<Finding>> {
+fn read(text: &str, with: &str) -> Result<Config, Box<ConfigFinding>> {
     toml::from_str::<Config>(text).map_err(|fault| {
         let document = Document::read(text, Vec::new());
         let line = fault.span().map(|span| document.line(span.start));
@@ -118,7 +122,8 @@ fn read(text: &str, with: &str) -> Result<Config, Box<Finding>> {
         .and_then(config::Config::try_deserialize::<Config>)
         .map_err(|fault| {
             let text = format!("with the environment laid over it: {fault}");
-            let finding = Finding::new(Severity::Error, "environment", Place::default(), &text);
+            let finding =
+                ConfigFinding::new(Severity::Error, "environment", ConfigPlace::default(), &text);
             Box::new(finding.refused())
         })
 }

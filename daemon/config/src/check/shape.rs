@@ -27,9 +27,9 @@ pub enum Shape {
     /// One of some words.
     Word(Vec<Word>),
     /// A table.
-    Table(Vec<Key>),
+    Table(Vec<ConfigKey>),
     /// A table whose keys depend on what one of them says.
-    Kinds(String, Vec<(Word, Vec<Key>)>),
+    Kinds(String, Vec<(Word, Vec<ConfigKey>)>),
     /// A table with any keys.
     Map(Box<Shape>),
     /// One or the other.
@@ -62,7 +62,7 @@ pub struct Word {
 
 /// A key.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Key {
+pub struct ConfigKey {
     /// Its name.
     pub name: String,
     /// Another name for it, from earlier versions.
@@ -96,7 +96,7 @@ const UNITS: [(&str, &str); 15] = [
     ("baud", "baud"),
 ];
 
-impl Key {
+impl ConfigKey {
     /// Its unit, which stands in its name.
     #[must_use]
     pub fn unit(&self) -> Option<&'static str> {
@@ -106,7 +106,7 @@ impl Key {
 
 /// The sections of a configuration.
 #[must_use]
-pub fn sections() -> Vec<Key> {
+pub fn sections() -> Vec<ConfigKey> {
     let settings =
         SchemaSettings::draft2020_12().with(|settings| settings.inline_subschemas = true);
     let schema = settings.into_generator().into_root_schema_for::<Config>();
@@ -203,14 +203,14 @@ fn tagged(list: &[&Map<String, Value>]) -> Option<Shape> {
     let mut name = None;
     for own in list {
         let (tag, value) = tag_of(own)?;
-        let keys: Vec<Key> = keys(own).into_iter().filter(|key| key.name != tag).collect();
+        let keys: Vec<ConfigKey> = keys(own).into_iter().filter(|key| key.name != tag).collect();
         kinds.push((Word { doc: doc(own), ..word(&value) }, keys));
         name = Some(tag);
     }
     Some(Shape::Kinds(name?, kinds))
 }
 
-fn keys(schema: &Map<String, Value>) -> Vec<Key> {
+fn keys(schema: &Map<String, Value>) -> Vec<ConfigKey> {
     let required: Vec<&str> = schema
         .get("required")
         .and_then(Value::as_array)
@@ -219,7 +219,7 @@ fn keys(schema: &Map<String, Value>) -> Vec<Key> {
     let key = |(name, own): (&String, &Value)| {
         let own = own.as_object()?;
         let default = own.get("default").filter(|value| !value.is_null());
-        Some(Key {
+        Some(ConfigKey {
             name: name.clone(),
             alias: own.get("x-alias").and_then(Value::as_str).map(str::to_owned),
             doc: doc(own),
@@ -228,7 +228,7 @@ fn keys(schema: &Map<String, Value>) -> Vec<Key> {
             shape: shape(own),
         })
     };
-    let mut keys: Vec<Key> = properties.into_iter().flatten().filter_map(key).collect();
+    let mut keys: Vec<ConfigKey> = properties.into_iter().flatten().filter_map(key).collect();
     keys.sort_by_key(|key| !key.required);
     keys
 }

@@ -7,7 +7,7 @@ use insd_intake::config::Role;
 use insd_output::{MessageKind, Profile};
 
 use super::document::Document;
-use super::finding::{Finding, Place, Severity};
+use super::finding::{ConfigFinding, ConfigPlace, Severity};
 use super::nearest::{advice, nearest};
 use crate::Config;
 
@@ -19,7 +19,7 @@ pub(super) fn findings(
     faults: &[String],
     config: &Config,
     document: &Document<'_>,
-) -> Vec<Finding> {
+) -> Vec<ConfigFinding> {
     let mut told = BTreeMap::<&str, usize>::new();
     let mut findings = Vec::new();
     for fault in faults {
@@ -34,14 +34,14 @@ pub(super) fn findings(
     findings
 }
 
-fn finding(fault: &str, document: &Document<'_>) -> Finding {
+fn finding(fault: &str, document: &Document<'_>) -> ConfigFinding {
     let (header, rest) = fault.split_once(": ").unwrap_or(("", fault));
     let (section, name) = match header.split_once('"') {
         Some((section, name)) => (section, Some(name.trim_end_matches('"').to_owned())),
         None => (header, None),
     };
     let section = section.trim_end_matches(" on ").trim().to_owned();
-    let place = Place { section, name, ..Place::default() };
+    let place = ConfigPlace { section, name, ..ConfigPlace::default() };
     let (mut keys, mut text) = (Vec::new(), rest);
     while let Some((token, after)) = text.split_once(": ") {
         let key = token.split(',').next().unwrap_or_default();
@@ -54,7 +54,7 @@ fn finding(fault: &str, document: &Document<'_>) -> Finding {
     let key = inside(&place, &keys, document);
     let cause = cause(&key, text);
     let place = if key.is_empty() { place } else { place.key(&key) };
-    Finding::new(Severity::Error, cause, place, text).refused()
+    ConfigFinding::new(Severity::Error, cause, place, text).refused()
 }
 
 fn is_of_key(c: char) -> bool {
@@ -62,7 +62,7 @@ fn is_of_key(c: char) -> bool {
 }
 
 /// The key, with the table in which it lies if it is not the section's own.
-fn inside(place: &Place, keys: &[String], document: &Document<'_>) -> String {
+fn inside(place: &ConfigPlace, keys: &[String], document: &Document<'_>) -> String {
     let key = keys.join(".");
     let Some(section) = document.section(place, 0) else { return key };
     let Some(first) = keys.first() else { return key };
@@ -98,7 +98,7 @@ fn cause(key: &str, text: &str) -> &'static str {
 }
 
 /// What was probably meant.
-fn advise(finding: &mut Finding, config: &Config) {
+fn advise(finding: &mut ConfigFinding, config: &Config) {
     let key = finding.place.key.clone().unwrap_or_default();
     let word = finding.value.as_deref().map(|value| value.trim_matches('"').to_owned());
     let section = finding.place.bare();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use insd_drivers::ports::{Destination, Transport};
 
-use super::finding::Place;
+use super::finding::ConfigPlace;
 use crate::Config;
 
 /// What is at the other end of a path.
@@ -25,9 +25,9 @@ pub enum DeviceKind {
 
 /// A device or file, and who uses it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Device {
+pub struct UsedDevice {
     /// The key that names it.
-    pub place: Place,
+    pub place: ConfigPlace,
     /// Where it is.
     pub path: PathBuf,
     /// What it is.
@@ -42,7 +42,7 @@ pub struct Device {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Listener {
     /// The key that names it.
-    pub place: Place,
+    pub place: ConfigPlace,
     /// Where.
     pub address: SocketAddr,
     /// TCP, else UDP.
@@ -66,9 +66,9 @@ impl Listener {
 
 /// All devices and files.
 #[must_use]
-pub fn devices(config: &Config) -> Vec<Device> {
-    let input = |(place, transport): (Place, &Transport)| {
-        let device = |key: &str, path: &Path, kind, baud| Device {
+pub fn devices(config: &Config) -> Vec<UsedDevice> {
+    let input = |(place, transport): (ConfigPlace, &Transport)| {
+        let device = |key: &str, path: &Path, kind, baud| UsedDevice {
             place: place.clone().key(&format!("transport.{key}")),
             path: path.to_owned(),
             kind,
@@ -90,8 +90,8 @@ pub fn devices(config: &Config) -> Vec<Device> {
             _ => return None,
         })
     };
-    let output = |(place, destination): (Place, &Destination)| {
-        let device = |key: &str, path: &Path, kind, baud| Device {
+    let output = |(place, destination): (ConfigPlace, &Destination)| {
+        let device = |key: &str, path: &Path, kind, baud| UsedDevice {
             place: place.clone().key(&format!("destination.{key}")),
             path: path.to_owned(),
             kind,
@@ -115,7 +115,7 @@ pub fn devices(config: &Config) -> Vec<Device> {
 #[must_use]
 pub fn listeners(config: &Config) -> Vec<Listener> {
     let mut all = Vec::new();
-    let mut add = |place: Place, address: SocketAddr, tcp: bool, group: Option<IpAddr>| {
+    let mut add = |place: ConfigPlace, address: SocketAddr, tcp: bool, group: Option<IpAddr>| {
         all.push(Listener { place, address, tcp, group });
     };
     for (place, transport) in inputs(config) {
@@ -133,19 +133,19 @@ pub fn listeners(config: &Config) -> Vec<Listener> {
         }
     }
     if config.web.enabled {
-        add(Place::one("web").key("listen"), config.web.listen, true, None);
+        add(ConfigPlace::one("web").key("listen"), config.web.listen, true, None);
     }
     all
 }
 
 /// What ports open, with the places of their sections.
-pub(super) fn inputs(config: &Config) -> impl Iterator<Item = (Place, &Transport)> {
-    config.ports.iter().map(|port| (Place::of("port", &port.name), &port.transport))
+pub(super) fn inputs(config: &Config) -> impl Iterator<Item = (ConfigPlace, &Transport)> {
+    config.ports.iter().map(|port| (ConfigPlace::of("port", &port.name), &port.transport))
 }
 
 /// Where outputs write, with the places of their sections.
-pub(super) fn destinations(config: &Config) -> impl Iterator<Item = (Place, &Destination)> {
-    let own = |output: &'_ crate::OutputSection| Place::of("output", &output.name);
+pub(super) fn destinations(config: &Config) -> impl Iterator<Item = (ConfigPlace, &Destination)> {
+    let own = |output: &'_ crate::OutputSection| ConfigPlace::of("output", &output.name);
     config
         .outputs
         .iter()

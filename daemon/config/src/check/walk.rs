@@ -7,21 +7,21 @@ use insd_drivers::ports::Network;
 use toml::{Table, Value};
 
 use super::document::Document;
-use super::finding::{Finding, Place, Severity};
+use super::finding::{ConfigFinding, ConfigPlace, Severity};
 use super::nearest::{advice, nearest};
-use super::shape::{Form, Key, Shape, Word};
+use super::shape::{ConfigKey, Form, Shape, Word};
 
 /// A walk through a text.
 pub(super) struct Walk<'a, 'b> {
     document: &'a Document<'b>,
     /// What was found.
-    pub(super) findings: Vec<Finding>,
+    pub(super) findings: Vec<ConfigFinding>,
 }
 
 /// Where the walk is: the section for people, the path for the text.
 #[derive(Clone)]
 struct Spot {
-    place: Place,
+    place: ConfigPlace,
     path: Vec<String>,
 }
 
@@ -44,7 +44,7 @@ impl<'a, 'b> Walk<'a, 'b> {
     }
 
     /// Looks at a whole file, and leaves of it what can be read.
-    pub(super) fn sections(&mut self, table: &mut Table, sections: &[Key]) {
+    pub(super) fn sections(&mut self, table: &mut Table, sections: &[ConfigKey]) {
         let names: Vec<String> = table.keys().cloned().collect();
         for name in names {
             let Some(section) = sections.iter().find(|own| own.name == name) else {
@@ -55,7 +55,8 @@ impl<'a, 'b> Walk<'a, 'b> {
                     Some(near) => format!("did you mean `[{near}]`?"),
                     None => format!("there are: {}", all.join(", ")),
                 };
-                let spot = Spot { place: Place::default().key(&name), path: vec![name.clone()] };
+                let spot =
+                    Spot { place: ConfigPlace::default().key(&name), path: vec![name.clone()] };
                 self.tell(&spot, "unknown-section", "no such section", Some(hint));
                 table.remove(&name);
                 continue;
@@ -66,7 +67,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         }
         for section in sections.iter().filter(|own| own.required) {
             if !table.contains_key(&section.name) {
-                let place = Place::one(&section.name);
+                let place = ConfigPlace::one(&section.name);
                 let spot = Spot { place, path: vec![section.name.clone()] };
                 let text = "expected this section, which must be there";
                 self.tell(&spot, "missing-section", text, None);
@@ -75,17 +76,17 @@ impl<'a, 'b> Walk<'a, 'b> {
         }
     }
 
-    fn section(&mut self, section: &Key, value: &mut Value) {
+    fn section(&mut self, section: &ConfigKey, value: &mut Value) {
         let path = vec![section.name.clone()];
         let Shape::List(of, _) = &section.shape else {
-            let spot = Spot { place: Place::one(&section.name), path };
+            let spot = Spot { place: ConfigPlace::one(&section.name), path };
             if let Some(mended) = self.value(&spot, value, &section.shape) {
                 *value = mended;
             }
             return;
         };
         let Value::Array(list) = value else {
-            let spot = Spot { place: Place::one(&section.name), path };
+            let spot = Spot { place: ConfigPlace::one(&section.name), path };
             let text =
                 format!("expected [[{}]] with two brackets: there may be several", section.name);
             self.tell(&spot, "section-form", &text, None);
@@ -94,10 +95,10 @@ impl<'a, 'b> Walk<'a, 'b> {
         };
         for (index, own) in list.iter_mut().enumerate() {
             let name = ["name", "port"].iter().find_map(|key| own.get(key)?.as_str());
-            let place = Place {
+            let place = ConfigPlace {
                 section: format!("[[{}]]", section.name),
                 name: name.map(str::to_owned),
-                ..Place::default()
+                ..ConfigPlace::default()
             };
             let path = vec![section.name.clone(), index.to_string()];
             if let Some(mended) = self.value(&Spot { place, path }, own, of) {
@@ -194,7 +195,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         spot: &Spot,
         table: &mut Table,
         tag: &str,
-        kinds: &[(Word, Vec<Key>)],
+        kinds: &[(Word, Vec<ConfigKey>)],
     ) -> Option<Value> {
         let words: Vec<Word> = kinds.iter().map(|(word, _)| word.clone()).collect();
         let shape = Shape::Word(words.clone());
@@ -220,11 +221,11 @@ impl<'a, 'b> Walk<'a, 'b> {
         None
     }
 
-    fn table(&mut self, spot: &Spot, table: &mut Table, keys: &[Key]) {
+    fn table(&mut self, spot: &Spot, table: &mut Table, keys: &[ConfigKey]) {
         let names: Vec<String> = table.keys().cloned().collect();
         for name in names {
             let below = spot.below(&name);
-            let is_it = |key: &&Key| key.name == name || key.alias.as_ref() == Some(&name);
+            let is_it = |key: &&ConfigKey| key.name == name || key.alias.as_ref() == Some(&name);
             let Some(key) = keys.iter().find(is_it) else {
                 let known: Vec<&str> = keys.iter().map(|key| key.name.as_str()).collect();
                 self.tell(&below, "unknown-key", "no such key", advice(&name, &known));
@@ -255,7 +256,8 @@ impl<'a, 'b> Walk<'a, 'b> {
     }
 
     fn tell(&mut self, spot: &Spot, cause: &'static str, text: &str, hint: Option<String>) {
-        let mut finding = Finding::new(Severity::Error, cause, spot.place.clone(), text).refused();
+        let mut finding =
+            ConfigFinding::new(Severity::Error, cause, spot.place.clone(), text).refused();
         finding.advice = hint;
         for length in (1..=spot.path.len()).rev() {
             if let Some(found) = spot.path.get(..length).and_then(|path| self.document.at(path)) {
@@ -320,7 +322,7 @@ fn stopgap(shape: &Shape) -> Value {
     }
 }
 
-fn required(keys: &[Key]) -> Table {
+fn required(keys: &[ConfigKey]) -> Table {
     let required = keys.iter().filter(|key| key.required);
     required.map(|key| (key.name.clone(), stopgap(&key.shape))).collect()
 }

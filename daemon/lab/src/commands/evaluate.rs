@@ -6,7 +6,7 @@ use insd_base::{Solution, Time};
 use insd_drivers::recording::{read_nav_rows, read_truth_rows};
 
 use crate::evaluation::plot::Picture;
-use crate::evaluation::{Evidence, Report, drifts, errors, outages, read_rows};
+use crate::evaluation::{ErrorReport, Evidence, drifts, errors, outages, read_rows};
 use insd_config::BadInput;
 
 /// Options of `insd evaluate`.
@@ -56,12 +56,12 @@ pub fn run(args: &EvaluateArgs) -> anyhow::Result<()> {
         return Err(BadInput(format!("{nav} and {truth} have no common time to compare")).into());
     }
     let drifts = drifts(&outages(&solutions), &found.epochs);
-    let report = Report {
+    let report = ErrorReport {
         nav: args.nav.display().to_string(),
         truth: args.truth.display().to_string(),
         skipped_nav_rows: nav.report.faulty(),
         skipped_truth_rows: truth.report.faulty(),
-        ..Report::new(&found, drifts, Evidence::new(&nav, &found, from))
+        ..ErrorReport::new(&found, drifts, Evidence::new(&nav, &found, from))
     };
     if args.json {
         crate::terminal::print(&(serde_json::to_string_pretty(&report)? + "\n"))?;

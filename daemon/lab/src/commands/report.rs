@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 
 use crate::raw_run::is_recording;
-use crate::report::Report;
+use crate::report::VoyageReport;
 use insd_config::BadInput;
 use insd_config::OutputFile;
 
@@ -36,12 +36,12 @@ pub fn run(args: &ReportArgs) -> anyhow::Result<()> {
         if args.config.is_some() {
             return Err(BadInput("--config is for raw recordings".to_owned()).into());
         }
-        Report::of_voyage(path)?
+        VoyageReport::of_voyage(path)?
     } else if path.is_dir() && !is_recording(path) {
         let what = "neither a raw recording nor a voyage directory";
         return Err(BadInput(format!("{}: {what}", path.display())).into());
     } else {
-        Report::of_recording(path, args.config.as_deref(), args.run)?
+        VoyageReport::of_recording(path, args.config.as_deref(), args.run)?
     };
     let mut file = OutputFile::create(&args.out)?;
     let written = file.write_all(report.html().as_bytes());

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use insd_base::{Counts, Solution, Time};
 use insd_output::CivilTime;
 
-use super::sensors::SensorStatus;
+use super::sensors::DemoSensorStatus;
 use super::trail::Trail;
 use super::truth::TrueError;
 
@@ -17,7 +17,7 @@ const RECENT: usize = 4;
 
 /// Something that happened, and how many times in a row.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Happening {
+pub struct BoardEntry {
     /// When it happened last.
     pub time: Time,
     /// What.
@@ -28,7 +28,7 @@ pub struct Happening {
 
 /// The last events, newest last; a repetition moves up and is counted.
 #[derive(Clone, Debug, Default)]
-pub struct Happenings(VecDeque<Happening>);
+pub struct Happenings(VecDeque<BoardEntry>);
 
 impl Happenings {
     /// Adds one.
@@ -39,11 +39,11 @@ impl Happenings {
         if self.0.len() == EVENTS {
             self.0.pop_front();
         }
-        self.0.push_back(Happening { time, text, times: before + 1 });
+        self.0.push_back(BoardEntry { time, text, times: before + 1 });
     }
 
     /// Newest first.
-    pub fn newest(&self) -> impl Iterator<Item = &Happening> {
+    pub fn newest(&self) -> impl Iterator<Item = &BoardEntry> {
         self.0.iter().rev()
     }
 }
@@ -62,7 +62,7 @@ pub enum Phase {
 
 /// The NMEA port and what went through it.
 #[derive(Clone, Debug, Default)]
-pub struct PortStatus {
+pub struct DemoPort {
     /// Path that programs open.
     pub path: String,
     /// Bytes written.
@@ -104,7 +104,7 @@ pub struct Board {
     /// Error of that solution.
     pub true_error: Option<TrueError>,
     /// One line for each sensor.
-    pub sensors: Vec<SensorStatus>,
+    pub sensors: Vec<DemoSensorStatus>,
     /// The engine's counters.
     pub counts: Counts,
     /// The last events.
@@ -112,7 +112,7 @@ pub struct Board {
     /// Tracks.
     pub tracks: Tracks,
     /// The NMEA port.
-    pub port: PortStatus,
+    pub port: DemoPort,
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //!
 //! One thread makes the voyage, feeds its messages to the engine when they are due and writes NMEA
 //! to a pseudo terminal; the main thread shows the [`board::Board`] that it publishes. Everything
-//! but the pace is free of clocks: [`ship::Ship`] advances to whatever time it is told.
+//! but the pace is free of clocks: [`ship::DemoShip`] advances to whatever time it is told.
 
 pub mod board;
 pub mod pace;
@@ -23,10 +23,10 @@ use std::time::Duration;
 use anyhow::Context;
 use insd_drivers::ports::Clock;
 
-use pace::{Pace, Worker};
-use scenario::Choice;
+use pace::{DemoPace, Worker};
+use scenario::DemoVoyage;
 
-use crate::pty::Pty;
+use crate::pty::PseudoTerminal;
 
 /// Options of `insd demo`.
 #[derive(Clone, Debug, clap::Args)]
@@ -58,14 +58,15 @@ pub struct DemoArgs {
 /// A scenario that cannot be found or read, no pseudo terminal, or a terminal that fails.
 pub fn run(args: DemoArgs, clock: Arc<dyn Clock>) -> anyhow::Result<()> {
     let DemoArgs { speed, scenario, seed, plain, duration } = args;
-    let choice = Choice::find(&scenario, seed)?;
-    let pty = Pty::open().context("cannot open a pseudo terminal for the NMEA sentences")?;
+    let choice = DemoVoyage::find(&scenario, seed)?;
+    let pty =
+        PseudoTerminal::open().context("cannot open a pseudo terminal for the NMEA sentences")?;
     let plain = plain || !std::io::stdout().is_terminal();
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
         .build()
         .context("cannot start the event loop")?;
-    let worker = Worker::start(choice, pty, Pace { speed }, clock);
+    let worker = Worker::start(choice, pty, DemoPace { speed }, clock);
     let shown = runtime.block_on(async {
         if plain {
             plain::show(&worker, duration).await

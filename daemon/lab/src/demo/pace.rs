@@ -9,10 +9,10 @@ use anyhow::anyhow;
 use insd_base::{Span, Time};
 use insd_drivers::ports::Clock;
 
-use super::board::{Board, Phase, PortStatus};
-use super::scenario::Choice;
-use super::ship::Ship;
-use crate::pty::Pty;
+use super::board::{Board, DemoPort, Phase};
+use super::scenario::DemoVoyage;
+use super::ship::DemoShip;
+use crate::pty::PseudoTerminal;
 
 /// Wall time between two looks at the clock.
 const TICK: Duration = Duration::from_millis(10);
@@ -22,7 +22,7 @@ const STRIDE: f64 = 5.0;
 
 /// How fast the ship sails.
 #[derive(Clone, Copy, Debug)]
-pub struct Pace {
+pub struct DemoPace {
     /// Voyage seconds in one second of the clock.
     pub speed: f64,
 }
@@ -38,15 +38,20 @@ pub struct Worker {
 impl Worker {
     /// Starts to make the voyage and then to sail it.
     #[must_use]
-    pub fn start(choice: Choice, pty: Pty, pace: Pace, clock: Arc<dyn Clock>) -> Self {
+    pub fn start(
+        choice: DemoVoyage,
+        pty: PseudoTerminal,
+        pace: DemoPace,
+        clock: Arc<dyn Clock>,
+    ) -> Self {
         let path = pty.path().display().to_string();
-        let port = PortStatus { path, ..PortStatus::default() };
+        let port = DemoPort { path, ..DemoPort::default() };
         let first = Board { title: choice.title(), speed: pace.speed, port, ..Board::default() };
         let board = Arc::new(Mutex::new(first.clone()));
         let (stop, stopped) = channel();
         let shared = Arc::clone(&board);
         let thread = std::thread::spawn(move || {
-            let ship = Ship::new(choice.sail(), first);
+            let ship = DemoShip::new(choice.sail(), first);
             sail(ship, pty, &keeping(pace, &*clock), &shared, &stopped);
         });
         Worker { board, stop, thread }
@@ -84,15 +89,15 @@ fn lock(board: &Mutex<Board>) -> MutexGuard<'_, Board> {
 }
 
 /// The time of the voyage that is due, which begins now.
-fn keeping(pace: Pace, clock: &dyn Clock) -> impl Fn() -> Time {
+fn keeping(pace: DemoPace, clock: &dyn Clock) -> impl Fn() -> Time {
     let started = clock.now().monotonic;
     move || Time::from_seconds((clock.now().monotonic - started).as_seconds() * pace.speed)
 }
 
 /// Sails until told to stop. After the last message the board and the port stay as they are.
 fn sail(
-    mut ship: Ship,
-    mut pty: Pty,
+    mut ship: DemoShip,
+    mut pty: PseudoTerminal,
     due: &dyn Fn() -> Time,
     shared: &Mutex<Board>,
     stopped: &Receiver<()>,

@@ -7,18 +7,18 @@ use crate::scenario;
 
 /// A scenario and a seed: one voyage, not yet made.
 #[derive(Clone, Debug)]
-pub struct Choice {
+pub struct DemoVoyage {
     scenario: Scenario,
     seed: u64,
 }
 
-impl Choice {
+impl DemoVoyage {
     /// Finds a scenario as all commands do: by the number or name of a shipped one, or as a file.
     ///
     /// # Errors
     /// With the list of shipped scenarios if there is no such one, or with what is wrong in it.
     pub fn find(wanted: &str, seed: u64) -> anyhow::Result<Self> {
-        Ok(Choice { scenario: scenario::find(wanted, &[])?.scenario, seed })
+        Ok(DemoVoyage { scenario: scenario::find(wanted, &[])?.scenario, seed })
     }
 
     /// What to call it on the screen.

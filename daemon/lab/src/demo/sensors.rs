@@ -9,7 +9,7 @@ const WINDOW: f64 = 10.0;
 
 /// A kind of sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum DemoSensor {
     /// Inertial measurement unit.
     Imu,
     /// GNSS receiver.
@@ -20,46 +20,47 @@ pub enum Kind {
     Reference,
 }
 
-impl Kind {
+impl DemoSensor {
     /// In the order of the table.
-    pub const ALL: [Kind; 4] = [Kind::Imu, Kind::Gnss, Kind::Log, Kind::Reference];
+    pub const ALL: [DemoSensor; 4] =
+        [DemoSensor::Imu, DemoSensor::Gnss, DemoSensor::Log, DemoSensor::Reference];
 
     /// Its name on the screen.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Kind::Imu => "IMU",
-            Kind::Gnss => "GNSS",
-            Kind::Log => "Log",
-            Kind::Reference => "Reference",
+            DemoSensor::Imu => "IMU",
+            DemoSensor::Gnss => "GNSS",
+            DemoSensor::Log => "Log",
+            DemoSensor::Reference => "Reference",
         }
     }
 
     /// First word of the aids that use it.
     fn prefix(self) -> &'static str {
         match self {
-            Kind::Imu => "imu",
-            Kind::Gnss => "gnss",
-            Kind::Log => "log",
-            Kind::Reference => "reference",
+            DemoSensor::Imu => "imu",
+            DemoSensor::Gnss => "gnss",
+            DemoSensor::Log => "log",
+            DemoSensor::Reference => "reference",
         }
     }
 
-    fn of(message: &Message) -> Kind {
+    fn of(message: &Message) -> DemoSensor {
         match message {
-            Message::Imu(_) => Kind::Imu,
-            Message::Gnss(_) => Kind::Gnss,
-            Message::Log(_) => Kind::Log,
-            Message::Reference(_) => Kind::Reference,
+            Message::Imu(_) => DemoSensor::Imu,
+            Message::Gnss(_) => DemoSensor::Gnss,
+            Message::Log(_) => DemoSensor::Log,
+            Message::Reference(_) => DemoSensor::Reference,
         }
     }
 }
 
 /// One line of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SensorStatus {
+pub struct DemoSensorStatus {
     /// Which.
-    pub kind: Kind,
+    pub kind: DemoSensor,
     /// Time since its last message; `None` if it never spoke.
     pub age: Option<Span>,
     /// Messages per second lately.
@@ -75,7 +76,7 @@ pub struct SensorStatus {
 /// Listens to the messages of one sensor.
 #[derive(Clone, Debug)]
 struct Watch {
-    kind: Kind,
+    kind: DemoSensor,
     receipts: VecDeque<Time>,
     last: Option<Time>,
     /// Highest rate so far, Hz.
@@ -92,19 +93,19 @@ impl Sensors {
     /// The sensors that a voyage has.
     #[must_use]
     pub fn of(voyage: &Voyage) -> Self {
-        let present = |kind: &Kind| match kind {
-            Kind::Imu => !voyage.imu.is_empty(),
-            Kind::Gnss => !voyage.gnss.is_empty(),
-            Kind::Log => !voyage.log.is_empty(),
-            Kind::Reference => !voyage.reference.is_empty(),
+        let present = |kind: &DemoSensor| match kind {
+            DemoSensor::Imu => !voyage.imu.is_empty(),
+            DemoSensor::Gnss => !voyage.gnss.is_empty(),
+            DemoSensor::Log => !voyage.log.is_empty(),
+            DemoSensor::Reference => !voyage.reference.is_empty(),
         };
         let watch = |kind| Watch { kind, receipts: VecDeque::new(), last: None, usual_rate: 0.0 };
-        Sensors { watches: Kind::ALL.into_iter().filter(present).map(watch).collect() }
+        Sensors { watches: DemoSensor::ALL.into_iter().filter(present).map(watch).collect() }
     }
 
     /// Takes note of a message.
     pub fn hear(&mut self, received: &Received) {
-        let kind = Kind::of(&received.message);
+        let kind = DemoSensor::of(&received.message);
         if let Some(watch) = self.watches.iter_mut().find(|watch| watch.kind == kind) {
             watch.receipts.push_back(received.receipt);
             watch.last = Some(received.receipt);
@@ -112,13 +113,13 @@ impl Sensors {
     }
 
     /// The table at an instant.
-    pub fn status(&mut self, now: Time, counts: &Counts) -> Vec<SensorStatus> {
+    pub fn status(&mut self, now: Time, counts: &Counts) -> Vec<DemoSensorStatus> {
         self.watches.iter_mut().map(|watch| watch.status(now, counts)).collect()
     }
 }
 
 impl Watch {
-    fn status(&mut self, now: Time, counts: &Counts) -> SensorStatus {
+    fn status(&mut self, now: Time, counts: &Counts) -> DemoSensorStatus {
         let window = Span::from_seconds(WINDOW);
         while self.receipts.front().is_some_and(|receipt| now - *receipt >= window) {
             self.receipts.pop_front();
@@ -129,7 +130,7 @@ impl Watch {
         let patience = (3.0 / self.usual_rate.max(0.01)).max(2.0);
         let age = self.last.map(|last| now - last);
         let (used, rejected) = usage(self.kind, counts);
-        SensorStatus {
+        DemoSensorStatus {
             kind: self.kind,
             age,
             rate,
@@ -140,12 +141,12 @@ impl Watch {
     }
 }
 
-fn usage(kind: Kind, counts: &Counts) -> (u64, u64) {
+fn usage(kind: DemoSensor, counts: &Counts) -> (u64, u64) {
     let own = |aid: &str| aid.split('_').next() == Some(kind.prefix());
     let used: u64 = counts.accepted.iter().filter(|(aid, _)| own(aid)).map(|(_, n)| n).sum();
     let refused = counts.rejected.iter().filter(|((aid, _), _)| own(aid));
     let rejected: u64 = refused.map(|(_, n)| n).sum();
-    if kind == Kind::Imu {
+    if kind == DemoSensor::Imu {
         let bad = counts.imu_duplicates + counts.imu_out_of_order + counts.imu_out_of_range;
         (used + counts.imu_samples, rejected + bad)
     } else {

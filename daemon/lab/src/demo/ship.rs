@@ -3,15 +3,15 @@
 
 use insd_base::{Body, Event, Geodetic, Message, Mode, Received, Solution, Time, Voyage};
 use insd_engine::{Engine, EngineConfig, Output};
-use insd_output::{Manner, PortConfig, Profile};
+use insd_output::{Manner, OutputPortConfig, Profile};
 
-use insd_vessel::{OutputPlan, Speaker, Spoken};
+use insd_vessel::{OutputPlan, Outputs, Spoken};
 
 use super::board::{Board, Phase};
 use super::rejections;
 use super::sensors::Sensors;
 use super::truth::{TrueTrack, east_north};
-use insd_config::Calendar;
+use insd_config::VoyageCalendar;
 
 /// Solutions per second.
 const OUTPUT_RATE: f64 = 10.0;
@@ -21,11 +21,11 @@ const TRACK_INTERVAL: i64 = 2_000_000_000;
 
 /// A voyage under way.
 #[derive(Debug)]
-pub struct Ship {
+pub struct DemoShip {
     messages: std::vec::IntoIter<Received>,
     engine: Engine,
-    speaker: Speaker,
-    calendar: Option<Calendar>,
+    speaker: Outputs,
+    calendar: Option<VoyageCalendar>,
     truth: TrueTrack,
     origin: Option<Geodetic>,
     sensors: Sensors,
@@ -35,26 +35,26 @@ pub struct Ship {
 
 /// The port of the demo: everything, marked as simulated where a sentence can be. No ship's equipment
 /// listens to it.
-fn bridge() -> PortConfig {
+fn bridge() -> OutputPortConfig {
     let manner = Manner { simulated: true, unmarked_when_simulated: true, ..Manner::default() };
     let bridge = Profile::named("bridge").map(Profile::port).unwrap_or_default();
-    PortConfig { manner, ..bridge }
+    OutputPortConfig { manner, ..bridge }
 }
 
-impl Ship {
+impl DemoShip {
     /// A ship at the start of her voyage. `board` carries title, speed and port on.
     #[must_use]
     pub fn new(voyage: Voyage, board: Board) -> Self {
         let origin = voyage.header.initial.or(voyage.truth.first().map(|truth| truth.position));
-        Ship {
+        DemoShip {
             messages: voyage.received().into_iter(),
             engine: Engine::new(EngineConfig::for_voyage(&voyage.header, OUTPUT_RATE)),
-            speaker: Speaker::new(OutputPlan {
+            speaker: Outputs::new(OutputPlan {
                 ports: vec![bridge()],
                 points: vec![Body::default()],
                 ..OutputPlan::default()
             }),
-            calendar: Calendar::new(&voyage.header.start_utc),
+            calendar: VoyageCalendar::new(&voyage.header.start_utc),
             origin,
             sensors: Sensors::of(&voyage),
             truth: TrueTrack::new(voyage.truth),

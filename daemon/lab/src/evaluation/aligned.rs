@@ -4,7 +4,7 @@ use insd_base::AlignmentStatus;
 use insd_base::units::DEG;
 use serde::Serialize;
 
-use super::alignment::Alignment;
+use super::alignment::RunAlignment;
 use super::component::Component;
 use super::errors::{EpochError, normalised};
 use super::promises::{self, PromiseEstimates};
@@ -74,7 +74,7 @@ pub fn worst_heading(epochs: &[EpochError]) -> Option<WorstHeading> {
 /// The runs put together.
 pub(super) fn together(
     bar: f64,
-    runs: &[Alignment],
+    runs: &[RunAlignment],
     statuses: &[Vec<AlignmentStatus>],
 ) -> AlignedEstimates {
     AlignedEstimates {
@@ -141,12 +141,12 @@ mod tests {
     fn a_heading_that_passes_zero_is_not_aligned_until_it_stays_there() {
         let wild = run(|t| (if t < 50.0 { (t - 20.0) / 100.0 } else { -0.01 }, 1.0 / (t + 1.0)));
         let first = [Some(28.0), Some(57.0)];
-        let found = Alignment { error: Some(50.0), claim: Some(10.0), first };
+        let found = RunAlignment { error: Some(50.0), claim: Some(10.0), first };
         assert_eq!(alignment(&wild, 0.1), found);
         let lost = run(|t| (t / 50.0, 1.0));
-        assert_eq!(alignment(&lost, 0.1), Alignment::default());
+        assert_eq!(alignment(&lost, 0.1), RunAlignment::default());
         assert_eq!(alignment(&run(|_| (0.0, 0.0)), 0.1).error, Some(0.0));
-        assert_eq!(alignment(&[], 0.1), Alignment::default());
+        assert_eq!(alignment(&[], 0.1), RunAlignment::default());
     }
 
     #[test]
@@ -160,9 +160,9 @@ mod tests {
     #[test]
     fn runs_that_never_align_count_as_the_latest() {
         let (claim, first) = (Some(1.0), [None, Some(2.0)]);
-        let runs: Vec<Alignment> =
-            (1..=9).map(|i| Alignment { error: Some(f64::from(i)), claim, first }).collect();
-        let never = Alignment { error: None, claim, first };
+        let runs: Vec<RunAlignment> =
+            (1..=9).map(|i| RunAlignment { error: Some(f64::from(i)), claim, first }).collect();
+        let never = RunAlignment { error: None, claim, first };
         let all = together(0.1 * DEG, &[&runs[..], &[never]].concat(), &[]);
         assert_eq!(
             all.error,

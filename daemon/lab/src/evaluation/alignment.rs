@@ -10,7 +10,7 @@ const FIRST_CLAIMS: [f64; 2] = [2.0 * DEG, 1.0 * DEG];
 
 /// When one run was aligned, s; `None` if it never was.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Alignment {
+pub struct RunAlignment {
     /// From when on the error of the heading stays below the bar.
     pub error: Option<f64>,
     /// When the claimed sigma first is below it.
@@ -22,7 +22,7 @@ pub struct Alignment {
 /// When a run was aligned within `bar`, rad. An epoch at which truth does not know the heading is
 /// passed over.
 #[must_use]
-pub fn alignment(epochs: &[EpochError], bar: f64) -> Alignment {
+pub fn alignment(epochs: &[EpochError], bar: f64) -> RunAlignment {
     let known = || epochs.iter().filter_map(|e| Some((e, e.of(Component::Heading)?.abs())));
     let last_bad = known().filter(|(_, error)| *error >= bar).map(|(e, _)| e.time).next_back();
     let good = |e: &EpochError| last_bad.is_none_or(|bad| e.time > bad);
@@ -30,7 +30,7 @@ pub fn alignment(epochs: &[EpochError], bar: f64) -> Alignment {
         let is_below = |e: &&EpochError| e.sigma_of(Component::Heading) < bar;
         epochs.iter().find(is_below).map(|e| e.time.as_seconds())
     };
-    Alignment {
+    RunAlignment {
         error: known().find(|(e, _)| good(e)).map(|(e, _)| e.time.as_seconds()),
         claim: claimed(bar),
         first: FIRST_CLAIMS.map(claimed),

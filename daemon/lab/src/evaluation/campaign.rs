@@ -7,11 +7,11 @@ use insd_base::AlignmentStatus;
 use serde::Serialize;
 
 use super::aligned::{self, AlignedEstimates, WorstHeading, WorstRun};
-use super::alignment::{Alignment, alignment};
+use super::alignment::{RunAlignment, alignment};
 use super::drift::Drift;
-use super::errors::{EpochError, Errors};
-use super::instants::{self, Instant, InstantEstimates, Moment};
-use super::interval::{Estimate, shown};
+use super::errors::{EpochError, VoyageErrors};
+use super::instants::{self, AlignmentMoment, Instant, InstantEstimates};
+use super::interval::{MeanOfRuns, shown};
 use super::promises;
 use super::report::{row_order, summaries};
 use super::statistics::{Summary, quantile};
@@ -28,16 +28,16 @@ pub struct Run {
     pub seed: u64,
     /// Epochs compared.
     pub epochs: u64,
-    /// Figures by component, as in [`super::Report`].
+    /// Figures by component, as in [`super::ErrorReport`].
     pub components: BTreeMap<&'static str, Option<Summary>>,
     /// Errors in each stretch without GNSS.
     pub outages: Vec<Drift>,
     /// The boldest claim of the heading.
     pub worst_heading: Option<WorstHeading>,
     /// At each of the instants of the yardstick.
-    pub moments: Vec<Option<Moment>>,
+    pub moments: Vec<Option<AlignmentMoment>>,
     /// When the heading was good.
-    pub alignment: Alignment,
+    pub alignment: RunAlignment,
     /// What the alignment said of itself.
     pub statuses: Vec<AlignmentStatus>,
     /// What became of the stored state, if it was to start from one.
@@ -63,17 +63,17 @@ pub struct ComponentEstimates {
     /// Runs with figures of this component.
     pub runs: usize,
     /// Root mean square error.
-    pub rms: Estimate,
+    pub rms: MeanOfRuns,
     /// Mean claimed 1-sigma.
-    pub mean_sigma: Estimate,
+    pub mean_sigma: MeanOfRuns,
     /// Normalised estimation error squared per degree of freedom, over all epochs.
-    pub nees: Estimate,
+    pub nees: MeanOfRuns,
     /// Share of errors within the claimed 1-sigma.
-    pub coverage_1sigma: Estimate,
+    pub coverage_1sigma: MeanOfRuns,
     /// Share within 2 sigma.
-    pub coverage_2sigma: Estimate,
+    pub coverage_2sigma: MeanOfRuns,
     /// Share within 3 sigma.
-    pub coverage_3sigma: Estimate,
+    pub coverage_3sigma: MeanOfRuns,
 }
 
 /// One stretch without GNSS over all seeds.
@@ -86,13 +86,13 @@ pub struct OutageEstimates {
     /// Runs that have it.
     pub runs: usize,
     /// RMS over the runs of the horizontal error at the last epoch, m.
-    pub end_horizontal_rms_m: Estimate,
+    pub end_horizontal_rms_m: MeanOfRuns,
     /// Median over the runs of the largest horizontal error, m.
     pub max_horizontal_median_m: f64,
     /// RMS of the claimed 1-sigma (radius) at the last epoch, m.
-    pub end_sigma_rms_m: Estimate,
+    pub end_sigma_rms_m: MeanOfRuns,
     /// RMS of the heading error at the last epoch, deg, if truth knows it.
-    pub end_heading_rms_deg: Option<Estimate>,
+    pub end_heading_rms_deg: Option<MeanOfRuns>,
 }
 
 /// A scenario over many seeds. The field names are the keys of the JSON.
@@ -106,7 +106,7 @@ pub struct CampaignReport {
     pub silent_seeds: Vec<u64>,
     /// Epochs compared, all runs together.
     pub epochs: u64,
-    /// Estimates by component, as in [`super::Report`]; null where no run has figures.
+    /// Estimates by component, as in [`super::ErrorReport`]; null where no run has figures.
     pub components: BTreeMap<&'static str, Option<ComponentEstimates>>,
     /// Stretches without GNSS.
     pub outages: Vec<OutageEstimates>,
@@ -125,7 +125,7 @@ pub struct CampaignReport {
 impl Run {
     /// The scores of a comparison.
     #[must_use]
-    pub fn new(seed: u64, errors: &Errors, outages: Vec<Drift>) -> Self {
+    pub fn new(seed: u64, errors: &VoyageErrors, outages: Vec<Drift>) -> Self {
         let epochs = errors.epochs.len() as u64;
         Run {
             seed,
@@ -134,7 +134,7 @@ impl Run {
             outages,
             worst_heading: aligned::worst_heading(&errors.epochs),
             moments: Vec::new(),
-            alignment: Alignment::default(),
+            alignment: RunAlignment::default(),
             statuses: Vec::new(),
             stored: None,
         }
@@ -169,7 +169,7 @@ impl CampaignReport {
     #[must_use]
     pub fn new(scenario: &str, mut runs: Vec<Run>, yardstick: Option<&Yardstick>) -> Self {
         runs.sort_by_key(|run| run.seed);
-        let alignments: Vec<Alignment> = runs.iter().map(|run| run.alignment).collect();
+        let alignments: Vec<RunAlignment> = runs.iter().map(|run| run.alignment).collect();
         let statuses: Vec<_> = runs.iter_mut().map(|r| std::mem::take(&mut r.statuses)).collect();
         let fates: Vec<StoredFate> = runs.iter().filter_map(|run| run.stored).collect();
         let (heard, silent): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(|r| r.epochs > 0);
@@ -198,7 +198,7 @@ fn worst_run(runs: &[Run]) -> Option<WorstRun> {
 fn at_instants(runs: &[Run], yardstick: &Yardstick) -> Vec<InstantEstimates> {
     let at = |(index, instant): (usize, &Instant)| {
         let moments = runs.iter().filter_map(|run| run.moments.get(index).copied().flatten());
-        instants::together(instant, &moments.collect::<Vec<Moment>>())
+        instants::together(instant, &moments.collect::<Vec<AlignmentMoment>>())
     };
     yardstick.instants.iter().enumerate().filter_map(at).collect()
 }
@@ -209,12 +209,12 @@ fn component(runs: &[Run], name: &str) -> Option<ComponentEstimates> {
     let values = |pick: fn(&Summary) -> f64| -> Vec<f64> {
         summaries.iter().map(pick).filter(|value| value.is_finite()).collect()
     };
-    let estimate = |pick| Estimate::from_runs(&values(pick)).map(|e| e.within(0.0, f64::MAX));
+    let estimate = |pick| MeanOfRuns::from_runs(&values(pick)).map(|e| e.within(0.0, f64::MAX));
     let share = |pick| estimate(pick).map(|e| e.within(0.0, 1.0));
     Some(ComponentEstimates {
         unit: summaries.first()?.unit,
         runs: summaries.len(),
-        rms: Estimate::of_rms(&values(|s| s.rms))?,
+        rms: MeanOfRuns::of_rms(&values(|s| s.rms))?,
         mean_sigma: estimate(|s| s.mean_sigma)?,
         nees: estimate(|s| s.nees)?,
         coverage_1sigma: share(|s| s.coverage_1sigma)?,
@@ -240,7 +240,7 @@ fn same_outages(runs: &[Run]) -> Vec<Vec<Drift>> {
 
 fn outage(drifts: &[Drift]) -> Option<OutageEstimates> {
     let rms = |pick: fn(&Drift) -> Option<f64>| {
-        Estimate::of_rms(&drifts.iter().filter_map(pick).collect::<Vec<f64>>())
+        MeanOfRuns::of_rms(&drifts.iter().filter_map(pick).collect::<Vec<f64>>())
     };
     let mut largest: Vec<f64> = drifts.iter().map(|drift| drift.max_horizontal_m).collect();
     largest.sort_by(f64::total_cmp);
@@ -322,8 +322,8 @@ fn component_table(components: &BTreeMap<&'static str, Option<ComponentEstimates
 }
 
 fn cells(estimates: &ComponentEstimates) -> Vec<String> {
-    let percent = |share: &Estimate| shown(share, |share| format!("{:.1}", 100.0 * share));
-    let number = |estimate: &Estimate| shown(estimate, |value| significant(value, 3));
+    let percent = |share: &MeanOfRuns| shown(share, |share| format!("{:.1}", 100.0 * share));
+    let number = |estimate: &MeanOfRuns| shown(estimate, |value| significant(value, 3));
     vec![
         estimates.unit.to_owned(),
         number(&estimates.rms),
@@ -341,7 +341,7 @@ fn outage_table(outages: &[OutageEstimates]) -> Table {
     let names = ["RMS at end m", "claimed σ m", "heading RMS at end deg"];
     columns.extend(names.map(|name| (name, Align::Left)));
     let mut table = Table::new(&columns);
-    let number = |estimate: &Estimate| shown(estimate, |value| significant(value, 3));
+    let number = |estimate: &MeanOfRuns| shown(estimate, |value| significant(value, 3));
     for outage in outages {
         let heading = outage.end_heading_rms_deg.as_ref();
         table.push(vec![
@@ -436,7 +436,7 @@ mod tests {
 
     #[test]
     fn a_seed_without_solution_is_told() {
-        let silent = Run::new(9, &Errors::default(), Vec::new());
+        let silent = Run::new(9, &VoyageErrors::default(), Vec::new());
         let report = CampaignReport::new("x", vec![run(0, 0.0, vec![]), silent], None);
         assert_eq!((report.seeds.len(), report.silent_seeds.as_slice()), (1, &[9_u64][..]));
     }

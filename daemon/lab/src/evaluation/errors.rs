@@ -19,7 +19,7 @@ pub struct EpochError {
 
 /// Epochs that could not be compared, by reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, serde::Serialize)]
-pub struct LeftOut {
+pub struct EpochsLeftOut {
     /// Before the first or after the last row of the other file.
     pub outside: u64,
     /// In a gap of the other file, too long to interpolate.
@@ -28,11 +28,11 @@ pub struct LeftOut {
 
 /// Errors at all common times.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Errors {
+pub struct VoyageErrors {
     /// In order of time.
     pub epochs: Vec<EpochError>,
     /// What could not be compared.
-    pub left_out: LeftOut,
+    pub left_out: EpochsLeftOut,
 }
 
 impl EpochError {
@@ -80,13 +80,13 @@ pub fn normalised(error: f64, sigma: f64) -> Option<f64> {
 /// neither the antimeridian nor the poles matter, angles along the short arc. Position errors are
 /// the ECEF difference in the NED axes of the true position. Neither list need be sorted.
 #[must_use]
-pub fn errors(nav: &[Solution], truth: &[Truth], from: Option<Time>) -> Errors {
+pub fn errors(nav: &[Solution], truth: &[Truth], from: Option<Time>) -> VoyageErrors {
     let from = from.unwrap_or(Time::from_nanos(i64::MIN));
     let nav = Series::new(nav.iter().map(State::from_solution).collect());
     let truth = Series::new(truth.iter().map(State::from_truth).collect());
     let is_at_truth = truth.is_sparser_than(&nav);
     let (base, other) = if is_at_truth { (&truth, &nav) } else { (&nav, &truth) };
-    let mut found = Errors::default();
+    let mut found = VoyageErrors::default();
     for state in base.states().iter().filter(|state| state.time >= from) {
         match other.at(state.time) {
             Lookup::Found(beside) if !is_at_truth => {
@@ -166,7 +166,7 @@ mod tests {
         reference.retain(|row| !(10.0..15.0).contains(&row.time.as_seconds()));
         reference[3].velocity = None;
         let found = errors(&nav, &reference, None);
-        assert_eq!(found.left_out, LeftOut { outside: 20, in_gap: 5 });
+        assert_eq!(found.left_out, EpochsLeftOut { outside: 20, in_gap: 5 });
         assert_eq!(found.epochs.len(), 15);
         assert!(found.epochs[0].of(Component::VelocityEast).is_none());
         let late = errors(&nav, &reference, Some(Time::from_seconds(20.0)));

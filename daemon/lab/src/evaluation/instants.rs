@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::component::Component;
 use super::errors::{EpochError, normalised};
-use super::interval::{Estimate, shown};
+use super::interval::{MeanOfRuns, shown};
 use super::statistics::mean;
 use crate::table::{Align, Table, significant};
 
@@ -16,7 +16,7 @@ const NEAR: f64 = 1.0;
 
 /// Error and claim of one run at the epoch nearest to an instant: roll, pitch, heading, rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moment {
+pub struct AlignmentMoment {
     /// Errors.
     pub error: [f64; 3],
     /// Claimed 1-sigmas.
@@ -40,7 +40,7 @@ pub struct InstantEstimates {
     /// Runs with a solution there.
     pub runs: usize,
     /// Root mean square error of the heading, deg.
-    pub heading_rms_deg: Estimate,
+    pub heading_rms_deg: MeanOfRuns,
     /// Mean claimed 1-sigma of the heading, deg.
     pub heading_sigma_deg: f64,
     /// The 1-sigma of the optimal filter, deg.
@@ -57,11 +57,11 @@ pub struct InstantEstimates {
 
 /// The epochs of one run nearest to each of the instants; `None` where there is none within a second.
 #[must_use]
-pub fn moments(epochs: &[EpochError], instants: &[Instant]) -> Vec<Option<Moment>> {
+pub fn moments(epochs: &[EpochError], instants: &[Instant]) -> Vec<Option<AlignmentMoment>> {
     instants.iter().map(|instant| moment(epochs, instant.at)).collect()
 }
 
-fn moment(epochs: &[EpochError], at: f64) -> Option<Moment> {
+fn moment(epochs: &[EpochError], at: f64) -> Option<AlignmentMoment> {
     let distance = |epoch: &EpochError| (epoch.time - Time::from_seconds(at)).as_seconds().abs();
     let nearest = epochs.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     if distance(nearest) > NEAR {
@@ -69,18 +69,18 @@ fn moment(epochs: &[EpochError], at: f64) -> Option<Moment> {
     }
     let [roll, pitch, heading] = ANGLES.map(|angle| nearest.of(angle));
     let sigma = ANGLES.map(|angle| nearest.sigma_of(angle));
-    Some(Moment { error: [roll?, pitch?, heading?], sigma })
+    Some(AlignmentMoment { error: [roll?, pitch?, heading?], sigma })
 }
 
 /// The runs put together at an instant; `None` if none has a solution there.
-pub(super) fn together(instant: &Instant, moments: &[Moment]) -> Option<InstantEstimates> {
+pub(super) fn together(instant: &Instant, moments: &[AlignmentMoment]) -> Option<InstantEstimates> {
     let degrees = Component::Heading.scale();
     let errors: Vec<f64> = moments.iter().map(|m| m.error[2] * degrees).collect();
-    let heading_rms_deg = Estimate::of_rms(&errors)?;
+    let heading_rms_deg = MeanOfRuns::of_rms(&errors)?;
     let heading_sigma_deg = mean(moments.iter().map(|m| m.sigma[2] * degrees));
     let limit_deg = instant.limit.map(|limit| limit * degrees);
     let squares = |axis: usize| -> Vec<f64> {
-        let ratio = |m: &Moment| normalised(m.error[axis], m.sigma[axis]);
+        let ratio = |m: &AlignmentMoment| normalised(m.error[axis], m.sigma[axis]);
         moments.iter().filter_map(ratio).map(|ratio| ratio * ratio).collect()
     };
     let within = |square: &f64| f64::from(u8::from(*square <= 4.0));
@@ -150,7 +150,8 @@ mod tests {
 
     #[test]
     fn the_runs_at_an_instant_are_held_against_the_limit() {
-        let moment = |error: f64, sigma: f64| Moment { error: [error; 3], sigma: [sigma; 3] };
+        let moment =
+            |error: f64, sigma: f64| AlignmentMoment { error: [error; 3], sigma: [sigma; 3] };
         let runs = [moment(0.3, 0.1), moment(-0.4, 0.4)];
         let found = together(&Instant { at: 60.0, limit: Some(0.125) }, &runs).unwrap();
         assert!((found.rms_over_limit.unwrap() - 0.125_f64.sqrt() / 0.125).abs() < 1e-9);

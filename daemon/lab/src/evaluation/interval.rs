@@ -10,7 +10,7 @@ const NORMAL_95: f64 = 1.959_964;
 /// A mean over seeds and its 95 % confidence interval, mean +- 1.96 s / sqrt(n). Epochs of one run
 /// are correlated, runs with different seeds are not.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Estimate {
+pub struct MeanOfRuns {
     /// Mean over the runs.
     pub mean: f64,
     /// Lower end; absent for a single run.
@@ -19,7 +19,7 @@ pub struct Estimate {
     pub high: Option<f64>,
 }
 
-impl Estimate {
+impl MeanOfRuns {
     /// The estimate from one value for each run; `None` without any.
     #[must_use]
     pub fn from_runs(values: &[f64]) -> Option<Self> {
@@ -33,7 +33,7 @@ impl Estimate {
             NORMAL_95 * (squares / (count - 1.0) / count).sqrt()
         });
         let (low, high) = (half_width.map(|h| centre - h), half_width.map(|h| centre + h));
-        Some(Estimate { mean: centre, low, high })
+        Some(MeanOfRuns { mean: centre, low, high })
     }
 
     /// The same with an interval that stays where the quantity can be: a share in [0, 1], a mean of
@@ -41,7 +41,7 @@ impl Estimate {
     #[must_use]
     pub fn within(self, low: f64, high: f64) -> Self {
         let clamped = |end: Option<f64>| end.map(|end| end.clamp(low, high));
-        Estimate { low: clamped(self.low), high: clamped(self.high), ..self }
+        MeanOfRuns { low: clamped(self.low), high: clamped(self.high), ..self }
     }
 
     /// The estimate of a root mean square from the RMS of each run: squares are averaged.
@@ -49,7 +49,7 @@ impl Estimate {
     pub fn of_rms(values: &[f64]) -> Option<Self> {
         let squares: Vec<f64> = values.iter().map(|value| value * value).collect();
         let root = |square: f64| square.max(0.0).sqrt();
-        Self::from_runs(&squares).map(|square| Estimate {
+        Self::from_runs(&squares).map(|square| MeanOfRuns {
             mean: root(square.mean),
             low: square.low.map(root),
             high: square.high.map(root),
@@ -58,7 +58,7 @@ impl Estimate {
 }
 
 /// `1.02 [0.98, 1.06]`
-pub(super) fn shown(estimate: &Estimate, text: impl Fn(f64) -> String) -> String {
+pub(super) fn shown(estimate: &MeanOfRuns, text: impl Fn(f64) -> String) -> String {
     match (estimate.low, estimate.high) {
         (Some(low), Some(high)) => {
             format!("{} [{}, {}]", text(estimate.mean), text(low), text(high))
@@ -78,7 +78,7 @@ mod tests {
         let mut random = rand_pcg::Pcg64::seed_from_u64(3);
         let holds = |_: &u32| {
             let values: Vec<f64> = (0..40).map(|_| 5.0 + sample(&mut random)).collect();
-            let estimate = Estimate::from_runs(&values).unwrap();
+            let estimate = MeanOfRuns::from_runs(&values).unwrap();
             (estimate.low.unwrap()..estimate.high.unwrap()).contains(&5.0)
         };
         let hits = (0..1000).filter(holds).count();
@@ -92,21 +92,21 @@ mod tests {
     #[test]
     fn a_single_run_has_no_interval() {
         assert_eq!(
-            Estimate::from_runs(&[2.0]),
-            Some(Estimate { mean: 2.0, low: None, high: None })
+            MeanOfRuns::from_runs(&[2.0]),
+            Some(MeanOfRuns { mean: 2.0, low: None, high: None })
         );
-        assert_eq!(Estimate::from_runs(&[]), None);
+        assert_eq!(MeanOfRuns::from_runs(&[]), None);
     }
 
     #[test]
     fn the_interval_of_a_share_ends_at_one() {
-        let estimate = Estimate::from_runs(&[0.9, 1.0]).unwrap().within(0.0, 1.0);
+        let estimate = MeanOfRuns::from_runs(&[0.9, 1.0]).unwrap().within(0.0, 1.0);
         assert_eq!(estimate.high, Some(1.0));
     }
 
     #[test]
     fn an_rms_over_runs_averages_the_squares() {
-        let estimate = Estimate::of_rms(&[3.0, 4.0]).unwrap();
+        let estimate = MeanOfRuns::of_rms(&[3.0, 4.0]).unwrap();
         assert!((estimate.mean - 12.5_f64.sqrt()).abs() < 1e-12);
     }
 }

@@ -3,7 +3,7 @@
 use insd_base::{AlignmentStatus, Forecast, Time};
 use serde::Serialize;
 
-use super::alignment::Alignment;
+use super::alignment::RunAlignment;
 use super::statistics::quantile;
 use crate::table::{Align, Table, significant};
 
@@ -56,7 +56,7 @@ impl Outcome {
 /// The forecasts of all runs, at each instant at which some of them were not aligned. Empty where no
 /// run said anything.
 pub(super) fn together(
-    runs: &[Alignment],
+    runs: &[RunAlignment],
     statuses: &[Vec<AlignmentStatus>],
 ) -> Vec<PromiseEstimates> {
     let at = |at: f64| {
@@ -69,7 +69,7 @@ pub(super) fn together(
 }
 
 /// The forecast as it stood at the first status at or after an instant.
-fn outcome(run: &Alignment, said: &[AlignmentStatus], at: f64) -> Option<Outcome> {
+fn outcome(run: &RunAlignment, said: &[AlignmentStatus], at: f64) -> Option<Outcome> {
     let status = said.iter().find(|status| status.time >= Time::from_seconds(at))?;
     let open = run.claim.is_none_or(|claim| claim > status.time.as_seconds());
     open.then_some(Outcome { forecast: status.ready, actual: run.claim })
@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn a_promise_is_right_within_a_quarter_of_the_time_from_the_start() {
         let runs =
-            [200.0; 4].map(|at| Alignment { error: None, claim: Some(at), first: [None; 2] });
+            [200.0; 4].map(|at| RunAlignment { error: None, claim: Some(at), first: [None; 2] });
         let at_120 = [named(240.0), named(260.0), Forecast::Unknown { lacks: Lack::Time }];
         let mut statuses: Vec<_> =
             at_120.map(|ready| vec![said(60.0, named(900.0)), said(121.0, ready)]).to_vec();
@@ -161,9 +161,9 @@ mod tests {
     fn to_say_never_is_right_where_it_never_was() {
         let ready =
             Forecast::Unreachable { best: 2.0_f64.to_radians(), limiting: Limiting::GyroBias };
-        let found = together(&[Alignment::default()], &[vec![said(240.0, ready)]]);
+        let found = together(&[RunAlignment::default()], &[vec![said(240.0, ready)]]);
         assert!(found.iter().all(|row| row.right == Some(1.0)), "{found:?}");
         assert!((found[0].best_deg.unwrap() - 2.0).abs() < 1e-9);
-        assert!(together(&[Alignment::default()], &[vec![]]).is_empty());
+        assert!(together(&[RunAlignment::default()], &[vec![]]).is_empty());
     }
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::component::Component;
 use super::drift::Drift;
-use super::errors::{Errors, LeftOut};
+use super::errors::{EpochsLeftOut, VoyageErrors};
 use super::evidence::Evidence;
 use super::statistics::{Summary, summarise, summarise_horizontal};
 use crate::table::{Align, Table, significant};
@@ -17,7 +17,7 @@ pub(super) const HORIZONTAL: &str = "horizontal";
 
 /// Scores of one solution. The field names are the keys of the JSON.
 #[derive(Clone, Debug, Serialize)]
-pub struct Report {
+pub struct ErrorReport {
     /// File of solutions.
     pub nav: String,
     /// File of truth.
@@ -29,7 +29,7 @@ pub struct Report {
     /// Number of epochs compared.
     pub epochs: u64,
     /// Epochs that could not be compared, by reason.
-    pub left_out: LeftOut,
+    pub left_out: EpochsLeftOut,
     /// Faulty rows of the file of solutions.
     pub skipped_nav_rows: u64,
     /// Faulty rows of the file of truth.
@@ -44,7 +44,7 @@ pub struct Report {
 }
 
 /// Figures of all components and of the horizontal position.
-pub(super) fn summaries(errors: &Errors) -> BTreeMap<&'static str, Option<Summary>> {
+pub(super) fn summaries(errors: &VoyageErrors) -> BTreeMap<&'static str, Option<Summary>> {
     let each = Component::ALL.map(|c| (c.name(), summarise(&errors.epochs, c)));
     let mut all = BTreeMap::from(each);
     all.insert(HORIZONTAL, summarise_horizontal(&errors.epochs));
@@ -58,14 +58,14 @@ pub(super) fn row_order() -> Vec<&'static str> {
     names
 }
 
-impl Report {
+impl ErrorReport {
     /// The report on a comparison. File names and skipped rows are filled in by the caller.
     #[must_use]
-    pub fn new(errors: &Errors, outages: Vec<Drift>, evidence: Evidence) -> Self {
+    pub fn new(errors: &VoyageErrors, outages: Vec<Drift>, evidence: Evidence) -> Self {
         let seconds = |epoch: Option<&super::EpochError>| {
             epoch.map_or(f64::NAN, |epoch| epoch.time.as_seconds())
         };
-        Report {
+        ErrorReport {
             nav: String::new(),
             truth: String::new(),
             from_s: seconds(errors.epochs.first()),
@@ -150,7 +150,7 @@ fn outage_table(outages: &[Drift]) -> Table {
     table
 }
 
-impl fmt::Display for Report {
+impl fmt::Display for ErrorReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (epochs, from, to) = (self.epochs, self.from_s, self.to_s);
         writeln!(f, "{} against {}: {epochs} epochs, {from} s to {to} s\n", self.nav, self.truth)?;
@@ -176,7 +176,7 @@ mod tests {
     use insd_base::Geodetic;
     use insd_drivers::recording::{FileReport, Rows};
 
-    fn report(with_attitude: bool) -> Report {
+    fn report(with_attitude: bool) -> ErrorReport {
         let point = Geodetic::from_degrees(1.0, 2.0, 3.0);
         let nav: Vec<_> = (0..10).map(|t| solution(f64::from(t), point)).collect();
         let mut true_rows: Vec<_> = (0..8).map(|t| truth(f64::from(t), point)).collect();
@@ -186,7 +186,7 @@ mod tests {
         let found = errors(&nav, &true_rows, None);
         let file = Rows { rows: Vec::new(), report: FileReport::default(), columns: Vec::new() };
         let evidence = Evidence::new(&file, &found, None);
-        Report::new(&found, Vec::new(), evidence)
+        ErrorReport::new(&found, Vec::new(), evidence)
     }
 
     #[test]

@@ -13,7 +13,7 @@ pub(super) const FAULTS: usize = 50;
 
 /// Everything that a report says.
 #[derive(Debug)]
-pub struct Report {
+pub struct VoyageReport {
     /// Name of the recording.
     pub(super) name: String,
     /// Name and version of the program that made it.
@@ -45,10 +45,10 @@ pub(super) struct Faults {
     pub(super) read: RawRead,
 }
 
-impl Report {
+impl VoyageReport {
     /// A report that has gathered nothing yet.
     pub(super) fn new(name: String, engine: &EngineConfig, start: insd_base::Time) -> Self {
-        Report {
+        VoyageReport {
             name,
             program: None,
             config: None,

@@ -13,9 +13,9 @@ mod source;
 mod statistics;
 mod times;
 
-pub use gathered::Report;
+pub use gathered::VoyageReport;
 
-impl Report {
+impl VoyageReport {
     /// The page.
     #[must_use]
     pub fn html(&self) -> String {

@@ -8,10 +8,10 @@ use insd_drivers::recording::VoyageReader;
 use insd_engine::{Engine, EngineConfig};
 
 use super::bounded::Bounded;
-use super::gathered::{FAULTS, Faults, Report};
+use super::gathered::{FAULTS, Faults, VoyageReport};
 use crate::raw_run::RawRun;
 use insd_config::BadInput;
-use insd_config::Calendar;
+use insd_config::VoyageCalendar;
 use insd_vessel::Names;
 
 /// Solutions per second of a voyage.
@@ -19,7 +19,7 @@ const RATE: f64 = 10.0;
 /// Spacing of looks at the calendar of a voyage.
 const LOOK: Span = Span::from_nanos(1_000_000_000);
 
-impl Report {
+impl VoyageReport {
     /// Replays one run of a raw recording, from 1. `config` replaces the recorded configuration.
     ///
     /// # Errors
@@ -29,14 +29,14 @@ impl Report {
         let (settings, engine) = (raw.config.clone(), raw.config.engine());
         let mut names = Names::of(&settings.intake());
         let mut pipeline = settings.pipeline();
-        let mut report: Option<Report> = None;
+        let mut report: Option<VoyageReport> = None;
         let mut told = Bounded::new(FAULTS);
         let (mut last, mut now_in) = (None, 1);
         let runs = raw.walk(|item| match item {
             Ok(arrival) => {
                 let now = arrival.stamp.monotonic;
                 last = Some(now);
-                let fresh = || Report::new(name_of(path), &engine, now);
+                let fresh = || VoyageReport::new(name_of(path), &engine, now);
                 let report = report.get_or_insert_with(fresh);
                 pipeline.handle(&arrival, |product| {
                     report.collected.product(now, &names, &product);
@@ -84,14 +84,14 @@ impl Report {
     pub fn of_voyage(path: &Path) -> anyhow::Result<Self> {
         let mut reader = VoyageReader::open(path)?;
         let config = EngineConfig::for_voyage(reader.header(), RATE);
-        let calendar = Calendar::new(&reader.header().start_utc);
+        let calendar = VoyageCalendar::new(&reader.header().start_utc);
         let mut engine = Engine::new(config.clone());
-        let mut report: Option<Report> = None;
+        let mut report: Option<VoyageReport> = None;
         let mut looked: Option<Time> = None;
         for received in &mut reader {
             let received = received?;
             let now = received.receipt;
-            let fresh = || Report::new(name_of(path), &config, now);
+            let fresh = || VoyageReport::new(name_of(path), &config, now);
             let own = report.get_or_insert_with(fresh);
             engine.handle(&received);
             while let Some(output) = engine.poll_output() {

@@ -5,7 +5,7 @@ use insd_wire::stream::{Cutter, Protocol};
 use super::bus::report::BusReport;
 use super::message::excerpt;
 use super::named::{UNNAMED, is_proof};
-use super::report::{MessageReport, PortReport, Refusal, State};
+use super::report::{MessageReport, PortReport, RefusedMessage, State};
 
 /// Fewer bytes say nothing of a line, and fewer frames nothing of its checksums.
 const BYTES: u64 = 64;
@@ -203,7 +203,7 @@ fn checksums(port: &PortReport) -> Vec<String> {
         ));
     }
     let bare = |message: &MessageReport| {
-        let is_bare = |refusal: &Refusal| refusal.reason == "no checksum";
+        let is_bare = |refusal: &RefusedMessage| refusal.reason == "no checksum";
         message.name != UNNAMED && message.refusal.as_ref().is_some_and(is_bare)
     };
     if port.messages.iter().any(bare) {

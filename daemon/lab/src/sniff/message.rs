@@ -5,7 +5,7 @@ use insd_wire::describe::Reading;
 use insd_wire::stream::Protocol;
 
 use super::named::Named;
-use super::report::{LogAxes, MessageReport, Refusal};
+use super::report::{LogAxes, MessageReport, RefusedMessage};
 
 /// Bytes of a refused message that are kept.
 const KEPT: usize = 96;
@@ -27,8 +27,8 @@ pub(super) struct Message {
     bare: u64,
     flawed: u64,
     intervals: Intervals,
-    refusal: Option<Refusal>,
-    flaw: Option<Refusal>,
+    refusal: Option<RefusedMessage>,
+    flaw: Option<RefusedMessage>,
     axes: Option<LogAxes>,
 }
 
@@ -66,7 +66,7 @@ impl Message {
         self.axes = named.axes.or(self.axes);
         let told = |reason: &Option<String>| {
             let reason = reason.clone().unwrap_or_default();
-            Some(Refusal { reason, bytes: excerpt(bytes) })
+            Some(RefusedMessage { reason, bytes: excerpt(bytes) })
         };
         match named.read {
             Reading::Used => {

@@ -1,6 +1,6 @@
 //! What comes in at the ports, counted and judged, for whoever connects a ship.
 //!
-//! Pure: [`Sniffed`] takes arrivals and gives a [`Report`]; [`text`] writes it for people. Memory is
+//! Pure: [`Sniffed`] takes arrivals and gives a [`SniffReport`]; [`text`] writes it for people. Memory is
 //! bounded whatever comes: of ports, messages, talkers and sources the first so many are told apart,
 //! the rest is counted together.
 
@@ -25,9 +25,9 @@ use insd_base::{Arrival, Input, PortId, Time};
 use insd_wire::stream::Protocol;
 
 pub use named::is_proof;
-pub use plan::{Plan, Transport};
+pub use plan::{PortToHear, SuggestedTransport};
 use port::Port;
-pub use report::Report;
+pub use report::SniffReport;
 pub use seen::{Seen, SeenWhat};
 pub use suggestion::quoted;
 pub use tally::Counted;
@@ -52,7 +52,7 @@ impl Sniffed {
 
     /// Makes a port known, unless too many are. Without this a port is known when something arrives at
     /// it.
-    pub fn announce(&mut self, id: PortId, plan: Plan) {
+    pub fn announce(&mut self, id: PortId, plan: PortToHear) {
         if self.ports.len() < PORTS {
             self.ports.insert(id, Port::new(plan, &self.protocols));
         }
@@ -71,7 +71,7 @@ impl Sniffed {
         }
         if !self.ports.contains_key(&arrival.port) {
             let name = format!("port {}", arrival.port.0);
-            self.announce(arrival.port, Plan { name, timed: true, transport: None });
+            self.announce(arrival.port, PortToHear { name, timed: true, transport: None });
         }
         if let Some(port) = self.ports.get_mut(&arrival.port) {
             port.take(&arrival.stamp, &arrival.input, &mut show);
@@ -112,7 +112,7 @@ impl Sniffed {
 
     /// What is known at this time.
     #[must_use]
-    pub fn report(&self, now: Time) -> Report {
-        Report { ports: self.ports.values().map(|port| port.report(now)).collect() }
+    pub fn report(&self, now: Time) -> SniffReport {
+        SniffReport { ports: self.ports.values().map(|port| port.report(now)).collect() }
     }
 }

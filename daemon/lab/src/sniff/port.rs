@@ -8,7 +8,7 @@ use super::advice;
 use super::bus::Bus;
 use super::message::Message;
 use super::named::{Named, named};
-use super::plan::Plan;
+use super::plan::PortToHear;
 use super::pulses::Pulses;
 use super::report::{PortReport, State};
 use super::seen::{Seen, SeenWhat};
@@ -34,7 +34,7 @@ const LEAST: f64 = 0.5;
 /// What came at one port.
 #[derive(Clone, Debug)]
 pub(super) struct Port {
-    plan: Plan,
+    plan: PortToHear,
     protocols: Vec<Protocol>,
     told: Told,
     /// Bytes heard while no baud rate could be found.
@@ -78,7 +78,7 @@ enum Told {
 }
 
 impl Port {
-    pub(super) fn new(plan: Plan, protocols: &[Protocol]) -> Self {
+    pub(super) fn new(plan: PortToHear, protocols: &[Protocol]) -> Self {
         let link = Link::Stream;
         Port {
             plan,

@@ -8,7 +8,7 @@ use super::tally::Counted;
 
 /// What was found at all ports.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Report {
+pub struct SniffReport {
     /// Ports in their order.
     pub ports: Vec<PortReport>,
 }
@@ -114,9 +114,9 @@ pub struct MessageReport {
     /// Time since the last, s.
     pub age_s: Option<f64>,
     /// The last one that was refused.
-    pub refusal: Option<Refusal>,
+    pub refusal: Option<RefusedMessage>,
     /// The last one of which a field was left out, and which.
-    pub flaw: Option<Refusal>,
+    pub flaw: Option<RefusedMessage>,
     /// Axes of the velocities of a Doppler log that tells them.
     pub axes: Option<LogAxes>,
 }
@@ -134,7 +134,7 @@ pub struct LogAxes {
 
 /// A message that was refused.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Refusal {
+pub struct RefusedMessage {
     /// Why.
     pub reason: String,
     /// Its first bytes: as they are if they are text, else in hexadecimal digits.

@@ -3,7 +3,7 @@
 use insd_wire::stream::Protocol;
 
 use super::bus;
-use super::plan::Transport;
+use super::plan::SuggestedTransport;
 use super::report::{MessageReport, PortReport};
 
 /// Rates that devices can be set to, Hz.
@@ -36,7 +36,7 @@ struct Sensor {
 }
 
 /// The port's section, if what it opens is known, and one for each sensor on it, as TOML.
-pub(super) fn sections(port: &PortReport, transport: Option<&Transport>) -> Vec<String> {
+pub(super) fn sections(port: &PortReport, transport: Option<&SuggestedTransport>) -> Vec<String> {
     let name = plain(&port.name);
     let mut sections: Vec<String> =
         sensors(port).iter().map(|sensor| sensor.section(&name)).collect();
@@ -47,13 +47,13 @@ pub(super) fn sections(port: &PortReport, transport: Option<&Transport>) -> Vec<
     sections
 }
 
-fn port_section(name: &str, transport: &Transport, baud: Option<u32>) -> String {
+fn port_section(name: &str, transport: &SuggestedTransport, baud: Option<u32>) -> String {
     let inside = match transport {
-        Transport::Serial { device } => {
+        SuggestedTransport::Serial { device } => {
             let baud = baud.map_or(String::new(), |baud| format!(", baud = {baud}"));
             format!("{{ kind = \"serial\", device = {}{baud} }}", quoted(device))
         }
-        Transport::Other(table) => table.clone(),
+        SuggestedTransport::Other(table) => table.clone(),
     };
     format!("[[port]]\nname = {}\ntransport = {inside}\n", quoted(name))
 }

@@ -6,7 +6,7 @@ use insd_intake::config::{Kind, SensorConfig};
 use insd_wire::stream::Protocol;
 
 use super::report::{PortReport, State};
-use super::{Plan, Report, Seen, SeenWhat, Sniffed, Transport};
+use super::{PortToHear, Seen, SeenWhat, SniffReport, Sniffed, SuggestedTransport};
 
 const PORT: PortId = PortId(0);
 
@@ -31,8 +31,8 @@ fn line(body: &str) -> Vec<u8> {
 fn sniffed(timed: bool) -> Sniffed {
     let mut sniffed = Sniffed::new(&Protocol::ALL);
     let device = "/dev/serial/by-id/gps".to_owned();
-    let transport = Some(Transport::Serial { device });
-    sniffed.announce(PORT, Plan { name: "/dev/ttyUSB0".to_owned(), timed, transport });
+    let transport = Some(SuggestedTransport::Serial { device });
+    sniffed.announce(PORT, PortToHear { name: "/dev/ttyUSB0".to_owned(), timed, transport });
     sniffed
 }
 
@@ -43,7 +43,7 @@ fn after(arrivals: &[Arrival]) -> PortReport {
     only(sniffed.report(Time::from_seconds(10.0)))
 }
 
-fn only(report: Report) -> PortReport {
+fn only(report: SniffReport) -> PortReport {
     report.ports.into_iter().next().unwrap()
 }
 

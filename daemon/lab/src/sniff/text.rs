@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::table::{Align, Table, significant};
 
 use super::bus;
-use super::report::{MessageReport, PortReport, PulseReport, Report, State};
+use super::report::{MessageReport, PortReport, PulseReport, SniffReport, State};
 use super::tally::Counted;
 
 /// Columns of the terminal that hints are folded to.
@@ -24,7 +24,7 @@ const READ: [(&str, Align); 1] = [("read", Align::Left)];
 
 /// The whole report with its suggestions at the end.
 #[must_use]
-pub fn report(report: &Report) -> String {
+pub fn report(report: &SniffReport) -> String {
     let mut text: Vec<String> = report.ports.iter().map(port).collect();
     let sections: Vec<&str> =
         report.ports.iter().flat_map(|port| port.suggestions.iter().map(String::as_str)).collect();

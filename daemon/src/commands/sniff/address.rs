@@ -13,7 +13,7 @@ use insd_drivers::raw;
 use super::can::{self, Opened};
 use super::captured;
 use insd_lab::sniff::bus::file::BusFile;
-use insd_lab::sniff::{Plan, Transport as Suggested};
+use insd_lab::sniff::{PortToHear, SuggestedTransport as Suggested};
 
 /// Rates at which a serial line is listened to when none is given, the most common first.
 const BAUDS: [u32; 9] = [115_200, 38_400, 4_800, 9_600, 460_800, 921_600, 230_400, 57_600, 19_200];
@@ -28,7 +28,7 @@ const RATES: std::ops::RangeInclusive<u32> = 50..=4_000_000;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Address {
     /// What is known of it beforehand.
-    pub plan: Plan,
+    pub plan: PortToHear,
     /// What is opened.
     pub source: Source,
 }
@@ -79,7 +79,7 @@ pub fn parse(text: &str) -> Result<Address, String> {
         None if can::is_interface(text) => can::interface(text)?,
         None => return path(text),
     };
-    let plan = Plan { name: text.to_owned(), timed, transport: suggested };
+    let plan = PortToHear { name: text.to_owned(), timed, transport: suggested };
     Ok(Address { plan, source: Source::Port(Box::new(PortConfig::new(transport))) })
 }
 
@@ -193,7 +193,7 @@ fn path(text: &str) -> Result<Address, String> {
     if rate.is_some() && !matches!(transport, Transport::Serial(_)) {
         return Err(format!("{} is no serial line: it has no baud rate", path.display()));
     }
-    let plan = Plan { name: path.display().to_string(), timed, transport: suggested };
+    let plan = PortToHear { name: path.display().to_string(), timed, transport: suggested };
     Ok(Address { plan, source: Source::Port(Box::new(PortConfig::new(transport))) })
 }
 
@@ -201,7 +201,7 @@ fn recording(text: &str, path: &Path, rate: Option<Option<u32>>) -> Result<Addre
     if rate.is_some() {
         return Err(format!("{} is a recording: it has no baud rate", path.display()));
     }
-    let plan = Plan { name: text.to_owned(), timed: true, transport: None };
+    let plan = PortToHear { name: text.to_owned(), timed: true, transport: None };
     Ok(Address { plan, source: Source::Recording(path.to_owned()) })
 }
 
@@ -216,7 +216,7 @@ fn captured(
         return Err(format!("{} is a log of a bus: it has no baud rate", path.display()));
     }
     let transport = format.transport().map(|table| Suggested::Other(table.to_owned()));
-    let plan = Plan { name: text.to_owned(), timed: false, transport };
+    let plan = PortToHear { name: text.to_owned(), timed: false, transport };
     Ok(Address { plan, source: Source::Captured(path.to_owned(), format) })
 }
 

@@ -9,7 +9,7 @@ use insd_drivers::can::{Candump, GatewayFormat, GatewayTcp, GatewayUdp, Socketca
 use insd_drivers::ports::Transport;
 use insd_n2k::text::candump;
 
-use insd_lab::sniff::{Transport as Suggested, quoted};
+use insd_lab::sniff::{SuggestedTransport as Suggested, quoted};
 
 /// What is opened, whether its times are those of receipt, and what to write into a configuration.
 pub(super) type Opened = (Transport, bool, Option<Suggested>);

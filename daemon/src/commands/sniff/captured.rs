@@ -10,7 +10,7 @@ use insd_wire::stream::Protocol;
 
 use super::frames;
 use insd_lab::sniff::bus::file::{BusFile, Frames};
-use insd_lab::sniff::{Plan, Report, Sniffed};
+use insd_lab::sniff::{PortToHear, SniffReport, Sniffed};
 
 /// Bytes of a file that are looked at to find out what it is.
 const HEAD: u64 = 16 * 1024;
@@ -31,10 +31,10 @@ pub(super) fn format_of(path: &Path) -> Option<BusFile> {
 pub(super) fn read(
     path: &Path,
     format: BusFile,
-    plan: &Plan,
+    plan: &PortToHear,
     protocols: &[Protocol],
     show: bool,
-) -> anyhow::Result<Report> {
+) -> anyhow::Result<SniffReport> {
     let stamp = Stamp { monotonic: Time::START, system: UtcTime::from_nanos(0) };
     let mut sniffed = Sniffed::new(protocols);
     sniffed.announce(PORT, plan.clone());

@@ -16,7 +16,7 @@ use tokio::time::{MissedTickBehavior, interval};
 use super::asker::Asker;
 use super::{frames, screen};
 use crate::clock::HostClock;
-use insd_lab::sniff::{Plan, Report, Sniffed, is_proof, text};
+use insd_lab::sniff::{PortToHear, SniffReport, Sniffed, is_proof, text};
 use insd_lab::terminal::Farewell;
 
 /// Time between two looks at the clock, and how many of them make a picture.
@@ -32,7 +32,7 @@ const WRONG: usize = 4096;
 /// A port to listen to.
 #[derive(Clone, Debug)]
 pub(super) struct Opening {
-    pub(super) plan: Plan,
+    pub(super) plan: PortToHear,
     pub(super) config: PortConfig,
     /// How long the search for its baud rate may take, s.
     pub(super) search_s: f64,
@@ -56,7 +56,7 @@ pub(super) fn listen(
     ports: Vec<Opening>,
     protocols: &[Protocol],
     style: Style,
-) -> anyhow::Result<Report> {
+) -> anyhow::Result<SniffReport> {
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
         .build()
@@ -192,7 +192,7 @@ impl Bench {
         format!("{heading}\n\n{}", text::report(&report))
     }
 
-    fn report(&mut self) -> Report {
+    fn report(&mut self) -> SniffReport {
         for (id, heard) in &self.searched {
             self.sniffed.unreadable(*id, heard.load(Ordering::Relaxed));
         }

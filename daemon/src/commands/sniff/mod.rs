@@ -17,7 +17,7 @@ use insd_drivers::ports::PortConfig;
 use insd_wire::stream::Protocol;
 
 use insd_lab::sniff::report::PortReport;
-use insd_lab::sniff::{Report, text};
+use insd_lab::sniff::{SniffReport, text};
 
 pub use address::{Address, Source, parse};
 
@@ -82,7 +82,7 @@ Exit status
 pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
     let protocols = if args.protocol.is_empty() { &Protocol::ALL[..] } else { &args.protocol[..] };
     let mut ports = Vec::new();
-    let mut report = Report { ports: Vec::new() };
+    let mut report = SniffReport { ports: Vec::new() };
     let mut mutes = Vec::new();
     for address in &args.ports {
         match &address.source {

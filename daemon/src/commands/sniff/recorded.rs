@@ -9,7 +9,7 @@ use insd_wire::stream::Protocol;
 
 use super::frames;
 use insd_config::BadInput;
-use insd_lab::sniff::{Plan, Report, Sniffed};
+use insd_lab::sniff::{PortToHear, SniffReport, Sniffed};
 
 /// What the ports of a recording heard. Faults of its files are told on standard error.
 pub(super) fn read(
@@ -17,12 +17,12 @@ pub(super) fn read(
     name: &str,
     protocols: &[Protocol],
     show: bool,
-) -> anyhow::Result<Report> {
+) -> anyhow::Result<SniffReport> {
     let reader = RawReader::open(path).map_err(|fault| BadInput(fault.to_string()))?;
     let mut sniffed = Sniffed::new(protocols);
     let ports = reader.header().map(port_names).unwrap_or_default();
     for (id, port) in (0..).zip(ports) {
-        let plan = Plan { name: format!("{name}: {port}"), timed: true, transport: None };
+        let plan = PortToHear { name: format!("{name}: {port}"), timed: true, transport: None };
         sniffed.announce(PortId(id), plan);
     }
     let mut shown = frames::Printer::new(show);

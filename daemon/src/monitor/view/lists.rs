@@ -1,7 +1,7 @@
 //! Sensors, ports, alerts and the journal.
 
 use insd_web::snapshot::{
-    AlertPriority, AlertState, GONE, PortState, SensorState, Severity, Snapshot,
+    GONE, SensorState, ShownAlertState, ShownPortState, ShownPriority, ShownSeverity, Snapshot,
 };
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Rect};
@@ -67,9 +67,9 @@ fn heading(text: &'static str) -> Line<'static> {
 
 /// The ports, first those that are listened to.
 pub(super) fn ports(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
-    let style = |state: PortState| match state {
-        PortState::Waiting | PortState::Ended | PortState::Unknown => dim(),
-        other => good(other == PortState::Open),
+    let style = |state: ShownPortState| match state {
+        ShownPortState::Waiting | ShownPortState::Ended | ShownPortState::Unknown => dim(),
+        other => good(other == ShownPortState::Open),
     };
     let inputs = snapshot.inputs.iter().map(|port| {
         Row::new([
@@ -112,11 +112,11 @@ pub(super) fn alerts(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
         .iter()
         .map(|alert| {
             let colour = match alert.priority {
-                AlertPriority::EmergencyAlarm | AlertPriority::Alarm => Color::Red,
-                AlertPriority::Warning => Color::LightRed,
-                AlertPriority::Caution | AlertPriority::Unknown => Color::Yellow,
+                ShownPriority::EmergencyAlarm | ShownPriority::Alarm => Color::Red,
+                ShownPriority::Warning => Color::LightRed,
+                ShownPriority::Caution | ShownPriority::Unknown => Color::Yellow,
             };
-            let asks = matches!(alert.state, AlertState::Unacknowledged);
+            let asks = matches!(alert.state, ShownAlertState::Unacknowledged);
             let style = Style::new().fg(colour);
             let style = if asks { style.bold() } else { style };
             let text =
@@ -145,8 +145,8 @@ pub(super) fn events(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
         .take(usize::from(area.height))
         .map(|event| {
             let style = match event.severity {
-                Severity::Error => bad(),
-                Severity::Warn => Style::new().fg(Color::Yellow),
+                ShownSeverity::Error => bad(),
+                ShownSeverity::Warn => Style::new().fg(Color::Yellow),
                 _ => Style::new(),
             };
             let time = time_of_day(event.utc.as_deref());

@@ -1,6 +1,6 @@
 //! The ship, her alignment and her time.
 
-use insd_web::snapshot::{Motion, Snapshot};
+use insd_web::snapshot::{ShownMotion, Snapshot};
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Text};
@@ -14,7 +14,7 @@ pub(super) const ROWS: u16 = 5;
 
 /// Where she is and how she moves, with 1-sigma, in two columns.
 pub(super) fn ship(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
-    let nothing = Motion::default();
+    let nothing = ShownMotion::default();
     let motion = snapshot.present().unwrap_or(&nothing);
     let block = panel("Ship, 1-sigma");
     let inner = block.inner(area);
@@ -42,7 +42,7 @@ fn with_unit(value: Option<f64>, digits: usize, unit: &str) -> String {
     if text == DASH { text } else { text + unit }
 }
 
-fn place_and_level(motion: &Motion) -> [Row<'static>; ROWS as usize] {
+fn place_and_level(motion: &ShownMotion) -> [Row<'static>; ROWS as usize] {
     let [lat, lon] = place(motion);
     [
         row("Position", lat, motion.ellipse_major_m, 2),
@@ -53,7 +53,7 @@ fn place_and_level(motion: &Motion) -> [Row<'static>; ROWS as usize] {
     ]
 }
 
-fn way(motion: &Motion) -> [Row<'static>; ROWS as usize] {
+fn way(motion: &ShownMotion) -> [Row<'static>; ROWS as usize] {
     let heave = motion.heave.as_ref();
     let drift = with_unit(motion.current_speed_kn, 1, " kn");
     let current = match motion.current_set_deg {

@@ -1,4 +1,4 @@
-use insd_web::snapshot::{Alert, AlertPriority, Motion, Sensor, SensorState, Snapshot};
+use insd_web::snapshot::{Alert, Sensor, SensorState, ShownMotion, ShownPriority, Snapshot};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 
@@ -14,18 +14,18 @@ fn drawn(board: &Board, width: u16, height: u16) -> String {
 }
 
 fn board() -> Board {
-    let motion = Motion {
+    let motion = ShownMotion {
         heading_deg: Some(62.04),
         sigma_heading_deg: Some(0.062),
         speed_kn: Some(12.6),
         course_deg: Some(64.2),
         pitch_deg: Some(-1.25),
-        ..Motion::default()
+        ..ShownMotion::default()
     };
     let sensor = Sensor { name: "imu".to_owned(), state: SensorState::Silent, ..Sensor::default() };
     let alert = Alert {
         title: "Heading lost".to_owned(),
-        priority: AlertPriority::Warning,
+        priority: ShownPriority::Warning,
         ..Alert::default()
     };
     let mut snapshot = Snapshot {
@@ -52,7 +52,7 @@ fn the_picture_shows_ship_sensors_and_alerts() {
 #[test]
 fn at_80_by_24_speed_course_pitch_and_alerts_are_seen() {
     let mut snapshot = board().snapshot().unwrap();
-    let input = insd_web::snapshot::Input { name: "port".to_owned(), ..Default::default() };
+    let input = insd_web::snapshot::ShownInput { name: "port".to_owned(), ..Default::default() };
     snapshot.inputs = vec![input; 9];
     snapshot.sensors = vec![snapshot.sensors[0].clone(); 7];
     let board = Board::default();

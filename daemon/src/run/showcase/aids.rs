@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use insd_base::{Counts, Innovation, Time};
-use insd_web::snapshot::{Aid, Cause, Samples};
+use insd_web::snapshot::{Cause, Samples, ShownAid};
 
 use super::spans::age;
 
@@ -37,8 +37,8 @@ impl Aids {
         }
     }
 
-    pub(super) fn aids(&self, counts: &Counts, now: Time) -> Vec<Aid> {
-        let mut aids: BTreeMap<&str, Aid> = BTreeMap::new();
+    pub(super) fn aids(&self, counts: &Counts, now: Time) -> Vec<ShownAid> {
+        let mut aids: BTreeMap<&str, ShownAid> = BTreeMap::new();
         for (name, count) in &counts.accepted {
             entry(&mut aids, name).accepted = *count;
         }
@@ -60,8 +60,8 @@ impl Aids {
     }
 }
 
-fn entry<'a, 'n>(aids: &'a mut BTreeMap<&'n str, Aid>, name: &'n str) -> &'a mut Aid {
-    aids.entry(name).or_insert_with(|| Aid { name: name.to_owned(), ..Aid::default() })
+fn entry<'a, 'n>(aids: &'a mut BTreeMap<&'n str, ShownAid>, name: &'n str) -> &'a mut ShownAid {
+    aids.entry(name).or_insert_with(|| ShownAid { name: name.to_owned(), ..ShownAid::default() })
 }
 
 pub(super) fn samples(counts: &Counts) -> Samples {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use insd_base::Time;
 use insd_output::alerts::AlertView;
-use insd_web::snapshot::{Alert, AlertPriority, AlertState};
+use insd_web::snapshot::{Alert, ShownAlertState, ShownPriority};
 use insd_wire::nmea;
 
 use super::super::report::Report;
@@ -47,22 +47,22 @@ impl Changes {
     }
 }
 
-fn priority(priority: nmea::AlertPriority) -> AlertPriority {
+fn priority(priority: nmea::AlertPriority) -> ShownPriority {
     match priority {
-        nmea::AlertPriority::EmergencyAlarm => AlertPriority::EmergencyAlarm,
-        nmea::AlertPriority::Alarm => AlertPriority::Alarm,
-        nmea::AlertPriority::Warning => AlertPriority::Warning,
-        nmea::AlertPriority::Caution => AlertPriority::Caution,
+        nmea::AlertPriority::EmergencyAlarm => ShownPriority::EmergencyAlarm,
+        nmea::AlertPriority::Alarm => ShownPriority::Alarm,
+        nmea::AlertPriority::Warning => ShownPriority::Warning,
+        nmea::AlertPriority::Caution => ShownPriority::Caution,
     }
 }
 
-fn state(state: nmea::AlertState) -> AlertState {
+fn state(state: nmea::AlertState) -> ShownAlertState {
     match state {
-        nmea::AlertState::Unacknowledged => AlertState::Unacknowledged,
-        nmea::AlertState::Silenced => AlertState::Silenced,
-        nmea::AlertState::Acknowledged => AlertState::Acknowledged,
-        nmea::AlertState::Transferred => AlertState::Transferred,
-        nmea::AlertState::Rectified => AlertState::Rectified,
-        nmea::AlertState::Normal => AlertState::Normal,
+        nmea::AlertState::Unacknowledged => ShownAlertState::Unacknowledged,
+        nmea::AlertState::Silenced => ShownAlertState::Silenced,
+        nmea::AlertState::Acknowledged => ShownAlertState::Acknowledged,
+        nmea::AlertState::Transferred => ShownAlertState::Transferred,
+        nmea::AlertState::Rectified => ShownAlertState::Rectified,
+        nmea::AlertState::Normal => ShownAlertState::Normal,
     }
 }

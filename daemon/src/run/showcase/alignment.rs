@@ -2,19 +2,19 @@
 
 use insd_base::units::DEG;
 use insd_base::{AlignmentStatus, Forecast, Lack, Limiting, Time};
-use insd_web::snapshot::Alignment;
+use insd_web::snapshot::ShownAlignment;
 
 pub(super) fn alignment(
     status: &AlignmentStatus,
     now: Time,
     utc: impl Fn(Time) -> Option<String>,
-) -> Alignment {
+) -> ShownAlignment {
     let ready_in = match status.ready {
         Forecast::Expected { at, .. } => Some((at - now).as_seconds().max(0.0)),
         _ => None,
     };
     let sigma = status.sigma;
-    Alignment {
+    ShownAlignment {
         told_at_s: status.time.as_seconds(),
         phase: status.phase.as_str().to_owned(),
         moored: status.moored,

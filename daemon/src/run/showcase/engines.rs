@@ -3,7 +3,8 @@
 use insd_base::units::{DEG, DEG_PER_HOUR, MICRO_G};
 use insd_base::{self as base, Body, Party, Standing};
 use insd_web::snapshot::{
-    Disturbance, DisturbanceAxis, Engine, Estimate, Estimates, Found, Stands,
+    DisturbanceAxis, Found, ShownDisturbance, ShownEngine, ShownEstimate, ShownEstimates,
+    ShownStands,
 };
 
 use super::super::report::Report;
@@ -13,18 +14,18 @@ use insd_vessel::{Dispute, EngineStatus};
 const PPM: f64 = 1e-6;
 
 /// The engines, if there are several.
-pub(super) fn engines(report: &Report, disputes: &[Dispute]) -> Vec<Engine> {
+pub(super) fn engines(report: &Report, disputes: &[Dispute]) -> Vec<ShownEngine> {
     let several = report.engines.iter().filter(|_| report.engines.len() > 1);
     several.map(|status| engine(status, disputes)).collect()
 }
 
-fn engine(status: &EngineStatus, disputes: &[Dispute]) -> Engine {
+fn engine(status: &EngineStatus, disputes: &[Dispute]) -> ShownEngine {
     let own = disputes.iter().filter(|dispute| dispute.between.contains(&status.name));
     let mut differs: Vec<String> =
         own.map(|dispute| dispute.difference.quantity.as_str().to_owned()).collect();
     differs.dedup();
     let solution = status.motion.map(|motion| motion.solution);
-    Engine {
+    ShownEngine {
         name: status.name.clone(),
         mode: status.mode.as_str().to_owned(),
         in_use: status.chosen,
@@ -36,8 +37,8 @@ fn engine(status: &EngineStatus, disputes: &[Dispute]) -> Engine {
     }
 }
 
-pub(super) fn estimates(found: &base::Estimates) -> Estimates {
-    Estimates {
+pub(super) fn estimates(found: &base::Estimates) -> ShownEstimates {
+    ShownEstimates {
         gyro_bias_deg_h: triad(&found.gyro_bias, &found.gyro_bias_sigma, DEG_PER_HOUR),
         accel_bias_ug: triad(&found.accel_bias, &found.accel_bias_sigma, MICRO_G),
         log_scale_ppm: Some(estimate(&found.log_scale, PPM)),
@@ -49,8 +50,8 @@ pub(super) fn estimates(found: &base::Estimates) -> Estimates {
 }
 
 /// How all stand with whom she is navigated by.
-pub(super) fn standings(all: &[base::Stands]) -> Vec<Stands> {
-    let shown = |stands: &base::Stands| Stands {
+pub(super) fn standings(all: &[base::Stands]) -> Vec<ShownStands> {
+    let shown = |stands: &base::Stands| ShownStands {
         name: stands.party.as_str().to_owned(),
         standing: stands.standing.as_str().to_owned(),
         since_s: stands.fault.map(|_| stands.since.as_seconds()),
@@ -97,17 +98,17 @@ pub(super) fn installation(findings: &[base::Finding]) -> Vec<Found> {
     findings.iter().map(found).collect()
 }
 
-fn triad(value: &Body, sigma: &Body, unit: f64) -> Vec<Estimate> {
+fn triad(value: &Body, sigma: &Body, unit: f64) -> Vec<ShownEstimate> {
     let pairs = value.0.iter().zip(sigma.0.iter());
     let one = |(value, sigma): (&f64, &f64)| base::Estimate { value: *value, sigma: *sigma };
     pairs.map(|pair| estimate(&one(pair), unit)).collect()
 }
 
-fn estimate(own: &base::Estimate, unit: f64) -> Estimate {
-    Estimate { value: Some(own.value / unit), sigma: Some(own.sigma / unit) }
+fn estimate(own: &base::Estimate, unit: f64) -> ShownEstimate {
+    ShownEstimate { value: Some(own.value / unit), sigma: Some(own.sigma / unit) }
 }
 
-pub(super) fn disturbance(found: &base::Disturbance) -> Disturbance {
+pub(super) fn disturbance(found: &base::Disturbance) -> ShownDisturbance {
     let model: Vec<[f64; 2]> = found
         .spectrum
         .iter()
@@ -123,7 +124,7 @@ pub(super) fn disturbance(found: &base::Disturbance) -> Disturbance {
         model,
         measured: Vec::new(),
     };
-    Disturbance {
+    ShownDisturbance {
         method: found.method.to_owned(),
         order: u32::try_from(found.coefficients.len() / 4).ok(),
         interval_s: Some(found.interval),

@@ -18,7 +18,9 @@ mod tests;
 use insd_base::{Event, ModeReason, Span, Time, UtcTime};
 use insd_engine::Output;
 use insd_web::Publisher;
-use insd_web::snapshot::{MAX_MODES, MAX_REJECTIONS, Mode, Rejected, Snapshot, Transition};
+use insd_web::snapshot::{
+    MAX_MODES, MAX_REJECTIONS, Rejected, ShownMode, ShownTransition, Snapshot,
+};
 
 use super::journal::Audience;
 use super::report::{Report, Slow};
@@ -115,7 +117,7 @@ impl Showcase {
         to.clone_into(&mut self.mode_told);
         self.mode_since = time;
         let (at_s, utc, to) = (time.as_seconds(), self.utc(time), to.to_owned());
-        keep(&mut self.shown.modes, Transition { at_s, utc, from, to, reason }, MAX_MODES);
+        keep(&mut self.shown.modes, ShownTransition { at_s, utc, from, to, reason }, MAX_MODES);
     }
 
     /// The mode as everybody sees it may be another than the engine's, which does not know how late it is:
@@ -173,7 +175,7 @@ impl Showcase {
         self.shown.time.at_s = now.as_seconds();
         self.shown.time.utc = report.utc.map(calendar::rfc3339_millis);
         self.shown.time.system_utc = Some(calendar::rfc3339_millis(stamp.system));
-        self.shown.mode = Mode {
+        self.shown.mode = ShownMode {
             name: report.mode.as_str().to_owned(),
             since_s: (now - self.mode_since).as_seconds(),
             reason: self.shown.mode.reason.take(),

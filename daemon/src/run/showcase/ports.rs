@@ -4,7 +4,7 @@ use insd_base::{BusEvent, PortState as State, Time};
 use insd_drivers::ports::{AgeStatus, Destination, Transport};
 use insd_intake::status::PortStatus;
 use insd_web::snapshot::{
-    Age, Bus, BusNode, BusState, Input, Output, OutputMessage, PortState, Schedule,
+    Age, Bus, BusNode, BusState, OutputMessage, Schedule, ShownInput, ShownOutput, ShownPortState,
 };
 
 use super::super::outputs::OutputReport;
@@ -13,11 +13,11 @@ use super::rates::Rates;
 use super::spans::{age, ms};
 use insd_config::{Config, OutputSection, PortSection};
 
-pub(super) fn inputs(config: &Config, slow: &Slow, rates: &Rates, now: Time) -> Vec<Input> {
+pub(super) fn inputs(config: &Config, slow: &Slow, rates: &Rates, now: Time) -> Vec<ShownInput> {
     let ports = config.ports.iter().zip(&slow.intake.ports).enumerate();
     let input = |(index, (section, status)): (usize, (&PortSection, &PortStatus))| {
         let attempts = slow.attempts.get(index).copied().unwrap_or_default();
-        Input {
+        ShownInput {
             name: status.name.clone(),
             transport: transport(&section.transport).to_owned(),
             what: status.told.what.clone().unwrap_or_default(),
@@ -37,7 +37,7 @@ pub(super) fn inputs(config: &Config, slow: &Slow, rates: &Rates, now: Time) -> 
     ports.map(input).collect()
 }
 
-pub(super) fn outputs(config: &Config, slow: &Slow, rates: &Rates) -> Vec<Output> {
+pub(super) fn outputs(config: &Config, slow: &Slow, rates: &Rates) -> Vec<ShownOutput> {
     let output = |(index, report): (usize, &OutputReport)| {
         let is_own = |section: &&OutputSection| {
             report.name == section.name || report.name.starts_with(&format!("{} ", section.name))
@@ -46,7 +46,7 @@ pub(super) fn outputs(config: &Config, slow: &Slow, rates: &Rates) -> Vec<Output
         let destination = section.and_then(|section| section.destination.as_ref());
         let status = &report.status;
         let capacity = section.and_then(OutputSection::carrier).and_then(|own| own.capacity());
-        Output {
+        ShownOutput {
             name: report.name.clone(),
             transport: destination.map_or("lan", transport_out).to_owned(),
             what: what(status.state.as_ref()),
@@ -174,16 +174,16 @@ fn transport_out(destination: &Destination) -> &'static str {
     }
 }
 
-fn state(state: Option<&State>) -> PortState {
+fn state(state: Option<&State>) -> ShownPortState {
     match state {
-        None => PortState::Waiting,
+        None => ShownPortState::Waiting,
         Some(
             State::Open { .. } | State::Speaking | State::Overrun { .. } | State::Refused { .. },
-        ) => PortState::Open,
-        Some(State::Absent { .. }) => PortState::Absent,
-        Some(State::Lost { .. }) => PortState::Lost,
-        Some(State::Silent { .. }) => PortState::Silent,
-        Some(State::Ended) => PortState::Ended,
+        ) => ShownPortState::Open,
+        Some(State::Absent { .. }) => ShownPortState::Absent,
+        Some(State::Lost { .. }) => ShownPortState::Lost,
+        Some(State::Silent { .. }) => ShownPortState::Silent,
+        Some(State::Ended) => ShownPortState::Ended,
     }
 }
 

@@ -6,7 +6,7 @@ use crc::{CRC_32_ISO_HDLC, Crc};
 use insd_base::Stamp;
 use insd_intake::clock::TimeQuality;
 use insd_intake::status::TimeStatus;
-use insd_web::snapshot::{Program, Recording, RecordingState, Saving};
+use insd_web::snapshot::{Program, RecordingState, Saving, ShownRecording};
 use rustix::time::{ClockId, clock_gettime};
 
 use super::super::report::Slow;
@@ -66,9 +66,9 @@ pub(super) fn time_quality(status: &TimeStatus) -> (String, Option<f64>) {
     (quality.to_owned(), status.sigma)
 }
 
-pub(super) fn recording(config: &Config, slow: &Slow) -> Option<Recording> {
+pub(super) fn recording(config: &Config, slow: &Slow) -> Option<ShownRecording> {
     let (section, state) = config.recording.as_ref().zip(slow.recorder.as_ref())?;
-    Some(Recording {
+    Some(ShownRecording {
         state: if state.fault.is_some() {
             RecordingState::Failing
         } else {

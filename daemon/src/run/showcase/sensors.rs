@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use insd_base::Time;
 use insd_intake::status::{ChoiceStatus, SensorStatus};
-use insd_web::snapshot::{Cause, Choice, Sensor, SensorState};
+use insd_web::snapshot::{Cause, Sensor, SensorState, ShownChoice};
 
 use super::super::report::Slow;
 use super::meaning::meaning;
@@ -44,10 +44,10 @@ pub(super) fn sensors(config: &Config, slow: &Slow, rates: &Rates, now: Time) ->
     sections.map(sensor).collect()
 }
 
-pub(super) fn choices(config: &Config, slow: &Slow) -> Vec<Choice> {
+pub(super) fn choices(config: &Config, slow: &Slow) -> Vec<ShownChoice> {
     let choice = |status: &ChoiceStatus| {
         let sensor = status.sensor.and_then(|index| config.sensors.get(index));
-        Choice {
+        ShownChoice {
             quantity: quantity(status),
             sensor: sensor.map(|sensor| sensor.name.clone()),
             why: why(status),

@@ -7,7 +7,7 @@ use insd_base::{HeaveQuality, Integrity, Judgement, Mode, Motion, Solution, Time
 use insd_output::{Ellipse, Policy};
 use nalgebra::Vector3;
 
-use insd_web::snapshot::{Freshness, Heave, Motion as Shown};
+use insd_web::snapshot::{Freshness, ShownHeave, ShownMotion as Shown};
 
 /// What is shown of a motion, at the IMU.
 pub(super) fn motion(
@@ -95,9 +95,9 @@ fn level(policy: &Policy, solution: &Solution) -> String {
     if policy.is_level(solution) { "valid" } else { "not_valid" }.to_owned()
 }
 
-fn shown_heave(heave: &insd_base::Heave) -> Heave {
+fn shown_heave(heave: &insd_base::Heave) -> ShownHeave {
     let delayed = heave.delayed.as_ref();
-    Heave {
+    ShownHeave {
         valid_at_s: heave.time.as_seconds(),
         heave_m: Some(heave.heave),
         sigma_heave_m: Some(heave.sigma),

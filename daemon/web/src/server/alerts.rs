@@ -10,7 +10,7 @@ use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-use crate::orders::{Failure, Order};
+use crate::orders::{Failure, PageOrder};
 
 use super::accept::Peer;
 use super::access::Denied;
@@ -45,7 +45,7 @@ pub(super) async fn acknowledge(
 ) -> Response {
     let order = || {
         let AlertBody { instance } = alert_body(&body)?;
-        Ok(Order::Acknowledge { id, instance })
+        Ok(PageOrder::Acknowledge { id, instance })
     };
     give(&hall, &headers, peer, order).await
 }
@@ -59,7 +59,7 @@ pub(super) async fn silence(
 ) -> Response {
     let order = || {
         let AlertBody { instance } = alert_body(&body)?;
-        Ok(Order::Silence { id, instance })
+        Ok(PageOrder::Silence { id, instance })
     };
     give(&hall, &headers, peer, order).await
 }
@@ -76,7 +76,7 @@ pub(super) async fn log_level(
         if level.is_empty() || level.len() > LONGEST_LEVEL || !level.chars().all(good) {
             return Err("level: a level such as \"debug\", or a filter by module".to_owned());
         }
-        Ok(Order::LogLevel(level))
+        Ok(PageOrder::LogLevel(level))
     };
     give(&hall, &headers, peer, order).await
 }
@@ -86,7 +86,7 @@ async fn give(
     hall: &Hall,
     headers: &HeaderMap,
     peer: Peer,
-    order: impl FnOnce() -> Result<Order, String>,
+    order: impl FnOnce() -> Result<PageOrder, String>,
 ) -> Response {
     let host = peer.0.ip().to_canonical();
     if let Err(denied) = hall.access.check(headers, peer.0.ip()) {

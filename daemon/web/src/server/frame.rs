@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use axum::body::Bytes;
 use serde::Serialize;
 
-use crate::snapshot::{Alert, Alignment, Mode, Motion, Snapshot, TimeInfo};
+use crate::snapshot::{Alert, ShownAlignment, ShownMode, ShownMotion, Snapshot, TimeInfo};
 
 use super::metrics;
 
@@ -25,9 +25,9 @@ pub(super) struct Frame {
 struct Live<'a> {
     version: u32,
     time: &'a TimeInfo,
-    mode: &'a Mode,
-    motion: &'a Option<Motion>,
-    alignment: &'a Option<Alignment>,
+    mode: &'a ShownMode,
+    motion: &'a Option<ShownMotion>,
+    alignment: &'a Option<ShownAlignment>,
 }
 
 impl Frame {

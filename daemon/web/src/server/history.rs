@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use axum::body::Bytes;
 use serde_json::{Map, Value, json};
 
-use crate::snapshot::{Motion, Snapshot};
+use crate::snapshot::{ShownMotion, Snapshot};
 
 /// Most rows: ten minutes at one a second, or two hours at one in ten seconds.
 const ROWS: [usize; 2] = [600, 720];
@@ -17,7 +17,7 @@ const STEPS: [f64; 2] = [0.95, 9.95];
 pub(super) const BACK: f64 = -2.0;
 
 /// A column: its name, and where it is found.
-type Column = (&'static str, fn(&Motion) -> Option<f64>);
+type Column = (&'static str, fn(&ShownMotion) -> Option<f64>);
 
 /// What is kept.
 const COLUMNS: [Column; 10] = [
@@ -114,7 +114,7 @@ mod tests {
         let [mut history, mut coarse] = History::both();
         for tick in 0..7000 {
             let roll_deg = (tick % 2 == 0).then_some(f64::from(tick));
-            let motion = Motion { roll_deg, ..Motion::default() };
+            let motion = ShownMotion { roll_deg, ..ShownMotion::default() };
             let mut snapshot = Snapshot { motion: Some(motion), ..Snapshot::default() };
             snapshot.time.at_s = f64::from(tick) * 0.1;
             history.note(&snapshot);

@@ -96,10 +96,11 @@ fn way(from: &Point, to: &Point) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::snapshot::Motion;
+    use crate::snapshot::ShownMotion;
 
     fn at(seconds: f64, lon: f64) -> Snapshot {
-        let motion = Motion { lat_deg: Some(0.0), lon_deg: Some(lon), ..Motion::default() };
+        let motion =
+            ShownMotion { lat_deg: Some(0.0), lon_deg: Some(lon), ..ShownMotion::default() };
         let mut snapshot = Snapshot { motion: Some(motion), ..Snapshot::default() };
         snapshot.time.at_s = seconds;
         snapshot

@@ -6,8 +6,8 @@
 
 use super::freshness::{Freshness, GONE};
 use super::{
-    Aid, Alignment, BusState, Engine, Input, Mode, Motion, Output, PortState, RecordingState,
-    Sensor, SensorState, Snapshot, TimeInfo,
+    BusState, RecordingState, Sensor, SensorState, ShownAid, ShownAlignment, ShownEngine,
+    ShownInput, ShownMode, ShownMotion, ShownOutput, ShownPortState, Snapshot, TimeInfo,
 };
 
 /// What the alignment says is repeated every 10 s; when it is older than this nobody aligns, s.
@@ -43,7 +43,7 @@ impl Snapshot {
 
     /// The motion, if it may be taken as the present.
     #[must_use]
-    pub fn present(&self) -> Option<&Motion> {
+    pub fn present(&self) -> Option<&ShownMotion> {
         self.motion.as_ref().filter(|motion| motion.freshness == Freshness::Fresh)
     }
 
@@ -62,7 +62,7 @@ impl Snapshot {
             self.estimates = None;
             self.disturbance = None;
         }
-        let told = |alignment: &Alignment| now - alignment.told_at_s <= ALIGNMENT_GONE;
+        let told = |alignment: &ShownAlignment| now - alignment.told_at_s <= ALIGNMENT_GONE;
         self.alignment = self.alignment.take().filter(told).filter(|_| own != Freshness::Gone);
         if own != Freshness::Fresh {
             let age = if navigator == Freshness::Fresh { inertial } else { None };
@@ -90,7 +90,7 @@ impl Snapshot {
             TimeInfo { at_s, told_ago_s, quality: "unknown".to_owned(), ..TimeInfo::default() };
         self.program.memory_bytes = None;
         self.program.processor_s = None;
-        self.outputs.iter_mut().for_each(Output::forget);
+        self.outputs.iter_mut().for_each(ShownOutput::forget);
         for bus in &mut self.buses {
             (bus.state, bus.rate_hz, bus.load) = (BusState::Unknown, None, None);
             bus.node_state = None;
@@ -101,7 +101,7 @@ impl Snapshot {
     }
 }
 
-impl Motion {
+impl ShownMotion {
     fn grow_older(&mut self, now: f64, least: Freshness) {
         self.freshness = Freshness::of_age(now - self.valid_at_s).max(least);
         let is_gone = |at: f64| Freshness::of_age(now - at) == Freshness::Gone;
@@ -109,7 +109,7 @@ impl Motion {
     }
 }
 
-impl Engine {
+impl ShownEngine {
     fn grow_older(&mut self, now: f64, navigator: Freshness) {
         let age = self.valid_at_s.map(|at| now - at);
         let own = age.map_or(Freshness::Fresh, Freshness::of_age).max(navigator);
@@ -118,13 +118,13 @@ impl Engine {
         }
         (self.heading_deg, self.sigma_heading_deg) = (None, None);
         self.healthy = false;
-        let mut mode = Mode { name: std::mem::take(&mut self.mode), ..Mode::default() };
+        let mut mode = ShownMode { name: std::mem::take(&mut self.mode), ..ShownMode::default() };
         mode.give_way(0.0, navigator);
         self.mode = mode.name;
     }
 }
 
-impl Mode {
+impl ShownMode {
     /// What is true where no solution is made any more.
     fn give_way(&mut self, age_s: f64, navigator: Freshness) {
         let (name, reason) = match navigator {
@@ -133,7 +133,11 @@ impl Mode {
         };
         let is_so = self.name == name || self.name == "fault" || self.name.is_empty();
         if !is_so {
-            *self = Mode { name: name.to_owned(), since_s: age_s, reason: Some(reason.to_owned()) };
+            *self = ShownMode {
+                name: name.to_owned(),
+                since_s: age_s,
+                reason: Some(reason.to_owned()),
+            };
         }
     }
 }
@@ -156,7 +160,7 @@ impl Sensor {
     }
 }
 
-impl Aid {
+impl ShownAid {
     fn grow_older(&mut self, passed: f64, navigator: Freshness) {
         self.age_s = self.age_s.map(|age| age + passed);
         self.in_use &= navigator != Freshness::Gone;
@@ -166,38 +170,38 @@ impl Aid {
     }
 }
 
-impl Input {
+impl ShownInput {
     fn grow_older(&mut self, passed: f64, navigator: Freshness) {
         self.age_s = self.age_s.map(|age| age + passed);
         if navigator == Freshness::Gone {
-            (self.state, self.rate_bytes_s) = (PortState::Unknown, None);
-        } else if self.state != PortState::Open {
+            (self.state, self.rate_bytes_s) = (ShownPortState::Unknown, None);
+        } else if self.state != ShownPortState::Open {
             self.rate_bytes_s = None;
         }
     }
 }
 
-impl Output {
+impl ShownOutput {
     fn forget(&mut self) {
-        (self.state, self.rate_bytes_s, self.age_ms) = (PortState::Unknown, None, None);
+        (self.state, self.rate_bytes_s, self.age_ms) = (ShownPortState::Unknown, None, None);
         self.messages.iter_mut().for_each(|message| message.age_ms = None);
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::Heave;
+    use super::super::ShownHeave;
     use super::super::freshness::OLD;
     use super::*;
 
     /// A ship that sails, told at once.
     fn sailing() -> Snapshot {
-        let heave = Heave { valid_at_s: 99.98, heave_m: Some(0.4), ..Heave::default() };
-        let motion = Motion {
+        let heave = ShownHeave { valid_at_s: 99.98, heave_m: Some(0.4), ..ShownHeave::default() };
+        let motion = ShownMotion {
             valid_at_s: 99.98,
             heading_deg: Some(62.0),
             heave: Some(heave),
-            ..Motion::default()
+            ..ShownMotion::default()
         };
         let imu = Sensor {
             state: SensorState::Valid,
@@ -209,9 +213,12 @@ mod tests {
         };
         let log = Sensor { rate_hz: Some(1.0), age_s: Some(0.9), ..imu.clone() };
         let log = Sensor { used_for: vec!["bottom_velocity".to_owned()], ..log };
-        let aligned = Alignment { told_at_s: 91.0, ..Alignment::default() };
-        let engine =
-            Engine { mode: "aided".to_owned(), valid_at_s: Some(99.98), ..Engine::default() };
+        let aligned = ShownAlignment { told_at_s: 91.0, ..ShownAlignment::default() };
+        let engine = ShownEngine {
+            mode: "aided".to_owned(),
+            valid_at_s: Some(99.98),
+            ..ShownEngine::default()
+        };
         let mut snapshot = Snapshot {
             motion: Some(motion),
             sensors: vec![imu, log],

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// What became of the measurements of one aid.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Aid {
+pub struct ShownAid {
     /// Which: `gnss_position`, `gnss_velocity`, `log_bottom`, ...
     pub name: String,
     /// Whether one was used in the last seconds.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// How urgent an alert is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum AlertPriority {
+pub enum ShownPriority {
     /// Somebody must act at once to save lives or the ship.
     EmergencyAlarm,
     /// Somebody must act at once.
@@ -23,7 +23,7 @@ pub enum AlertPriority {
 /// State of an alert.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum AlertState {
+pub enum ShownAlertState {
     /// It holds, and nobody has acknowledged it.
     Unacknowledged,
     /// It holds, nobody has acknowledged it, and it is silent for a while.
@@ -57,9 +57,9 @@ pub struct Alert {
     /// What it means, or what to do.
     pub description: String,
     /// How urgent it is.
-    pub priority: AlertPriority,
+    pub priority: ShownPriority,
     /// Its state.
-    pub state: AlertState,
+    pub state: ShownAlertState,
     /// How often it was raised again because nobody answered.
     pub escalation: u32,
     /// UTC of the last change, if it was known.
@@ -71,7 +71,7 @@ pub struct Alert {
 /// How much a line of the journal matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Severity {
+pub enum ShownSeverity {
     /// Something does not work.
     Error,
     /// Something is not as it should be.
@@ -89,13 +89,13 @@ pub enum Severity {
 /// A line of the journal.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Event {
+pub struct ShownEvent {
     /// When, on the ship's time line, s.
     pub at_s: f64,
     /// When, if UTC was known.
     pub utc: Option<String>,
     /// How much it matters.
-    pub severity: Severity,
+    pub severity: ShownSeverity,
     /// What.
     pub text: String,
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// What the alignment knows of itself.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Alignment {
+pub struct ShownAlignment {
     /// When it said so, on the ship's time line, s.
     pub told_at_s: f64,
     /// `levelling`, `searching`, `fine`, `in_motion`, `aligned`.
@@ -54,7 +54,7 @@ pub struct Alignment {
 /// What moves the ship, as an autoregressive model of her velocity.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Disturbance {
+pub struct ShownDisturbance {
     /// `prefilter`: the model that the alignment works with; `window`: one fitted to the last minutes to be
     /// looked at.
     pub method: String,

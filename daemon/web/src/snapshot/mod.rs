@@ -21,16 +21,19 @@ mod program;
 mod sensors;
 mod ship;
 
-pub use aids::{Aid, Cause, Rejected, Samples};
-pub use alerts::{Alert, AlertPriority, AlertState, Event, Severity};
-pub use alignment::{Alignment, Disturbance, DisturbanceAxis};
+pub use aids::{Cause, Rejected, Samples, ShownAid};
+pub use alerts::{Alert, ShownAlertState, ShownEvent, ShownPriority, ShownSeverity};
+pub use alignment::{DisturbanceAxis, ShownAlignment, ShownDisturbance};
 pub use freshness::{Freshness, GONE, OLD};
-pub use ports::{Age, Bus, BusNode, BusState, Input, Output, OutputMessage, PortState, Schedule};
-pub use program::{
-    Engine, Log, Mode, Program, Recording, RecordingState, Saving, TimeInfo, Transition,
+pub use ports::{
+    Age, Bus, BusNode, BusState, OutputMessage, Schedule, ShownInput, ShownOutput, ShownPortState,
 };
-pub use sensors::{Choice, Sensor, SensorState};
-pub use ship::{Estimate, Estimates, Found, Heave, Motion, Stands};
+pub use program::{
+    Log, Program, RecordingState, Saving, ShownEngine, ShownMode, ShownRecording, ShownTransition,
+    TimeInfo,
+};
+pub use sensors::{Sensor, SensorState, ShownChoice};
+pub use ship::{Found, ShownEstimate, ShownEstimates, ShownHeave, ShownMotion, ShownStands};
 
 use serde::{Deserialize, Serialize};
 
@@ -55,35 +58,35 @@ pub struct Snapshot {
     /// What time it is, and how well that is known.
     pub time: TimeInfo,
     /// What the system is doing.
-    pub mode: Mode,
+    pub mode: ShownMode,
     /// The last changes of the mode, oldest first, at most [`MAX_MODES`].
-    pub modes: Vec<Transition>,
+    pub modes: Vec<ShownTransition>,
     /// Where the ship is, how she moves and lies; `None` while nothing is known that could be shown.
-    pub motion: Option<Motion>,
+    pub motion: Option<ShownMotion>,
     /// What the alignment knows of itself; `None` before its first word.
-    pub alignment: Option<Alignment>,
+    pub alignment: Option<ShownAlignment>,
     /// The instances of the navigator, if there are several.
-    pub engines: Vec<Engine>,
+    pub engines: Vec<ShownEngine>,
     /// What the filter has found out about the sensors; `None` while there is no filter.
-    pub estimates: Option<Estimates>,
+    pub estimates: Option<ShownEstimates>,
     /// Whom the navigator believes; before it navigates, and at the berth, those alone who are left out or on trial.
-    pub standings: Vec<Stands>,
+    pub standings: Vec<ShownStands>,
     /// What of the installation is found to be otherwise than configured.
     pub installation: Vec<Found>,
     /// Sensors, in the order of the configuration.
     pub sensors: Vec<Sensor>,
     /// Which sensor is used for what, and why.
-    pub choices: Vec<Choice>,
+    pub choices: Vec<ShownChoice>,
     /// Ports that are listened to, in the order of the configuration.
-    pub inputs: Vec<Input>,
+    pub inputs: Vec<ShownInput>,
     /// Ports that are written to, in the order of the configuration.
-    pub outputs: Vec<Output>,
+    pub outputs: Vec<ShownOutput>,
     /// CAN buses.
     pub buses: Vec<Bus>,
     /// How punctual the outputs are.
     pub schedule: Schedule,
     /// What became of the measurements of each aid.
-    pub aids: Vec<Aid>,
+    pub aids: Vec<ShownAid>,
     /// What became of the samples of the IMU.
     pub samples: Samples,
     /// The last measurements that were not used, oldest first, at most [`MAX_REJECTIONS`].
@@ -91,15 +94,15 @@ pub struct Snapshot {
     /// Alerts that are not normal, those that matter most first.
     pub alerts: Vec<Alert>,
     /// What moves the ship; `None` until it has been seen for a while.
-    pub disturbance: Option<Disturbance>,
+    pub disturbance: Option<ShownDisturbance>,
     /// The recording; `None` if none is asked for.
-    pub recording: Option<Recording>,
+    pub recording: Option<ShownRecording>,
     /// What is saved for the next start; `None` if nothing is.
     pub saving: Option<Saving>,
     /// The journal.
     pub log: Log,
     /// The last lines of the journal, oldest first, at most [`MAX_EVENTS`].
-    pub events: Vec<Event>,
+    pub events: Vec<ShownEvent>,
 }
 
 impl Default for Snapshot {
@@ -108,7 +111,7 @@ impl Default for Snapshot {
             version: VERSION,
             program: Program::default(),
             time: TimeInfo::default(),
-            mode: Mode::default(),
+            mode: ShownMode::default(),
             modes: Vec::new(),
             motion: None,
             alignment: None,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// How a port is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum PortState {
+pub enum ShownPortState {
     /// Nothing was told yet.
     Waiting,
     /// It is open.
@@ -27,7 +27,7 @@ pub enum PortState {
 /// A port that is listened to.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Input {
+pub struct ShownInput {
     /// Its name.
     pub name: String,
     /// What it is: `serial`, `udp`, `tcp-client`, `tcp-server`, `socketcan`, `pps`, ...
@@ -35,7 +35,7 @@ pub struct Input {
     /// What is opened: device and baud rate, address, file.
     pub what: String,
     /// How it is.
-    pub state: PortState,
+    pub state: ShownPortState,
     /// Bytes taken.
     pub bytes: u64,
     /// Bytes a second, over the last seconds.
@@ -61,7 +61,7 @@ pub struct Input {
 /// A port that is written to.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Output {
+pub struct ShownOutput {
     /// Its name.
     pub name: String,
     /// What it is: `serial`, `udp`, `tcp-server`, `file`, `pty`, `lan`, `n2k`.
@@ -71,7 +71,7 @@ pub struct Output {
     /// The monitoring point of which it tells; `None` for the IMU.
     pub point: Option<String>,
     /// How it is.
-    pub state: PortState,
+    pub state: ShownPortState,
     /// Messages handed over whole to the system.
     pub sent: u64,
     /// Messages that will never leave.

@@ -53,7 +53,7 @@ pub struct TimeInfo {
 /// What the system is doing.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Mode {
+pub struct ShownMode {
     /// `standby`, `coarse_alignment`, `fine_alignment`, `in_motion_alignment`, `aided`,
     /// `dead_reckoning`, `inertial`, `fault`; empty before anything is known.
     pub name: String,
@@ -66,7 +66,7 @@ pub struct Mode {
 /// A change of the mode.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Transition {
+pub struct ShownTransition {
     /// When, on the ship's time line, s.
     pub at_s: f64,
     /// When, if UTC was known.
@@ -82,10 +82,10 @@ pub struct Transition {
 /// An instance of the navigator.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Engine {
+pub struct ShownEngine {
     /// Its name.
     pub name: String,
-    /// What it is doing, in the words of [`Mode::name`].
+    /// What it is doing, in the words of [`ShownMode::name`].
     pub mode: String,
     /// Whether the outputs come from it.
     pub in_use: bool,
@@ -120,7 +120,7 @@ pub enum RecordingState {
 /// The recording.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Recording {
+pub struct ShownRecording {
     /// How it is going.
     pub state: RecordingState,
     /// Where the files go.

@@ -68,7 +68,7 @@ pub struct Sensor {
 /// The source of a quantity.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Choice {
+pub struct ShownChoice {
     /// Of what, as in [`Sensor::used_for`].
     pub quantity: String,
     /// Name of the sensor in use; `None` where there is none.

@@ -8,7 +8,7 @@ use super::freshness::Freshness;
 /// sigmas are 1-sigma.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Motion {
+pub struct ShownMotion {
     /// Time of validity, on the ship's time line, s.
     pub valid_at_s: f64,
     /// Whether that may be taken as the present: `fresh`, or `old` for a moment before it is gone.
@@ -48,7 +48,7 @@ pub struct Motion {
     /// Rate of turn, deg/min, bow to starboard positive.
     pub rate_of_turn_deg_min: Option<f64>,
     /// Heave; `None` if it is not asked for.
-    pub heave: Option<Heave>,
+    pub heave: Option<ShownHeave>,
     /// 1-sigma of the position to the north, m.
     pub sigma_north_m: Option<f64>,
     /// To the east, m.
@@ -100,7 +100,7 @@ pub struct Motion {
 /// Heave: its mean over many waves is zero.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Heave {
+pub struct ShownHeave {
     /// Time of validity of the heave in real time, on the ship's time line, s.
     pub valid_at_s: f64,
     /// In real time, m, up positive.
@@ -120,28 +120,28 @@ pub struct Heave {
 /// What the filter has found out about the sensors.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Estimates {
+pub struct ShownEstimates {
     /// Biases of the gyros about the body axes forward, starboard, down, deg/h.
-    pub gyro_bias_deg_h: Vec<Estimate>,
+    pub gyro_bias_deg_h: Vec<ShownEstimate>,
     /// Biases of the accelerometers along the same axes, micro-g.
-    pub accel_bias_ug: Vec<Estimate>,
+    pub accel_bias_ug: Vec<ShownEstimate>,
     /// Scale factor of the log, ppm.
-    pub log_scale_ppm: Option<Estimate>,
+    pub log_scale_ppm: Option<ShownEstimate>,
     /// Misalignment of the log, deg, bow to starboard positive.
-    pub log_misalignment_deg: Option<Estimate>,
+    pub log_misalignment_deg: Option<ShownEstimate>,
     /// Lever arm of the GNSS antenna, if it is estimated: forward, starboard, down, m.
-    pub gnss_lever_m: Vec<Estimate>,
+    pub gnss_lever_m: Vec<ShownEstimate>,
     /// Delay of the GNSS, s.
-    pub gnss_delay_s: Option<Estimate>,
+    pub gnss_delay_s: Option<ShownEstimate>,
     /// Course less heading on the mean while she went straight on, deg: leeway and current, and what the IMU is
     /// turned by.
-    pub course_less_heading_deg: Option<Estimate>,
+    pub course_less_heading_deg: Option<ShownEstimate>,
 }
 
 /// A value and how sure it is.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Estimate {
+pub struct ShownEstimate {
     /// The value, in the unit of the field that holds it.
     pub value: Option<f64>,
     /// 1-sigma, in the same unit.
@@ -151,7 +151,7 @@ pub struct Estimate {
 /// How somebody of the sensors stands.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Stands {
+pub struct ShownStands {
     /// Who: `gnss` (the first receiver), `gnss2`, `gnss3` (others, once heard), `log`, `heading`, `reference`, `imu`.
     pub name: String,
     /// How far it is believed: `trusted`, `doubtful`, `excluded`, `probation`.

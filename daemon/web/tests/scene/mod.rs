@@ -8,10 +8,10 @@ mod plumbing;
 mod ship;
 
 use insd_web::snapshot::{
-    Alert, AlertPriority, AlertState, Engine, Event, Log, Mode, Program, Recording, RecordingState,
-    Severity, Snapshot, TimeInfo, Transition,
+    Alert, Log, Program, RecordingState, ShownAlertState, ShownEngine, ShownEvent, ShownMode,
+    ShownPriority, ShownRecording, ShownSeverity, ShownTransition, Snapshot, TimeInfo,
 };
-use insd_web::{Order, OrderReceiver};
+use insd_web::{OrderReceiver, PageOrder};
 
 /// Time between two snapshots, s.
 pub(crate) const STEP: f64 = 0.1;
@@ -45,14 +45,14 @@ pub(crate) struct Show {
     pub(crate) scene: Scene,
     ticks: u32,
     /// States of the two alerts of the fault that ask to be acknowledged.
-    alerts: [AlertState; 2],
+    alerts: [ShownAlertState; 2],
     level: String,
 }
 
 impl Show {
     /// A scene that has been going on for some minutes.
     pub(crate) fn new(scene: Scene) -> Self {
-        let alerts = [AlertState::Unacknowledged; 2];
+        let alerts = [ShownAlertState::Unacknowledged; 2];
         Show { scene, ticks: 3000, alerts, level: "info".to_owned() }
     }
 
@@ -111,19 +111,20 @@ impl Show {
         }
     }
 
-    fn obey_one(&mut self, order: &Order) -> Result<(), String> {
+    fn obey_one(&mut self, order: &PageOrder) -> Result<(), String> {
         let (id, state) = match order {
-            Order::LogLevel(level) => {
+            PageOrder::LogLevel(level) => {
                 self.level.clone_from(level);
                 return Ok(());
             }
-            Order::Acknowledge { id, .. } => (*id, AlertState::Acknowledged),
-            Order::Silence { id, .. } => (*id, AlertState::Silenced),
+            PageOrder::Acknowledge { id, .. } => (*id, ShownAlertState::Acknowledged),
+            PageOrder::Silence { id, .. } => (*id, ShownAlertState::Silenced),
         };
         let index = [10_001, 10_002].iter().position(|own| *own == id);
         let slot = index.and_then(|index| self.alerts.get_mut(index));
-        let asks =
-            |state: AlertState| matches!(state, AlertState::Unacknowledged | AlertState::Silenced);
+        let asks = |state: ShownAlertState| {
+            matches!(state, ShownAlertState::Unacknowledged | ShownAlertState::Silenced)
+        };
         match slot.filter(|slot| asks(**slot) && self.scene == Scene::Fault) {
             Some(slot) => *slot = state,
             None => return Err("there is nothing to acknowledge".to_owned()),
@@ -131,7 +132,7 @@ impl Show {
         Ok(())
     }
 
-    fn mode(&self, t: f64) -> Mode {
+    fn mode(&self, t: f64) -> ShownMode {
         let (name, since_s, reason) = match self.scene {
             Scene::Alignment => ("fine_alignment", t - 60.0, "one heading is left of twenty-four"),
             Scene::Underway => ("aided", t - 180.0, "GNSS position and velocity in use"),
@@ -139,11 +140,11 @@ impl Show {
                 ("dead_reckoning", t - 240.0, "no GNSS for 10 s; the Doppler log is in use")
             }
         };
-        Mode { name: name.to_owned(), since_s, reason: Some(reason.to_owned()) }
+        ShownMode { name: name.to_owned(), since_s, reason: Some(reason.to_owned()) }
     }
 
-    fn modes(&self) -> Vec<Transition> {
-        let change = |at_s: f64, from: Option<&str>, to: &str, reason: &str| Transition {
+    fn modes(&self) -> Vec<ShownTransition> {
+        let change = |at_s: f64, from: Option<&str>, to: &str, reason: &str| ShownTransition {
             at_s,
             utc: Some(utc(at_s)),
             from: from.map(str::to_owned),
@@ -165,10 +166,10 @@ impl Show {
         modes
     }
 
-    fn engines(&self, t: f64) -> Vec<Engine> {
+    fn engines(&self, t: f64) -> Vec<ShownEngine> {
         let motion = ship::motion(t, self.scene);
         let fault = self.scene == Scene::Fault;
-        let engine = |name: &str, in_use: bool, off: f64| Engine {
+        let engine = |name: &str, in_use: bool, off: f64| ShownEngine {
             name: name.to_owned(),
             mode: self.mode(t).name,
             in_use,
@@ -199,31 +200,31 @@ impl Show {
         let [heading, position] = self.alerts;
         let lost = ["Position lost", "Use another position"];
         let engine = ["Heading lost", "Use another heading"];
-        let mut alarm = alert(10_002, AlertPriority::Alarm, position, lost, 262.0);
+        let mut alarm = alert(10_002, ShownPriority::Alarm, position, lost, 262.0);
         alarm.escalation = 1;
         vec![
             alarm,
-            alert(10_001, AlertPriority::Warning, heading, engine, 250.0),
+            alert(10_001, ShownPriority::Warning, heading, engine, 250.0),
             alert(
                 10_004,
-                AlertPriority::Caution,
-                AlertState::Acknowledged,
+                ShownPriority::Caution,
+                ShownAlertState::Acknowledged,
                 ["Pos. estimated", "No GNSS or little certainty"],
                 250.0,
             ),
             alert(
                 10_005,
-                AlertPriority::Warning,
-                AlertState::Rectified,
+                ShownPriority::Warning,
+                ShownAlertState::Rectified,
                 ["No UTC", "Times are left empty"],
                 281.0,
             ),
         ]
     }
 
-    fn recording(&self, t: f64) -> Recording {
+    fn recording(&self, t: f64) -> ShownRecording {
         let fault = self.scene == Scene::Fault;
-        Recording {
+        ShownRecording {
             state: if fault { RecordingState::Failing } else { RecordingState::Recording },
             folder: "/var/lib/insd/recording".to_owned(),
             bytes: (t * 8400.0) as u64,
@@ -234,8 +235,8 @@ impl Show {
         }
     }
 
-    fn events(&self) -> Vec<Event> {
-        let line = |at_s: f64, severity: Severity, text: &str| Event {
+    fn events(&self) -> Vec<ShownEvent> {
+        let line = |at_s: f64, severity: ShownSeverity, text: &str| ShownEvent {
             at_s,
             utc: Some(utc(at_s)),
             severity,
@@ -244,29 +245,33 @@ impl Show {
         let mut events = vec![
             line(
                 0.1,
-                Severity::Info,
+                ShownSeverity::Info,
                 "imu: open: /dev/serial/by-id/usb-FTDI_IMU-if00-port0, 921600 baud",
             ),
             line(
                 0.2,
-                Severity::Info,
+                ShownSeverity::Info,
                 "gnss: open: /dev/serial/by-id/usb-u-blox_GNSS-if00, 115200 baud",
             ),
-            line(0.9, Severity::Info, "inertial: from imu (first)"),
-            line(1.6, Severity::Info, "time: by messages, to 20 ms"),
-            line(2.4, Severity::Info, "time: by pulses, to 2 us"),
-            line(60.0, Severity::Info, "mode: fine alignment"),
+            line(0.9, ShownSeverity::Info, "inertial: from imu (first)"),
+            line(1.6, ShownSeverity::Info, "time: by messages, to 20 ms"),
+            line(2.4, ShownSeverity::Info, "time: by pulses, to 2 us"),
+            line(60.0, ShownSeverity::Info, "mode: fine alignment"),
         ];
         if self.scene != Scene::Alignment {
-            events.push(line(180.0, Severity::Info, "mode: aided"));
+            events.push(line(180.0, ShownSeverity::Info, "mode: aided"));
         }
         if self.scene == Scene::Fault {
-            events.push(line(229.4, Severity::Warn, "gnss: says that it is invalid, status 0"));
-            events.push(line(240.0, Severity::Warn, "mode: dead reckoning"));
-            events.push(line(251.3, Severity::Warn, "gyro-compass: silent for 3.0 s"));
+            events.push(line(
+                229.4,
+                ShownSeverity::Warn,
+                "gnss: says that it is invalid, status 0",
+            ));
+            events.push(line(240.0, ShownSeverity::Warn, "mode: dead reckoning"));
+            events.push(line(251.3, ShownSeverity::Warn, "gyro-compass: silent for 3.0 s"));
             events.push(line(
                 262.0,
-                Severity::Error,
+                ShownSeverity::Error,
                 "recording: No space left on device (os error 28)",
             ));
         }

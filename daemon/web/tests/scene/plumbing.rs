@@ -1,8 +1,8 @@
 //! Sensors, ports and measurements of the made-up ship.
 
 use insd_web::snapshot::{
-    Age, Aid, Bus, BusNode, BusState, Cause, Choice, Input, Output, OutputMessage, PortState,
-    Rejected, Samples, Schedule, Sensor, SensorState, Snapshot,
+    Age, Bus, BusNode, BusState, Cause, OutputMessage, Rejected, Samples, Schedule, Sensor,
+    SensorState, ShownAid, ShownChoice, ShownInput, ShownOutput, ShownPortState, Snapshot,
 };
 
 use super::{Scene, utc};
@@ -77,8 +77,8 @@ fn sensors(t: f64, scene: Scene) -> Vec<Sensor> {
     vec![imu, gnss, n2k, sensor("doppler", "pd6", "log", 2.0, &log), compass, waiting]
 }
 
-fn choices(scene: Scene) -> Vec<Choice> {
-    let choice = |quantity: &str, sensor: Option<&str>, why: &str| Choice {
+fn choices(scene: Scene) -> Vec<ShownChoice> {
+    let choice = |quantity: &str, sensor: Option<&str>, why: &str| ShownChoice {
         quantity: quantity.to_owned(),
         sensor: sensor.map(str::to_owned),
         why: Some(why.to_owned()),
@@ -96,24 +96,24 @@ fn choices(scene: Scene) -> Vec<Choice> {
     ]
 }
 
-fn inputs(t: f64, scene: Scene) -> Vec<Input> {
-    let input = |name: &str, transport: &str, what: &str, rate: f64| Input {
+fn inputs(t: f64, scene: Scene) -> Vec<ShownInput> {
+    let input = |name: &str, transport: &str, what: &str, rate: f64| ShownInput {
         name: name.to_owned(),
         transport: transport.to_owned(),
         what: what.to_owned(),
-        state: PortState::Open,
+        state: ShownPortState::Open,
         bytes: count(t, rate),
         rate_bytes_s: Some(rate),
         age_s: Some((t * 7.3).fract() * 0.1),
         frames: count(t, rate / 60.0),
-        ..Input::default()
+        ..ShownInput::default()
     };
     let mut gnss = input("gnss", "serial", "usb-u-blox_GNSS-if00, 115200 baud", 2140.0);
     gnss.damaged = 3;
     gnss.skipped_bytes = 214;
     let mut bridge = input("bridge", "udp", "239.192.0.4:60004 on eth0", 610.0);
     if scene == Scene::Fault {
-        bridge.state = PortState::Silent;
+        bridge.state = ShownPortState::Silent;
         bridge.rate_bytes_s = Some(0.0);
         bridge.age_s = Some(t - 248.0);
         bridge.reopened = 2;
@@ -129,7 +129,7 @@ fn inputs(t: f64, scene: Scene) -> Vec<Input> {
     ]
 }
 
-fn outputs(t: f64, scene: Scene) -> Vec<Output> {
+fn outputs(t: f64, scene: Scene) -> Vec<ShownOutput> {
     let age = |ms: f64| Age {
         last: ms * (0.9 + 0.2 * (t * 3.1).fract()),
         max: ms * 2.7,
@@ -145,18 +145,18 @@ fn outputs(t: f64, scene: Scene) -> Vec<Output> {
     };
     let output = |name: &str, transport: &str, what: &str, messages: Vec<OutputMessage>| {
         let rate: f64 = messages.iter().filter_map(|message| message.rate_hz).sum();
-        Output {
+        ShownOutput {
             name: name.to_owned(),
             transport: transport.to_owned(),
             what: what.to_owned(),
-            state: PortState::Open,
+            state: ShownPortState::Open,
             sent: messages.iter().map(|message| message.sent).sum(),
             dropped: messages.iter().map(|message| message.dropped).sum(),
             bytes: count(t, rate * 52.0),
             rate_bytes_s: Some(rate * 52.0),
             age_ms: messages.iter().filter_map(|message| message.age_ms).next_back(),
             messages,
-            ..Output::default()
+            ..ShownOutput::default()
         }
     };
     let ecdis = ["THS", "ROT", "GGA", "VTG"].map(|name| message(name, 10.0, 9.0, 0));
@@ -178,7 +178,7 @@ fn outputs(t: f64, scene: Scene) -> Vec<Output> {
     pilot.waiting = 1;
     pilot.capacity_bytes_s = Some(480.0);
     if scene == Scene::Fault {
-        pilot.state = PortState::Lost;
+        pilot.state = ShownPortState::Lost;
         pilot.last_error = Some("Input/output error (os error 5)".to_owned());
     }
     let bridge = vec![message("ALF", 0.1, 1.0, 0), message("HBT", 0.017, 1.0, 0)];
@@ -203,9 +203,9 @@ fn bus(t: f64) -> Bus {
 }
 
 /// What became of the measurements.
-pub(super) fn aids(t: f64, scene: Scene) -> Vec<Aid> {
+pub(super) fn aids(t: f64, scene: Scene) -> Vec<ShownAid> {
     let fault = scene == Scene::Fault;
-    let aid = |name: &str, rate: f64, reasons: Vec<Cause>, lost: bool| Aid {
+    let aid = |name: &str, rate: f64, reasons: Vec<Cause>, lost: bool| ShownAid {
         name: name.to_owned(),
         in_use: !lost,
         age_s: Some(if lost { t - 230.0 } else { (t * 3.7).fract() / rate }),

@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use insd_web::snapshot::{
-    Alignment, Disturbance, DisturbanceAxis, Estimate, Estimates, Found, Freshness, Heave, Motion,
+    DisturbanceAxis, Found, Freshness, ShownAlignment, ShownDisturbance, ShownEstimate,
+    ShownEstimates, ShownHeave, ShownMotion,
 };
 
 use super::{Scene, utc};
@@ -37,7 +38,7 @@ fn sailed(t: f64, scene: Scene) -> (f64, f64, f64) {
 }
 
 /// How she moves and lies.
-pub(super) fn motion(t: f64, scene: Scene) -> Motion {
+pub(super) fn motion(t: f64, scene: Scene) -> ShownMotion {
     let moored = scene == Scene::Alignment;
     let fault = scene == Scene::Fault;
     let (north, east, course) = sailed(t, scene);
@@ -48,7 +49,7 @@ pub(super) fn motion(t: f64, scene: Scene) -> Motion {
     let speed = if moored { 0.04 } else { 12.63 + swell(t, 0.06, 30.0, 0.0) };
     let scale = if moored { 0.25 } else { 1.0 };
     let along = |part: f64| speed * 0.5144 * part;
-    Motion {
+    ShownMotion {
         valid_at_s: t - 0.004,
         valid_utc: Some(utc(t - 0.004)),
         point: None,
@@ -98,8 +99,8 @@ pub(super) fn motion(t: f64, scene: Scene) -> Motion {
     }
 }
 
-fn heave(t: f64, scale: f64) -> Heave {
-    Heave {
+fn heave(t: f64, scale: f64) -> ShownHeave {
+    ShownHeave {
         valid_at_s: t - 0.004,
         heave_m: Some(swell(t, 0.72 * scale, 9.0, 0.0)),
         sigma_heave_m: Some(0.03),
@@ -116,7 +117,7 @@ fn alignment_sigma(t: f64) -> f64 {
 }
 
 /// What the alignment knows.
-pub(super) fn alignment(t: f64, scene: Scene) -> Alignment {
+pub(super) fn alignment(t: f64, scene: Scene) -> ShownAlignment {
     let moored = scene == Scene::Alignment;
     let sigma = if moored { alignment_sigma(t) } else { 0.062 };
     let ready = 426.0;
@@ -129,7 +130,7 @@ pub(super) fn alignment(t: f64, scene: Scene) -> Alignment {
     } else {
         format!("aligned, heading to {sigma:.2} deg, within {target} deg since 180 s")
     };
-    Alignment {
+    ShownAlignment {
         told_at_s: t,
         phase: if moored { "fine" } else { "aligned" }.to_owned(),
         moored,
@@ -155,12 +156,13 @@ pub(super) fn alignment(t: f64, scene: Scene) -> Alignment {
 }
 
 /// What the filter has found out.
-pub(super) fn estimates(t: f64) -> Estimates {
-    let estimate = |value: f64, sigma: f64| Estimate { value: Some(value), sigma: Some(sigma) };
+pub(super) fn estimates(t: f64) -> ShownEstimates {
+    let estimate =
+        |value: f64, sigma: f64| ShownEstimate { value: Some(value), sigma: Some(sigma) };
     let settling = (-t / 600.0).exp();
     let gyro = [0.0041, -0.0062, 0.0088].map(|bias| estimate(bias, 0.002 + 0.008 * settling));
     let accel = [22.0, -31.0, 8.0].map(|bias| estimate(bias, 6.0 + 30.0 * settling));
-    Estimates {
+    ShownEstimates {
         gyro_bias_deg_h: gyro.to_vec(),
         accel_bias_ug: accel.to_vec(),
         log_scale_ppm: Some(estimate(-1840.0, 420.0)),
@@ -172,7 +174,7 @@ pub(super) fn estimates(t: f64) -> Estimates {
 }
 
 /// What moves her at her berth.
-pub(super) fn disturbance() -> Disturbance {
+pub(super) fn disturbance() -> ShownDisturbance {
     let axis = |name: &str, peak: f64, height: f64| {
         let density = |hz: f64, sharp: f64| {
             let ratio = hz / peak;
@@ -193,7 +195,7 @@ pub(super) fn disturbance() -> Disturbance {
             dominant_period_s: Some(1.0 / peak),
         }
     };
-    Disturbance {
+    ShownDisturbance {
         method: "prefiltered".to_owned(),
         order: Some(6),
         interval_s: Some(0.5),

@@ -3,7 +3,7 @@
 use insd_base::{FixQuality, Integrity, Judgement, Mode, Party, Solution, Span, Time};
 use insd_wire::nmea::{AlertId, AlertPriority, HeadingMode, Manufacturer};
 
-use crate::epoch::Epoch;
+use crate::epoch::OutputEpoch;
 use crate::policy::Policy;
 
 /// Mnemonic under which our own alerts go, that of the PINSD sentences. It is not registered anywhere.
@@ -252,7 +252,7 @@ impl Watch {
     /// Takes note of an epoch, by the limits of a policy; gives which conditions hold now.
     pub fn note(
         &mut self,
-        epoch: &Epoch,
+        epoch: &OutputEpoch,
         policy: &Policy,
         simulated: bool,
     ) -> [(Condition, bool); Condition::ALL.len()] {

@@ -4,7 +4,7 @@ use insd_wire::nmea::{Alc, Alf, Talker};
 
 use super::entry::{Content, Entry, one};
 use crate::alerts::Announcement;
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 /// The message that tells of changes.
 pub(super) const CHANGES: &str = "ALF";
@@ -16,7 +16,7 @@ pub(super) static ENTRIES: &[Entry] = &[
 ];
 
 /// How an alert stands, or that a command about one is refused (ARC).
-fn alf(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn alf(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let message = u8::try_from(said.count % 10).ok()?;
     match said.announcement? {
         Announcement::Refusal(_, arc) => one(arc.write(talker)),
@@ -28,7 +28,7 @@ fn alf(said: &Said<'_>, talker: Talker) -> Option<Content> {
 }
 
 /// All that are active; an empty list, too, is told.
-fn alc(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn alc(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let message = u8::try_from(said.count % 100).ok()?;
     let sentences = Alc::list(message, said.alerts?);
     Some(Content::Lines(sentences.iter().map(|sentence| sentence.write(talker)).collect()))

@@ -2,7 +2,7 @@
 
 use insd_wire::nmea::{Line, Talker};
 
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 /// What one message is made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,7 +25,7 @@ pub(super) struct Entry {
     pub(super) make: Make,
 }
 
-pub(super) type Make = fn(&Said<'_>, Talker) -> Option<Content>;
+pub(super) type Make = fn(&RedactedEpoch<'_>, Talker) -> Option<Content>;
 
 impl Entry {
     /// A maker's own, which has no talker.
@@ -48,7 +48,10 @@ impl Content {
 }
 
 /// One sentence without a mark for simulated data: from a simulator there is none.
-pub(super) fn unmarked(said: &Said<'_>, write: fn(&Said<'_>) -> Line) -> Option<Content> {
+pub(super) fn unmarked(
+    said: &RedactedEpoch<'_>,
+    write: fn(&RedactedEpoch<'_>) -> Line,
+) -> Option<Content> {
     if said.is_muted() { None } else { one(write(said)) }
 }
 

@@ -3,7 +3,7 @@
 use insd_wire::nmea::{Hcr, Hdg, Hdt, HeadingCorrections, HeadingMode, Rot, Talker, Ths};
 
 use super::entry::{Content, Entry, one};
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub(super) static ENTRIES: &[Entry] = &[
     Entry { name: "HDT", talker: Some(Talker::HE), longest: Hdt::LONGEST, make: hdt },
@@ -14,12 +14,12 @@ pub(super) static ENTRIES: &[Entry] = &[
 ];
 
 /// HDT cannot say that it is wrong, so it stops when THS would say V or S.
-fn hdt(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn hdt(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let heading = Some(said.heading()?);
     one(Hdt { heading }.write(talker))
 }
 
-fn ths(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn ths(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let said = said.marked();
     let mode = said.heading_mode();
     let heading = said.heading().filter(|_| mode != HeadingMode::NotValid);
@@ -27,7 +27,7 @@ fn ths(said: &Said<'_>, talker: Talker) -> Option<Content> {
 }
 
 /// From a simulator it is silent: its status can only say whether it is valid.
-fn rot(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn rot(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     if said.is_muted() {
         return None;
     }
@@ -36,7 +36,7 @@ fn rot(said: &Said<'_>, talker: Talker) -> Option<Content> {
 }
 
 /// What a magnetic compass without deviation would show: for consumers that know no true heading.
-fn hdg(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn hdg(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let reading = Some(said.magnetic_heading()?);
     let variation = said.variation().map(|variation| variation.value);
     one(Hdg { reading, deviation: None, variation }.write(talker))
@@ -44,7 +44,7 @@ fn hdg(said: &Said<'_>, talker: Talker) -> Option<Content> {
 
 /// An inertial heading rests on her own velocity, latitude and acceleration: what disturbs a gyro compass
 /// is in it from the start. There is none without, so the sum of the corrections stays empty.
-fn hcr(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn hcr(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let said = said.marked();
     let (heading, mode) = (said.heading(), said.heading_mode());
     let corrections = match heading {

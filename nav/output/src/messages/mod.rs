@@ -21,7 +21,7 @@ use std::fmt;
 
 use insd_wire::nmea::Talker;
 
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub use entry::Content;
 use entry::Entry;
@@ -92,7 +92,7 @@ impl MessageKind {
         self.name() == alerts::CHANGES
     }
 
-    pub(crate) fn make(self, said: &Said<'_>, talker: Option<Talker>) -> Option<Content> {
+    pub(crate) fn make(self, said: &RedactedEpoch<'_>, talker: Option<Talker>) -> Option<Content> {
         (self.0.make)(said, talker.or(self.0.talker).unwrap_or(Talker::IN))
     }
 }

@@ -19,7 +19,7 @@ use insd_wire::motion::{DelayedHeave, Place, Rated, Tilt, Vertical, roll_from_ho
 use insd_wire::nmea::Talker;
 
 use super::entry::{Content, Entry};
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub(super) static ENTRIES: &[Entry] = &[
     Entry { name: "TSS1", talker: None, longest: tss1::LENGTH, make: tss1 },
@@ -33,7 +33,7 @@ pub(super) static ENTRIES: &[Entry] = &[
 /// TSS1 cannot say that something is unknown: it is sent when all of it is known, and that includes the
 /// accelerations. Roll is against the horizon, arcsin(sin roll cos pitch), as the makers' manuals have it;
 /// the horizontal acceleration is the magnitude of both components.
-fn tss1(said: &Said<'_>, _: Talker) -> Option<Content> {
+fn tss1(said: &RedactedEpoch<'_>, _: Talker) -> Option<Content> {
     let (roll, pitch) = said.roll_and_pitch()?;
     let heave = said.any_heave()?;
     let level = said.level_acceleration()?;
@@ -57,7 +57,7 @@ fn tss1(said: &Said<'_>, _: Talker) -> Option<Content> {
 /// | inertial | H, heading; U if that is beyond the policy |
 /// | alignment in motion | G, speed |
 /// | levelling, alignment at the berth | U, nothing |
-fn aiding(said: &Said<'_>) -> Tss1Aiding {
+fn aiding(said: &RedactedEpoch<'_>) -> Tss1Aiding {
     let speed =
         matches!(said.mode(), Some(Mode::Aided | Mode::DeadReckoning | Mode::InMotionAlignment));
     match (speed, said.heading().is_some()) {
@@ -69,14 +69,14 @@ fn aiding(said: &Said<'_>) -> Tss1Aiding {
 }
 
 /// EM1000 has no status: heave that has not settled is unknown, and where all is unknown nothing is sent.
-fn em1000(said: &Said<'_>, _: Talker) -> Option<Content> {
+fn em1000(said: &RedactedEpoch<'_>, _: Talker) -> Option<Content> {
     let telegram = em_attitude(said, None, said.heave());
     let known = [telegram.roll, telegram.heave, telegram.heading].iter().any(Option::is_some);
     known.then(|| binary(telegram.write())).flatten()
 }
 
 /// EM3000 is sent whatever is known, as its status says it.
-fn em3000(said: &Said<'_>, _: Talker) -> Option<Content> {
+fn em3000(said: &RedactedEpoch<'_>, _: Talker) -> Option<Content> {
     if said.is_muted() {
         return None;
     }
@@ -86,7 +86,11 @@ fn em3000(said: &Said<'_>, _: Talker) -> Option<Content> {
 }
 
 /// Roll is against the horizon, arcsin(sin roll cos pitch), as the maker's manuals have it.
-fn em_attitude(said: &Said<'_>, status: Option<EmStatus>, heave: Option<Heave>) -> EmAttitude {
+fn em_attitude(
+    said: &RedactedEpoch<'_>,
+    status: Option<EmStatus>,
+    heave: Option<Heave>,
+) -> EmAttitude {
     let tilt = said.roll_and_pitch();
     EmAttitude {
         status,
@@ -103,7 +107,7 @@ fn em_attitude(said: &Said<'_>, status: Option<EmStatus>, heave: Option<Heave>) 
 /// | aligning, not level, or no settled heave | 9A |
 /// | dead reckoning, inertial, heave reduced, heading estimated or unknown | 91 |
 /// | all others | 90 |
-fn status(said: &Said<'_>) -> EmStatus {
+fn status(said: &RedactedEpoch<'_>) -> EmStatus {
     let Some(mode) = said.mode().filter(|mode| *mode != Mode::Fault) else {
         return EmStatus::Error;
     };
@@ -120,7 +124,7 @@ fn status(said: &Said<'_>) -> EmStatus {
 
 /// Without UTC, or with a fault, there is no telegram: it cannot say that its time or its rates are
 /// unknown. The acceleration to north and east is as good as the heading.
-fn kmb(said: &Said<'_>, _: Talker) -> Option<Content> {
+fn kmb(said: &RedactedEpoch<'_>, _: Talker) -> Option<Content> {
     let acceleration = said.acceleration().filter(|_| said.heading().is_some());
     let reduced = said.is_heading_estimated();
     let telegram = Kmb {
@@ -137,18 +141,18 @@ fn kmb(said: &Said<'_>, _: Talker) -> Option<Content> {
     binary(telegram.write()?)
 }
 
-fn seapath_23(said: &Said<'_>, _: Talker) -> Option<Content> {
+fn seapath_23(said: &RedactedEpoch<'_>, _: Talker) -> Option<Content> {
     binary(seapath(said)?.write()?)
 }
 
 /// It has no mark for a reduced delayed heave, which is told as it is.
-fn seapath_26(said: &Said<'_>, _: Talker) -> Option<Content> {
+fn seapath_26(said: &RedactedEpoch<'_>, _: Talker) -> Option<Content> {
     let delayed_heave = delayed_heave(said).map(|delayed| delayed.value);
     binary(Seapath26 { motion: seapath(said)?, delayed_heave }.write()?)
 }
 
 /// Without UTC, or with a fault, there is no telegram, as for KMB.
-fn seapath(said: &Said<'_>) -> Option<Seapath23> {
+fn seapath(said: &RedactedEpoch<'_>) -> Option<Seapath23> {
     Some(Seapath23 {
         time: said.utc()?,
         place: place(said),
@@ -160,7 +164,7 @@ fn seapath(said: &Said<'_>) -> Option<Seapath23> {
 }
 
 /// Position and velocity have one mark: they are told together or not at all.
-fn place(said: &Said<'_>) -> Option<Rated<Place>> {
+fn place(said: &RedactedEpoch<'_>) -> Option<Rated<Place>> {
     let (position, velocity) = (said.position()?, said.velocity()?);
     let value = Place {
         latitude: position.latitude,
@@ -172,30 +176,30 @@ fn place(said: &Said<'_>) -> Option<Rated<Place>> {
     Some(Rated { value, reduced: said.quality() == FixQuality::Estimated })
 }
 
-fn tilt(said: &Said<'_>) -> Option<Rated<Tilt>> {
+fn tilt(said: &RedactedEpoch<'_>) -> Option<Rated<Tilt>> {
     let (roll, pitch) = said.roll_and_pitch()?;
     Some(Rated { value: Tilt { roll, pitch }, reduced: false })
 }
 
-fn heading(said: &Said<'_>) -> Option<Rated<f64>> {
+fn heading(said: &RedactedEpoch<'_>) -> Option<Rated<f64>> {
     Some(Rated { value: said.heading()?, reduced: said.is_heading_estimated() })
 }
 
 /// The vertical velocity shares its mark with the heave, so it is that of the heave.
-fn vertical(said: &Said<'_>) -> Option<Rated<Vertical>> {
+fn vertical(said: &RedactedEpoch<'_>) -> Option<Rated<Vertical>> {
     let heave = said.heave()?;
     let value = Vertical { heave: heave.heave, down_velocity: -heave.rate };
     Some(Rated { value, reduced: heave.quality == HeaveQuality::Reduced })
 }
 
-fn delayed_heave(said: &Said<'_>) -> Option<Rated<DelayedHeave>> {
+fn delayed_heave(said: &RedactedEpoch<'_>) -> Option<Rated<DelayedHeave>> {
     let (time, delayed) = said.delayed_heave()?;
     let value = DelayedHeave { time, heave: delayed.heave };
     Some(Rated { value, reduced: delayed.quality == HeaveQuality::Reduced })
 }
 
 /// The errors of what is told.
-fn kmb_sigma(said: &Said<'_>) -> KmbSigma {
+fn kmb_sigma(said: &RedactedEpoch<'_>) -> KmbSigma {
     let position = place(said).and_then(|_| said.position_sigma());
     let level = said.sigma().filter(|_| said.roll_and_pitch().is_some());
     KmbSigma {

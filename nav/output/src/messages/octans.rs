@@ -19,7 +19,7 @@ use insd_wire::nmea::{
 };
 
 use super::entry::{Entry, unmarked};
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub(super) static ENTRIES: &[Entry] = &[
     Entry::own("PHTRO", Phtro::LONGEST, |said, _| unmarked(said, phtro)),
@@ -30,29 +30,29 @@ pub(super) static ENTRIES: &[Entry] = &[
     Entry::own("PHOCT", Phoct::LONGEST, |said, _| unmarked(said, phoct)),
 ];
 
-fn phtro(said: &Said<'_>) -> Line {
+fn phtro(said: &RedactedEpoch<'_>) -> Line {
     let (roll, pitch) = said.roll_and_pitch().unzip();
     Phtro { roll, pitch }.write()
 }
 
-fn phlin(said: &Said<'_>) -> Line {
+fn phlin(said: &RedactedEpoch<'_>) -> Line {
     let heave = said.heave().map(|heave| heave.heave);
     Phlin { heave, ..Phlin::default() }.write()
 }
 
-fn phspd(said: &Said<'_>) -> Line {
+fn phspd(said: &RedactedEpoch<'_>) -> Line {
     let heave = said.heave().map(|heave| heave.rate);
     Phspd { heave, ..Phspd::default() }.write()
 }
 
 /// The speed is that over ground.
-fn phcmp(said: &Said<'_>) -> Line {
+fn phcmp(said: &RedactedEpoch<'_>) -> Line {
     let latitude = said.position().map(|place| place.latitude);
     let speed = said.course_and_speed().map(|(_, speed)| speed);
     Phcmp { latitude, speed }.write()
 }
 
-fn phinf(said: &Said<'_>) -> Line {
+fn phinf(said: &RedactedEpoch<'_>) -> Line {
     use OctansStatus as Bit;
     let (heading, level) = (said.heading().is_some(), said.roll_and_pitch().is_some());
     let status = Bit::default()
@@ -66,7 +66,7 @@ fn phinf(said: &Said<'_>) -> Line {
 
 /// The values are those of the instant that it tells, so they have no latency against it. The heave at the
 /// primary lever arm and that at the chosen one are both that of the port's monitoring point.
-fn phoct(said: &Said<'_>) -> Line {
+fn phoct(said: &RedactedEpoch<'_>) -> Line {
     let time = said.civil().map(|utc| utc.time);
     let (roll, pitch) = said.roll_and_pitch().unzip();
     let heave = heave(said);
@@ -87,7 +87,7 @@ fn phoct(said: &Said<'_>) -> Line {
 }
 
 /// An angle that is not known yet is initialising while the system aligns.
-fn angle(said: &Said<'_>, value: Option<f64>) -> Marked {
+fn angle(said: &RedactedEpoch<'_>, value: Option<f64>) -> Marked {
     let state = match value {
         Some(_) => PhoctState::Valid,
         None if said.is_aligning() => PhoctState::Initialising,
@@ -97,7 +97,7 @@ fn angle(said: &Said<'_>, value: Option<f64>) -> Marked {
 }
 
 /// Heave of any quality; until it has settled it is initialising.
-fn heave(said: &Said<'_>) -> Marked {
+fn heave(said: &RedactedEpoch<'_>) -> Marked {
     let heave = said.any_heave();
     let state = match heave.map(|heave| heave.quality) {
         Some(HeaveQuality::Unsettled) => PhoctState::Initialising,

@@ -6,7 +6,7 @@
 use insd_wire::nmea::{Line, PfecAttitude, Prdid, Ptnthtm};
 
 use super::entry::{Entry, unmarked};
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub(super) static ENTRIES: &[Entry] = &[
     Entry::own("PRDID", Prdid::LONGEST, |said, _| unmarked(said, prdid)),
@@ -15,28 +15,28 @@ pub(super) static ENTRIES: &[Entry] = &[
     Entry::own("PTNTHTM", Ptnthtm::LONGEST, |said, _| unmarked(said, ptnthtm)),
 ];
 
-fn prdid(said: &Said<'_>) -> Line {
+fn prdid(said: &RedactedEpoch<'_>) -> Line {
     let (roll, pitch) = said.roll_and_pitch().unzip();
     Prdid { roll, pitch, heading: said.heading() }.write()
 }
 
-fn pfec(said: &Said<'_>) -> Line {
+fn pfec(said: &RedactedEpoch<'_>) -> Line {
     attitude(said).write()
 }
 
 /// Version 1.5 has no checksum.
-fn pfec_v1(said: &Said<'_>) -> Line {
+fn pfec_v1(said: &RedactedEpoch<'_>) -> Line {
     attitude(said).write_old()
 }
 
 /// A heading that is an estimate only is told with a warning.
-fn ptnthtm(said: &Said<'_>) -> Line {
+fn ptnthtm(said: &RedactedEpoch<'_>) -> Line {
     let (roll, pitch) = said.roll_and_pitch().unzip();
     let (heading, is_warned) = (said.heading(), said.is_heading_estimated());
     Ptnthtm { heading, is_warned, pitch, roll }.write()
 }
 
-fn attitude(said: &Said<'_>) -> PfecAttitude {
+fn attitude(said: &RedactedEpoch<'_>) -> PfecAttitude {
     let (roll, pitch) = said.roll_and_pitch().unzip();
     PfecAttitude { heading: said.heading(), pitch, roll }
 }

@@ -14,7 +14,7 @@ use insd_base::{FixQuality, Mode};
 use insd_wire::nmea::{Line, Pashr, PashrDialect, PashrStatus};
 
 use super::entry::{Entry, Make, unmarked};
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub(super) static ENTRIES: &[Entry] = &[
     entry("PASHR.sbg", |said, _| unmarked(said, |said| pashr(said, PashrDialect::Sbg))),
@@ -29,7 +29,7 @@ const fn entry(name: &'static str, make: Make) -> Entry {
     Entry::own(name, Pashr::LONGEST, make)
 }
 
-fn pashr(said: &Said<'_>, dialect: PashrDialect) -> Line {
+fn pashr(said: &RedactedEpoch<'_>, dialect: PashrDialect) -> Line {
     let (roll, pitch) = said.roll_and_pitch().unzip();
     let [roll_std, pitch_std, heading_std] = said.attitude_sigma();
     let mut pashr = Pashr {
@@ -50,7 +50,7 @@ fn pashr(said: &Said<'_>, dialect: PashrDialect) -> Line {
 }
 
 /// Quality of what aids the attitude.
-fn aid(said: &Said<'_>) -> FixQuality {
+fn aid(said: &RedactedEpoch<'_>) -> FixQuality {
     match said.quality() {
         FixQuality::Invalid => FixQuality::Invalid,
         _ if !said.uses_gnss() => FixQuality::Estimated,

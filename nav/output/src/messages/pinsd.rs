@@ -24,7 +24,7 @@ use insd_wire::nmea::{
 };
 
 use super::entry::{Content, Entry, one, unmarked};
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub(super) static ENTRIES: &[Entry] = &[
     Entry::own("PINSD.STA", PinsdStatus::LONGEST, status),
@@ -39,12 +39,12 @@ const EXPONENT: u8 = 5;
 /// So many sigmas a normal error exceeds, up or down, with that probability.
 const VERTICAL: f64 = 4.417_174;
 
-fn utc(said: &Said<'_>) -> Option<TimeOfDay> {
+fn utc(said: &RedactedEpoch<'_>) -> Option<TimeOfDay> {
     said.civil().map(|utc| utc.time)
 }
 
 /// Without a solution it stands by.
-fn status(said: &Said<'_>, _: Talker) -> Option<Content> {
+fn status(said: &RedactedEpoch<'_>, _: Talker) -> Option<Content> {
     let said = said.marked();
     let status = PinsdStatus {
         time: utc(&said),
@@ -63,7 +63,7 @@ fn status(said: &Said<'_>, _: Talker) -> Option<Content> {
 }
 
 /// Pulses and messages of a receiver are not told apart here, so it is called the lesser.
-fn time_source(said: &Said<'_>) -> PinsdTime {
+fn time_source(said: &RedactedEpoch<'_>) -> PinsdTime {
     match said.time_source() {
         Some(TimeSource::Gps | TimeSource::Glonass) => PinsdTime::Messages,
         _ => PinsdTime::Unknown,
@@ -71,7 +71,7 @@ fn time_source(said: &Said<'_>) -> PinsdTime {
 }
 
 /// Of whatever quality, but for a fault.
-fn sigma(said: &Said<'_>) -> Line {
+fn sigma(said: &RedactedEpoch<'_>) -> Line {
     let sigma = said.sigma().filter(|_| said.mode() != Some(Mode::Fault));
     let heave = said.any_heave().map(|heave| heave.sigma);
     let time = utc(said);
@@ -83,13 +83,13 @@ fn sigma(said: &Said<'_>) -> Line {
 }
 
 /// How long it still takes counts from the instant that it tells.
-fn alignment(said: &Said<'_>, _: Talker) -> Option<Content> {
+fn alignment(said: &RedactedEpoch<'_>, _: Talker) -> Option<Content> {
     let mut alignment = said.alignment()?;
     alignment.time = said.time();
     one(Pinsd::Alignment(PinsdAlignment::of(utc(said), &alignment)).write())
 }
 
-fn protection(said: &Said<'_>) -> Line {
+fn protection(said: &RedactedEpoch<'_>) -> Line {
     let axes = axes(said);
     let horizontal = axes.map(|(major, _)| major * rayleigh(EXPONENT));
     let vertical = said.position_sigma().map(|sigma| sigma.0.z * VERTICAL);
@@ -107,7 +107,7 @@ fn protection(said: &Said<'_>) -> Line {
 }
 
 /// Major and minor semi-axis of the ellipse of the horizontal error, m.
-fn axes(said: &Said<'_>) -> Option<(f64, f64)> {
+fn axes(said: &RedactedEpoch<'_>) -> Option<(f64, f64)> {
     let bound = || said.position_sigma().map(|sigma| (sigma.0.xy().norm(), 0.0));
     said.ellipse().map(|ellipse| (ellipse.major, ellipse.minor)).or_else(bound)
 }

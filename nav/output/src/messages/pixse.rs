@@ -33,7 +33,7 @@ use insd_wire::nmea::{
 };
 
 use super::entry::{Content, Entry, unmarked};
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub(super) static ENTRIES: &[Entry] = &[
     Entry::own("PIXSE", WHOLE, |said, _| whole(said)),
@@ -52,7 +52,7 @@ pub(super) static ENTRIES: &[Entry] = &[
 ];
 
 /// The set in the order in which a unit sends it.
-const SET: [fn(&Said<'_>) -> Line; 12] = [
+const SET: [fn(&RedactedEpoch<'_>) -> Line; 12] = [
     attitude,
     position,
     velocity,
@@ -85,24 +85,24 @@ const WHOLE: usize = ATITUD
     + (STDHRP + STDPOS + STDSPD)
     + (ALGSTS + STATUS + HT_STS);
 
-fn whole(said: &Said<'_>) -> Option<Content> {
+fn whole(said: &RedactedEpoch<'_>) -> Option<Content> {
     let lines = || SET.iter().map(|write| write(said)).collect();
     (!said.is_muted()).then(|| Content::Lines(lines()))
 }
 
-fn attitude(said: &Said<'_>) -> Line {
+fn attitude(said: &RedactedEpoch<'_>) -> Line {
     let (roll, pitch) = said.roll_and_pitch().unzip();
     Pixse::Attitude { roll, pitch }.write()
 }
 
-fn position(said: &Said<'_>) -> Line {
+fn position(said: &RedactedEpoch<'_>) -> Line {
     let place = said.position();
     let position =
         place.map(|place| Position { latitude: place.latitude, longitude: place.longitude });
     Pixse::Position { position, altitude: said.altitude() }.write()
 }
 
-fn velocity(said: &Said<'_>) -> Line {
+fn velocity(said: &RedactedEpoch<'_>) -> Line {
     let velocity = said.velocity().map(|velocity| velocity.0);
     Pixse::Velocity {
         north: velocity.map(|velocity| velocity.x),
@@ -112,26 +112,26 @@ fn velocity(said: &Said<'_>) -> Line {
     .write()
 }
 
-fn grid(said: &Said<'_>) -> Line {
+fn grid(said: &RedactedEpoch<'_>) -> Line {
     let utm = said.position().and_then(|place| Utm::of(place.latitude, place.longitude));
     Pixse::Grid { utm, altitude: said.altitude() }.write()
 }
 
-fn motion(said: &Said<'_>) -> Line {
+fn motion(said: &RedactedEpoch<'_>) -> Line {
     let heave = said.heave().map(|heave| heave.heave);
     Pixse::Motion { surge: None, sway: None, heave }.write()
 }
 
-fn time(said: &Said<'_>) -> Line {
+fn time(said: &RedactedEpoch<'_>) -> Line {
     Pixse::Time(said.civil().map(|utc| utc.time)).write()
 }
 
-fn attitude_sigma(said: &Said<'_>) -> Line {
+fn attitude_sigma(said: &RedactedEpoch<'_>) -> Line {
     let [roll, pitch, heading] = said.attitude_sigma();
     Pixse::AttitudeSigma { heading, roll, pitch }.write()
 }
 
-fn position_sigma(said: &Said<'_>) -> Line {
+fn position_sigma(said: &RedactedEpoch<'_>) -> Line {
     let sigma = said.position_sigma().map(|sigma| sigma.0);
     Pixse::PositionSigma {
         north: sigma.map(|sigma| sigma.x),
@@ -141,7 +141,7 @@ fn position_sigma(said: &Said<'_>) -> Line {
     .write()
 }
 
-fn velocity_sigma(said: &Said<'_>) -> Line {
+fn velocity_sigma(said: &RedactedEpoch<'_>) -> Line {
     let sigma = said.sigma().filter(|_| said.velocity().is_some()).map(|sigma| sigma.velocity.0);
     Pixse::VelocitySigma {
         north: sigma.map(|sigma| sigma.x),
@@ -151,7 +151,7 @@ fn velocity_sigma(said: &Said<'_>) -> Line {
     .write()
 }
 
-fn algorithm(said: &Said<'_>) -> Line {
+fn algorithm(said: &RedactedEpoch<'_>) -> Line {
     use PixseAlgorithmStatus as Bit;
     let mode = said.mode();
     let navigating = mode.is_some_and(Mode::is_navigating);
@@ -167,7 +167,7 @@ fn algorithm(said: &Said<'_>) -> Line {
     Pixse::Algorithm(Some(status)).write()
 }
 
-fn system(said: &Said<'_>) -> Line {
+fn system(said: &RedactedEpoch<'_>) -> Line {
     use PixseSystemStatus as Bit;
     let status = Bit::default()
         .with(Bit::GPS1_DETECTED, said.uses_gnss())
@@ -177,7 +177,7 @@ fn system(said: &Said<'_>) -> Line {
     Pixse::System(Some(status)).write()
 }
 
-fn high_level(said: &Said<'_>) -> Line {
+fn high_level(said: &RedactedEpoch<'_>) -> Line {
     use PixseHighLevelStatus as Bit;
     let status = ABSENT
         .with(health(said), true)
@@ -204,7 +204,7 @@ const ABSENT: PixseHighLevelStatus = {
         .with(Bit::NO_ZERO_VELOCITY_MODE, true)
 };
 
-fn health(said: &Said<'_>) -> PixseHighLevelStatus {
+fn health(said: &RedactedEpoch<'_>) -> PixseHighLevelStatus {
     let estimated = said.is_heading_estimated()
         || matches!(said.quality(), FixQuality::Estimated | FixQuality::Invalid);
     match said.mode() {
@@ -215,6 +215,6 @@ fn health(said: &Said<'_>) -> PixseHighLevelStatus {
     }
 }
 
-fn has_attitude(said: &Said<'_>) -> bool {
+fn has_attitude(said: &RedactedEpoch<'_>) -> bool {
     said.heading().is_some() && said.roll_and_pitch().is_some()
 }

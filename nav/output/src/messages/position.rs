@@ -5,7 +5,7 @@ use insd_wire::nmea::{
 };
 
 use super::entry::{Content, Entry, one};
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub(super) static ENTRIES: &[Entry] = &[
     Entry { name: "GGA", talker: Some(Talker::IN), longest: Gga::LONGEST, make: gga },
@@ -22,16 +22,16 @@ pub(super) static ENTRIES: &[Entry] = &[
 pub(super) static LAST: &[Entry] =
     &[Entry { name: "RMC", talker: Some(Talker::IN), longest: Rmc::LONGEST, make: rmc }];
 
-fn place(said: &Said<'_>) -> Option<Position> {
+fn place(said: &RedactedEpoch<'_>) -> Option<Position> {
     let place = said.position()?;
     Some(Position { latitude: place.latitude, longitude: place.longitude })
 }
 
-fn satellites(said: &Said<'_>) -> Option<u8> {
+fn satellites(said: &RedactedEpoch<'_>) -> Option<u8> {
     said.receiver().satellites.map(|count| u8::try_from(count).unwrap_or(u8::MAX).min(99))
 }
 
-fn gga(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn gga(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let said = said.marked();
     one(Gga {
         time: said.civil().map(|utc| utc.time),
@@ -46,7 +46,7 @@ fn gga(said: &Said<'_>, talker: Talker) -> Option<Content> {
     .write(talker))
 }
 
-fn gns(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn gns(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let said = said.marked();
     let mode = said.position_mode();
     let mut modes = [None; MAX_SYSTEMS];
@@ -68,7 +68,7 @@ fn gns(said: &Said<'_>, talker: Talker) -> Option<Content> {
 }
 
 /// Variation is always told where it is known: consumers that make it up themselves differ.
-fn rmc(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn rmc(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let said = said.marked();
     let mode = said.position_mode();
     let (course, speed) = said.course_and_speed().unzip();
@@ -86,7 +86,7 @@ fn rmc(said: &Said<'_>, talker: Talker) -> Option<Content> {
     .write(talker))
 }
 
-fn gll(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn gll(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let said = said.marked();
     let mode = said.position_mode();
     one(Gll {
@@ -99,7 +99,7 @@ fn gll(said: &Said<'_>, talker: Talker) -> Option<Content> {
 }
 
 /// The root mean square of range residuals is empty: an inertial solution has none.
-fn gst(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn gst(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     if said.is_muted() {
         return None;
     }
@@ -118,7 +118,7 @@ fn gst(said: &Said<'_>, talker: Talker) -> Option<Content> {
 }
 
 /// The expected errors are 1-sigma. Of failing satellites an inertial solution says nothing.
-fn gbs(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn gbs(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     if said.is_muted() {
         return None;
     }

@@ -20,7 +20,7 @@ use insd_base::{FixQuality, HeaveQuality};
 use insd_wire::nmea::{Line, Psxn, PsxnQuality};
 
 use super::entry::{Entry, Make, unmarked};
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub(super) static ENTRIES: &[Entry] = &[
     entry("PSXN.20", |said, _| unmarked(said, quality)),
@@ -34,7 +34,7 @@ const fn entry(name: &'static str, make: Make) -> Entry {
     Entry::own(name, Psxn::LONGEST, make)
 }
 
-fn quality(said: &Said<'_>) -> Line {
+fn quality(said: &RedactedEpoch<'_>) -> Line {
     let place = said.position().zip(said.velocity());
     let heave = said.heave();
     let is_reduced = heave.is_some_and(|heave| heave.quality == HeaveQuality::Reduced);
@@ -55,21 +55,21 @@ fn mark(is_known: bool, is_reduced: bool) -> Option<PsxnQuality> {
     })
 }
 
-fn started(_: &Said<'_>) -> Line {
+fn started(_: &RedactedEpoch<'_>) -> Line {
     Psxn::Event { event: 1 }.write()
 }
 
-fn gyro_offsets(_: &Said<'_>) -> Line {
+fn gyro_offsets(_: &RedactedEpoch<'_>) -> Line {
     Psxn::GyroOffsets { calibration: None, offset: None }.write()
 }
 
-fn motion(said: &Said<'_>) -> Line {
+fn motion(said: &RedactedEpoch<'_>) -> Line {
     let (roll, pitch) = said.roll_and_pitch().unzip();
     let heave = said.heave().map(|heave| -heave.heave);
     Psxn::Motion { roll, pitch, heading: said.heading(), heave }.write()
 }
 
-fn rates(said: &Said<'_>) -> Line {
+fn rates(said: &RedactedEpoch<'_>) -> Line {
     let rates = said.rates().map(|rates| rates.0);
     Psxn::Rates {
         roll_rate: rates.map(|rates| rates.x),

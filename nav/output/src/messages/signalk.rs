@@ -8,11 +8,11 @@ use insd_wire::signalk::Delta;
 
 use super::entry::{Content, Entry};
 use super::state::words;
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub(super) static ENTRIES: &[Entry] = &[Entry::own("SIGNALK", Delta::LONGEST, delta)];
 
-fn delta(said: &Said<'_>, _: Talker) -> Option<Content> {
+fn delta(said: &RedactedEpoch<'_>, _: Talker) -> Option<Content> {
     let marked = said.marked();
     let (course, speed) = said.course_and_speed().unzip();
     let delta = Delta {

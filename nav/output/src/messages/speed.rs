@@ -3,7 +3,7 @@
 use insd_wire::nmea::{Talker, Vbw, VbwVelocity, Vhw, Vlw, Vtg};
 
 use super::entry::{Content, Entry, one};
-use crate::said::{Level, Said};
+use crate::redacted_epoch::{Level, RedactedEpoch};
 
 pub(super) static ENTRIES: &[Entry] = &[
     Entry { name: "VTG", talker: Some(Talker::IN), longest: Vtg::LONGEST, make: vtg },
@@ -13,7 +13,7 @@ pub(super) static ENTRIES: &[Entry] = &[
 ];
 
 /// The magnetic course is told, too: from RMC alone a known consumer makes it with the wrong sign.
-fn vtg(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn vtg(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let said = said.marked();
     let (course, speed) = said.course_and_speed().unzip();
     let course = course.flatten();
@@ -23,7 +23,7 @@ fn vtg(said: &Said<'_>, talker: Talker) -> Option<Content> {
 }
 
 /// What the stern does is left empty: nothing is known of where she is measured there.
-fn vbw(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn vbw(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     if said.is_muted() {
         return None;
     }
@@ -39,7 +39,7 @@ fn velocity(level: Option<Level>) -> VbwVelocity {
     }
 }
 
-fn vhw(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn vhw(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     if said.is_muted() {
         return None;
     }
@@ -49,7 +49,7 @@ fn vhw(said: &Said<'_>, talker: Talker) -> Option<Content> {
 }
 
 /// The distances since the start are those of a trip; totals are a log's.
-fn vlw(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn vlw(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     if said.is_muted() {
         return None;
     }

@@ -5,7 +5,7 @@ use insd_wire::nmea::{Hbt, Talker, Txt};
 
 use super::entry::one;
 use super::entry::{Content, Entry};
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub(super) static ENTRIES: &[Entry] = &[
     Entry { name: "TXT", talker: Some(Talker::IN), longest: Txt::LONGEST, make: txt },
@@ -18,7 +18,7 @@ const NOTICE: u8 = 2;
 
 /// It says that it has failed while there is no solution although there should be one, or one that must
 /// not be used. Simulated data come from a system that works.
-fn hbt(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn hbt(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let normal =
         said.is_levelling() || said.marked().mode().is_some_and(|mode| mode != Mode::Fault);
     let interval = said.period.map(Span::as_seconds);
@@ -27,7 +27,7 @@ fn hbt(said: &Said<'_>, talker: Talker) -> Option<Content> {
 }
 
 /// The mode in words.
-fn txt(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn txt(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let (kind, words) = words(said);
     let mark = if said.is_simulated() { " (simulated)" } else { "" };
     let sentences = Txt::message(kind, &format!("insd: {words}{mark}"));
@@ -35,7 +35,7 @@ fn txt(said: &Said<'_>, talker: Talker) -> Option<Content> {
 }
 
 /// What the system does, in words, and whether that is an error, simulated or not.
-pub(super) fn words(said: &Said<'_>) -> (u8, &'static str) {
+pub(super) fn words(said: &RedactedEpoch<'_>) -> (u8, &'static str) {
     match said.marked().mode() {
         None if said.is_levelling() => (NOTICE, "levelling"),
         None => (ERROR, "no solution"),

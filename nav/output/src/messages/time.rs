@@ -3,19 +3,19 @@
 use insd_wire::nmea::{Datum, Dtm, Talker, Zda};
 
 use super::entry::{Content, Entry, one};
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub(super) static ENTRIES: &[Entry] = &[
     Entry { name: "ZDA", talker: Some(Talker::IN), longest: Zda::LONGEST, make: zda },
     Entry { name: "DTM", talker: Some(Talker::IN), longest: Dtm::LONGEST, make: dtm },
 ];
 
-fn zda(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn zda(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     one(Zda { utc: said.civil(), zone: None }.write(talker))
 }
 
 /// Positions are given in WGS-84, as they are.
-fn dtm(_: &Said<'_>, talker: Talker) -> Option<Content> {
+fn dtm(_: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let wgs84 = Datum::new("W84");
     one(Dtm {
         datum: wgs84,

@@ -7,14 +7,14 @@
 use insd_wire::nmea::{Talker, Text, Xdr, XdrMeasurement};
 
 use super::entry::{Content, Entry, one};
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 pub(super) static ENTRIES: &[Entry] = &[
     Entry { name: "XDR", talker: Some(Talker::IN), longest: Xdr::LONGEST, make: xdr },
     Entry { name: "XDR.PTCH", talker: Some(Talker::IN), longest: Xdr::LONGEST, make: ptch },
 ];
 
-fn xdr(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn xdr(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let (roll, pitch) = said.roll_and_pitch().unzip();
     let heave = said.heave().map(|heave| heave.heave);
     let displacement = |metres| {
@@ -27,7 +27,7 @@ fn xdr(said: &Said<'_>, talker: Talker) -> Option<Content> {
 }
 
 /// To a tenth of a degree, as sensors with these names have it.
-fn ptch(said: &Said<'_>, talker: Talker) -> Option<Content> {
+fn ptch(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     let (roll, pitch) = said.roll_and_pitch().unzip();
     known([angle("PTCH", pitch, 1), angle("ROLL", roll, 1), None], talker)
 }

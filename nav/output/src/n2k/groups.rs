@@ -7,7 +7,7 @@ use insd_n2k::pgn::{
     RateOfTurn, SetDrift, Speed, SpeedComponents, SystemTime, TimeDate, VariationSource,
 };
 
-use crate::said::{Level, Said};
+use crate::redacted_epoch::{Level, RedactedEpoch};
 
 /// Resolution of times on the bus: 100 us.
 const TICK: i64 = 100_000;
@@ -15,7 +15,7 @@ const TICKS_PER_SECOND: f64 = 1e4;
 
 /// Days since 1970-01-01 and seconds of the day, UTC. Rounded to the resolution of the bus before it is
 /// taken apart, so that no day has a second 86400.
-fn utc(said: &Said<'_>) -> Option<(u16, f64)> {
+fn utc(said: &RedactedEpoch<'_>) -> Option<(u16, f64)> {
     let ticks = said.utc()?.as_nanos().saturating_add(TICK / 2).div_euclid(TICK);
     let day = 86_400 * 1_000_000_000 / TICK;
     let date = u16::try_from(ticks.div_euclid(day)).ok()?;
@@ -25,11 +25,11 @@ fn utc(said: &Said<'_>) -> Option<(u16, f64)> {
 /// A group that is made from an epoch.
 pub(crate) trait Say: Group {
     /// What it says of the epoch.
-    fn say(said: &Said<'_>) -> Self;
+    fn say(said: &RedactedEpoch<'_>) -> Self;
 }
 
 impl Say for Heading {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         let heading = said.heading();
         Heading {
             sid: said.sid,
@@ -42,26 +42,26 @@ impl Say for Heading {
 }
 
 impl Say for RateOfTurn {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         RateOfTurn { sid: said.sid, rate: said.rate_of_turn() }
     }
 }
 
 impl Say for Heave {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         Heave { sid: said.sid, heave: said.heave().map(|heave| heave.heave) }
     }
 }
 
 impl Say for Attitude {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         let (roll, pitch) = said.roll_and_pitch().unzip();
         Attitude { sid: said.sid, yaw: said.heading(), pitch, roll }
     }
 }
 
 impl Say for MagneticVariation {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         let variation = said.variation();
         MagneticVariation {
             sid: said.sid,
@@ -73,7 +73,7 @@ impl Say for MagneticVariation {
 }
 
 impl Say for Speed {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         let forward = [said.through_water(), said.over_ground()]
             .map(|level| level.map(|level| level.forward));
         let [water, ground] = forward.map(|speed| speed.map(f64::abs));
@@ -83,7 +83,7 @@ impl Say for Speed {
 
 /// The way she goes, if both speeds that are known agree on it. The group has one sign for both, and a
 /// ship that drifts astern over ground may well make way through the water.
-fn way(said: &Said<'_>, forward: &[Option<f64>]) -> Option<Direction> {
+fn way(said: &RedactedEpoch<'_>, forward: &[Option<f64>]) -> Option<Direction> {
     let mut ways = forward.iter().flatten().filter_map(|speed| said.directed(*speed));
     let ahead = ways.next()? > 0.0;
     let way = if ahead { Direction::Forward } else { Direction::Reverse };
@@ -91,7 +91,7 @@ fn way(said: &Said<'_>, forward: &[Option<f64>]) -> Option<Direction> {
 }
 
 impl Say for SpeedComponents {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         let parts = |level: Level| (level.forward, level.starboard);
         let (forward_water, starboard_water) = said.through_water().map(parts).unzip();
         let (forward_ground, starboard_ground) = said.over_ground().map(parts).unzip();
@@ -107,7 +107,7 @@ impl Say for SpeedComponents {
 }
 
 impl Say for PositionRapid {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         let (latitude, longitude) =
             said.position().map(|place| (place.latitude, place.longitude)).unzip();
         PositionRapid { latitude, longitude }
@@ -115,7 +115,7 @@ impl Say for PositionRapid {
 }
 
 impl Say for CourseSpeed {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         let (course, speed) = said.course_and_speed().unzip();
         let course = course.flatten();
         CourseSpeed { sid: said.sid, reference: course.map(|_| North::True), course, speed }
@@ -123,7 +123,7 @@ impl Say for CourseSpeed {
 }
 
 impl Say for GnssPosition {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         let marked = said.marked();
         let (place, quality, receiver) = (marked.position(), marked.quality(), marked.receiver());
         let watch = marked.judgement().map(|judgement| judgement.integrity).unwrap_or_default();
@@ -177,21 +177,21 @@ fn integrity(quality: FixQuality, watch: base::Integrity) -> Integrity {
 }
 
 impl Say for TimeDate {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         let (date, time) = utc(said).unzip();
         TimeDate { date, time, local_offset: None }
     }
 }
 
 impl Say for SystemTime {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         let (date, time) = utc(said).unzip();
         SystemTime { sid: said.sid, source: said.time_source(), date, time }
     }
 }
 
 impl Say for Dops {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         let receiver = said.receiver();
         Dops {
             sid: said.sid,
@@ -206,7 +206,7 @@ impl Say for Dops {
 }
 
 impl Say for SetDrift {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         let current = said.current().map(|current| current.0);
         let drift = current.map(|current| current.xy().norm());
         let set = current
@@ -217,7 +217,7 @@ impl Say for SetDrift {
 }
 
 impl Say for PseudorangeNoise {
-    fn say(said: &Said<'_>) -> Self {
+    fn say(said: &RedactedEpoch<'_>) -> Self {
         let sigma = said.position_sigma().map(|sigma| sigma.0);
         let ellipse = said.ellipse();
         PseudorangeNoise {

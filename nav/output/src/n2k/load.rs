@@ -31,7 +31,7 @@ pub struct BusLoad {
 }
 
 impl BusLoad {
-    /// The load of the groups of a table that are enabled and that a [`super::Voice`] sends, if epochs
+    /// The load of the groups of a table that are enabled and that a [`super::PgnSchedule`] sends, if epochs
     /// come at least as often as they do.
     #[must_use]
     pub fn of(transmit: &[Transmit]) -> Self {

@@ -9,9 +9,9 @@ use insd_n2k::pgn::{
 };
 
 use super::groups::Say;
-use crate::epoch::Epoch;
+use crate::epoch::OutputEpoch;
 use crate::manner::Manner;
-use crate::said::Said;
+use crate::redacted_epoch::RedactedEpoch;
 
 const MILLISECOND: i64 = 1_000_000;
 /// Where no interval is named, which is for heave alone: that of the satellite compasses in canboat's logs
@@ -29,7 +29,7 @@ pub(crate) struct Entry {
     interval: Span,
     enabled: bool,
     /// Its contents at an epoch.
-    pub(crate) contents: fn(&Said<'_>) -> Vec<u8>,
+    pub(crate) contents: fn(&RedactedEpoch<'_>) -> Vec<u8>,
 }
 
 /// Off by default are those that would say nothing on most ships: a group that is there but empty can
@@ -79,8 +79,8 @@ impl Entry {
 
     /// Frames of one message.
     pub(crate) fn frames(&self) -> usize {
-        let (epoch, manner) = (Epoch::unknown(Time::START), Manner::default());
-        let length = (self.contents)(&Said::new(&epoch, &manner)).len();
+        let (epoch, manner) = (OutputEpoch::unknown(Time::START), Manner::default());
+        let length = (self.contents)(&RedactedEpoch::new(&epoch, &manner)).len();
         if fast_packet::is_fast(self.pgn) { fast_packet::frames(length) } else { 1 }
     }
 
@@ -94,7 +94,7 @@ impl Entry {
     }
 }
 
-/// All groups that a [`super::Voice`] can send, in the order in which they leave: priority and interval
+/// All groups that a [`super::PgnSchedule`] can send, in the order in which they leave: priority and interval
 /// of canboat's list, 100 ms for heave, for which it has none.
 #[must_use]
 pub fn default_transmit() -> Vec<Transmit> {
@@ -102,7 +102,7 @@ pub fn default_transmit() -> Vec<Transmit> {
 }
 
 /// The least time from one message of a group to the next: 10 ms for each of its frames. `None` for a
-/// group that a [`super::Voice`] does not send.
+/// group that a [`super::PgnSchedule`] does not send.
 #[must_use]
 pub fn least_interval(pgn: u32) -> Option<Span> {
     let frames = i64::try_from(Entry::of(pgn)?.frames()).ok()?;

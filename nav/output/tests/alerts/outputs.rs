@@ -3,8 +3,8 @@
 use insd_base::{Body, Mode, Motion};
 use insd_output::alerts::{AlertView, Condition};
 use insd_output::{
-    Boundary, Lan, LanConfig, Manner, Message, MessageKind, Moment, PortConfig, Profile, Rate, Sfi,
-    Station, TransmissionGroup,
+    Boundary, Lan, LanConfig, Manner, MessageKind, OutputPortConfig, OutputStation, PortMessage,
+    Profile, Rate, Sfi, Situation, TransmissionGroup,
 };
 use insd_wire::nmea::{AlertCommand, AlertState, Alf, Sentence};
 
@@ -12,7 +12,7 @@ use super::{acn, at, solution};
 
 /// A station that says ten times a second what is due.
 struct Bridge {
-    station: Station,
+    station: OutputStation,
     step: i32,
 }
 
@@ -20,8 +20,8 @@ struct Bridge {
 type Heard = Vec<(f64, String)>;
 
 impl Bridge {
-    fn new(ports: impl IntoIterator<Item = PortConfig>) -> Self {
-        Bridge { station: Station::new(ports, vec![Body::default()], None), step: 0 }
+    fn new(ports: impl IntoIterator<Item = OutputPortConfig>) -> Self {
+        Bridge { station: OutputStation::new(ports, vec![Body::default()], None), step: 0 }
     }
 
     fn now(&self) -> Boundary {
@@ -29,7 +29,7 @@ impl Bridge {
     }
 
     /// The messages of each port in so many seconds of a ship in a mode.
-    fn messages(&mut self, seconds: f64, mode: Option<Mode>) -> Vec<(f64, usize, Message)> {
+    fn messages(&mut self, seconds: f64, mode: Option<Mode>) -> Vec<(f64, usize, PortMessage)> {
         let mut heard = Vec::new();
         for _ in 0..(seconds * 10.0) as u32 {
             let now = self.now();
@@ -58,28 +58,31 @@ impl Bridge {
     }
 }
 
-fn moment(now: &Boundary, mode: Option<Mode>) -> Moment {
+fn moment(now: &Boundary, mode: Option<Mode>) -> Situation {
     let motion = mode.map(|mode| Motion {
         solution: insd_base::Solution { mode, ..solution(now.time) },
         acceleration: None,
         covariance: None,
         current: None,
     });
-    Moment { motion, ..Moment::default() }
+    Situation { motion, ..Situation::default() }
 }
 
-fn port(messages: &[(&str, f64)]) -> PortConfig {
+fn port(messages: &[(&str, f64)]) -> OutputPortConfig {
     let kind =
         |(name, hertz): &(&str, f64)| (MessageKind::named(name).unwrap(), Rate::from_hertz(*hertz));
-    PortConfig { messages: messages.iter().map(kind).collect(), ..PortConfig::default() }
+    OutputPortConfig {
+        messages: messages.iter().map(kind).collect(),
+        ..OutputPortConfig::default()
+    }
 }
 
-fn simulated(unmarked_when_simulated: bool) -> PortConfig {
+fn simulated(unmarked_when_simulated: bool) -> OutputPortConfig {
     let manner = Manner { simulated: true, unmarked_when_simulated, ..Manner::default() };
-    PortConfig { manner, ..alerts() }
+    OutputPortConfig { manner, ..alerts() }
 }
 
-fn alerts() -> PortConfig {
+fn alerts() -> OutputPortConfig {
     port(&[("ALF", 1.0), ("ALC", 1.0 / 30.0)])
 }
 
@@ -224,8 +227,10 @@ fn from_a_simulator_only_that_is_told() {
 #[test]
 fn a_port_without_a_station_says_nothing_of_alerts() {
     let mut port = insd_output::Port::new(alerts());
-    let epoch =
-        insd_output::Epoch { utc: at(0.0).utc, ..insd_output::Epoch::unknown(at(0.0).time) };
+    let epoch = insd_output::OutputEpoch {
+        utc: at(0.0).utc,
+        ..insd_output::OutputEpoch::unknown(at(0.0).time)
+    };
     assert_eq!(port.messages(&epoch), []);
 }
 
@@ -246,7 +251,7 @@ fn the_longest_list_is_not_longer_than_its_line_was_reckoned_with() {
 fn the_two_sentences_of_an_alert_are_one_tag_group_on_the_network() {
     let mut bridge = Bridge::new([alerts()]);
     bridge.hear(60.0, SOUND);
-    let messages: Vec<Message> =
+    let messages: Vec<PortMessage> =
         bridge.messages(10.0, None).into_iter().map(|(.., message)| message).collect();
     let source = Sfi::new("IN0001").unwrap();
     let mut lan = Lan::new(LanConfig { source, groups: Vec::new(), time: false, single: false });

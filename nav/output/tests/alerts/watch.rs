@@ -5,7 +5,7 @@ use insd_base::{
     AlignmentPhase, AlignmentStatus, Forecast, Lack, Mode, Ned, Solution, StorageFaults, Time,
 };
 use insd_output::alerts::{Condition, Watch};
-use insd_output::{Epoch, Policy};
+use insd_output::{OutputEpoch, Policy};
 use insd_wire::nmea::Alf;
 
 use super::{at, solution};
@@ -28,14 +28,14 @@ impl Look {
     }
 
     /// What holds after so many seconds of such epochs.
-    fn at(&mut self, seconds: f64, epoch: impl Fn(Epoch) -> Epoch) -> Vec<Condition> {
+    fn at(&mut self, seconds: f64, epoch: impl Fn(OutputEpoch) -> OutputEpoch) -> Vec<Condition> {
         let mut found = Vec::new();
         for _ in 0..(seconds * 10.0) as u32 {
             let now = at(self.seconds);
-            let usual = Epoch {
+            let usual = OutputEpoch {
                 solution: Some(solution(now.time)),
                 utc: now.utc,
-                ..Epoch::unknown(now.time)
+                ..OutputEpoch::unknown(now.time)
             };
             let holding = self.watch.note(&epoch(usual), &self.policy, false);
             found = holding.iter().filter(|(_, holds)| *holds).map(|(own, _)| *own).collect();
@@ -52,15 +52,15 @@ impl Look {
     }
 }
 
-fn with(change: impl Fn(&mut Solution)) -> impl Fn(Epoch) -> Epoch {
+fn with(change: impl Fn(&mut Solution)) -> impl Fn(OutputEpoch) -> OutputEpoch {
     move |mut epoch| {
         epoch.solution.iter_mut().for_each(&change);
         epoch
     }
 }
 
-fn silent(epoch: Epoch) -> Epoch {
-    Epoch { solution: None, ..epoch }
+fn silent(epoch: OutputEpoch) -> OutputEpoch {
+    OutputEpoch { solution: None, ..epoch }
 }
 
 fn levelling(told: Time) -> Option<AlignmentStatus> {
@@ -80,7 +80,7 @@ fn levelling(told: Time) -> Option<AlignmentStatus> {
 #[test]
 fn engines_that_differ_are_told_at_once_and_as_long_as_they_do() {
     let mut look = Look::of_a_sound_ship();
-    let differ = |epoch| Epoch { engines_differ: true, ..epoch };
+    let differ = |epoch| OutputEpoch { engines_differ: true, ..epoch };
     assert_eq!(look.at(0.1, differ), [EnginesDiffer]);
     assert_eq!(look.at(60.0, differ), [EnginesDiffer]);
     assert_eq!(look.at(0.1, |epoch| epoch), []);
@@ -167,7 +167,7 @@ fn a_position_is_first_estimated_and_then_lost() {
 #[test]
 fn a_silent_imu_and_a_fault_are_a_system_fault_and_nothing_else() {
     let fault = with(|solution| solution.mode = Mode::Fault);
-    let faults: [&dyn Fn(Epoch) -> Epoch; 2] = [&silent, &fault];
+    let faults: [&dyn Fn(OutputEpoch) -> OutputEpoch; 2] = [&silent, &fault];
     for fault in faults {
         let mut look = Look::of_a_sound_ship();
         assert_eq!(look.at(5.0, fault), []);
@@ -178,10 +178,12 @@ fn a_silent_imu_and_a_fault_are_a_system_fault_and_nothing_else() {
 
 #[test]
 fn a_ship_that_finds_out_which_way_is_down_has_no_fault_unless_it_comes_to_a_halt() {
-    let told = |epoch: Epoch| Epoch { alignment: levelling(epoch.time), ..silent(epoch) };
+    let told =
+        |epoch: OutputEpoch| OutputEpoch { alignment: levelling(epoch.time), ..silent(epoch) };
     let mut look = Look::new();
     assert_eq!(look.at(600.0, told), []);
-    let halted = |epoch: Epoch| Epoch { alignment: levelling(at(600.0).time), ..silent(epoch) };
+    let halted =
+        |epoch: OutputEpoch| OutputEpoch { alignment: levelling(at(600.0).time), ..silent(epoch) };
     assert_eq!(look.at(19.0, halted), []);
     assert_eq!(look.at(2.0, halted), [SystemFault]);
 }
@@ -189,7 +191,7 @@ fn a_ship_that_finds_out_which_way_is_down_has_no_fault_unless_it_comes_to_a_hal
 #[test]
 fn utc_is_missed_after_a_minute() {
     let mut look = Look::of_a_sound_ship();
-    let timeless = |epoch: Epoch| Epoch { utc: None, ..epoch };
+    let timeless = |epoch: OutputEpoch| OutputEpoch { utc: None, ..epoch };
     assert_eq!(look.at(60.0, timeless), []);
     assert_eq!(look.at(0.1, timeless), [NoUtc]);
 }
@@ -197,7 +199,8 @@ fn utc_is_missed_after_a_minute() {
 #[test]
 fn simulated_data_are_told_at_once() {
     let mut watch = Watch::default();
-    let epoch = Epoch { solution: Some(solution(Time::START)), ..Epoch::unknown(Time::START) };
+    let epoch =
+        OutputEpoch { solution: Some(solution(Time::START)), ..OutputEpoch::unknown(Time::START) };
     let found = watch.note(&epoch, &Policy::default(), true);
     let holding: Vec<_> = found.iter().filter(|(_, holds)| *holds).collect();
     assert_eq!(holding, [&(Simulated, true)]);
@@ -230,7 +233,7 @@ fn what_cannot_be_written_is_told_at_once_and_no_more_when_it_can_be_for_a_while
     let mut look = Look::of_a_sound_ship();
     let faults = |recording, state| {
         let storage = StorageFaults { recording, state };
-        move |epoch: Epoch| Epoch { storage, ..epoch }
+        move |epoch: OutputEpoch| OutputEpoch { storage, ..epoch }
     };
     assert_eq!(look.at(0.1, faults(true, false)), [Condition::NotRecording]);
     assert_eq!(look.at(0.1, faults(true, true)), [Condition::NotRecording, Condition::NotSaving]);

@@ -8,7 +8,7 @@ mod ship;
 
 use insd_base::Utm;
 use insd_base::units::{DEG, KNOT};
-use insd_output::{Epoch, Manner, MessageKind};
+use insd_output::{Manner, MessageKind, OutputEpoch};
 use insd_wire::nmea::{PashrDialect, PhoctState, Pixse, Psxn, Sentence};
 
 use ship::*;
@@ -219,8 +219,8 @@ fn every_kind_exists_and_its_place_is_where_its_readers_want_it() {
 #[test]
 fn psxn_tells_of_the_start_once_and_never_again() {
     let mut port = port(&["PSXN.21", "PSXN.23"], &Manner::default());
-    let mut count = |epoch: &Epoch| port.messages(epoch).len();
-    let (begin, later) = (Epoch::unknown(now()), epoch());
+    let mut count = |epoch: &OutputEpoch| port.messages(epoch).len();
+    let (begin, later) = (OutputEpoch::unknown(now()), epoch());
     assert_eq!([count(&begin), count(&later), count(&later)], [2, 1, 1]);
     assert_eq!(said("PSXN.21", &epoch()).unwrap(), "$PSXN,21,1");
 }

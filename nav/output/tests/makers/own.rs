@@ -2,7 +2,7 @@
 
 use insd_base::units::DEG;
 use insd_base::{FixQuality, HeaveQuality, Integrity, Judgement, Mode, Ned, Parties, Party};
-use insd_output::{Epoch, Manner, Policy};
+use insd_output::{Manner, OutputEpoch, Policy};
 use insd_wire::nmea::{
     HeadingMode, Pinsd, PinsdIntegrity, PinsdMode, PinsdProtection, PinsdStatus, ProtectionState,
     Sentence,
@@ -10,13 +10,13 @@ use insd_wire::nmea::{
 
 use crate::ship::*;
 
-fn status(manner: &Manner, epoch: &Epoch) -> PinsdStatus {
+fn status(manner: &Manner, epoch: &OutputEpoch) -> PinsdStatus {
     let line = lines("PINSD.STA", manner, epoch).remove(0);
     let Sentence::Pinsd(Pinsd::Status(status)) = parsed(&line) else { panic!("{line}") };
     status
 }
 
-fn protection(manner: &Manner, epoch: &Epoch) -> PinsdProtection {
+fn protection(manner: &Manner, epoch: &OutputEpoch) -> PinsdProtection {
     let line = lines("PINSD.PRO", manner, epoch).remove(0);
     let Sentence::Pinsd(Pinsd::Protection(protection)) = parsed(&line) else { panic!("{line}") };
     protection
@@ -28,9 +28,9 @@ fn limited(alert_limit: f64) -> Manner {
 }
 
 /// Whose horizontal error has these sigmas and this covariance.
-fn spread(north: f64, east: f64, covariance: Option<f64>) -> Epoch {
+fn spread(north: f64, east: f64, covariance: Option<f64>) -> OutputEpoch {
     let told = with(|ship| ship.sigma.position = Ned::new(north, east, 1.5));
-    Epoch { covariance_north_east: covariance, ..told }
+    OutputEpoch { covariance_north_east: covariance, ..told }
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn each_sentence_is_to_the_byte_what_its_page_says() {
 
 #[test]
 fn the_status_says_mode_and_qualities_by_the_policy() {
-    let status = |epoch: &Epoch| status(&Manner::default(), epoch);
+    let status = |epoch: &OutputEpoch| status(&Manner::default(), epoch);
     for mode in MODES {
         assert_eq!(status(&in_mode(mode)).mode, PinsdMode::from(mode));
     }
@@ -74,7 +74,7 @@ fn the_status_says_whether_the_sensors_bear_it_out_and_who_is_left_out() {
         let told = status(&Manner::default(), &told);
         assert_eq!((told.integrity, told.excluded), (Some(said), Some(excluded)));
     }
-    let unknown = status(&Manner::default(), &Epoch { solution: None, ..epoch() });
+    let unknown = status(&Manner::default(), &OutputEpoch { solution: None, ..epoch() });
     assert_eq!((unknown.integrity, unknown.excluded), (None, None));
 }
 
@@ -122,10 +122,10 @@ fn without_the_covariance_the_levels_are_never_less() {
 
 #[test]
 fn a_level_is_good_below_the_alert_limit_only() {
-    let state = |limit: f64, epoch: &Epoch| protection(&limited(limit), epoch).state;
+    let state = |limit: f64, epoch: &OutputEpoch| protection(&limited(limit), epoch).state;
     assert_eq!(state(4.0, &epoch()), ProtectionState::Below);
     assert_eq!(state(3.5, &epoch()), ProtectionState::Above);
-    for unknown in [lost(), in_mode(Mode::Fault), Epoch::unknown(now())] {
+    for unknown in [lost(), in_mode(Mode::Fault), OutputEpoch::unknown(now())] {
         let told = protection(&limited(10.0), &unknown);
         assert_eq!(told.state, ProtectionState::Unknown);
         assert_eq!([told.radius_95, told.horizontal, told.vertical], [None; 3]);
@@ -140,6 +140,6 @@ fn a_level_is_good_below_the_alert_limit_only() {
 
 #[test]
 fn the_alignment_is_told_while_there_is_one() {
-    let none = Epoch { alignment: None, ..epoch() };
+    let none = OutputEpoch { alignment: None, ..epoch() };
     assert_eq!(said("PINSD.ALI", &none), None);
 }

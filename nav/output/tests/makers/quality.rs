@@ -4,7 +4,7 @@ use insd_base::units::DEG;
 use insd_base::{
     Attitude, Body, FixQuality, Geodetic, Heave, HeaveQuality, Mode, Ned, SolutionSigma,
 };
-use insd_output::{Epoch, Manner, Policy};
+use insd_output::{Manner, OutputEpoch, Policy};
 use insd_wire::nmea::{
     OctansStatus, PashrDialect, PhoctState, Pixse, PixseAlgorithmStatus, PixseHighLevelStatus,
     PixseSystemStatus, Psxn, PsxnQuality, Sentence,
@@ -15,12 +15,12 @@ use std::f64::consts::TAU;
 use crate::ship::*;
 
 /// Quality and status of PASHR.
-fn pashr(name: &str, epoch: &Epoch) -> (Option<u8>, Option<u8>) {
+fn pashr(name: &str, epoch: &OutputEpoch) -> (Option<u8>, Option<u8>) {
     let Sentence::Pashr(pashr) = read(name, epoch) else { panic!("{name}") };
     (pashr.quality_digit, pashr.status_digit)
 }
 
-fn precise(mode: Mode) -> Epoch {
+fn precise(mode: Mode) -> OutputEpoch {
     with(|ship| {
         ship.sigma.position = Ned::new(0.01, 0.01, 0.01);
         ship.mode = mode;
@@ -29,7 +29,7 @@ fn precise(mode: Mode) -> Epoch {
 
 #[test]
 fn the_quality_of_pashr_is_that_of_the_position_as_far_as_its_dialect_goes() {
-    let of = |epoch: &Epoch| {
+    let of = |epoch: &OutputEpoch| {
         [
             "PASHR.sbg",
             "PASHR.sbg_wassp",
@@ -45,7 +45,7 @@ fn the_quality_of_pashr_is_that_of_the_position_as_far_as_its_dialect_goes() {
     for mode in [Mode::DeadReckoning, Mode::Inertial, Mode::FineAlignment] {
         assert_eq!(of(&precise(mode)), [0, 0, 0, 0, 6, 0], "{mode:?}");
     }
-    let nothing = [lost(), in_mode(Mode::Fault), Epoch::unknown(now())];
+    let nothing = [lost(), in_mode(Mode::Fault), OutputEpoch::unknown(now())];
     let adrift = with(|ship| {
         ship.sigma.position = Ned::new(90.0, 90.0, 1.0);
         ship.mode = Mode::DeadReckoning;
@@ -71,13 +71,13 @@ fn the_status_of_pashr_follows_from_the_mode() {
     assert_eq!(trimble, [1, 2, 2, 4, 2, 2, 0]);
     let sbg = MODES.map(|mode| pashr("PASHR.sbg", &in_mode(mode)).1.unwrap());
     assert_eq!(sbg, [0, 0, 0, 0, 0, 0, 1]);
-    assert_eq!(pashr("PASHR.sbg", &Epoch::unknown(now())).1, Some(1));
+    assert_eq!(pashr("PASHR.sbg", &OutputEpoch::unknown(now())).1, Some(1));
     assert_eq!(pashr("PASHR.novatel", &epoch()).1, None);
 }
 
 #[test]
 fn pashr_tells_an_error_only_of_what_it_tells() {
-    let tail = |epoch: &Epoch| {
+    let tail = |epoch: &OutputEpoch| {
         let line = said("PASHR.sbg", epoch).unwrap();
         line.split_once(",T,").unwrap().1.to_owned()
     };
@@ -105,13 +105,13 @@ fn psxn_20_tells_the_quality_of_psxn_23() {
         ),
         (heaving(HeaveQuality::Reduced), [first, Reduced, third, Normal]),
         (heaving(HeaveQuality::Unsettled), [first, Invalid, third, Normal]),
-        (Epoch { heave: None, ..epoch() }, [first, Invalid, third, Normal]),
+        (OutputEpoch { heave: None, ..epoch() }, [first, Invalid, third, Normal]),
         (estimated_heading(), [first, second, Reduced, Normal]),
         (bad_heading(), [first, second, Invalid, Normal]),
         (in_mode(Mode::FineAlignment), [Reduced, second, Invalid, Normal]),
         (not_level(), [first, second, third, Invalid]),
         (in_mode(Mode::Fault), [Invalid; 4]),
-        (Epoch::unknown(now()), [Invalid; 4]),
+        (OutputEpoch::unknown(now()), [Invalid; 4]),
     ] {
         let Sentence::Psxn(Psxn::Quality { horizontal, height, heading, attitude }) =
             read("PSXN.20", &epoch)
@@ -146,13 +146,13 @@ fn phinf_says_what_is_invalid_and_that_the_system_aligns() {
         (not_level(), level),
         (heaving(HeaveQuality::Unsettled), unsettled),
         (heaving(HeaveQuality::Reduced), Bit::default()),
-        (Epoch { heave: None, ..epoch() }, unsettled),
+        (OutputEpoch { heave: None, ..epoch() }, unsettled),
         (in_mode(Mode::CoarseAlignment), heading | Bit::ALIGNMENT),
         (in_mode(Mode::FineAlignment), heading | Bit::ALIGNMENT),
         (in_mode(Mode::InMotionAlignment), heading | Bit::ALIGNMENT),
         (in_mode(Mode::Inertial), Bit::default()),
         (in_mode(Mode::Fault), heading | level | unsettled),
-        (Epoch::unknown(now()), heading | level | unsettled),
+        (OutputEpoch::unknown(now()), heading | level | unsettled),
     ] {
         let Sentence::Phinf(phinf) = read("PHINF", &epoch) else { panic!() };
         assert_eq!(phinf.octans(), Some(expected), "{epoch:?}");
@@ -161,7 +161,7 @@ fn phinf_says_what_is_invalid_and_that_the_system_aligns() {
 
 #[test]
 fn phoct_marks_each_value() {
-    let states = |epoch: &Epoch| {
+    let states = |epoch: &OutputEpoch| {
         let Sentence::Phoct(phoct) = read("PHOCT", epoch) else { panic!() };
         [phoct.heading.state, phoct.roll.state, phoct.pitch.state, phoct.heave.state]
     };
@@ -170,31 +170,31 @@ fn phoct_marks_each_value() {
     assert_eq!(states(&not_level()), [Valid, Invalid, Invalid, Valid]);
     assert_eq!(states(&in_mode(Mode::FineAlignment)), [Initialising, Valid, Valid, Valid]);
     assert_eq!(states(&in_mode(Mode::Fault)), [Invalid; 4]);
-    assert_eq!(states(&Epoch::unknown(now())), [Invalid; 4]);
+    assert_eq!(states(&OutputEpoch::unknown(now())), [Invalid; 4]);
     let unsettled = heaving(HeaveQuality::Unsettled);
     assert_eq!(states(&unsettled), [Valid, Valid, Valid, Initialising]);
     let Sentence::Phoct(phoct) = read("PHOCT", &unsettled) else { panic!() };
     near(phoct.heave.value, 1.25, 0.001);
     assert_eq!(said("PHLIN", &unsettled).unwrap(), "$PHLIN,,,");
-    let timeless = Epoch { utc: None, ..epoch() };
+    let timeless = OutputEpoch { utc: None, ..epoch() };
     assert!(said("PHOCT", &timeless).unwrap().starts_with("$PHOCT,01,,E,,090.000,T,"));
 }
 
-fn algorithm(epoch: &Epoch) -> PixseAlgorithmStatus {
+fn algorithm(epoch: &OutputEpoch) -> PixseAlgorithmStatus {
     let Sentence::Pixse(Pixse::Algorithm(Some(status))) = read("PIXSE.ALGSTS", epoch) else {
         panic!()
     };
     status
 }
 
-fn system(epoch: &Epoch) -> PixseSystemStatus {
+fn system(epoch: &OutputEpoch) -> PixseSystemStatus {
     let Sentence::Pixse(Pixse::System(Some(status))) = read("PIXSE.STATUS", epoch) else {
         panic!()
     };
     status
 }
 
-fn high_level(epoch: &Epoch) -> PixseHighLevelStatus {
+fn high_level(epoch: &OutputEpoch) -> PixseHighLevelStatus {
     let Sentence::Pixse(Pixse::HighLevel(Some(status))) = read("PIXSE.HT_STS", epoch) else {
         panic!()
     };
@@ -220,7 +220,7 @@ fn algsts_says_what_the_filter_does() {
     }
     let settling = heaving(HeaveQuality::Unsettled);
     assert!(algorithm(&settling).has(Bit::HEAVE_INITIALISATION | Bit::NAVIGATION));
-    assert_eq!(algorithm(&Epoch::unknown(now())), Bit::HEAVE_INITIALISATION);
+    assert_eq!(algorithm(&OutputEpoch::unknown(now())), Bit::HEAVE_INITIALISATION);
 }
 
 #[test]
@@ -228,8 +228,8 @@ fn status_says_what_is_detected_and_whether_the_attitude_is_valid() {
     use PixseSystemStatus as Bit;
     assert_eq!(system(&epoch()), Bit::GPS1_DETECTED | Bit::UTC_DETECTED);
     assert_eq!(system(&in_mode(Mode::Inertial)), Bit::UTC_DETECTED);
-    assert_eq!(system(&Epoch { utc: None, ..epoch() }), Bit::GPS1_DETECTED);
-    for epoch in [not_level(), bad_heading(), in_mode(Mode::Fault), Epoch::unknown(now())] {
+    assert_eq!(system(&OutputEpoch { utc: None, ..epoch() }), Bit::GPS1_DETECTED);
+    for epoch in [not_level(), bad_heading(), in_mode(Mode::Fault), OutputEpoch::unknown(now())] {
         assert!(system(&epoch).has(Bit::ATTITUDE_INVALID), "{epoch:?}");
     }
 }
@@ -237,7 +237,7 @@ fn status_says_what_is_detected_and_whether_the_attitude_is_valid() {
 #[test]
 fn ht_sts_has_one_word_of_health_and_names_nothing_as_there_that_is_not_known_to_be() {
     use PixseHighLevelStatus as Bit;
-    let health = |epoch: &Epoch| Bit(high_level(epoch).0 & 0x3_FFFF);
+    let health = |epoch: &OutputEpoch| Bit(high_level(epoch).0 & 0x3_FFFF);
     let by_mode = [
         Bit::ALIGNING,
         Bit::ALIGNING,
@@ -253,9 +253,9 @@ fn ht_sts_has_one_word_of_health_and_names_nothing_as_there_that_is_not_known_to
     for epoch in [estimated_heading(), bad_heading(), not_level(), lost()] {
         assert_eq!(health(&epoch), Bit::WARNING, "{epoch:?}");
     }
-    assert_eq!(health(&Epoch::unknown(now())), Bit::ERROR);
-    let absent = |epoch: &Epoch| high_level(epoch).0 >> 18;
-    assert_eq!(absent(&Epoch::unknown(now())), 0x3FFF);
+    assert_eq!(health(&OutputEpoch::unknown(now())), Bit::ERROR);
+    let absent = |epoch: &OutputEpoch| high_level(epoch).0 >> 18;
+    assert_eq!(absent(&OutputEpoch::unknown(now())), 0x3FFF);
     assert!(!high_level(&epoch()).has(Bit::NO_GPS1) && !high_level(&epoch()).has(Bit::NO_UTC));
     assert!(high_level(&in_mode(Mode::DeadReckoning)).has(Bit::NO_GPS1));
 }
@@ -275,7 +275,7 @@ fn a_simulated_set_that_is_asked_for_says_so_in_its_status_words() {
 
 #[test]
 fn where_nothing_is_known_nothing_is_zero() {
-    let nothing = Epoch::unknown(now());
+    let nothing = OutputEpoch::unknown(now());
     for (name, text) in [
         ("PASHR.sbg", "PASHR,,,T,,,,,,,0,1"),
         ("PASHR.sbg_wassp", "PASHR,,,T,,,,,,,0,1"),
@@ -338,13 +338,13 @@ fn what_is_beyond_the_policy_is_empty() {
         ("PIXSE.SPEED_", lost(), "PIXSE,SPEED_,,,"),
         ("PIXSE.STDSPD", lost(), "PIXSE,STDSPD,,,"),
         ("PIXSE.HEAVE_", heaving(HeaveQuality::Unsettled), "PIXSE,HEAVE_,,,"),
-        ("PIXSE.TIME__", Epoch { utc: None, ..epoch() }, "PIXSE,TIME__,"),
+        ("PIXSE.TIME__", OutputEpoch { utc: None, ..epoch() }, "PIXSE,TIME__,"),
         ("PSXN.24", not_level(), "PSXN,24,,,,-0.50"),
         ("PSXN.24", heaving(HeaveQuality::Unsettled), "PSXN,24,1.00,2.00,3.00,"),
     ] {
         assert_eq!(said(name, &epoch).unwrap(), format!("${text}"), "{name}");
     }
-    let without_geoid = Epoch { geoid: None, ..epoch() };
+    let without_geoid = OutputEpoch { geoid: None, ..epoch() };
     let place = said("PIXSE.POSITI", &without_geoid).unwrap();
     assert_eq!(place, "$PIXSE,POSITI,54.00000000,8.00000000,4.310", "by EGM96 it is 39.19 m");
 }

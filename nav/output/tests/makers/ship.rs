@@ -7,7 +7,7 @@ use insd_base::{
     UtcTime,
 };
 use insd_n2k::pgn::TimeSource;
-use insd_output::{Epoch, Manner, MessageKind, Port, PortConfig, Rate};
+use insd_output::{Manner, MessageKind, OutputEpoch, OutputPortConfig, Port, Rate};
 use insd_wire::nmea::{ChecksumPolicy, Frame, Sentence};
 
 /// All kinds of makers' sentences.
@@ -68,7 +68,7 @@ pub(crate) fn now() -> Time {
 
 /// In the North Sea, bound for the east, setting to the south. `side` 1: starboard down by 10 deg, bow up
 /// by 5 deg, lifted 1.25 m by a wave and rising at 0.5 m/s, turning to starboard; -1: all the other way.
-pub(crate) fn leaned(side: f64) -> Epoch {
+pub(crate) fn leaned(side: f64) -> OutputEpoch {
     let solution = Solution {
         time: now(),
         position: Geodetic::from_degrees(54.0, 8.0, 43.5),
@@ -98,7 +98,7 @@ pub(crate) fn leaned(side: f64) -> Epoch {
         quality: HeaveQuality::Settled,
         delayed: None,
     };
-    Epoch {
+    OutputEpoch {
         solution: Some(solution),
         covariance_north_east: Some(0.0),
         mode_since: Some(Time::from_seconds(200.5)),
@@ -107,7 +107,7 @@ pub(crate) fn leaned(side: f64) -> Epoch {
         heave: Some(heave),
         geoid: Some(40.0),
         alignment: Some(alignment()),
-        ..Epoch::unknown(now())
+        ..OutputEpoch::unknown(now())
     }
 }
 
@@ -126,52 +126,52 @@ fn alignment() -> AlignmentStatus {
     }
 }
 
-pub(crate) fn epoch() -> Epoch {
+pub(crate) fn epoch() -> OutputEpoch {
     leaned(1.0)
 }
 
 /// That epoch with another solution.
-pub(crate) fn with(change: impl FnOnce(&mut Solution)) -> Epoch {
+pub(crate) fn with(change: impl FnOnce(&mut Solution)) -> OutputEpoch {
     let mut solution = epoch().solution.unwrap();
     change(&mut solution);
-    Epoch { solution: Some(solution), ..epoch() }
+    OutputEpoch { solution: Some(solution), ..epoch() }
 }
 
-pub(crate) fn in_mode(mode: Mode) -> Epoch {
+pub(crate) fn in_mode(mode: Mode) -> OutputEpoch {
     with(|solution| solution.mode = mode)
 }
 
 /// That epoch with a heave of another quality.
-pub(crate) fn heaving(quality: HeaveQuality) -> Epoch {
+pub(crate) fn heaving(quality: HeaveQuality) -> OutputEpoch {
     let heave = epoch().heave.map(|heave| Heave { quality, ..heave });
-    Epoch { heave, ..epoch() }
+    OutputEpoch { heave, ..epoch() }
 }
 
 /// Heading worse than the policy has for THS A, and for THS at all.
-pub(crate) fn estimated_heading() -> Epoch {
+pub(crate) fn estimated_heading() -> OutputEpoch {
     with(|solution| solution.sigma.heading = DEG)
 }
 
-pub(crate) fn bad_heading() -> Epoch {
+pub(crate) fn bad_heading() -> OutputEpoch {
     with(|solution| solution.sigma.heading = 3.0 * DEG)
 }
 
-pub(crate) fn not_level() -> Epoch {
+pub(crate) fn not_level() -> OutputEpoch {
     with(|solution| solution.sigma.roll = DEG)
 }
 
-pub(crate) fn lost() -> Epoch {
+pub(crate) fn lost() -> OutputEpoch {
     with(|solution| solution.sigma.position = Ned::new(90.0, 90.0, 1.0))
 }
 
 pub(crate) fn port(names: &[&str], manner: &Manner) -> Port {
     let kind = |name: &&str| (MessageKind::named(name).unwrap(), Rate::from_hertz(1.0));
     let messages = names.iter().map(kind).collect();
-    Port::new(PortConfig { messages, manner: manner.clone(), ..PortConfig::default() })
+    Port::new(OutputPortConfig { messages, manner: manner.clone(), ..OutputPortConfig::default() })
 }
 
 /// What a port that has just started says, line by line.
-pub(crate) fn lines(name: &str, manner: &Manner, epoch: &Epoch) -> Vec<String> {
+pub(crate) fn lines(name: &str, manner: &Manner, epoch: &OutputEpoch) -> Vec<String> {
     let Some(message) = port(&[name], manner).messages(epoch).pop() else {
         return Vec::new();
     };
@@ -181,13 +181,13 @@ pub(crate) fn lines(name: &str, manner: &Manner, epoch: &Epoch) -> Vec<String> {
 }
 
 /// The only sentence, without its checksum.
-pub(crate) fn said_by(manner: &Manner, name: &str, epoch: &Epoch) -> Option<String> {
+pub(crate) fn said_by(manner: &Manner, name: &str, epoch: &OutputEpoch) -> Option<String> {
     let lines = lines(name, manner, epoch);
     assert!(lines.len() <= 1, "{lines:?}");
     Some(lines.first()?.split('*').next().unwrap().to_owned())
 }
 
-pub(crate) fn said(name: &str, epoch: &Epoch) -> Option<String> {
+pub(crate) fn said(name: &str, epoch: &OutputEpoch) -> Option<String> {
     said_by(&Manner::default(), name, epoch)
 }
 
@@ -197,7 +197,7 @@ pub(crate) fn parsed(line: &str) -> Sentence {
 }
 
 /// The only sentence, read back.
-pub(crate) fn read(name: &str, epoch: &Epoch) -> Sentence {
+pub(crate) fn read(name: &str, epoch: &OutputEpoch) -> Sentence {
     parsed(&lines(name, &Manner::default(), epoch)[0])
 }
 

@@ -5,7 +5,7 @@ use insd_base::{
     Attitude, Body, DelayedHeave, Geodetic, Heave, HeaveQuality, Mode, Ned, Solution,
     SolutionSigma, Time, UtcTime,
 };
-use insd_output::{Content, Epoch, Manner, MessageKind, Port, PortConfig, Rate};
+use insd_output::{Content, Manner, MessageKind, OutputEpoch, OutputPortConfig, Port, Rate};
 use insd_wire::motion::em::EmAttitude;
 use insd_wire::motion::kmb::Kmb;
 use insd_wire::motion::seapath::{Seapath23, Seapath26};
@@ -58,51 +58,52 @@ pub(crate) fn utc() -> UtcTime {
 }
 
 /// Surging ahead at 0.3 m/s^2, pulled to port at 0.4, falling at 0.75.
-pub(crate) fn epoch() -> Epoch {
-    Epoch {
+pub(crate) fn epoch() -> OutputEpoch {
+    OutputEpoch {
         solution: Some(solution()),
         acceleration: Some(Ned::new(0.4, 0.3, 0.75)),
         heave: Some(heave()),
         utc: Some(utc()),
-        ..Epoch::unknown(now())
+        ..OutputEpoch::unknown(now())
     }
 }
 
 /// That epoch with another solution.
-pub(crate) fn with(change: impl FnOnce(&mut Solution)) -> Epoch {
+pub(crate) fn with(change: impl FnOnce(&mut Solution)) -> OutputEpoch {
     let mut solution = solution();
     change(&mut solution);
-    Epoch { solution: Some(solution), ..epoch() }
+    OutputEpoch { solution: Some(solution), ..epoch() }
 }
 
-pub(crate) fn in_mode(mode: Mode) -> Epoch {
+pub(crate) fn in_mode(mode: Mode) -> OutputEpoch {
     with(|solution| solution.mode = mode)
 }
 
 /// That epoch with another heave.
-pub(crate) fn heaving(change: impl FnOnce(&mut Heave)) -> Epoch {
+pub(crate) fn heaving(change: impl FnOnce(&mut Heave)) -> OutputEpoch {
     let mut heave = heave();
     change(&mut heave);
-    Epoch { heave: Some(heave), ..epoch() }
+    OutputEpoch { heave: Some(heave), ..epoch() }
 }
 
 /// Heading worse than the policy has for THS A, and for THS at all.
-pub(crate) fn estimated_heading() -> Epoch {
+pub(crate) fn estimated_heading() -> OutputEpoch {
     with(|solution| solution.sigma.heading = 1.0 * DEG)
 }
 
-pub(crate) fn bad_heading() -> Epoch {
+pub(crate) fn bad_heading() -> OutputEpoch {
     with(|solution| solution.sigma.heading = 3.0 * DEG)
 }
 
-pub(crate) fn not_level() -> Epoch {
+pub(crate) fn not_level() -> OutputEpoch {
     with(|solution| solution.sigma.roll = 1.0 * DEG)
 }
 
-pub(crate) fn said_by(manner: &Manner, name: &str, epoch: &Epoch) -> Option<Vec<u8>> {
+pub(crate) fn said_by(manner: &Manner, name: &str, epoch: &OutputEpoch) -> Option<Vec<u8>> {
     let kind = MessageKind::named(name).unwrap();
     let messages = vec![(kind, Rate::from_hertz(1.0))];
-    let config = PortConfig { messages, manner: manner.clone(), ..PortConfig::default() };
+    let config =
+        OutputPortConfig { messages, manner: manner.clone(), ..OutputPortConfig::default() };
     let message = Port::new(config).messages(epoch).pop()?;
     assert!(matches!(message.content, Content::Binary(_)), "{name}");
     let bytes = message.content.to_bytes();
@@ -110,36 +111,36 @@ pub(crate) fn said_by(manner: &Manner, name: &str, epoch: &Epoch) -> Option<Vec<
     Some(bytes)
 }
 
-pub(crate) fn said(name: &str, epoch: &Epoch) -> Option<Vec<u8>> {
+pub(crate) fn said(name: &str, epoch: &OutputEpoch) -> Option<Vec<u8>> {
     said_by(&Manner::default(), name, epoch)
 }
 
-pub(crate) fn tss1(epoch: &Epoch) -> Option<Tss1> {
+pub(crate) fn tss1(epoch: &OutputEpoch) -> Option<Tss1> {
     said("TSS1", epoch).map(|bytes| Tss1::read(&bytes).unwrap())
 }
 
-pub(crate) fn em(name: &str, epoch: &Epoch) -> Option<EmAttitude> {
+pub(crate) fn em(name: &str, epoch: &OutputEpoch) -> Option<EmAttitude> {
     said(name, epoch).map(|bytes| EmAttitude::read(&bytes).unwrap())
 }
 
-pub(crate) fn em3000(epoch: &Epoch) -> EmAttitude {
+pub(crate) fn em3000(epoch: &OutputEpoch) -> EmAttitude {
     em("EM3000", epoch).unwrap()
 }
 
-pub(crate) fn kmb(epoch: &Epoch) -> Option<Kmb> {
+pub(crate) fn kmb(epoch: &OutputEpoch) -> Option<Kmb> {
     said("KMB", epoch).map(|bytes| Kmb::read(&bytes).unwrap())
 }
 
-pub(crate) fn seapath_23(epoch: &Epoch) -> Option<Seapath23> {
+pub(crate) fn seapath_23(epoch: &OutputEpoch) -> Option<Seapath23> {
     said("SEAPATH.23", epoch).map(|bytes| Seapath23::read(&bytes).unwrap())
 }
 
-pub(crate) fn seapath_26(epoch: &Epoch) -> Option<Seapath26> {
+pub(crate) fn seapath_26(epoch: &OutputEpoch) -> Option<Seapath26> {
     said("SEAPATH.26", epoch).map(|bytes| Seapath26::read(&bytes).unwrap())
 }
 
 /// What KMB, Seapath 23 and Seapath 26 have alike.
-pub(crate) fn status_formats(epoch: &Epoch) -> [Seapath23; 3] {
+pub(crate) fn status_formats(epoch: &OutputEpoch) -> [Seapath23; 3] {
     let Kmb { time, place, tilt, heading, vertical, rates, .. } = kmb(epoch).unwrap();
     let kmb = Seapath23 { time, place, tilt, heading, vertical, rates };
     [kmb, seapath_23(epoch).unwrap(), seapath_26(epoch).unwrap().motion]

@@ -1,7 +1,7 @@
 //! When a telegram says that something is unknown or not to be relied on, and when it is not sent.
 
 use insd_base::{Attitude, Body, Geodetic, Heave, HeaveQuality, Mode, Ned};
-use insd_output::{Epoch, Manner, Policy};
+use insd_output::{Manner, OutputEpoch, Policy};
 use insd_wire::motion::Rated;
 use insd_wire::motion::em::{EmAttitude, EmStatus};
 use insd_wire::motion::seapath::Seapath23;
@@ -22,7 +22,7 @@ const MODES: [Mode; 7] = [
     Mode::Fault,
 ];
 
-fn of_quality(quality: HeaveQuality) -> Epoch {
+fn of_quality(quality: HeaveQuality) -> OutputEpoch {
     heaving(|heave| heave.quality = quality)
 }
 
@@ -39,9 +39,9 @@ fn tss1_is_not_sent_unless_all_of_it_is_known() {
         in_mode(Mode::Fault),
         heaving(|heave| heave.heave = f64::NAN),
         heaving(|heave| heave.heave = 120.0),
-        Epoch { heave: None, ..epoch() },
-        Epoch { acceleration: None, ..epoch() },
-        Epoch { solution: None, ..epoch() },
+        OutputEpoch { heave: None, ..epoch() },
+        OutputEpoch { acceleration: None, ..epoch() },
+        OutputEpoch { solution: None, ..epoch() },
     ] {
         assert_eq!(tss1(&silent), None, "{silent:?}");
     }
@@ -75,11 +75,11 @@ fn the_status_of_em3000_follows_from_mode_heave_and_heading() {
     for (epoch, status) in [
         (of_quality(HeaveQuality::Unsettled), Unsettled),
         (of_quality(HeaveQuality::Reduced), Reduced),
-        (Epoch { heave: None, ..epoch() }, Unsettled),
+        (OutputEpoch { heave: None, ..epoch() }, Unsettled),
         (not_level(), Unsettled),
         (estimated_heading(), Reduced),
         (bad_heading(), Reduced),
-        (Epoch { solution: None, ..epoch() }, Error),
+        (OutputEpoch { solution: None, ..epoch() }, Error),
     ] {
         assert_eq!(em3000(&epoch).status, Some(status), "{epoch:?}");
     }
@@ -93,10 +93,10 @@ fn em3000_says_of_each_value_whether_it_is_known() {
     assert_eq!((told.roll, told.pitch), (None, None));
     assert!(told.heave.is_some() && told.heading.is_some());
     assert_eq!(em3000(&bad_heading()).heading, None);
-    assert_eq!(em3000(&Epoch { heave: None, ..epoch() }).heave, None);
+    assert_eq!(em3000(&OutputEpoch { heave: None, ..epoch() }).heave, None);
     assert!(em3000(&of_quality(HeaveQuality::Unsettled)).heave.is_some());
     assert_eq!(em3000(&heaving(|heave| heave.heave = 12.0)).heave, None);
-    for lost in [in_mode(Mode::Fault), Epoch { solution: None, ..epoch() }] {
+    for lost in [in_mode(Mode::Fault), OutputEpoch { solution: None, ..epoch() }] {
         let EmAttitude { roll, pitch, heave, heading, .. } = em3000(&lost);
         assert_eq!([roll, pitch, heave, heading], [None; 4]);
     }
@@ -111,7 +111,7 @@ fn em1000_tells_nothing_that_would_need_a_status_and_is_silent_if_nothing_is_kno
     assert_eq!(em("EM1000", &bad_heading()).unwrap().heading, None);
     assert_eq!(em("EM1000", &not_level()).unwrap().roll, None);
     assert_eq!(em("EM1000", &in_mode(Mode::Fault)), None);
-    assert_eq!(em("EM1000", &Epoch { solution: None, heave: None, ..epoch() }), None);
+    assert_eq!(em("EM1000", &OutputEpoch { solution: None, heave: None, ..epoch() }), None);
 }
 
 #[test]
@@ -132,7 +132,7 @@ fn each_group_of_the_status_formats_is_marked_by_the_policy() {
         (bad_heading(), [good, good, None, good]),
         (of_quality(HeaveQuality::Reduced), [good, good, good, Some(true)]),
         (of_quality(HeaveQuality::Unsettled), [good, good, good, None]),
-        (Epoch { heave: None, ..epoch() }, [good, good, good, None]),
+        (OutputEpoch { heave: None, ..epoch() }, [good, good, good, None]),
     ] {
         for told in status_formats(&epoch) {
             assert_eq!(marks(told), expected, "{epoch:?}");
@@ -142,17 +142,17 @@ fn each_group_of_the_status_formats_is_marked_by_the_policy() {
 
 #[test]
 fn an_acceleration_to_the_north_needs_a_heading() {
-    let marked = |epoch: &Epoch| mark(kmb(epoch).unwrap().acceleration);
+    let marked = |epoch: &OutputEpoch| mark(kmb(epoch).unwrap().acceleration);
     assert_eq!(marked(&epoch()), Some(false));
     assert_eq!(marked(&estimated_heading()), Some(true));
     assert_eq!(marked(&bad_heading()), None);
     assert_eq!(marked(&not_level()), None);
-    assert_eq!(marked(&Epoch { acceleration: None, ..epoch() }), None);
+    assert_eq!(marked(&OutputEpoch { acceleration: None, ..epoch() }), None);
 }
 
 #[test]
 fn an_error_is_told_only_of_what_is_told() {
-    let sigma = |epoch: &Epoch| kmb(epoch).unwrap().sigma;
+    let sigma = |epoch: &OutputEpoch| kmb(epoch).unwrap().sigma;
     assert_eq!(sigma(&bad_heading()).heading, None);
     assert_eq!(sigma(&not_level()).roll, None);
     assert_eq!(sigma(&of_quality(HeaveQuality::Unsettled)).heave, None);
@@ -182,14 +182,14 @@ fn the_delayed_heave_has_a_quality_of_its_own() {
 fn a_telegram_with_a_time_is_not_sent_without_utc_and_none_with_a_fault() {
     let timed = ["KMB", "SEAPATH.23", "SEAPATH.26"];
     for name in timed {
-        assert_eq!(said(name, &Epoch { utc: None, ..epoch() }), None, "{name}");
+        assert_eq!(said(name, &OutputEpoch { utc: None, ..epoch() }), None, "{name}");
         assert_eq!(said(name, &in_mode(Mode::Fault)), None, "{name}");
-        assert_eq!(said(name, &Epoch { solution: None, ..epoch() }), None, "{name}");
+        assert_eq!(said(name, &OutputEpoch { solution: None, ..epoch() }), None, "{name}");
         let lost = with(|solution| solution.rate = Body::new(f64::NAN, 0.0, 0.0));
         assert_eq!(said(name, &lost), None, "{name}: its rates cannot be marked");
     }
     for name in KINDS.iter().filter(|name| !timed.contains(*name)) {
-        assert!(said(name, &Epoch { utc: None, ..epoch() }).is_some(), "{name}");
+        assert!(said(name, &OutputEpoch { utc: None, ..epoch() }).is_some(), "{name}");
     }
 }
 

@@ -4,8 +4,8 @@ use insd_base::units::DEG;
 use insd_base::{CanFrame, Ned, Time, UtcTime};
 use insd_n2k::node::Transmit;
 use insd_n2k::{BROADCAST, N2kId, fast_packet};
-use insd_output::n2k::{BITS_PER_SECOND, BusLoad, Voice, default_transmit};
-use insd_output::{Epoch, Manner};
+use insd_output::n2k::{BITS_PER_SECOND, BusLoad, PgnSchedule, default_transmit};
+use insd_output::{Manner, OutputEpoch};
 
 use crate::ship::{epoch, heaving, solution};
 
@@ -28,7 +28,7 @@ fn groups_that_are_not_sent_cost_nothing() {
 }
 
 /// The ship of a minute: turning, rolling, with everything known that is known today.
-fn sailing(step: i64) -> Epoch {
+fn sailing(step: i64) -> OutputEpoch {
     let time = Time::from_nanos(step * 100_000_000);
     let seconds = time.as_seconds();
     let mut ship = solution();
@@ -41,7 +41,7 @@ fn sailing(step: i64) -> Epoch {
     ship.position.longitude += 1e-6 * seconds;
     let utc =
         UtcTime::from_civil((2026, 1, 2), (3, 4, 0), 0).map(|utc| utc.plus(time - Time::START));
-    Epoch {
+    OutputEpoch {
         time,
         solution: Some(ship),
         utc,
@@ -64,7 +64,7 @@ fn frames(priority: u8, pgn: u32, contents: &[u8], counter: u8) -> Vec<CanFrame>
 #[test]
 fn the_mean_stuffing_is_that_of_real_frames() {
     let table = default_transmit();
-    let mut voice = Voice::new(Manner::default());
+    let mut voice = PgnSchedule::new(Manner::default());
     let mut counts = Vec::new();
     for step in 0..600 {
         for (pgn, contents) in voice.messages(&sailing(step), &table) {

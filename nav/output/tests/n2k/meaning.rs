@@ -7,7 +7,7 @@ use insd_n2k::pgn::{
     MagneticVariation, North, PositionRapid, PseudorangeNoise, RateOfTurn, SetDrift, Speed,
     SpeedComponents, SystemTime, TimeDate, TimeSource, VariationSource,
 };
-use insd_output::Epoch;
+use insd_output::OutputEpoch;
 use proptest::prelude::*;
 
 use crate::ship::{epoch, heaving, near, said, with};
@@ -65,7 +65,7 @@ fn a_ship_that_goes_astern_says_so() {
         ship.attitude.heading = 90.0 * DEG;
         ship.velocity = Ned::new(0.0, -3.0, 0.0);
     });
-    let astern = Epoch { current: None, ..astern };
+    let astern = OutputEpoch { current: None, ..astern };
     let components: SpeedComponents = said(&astern);
     near(components.forward_ground, -3.0, 1e-3);
     near(components.starboard_ground, 0.0, 1e-3);
@@ -95,7 +95,7 @@ fn a_ship_carried_east_by_the_current_goes_west_through_the_water() {
         ship.attitude.heading = 0.0;
         ship.velocity = Ned::new(0.0, 0.0, 0.0);
     });
-    let resting = Epoch { current: Some(Ned::new(0.0, 1.0, 0.0)), ..resting };
+    let resting = OutputEpoch { current: Some(Ned::new(0.0, 1.0, 0.0)), ..resting };
     let components: SpeedComponents = said(&resting);
     near(components.starboard_water, -1.0, 1e-3);
     near(components.starboard_ground, 0.0, 1e-3);
@@ -112,7 +112,8 @@ fn a_direction_is_told_only_if_ground_and_water_agree_on_it() {
             ship.attitude.heading = 0.0;
             ship.velocity = Ned::new(north, 0.0, 0.0);
         });
-        said::<Speed>(&Epoch { current: Some(Ned::new(current, 0.0, 0.0)), ..epoch }).direction
+        said::<Speed>(&OutputEpoch { current: Some(Ned::new(current, 0.0, 0.0)), ..epoch })
+            .direction
     };
     assert_eq!(told(3.0, -1.0), Some(Direction::Forward));
     assert_eq!(told(-3.0, -1.0), Some(Direction::Reverse));
@@ -123,7 +124,7 @@ fn a_direction_is_told_only_if_ground_and_water_agree_on_it() {
 
 #[test]
 fn a_weak_current_has_no_set() {
-    let weak = Epoch { current: Some(Ned::new(0.03, 0.03, 0.0)), ..epoch() };
+    let weak = OutputEpoch { current: Some(Ned::new(0.03, 0.03, 0.0)), ..epoch() };
     let current: SetDrift = said(&weak);
     near(current.drift, 0.04, 0.01);
     assert_eq!((current.set, current.reference), (None, None));
@@ -158,7 +159,7 @@ fn the_altitude_is_above_the_ellipsoid_and_the_geoid_stands_beside_it() {
 #[test]
 fn no_day_has_a_second_86400() {
     let utc = UtcTime::from_civil((2026, 1, 1), (23, 59, 59), 999_960_000);
-    let midnight = Epoch { utc, ..epoch() };
+    let midnight = OutputEpoch { utc, ..epoch() };
     let (date, time) = (Some(20_455), Some(0.0));
     let system: SystemTime = said(&midnight);
     assert_eq!((system.date, system.time, system.source), (date, time, Some(TimeSource::Gps)));
@@ -176,7 +177,7 @@ fn the_ellipse_of_the_error_is_turned_as_the_covariance_says() {
         let north = (long * cos * cos + short * sin * sin).sqrt();
         let east = (long * sin * sin + short * cos * cos).sqrt();
         let epoch = with(|ship| ship.sigma.position = Ned::new(north, east, 3.0));
-        said(&Epoch { covariance_north_east: Some((long - short) * sin * cos), ..epoch })
+        said(&OutputEpoch { covariance_north_east: Some((long - short) * sin * cos), ..epoch })
     };
     for degrees in [0.0, 30.0, 89.0, 135.0] {
         let noise = told(4.0, 1.0, degrees * DEG);
@@ -189,7 +190,7 @@ fn the_ellipse_of_the_error_is_turned_as_the_covariance_says() {
 
 #[test]
 fn without_a_covariance_the_ellipse_is_not_guessed() {
-    let noise: PseudorangeNoise = said(&Epoch { covariance_north_east: None, ..epoch() });
+    let noise: PseudorangeNoise = said(&OutputEpoch { covariance_north_east: None, ..epoch() });
     assert_eq!((noise.major, noise.minor, noise.orientation), (None, None, None));
     assert_eq!((noise.latitude_std, noise.longitude_std), (Some(0.8), Some(0.6)));
     assert_eq!(noise.range_rms, None);
@@ -212,7 +213,7 @@ fn sailing() -> impl Strategy<Value = Solution> {
 proptest! {
     #[test]
     fn every_group_says_what_the_solution_says(ship in sailing(), heave in -15.0..15.0_f64) {
-        let told = Epoch { solution: Some(ship), heave: Some(heaving(heave)), ..epoch() };
+        let told = OutputEpoch { solution: Some(ship), heave: Some(heaving(heave)), ..epoch() };
         let heading: Heading = said(&told);
         let off = wrap_pi(heading.heading.unwrap() - ship.attitude.heading);
         prop_assert!(off.abs() < 0.6e-4);

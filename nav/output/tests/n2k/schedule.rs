@@ -8,17 +8,17 @@ use insd_n2k::pgn::{
     Attitude, CourseSpeed, GnssPosition, Group, Heading, PositionRapid, SpeedComponents,
     SystemTime, TimeDate,
 };
-use insd_output::n2k::{Voice, default_transmit};
-use insd_output::{Epoch, Manner};
+use insd_output::n2k::{PgnSchedule, default_transmit};
+use insd_output::{Manner, OutputEpoch};
 
 use crate::ship::{all, epoch};
 
-fn voice() -> Voice {
-    Voice::new(Manner::default())
+fn voice() -> PgnSchedule {
+    PgnSchedule::new(Manner::default())
 }
 
-fn at(ms: i64) -> Epoch {
-    Epoch { time: Time::from_nanos(ms * 1_000_000), utc: None, ..epoch() }
+fn at(ms: i64) -> OutputEpoch {
+    OutputEpoch { time: Time::from_nanos(ms * 1_000_000), utc: None, ..epoch() }
 }
 
 /// One group of the default table at another interval.
@@ -28,7 +28,11 @@ fn only<G: Group>(ms: i64) -> Vec<Transmit> {
 }
 
 /// At which of some instants a table of one group has a message, ms.
-fn sent(voice: &mut Voice, table: &[Transmit], instants: impl Iterator<Item = i64>) -> Vec<i64> {
+fn sent(
+    voice: &mut PgnSchedule,
+    table: &[Transmit],
+    instants: impl Iterator<Item = i64>,
+) -> Vec<i64> {
     instants.filter(|ms| !voice.messages(&at(*ms), table).is_empty()).collect()
 }
 

@@ -7,8 +7,8 @@ use insd_base::{
 };
 use insd_n2k::node::Transmit;
 use insd_n2k::pgn::{Group, TimeSource};
-use insd_output::n2k::{Voice, default_transmit};
-use insd_output::{Epoch, Manner, Receiver, Variation};
+use insd_output::n2k::{PgnSchedule, default_transmit};
+use insd_output::{Manner, OutputEpoch, SatelliteGeometry, Variation};
 
 /// East of Tokyo at 10 knots on 085, heeling to starboard, turning to port.
 pub(crate) fn solution() -> Solution {
@@ -44,8 +44,8 @@ pub(crate) fn heaving(heave: f64) -> Heave {
 }
 
 /// That ship with everything else that can be known.
-pub(crate) fn epoch() -> Epoch {
-    Epoch {
+pub(crate) fn epoch() -> OutputEpoch {
+    OutputEpoch {
         solution: Some(solution()),
         covariance_north_east: Some(0.1),
         utc: UtcTime::from_civil((2026, 1, 2), (3, 4, 5), 600_000_000),
@@ -54,22 +54,22 @@ pub(crate) fn epoch() -> Epoch {
         variation: Some(Variation { value: -7.6 * DEG, model: 2025, day: Some(20_455) }),
         geoid: Some(36.7),
         current: Some(Ned::new(0.3, -0.4, 0.0)),
-        receiver: Some(Receiver {
+        receiver: Some(SatelliteGeometry {
             satellites: Some(14),
             hdop: Some(0.8),
             vdop: Some(1.2),
             pdop: Some(1.44),
             tdop: Some(0.7),
         }),
-        ..Epoch::unknown(Time::START)
+        ..OutputEpoch::unknown(Time::START)
     }
 }
 
 /// That epoch with another solution.
-pub(crate) fn with(change: impl FnOnce(&mut Solution)) -> Epoch {
+pub(crate) fn with(change: impl FnOnce(&mut Solution)) -> OutputEpoch {
     let mut solution = solution();
     change(&mut solution);
-    Epoch { solution: Some(solution), ..epoch() }
+    OutputEpoch { solution: Some(solution), ..epoch() }
 }
 
 /// Every group, ten times a second.
@@ -82,14 +82,14 @@ pub(crate) fn all() -> Vec<Transmit> {
 }
 
 /// What a voice says first of an epoch in one of the groups.
-pub(crate) fn said_by<G: Group>(config: &Manner, epoch: &Epoch) -> G {
-    let messages = Voice::new(config.clone()).messages(epoch, &all());
+pub(crate) fn said_by<G: Group>(config: &Manner, epoch: &OutputEpoch) -> G {
+    let messages = PgnSchedule::new(config.clone()).messages(epoch, &all());
     let (_, contents) = messages.into_iter().find(|(pgn, _)| *pgn == G::PGN).unwrap();
     G::read(&contents).unwrap()
 }
 
 /// The same by the default policy.
-pub(crate) fn said<G: Group>(epoch: &Epoch) -> G {
+pub(crate) fn said<G: Group>(epoch: &OutputEpoch) -> G {
     said_by(&Manner::default(), epoch)
 }
 

@@ -7,8 +7,8 @@ use insd_n2k::pgn::{
     Integrity, MagneticVariation, PositionRapid, PseudorangeNoise, RateOfTurn, SetDrift, Speed,
     SpeedComponents, SystemTime, TimeDate,
 };
-use insd_output::n2k::Voice;
-use insd_output::{Epoch, Manner};
+use insd_output::n2k::PgnSchedule;
+use insd_output::{Manner, OutputEpoch};
 use proptest::prelude::*;
 
 use crate::ship::{all, epoch, heaving, said, said_by, solution, with};
@@ -25,7 +25,7 @@ const MODES: [Mode; 7] = [
 
 /// Fails unless an epoch says nothing but its number in every group that has no mark for its quality.
 #[track_caller]
-fn says_nothing(config: &Manner, epoch: &Epoch) {
+fn says_nothing(config: &Manner, epoch: &OutputEpoch) {
     let sid = Some(0);
     let heading = said_by::<Heading>(config, epoch);
     let (deviation, reference) = (None, None);
@@ -59,7 +59,7 @@ fn says_nothing(config: &Manner, epoch: &Epoch) {
 
 #[test]
 fn an_unknown_epoch_says_nothing() {
-    let unknown = Epoch::unknown(Time::START);
+    let unknown = OutputEpoch::unknown(Time::START);
     says_nothing(&Manner::default(), &unknown);
     let system = SystemTime { sid: Some(0), source: None, date: None, time: None };
     assert_eq!(said::<SystemTime>(&unknown), system);
@@ -86,12 +86,12 @@ fn an_unknown_epoch_says_nothing() {
 
 #[test]
 fn what_was_known_is_not_said_again_when_it_no_longer_is() {
-    let mut voice = Voice::new(Manner::default());
+    let mut voice = PgnSchedule::new(Manner::default());
     voice.messages(&epoch(), &all());
     let later = Time::from_seconds(0.1);
-    let mut other = Voice::new(Manner::default());
-    other.messages(&Epoch::unknown(Time::START), &all());
-    let unknown = Epoch::unknown(later);
+    let mut other = PgnSchedule::new(Manner::default());
+    other.messages(&OutputEpoch::unknown(Time::START), &all());
+    let unknown = OutputEpoch::unknown(later);
     assert_eq!(voice.messages(&unknown, &all()), other.messages(&unknown, &all()));
 }
 
@@ -205,7 +205,7 @@ fn a_simulated_ship_is_marked_where_there_is_a_mark_and_else_not_told() {
     let demo = Manner { unmarked_when_simulated: true, ..config };
     assert!(said_by::<Heading>(&demo, &epoch()).heading.is_some());
     assert_eq!(said_by::<GnssPosition>(&demo, &epoch()).method, Some(FixMethod::Simulated));
-    let lost = Epoch { solution: None, ..epoch() };
+    let lost = OutputEpoch { solution: None, ..epoch() };
     assert_eq!(said_by::<GnssPosition>(&demo, &lost).method, Some(FixMethod::NoFix));
 }
 
@@ -228,7 +228,7 @@ proptest! {
             mode: MODES[mode],
             ..solution()
         };
-        let mut told = Epoch { solution: Some(ship), heave: Some(heaving(sn)), geoid: Some(se), ..epoch() };
+        let mut told = OutputEpoch { solution: Some(ship), heave: Some(heaving(sn)), geoid: Some(se), ..epoch() };
         told.covariance_north_east = Some(sv);
         told.current = Some(Ned::new(se, sh, sn));
         if let Some(ship) = told.solution.as_mut().filter(|_| !good) {
@@ -248,7 +248,7 @@ proptest! {
         }
         prop_assert!(angle_is_sound(said::<CourseSpeed>(&told).course, 0.0, full));
         prop_assert!(angle_is_sound(said::<PseudorangeNoise>(&told).orientation, 0.0, full));
-        for (pgn, contents) in Voice::new(Manner::default()).messages(&told, &all()) {
+        for (pgn, contents) in PgnSchedule::new(Manner::default()).messages(&told, &all()) {
             prop_assert!(contents.len() >= 8, "{} has {} bytes", pgn, contents.len());
             prop_assert!(pgn != Heave::PGN || contents.len() == 8);
         }

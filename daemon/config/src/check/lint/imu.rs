@@ -3,7 +3,7 @@
 use insd_intake::config::{Kind, Role};
 
 use super::found::Found;
-use crate::check::finding::Place;
+use crate::check::finding::ConfigPlace;
 use crate::{Config, ImuModel};
 
 /// What real units have, of a key: least and most; and what the value would be if it were in another unit.
@@ -89,10 +89,10 @@ const SHORT: f64 = 20.0;
 const MICROMECHANICAL: f64 = 0.05;
 
 pub(super) fn look(config: &Config, found: &mut Found) {
-    model(&Place::one("imu"), "", &config.imu, found);
+    model(&ConfigPlace::one("imu"), "", &config.imu, found);
     for spare in &config.spares {
         if let Some(own) = &spare.model {
-            model(&Place::of("spare", &spare.name), "model.", own, found);
+            model(&ConfigPlace::of("spare", &spare.name), "model.", own, found);
         }
     }
     let first = config.sensors.iter().find(|sensor| sensor.kind.role() == Role::Imu);
@@ -101,14 +101,14 @@ pub(super) fn look(config: &Config, found: &mut Found) {
     if let Some(imu) = small.filter(|_| bias > 0.0 && bias < MICROMECHANICAL) {
         found.warn(
             "imu-grade",
-            Place::one("imu").key("gyro_bias_std_deg_h"),
+            ConfigPlace::one("imu").key("gyro_bias_std_deg_h"),
             &format!("{bias} deg/h is of a fibre optic or laser gyro; \"{}\" is none", imu.name),
             "write the [imu] section from its own data sheet",
         );
     }
 }
 
-fn model(place: &Place, inside: &str, model: &ImuModel, found: &mut Found) {
+fn model(place: &ConfigPlace, inside: &str, model: &ImuModel, found: &mut Found) {
     for (key, value, is_time) in model.values() {
         let at = || place.clone().key(&format!("{inside}{key}"));
         if !value.is_finite() || value < 0.0 {

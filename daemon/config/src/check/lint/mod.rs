@@ -8,13 +8,13 @@ mod sensors;
 mod ship;
 mod sockets;
 
-use super::finding::Finding;
+use super::finding::ConfigFinding;
 use crate::Config;
 
 use found::Found;
 
 /// Everything that is found in a configuration.
-pub(super) fn all(config: &Config) -> Vec<Finding> {
+pub(super) fn all(config: &Config) -> Vec<ConfigFinding> {
     let mut found = Found::default();
     ship::look(config, &mut found);
     imu::look(config, &mut found);

@@ -3,7 +3,7 @@
 use insd_drivers::ports::{Destination, Transport};
 
 use super::found::Found;
-use crate::check::finding::Place;
+use crate::check::finding::ConfigPlace;
 use crate::{Config, OutputSection};
 
 /// Share of what a line carries from which it is told.
@@ -18,7 +18,7 @@ pub(super) fn look(config: &Config, found: &mut Found) {
         matches!(&port.transport, Transport::Serial(own) if own.device.starts_with(SIMULATED))
     });
     for output in &config.outputs {
-        let place = || Place::of("output", &output.name);
+        let place = || ConfigPlace::of("output", &output.name);
         load(output, found);
         if output.port(0).messages.is_empty() {
             found.warn("output-mute", place(), "it sends nothing: no messages are left", "");
@@ -44,17 +44,17 @@ pub(super) fn look(config: &Config, found: &mut Found) {
     }
     if config.outputs.is_empty() && config.nodes.is_empty() {
         let section = "[[output]]".to_owned();
-        let place = Place { section, ..Place::default() };
+        let place = ConfigPlace { section, ..ConfigPlace::default() };
         found.note("no-output", place, "there is none: nobody is told anything", "");
     }
     if config.recording.as_ref().is_some_and(|own| own.quota_mb.is_none()) {
-        let place = Place::one("recording").key("quota_mb");
+        let place = ConfigPlace::one("recording").key("quota_mb");
         let text = "no quota: recordings grow until the disk is full";
         found.warn("recording-quota", place, text, "quota_mb = 20000");
     }
     if !config.state.enabled {
         let text = "nothing is kept: after a crash she aligns anew";
-        found.note("state-off", Place::one("state").key("enabled"), text, "");
+        found.note("state-off", ConfigPlace::one("state").key("enabled"), text, "");
     }
 }
 
@@ -72,7 +72,7 @@ fn load(output: &OutputSection, found: &mut Found) {
         Some(rate) => format!("{rate} baud would do, or fewer messages"),
         None => "fewer messages, or fewer a second".to_owned(),
     };
-    let place = Place::of("output", &output.name).key("destination.baud");
+    let place = ConfigPlace::of("output", &output.name).key("destination.baud");
     let text = format!("its messages take {percent:.0} % of what {baud} baud carry");
     if share > 1.0 {
         found.error("overload", place, &text, &advice);

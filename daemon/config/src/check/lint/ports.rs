@@ -7,8 +7,8 @@ use insd_intake::config::Role;
 
 use super::found::Found;
 use crate::Config;
-use crate::check::finding::Place;
-use crate::check::uses::{self, Device, DeviceKind};
+use crate::check::finding::ConfigPlace;
+use crate::check::uses::{self, DeviceKind, UsedDevice};
 
 /// Rates to which devices can be set.
 const RATES: [u32; 17] = [
@@ -29,7 +29,7 @@ pub(super) fn look(config: &Config, found: &mut Found) {
         }
     }
     for port in &config.ports {
-        let place = Place::of("port", &port.name);
+        let place = ConfigPlace::of("port", &port.name);
         let heard = config.sensors.iter().any(|sensor| sensor.port == port.name);
         let has_node = config.nodes.iter().any(|node| node.port == port.name);
         let is_pulse = matches!(port.transport, Transport::Pps(_));
@@ -46,7 +46,7 @@ pub(super) fn look(config: &Config, found: &mut Found) {
 }
 
 /// Whether the name can be that of a device of this system.
-fn name(device: &Device, found: &mut Found) {
+fn name(device: &UsedDevice, found: &mut Found) {
     if !matches!(device.kind, DeviceKind::Serial | DeviceKind::Pulses) {
         return;
     }
@@ -88,11 +88,11 @@ fn numbered(path: &Path) -> bool {
         && name.is_some_and(|name| name.starts_with("ttyUSB") || name.starts_with("ttyACM"))
 }
 
-fn rate(device: &Device, found: &mut Found) {
+fn rate(device: &UsedDevice, found: &mut Found) {
     let Some(baud) = device.baud.filter(|baud| *baud > 0 && !RATES.contains(baud)) else { return };
     let distance = |rate: &u32| (f64::from(*rate) / f64::from(baud)).ln().abs();
     let near = RATES.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    let place = Place {
+    let place = ConfigPlace {
         key: device.place.key.as_ref().map(|key| key.replace(".device", ".baud")),
         ..device.place.clone()
     };
@@ -100,9 +100,10 @@ fn rate(device: &Device, found: &mut Found) {
     found.warn("baud-odd", place, &text, &near.map_or(String::new(), |near| format!("{near}?")));
 }
 
-fn twice(device: &Device, other: &Device, found: &mut Found) {
+fn twice(device: &UsedDevice, other: &UsedDevice, found: &mut Found) {
     let place = device.place.clone();
-    let section = |device: &Device| Place { key: None, ..device.place.clone() }.to_string();
+    let section =
+        |device: &UsedDevice| ConfigPlace { key: None, ..device.place.clone() }.to_string();
     let path = device.path.display();
     match (other.is_output, device.is_output) {
         (false, true) => found.error(
@@ -131,7 +132,7 @@ fn samples(config: &Config, found: &mut Found) {
             let need = RATES.iter().find(|rate| f64::from(**rate) >= f64::from(line.baud) * share);
             found.error(
                 "imu-baud",
-                Place::of("port", &sensor.port).key("transport.baud"),
+                ConfigPlace::of("port", &sensor.port).key("transport.baud"),
                 &format!(
                     "{} samples a second of the IMU \"{}\" do not go through {} baud",
                     sensor.rate_hz, sensor.name, line.baud

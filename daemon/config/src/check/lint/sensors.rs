@@ -5,7 +5,7 @@ use insd_intake::config::{Kind, Role, SensorConfig};
 
 use super::found::Found;
 use crate::Config;
-use crate::check::finding::Place;
+use crate::check::finding::ConfigPlace;
 
 /// Samples a second of an IMU that feel a ship's motion and vibration, and are not a slip.
 const SAMPLES: std::ops::RangeInclusive<f64> = 20.0..=4000.0;
@@ -26,7 +26,7 @@ pub(super) fn look(config: &Config, found: &mut Found) {
     if !config.sensors.iter().any(|own| own.kind.role() == Role::Gnss) {
         found.warn(
             "no-receiver",
-            Place { section: "[[sensor]]".to_owned(), ..Place::default() },
+            ConfigPlace { section: "[[sensor]]".to_owned(), ..ConfigPlace::default() },
             "there is no GNSS receiver: no position but by dead reckoning",
             "kind = \"ubx\", \"sbf\", \"nmea_gnss\" or \"n2k_gnss\"",
         );
@@ -34,7 +34,7 @@ pub(super) fn look(config: &Config, found: &mut Found) {
 }
 
 fn mounting(sensor: &SensorConfig, found: &mut Found) {
-    let place = || Place::of("sensor", &sensor.name).key("mounting.rotation_deg");
+    let place = || ConfigPlace::of("sensor", &sensor.name).key("mounting.rotation_deg");
     let angles = sensor.mounting.rotation_deg;
     let Some(worst) = angles.into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs())) else { return };
     if worst.abs() > 180.0 {
@@ -56,7 +56,7 @@ fn mounting(sensor: &SensorConfig, found: &mut Found) {
 }
 
 fn numbers(config: &Config, sensor: &SensorConfig, found: &mut Found) {
-    let place = |key: &str| Place::of("sensor", &sensor.name).key(key);
+    let place = |key: &str| ConfigPlace::of("sensor", &sensor.name).key(key);
     let role = sensor.kind.role();
     if role == Role::Imu && !SAMPLES.contains(&sensor.rate_hz) {
         let text = format!("{} samples a second are not an IMU's", sensor.rate_hz);
@@ -65,7 +65,7 @@ fn numbers(config: &Config, sensor: &SensorConfig, found: &mut Found) {
     let is_first = config.ship.imu.as_ref().is_none_or(|name| *name == sensor.name);
     if role == Role::Imu && is_first && config.ship.rate_hz > sensor.rate_hz {
         let text = format!("more solutions than the IMU has samples, {} a second", sensor.rate_hz);
-        found.warn("rate-beyond-imu", Place::one("ship").key("rate_hz"), &text, "");
+        found.warn("rate-beyond-imu", ConfigPlace::one("ship").key("rate_hz"), &text, "");
     }
     for (key, value) in [("latency_s", sensor.latency_s), ("delay_s", sensor.delay_s)] {
         if value > LATE {
@@ -97,7 +97,7 @@ fn carrier(config: &Config, sensor: &SensorConfig, found: &mut Found) {
     if let Some(Transport::Pps(_)) = port.map(|port| &port.transport) {
         found.error(
             "kind-transport",
-            Place::of("sensor", &sensor.name).key("port"),
+            ConfigPlace::of("sensor", &sensor.name).key("port"),
             &format!("\"{}\" carries pulses, and no bytes", sensor.port),
             "the port of the receiver's messages; pulses need no [[sensor]]",
         );
@@ -117,7 +117,7 @@ fn doubles(config: &Config, found: &mut Found) {
         if let Some(other) = config.sensors.iter().take(index).find(same) {
             found.error(
                 "sensor-twice",
-                Place::of("sensor", &sensor.name).key("port"),
+                ConfigPlace::of("sensor", &sensor.name).key("port"),
                 &format!("it reads the same frames as \"{}\"", other.name),
                 "each device has its own [[port]], or, in NMEA 0183, its own talkers",
             );

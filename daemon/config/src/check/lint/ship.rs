@@ -3,7 +3,7 @@
 use insd_intake::config::{Role, SensorConfig};
 
 use super::found::Found;
-use crate::check::finding::Place;
+use crate::check::finding::ConfigPlace;
 use crate::{Config, SpareSection};
 
 /// Longer than any ship, m.
@@ -19,12 +19,12 @@ const ABOVE: f64 = -2.0;
 
 pub(super) fn look(config: &Config, found: &mut Found) {
     let ship = &config.ship;
-    let place = || Place::one("ship");
+    let place = || ConfigPlace::one("ship");
     let receivers = || config.sensors.iter().filter(|own| own.kind.role() == Role::Gnss);
     antenna(place().key("gnss_lever_m"), &ship.gnss_lever_m, found);
     for sensor in receivers() {
         if let Some(arm) = &sensor.lever_m {
-            antenna(Place::of("sensor", &sensor.name).key("lever_m"), arm, found);
+            antenna(ConfigPlace::of("sensor", &sensor.name).key("lever_m"), arm, found);
         }
     }
     let own = |sensor: &SensorConfig| sensor.lever().is_some();
@@ -49,19 +49,19 @@ pub(super) fn look(config: &Config, found: &mut Found) {
     log(config, found);
     extent(place().key("log_lever_m"), &ship.log_lever_m, found);
     for point in &config.points {
-        let place = Place::of("point", &point.name).key("lever_m");
+        let place = ConfigPlace::of("point", &point.name).key("lever_m");
         extent(place.clone(), &point.lever_m, found);
         if point.lever_m == [0.0; 3] {
             found.note("point-zero", place, "zeros: this point is the IMU", "");
         }
     }
     for SpareSection { name, offset_m, .. } in &config.spares {
-        extent(Place::of("spare", name).key("offset_m"), offset_m, found);
+        extent(ConfigPlace::of("spare", name).key("offset_m"), offset_m, found);
     }
     geography(config, found);
 }
 
-fn antenna(place: Place, arm: &[f64; 3], found: &mut Found) {
+fn antenna(place: ConfigPlace, arm: &[f64; 3], found: &mut Found) {
     let [forward, starboard, down] = *arm;
     if down > 0.0 {
         found.warn(
@@ -75,7 +75,7 @@ fn antenna(place: Place, arm: &[f64; 3], found: &mut Found) {
 }
 
 /// A lever as long as no ship, or across her as she is not wide.
-fn extent(place: Place, arm: &[f64; 3], found: &mut Found) {
+fn extent(place: ConfigPlace, arm: &[f64; 3], found: &mut Found) {
     let [forward, starboard, down] = *arm;
     let length = arm.iter().map(|length| length * length).sum::<f64>().sqrt();
     if length > LONGEST {
@@ -106,7 +106,7 @@ fn extent(place: Place, arm: &[f64; 3], found: &mut Found) {
 fn log(config: &Config, found: &mut Found) {
     let mut logs = config.sensors.iter().filter(|own| own.kind.role() == Role::Log);
     let [forward, starboard, down] = config.ship.log_lever_m;
-    let place = Place::one("ship").key("log_lever_m");
+    let place = ConfigPlace::one("ship").key("log_lever_m");
     if logs.next().is_none() {
         return;
     }
@@ -125,7 +125,7 @@ fn log(config: &Config, found: &mut Found) {
 
 fn geography(config: &Config, found: &mut Found) {
     let ship = &config.ship;
-    let place = || Place::one("ship");
+    let place = || ConfigPlace::one("ship");
     if ship.lat_deg == Some(0.0) && ship.lon_deg == Some(0.0) {
         found.warn(
             "place-zero",

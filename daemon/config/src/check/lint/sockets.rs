@@ -6,7 +6,7 @@ use insd_drivers::ports::{Destination, Transport};
 
 use super::found::Found;
 use crate::Config;
-use crate::check::finding::Place;
+use crate::check::finding::ConfigPlace;
 use crate::check::uses::{self, Listener};
 
 /// Ports below this are for root.
@@ -17,7 +17,7 @@ pub(super) fn look(config: &Config, found: &mut Found) {
     for (index, own) in listeners.iter().enumerate() {
         let earlier = listeners.iter().take(index).find(|other| own.collides(other));
         if let Some(other) = earlier {
-            let section = Place { key: None, ..other.place.clone() };
+            let section = ConfigPlace { key: None, ..other.place.clone() };
             let text = format!("{} is the address of {section}, too", own.address);
             found.error("address-twice", own.place.clone(), &text, "each needs a port of its own");
         }
@@ -60,7 +60,7 @@ fn callers(config: &Config, listeners: &[Listener], found: &mut Found) {
             || address.starts_with("localhost:");
         let own = listeners.iter().find(|own| own.tcp && own.address.port() == number);
         if let Some(own) = own.filter(|_| local) {
-            let section = Place { key: None, ..own.place.clone() };
+            let section = ConfigPlace { key: None, ..own.place.clone() };
             let text = format!("{address} is served by {section}: insd would call itself");
             found.error("calls-itself", place, &text, "");
         }
@@ -77,7 +77,7 @@ fn echoes(config: &Config, listeners: &[Listener], found: &mut Found) {
             !other.tcp && other.address.port() == own.to.port() && (group && own.loopback || local)
         };
         if let Some(other) = listeners.iter().find(hears) {
-            let section = Place { key: None, ..other.place.clone() };
+            let section = ConfigPlace { key: None, ..other.place.clone() };
             found.warn(
                 "hears-itself",
                 place.key("destination.to"),
@@ -95,7 +95,12 @@ fn hosts(config: &Config, found: &mut Found) {
         let bare = bare.split(['/', ':']).next().unwrap_or(bare);
         if bare != host && !bare.is_empty() && host.parse::<std::net::Ipv6Addr>().is_err() {
             let text = format!("\"{host}\" is no bare name");
-            found.warn("host-form", Place::one("web").key("hosts"), &text, &format!("\"{bare}\""));
+            found.warn(
+                "host-form",
+                ConfigPlace::one("web").key("hosts"),
+                &text,
+                &format!("\"{bare}\""),
+            );
         }
     }
 }
@@ -106,7 +111,7 @@ fn open_page(config: &Config, found: &mut Found) {
     if web.enabled && !web.listen.ip().is_loopback() && web.token_file.is_none() {
         let text = "no token: nobody can acknowledge an alert on the page";
         let advice = "token_file = \"/etc/insd/token\", if that is wanted";
-        found.note("token-none", Place::one("web").key("token_file"), text, advice);
+        found.note("token-none", ConfigPlace::one("web").key("token_file"), text, advice);
     }
 }
 
@@ -114,7 +119,7 @@ fn open_page(config: &Config, found: &mut Found) {
 /// way round.
 fn commanders(config: &Config, found: &mut Found) {
     for port in config.ports.iter().filter(|port| port.transport.is_network()) {
-        let place = || Place::of("port", &port.name).key("commands_from");
+        let place = || ConfigPlace::of("port", &port.name).key("commands_from");
         let has_node = config.nodes.iter().any(|node| node.port == port.name);
         let listed = port.commands_from.as_ref().is_some_and(|hosts| !hosts.is_empty());
         if port.alerts && !listed {

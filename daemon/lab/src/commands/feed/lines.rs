@@ -9,7 +9,7 @@ use anyhow::Context;
 
 use insd_simulator::feed::Sending;
 
-use crate::pty::Pty;
+use crate::pty::PseudoTerminal;
 
 /// One terminal for each sensor.
 pub(super) struct Lines {
@@ -17,7 +17,7 @@ pub(super) struct Lines {
 }
 
 struct Line {
-    pty: Pty,
+    pty: PseudoTerminal,
     link: PathBuf,
 }
 
@@ -47,7 +47,7 @@ impl Lines {
 
 impl Line {
     fn open(link: PathBuf) -> io::Result<Self> {
-        let pty = Pty::open()?;
+        let pty = PseudoTerminal::open()?;
         pty.share()?;
         // a link that an earlier run has left is replaced; anything else is not ours
         if link.symlink_metadata().is_ok_and(|found| found.is_symlink()) {

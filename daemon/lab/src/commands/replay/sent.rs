@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::Path;
 
 use anyhow::Context;
-use insd_output::Epoch;
+use insd_output::OutputEpoch;
 use serde::Serialize;
 
 use crate::evaluation::RowWriter;
@@ -72,7 +72,7 @@ impl Sent {
 }
 
 impl EpochRow {
-    fn of(epoch: &Epoch) -> Self {
+    fn of(epoch: &OutputEpoch) -> Self {
         let solution = epoch.solution.as_ref();
         let value = |pick: fn(&insd_base::Solution) -> f64| solution.map(pick);
         EpochRow {

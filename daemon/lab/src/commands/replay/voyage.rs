@@ -11,10 +11,10 @@ use super::args::ReplayArgs;
 use super::sent::Sent;
 use super::sink::Sink;
 use insd_config::BadInput;
-use insd_config::Calendar;
 use insd_config::Config;
+use insd_config::VoyageCalendar;
 use insd_config::stored;
-use insd_vessel::Speaker;
+use insd_vessel::Outputs;
 
 /// Solutions per second where nothing else is asked for.
 const RATE: f64 = 10.0;
@@ -54,10 +54,10 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
 
 /// The ports of a configuration, as they would be with the sensors of the voyage.
 struct Ports {
-    speaker: Speaker,
+    speaker: Outputs,
     sent: Sent,
     levers: Vec<Body>,
-    calendar: Option<Calendar>,
+    calendar: Option<VoyageCalendar>,
 }
 
 impl Ports {
@@ -70,10 +70,10 @@ impl Ports {
         };
         let (config, _) = Config::load(file)?;
         Ok(Some(Ports {
-            speaker: Speaker::new(config.output_plan()),
+            speaker: Outputs::new(config.output_plan()),
             sent: Sent::create(folder, &config)?,
             levers: config.levers(),
-            calendar: Calendar::new(start_utc),
+            calendar: VoyageCalendar::new(start_utc),
         }))
     }
 

@@ -9,7 +9,7 @@ use ratatui::widgets::{Row, Table};
 
 use super::style::{alarm, dim, panel};
 use crate::demo::board::Board;
-use crate::demo::sensors::SensorStatus;
+use crate::demo::sensors::DemoSensorStatus;
 
 /// Draws the box.
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, board: &Board) {
@@ -24,7 +24,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, board: &Board) {
     frame.render_widget(table, area);
 }
 
-fn row(status: &SensorStatus) -> Row<'static> {
+fn row(status: &DemoSensorStatus) -> Row<'static> {
     let right = |text: String, style| Line::styled(text, style).right_aligned();
     let (mark, style) = match (status.silent, status.age) {
         (true, None) => ("○ ", dim()),

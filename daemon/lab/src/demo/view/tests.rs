@@ -8,8 +8,8 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 
 use super::draw;
-use crate::demo::board::{Board, Phase, PortStatus};
-use crate::demo::sensors::{Kind, SensorStatus};
+use crate::demo::board::{Board, DemoPort, Phase};
+use crate::demo::sensors::{DemoSensor, DemoSensorStatus};
 use crate::demo::truth::TrueError;
 
 fn solution(mode: Mode) -> Solution {
@@ -32,8 +32,8 @@ fn solution(mode: Mode) -> Solution {
 }
 
 fn board() -> Board {
-    let gnss = SensorStatus {
-        kind: Kind::Gnss,
+    let gnss = DemoSensorStatus {
+        kind: DemoSensor::Gnss,
         age: Some(Span::from_seconds(0.3)),
         rate: 1.0,
         used: 1480,
@@ -48,7 +48,7 @@ fn board() -> Board {
         solution: Some(solution(Mode::Aided)),
         true_error: Some(TrueError { horizontal: 0.84, heading: Some(-0.013 * DEG) }),
         sensors: vec![gnss],
-        port: PortStatus { path: "/dev/pts/7".to_owned(), written: 12_345, dropped: 0 },
+        port: DemoPort { path: "/dev/pts/7".to_owned(), written: 12_345, dropped: 0 },
         ..Board::default()
     };
     board.counts.rejected.insert(("gnss_position", Rejection::DopTest), 15);

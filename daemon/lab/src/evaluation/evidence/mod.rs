@@ -18,10 +18,10 @@ use insd_drivers::recording::{NavRow, Rows};
 use serde::Serialize;
 
 use super::component::Component;
-use super::errors::{EpochError, Errors};
+use super::errors::{EpochError, VoyageErrors};
 pub use pieces::Pieces;
 use pieces::{Step, steps};
-pub use told::{Exclusion, Share, Told};
+pub use told::{Exclusion, FaultsTold, Share};
 
 /// Alert limits of the horizontal error, m: a harbour, the ocean.
 const LIMITS: [f64; 2] = [10.0, 100.0];
@@ -99,7 +99,7 @@ struct Judged<'a> {
 impl Evidence {
     /// What the rows of a file say from an instant on, against the errors that were found of them.
     #[must_use]
-    pub fn new(nav: &Rows<NavRow>, errors: &Errors, from: Option<Time>) -> Self {
+    pub fn new(nav: &Rows<NavRow>, errors: &VoyageErrors, from: Option<Time>) -> Self {
         let time = |row: &NavRow| row.solution.time;
         let is_late = |row: &&NavRow| from.is_none_or(|from| time(row) >= from);
         let mut rows: Vec<&NavRow> = nav.rows.iter().collect();
@@ -197,8 +197,8 @@ fn level_of(row: &NavRow, has_levels: bool) -> Option<f64> {
 }
 
 /// What was told of the integrity.
-fn tell(rows: &[(Step, &NavRow)]) -> Told {
-    let mut told = Told::default();
+fn tell(rows: &[(Step, &NavRow)]) -> FaultsTold {
+    let mut told = FaultsTold::default();
     for (step, row) in rows {
         told.enter(step.time, step.held, row.integrity, &row.excluded);
         if step.is_cut {
@@ -209,7 +209,7 @@ fn tell(rows: &[(Step, &NavRow)]) -> Told {
 }
 
 /// Each epoch with the last row before it. Rows are in order of time; between an epoch and its row there is no gap.
-fn judge<'a>(rows: &[&'a NavRow], errors: &'a Errors, has_levels: bool) -> Vec<Judged<'a>> {
+fn judge<'a>(rows: &[&'a NavRow], errors: &'a VoyageErrors, has_levels: bool) -> Vec<Judged<'a>> {
     let times: Vec<Time> = errors.epochs.iter().map(|epoch| epoch.time).collect();
     let judged = |(epoch, step): (&'a EpochError, Step)| {
         let after = rows.partition_point(|row| row.solution.time <= epoch.time);

@@ -33,13 +33,13 @@ pub struct Exclusion {
 
 /// What was told, entered in order of time.
 #[derive(Clone, Debug, Default)]
-pub struct Told {
+pub struct FaultsTold {
     all: Pieces,
     states: [Pieces; Availability::ALL.len()],
     excluded: BTreeMap<String, Pieces>,
 }
 
-impl Told {
+impl FaultsTold {
     /// What was told from an instant on for so long.
     pub fn enter(
         &mut self,
@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn each_state_and_each_source_has_its_own_time() {
-        let mut told = Told::default();
+        let mut told = FaultsTold::default();
         let second = Span::from_seconds(1.0);
         for at in 0..100 {
             let integrity = match at {

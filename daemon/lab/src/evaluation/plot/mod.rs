@@ -11,7 +11,7 @@ use insd_base::{Solution, Truth};
 use kuva::render::figure::Figure;
 
 use super::component::Component;
-use super::errors::Errors;
+use super::errors::VoyageErrors;
 use super::innovation::InnovationRow;
 use panel::{Panel, TimeAxis};
 
@@ -30,7 +30,7 @@ pub struct Picture<'a> {
     /// Truth.
     pub truth: &'a [Truth],
     /// Their differences.
-    pub errors: &'a Errors,
+    pub errors: &'a VoyageErrors,
     /// Innovations; none for no panel.
     pub innovations: &'a [InnovationRow],
 }

@@ -7,7 +7,7 @@ use kuva::plot::{BandPlot, LinePlot, ScatterPlot};
 use kuva::prelude::*;
 
 use super::super::component::Component;
-use super::super::errors::{EpochError, Errors};
+use super::super::errors::{EpochError, VoyageErrors};
 use super::super::innovation::InnovationRow;
 use super::super::statistics::{mean, quantile};
 use super::decimate::{extremes, thinned};
@@ -85,7 +85,7 @@ fn plain(value: f64) -> String {
 }
 
 /// Error of one component within its claimed 3-sigma band; `None` where truth knows nothing.
-pub(super) fn error(errors: &Errors, component: Component, axis: TimeAxis) -> Option<Panel> {
+pub(super) fn error(errors: &VoyageErrors, component: Component, axis: TimeAxis) -> Option<Panel> {
     let scale = component.scale();
     let point = |epoch: &EpochError| {
         let (error, sigma) = (epoch.of(component)?, epoch.sigma_of(component));
@@ -105,7 +105,7 @@ pub(super) fn error(errors: &Errors, component: Component, axis: TimeAxis) -> Op
 }
 
 /// Horizontal distance from truth below its claimed 3-sigma radius.
-pub(super) fn horizontal(errors: &Errors, axis: TimeAxis) -> Panel {
+pub(super) fn horizontal(errors: &VoyageErrors, axis: TimeAxis) -> Panel {
     let point = |epoch: &EpochError| {
         let time = axis.of(epoch.time.as_seconds());
         Some((time, epoch.horizontal()?, 3.0 * epoch.horizontal_sigma()))

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use insd_output::{Content, Message};
+use insd_output::{Content, PortMessage};
 
 /// Messages of one kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -17,7 +17,7 @@ pub(crate) struct Said(pub(crate) BTreeMap<(usize, &'static str), Sent>);
 
 impl Said {
     /// Takes the messages of one port.
-    pub(crate) fn take(&mut self, port: usize, messages: &[Message]) {
+    pub(crate) fn take(&mut self, port: usize, messages: &[PortMessage]) {
         for message in messages {
             let sent = self.0.entry((port, message.kind.name())).or_default();
             sent.messages += 1;

@@ -2,7 +2,7 @@
 
 use insd_base::{Event, Party, Solution, Span, Time};
 
-use crate::evaluation::Told;
+use crate::evaluation::FaultsTold;
 use crate::report::bounded::Bounded;
 
 /// Verdicts kept at each end of the recording.
@@ -12,14 +12,14 @@ const VERDICTS: usize = 50;
 #[derive(Clone, Debug)]
 pub(crate) struct Trust {
     /// States and who was left out, by the time of solutions.
-    pub(crate) told: Told,
+    pub(crate) told: FaultsTold,
     /// Each change of how somebody stands, in words.
     pub(crate) verdicts: Bounded<(Time, String)>,
 }
 
 impl Trust {
     pub(crate) fn new() -> Self {
-        Trust { told: Told::default(), verdicts: Bounded::new(VERDICTS) }
+        Trust { told: FaultsTold::default(), verdicts: Bounded::new(VERDICTS) }
     }
 
     /// A solution so long after the one before, s; nothing after a gap.

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::html::{Column, Table, count, number};
-use crate::report::Report;
+use crate::report::VoyageReport;
 use crate::report::collect::aids::{Aid, REJECTED, USED};
 use crate::report::draw::strips::{self, Meaning, Strip};
 use crate::report::draw::{figure, key};
@@ -14,7 +14,7 @@ const MEANINGS: [Meaning; 2] = [
 ];
 
 /// Strips and tables.
-pub(super) fn aids(report: &Report) -> String {
+pub(super) fn aids(report: &VoyageReport) -> String {
     let aids = &report.collected.aids.by_name;
     if aids.is_empty() {
         return "<p class=\"unknown\">No measurement of any aid was weighed.</p>\n".to_owned();
@@ -44,7 +44,7 @@ fn words(name: &str) -> String {
     name.replace('_', " ").replace("gnss", "GNSS").replace("imu", "IMU")
 }
 
-fn counted(report: &Report) -> String {
+fn counted(report: &VoyageReport) -> String {
     let counts = &report.counts;
     let rejected = counts.rejected.keys().map(|(aid, _)| *aid);
     let names: BTreeSet<&str> =

@@ -2,7 +2,7 @@
 
 use super::html::{Column, Table, known};
 use super::record::left_out;
-use crate::report::Report;
+use crate::report::VoyageReport;
 use crate::report::collect::alerts::{ASKS, KNOWN, OVER, Occurrence};
 use crate::report::draw::strips::{self, Meaning, Strip};
 use crate::report::draw::{figure, key};
@@ -15,7 +15,7 @@ const MEANINGS: [Meaning; 3] = [
 ];
 
 /// The section.
-pub(super) fn alerts(report: &Report) -> String {
+pub(super) fn alerts(report: &VoyageReport) -> String {
     let alerts = &report.collected.alerts;
     if !alerts.watched {
         let why = "not known: alerts are kept where there is a port that is written to";

@@ -7,7 +7,7 @@ use insd_intake::status::{IntakeStatus, PortStatus, SensorStatus};
 
 use super::html::{Column, Table, UNKNOWN, count, known, number, quantity};
 use super::record::left_out;
-use crate::report::Report;
+use crate::report::VoyageReport;
 use crate::report::collect::border::{BAD, GOOD, Line, POOR};
 use crate::report::draw::strips::{self, Meaning, Strip};
 use crate::report::draw::{figure, key};
@@ -26,7 +26,7 @@ const CLOCK: [Meaning; 3] = [
 const VOYAGE: &str = "<p class=\"unknown\">not known: a voyage directory holds measurements, not what ports gave</p>\n";
 
 /// Ports and sensors.
-pub(super) fn ports(report: &Report) -> String {
+pub(super) fn ports(report: &VoyageReport) -> String {
     let Some(intake) = &report.intake else { return VOYAGE.to_owned() };
     let (times, border) = (&report.collected.times, &report.collected.border);
     let named = |name: &str, line| Strip { name: name.to_owned(), lane: line, meanings: &MEANINGS };
@@ -54,7 +54,7 @@ pub(super) fn ports(report: &Report) -> String {
     html
 }
 
-fn port_table(report: &Report, ports: &[PortStatus]) -> String {
+fn port_table(report: &VoyageReport, ports: &[PortStatus]) -> String {
     let mut table = Table::new(&[
         Column::Text("Port"),
         Column::Text("State at the end"),
@@ -127,7 +127,7 @@ fn silences(line: &Line) -> String {
 }
 
 /// Which sensor was used for what, and why.
-pub(super) fn sources(report: &Report) -> String {
+pub(super) fn sources(report: &VoyageReport) -> String {
     let Some(intake) = &report.intake else { return VOYAGE.to_owned() };
     let (times, chosen) = (&report.collected.times, &report.collected.border.chosen);
     let name = |sensor: usize| name_of(intake, sensor);
@@ -159,7 +159,7 @@ fn name_of(intake: &IntakeStatus, sensor: usize) -> &str {
 }
 
 /// How UTC was known.
-pub(super) fn time(report: &Report) -> String {
+pub(super) fn time(report: &VoyageReport) -> String {
     let Some(intake) = &report.intake else { return voyage_time(report) };
     let (times, border) = (&report.collected.times, &report.collected.border);
     let strip = Strip { name: "UTC".to_owned(), lane: &border.clock, meanings: &CLOCK };
@@ -188,7 +188,7 @@ pub(super) fn time(report: &Report) -> String {
     html
 }
 
-fn voyage_time(report: &Report) -> String {
+fn voyage_time(report: &VoyageReport) -> String {
     let words = if report.collected.times.has_utc() {
         "<p>UTC is that of the voyage's header.</p>\n"
     } else {

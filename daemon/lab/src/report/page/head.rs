@@ -3,7 +3,7 @@
 use insd_base::Span;
 
 use super::html::{Column, Table, UNKNOWN, count, escape, known, number, quantity};
-use crate::report::Report;
+use crate::report::VoyageReport;
 use crate::report::collect::motion::Channel;
 use crate::report::times::length;
 use crate::words::distance;
@@ -12,7 +12,7 @@ use crate::words::distance;
 const SIGNIFICANT: f64 = 4.0;
 
 /// Title, span, program; and a warning where something is missing.
-pub(super) fn head(report: &Report) -> String {
+pub(super) fn head(report: &VoyageReport) -> String {
     let times = &report.collected.times;
     let (from, to) = (times.full(times.start()), times.full(times.end()));
     let program = report.program.as_ref().map_or_else(
@@ -37,7 +37,7 @@ pub(super) fn head(report: &Report) -> String {
     )
 }
 
-fn warning(report: &Report) -> String {
+fn warning(report: &VoyageReport) -> String {
     let faults = report.faults.told.count();
     if faults == 0 {
         return String::new();
@@ -53,7 +53,7 @@ fn warning(report: &Report) -> String {
 }
 
 /// Two tables side by side.
-pub(super) fn figures(report: &Report) -> String {
+pub(super) fn figures(report: &VoyageReport) -> String {
     let mut html = "<div class=\"pairs\">".to_owned();
     for rows in [voyage_rows(report), trust_rows(report)] {
         let mut table = Table::new(&[Column::Text("Figure"), Column::Text("Value")]);
@@ -69,7 +69,7 @@ pub(super) fn figures(report: &Report) -> String {
 
 type Rows = Vec<(&'static str, String)>;
 
-fn voyage_rows(report: &Report) -> Rows {
+fn voyage_rows(report: &VoyageReport) -> Rows {
     let collected = &report.collected;
     let motion = &collected.motion;
     let until = |time: Option<insd_base::Time>| {
@@ -97,7 +97,7 @@ fn voyage_rows(report: &Report) -> Rows {
     ]
 }
 
-fn trust_rows(report: &Report) -> Rows {
+fn trust_rows(report: &VoyageReport) -> Rows {
     let (collected, counts) = (&report.collected, &report.counts);
     let motion = &collected.motion;
     let sigma = |channel: &Channel, decimals: usize, unit: &str| {
@@ -134,7 +134,7 @@ fn gaps(gaps: &crate::report::statistics::Statistics) -> String {
     }
 }
 
-fn share(report: &Report) -> Option<String> {
+fn share(report: &VoyageReport) -> Option<String> {
     let modes = &report.collected.modes;
     let navigating: f64 = modes.navigating();
     let whole = duration(report);
@@ -143,7 +143,7 @@ fn share(report: &Report) -> Option<String> {
 }
 
 /// How long the recording is, s.
-pub(super) fn duration(report: &Report) -> f64 {
+pub(super) fn duration(report: &VoyageReport) -> f64 {
     let times = &report.collected.times;
     (times.end() - times.start()).max(Span::ZERO).as_seconds()
 }

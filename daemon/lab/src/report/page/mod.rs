@@ -11,13 +11,13 @@ mod voyage;
 
 use std::fmt::Write as _;
 
-use super::Report;
+use super::VoyageReport;
 use html::{escape, section};
 
 const STYLE: &str = include_str!("style.css");
 
 /// The whole page.
-pub(crate) fn page(report: &Report) -> String {
+pub(crate) fn page(report: &VoyageReport) -> String {
     let sections = [
         ("figures", "Key figures", head::figures(report)),
         ("modes", "Modes", voyage::modes(report)),
@@ -38,7 +38,7 @@ pub(crate) fn page(report: &Report) -> String {
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>Report of {}</title>\n<style>\n{STYLE}</style></head>\n<body>\n",
+         <title>VoyageReport of {}</title>\n<style>\n{STYLE}</style></head>\n<body>\n",
         escape(&report.name)
     );
     page.push_str(&head::head(report));
@@ -60,7 +60,7 @@ pub(crate) fn page(report: &Report) -> String {
 }
 
 /// What the times of the page are.
-fn times_are(report: &Report) -> &'static str {
+fn times_are(report: &VoyageReport) -> &'static str {
     if report.collected.times.has_utc() {
         "UTC"
     } else {

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::head::duration;
 use super::html::{Column, Table, UNKNOWN, count, escape, number};
-use crate::report::Report;
+use crate::report::VoyageReport;
 
 /// How many were left out of a table, if any.
 pub(super) fn left_out(number: u64, what: &str) -> String {
@@ -19,7 +19,7 @@ pub(super) fn left_out(number: u64, what: &str) -> String {
 }
 
 /// Messages by port and kind.
-pub(super) fn outputs(report: &Report) -> String {
+pub(super) fn outputs(report: &VoyageReport) -> String {
     if report.intake.is_none() {
         return "<p class=\"unknown\">not known: a voyage directory has no ports</p>\n".to_owned();
     }
@@ -58,7 +58,7 @@ pub(super) fn outputs(report: &Report) -> String {
 }
 
 /// The journal.
-pub(super) fn events(report: &Report) -> String {
+pub(super) fn events(report: &VoyageReport) -> String {
     let (times, journal) = (&report.collected.times, &report.collected.journal);
     let kinds = journal.kinds.iter().map(|(kind, number)| format!("{kind}: {}", count(*number)));
     let kinds = kinds.collect::<Vec<_>>().join(" · ");
@@ -79,7 +79,7 @@ pub(super) fn events(report: &Report) -> String {
 }
 
 /// Whether the recording is whole.
-pub(super) fn recording(report: &Report) -> String {
+pub(super) fn recording(report: &VoyageReport) -> String {
     let (times, faults) = (&report.collected.times, &report.faults);
     let mut html = String::new();
     if let Some((run, runs)) = report.run {
@@ -102,7 +102,7 @@ pub(super) fn recording(report: &Report) -> String {
 }
 
 /// The text of the configuration.
-pub(super) fn configuration(report: &Report) -> String {
+pub(super) fn configuration(report: &VoyageReport) -> String {
     match &report.config {
         Some(text) => format!("<pre>{}</pre>\n", escape(text)),
         None => format!("<p class=\"unknown\">{UNKNOWN}</p>\n"),

@@ -4,11 +4,11 @@ use insd_base::Time;
 
 use super::html::{Column, Table, number};
 use super::record::left_out;
-use crate::report::Report;
+use crate::report::VoyageReport;
 use crate::report::times::length;
 
 /// The section.
-pub(super) fn trust(report: &Report) -> String {
+pub(super) fn trust(report: &VoyageReport) -> String {
     let (times, trust) = (&report.collected.times, &report.collected.trust);
     let mut states = Table::new(&[
         Column::Text("The position"),

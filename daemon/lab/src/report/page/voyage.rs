@@ -7,7 +7,7 @@ use super::html::{Column, Table};
 use crate::words::{latitude, longitude};
 use insd_vessel::words;
 
-use crate::report::Report;
+use crate::report::VoyageReport;
 use crate::report::collect::lane::Lane;
 use crate::report::collect::modes::MODES;
 use crate::report::collect::motion::{Channel, Fix};
@@ -22,7 +22,7 @@ use crate::report::times::length;
 const LEFT: f64 = 58.0;
 
 /// The time line of modes and its changes.
-pub(super) fn modes(report: &Report) -> String {
+pub(super) fn modes(report: &VoyageReport) -> String {
     let (times, modes) = (&report.collected.times, &report.collected.modes);
     if report.collected.motion.solutions == 0 {
         return "<p class=\"unknown\">not known: there is no solution</p>\n".to_owned();
@@ -63,7 +63,7 @@ fn meanings() -> Vec<Meaning> {
 }
 
 /// The chart.
-pub(super) fn track(report: &Report) -> String {
+pub(super) fn track(report: &VoyageReport) -> String {
     let motion = &report.collected.motion;
     let moored = report.start == StartCondition::Moored;
     let berth = report.place.filter(|_| moored);
@@ -87,7 +87,7 @@ pub(super) fn track(report: &Report) -> String {
 }
 
 /// Attitude, heading, rate of turn, speed, heave.
-pub(super) fn motion(report: &Report) -> String {
+pub(super) fn motion(report: &VoyageReport) -> String {
     let motion = &report.collected.motion;
     let charts = [
         linear("Roll", "°, starboard down positive", 0.2, &motion.roll),
@@ -112,7 +112,7 @@ pub(super) fn motion(report: &Report) -> String {
 }
 
 /// The 1-sigma of everything over time.
-pub(super) fn errors(report: &Report) -> String {
+pub(super) fn errors(report: &VoyageReport) -> String {
     let motion = &report.collected.motion;
     let one = |title, unit, channel| Chart {
         kind: Kind::Logarithmic,
@@ -140,7 +140,7 @@ pub(super) fn errors(report: &Report) -> String {
     html
 }
 
-fn draw(report: &Report, charts: &[Chart<'_>]) -> String {
+fn draw(report: &VoyageReport, charts: &[Chart<'_>]) -> String {
     let axis = TimeAxis::new(&report.collected.times, LEFT);
     let modes: &Lane = &report.collected.modes.lane;
     charts.iter().map(|chart| chart.draw(&axis, modes)).collect()

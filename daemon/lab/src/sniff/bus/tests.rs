@@ -4,7 +4,7 @@ use insd_n2k::pgn::{Group, Heading, North};
 use insd_n2k::{BROADCAST, N2kId, NameParts, fast_packet};
 
 use crate::sniff::report::PortReport;
-use crate::sniff::{Plan, Sniffed, Transport, text};
+use crate::sniff::{PortToHear, Sniffed, SuggestedTransport, text};
 
 const NAME: NameParts = NameParts {
     unique_number: 7,
@@ -25,8 +25,8 @@ impl Bench {
     fn new() -> Self {
         let mut sniffed = Sniffed::new(&[]);
         let table = "{ kind = \"socketcan\", interface = \"can0\" }".to_owned();
-        let transport = Some(Transport::Other(table));
-        sniffed.announce(PortId(0), Plan { name: "can0".to_owned(), timed: true, transport });
+        let transport = Some(SuggestedTransport::Other(table));
+        sniffed.announce(PortId(0), PortToHear { name: "can0".to_owned(), timed: true, transport });
         Bench(sniffed)
     }
 

@@ -33,13 +33,18 @@ pub(super) fn of_the_page(is_alive: bool, clients: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::snapshot::{Aid, Cause, Motion, Sensor, SensorState};
+    use crate::snapshot::{Cause, Sensor, SensorState, ShownAid, ShownMotion};
 
     #[test]
     fn metrics_have_units_in_their_names_and_leave_out_what_is_unknown() {
-        let motion = Motion { heading_deg: Some(123.5), ..Motion::default() };
+        let motion = ShownMotion { heading_deg: Some(123.5), ..ShownMotion::default() };
         let reasons = vec![Cause { reason: "chi_square".to_owned(), count: 3 }];
-        let aid = Aid { name: "gnss_position".to_owned(), accepted: 40, reasons, ..Aid::default() };
+        let aid = ShownAid {
+            name: "gnss_position".to_owned(),
+            accepted: 40,
+            reasons,
+            ..ShownAid::default()
+        };
         let sensor =
             Sensor { name: "a \"b\"".to_owned(), state: SensorState::Valid, ..Sensor::default() };
         let snapshot = Snapshot {

@@ -1,6 +1,6 @@
 //! Sensors, ports, aids and the recording.
 
-use crate::snapshot::{Input, Output, PortState, Sensor, Snapshot};
+use crate::snapshot::{Sensor, ShownInput, ShownOutput, ShownPortState, Snapshot};
 
 use super::sheet::Sheet;
 use super::ship::word;
@@ -8,7 +8,7 @@ use super::ship::word;
 /// Name, help, and where it is found.
 type Count<T> = (&'static str, &'static str, fn(&T) -> u64);
 
-const INPUT_COUNTS: [Count<Input>; 7] = [
+const INPUT_COUNTS: [Count<ShownInput>; 7] = [
     ("input_bytes", "Bytes taken", |port| port.bytes),
     ("input_frames", "Frames found", |port| port.frames),
     ("input_damaged_frames", "Frames with a wrong checksum", |port| port.damaged),
@@ -18,7 +18,7 @@ const INPUT_COUNTS: [Count<Input>; 7] = [
     ("input_reopened", "Times that the port was opened again", |port| port.reopened),
 ];
 
-const OUTPUT_COUNTS: [Count<Output>; 3] = [
+const OUTPUT_COUNTS: [Count<ShownOutput>; 3] = [
     ("output_sent_messages", "Messages handed over to the system", |port| port.sent),
     ("output_dropped_messages", "Messages that will never leave", |port| port.dropped),
     ("output_bytes", "Bytes of the messages sent", |port| port.bytes),
@@ -155,6 +155,6 @@ fn others(sheet: &mut Sheet, snapshot: &Snapshot) {
     sheet.count("recording_lost_arrivals", lost, recording.lost);
 }
 
-fn is_up(state: PortState) -> f64 {
-    f64::from(u8::from(state == PortState::Open))
+fn is_up(state: ShownPortState) -> f64 {
+    f64::from(u8::from(state == ShownPortState::Open))
 }

@@ -1,11 +1,11 @@
 //! The ship, the navigator and her time.
 
-use crate::snapshot::{Motion, Snapshot};
+use crate::snapshot::{ShownMotion, Snapshot};
 
 use super::sheet::Sheet;
 
 /// Name, help, and where it is found.
-type Reading = (&'static str, &'static str, fn(&Motion) -> Option<f64>);
+type Reading = (&'static str, &'static str, fn(&ShownMotion) -> Option<f64>);
 
 const READINGS: [Reading; 19] = [
     ("latitude_degrees", "Latitude, WGS-84, north positive", |m| m.lat_deg),
@@ -53,7 +53,7 @@ pub(super) fn write(sheet: &mut Sheet, snapshot: &Snapshot) {
     }
 }
 
-fn reliance(sheet: &mut Sheet, motion: &Motion) {
+fn reliance(sheet: &mut Sheet, motion: &ShownMotion) {
     if let Some(integrity) = &motion.integrity {
         sheet
             .gauge("integrity", "Whether the position may be relied on: 1", ["state"])

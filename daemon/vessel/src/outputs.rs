@@ -7,7 +7,10 @@ use insd_base::{
 };
 use insd_engine::{Engine, Output};
 use insd_n2k::pgn::TimeSource;
-use insd_output::{Doubts, Epoch, Message, Moment, Receiver, Station, Variation, WakeUp};
+use insd_output::{
+    Doubts, OutputEpoch, OutputStation, PortMessage, SatelliteGeometry, Situation, Variation,
+    WakeUp,
+};
 use insd_wire::nmea::{Acn, AlertCommand, Sentence};
 
 use crate::alert_commands::{AlertCommands, Who};
@@ -68,30 +71,30 @@ impl Knows for Engine {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Spoken {
     /// Messages of one epoch for the port of this index.
-    Messages(usize, Vec<Message>),
+    Messages(usize, Vec<PortMessage>),
     /// What is known of each monitoring point: for buses and for whoever looks on.
-    Epochs(Vec<Epoch>),
+    Epochs(Vec<OutputEpoch>),
 }
 
 /// All ports, and what they are told beside the ship's motion.
 #[derive(Debug)]
-pub struct Speaker {
-    station: Station,
+pub struct Outputs {
+    station: OutputStation,
     commands: AlertCommands,
     alignment: Option<AlignmentStatus>,
-    receiver: Option<(Time, Receiver)>,
+    receiver: Option<(Time, SatelliteGeometry)>,
     variation: Option<(Time, Variation)>,
     storage: StorageFaults,
     /// Commands of those who may not command, and when one of them was answered last.
     strangers: (u64, Option<Time>),
 }
 
-impl Speaker {
+impl Outputs {
     /// A speaker for these ports.
     #[must_use]
     pub fn new(plan: OutputPlan) -> Self {
-        Speaker {
-            station: Station::new(plan.ports, plan.points, plan.groups),
+        Outputs {
+            station: OutputStation::new(plan.ports, plan.points, plan.groups),
             commands: AlertCommands::new(plan.obeyed),
             alignment: None,
             receiver: None,
@@ -156,15 +159,15 @@ impl Speaker {
     }
 
     /// Speaks from now on to other ports, knowing and alerting of what it did.
-    pub fn succeed(&mut self, next: Speaker) {
-        let Speaker { mut station, commands, .. } = next;
+    pub fn succeed(&mut self, next: Outputs) {
+        let Outputs { mut station, commands, .. } = next;
         station.inherit(&self.station);
         (self.station, self.commands) = (station, commands);
     }
 
     /// Its ports.
     #[must_use]
-    pub fn station(&self) -> &Station {
+    pub fn station(&self) -> &OutputStation {
         &self.station
     }
 
@@ -177,8 +180,11 @@ impl Speaker {
     /// Takes note of a measurement on its way to the engine.
     pub fn hear(&mut self, received: &Received) {
         if let Measurement::Gnss(fix) = &received.message {
-            let own =
-                Receiver { satellites: fix.satellites, hdop: fix.hdop, ..Receiver::default() };
+            let own = SatelliteGeometry {
+                satellites: fix.satellites,
+                hdop: fix.hdop,
+                ..SatelliteGeometry::default()
+            };
             let measured = fix.quality.is_measured() && fix.position.is_some();
             self.receiver = measured.then_some((fix.time, own)).or(self.receiver);
         }
@@ -218,11 +224,11 @@ impl Speaker {
         }
     }
 
-    fn moment(&mut self, engine: &impl Knows, now: Time, utc: Option<UtcTime>) -> Moment {
+    fn moment(&mut self, engine: &impl Knows, now: Time, utc: Option<UtcTime>) -> Situation {
         let motion = engine.motion();
         let place = motion.map(|motion| motion.solution.position);
         let receiver = self.receiver.filter(|(told, _)| now - *told <= RECEIVER_SPAN);
-        Moment {
+        Situation {
             motion,
             heaves: engine.heaves(),
             time_source: utc.map(|_| TimeSource::Gps),
@@ -251,28 +257,28 @@ mod tests {
     use super::*;
     use insd_base::{Body, Input, PortId, Sent, Stamp};
     use insd_engine::EngineConfig;
-    use insd_output::{Manner, MessageKind, PortConfig, Rate};
+    use insd_output::{Manner, MessageKind, OutputPortConfig, Rate};
     use insd_wire::nmea::{Acn, AlertCommand, AlertId, Manufacturer, Talker, TimeOfDay};
 
     const BRIDGE: PortId = PortId(3);
 
     /// A port that tells alerts of simulated data once a second.
-    fn simulated() -> PortConfig {
+    fn simulated() -> OutputPortConfig {
         let alerts = MessageKind::named("ALF").unwrap();
-        PortConfig {
+        OutputPortConfig {
             messages: vec![(alerts, Rate::from_hertz(1.0))],
             manner: Manner { simulated: true, ..Manner::default() },
-            ..PortConfig::default()
+            ..OutputPortConfig::default()
         }
     }
 
-    fn obeying_the_bridge() -> Speaker {
+    fn obeying_the_bridge() -> Outputs {
         let (ports, points) = (vec![simulated()], vec![Body::default()]);
-        Speaker::new(OutputPlan { ports, points, obeyed: vec![BRIDGE], groups: None })
+        Outputs::new(OutputPlan { ports, points, obeyed: vec![BRIDGE], groups: None })
     }
 
     /// Formatters of what is told in some seconds.
-    fn told(speaker: &mut Speaker, seconds: std::ops::Range<i64>) -> Vec<String> {
+    fn told(speaker: &mut Outputs, seconds: std::ops::Range<i64>) -> Vec<String> {
         let scenario = insd_simulator::Scenario::from_toml(insd_simulator::shipped()[6].1).unwrap();
         let header = insd_simulator::simulate(&scenario.with_duration(1.0), 1).header;
         let engine = Engine::new(EngineConfig::for_voyage(&header, 10.0));
@@ -324,7 +330,7 @@ mod tests {
     }
 
     /// What is told of a command when it arrives.
-    fn heard(speaker: &mut Speaker, arrival: &Arrival) -> Vec<(Option<String>, bool, u64)> {
+    fn heard(speaker: &mut Outputs, arrival: &Arrival) -> Vec<(Option<String>, bool, u64)> {
         let mut all = Vec::new();
         speaker.overhear(arrival, None, |own| {
             all.push((own.who.host, own.who.may_command, own.strangers));

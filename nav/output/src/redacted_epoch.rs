@@ -9,13 +9,13 @@ use insd_n2k::pgn::{Sid, TimeSource};
 use insd_wire::nmea::{AlertEntry, CivilTime, HeadingMode, PositionMode};
 
 use crate::alerts::Announcement;
-use crate::epoch::{Distance, Epoch, Receiver, Variation};
+use crate::epoch::{Distance, OutputEpoch, SatelliteGeometry, Variation};
 use crate::manner::Manner;
 use crate::policy::{mode_of, uses_gnss};
 
 /// One epoch, ready to be told.
 #[derive(Clone, Copy)]
-pub(crate) struct Said<'a> {
+pub(crate) struct RedactedEpoch<'a> {
     pub(crate) sid: Sid,
     /// How many of this message have been sent before.
     pub(crate) count: u64,
@@ -26,9 +26,9 @@ pub(crate) struct Said<'a> {
     /// All alerts that are not normal, if anyone watches over them.
     pub(crate) alerts: Option<&'a [AlertEntry]>,
     /// All that is known, for messages that can say that it is simulated.
-    whole: &'a Epoch,
+    whole: &'a OutputEpoch,
     /// What may be told.
-    told: Epoch,
+    told: OutputEpoch,
     manner: &'a Manner,
 }
 
@@ -67,45 +67,48 @@ impl Ellipse {
     }
 }
 
-impl<'a> Said<'a> {
+impl<'a> RedactedEpoch<'a> {
     /// For messages without a mark for simulated data: from a simulator they are told the time alone.
-    pub(crate) fn new(epoch: &'a Epoch, manner: &'a Manner) -> Self {
+    pub(crate) fn new(epoch: &'a OutputEpoch, manner: &'a Manner) -> Self {
         let silent = manner.simulated && !manner.unmarked_when_simulated;
-        let clock =
-            Epoch { utc: epoch.utc, time_source: epoch.time_source, ..Epoch::unknown(epoch.time) };
+        let clock = OutputEpoch {
+            utc: epoch.utc,
+            time_source: epoch.time_source,
+            ..OutputEpoch::unknown(epoch.time)
+        };
         let told = if silent { clock } else { *epoch };
         let (sid, period, announcement, alerts) = (None, None, None, None);
-        Said { sid, count: 0, period, announcement, alerts, whole: epoch, told, manner }
+        RedactedEpoch { sid, count: 0, period, announcement, alerts, whole: epoch, told, manner }
     }
 
     /// The same, tied to other messages of one epoch by a sequence identifier.
     pub(crate) fn with_sid(self, sid: Sid) -> Self {
-        Said { sid, ..self }
+        RedactedEpoch { sid, ..self }
     }
 
     /// The same for a message of which so many have been sent.
     pub(crate) fn with_count(self, count: u64) -> Self {
-        Said { count, ..self }
+        RedactedEpoch { count, ..self }
     }
 
     /// The same for a message that is sent so often.
     pub(crate) fn with_period(self, period: Span) -> Self {
-        Said { period: Some(period), ..self }
+        RedactedEpoch { period: Some(period), ..self }
     }
 
     /// The same where alerts are watched over.
     pub(crate) fn with_alerts(self, alerts: Option<&'a [AlertEntry]>) -> Self {
-        Said { alerts, ..self }
+        RedactedEpoch { alerts, ..self }
     }
 
     /// The same for the message that tells this of an alert.
     pub(crate) fn with_announcement(self, announcement: &'a Announcement) -> Self {
-        Said { announcement: Some(announcement), ..self }
+        RedactedEpoch { announcement: Some(announcement), ..self }
     }
 
     /// For messages that can say that their data are simulated.
     pub(crate) fn marked(&self) -> Self {
-        Said { told: *self.whole, ..*self }
+        RedactedEpoch { told: *self.whole, ..*self }
     }
 
     /// Whether the data come from a simulator, and must be marked.
@@ -269,7 +272,7 @@ impl<'a> Said<'a> {
     }
 
     /// What the receiver says, as long as the position rests on it.
-    pub(crate) fn receiver(&self) -> Receiver {
+    pub(crate) fn receiver(&self) -> SatelliteGeometry {
         let used = self.told.solution.is_some_and(|solution| uses_gnss(solution.mode));
         self.told.receiver.filter(|_| used && self.position().is_some()).unwrap_or_default()
     }
