@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::disturbance::Model;
 use crate::filter::Filter;
+pub use crate::method::Method;
 pub use departure::Departure;
 pub use moorings::{Moorings, SPACING};
 pub use prefiltered::Prefiltered;
@@ -15,41 +16,6 @@ mod departure;
 mod moorings;
 mod prefiltered;
 mod white_noise;
-
-/// How the motion of a moored ship is kept apart from the errors of her navigator.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Method {
-    /// Zero velocity with the sea as white noise: the plain Kalman filter, for comparison.
-    WhiteNoise,
-    /// The reference method, of JP3375720B2: an autoregressive model of the velocity in a sliding
-    /// window takes the sea out before the Kalman filter ([`crate::disturbance`]).
-    Autoregressive,
-    /// The ship's swaying on her moorings as states of the Kalman filter, observed by her
-    /// displacement from the berth ([`Moorings`]).
-    #[default]
-    Moorings,
-}
-
-impl Method {
-    /// All of them, in the order of their age.
-    pub const ALL: [Method; 3] = [Method::WhiteNoise, Method::Autoregressive, Method::Moorings];
-
-    /// Its name in configuration: `white_noise`, `autoregressive`, `moorings`.
-    #[must_use]
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Method::WhiteNoise => "white_noise",
-            Method::Autoregressive => "autoregressive",
-            Method::Moorings => "moorings",
-        }
-    }
-
-    /// The method of a name.
-    #[must_use]
-    pub fn from_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|method| method.as_str() == word)
-    }
-}
 
 /// What holds a filter at the berth, by one of the methods.
 #[derive(Clone, Debug)]

@@ -45,6 +45,8 @@ mod joined;
 pub mod judged;
 mod leaps;
 mod level;
+mod mending;
+mod misconduct;
 mod mode;
 mod moored;
 mod motion;
@@ -55,6 +57,7 @@ mod sideways;
 mod slow;
 mod state;
 mod states;
+mod velocity_epoch;
 
 /// An estimate and its covariance, what is known of who tells about them, and who judges that.
 #[derive(Clone, Debug)]

@@ -3,12 +3,12 @@
 use insd_base::{ImuSpec, Time};
 use nalgebra::Vector3;
 
-use crate::berth::Method;
 use crate::config::{NavConfig, WORSE};
 use crate::declaration::{Carried, carried};
 use crate::error_state::{
     ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, Covariance, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE,
 };
+use crate::method::Method;
 use crate::nominal::Nominal;
 
 /// An estimate with its covariance at one instant.

@@ -25,6 +25,7 @@ pub mod increments;
 pub mod initial;
 pub mod judge;
 pub mod leap;
+pub mod method;
 pub mod navigator;
 pub mod noise;
 pub mod nominal;

@@ -2,9 +2,7 @@
 //! Hwang, Introduction to Random Signals and Applied Kalman Filtering, section 4.2), on states drawn at random.
 
 use approx::assert_relative_eq;
-use insd_estimation::{
-    Block, Covariance, Decay, Effects, Feed, Innovation, Jacobian, Transition, Weighed,
-};
+use insd_estimation::{Block, Covariance, Decay, Effects, Feed, Innovation, Jacobian, Transition};
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, Vector1, Vector2, Vector3};
 use proptest::prelude::*;
 

@@ -5,40 +5,15 @@
 //! length of the steps is limited by what the transition leaves out: a gyro error moves the position by
 //! g dt^3 / 6 within one step, which the steps after it make good.
 
-use insd_base::{Time, earth};
+use insd_base::earth;
 use nalgebra::{Vector1, Vector3};
 
 use super::Filter;
+use super::velocity_epoch::VelocityEpoch;
 use crate::aids::View;
 use crate::aids::gnss_velocity::{self, VelocityFix};
 use crate::error_state::{ATTITUDE, Covariance, Innovation, Jacobian};
 use crate::propagation::{Passage, Regime, Stretch};
-
-/// The last GNSS velocity that was used: what the next ones will be like.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VelocityEpoch {
-    time: Time,
-    fix: VelocityFix,
-    spacing: f64,
-}
-
-/// Spacing of GNSS velocities before two have been seen, and the bounds of what is believed, s.
-const SPACING: f64 = 1.0;
-const SPACINGS: (f64, f64) = (0.02, 10.0);
-/// Share of a new spacing in the mean.
-const SHARE: f64 = 0.2;
-
-impl VelocityEpoch {
-    /// The epoch at `time`, with what is known from the one before.
-    #[must_use]
-    pub fn after(before: Option<Self>, time: Time, fix: &VelocityFix) -> Self {
-        let spacing = before.map_or(SPACING, |before| {
-            let seen = (time - before.time).as_seconds().clamp(SPACINGS.0, SPACINGS.1);
-            before.spacing + SHARE * (seen - before.spacing)
-        });
-        VelocityEpoch { time, fix: *fix, spacing }
-    }
-}
 
 /// A filter's covariance on its way into the future.
 #[derive(Clone, Debug)]

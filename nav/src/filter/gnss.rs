@@ -14,7 +14,7 @@ use crate::error_state::{
     ATTITUDE, Block, GNSS_LEVER, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, Innovation, POSITION,
     VELOCITY, Weighed,
 };
-use crate::filter::ahead::VelocityEpoch;
+use crate::filter::velocity_epoch::VelocityEpoch;
 use crate::floors;
 use crate::gate::dop_limit;
 use crate::judge::{Aid, rows};

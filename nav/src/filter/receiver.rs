@@ -3,8 +3,8 @@
 
 use insd_base::Time;
 
-use super::ahead::VelocityEpoch;
 use super::found_lever::FoundLever;
+use super::velocity_epoch::VelocityEpoch;
 use crate::antenna::AntennaMotion;
 use crate::echo::Echo;
 use crate::own_word::OwnWord;

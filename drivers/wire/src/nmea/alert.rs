@@ -11,10 +11,10 @@
 
 use super::fault::Fault;
 use super::fields::Fields;
-use super::gns::letter_of;
 use super::kinds::Kind;
 use super::line::Composer;
 use super::mode::letters;
+use super::parts::letter_of;
 
 /// Greatest identifier of an alert.
 const IDENTIFIER_MAX: u32 = 9_999_999;

@@ -1,7 +1,7 @@
 //! DTM: datum of the positions that follow.
 
-use super::gns::letter_of;
 use super::kinds::{Decimal, Field};
+use super::parts::letter_of;
 use super::table::sentence;
 
 const DATUM: Field<Datum> =

@@ -15,9 +15,9 @@
 use super::civil::TimeOfDay;
 use super::fault::Fault;
 use super::frame::Frame;
-use super::gns::letter_of;
 use super::line::{Line, Talker};
 use super::mode::PositionMode;
+use super::parts::letter_of;
 use super::position::Position;
 
 /// A position.

@@ -29,6 +29,7 @@ use super::frame::Frame;
 use super::gga::{AGE, HDOP, HEIGHT, STATION_MAX};
 use super::line::{Line, Talker};
 use super::mode::{NavStatus, PositionMode};
+use super::parts::letter_of;
 use super::position::Position;
 
 const SATELLITES: Form = Form { decimals: 0, width: 2, limit: 99.0 };
@@ -162,12 +163,4 @@ fn modes(fields: &mut Fields<'_>) -> Result<[Option<PositionMode>; MAX_SYSTEMS],
         *mode = Some(PositionMode::from_letter(letter).ok_or_else(|| fields.malformed())?);
     }
     Ok(modes)
-}
-
-/// The letter of a text that is one.
-pub(crate) fn letter_of(text: &str) -> Option<u8> {
-    match text.as_bytes() {
-        [letter] => Some(*letter),
-        _ => None,
-    }
 }

@@ -11,8 +11,8 @@ use super::civil::TimeOfDay;
 use super::decimal::Form;
 use super::fault::Fault;
 use super::fields::Fields;
-use super::gns::letter_of;
 use super::line::Composer;
+use super::parts::letter_of;
 use super::parts::{heading, lettered};
 
 /// How a value stands in its fields.

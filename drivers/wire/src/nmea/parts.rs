@@ -70,3 +70,11 @@ pub(super) fn word_of(text: &str) -> Option<u32> {
     let plain = text.len() <= 8 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
     if plain { u32::from_str_radix(text, 16).ok() } else { None }
 }
+
+/// The letter of a text that is one.
+pub(crate) fn letter_of(text: &str) -> Option<u8> {
+    match text.as_bytes() {
+        [letter] => Some(*letter),
+        _ => None,
+    }
+}

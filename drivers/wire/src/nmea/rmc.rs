@@ -26,9 +26,10 @@ use super::decimal::{Form, parse_digits};
 use super::fault::Fault;
 use super::fields::Fields;
 use super::frame::Frame;
-use super::gns::{letter_of, nav_status};
+use super::gns::nav_status;
 use super::line::{Line, Talker};
 use super::mode::{NavStatus, PositionMode};
+use super::parts::letter_of;
 use super::position::Position;
 
 const SPEED: Form = Form { decimals: 2, width: 1, limit: 9999.9 };

@@ -19,8 +19,8 @@ use super::decimal::{Form, parse};
 use super::fault::Fault;
 use super::fields::Fields;
 use super::frame::Frame;
-use super::gns::letter_of;
 use super::line::{Composer, Line, MAX_LEN, Talker};
+use super::parts::letter_of;
 use super::text::Text;
 
 /// Most measurements of a sentence.

@@ -3,9 +3,9 @@
 use insd_base::{FixQuality, HeaveQuality, Integrity, Mode, Parties, Party};
 
 use crate::nmea::civil::TimeOfDay;
-use crate::nmea::gns::letter_of;
 use crate::nmea::kinds::{Clock, DIGIT, Field, Needed, Whole, letter};
 use crate::nmea::mode::{HeadingMode, letters};
+use crate::nmea::parts::letter_of;
 use crate::nmea::table::sentence;
 
 /// As GGA has it.

@@ -1,0 +1,36 @@
+//! The methods of holding a ship at her berth, by name.
+
+/// How the motion of a moored ship is kept apart from the errors of her navigator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Zero velocity with the sea as white noise: the plain Kalman filter, for comparison.
+    WhiteNoise,
+    /// The reference method, of JP3375720B2: an autoregressive model of the velocity in a sliding
+    /// window takes the sea out before the Kalman filter ([`crate::disturbance`]).
+    Autoregressive,
+    /// The ship's swaying on her moorings as states of the Kalman filter, observed by her
+    /// displacement from the berth ([`crate::berth::Moorings`]).
+    #[default]
+    Moorings,
+}
+
+impl Method {
+    /// All of them, in the order of their age.
+    pub const ALL: [Method; 3] = [Method::WhiteNoise, Method::Autoregressive, Method::Moorings];
+
+    /// Its name in configuration: `white_noise`, `autoregressive`, `moorings`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Method::WhiteNoise => "white_noise",
+            Method::Autoregressive => "autoregressive",
+            Method::Moorings => "moorings",
+        }
+    }
+
+    /// The method of a name.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.as_str() == word)
+    }
+}
