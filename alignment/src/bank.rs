@@ -20,7 +20,7 @@ use crate::config::AlignmentConfig;
 use crate::levelling::Level;
 use crate::mixture::mixed;
 use crate::stored::StoredState;
-use crate::trial::{ANY, Origin, Shares, Trial, Verdict, explanations, joined_origin};
+use crate::trial::{ANY, Origin, Shares, StoredVerdict, Trial, explanations, joined_origin};
 
 /// Where and how fast the ship is when the bank starts, with 1-sigma errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -133,7 +133,7 @@ impl Bank {
 
     /// What became of the stored state, if there was one; `None` while it is on trial.
     #[must_use]
-    pub fn verdict(&self) -> Option<Verdict> {
+    pub fn verdict(&self) -> Option<StoredVerdict> {
         self.trial.as_ref().and_then(Trial::verdict)
     }
 
@@ -152,7 +152,7 @@ impl Bank {
         let Some(trial) = &mut self.trial else { return };
         let before = trial.verdict();
         trial.weigh(&shares, alone, time);
-        if before.is_none() && matches!(trial.verdict(), Some(Verdict::Dropped { .. })) {
+        if before.is_none() && matches!(trial.verdict(), Some(StoredVerdict::Dropped { .. })) {
             self.drop_members(|origin| origin == Origin::Confirmed);
         }
     }

@@ -21,4 +21,4 @@ pub use config::{AlignmentConfig, InMotion};
 pub use in_motion::EightState;
 pub use levelling::{Level, Levelling};
 pub use stored::StoredState;
-pub use trial::Verdict;
+pub use trial::StoredVerdict;

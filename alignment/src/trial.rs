@@ -33,7 +33,7 @@ pub enum Origin {
 
 /// What became of a stored state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum StoredVerdict {
     /// The sensors have confirmed it.
     Used {
         /// When.
@@ -52,7 +52,7 @@ pub enum Verdict {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trial {
     state: StoredState,
-    verdict: Option<Verdict>,
+    verdict: Option<StoredVerdict>,
 }
 
 /// Shares of the probability; they need not sum to one.
@@ -103,7 +103,7 @@ impl Trial {
     /// Opens the trial, or closes it at once where something speaks against the state.
     #[must_use]
     pub fn new(state: &StoredState, doubt: Option<StoredDoubt>, time: Time) -> Self {
-        let verdict = doubt.map(|reason| Verdict::Dropped { time, reason });
+        let verdict = doubt.map(|reason| StoredVerdict::Dropped { time, reason });
         Trial { state: *state, verdict }
     }
 
@@ -115,7 +115,7 @@ impl Trial {
 
     /// What became of it; `None` while the trial goes on.
     #[must_use]
-    pub fn verdict(&self) -> Option<Verdict> {
+    pub fn verdict(&self) -> Option<StoredVerdict> {
         self.verdict
     }
 
@@ -128,9 +128,9 @@ impl Trial {
         let total = shares.any + shares.near + shares.confirmed;
         let (any, confirmed) = (shares.any / total, shares.confirmed / total);
         if confirmed < DROPPED {
-            self.verdict = Some(Verdict::Dropped { time, reason: StoredDoubt::Turned });
+            self.verdict = Some(StoredVerdict::Dropped { time, reason: StoredDoubt::Turned });
         } else if alone || (confirmed > CONFIRMED && any < REFUTED) {
-            self.verdict = Some(Verdict::Used { time });
+            self.verdict = Some(StoredVerdict::Used { time });
         }
     }
 
@@ -147,7 +147,7 @@ impl Trial {
 
     /// Closes the trial because the ship is at another place.
     pub fn drop_as_moved(&mut self, time: Time) {
-        self.verdict = Some(Verdict::Dropped { time, reason: StoredDoubt::Moved });
+        self.verdict = Some(StoredVerdict::Dropped { time, reason: StoredDoubt::Moved });
     }
 }
 
@@ -185,7 +185,7 @@ mod tests {
         Shares { any: ANY * even, near: of(wide) + of(narrow), confirmed: of(confirmed) }
     }
 
-    fn judged(away: f64, sigma: f64) -> Option<Verdict> {
+    fn judged(away: f64, sigma: f64) -> Option<StoredVerdict> {
         let mut trial = Trial::new(&state(), None, Time::START);
         trial.weigh(&after(away * DEG, sigma * DEG), false, Time::START);
         trial.verdict()
@@ -201,12 +201,12 @@ mod tests {
 
     #[test]
     fn data_that_agree_and_know_the_heading_as_well_confirm() {
-        assert_eq!(judged(0.2, 0.7), Some(Verdict::Used { time: Time::START }));
+        assert_eq!(judged(0.2, 0.7), Some(StoredVerdict::Used { time: Time::START }));
     }
 
     #[test]
     fn a_turn_of_four_sigmas_is_dropped_and_a_small_one_is_not_taken_for_confirmed() {
-        let dropped = Verdict::Dropped { time: Time::START, reason: StoredDoubt::Turned };
+        let dropped = StoredVerdict::Dropped { time: Time::START, reason: StoredDoubt::Turned };
         assert_eq!(judged(35.0, 8.0), Some(dropped));
         assert_eq!(judged(90.0, 22.0), Some(dropped));
         assert_eq!(judged(5.0, 0.7), Some(dropped));
@@ -226,6 +226,6 @@ mod tests {
         let mut trial = Trial::new(&state(), Some(StoredDoubt::OtherImu), Time::START);
         trial.weigh(&Shares { any: 0.0, near: 0.0, confirmed: 1.0 }, true, Time::START);
         let reason = StoredDoubt::OtherImu;
-        assert_eq!(trial.verdict(), Some(Verdict::Dropped { time: Time::START, reason }));
+        assert_eq!(trial.verdict(), Some(StoredVerdict::Dropped { time: Time::START, reason }));
     }
 }

@@ -4,7 +4,7 @@ use insd_base::units::{DEG, DEG_PER_HOUR};
 use insd_base::{Body, ImuSpec, LeverArms, VesselKind};
 use nalgebra::Vector3;
 
-use crate::disturbance::Config;
+use crate::disturbance::PrefilterConfig;
 use crate::floors::Floors;
 use crate::judge::Docket;
 
@@ -131,7 +131,7 @@ pub struct Models {
     /// Which sigmas are believed.
     pub floors: Floors,
     /// How the sea is taken out of the velocity at the berth, where that is the method.
-    pub prefilter: Config,
+    pub prefilter: PrefilterConfig,
 }
 
 impl Default for GnssModel {
@@ -202,7 +202,7 @@ pub struct NavConfig {
     /// Which sigmas are believed.
     pub floors: Floors,
     /// How the sea is taken out of the velocity at the berth, where that is the method.
-    pub prefilter: Config,
+    pub prefilter: PrefilterConfig,
     /// Longest interval between propagations of the covariance, s.
     pub covariance_interval: f64,
     /// How far everybody is believed at the begin.

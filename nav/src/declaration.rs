@@ -23,8 +23,8 @@ pub struct Declaration {
     pub name: &'static str,
     /// Unit.
     pub unit: &'static str,
-    /// Axes it is resolved in.
-    pub axes: Axes,
+    /// StateAxes it is resolved in.
+    pub axes: StateAxes,
     /// When it is carried.
     pub carried: Carried,
     /// 1-sigma of each component before anything is known of it.
@@ -37,7 +37,7 @@ pub struct Declaration {
 
 /// The axes of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axes {
+pub enum StateAxes {
     /// Earth-centred, Earth-fixed.
     Ecef,
     /// Forward, starboard, down.

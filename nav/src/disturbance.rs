@@ -9,7 +9,7 @@
 //!
 //! Velocities are north and east, m/s; the window is a regular grid in time.
 //!
-//! [`Prefilter`] holds the window; [`SlowVelocity`] is its answer, [`Refusal`] why there is none;
+//! [`Prefilter`] holds the window; [`SlowVelocity`] is its answer, [`PrefilterRefusal`] why there is none;
 //! [`Model`] is the sea that was found on the way: spectrum, period, significant motion, whitening.
 
 mod model;
@@ -23,6 +23,6 @@ mod window;
 mod tests;
 
 pub use model::Model;
-pub use prefilter::{Config, Order, Prefilter, Refusal, SlowVelocity};
-pub use spectrum::Motion;
+pub use prefilter::{ModelOrder, Prefilter, PrefilterConfig, PrefilterRefusal, SlowVelocity};
+pub use spectrum::SpectralMotion;
 pub use window::Push;

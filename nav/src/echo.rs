@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use insd_base::{Time, earth};
 use nalgebra::{Vector2, Vector3};
 
-use crate::leap::Told;
+use crate::leap::ToldMotion;
 
 /// Ages of the fixes that are tried, s: what is less is estimated.
 const LEAST: f64 = 1.0;
@@ -61,7 +61,7 @@ impl Echo {
 
     /// Sees a fix with the velocity that it tells itself; their sigmas are those of the difference from the navigator's. Tells whether
     /// they are of seconds ago.
-    pub fn see(&mut self, told: &Told) -> bool {
+    pub fn see(&mut self, told: &ToldMotion) -> bool {
         let elapsed =
             self.last.replace(told.time).map_or(0.0, |last| (told.time - last).as_seconds());
         let squares = self.squares(told).filter(|_| (0.0..ENOUGH).contains(&elapsed));
@@ -80,7 +80,7 @@ impl Echo {
 
     /// Mean squares by which a fix is off with each age, first without any; `None` where it fits without, or
     /// where that tells nothing.
-    fn squares(&self, told: &Told) -> Option<[f64; AGES + 1]> {
+    fn squares(&self, told: &ToldMotion) -> Option<[f64; AGES + 1]> {
         let c_ne = earth::c_ne(&told.place);
         let place = earth::ecef(&told.place).0;
         let square = |was: &Was| {
@@ -152,7 +152,7 @@ mod tests {
             echo.note(time, &noted, &(c_en * Vector3::new(drift, going, 0.0)));
             let (place, going) = own(if since > 0.0 { t - late } else { t });
             let velocity = Vector2::new(0.0, going);
-            let told = Told { time, place, place_std: 1.0, velocity, velocity_std: 0.05 };
+            let told = ToldMotion { time, place, place_std: 1.0, velocity, velocity_std: 0.05 };
             if k % 4 == 0 && echo.see(&told) {
                 return Some(t);
             }

@@ -10,7 +10,7 @@ use std::slice::from_mut;
 pub use insd_estimation::{Block, Covariance, Effects, Errors, Innovation, Jacobian, Weighed};
 
 use crate::aids::reference_heading;
-use crate::declaration::{Axes, Carried, Correction, Declaration, Process};
+use crate::declaration::{Carried, Correction, Declaration, Process, StateAxes};
 
 /// 1-sigma of the mean height before anything is known of it, m.
 const SEA_LEVEL_UNKNOWN: f64 = 30.0;
@@ -28,7 +28,7 @@ macro_rules! declare {
             width: $width,
             name: $name,
             unit: $unit,
-            axes: Axes::$axes,
+            axes: StateAxes::$axes,
             carried: Carried::$carried,
             first: $first,
             process: $process,

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use crate::aids::View;
 use crate::config::NavConfig;
-use crate::disturbance::Config;
+use crate::disturbance::PrefilterConfig;
 use crate::error_state::{Covariance, Errors, Innovation, Weighed};
 use crate::increments::Increment;
 use crate::initial::InitialState;
@@ -108,7 +108,7 @@ impl Filter {
 
     /// How the sea is taken out of the velocity at the berth, where that is the method.
     #[must_use]
-    pub fn prefilter(&self) -> &Config {
+    pub fn prefilter(&self) -> &PrefilterConfig {
         &self.config.prefilter
     }
 

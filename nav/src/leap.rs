@@ -15,7 +15,7 @@ const STAYS: f64 = 4.0;
 
 /// A position that a receiver tells, beside a velocity of its antenna: what is known of that, or what it tells of it itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Told {
+pub struct ToldMotion {
     /// When.
     pub time: Time,
     /// Of the antenna.
@@ -40,7 +40,7 @@ pub struct LeapWatch {
 
 impl LeapWatch {
     /// Sees a position. Gives a leap, north and east, m, once it is one.
-    pub fn see(&mut self, told: &Told) -> Option<Vector2<f64>> {
+    pub fn see(&mut self, told: &ToldMotion) -> Option<Vector2<f64>> {
         let now = told.time;
         let (at, before) = self.last.replace((now, told.place))?;
         let elapsed = (now - at).as_seconds();
@@ -88,7 +88,7 @@ mod tests {
         let mut watch = LeapWatch::default();
         let seen = instants.filter_map(|second| {
             let latitude = off(second) / MERIDIAN;
-            watch.see(&Told {
+            watch.see(&ToldMotion {
                 time: Time::from_seconds(f64::from(second)),
                 place: Geodetic { latitude, longitude: 0.0, height: 0.0 },
                 place_std: 0.5,

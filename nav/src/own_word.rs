@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use insd_base::{Time, earth};
 use nalgebra::{Vector2, Vector3};
 
-use crate::leap::Told;
+use crate::leap::ToldMotion;
 
 /// Positions so far apart are compared, s.
 const SPAN: f64 = 15.0;
@@ -22,7 +22,7 @@ const SPACING: f64 = 0.5;
 /// Sums up what the position does beside the velocity.
 #[derive(Clone, Debug, Default)]
 pub struct OwnWord {
-    last: Option<(Told, Vector3<f64>)>,
+    last: Option<(ToldMotion, Vector3<f64>)>,
     /// How far the position has gone, less what the velocity makes, m.
     beside: Vector2<f64>,
     sums: VecDeque<(Time, Vector2<f64>)>,
@@ -31,7 +31,7 @@ pub struct OwnWord {
 
 impl OwnWord {
     /// Sees a fix with the velocity that it tells itself; tells whether the receiver contradicts itself.
-    pub fn see(&mut self, told: &Told) -> bool {
+    pub fn see(&mut self, told: &ToldMotion) -> bool {
         let now = told.time;
         let place = earth::ecef(&told.place).0;
         let Some((last, from)) = self.last.replace((*told, place)) else { return false };
@@ -78,7 +78,7 @@ mod tests {
         let mut word = OwnWord::default();
         (0..300).find(|second| {
             let t = f64::from(*second);
-            word.see(&Told {
+            word.see(&ToldMotion {
                 time: Time::from_seconds(t),
                 place: Geodetic { latitude: place(t) / MERIDIAN, longitude: 0.0, height: 0.0 },
                 place_std: 1.0,

@@ -10,7 +10,7 @@ const BEYOND: f64 = 2.0;
 
 /// The speed at the latest looks.
 #[derive(Clone, Copy, Debug)]
-pub struct Pace {
+pub struct PaceWatch {
     speeds: [f64; SPAN],
     count: usize,
     last: Option<Time>,
@@ -18,13 +18,13 @@ pub struct Pace {
     seen: f64,
 }
 
-impl Default for Pace {
+impl Default for PaceWatch {
     fn default() -> Self {
-        Pace { speeds: [0.0; SPAN], count: 0, last: None, seen: 0.0 }
+        PaceWatch { speeds: [0.0; SPAN], count: 0, last: None, seen: 0.0 }
     }
 }
 
-impl Pace {
+impl PaceWatch {
     /// Whether it is time to look.
     #[must_use]
     pub fn is_due(&self, now: Time) -> bool {
@@ -63,7 +63,7 @@ mod tests {
 
     #[test]
     fn a_change_counts_for_half_a_minute() {
-        let mut pace = Pace::default();
+        let mut pace = PaceWatch::default();
         let changes: Vec<f64> = (0..70)
             .map(|second| {
                 let speed = if second < 10 { 5.0 } else { 9.0 };

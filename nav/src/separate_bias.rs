@@ -117,16 +117,19 @@ struct Fit {
 }
 
 impl Fit {
-    fn finding(&self) -> Finding {
+    fn finding(&self) -> ConstantsFinding {
         let prior = &self.prior;
         let covariance = self.factor.inverse().component_mul(&(prior * prior.transpose()));
-        Finding { value: self.solved.component_mul(prior), covariance: covariance * self.left }
+        ConstantsFinding {
+            value: self.solved.component_mul(prior),
+            covariance: covariance * self.left,
+        }
     }
 }
 
 /// What the constants are found to be off by.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Finding {
+pub struct ConstantsFinding {
     /// True minus configured.
     pub value: Constants,
     /// Its covariance.
@@ -300,7 +303,7 @@ impl SeparateBias {
 
     /// What is found to be wrong, if anything is.
     #[must_use]
-    pub fn finding(&self) -> Option<Finding> {
+    pub fn finding(&self) -> Option<ConstantsFinding> {
         let fits = self.misfit <= self.heard;
         if fits || self.heard < FEWEST {
             return None;
@@ -352,7 +355,7 @@ impl SeparateBias {
 
     /// How much better a hypothesis fits than the configuration, and what it finds; `None` unless it is
     /// believed.
-    fn weigh(&self, prior: &Constants) -> Option<(f64, Finding)> {
+    fn weigh(&self, prior: &Constants) -> Option<(f64, ConstantsFinding)> {
         let fit = self.fit(prior)?;
         if fit.score <= CONVINCING || !self.is_explained(&fit) {
             return None;
@@ -373,8 +376,8 @@ impl SeparateBias {
     }
 
     /// The error of the estimate that a finding means; the covariance is as much wider as the finding is unsure.
-    pub fn correct(&self, finding: &Finding, p: &mut Covariance) -> Errors {
-        let Finding { value, covariance } = finding;
+    pub fn correct(&self, finding: &ConstantsFinding, p: &mut Covariance) -> Errors {
+        let ConstantsFinding { value, covariance } = finding;
         let bent = SMatrix::from_diagonal(&(value.component_mul(value) * (BENT * BENT)));
         let unsure = covariance + bent;
         p.spread_by(
@@ -385,7 +388,7 @@ impl SeparateBias {
     }
 }
 
-impl Finding {
+impl ConstantsFinding {
     /// Whether lever arm or delay of GNSS are off by much.
     #[must_use]
     pub fn is_of_antenna(&self) -> bool {

@@ -28,7 +28,7 @@ const PROOFS: u32 = 2;
 
 /// The velocity of a craft as it is looked at.
 #[derive(Clone, Copy, Debug)]
-pub struct Look {
+pub struct WheelLook {
     /// Body axes: forward, starboard, down, m/s.
     pub velocity: Vector3<f64>,
     /// How fast she rises, m/s.
@@ -50,7 +50,7 @@ struct Span {
 }
 
 impl Span {
-    fn add(&mut self, look: &Look, seconds: f64) {
+    fn add(&mut self, look: &WheelLook, seconds: f64) {
         self.count += 1;
         self.athwart += look.velocity.y.powi(2);
         self.downwards += look.velocity.z.powi(2);
@@ -88,7 +88,7 @@ impl Wheels {
     }
 
     /// Looks at her, once a second while a receiver tells her velocity.
-    pub fn see(&mut self, now: Time, look: &Look) {
+    pub fn see(&mut self, now: Time, look: &WheelLook) {
         let since = self.last.replace(now).map_or(GAP, |last| (now - last).as_seconds());
         if since >= GAP {
             self.span = Span::default();
@@ -124,7 +124,7 @@ mod tests {
             let (pitch, rise, ahead) = (pitch(t), rise(t), 8.0);
             let down = ahead * pitch.sin() - rise * pitch.cos();
             let velocity = Vector3::new(ahead, athwart, down);
-            wheels.see(Time::from_seconds(t), &Look { velocity, rise, pitch });
+            wheels.see(Time::from_seconds(t), &WheelLook { velocity, rise, pitch });
         }
         wheels.are_proven()
     }

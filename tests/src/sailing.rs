@@ -1,7 +1,7 @@
 //! A voyage in memory through the engine, and all that came out of it.
 
 use insd_base::{
-    AlignmentStatus, Counts, Event, Innovation, Message, Mode, Received, Rejection, Solution,
+    AidInnovation, AlignmentStatus, Counts, Event, Message, Mode, Received, Rejection, Solution,
     Source, Time, Voyage,
 };
 use insd_engine::{Engine, EngineConfig, Output};
@@ -16,7 +16,7 @@ pub struct Logbook {
     /// In order of their appearance.
     pub solutions: Vec<Solution>,
     /// In order of their appearance.
-    pub innovations: Vec<Innovation>,
+    pub innovations: Vec<AidInnovation>,
     /// In order of their appearance.
     pub events: Vec<Event>,
     /// In order of their appearance.

@@ -9,7 +9,7 @@ use nalgebra::{Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 
 use super::belief::{Belief, CONSIDERED, STATES, considered as k, innovation, state as x};
 use super::mast::Mast;
-use super::motion::{Local, Motion, across, rotation};
+use super::motion::{HorizontalMotion, Local, across, rotation};
 
 type ByConsidered = SMatrix<f64, 2, CONSIDERED>;
 
@@ -17,7 +17,7 @@ type ByConsidered = SMatrix<f64, 2, CONSIDERED>;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scene {
     /// The estimate.
-    pub motion: Motion,
+    pub motion: HorizontalMotion,
     /// Around it.
     pub local: Local,
     /// Rotation from body axes to the computed frame.
@@ -47,7 +47,7 @@ pub struct Split<T> {
 
 /// A log's velocity, body axes, m/s; a missing starboard component is taken as zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LogReading {
+pub struct SpeedReading {
     /// Forward.
     pub u: f64,
     /// Starboard.
@@ -72,7 +72,7 @@ impl Scene {
     /// From an estimate and the gyros' rate against inertial space, body axes, rad/s.
     #[must_use]
     pub fn new(
-        motion: &Motion,
+        motion: &HorizontalMotion,
         measured_rate: &Vector3<f64>,
         rate_variance: f64,
         down: (f64, f64),
@@ -199,7 +199,7 @@ pub fn gnss_velocity(
 #[must_use]
 pub fn log_velocity(
     scene: &Scene,
-    reading: &LogReading,
+    reading: &SpeedReading,
     lever: &Vector3<f64>,
     belief: &Belief,
 ) -> Innovation {

@@ -71,9 +71,9 @@ pub const OWN: Block<STATES> = Block::new(0);
 pub const OF_SENSORS: Block<CONSIDERED> = Block::new(1);
 
 /// Errors, true minus estimated.
-pub type Errors = SVector<f64, STATES>;
+pub type OwnErrors = SVector<f64, STATES>;
 /// Their covariance.
-pub type Covariance = SMatrix<f64, STATES, STATES>;
+pub type OwnCovariance = SMatrix<f64, STATES, STATES>;
 /// Covariance of estimated (rows) with considered errors (columns).
 pub type Cross = SMatrix<f64, STATES, CONSIDERED>;
 /// One value for each considered error.
@@ -96,11 +96,11 @@ pub struct Belief {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretched {
     /// F.
-    pub f: Covariance,
+    pub f: OwnCovariance,
     /// G, of the considered errors of gyros and accelerometers: the first six.
     pub g: SMatrix<f64, STATES, INERTIAL>,
     /// Q.
-    pub q: Covariance,
+    pub q: OwnCovariance,
     /// Share of each considered error that is left.
     pub decay: PerConsidered,
 }
@@ -140,14 +140,14 @@ impl Belief {
         put(k::LOG_TURN, 1, square(config.log.misalignment_std));
         put(k::CURRENT, 2, square(config.log.current_std));
         let mut all = insd_estimation::Covariance::none();
-        all.join(OWN, &Covariance::zeros());
+        all.join(OWN, &OwnCovariance::zeros());
         all.join(OF_SENSORS, &SMatrix::from_diagonal(&prior));
         Belief { all, prior }
     }
 
     /// Of the eight.
     #[must_use]
-    pub fn own(&self) -> Covariance {
+    pub fn own(&self) -> OwnCovariance {
         OWN.covariance(&self.all)
     }
 
@@ -240,7 +240,7 @@ impl Belief {
     }
 
     /// The belief in other coordinates, x' = T x.
-    pub fn transform(&mut self, t: &Covariance) {
+    pub fn transform(&mut self, t: &OwnCovariance) {
         OWN.transform(&mut self.all, t);
     }
 
@@ -260,7 +260,7 @@ impl Belief {
 
     /// Updates the belief and returns the estimated errors.
     #[must_use]
-    pub fn absorb(&mut self, weighed: &Weighed) -> Errors {
+    pub fn absorb(&mut self, weighed: &Weighed) -> OwnErrors {
         weighed.update_considering(&mut self.all, &[OF_SENSORS.key()]).of(OWN)
     }
 

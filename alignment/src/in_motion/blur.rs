@@ -28,7 +28,7 @@
 use insd_estimation::Weighed;
 use nalgebra::{DMatrix, Matrix2, SymmetricEigen, Vector2};
 
-use super::belief::{Covariance, OWN, STATES, Stretched, state as x};
+use super::belief::{OWN, OwnCovariance, STATES, Stretched, state as x};
 
 /// Information about each of sine and cosine when nothing is known: both have the variance 1/2 on the circle.
 const PRIOR: f64 = 2.0;
@@ -37,14 +37,14 @@ const PRIOR: f64 = 2.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blur {
     /// B.
-    noise: Covariance,
+    noise: OwnCovariance,
     /// J_noise.
     information: f64,
 }
 
 impl Default for Blur {
     fn default() -> Self {
-        Blur { noise: Covariance::zeros(), information: 0.0 }
+        Blur { noise: OwnCovariance::zeros(), information: 0.0 }
     }
 }
 
@@ -62,7 +62,7 @@ impl Blur {
 
     /// With a measurement that is about to change a covariance, of which so much variance is noise in what its matrix takes for the
     /// motion of the hull.
-    pub fn absorb(&mut self, weighed: &Weighed, own: &Covariance, swing: f64) {
+    pub fn absorb(&mut self, weighed: &Weighed, own: &OwnCovariance, swing: f64) {
         let h = weighed.innovation().h.of(OWN);
         let to_state = weighed.cross().rows(0, STATES).into_owned();
         let s = weighed.covariance();
@@ -75,7 +75,7 @@ impl Blur {
         let gain = (to_state - response * seen) * &weight;
         let noise = &h * self.noise * h.transpose();
         self.information += (&weight * noise).trace() + swing * weight.trace();
-        let kept = Covariance::identity() - gain * &h;
+        let kept = OwnCovariance::identity() - gain * &h;
         self.noise = kept * self.noise * kept.transpose();
     }
 

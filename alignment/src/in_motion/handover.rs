@@ -17,7 +17,7 @@ use insd_nav::initial::sensor_covariance;
 use insd_nav::{InitialState, Nominal};
 use nalgebra::{Matrix1, Matrix2, Matrix3, SMatrix, UnitQuaternion, Vector1, Vector2, Vector3};
 
-use super::belief::{CONSIDERED, Covariance, STATES, considered as k, innovation, state as x};
+use super::belief::{CONSIDERED, OwnCovariance, STATES, considered as k, innovation, state as x};
 use super::motion::{across, rotation};
 use super::{ASTRAY, EightState, LEAN};
 
@@ -39,7 +39,7 @@ impl EightState {
         self.motion.tilt -= self.motion.turn() * a;
         self.motion.attitude =
             UnitQuaternion::new(Vector3::new(a.x, a.y, 0.0)) * self.motion.attitude;
-        let mut t = Covariance::identity();
+        let mut t = OwnCovariance::identity();
         t.fixed_view_mut::<2, 1>(x::TILT, x::SINE).copy_from(&-across(&a));
         t.fixed_view_mut::<2, 1>(x::TILT, x::VERSINE).copy_from(&a);
         self.belief.transform(&t);
@@ -106,7 +106,7 @@ impl EightState {
         let (old_cos, old_sin) = (1.0 - self.motion.versine, self.motion.sine);
         self.motion.versine = 1.0 - (cos * old_cos + sin * old_sin);
         self.motion.sine = cos * old_sin - sin * old_cos;
-        let mut t = Covariance::identity();
+        let mut t = OwnCovariance::identity();
         t[(x::SINE, x::SINE)] = cos;
         t[(x::SINE, x::VERSINE)] = sin;
         t[(x::VERSINE, x::SINE)] = -sin;

@@ -6,12 +6,12 @@ use insd_base::{
 use insd_estimation::Innovation;
 use insd_nav::antenna::AntennaMotion;
 use insd_nav::floors::{self, Believable};
-use insd_nav::leap::Told;
+use insd_nav::leap::ToldMotion;
 use insd_nav::{AidReport, Outcome, Report};
 use nalgebra::{Vector2, Vector3};
 
 use super::EightState;
-use super::aids::{self, LogReading, Split};
+use super::aids::{self, SpeedReading, Split};
 use super::belief::{considered as k, state as x};
 
 /// Attitude that a levelled ship under way is unsure of from moment to moment, rad: it carries the antenna, and where only
@@ -120,7 +120,7 @@ impl EightState {
         if std.replaced {
             report.floored.push(aid);
         }
-        let reading = LogReading { u, v: log.v, w: log.w, std: std.value, water };
+        let reading = SpeedReading { u, v: log.v, w: log.w, std: std.value, water };
         let lever = self.config.lever_arms.log.0;
         let innovation = aids::log_velocity(&self.scene(), &reading, &lever, &self.belief);
         self.judge((&innovation, 0.0), log.time, source, aid, &mut report);
@@ -208,7 +208,7 @@ impl EightState {
     /// claims cover both.
     fn watch_for_leaps(&mut self, fix: &GnssFix, place: &Geodetic, place_std: f64) {
         let swing = self.scene().swing(&self.config.gnss_lever());
-        let told = Told {
+        let told = ToldMotion {
             time: self.time,
             place: *place,
             place_std,

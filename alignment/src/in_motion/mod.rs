@@ -55,8 +55,8 @@ use aids::Scene;
 use belief::{Belief, considered as k, state as x};
 use blur::Blur;
 use mast::Mast;
-use motion::{Local, Motion, Stretch};
-use vertical::Vertical;
+use motion::{HorizontalMotion, HorizontalStretch, Local};
+use vertical::VerticalChannel;
 
 /// The filter of eight states.
 #[derive(Clone, Debug)]
@@ -64,14 +64,14 @@ pub struct EightState {
     config: NavConfig,
     gate: Gate,
     time: Time,
-    motion: Motion,
+    motion: HorizontalMotion,
     local: Local,
     belief: Belief,
     /// What noise passes for, as long as she has made no way: of a craft under way it is little beside what she does, and on
     /// wheels what the monitor takes for it is motion.
     blur: Option<Blur>,
-    vertical: Vertical,
-    stretch: Stretch,
+    vertical: VerticalChannel,
+    stretch: HorizontalStretch,
     rate: Vector3<f64>,
     rate_variance: f64,
     /// Integral of the force, computed frame, m/s: only its changes are used.
@@ -113,7 +113,7 @@ impl EightState {
     #[must_use]
     pub fn new(config: &NavConfig, level: &Level, start: &Kinematics) -> Self {
         let attitude = level.attitude(0.0, &start.position, &Vector3::zeros());
-        let mut motion = Motion {
+        let mut motion = HorizontalMotion {
             place: start.position,
             velocity: start.velocity.xy(),
             tilt: Vector2::zeros(),
@@ -133,13 +133,13 @@ impl EightState {
             local,
             belief: Belief::new(config),
             blur: (start.velocity.norm() < LEFT).then(Blur::default),
-            vertical: Vertical::new(
+            vertical: VerticalChannel::new(
                 start.position.height,
                 start.position_std,
                 start.velocity.z,
                 start.velocity_std,
             ),
-            stretch: Stretch::default(),
+            stretch: HorizontalStretch::default(),
             rate: level.rate,
             rate_variance: rate_variance(&config.imu),
             push: Vector3::zeros(),
@@ -187,7 +187,7 @@ impl EightState {
 
     /// The estimate, for tests and tools.
     #[must_use]
-    pub fn motion(&self) -> &Motion {
+    pub fn motion(&self) -> &HorizontalMotion {
         &self.motion
     }
 
@@ -280,7 +280,7 @@ impl EightState {
         }
         self.motion.place.height = self.vertical.height;
         self.motion.attitude.renormalize();
-        self.stretch = Stretch::default();
+        self.stretch = HorizontalStretch::default();
         self.keep_upright();
         self.local = Local::new(&self.motion);
         self.note_heading();

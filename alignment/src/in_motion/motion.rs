@@ -26,13 +26,13 @@ use insd_nav::{Increment, NavConfig};
 use nalgebra::{Matrix2, Matrix3, Quaternion, SMatrix, UnitQuaternion, Vector2, Vector3};
 
 use super::belief::{
-    Belief, Covariance, Errors, INERTIAL, PerConsidered, STATES, Stretched, considered as k,
+    Belief, INERTIAL, OwnCovariance, OwnErrors, PerConsidered, STATES, Stretched, considered as k,
     state as x,
 };
 
 /// The estimate around which the eight errors are linear.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
+pub struct HorizontalMotion {
     /// Position of the IMU; the height is that of the vertical channel.
     pub place: Geodetic,
     /// Velocity north and east, m/s.
@@ -62,7 +62,7 @@ pub struct Local {
 
 /// One step of the strapdown, for the error model.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
+pub struct HorizontalStep {
     /// Specific-force integral, computed frame, m/s.
     pub force: Vector3<f64>,
     /// Bow direction, computed frame, horizontal.
@@ -75,7 +75,7 @@ pub struct Step {
 
 /// Sums over steps since the belief was last carried on.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Stretch {
+pub struct HorizontalStretch {
     /// Length, s.
     pub duration: f64,
     force: Vector3<f64>,
@@ -103,7 +103,7 @@ fn slightly(by: &Vector3<f64>) -> UnitQuaternion<f64> {
 impl Local {
     /// Around a place and a velocity.
     #[must_use]
-    pub fn new(motion: &Motion) -> Self {
+    pub fn new(motion: &HorizontalMotion) -> Self {
         let place = &motion.place;
         let (meridian, prime) = earth::radii(place.latitude);
         let earth_rate = earth::rate_n(place.latitude);
@@ -118,7 +118,7 @@ impl Local {
     }
 }
 
-impl Motion {
+impl HorizontalMotion {
     /// Estimated R(dpsi). Before the heading is known its columns are shorter than one.
     #[must_use]
     pub fn turn(&self) -> Matrix2<f64> {
@@ -148,7 +148,7 @@ impl Motion {
     }
 
     /// Integrates one increment; `down` is the velocity downwards, m/s.
-    pub fn advance(&mut self, local: &Local, increment: &Increment, down: f64) -> Step {
+    pub fn advance(&mut self, local: &Local, increment: &Increment, down: f64) -> HorizontalStep {
         let h = increment.duration();
         let rotation = &increment.rotation;
         let half_turn = UnitQuaternion::new(rotation * 0.5);
@@ -168,7 +168,7 @@ impl Motion {
         self.attitude = earth_turn * half * half_turn;
         let upright = force.z + self.tilt.x * push.y - self.tilt.y * push.x;
         let bow = half * Vector3::x();
-        Step {
+        HorizontalStep {
             force,
             bow: bow.xy(),
             turn: (half * rotation).z,
@@ -186,7 +186,7 @@ impl Motion {
     }
 
     /// Moves the estimate by its errors: estimated + error = true.
-    pub fn inject(&mut self, local: &Local, errors: &Errors) {
+    pub fn inject(&mut self, local: &Local, errors: &OwnErrors) {
         self.shift(local, &errors.fixed_rows::<2>(x::POSITION).into_owned());
         self.velocity += errors.fixed_rows::<2>(x::VELOCITY);
         self.tilt += errors.fixed_rows::<2>(x::TILT);
@@ -195,9 +195,9 @@ impl Motion {
     }
 }
 
-impl Stretch {
+impl HorizontalStretch {
     /// Adds a step and the increment it came from.
-    pub fn add(&mut self, step: &Step, increment: &Increment) {
+    pub fn add(&mut self, step: &HorizontalStep, increment: &Increment) {
         let h = increment.duration();
         self.duration += h;
         self.force += step.force;
@@ -212,7 +212,7 @@ impl Stretch {
     #[must_use]
     pub fn transition(
         &self,
-        motion: &Motion,
+        motion: &HorizontalMotion,
         local: &Local,
         belief: &Belief,
         config: &NavConfig,
@@ -225,11 +225,11 @@ impl Stretch {
         }
     }
 
-    fn own(&self, motion: &Motion, local: &Local) -> Covariance {
+    fn own(&self, motion: &HorizontalMotion, local: &Local) -> OwnCovariance {
         let dt = self.duration;
         let (meridian, prime) = local.radii;
         let w = local.turn;
-        let mut f = Covariance::identity();
+        let mut f = OwnCovariance::identity();
         let (_, by_force) = motion.carried(&self.force);
         let spin = |rate: f64| Matrix2::new(0.0, rate * dt, -rate * dt, 0.0);
         // the Earth's rate, seen misheaded, tilts the frame
@@ -256,7 +256,7 @@ impl Stretch {
     }
 
     /// A sensor reads true + bias: the estimate runs ahead by it and the error falls behind.
-    fn input(&self, motion: &Motion) -> SMatrix<f64, STATES, INERTIAL> {
+    fn input(&self, motion: &HorizontalMotion) -> SMatrix<f64, STATES, INERTIAL> {
         let dt = self.duration;
         let hull = rotation(&self.bow);
         let lean = Matrix2::new(0.0, self.force.z, -self.force.z, 0.0);
@@ -276,11 +276,16 @@ impl Stretch {
         g
     }
 
-    fn noise(&self, motion: &Motion, belief: &Belief, config: &NavConfig) -> Covariance {
+    fn noise(
+        &self,
+        motion: &HorizontalMotion,
+        belief: &Belief,
+        config: &NavConfig,
+    ) -> OwnCovariance {
         let (gyro, accel) = (&config.imu.gyro, &config.imu.accel);
         let angle = gyro.random_walk.powi(2) * self.duration + self.rate_noise;
         let speed = accel.random_walk.powi(2) * self.duration + self.force_noise;
-        let mut q = Covariance::zeros();
+        let mut q = OwnCovariance::zeros();
         for axis in 0..2 {
             q[(x::VELOCITY + axis, x::VELOCITY + axis)] = speed;
             q[(x::TILT + axis, x::TILT + axis)] = angle;

@@ -10,8 +10,8 @@ use insd_estimation::Innovation;
 use insd_nav::error_state::{ATTITUDE, POSITION, VELOCITY};
 use nalgebra::Cholesky;
 
-use super::aids::{LogReading, Split};
-use super::belief::{Errors, OWN, STATES};
+use super::aids::{SpeedReading, Split};
+use super::belief::{OWN, OwnErrors, STATES};
 use super::*;
 use ship::{Run, Ship, good_imu, mems_imu};
 
@@ -34,7 +34,7 @@ fn the_equations_carry_the_truth_for_any_misheading_and_tilt() {
         let c_nb = UnitQuaternion::from_matrix(&ship.attitude(0.0).c_nb());
         let dpsi = ship.heading;
         let back = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -dpsi);
-        let mut motion = Motion {
+        let mut motion = HorizontalMotion {
             place: ship.place,
             velocity: ship.velocity(0.0).xy(),
             tilt,
@@ -62,7 +62,7 @@ fn the_equations_carry_the_truth_for_any_misheading_and_tilt() {
 #[test]
 fn the_transition_agrees_with_perturbed_strapdowns() {
     let ship = Ship { heading: 2.0, turn: 0.03, thrust: 0.2, ..Ship::at(52.0) };
-    let start = Motion {
+    let start = HorizontalMotion {
         place: ship.place,
         velocity: ship.velocity(0.0).xy(),
         tilt: Vector2::new(0.01, -0.02),
@@ -72,10 +72,10 @@ fn the_transition_agrees_with_perturbed_strapdowns() {
     };
     let local = Local::new(&start);
     let config = NavConfig::new(good_imu(), LeverArms::default());
-    let run = |errors: &Errors| {
+    let run = |errors: &OwnErrors| {
         let mut motion = start;
         motion.inject(&local, errors);
-        let mut stretch = Stretch::default();
+        let mut stretch = HorizontalStretch::default();
         let mut place = ship.place;
         for i in 0..50 {
             let increment = ship.increment(i, &mut place);
@@ -84,12 +84,12 @@ fn the_transition_agrees_with_perturbed_strapdowns() {
         }
         (motion, stretch)
     };
-    let (_, stretch) = run(&Errors::zeros());
+    let (_, stretch) = run(&OwnErrors::zeros());
     let f = stretch.transition(&start, &local, &Belief::new(&config), &config).f;
     for state in 0..STATES {
         let step = if state < 4 { 1.0 } else { 1e-3 };
         let moved = |amount: f64| {
-            let mut errors = Errors::zeros();
+            let mut errors = OwnErrors::zeros();
             errors[state] = amount;
             run(&errors).0
         };
@@ -99,13 +99,14 @@ fn the_transition_agrees_with_perturbed_strapdowns() {
             * (local.radii.1 * start.place.latitude.cos());
         let v = ahead.velocity - behind.velocity;
         // the frame is commanded by the estimate, but the true axes turn with the true velocity
-        let turning = |motion: &Motion| Local::new(motion).turn.xy() * stretch.duration;
+        let turning = |motion: &HorizontalMotion| Local::new(motion).turn.xy() * stretch.duration;
         let tilt = ahead.tilt - behind.tilt - (turning(&ahead) - turning(&behind));
         let turn = (ahead.sine - behind.sine, ahead.versine - behind.versine);
         let slope =
-            Errors::from_column_slice(&[north, east, v.x, v.y, tilt.x, tilt.y, turn.0, turn.1])
+            OwnErrors::from_column_slice(&[north, east, v.x, v.y, tilt.x, tilt.y, turn.0, turn.1])
                 / (2.0 * step);
-        let scales = Errors::from_column_slice(&[2e-4, 2e-4, 4e-4, 4e-4, 1e-8, 1e-8, 1e-9, 1e-9]);
+        let scales =
+            OwnErrors::from_column_slice(&[2e-4, 2e-4, 4e-4, 4e-4, 1e-8, 1e-8, 1e-9, 1e-9]);
         for row in 0..STATES {
             let (found, model) = (slope[row], f[(row, state)]);
             let tolerance = scales[row] + 2e-3 * model.abs();
@@ -433,7 +434,8 @@ fn table() -> [Aid; 6] {
             aids::gnss_velocity(scene, &fix, &LEVER, &Vector2::new(0.3, -0.2), belief)
         }),
         ("log", |scene, belief| {
-            let reading = LogReading { u: 5.0, v: Some(0.4), w: Some(0.1), std: 0.1, water: false };
+            let reading =
+                SpeedReading { u: 5.0, v: Some(0.4), w: Some(0.1), std: 0.1, water: false };
             aids::log_velocity(scene, &reading, &LEVER, belief)
         }),
         ("reference_position", |scene, _| {
@@ -449,7 +451,7 @@ fn table() -> [Aid; 6] {
 #[test]
 fn every_measurement_matrix_agrees_with_perturbed_predictions() {
     let ship = Ship { heading: 2.0, turn: 0.03, ..Ship::at(52.0) };
-    let motion = Motion {
+    let motion = HorizontalMotion {
         place: ship.place,
         velocity: ship.velocity(0.0).xy(),
         tilt: Vector2::new(0.01, -0.02),
@@ -460,7 +462,7 @@ fn every_measurement_matrix_agrees_with_perturbed_predictions() {
     let local = Local::new(&motion);
     let belief = Belief::new(&NavConfig::new(good_imu(), LeverArms::default()));
     let scene = |state: usize, amount: f64| {
-        let mut errors = Errors::zeros();
+        let mut errors = OwnErrors::zeros();
         errors[state] = amount;
         let mut moved = motion;
         moved.inject(&local, &errors);

@@ -5,7 +5,7 @@ use nalgebra::{Matrix2, RowVector2, Vector2};
 
 /// Height and down velocity with their covariance.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vertical {
+pub struct VerticalChannel {
     /// Height over the ellipsoid, m.
     pub height: f64,
     /// Down velocity, m/s.
@@ -23,12 +23,12 @@ const TILTED: f64 = 0.02;
 /// Heave and tide about the first height, 1-sigma, m.
 const AFLOAT: f64 = 5.0;
 
-impl Vertical {
+impl VerticalChannel {
     /// From height, m, and down velocity, m/s, with 1-sigma of each.
     #[must_use]
     pub fn new(height: f64, height_std: f64, down: f64, down_std: f64) -> Self {
         let variance = Vector2::new(height_std, down_std).map(|std| std * std);
-        Vertical {
+        VerticalChannel {
             height,
             down,
             p: Matrix2::from_diagonal(&variance),

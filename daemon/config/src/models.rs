@@ -6,7 +6,7 @@ use insd_base::Span;
 use insd_base::units::DEG;
 use insd_nav::berth::Method;
 use insd_nav::config::Models;
-use insd_nav::disturbance::Order;
+use insd_nav::disturbance::ModelOrder;
 use insd_nav::floors::Believable;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -156,7 +156,7 @@ impl AlignmentSection {
     fn lay_over(&self, models: &mut Models) {
         let prefilter = &mut models.prefilter;
         if let Some(order) = self.prefilter_order {
-            prefilter.order = Order::Chosen { max: order.into() };
+            prefilter.order = ModelOrder::Chosen { max: order.into() };
         }
         let spans = [
             (&mut prefilter.window, self.prefilter_window_s),
@@ -393,7 +393,7 @@ mod tests {
         assert_eq!(engine.alignment.moored, Method::Autoregressive);
         assert_eq!(engine.alignment.in_motion, InMotion::Bank);
         let Models { log, gate, floors, prefilter, .. } = engine.models;
-        assert_eq!(prefilter.order, Order::Chosen { max: 3 });
+        assert_eq!(prefilter.order, ModelOrder::Chosen { max: 3 });
         assert_eq!(prefilter.window, Span::from_seconds(120.0));
         assert_eq!((gate.probability, log.scale_std), (0.99, 0.02));
         assert!((floors.reference_heading.least - 0.5 * DEG).abs() < 1e-12);

@@ -3,7 +3,7 @@
 
 use insd_base::{Disturbance, Span, Time, earth};
 use insd_nav::Navigator;
-use insd_nav::disturbance::{Config, Model, Order, Prefilter};
+use insd_nav::disturbance::{Model, ModelOrder, Prefilter, PrefilterConfig};
 use nalgebra::Vector2;
 
 /// Spacing of the samples: waves down to a period of one second.
@@ -25,9 +25,12 @@ pub(crate) struct Trace {
 
 impl Trace {
     pub(crate) fn new() -> Self {
-        let order = Order::Chosen { max: HIGHEST_ORDER };
+        let order = ModelOrder::Chosen { max: HIGHEST_ORDER };
         let window = Span::from_seconds(WINDOW);
-        Trace { window: Prefilter::new(&Config { interval: SPACING, window, order }), next: None }
+        Trace {
+            window: Prefilter::new(&PrefilterConfig { interval: SPACING, window, order }),
+            next: None,
+        }
     }
 
     /// Takes the velocity of the ship, if it is time to: forward and starboard, as the corrections of

@@ -1,6 +1,6 @@
 //! What became of the measurements: counted, and told.
 
-use insd_base::{Event, Innovation, Received, Rejection, Source, Time};
+use insd_base::{AidInnovation, Event, Received, Rejection, Source, Time};
 use insd_nav::{Outcome, Report};
 
 use crate::{Engine, Output};
@@ -21,7 +21,7 @@ impl Engine {
             let accepted = aid.outcome == Outcome::Accepted;
             for (component, (innovation, sigma)) in (0..3_u8).zip(aid.innovation) {
                 if innovation.is_finite() {
-                    self.outputs.push_back(Output::Innovation(Innovation {
+                    self.outputs.push_back(Output::Innovation(AidInnovation {
                         time: aid.time,
                         aid: aid.aid,
                         component,

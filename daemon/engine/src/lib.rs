@@ -33,10 +33,10 @@ pub mod vote;
 
 use std::collections::VecDeque;
 
-use insd_alignment::{StoredState, Verdict};
+use insd_alignment::{StoredState, StoredVerdict};
 use insd_base::{
-    AlignmentStatus, Body, Counts, Event, Finding, ImuSample, ImuSpec, Innovation, Message, Mode,
-    ModeReason, Received, Rejection, Solution, Span, StartCondition, Time,
+    AidInnovation, AlignmentStatus, Body, Counts, Event, Finding, ImuSample, ImuSpec, Message,
+    Mode, ModeReason, Received, Rejection, Solution, Span, StartCondition, Time,
 };
 use insd_nav::{
     Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Report, Timeline,
@@ -64,7 +64,7 @@ pub enum Output {
     /// The state of the ship at an output epoch.
     Solution(Solution),
     /// An innovation of a measurement.
-    Innovation(Innovation),
+    Innovation(AidInnovation),
     /// What the alignment knows of itself: when its phase changes and every ten seconds until the ship
     /// is aligned.
     Alignment(AlignmentStatus),
@@ -452,8 +452,8 @@ impl Engine {
         let Some(verdict) = line.estimator().verdict() else { return };
         self.config.stored = None;
         self.tell(match verdict {
-            Verdict::Used { time } => Event::StoredStateUsed { time },
-            Verdict::Dropped { time, reason } => Event::StoredStateDropped { time, reason },
+            StoredVerdict::Used { time } => Event::StoredStateUsed { time },
+            StoredVerdict::Dropped { time, reason } => Event::StoredStateDropped { time, reason },
         });
     }
 

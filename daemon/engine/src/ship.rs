@@ -1,7 +1,9 @@
 //! The ship on her time line: finding her heading, then navigating.
 
 use insd_alignment::bank::Kinematics;
-use insd_alignment::{AlignmentConfig, Bank, EightState, InMotion, Level, StoredState, Verdict};
+use insd_alignment::{
+    AlignmentConfig, Bank, EightState, InMotion, Level, StoredState, StoredVerdict,
+};
 use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::units::DEG;
 use insd_base::{
@@ -42,7 +44,7 @@ pub(crate) enum Ship {
     Navigating {
         navigator: Box<Navigator>,
         aligned: bool,
-        verdict: Option<Verdict>,
+        verdict: Option<StoredVerdict>,
         trial: Option<Trial>,
         blind: Option<Blind>,
     },
@@ -86,12 +88,12 @@ impl Ship {
     }
 
     /// What became of the stored state that was offered.
-    pub(crate) fn verdict(&self) -> Option<Verdict> {
+    pub(crate) fn verdict(&self) -> Option<StoredVerdict> {
         match self {
             Ship::Aligning { bank, .. } => bank.verdict(),
             Ship::InMotion { finder, .. } => {
                 let (time, reason) = (finder.time(), StoredDoubt::NotMoored);
-                Some(Verdict::Dropped { time, reason })
+                Some(StoredVerdict::Dropped { time, reason })
             }
             Ship::Navigating { verdict, .. } => *verdict,
         }

@@ -347,7 +347,7 @@ pub enum Event {
 
 /// One component of an innovation: measured minus predicted, with the sigma that was expected.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Innovation {
+pub struct AidInnovation {
     /// Time of validity.
     pub time: Time,
     /// Of which aid: `gnss_position`, ...

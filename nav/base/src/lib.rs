@@ -41,7 +41,7 @@ pub use alignment::{
 pub use attitude::Attitude;
 pub use can::{BusEvent, CanFrame, CanId};
 pub use estimates::{Disturbance, Estimate, Estimates};
-pub use events::{Counts, Event, Innovation, ModeReason, Rejection, ResumeDoubt, StoredDoubt};
+pub use events::{AidInnovation, Counts, Event, ModeReason, Rejection, ResumeDoubt, StoredDoubt};
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
 pub use heave::{DelayedHeave, Heave, HeaveQuality};

@@ -21,13 +21,13 @@ use insd_base::{Span, Time, earth};
 use nalgebra::{Vector2, Vector3};
 
 use super::white_noise::{self, WhiteNoise};
-use crate::disturbance::{Config, Model, Prefilter, SlowVelocity};
+use crate::disturbance::{Model, Prefilter, PrefilterConfig, SlowVelocity};
 
 /// Holds a filter at the berth by its prefiltered velocity.
 #[derive(Clone, Debug)]
 pub struct Prefiltered {
     prefilter: Prefilter,
-    config: Config,
+    config: PrefilterConfig,
     model: Option<Model>,
     beginning: WhiteNoise,
     start: Time,

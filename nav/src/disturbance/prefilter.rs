@@ -54,7 +54,7 @@ const GROWTH: f64 = std::f64::consts::E;
 
 /// How many past samples the model of the sea looks at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Order {
+pub enum ModelOrder {
     /// Always so many.
     Fixed(usize),
     /// The best of 0 to `max` by Akaike's criterion, at every estimate.
@@ -66,19 +66,19 @@ pub enum Order {
 
 /// Settings of a [`Prefilter`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Config {
+pub struct PrefilterConfig {
     /// From sample to sample; at least 1 ms.
     pub interval: Span,
     /// Length of the window; 32 to 3600 samples. At least three periods of the slowest sway: that of moorings is one to three
     /// minutes, and over five a Schuler oscillation is still a parabola.
     pub window: Span,
     /// Order of the model; at most 16.
-    pub order: Order,
+    pub order: ModelOrder,
 }
 
 /// Why there is no slow velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Refusal {
+pub enum PrefilterRefusal {
     /// The window holds too few samples with an unbroken past.
     TooFew {
         /// So many there are.
@@ -137,23 +137,25 @@ impl SlowVelocity {
 #[derive(Clone, Debug)]
 pub struct Prefilter {
     window: Window,
-    order: Order,
+    order: ModelOrder,
 }
 
-impl Default for Config {
+impl Default for PrefilterConfig {
     fn default() -> Self {
-        Config {
+        PrefilterConfig {
             interval: Span::from_seconds(1.0),
             window: Span::from_seconds(300.0),
-            order: Order::Chosen { max: 8 },
+            order: ModelOrder::Chosen { max: 8 },
         }
     }
 }
 
-impl Order {
+impl ModelOrder {
     fn highest(self) -> usize {
         match self {
-            Order::Fixed(order) | Order::Chosen { max: order } => order.min(HIGHEST_ORDER),
+            ModelOrder::Fixed(order) | ModelOrder::Chosen { max: order } => {
+                order.min(HIGHEST_ORDER)
+            }
         }
     }
 }
@@ -161,7 +163,7 @@ impl Order {
 impl Prefilter {
     /// An empty window. Settings out of their range are taken at the nearer end of it.
     #[must_use]
-    pub fn new(config: &Config) -> Self {
+    pub fn new(config: &PrefilterConfig) -> Self {
         let interval = config.interval.max(Span::from_nanos(1_000_000));
         let samples = (config.window.as_seconds() / interval.as_seconds()).round();
         let length = (samples as usize).clamp(SAMPLES.0, SAMPLES.1);
@@ -206,15 +208,15 @@ impl Prefilter {
     ///
     /// # Errors
     /// Why there is none.
-    pub fn estimate(&self) -> Result<SlowVelocity, Refusal> {
+    pub fn estimate(&self) -> Result<SlowVelocity, PrefilterRefusal> {
         let max = self.order.highest();
         let needed = ROWS_PER_UNKNOWN * columns(max);
         let mut slots: Vec<Slot> = self.window.slots().copied().collect();
-        let time = self.window.newest().ok_or(Refusal::TooFew { rows: 0, needed })?;
-        let few = Refusal::TooFew { rows: 0, needed };
+        let time = self.window.newest().ok_or(PrefilterRefusal::TooFew { rows: 0, needed })?;
+        let few = PrefilterRefusal::TooFew { rows: 0, needed };
         let (parabola, scale) = trend(&slots).ok_or(few)?;
         if !scale.is_finite() {
-            return Err(Refusal::NotFinite);
+            return Err(PrefilterRefusal::NotFinite);
         }
         let parabola = Matrix2x3::from_fn(|axis, power| parabola[(power, axis)]);
         let length = slots.len();
@@ -224,14 +226,14 @@ impl Prefilter {
         let regression = Regression::new(&slots, max, scale);
         let rows = regression.rows();
         if rows < needed {
-            return Err(Refusal::TooFew { rows, needed });
+            return Err(PrefilterRefusal::TooFew { rows, needed });
         }
         if scale < STILL {
-            return Err(Refusal::Still);
+            return Err(PrefilterRefusal::Still);
         }
         let order = match self.order {
-            Order::Fixed(_) => max,
-            Order::Chosen { .. } => regression.best_order(max),
+            ModelOrder::Fixed(_) => max,
+            ModelOrder::Chosen { .. } => regression.best_order(max),
         };
         let half = half_width(length);
         let (slow, covariance, model) = self.fit(&regression, order, half)?;
@@ -254,8 +256,8 @@ impl Prefilter {
         regression: &Regression,
         order: usize,
         half: f64,
-    ) -> Result<(Matrix2x3<f64>, Matrix2<f64>, Model), Refusal> {
-        let theta = regression.coefficients(order).ok_or(Refusal::NotFinite)?;
+    ) -> Result<(Matrix2x3<f64>, Matrix2<f64>, Model), PrefilterRefusal> {
+        let theta = regression.coefficients(order).ok_or(PrefilterRefusal::NotFinite)?;
         let drive = Matrix2x3::from_fn(|axis, power| theta[(power, axis)]);
         let lag = |i| Matrix2::from_fn(|axis, from| theta[(columns(i) + from, axis)]);
         let coefficients: Vec<Matrix2<f64>> = (0..order).map(lag).collect();
@@ -263,18 +265,20 @@ impl Prefilter {
         let model = Model::new(coefficients, sigma, self.window.interval());
         let radius = model.radius();
         if radius.ln() * 2.0 * half > GROWTH.ln() {
-            return Err(Refusal::Unstable { radius });
+            return Err(PrefilterRefusal::Unstable { radius });
         }
-        let singular = Refusal::Indistinct { gain: 0.0, gain_std: 0.0 };
+        let singular = PrefilterRefusal::Indistinct { gain: 0.0, gain_std: 0.0 };
         let response = Response::new(model.coefficients(), half).ok_or(singular)?;
-        let (gain, gain_std) = response.weakest(order, regression).ok_or(Refusal::NotFinite)?;
+        let (gain, gain_std) =
+            response.weakest(order, regression).ok_or(PrefilterRefusal::NotFinite)?;
         if gain <= DISTINCT * gain_std {
-            return Err(Refusal::Indistinct { gain, gain_std });
+            return Err(PrefilterRefusal::Indistinct { gain, gain_std });
         }
         let slow = response.polynomial(&drive);
-        let covariance =
-            response.covariance(&slow, half, order, regression).ok_or(Refusal::NotFinite)?;
+        let covariance = response
+            .covariance(&slow, half, order, regression)
+            .ok_or(PrefilterRefusal::NotFinite)?;
         let is_finite = slow.iter().chain(covariance.iter()).all(|value| value.is_finite());
-        if is_finite { Ok((slow, covariance, model)) } else { Err(Refusal::NotFinite) }
+        if is_finite { Ok((slow, covariance, model)) } else { Err(PrefilterRefusal::NotFinite) }
     }
 }

@@ -24,7 +24,7 @@ const DEPTH: usize = 24;
 
 /// How the sea moves the ship.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
+pub struct SpectralMotion {
     /// Standard deviation of the disturbance velocity, north and east, m/s, all frequencies.
     pub velocity_std: Vector2<f64>,
     /// Significant double amplitude of the horizontal displacement along its longest axis, m: four
@@ -58,7 +58,7 @@ impl Model {
 
     /// How the sea moves the ship; `None` if the model is not stable.
     #[must_use]
-    pub fn significant_motion(&self) -> Option<Motion> {
+    pub fn significant_motion(&self) -> Option<SpectralMotion> {
         let velocity_std = self.variance()?.diagonal().map(f64::sqrt);
         let (low, high) = self.band(LONGEST_WAVE);
         let mut ends = vec![low, high];
@@ -73,7 +73,7 @@ impl Model {
         }
         let covariance = Matrix2::new(sum.x, sum.z, sum.z, sum.y);
         let largest = covariance.symmetric_eigenvalues().max();
-        Some(Motion { velocity_std, double_amplitude: 4.0 * largest.max(0.0).sqrt() })
+        Some(SpectralMotion { velocity_std, double_amplitude: 4.0 * largest.max(0.0).sqrt() })
     }
 
     /// Lowest and highest frequency that is looked at, Hz.

@@ -8,18 +8,18 @@ use insd_base::{Span, Time};
 use nalgebra::{Matrix2, Vector2};
 
 use self::sea::{Dice, autoregressive};
-use super::{Config, Order, Prefilter, Refusal};
+use super::{ModelOrder, Prefilter, PrefilterConfig, PrefilterRefusal};
 
 /// A prefilter of the last 120 s.
-fn prefilter(order: Order) -> Prefilter {
+fn prefilter(order: ModelOrder) -> Prefilter {
     let window = Span::from_seconds(120.0);
-    Prefilter::new(&Config { order, window, ..Config::default() })
+    Prefilter::new(&PrefilterConfig { order, window, ..PrefilterConfig::default() })
 }
 
 /// Of so many seconds, with the order chosen.
 fn of_length(seconds: usize) -> Prefilter {
     let window = Span::from_seconds(seconds as f64);
-    Prefilter::new(&Config { window, ..Config::default() })
+    Prefilter::new(&PrefilterConfig { window, ..PrefilterConfig::default() })
 }
 
 fn at(k: usize) -> Time {
@@ -60,7 +60,7 @@ fn free(coefficients: &[Matrix2<f64>; 2], count: usize) -> Vec<Vector2<f64>> {
 
 #[test]
 fn a_noise_free_model_and_its_drift_are_found_exactly() {
-    let mut prefilter = prefilter(Order::Fixed(2));
+    let mut prefilter = prefilter(ModelOrder::Fixed(2));
     push_all(&mut prefilter, with_slow(&free(&coupled(), 120)));
     let found = prefilter.estimate().unwrap();
     for (a, truth) in found.model.coefficients().iter().zip(coupled()) {
@@ -76,7 +76,7 @@ fn a_noise_free_model_and_its_drift_are_found_exactly() {
 #[test]
 fn the_drift_is_found_under_a_pure_sinusoid() {
     let sinusoid = |k: usize| Vector2::new(0.3, -0.2) * (0.8 * k as f64 + 0.4).sin();
-    for order in [Order::Fixed(2), Order::Fixed(6), Order::Chosen { max: 8 }] {
+    for order in [ModelOrder::Fixed(2), ModelOrder::Fixed(6), ModelOrder::Chosen { max: 8 }] {
         let mut prefilter = prefilter(order);
         push_all(&mut prefilter, (0..120).map(|k| slow(k) + sinusoid(k)));
         let found = prefilter.estimate().unwrap();
@@ -103,7 +103,7 @@ fn the_criterion_finds_an_order_of_four() {
 #[test]
 fn white_noise_needs_no_lags_and_claims_what_a_parabola_does() {
     let mut dice = Dice::new(3);
-    let mut prefilter = prefilter(Order::Fixed(0));
+    let mut prefilter = prefilter(ModelOrder::Fixed(0));
     push_all(&mut prefilter, (0..120).map(|k| slow(k) + dice.normal() * 0.1));
     let found = prefilter.estimate().unwrap();
     // the end of a parabola through N white samples has nine times the variance of their mean
@@ -122,7 +122,7 @@ fn a_shift_is_as_good_as_shifted_samples() {
         disturbance[k] + dv + da * t + dj * (0.5 * t * t)
     };
     let (mut shifted, mut fresh) =
-        (prefilter(Order::Chosen { max: 8 }), prefilter(Order::Chosen { max: 8 }));
+        (prefilter(ModelOrder::Chosen { max: 8 }), prefilter(ModelOrder::Chosen { max: 8 }));
     push_all(&mut shifted, disturbance.iter().copied());
     shifted.shift(&[dv, da, dj]);
     push_all(&mut fresh, (0..150).map(corrected));
@@ -134,7 +134,7 @@ fn a_shift_is_as_good_as_shifted_samples() {
 
 #[test]
 fn a_shift_moves_the_estimate_by_itself() {
-    let mut prefilter = prefilter(Order::Chosen { max: 8 });
+    let mut prefilter = prefilter(ModelOrder::Chosen { max: 8 });
     push_all(&mut prefilter, sea::waves(&mut Dice::new(8), 120));
     let before = prefilter.estimate().unwrap();
     let (dv, da) = (Vector2::new(1.0, 2.0), Vector2::new(0.01, -0.02));
@@ -147,12 +147,15 @@ fn a_shift_moves_the_estimate_by_itself() {
 
 #[test]
 fn a_growing_oscillation_is_refused() {
-    let mut prefilter = prefilter(Order::Fixed(2));
+    let mut prefilter = prefilter(ModelOrder::Fixed(2));
     let growing =
         |k: usize| Vector2::new(1.0, 0.5) * 1.05_f64.powi(k as i32) * (0.8 * k as f64).sin();
     push_all(&mut prefilter, (0..120).map(growing));
     let refusal = prefilter.estimate().unwrap_err();
-    assert!(matches!(refusal, Refusal::Unstable { radius } if radius > 1.04), "{refusal:?}");
+    assert!(
+        matches!(refusal, PrefilterRefusal::Unstable { radius } if radius > 1.04),
+        "{refusal:?}"
+    );
 }
 
 #[test]
@@ -160,17 +163,17 @@ fn zero_and_constant_and_parabolic_velocities_are_refused_as_still() {
     let shapes: [fn(usize) -> Vector2<f64>; 3] =
         [|_| Vector2::zeros(), |_| Vector2::new(3.0, -1.0), slow];
     for shape in shapes {
-        for order in [Order::Fixed(0), Order::Fixed(4), Order::Chosen { max: 8 }] {
+        for order in [ModelOrder::Fixed(0), ModelOrder::Fixed(4), ModelOrder::Chosen { max: 8 }] {
             let mut prefilter = prefilter(order);
             push_all(&mut prefilter, (0..120).map(shape));
-            assert_eq!(prefilter.estimate().unwrap_err(), Refusal::Still);
+            assert_eq!(prefilter.estimate().unwrap_err(), PrefilterRefusal::Still);
         }
     }
 }
 
 #[test]
 fn a_sea_in_one_component_only_is_no_difficulty() {
-    let mut prefilter = prefilter(Order::Chosen { max: 8 });
+    let mut prefilter = prefilter(ModelOrder::Chosen { max: 8 });
     let samples = sea::waves(&mut Dice::new(5), 120);
     push_all(&mut prefilter, samples.iter().map(|d| Vector2::new(d.x, 0.0)));
     let found = prefilter.estimate().unwrap();
@@ -179,15 +182,15 @@ fn a_sea_in_one_component_only_is_no_difficulty() {
 
 #[test]
 fn numbers_beyond_all_bounds_are_refused() {
-    let mut prefilter = prefilter(Order::Chosen { max: 8 });
+    let mut prefilter = prefilter(ModelOrder::Chosen { max: 8 });
     let wild = |k: usize| Vector2::repeat(if k.is_multiple_of(3) { f64::MAX } else { f64::MIN });
     push_all(&mut prefilter, (0..120).map(wild));
-    assert_eq!(prefilter.estimate().unwrap_err(), Refusal::NotFinite);
+    assert_eq!(prefilter.estimate().unwrap_err(), PrefilterRefusal::NotFinite);
 }
 
 #[test]
 fn a_lonely_north_sample_after_stillness_does_no_harm() {
-    let mut prefilter = prefilter(Order::Chosen { max: 8 });
+    let mut prefilter = prefilter(ModelOrder::Chosen { max: 8 });
     push_all(&mut prefilter, (0..120).map(|k| Vector2::new(f64::from(u8::from(k == 119)), 0.0)));
     if let Ok(found) = prefilter.estimate() {
         assert!(found.value.norm() < 2.0, "{found:?}");

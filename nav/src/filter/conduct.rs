@@ -1,6 +1,6 @@
 //! What is watched of her way: how the craft behaves.
 
-use crate::pace::Pace;
+use crate::pace::PaceWatch;
 use crate::slip::Slip;
 use crate::wheels::Wheels;
 
@@ -8,8 +8,8 @@ use crate::wheels::Wheels;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Conduct {
     /// How fast she changes her speed, and how fast she moves athwart.
-    pub(super) pace: Pace,
-    pub(super) lurch: Pace,
+    pub(super) pace: PaceWatch,
+    pub(super) lurch: PaceWatch,
     /// How her heading turns beside her course.
     pub(super) slip: Slip,
     pub(super) wheels: Wheels,

@@ -3,7 +3,7 @@
 use insd_base::Time;
 use nalgebra::Vector3;
 
-use crate::separate_bias::Finding;
+use crate::separate_bias::ConstantsFinding;
 
 /// Two findings contradict each other beyond so many sigmas of both.
 const CONTRADICT: f64 = 4.5;
@@ -28,7 +28,12 @@ impl FoundLever {
     /// Notes that the antenna is found at an arm, unless that contradicts what was found a while ago, and tells whether it is
     /// noted. One who is found elsewhere again and again is found by something that is no lever arm, as a gyro that tells
     /// turns backwards.
-    pub(super) fn note(&mut self, now: Time, arm: &Vector3<f64>, finding: &Finding) -> bool {
+    pub(super) fn note(
+        &mut self,
+        now: Time,
+        arm: &Vector3<f64>,
+        finding: &ConstantsFinding,
+    ) -> bool {
         let std = finding.gnss_lever_std();
         let contradicts = |last: &Found| {
             let apart = (arm - last.arm).component_div(&std.zip_map(&last.std, f64::hypot));
@@ -52,7 +57,7 @@ mod tests {
     fn note(found: &mut FoundLever, second: f64, step: f64, arm: f64) -> bool {
         let mut value = Constants::zeros();
         value[0] = step;
-        let finding = Finding { value, covariance: ConstantsCovariance::identity() };
+        let finding = ConstantsFinding { value, covariance: ConstantsCovariance::identity() };
         found.note(Time::from_seconds(second), &Vector3::new(arm, 0.0, 0.0), &finding)
     }
 

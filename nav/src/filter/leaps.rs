@@ -5,7 +5,7 @@ use insd_base::{Fault, GnssFix};
 use super::Filter;
 use crate::error_state::{POSITION, VELOCITY};
 use crate::judge::Aid;
-use crate::leap::Told;
+use crate::leap::ToldMotion;
 
 impl Filter {
     /// Notes where the antenna is and how it moves.
@@ -22,14 +22,14 @@ impl Filter {
         let noise = self.noise_of(Aid::GnssPosition).sqrt();
         let place_std = self.config.floors.gnss_position(fix.position_std, fix.quality).value;
         let velocity_std = self.config.floors.gnss_velocity(fix.velocity_std).value;
-        let told = Told {
+        let told = ToldMotion {
             time: self.state.time,
             place,
             place_std: place_std.xy().max() * noise,
             velocity: velocity.0.xy(),
             velocity_std: velocity_std.xy().max(),
         };
-        let beside_own = Told {
+        let beside_own = ToldMotion {
             place_std: told.place_std.hypot(POSITION.std(&self.state.covariance)),
             velocity_std: told.velocity_std.hypot(VELOCITY.std(&self.state.covariance)),
             ..told
@@ -52,7 +52,7 @@ impl Filter {
         let velocity_std =
             VELOCITY.covariance(&self.state.covariance).diagonal().max().max(0.0).sqrt();
         let (time, place_std) = (self.state.time, std.value.xy().max());
-        let told = Told { time, place, place_std, velocity: velocity.xy(), velocity_std };
+        let told = ToldMotion { time, place, place_std, velocity: velocity.xy(), velocity_std };
         if let Some(leap) = self.court.leap.see(&told) {
             let mut docket = self.config.docket;
             docket.convict(Fault::Jump, self.state.time, (leap, 0.0));

@@ -8,7 +8,7 @@ use crate::dating::Dating;
 use crate::error_state::{
     ATTITUDE, BERTH_OFFSET, Errors, GNSS_LEVER, GNSS_VELOCITY_DELAY, POSITION,
 };
-use crate::separate_bias::{DELAY, Finding, SeparateBias};
+use crate::separate_bias::{ConstantsFinding, DELAY, SeparateBias};
 
 /// A correction of the attitude, rad, that is more than linear: whoever found it found it by a wrong lever arm.
 const FAR: f64 = 0.03;
@@ -102,7 +102,7 @@ impl Filter {
     }
 
     /// Whether a log would sit where no ship has one: rolling against her swing, which no scale or direction of its own makes.
-    fn puts_log_off_board(&self, finding: &Finding) -> bool {
+    fn puts_log_off_board(&self, finding: &ConstantsFinding) -> bool {
         let Some((off, sigma)) = finding.log_lever() else { return false };
         self.config.lever_arms.log.0.z + off.z + SURELY * sigma.z < HIGHEST_LOG
     }

@@ -7,7 +7,7 @@ use super::Filter;
 use crate::aids::log_velocity;
 use crate::declaration::Carried;
 use crate::error_state::VELOCITY;
-use crate::wheels::Look;
+use crate::wheels::WheelLook;
 
 /// A car is held to its course so often, s.
 const EVERY: f64 = 1.0;
@@ -35,7 +35,7 @@ impl Filter {
             let view = self.view();
             let (velocity, attitude) = (view.v_n(), view.attitude());
             let body = view.c_nb().tr_mul(&velocity);
-            let look = Look { velocity: body, rise: -velocity.z, pitch: attitude.pitch };
+            let look = WheelLook { velocity: body, rise: -velocity.z, pitch: attitude.pitch };
             self.conduct.wheels.see(self.state.time, &look);
         }
     }

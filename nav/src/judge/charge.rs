@@ -3,7 +3,7 @@
 use insd_base::{Fault, Party, Standing, Time};
 
 use super::onset::Sized;
-use super::rows::{ALL, Group, OF_FALSE_PUSHES, OF_FALSE_TURNS, OF_GYROS};
+use super::rows::{ALL, FaultGroup, OF_FALSE_PUSHES, OF_FALSE_TURNS, OF_GYROS};
 use super::{Aid, Alternative, CLOSE, Judge, SPAWN};
 
 /// Mean square of the innovations, of which one is expected, that a fault may leave unexplained.
@@ -212,7 +212,7 @@ impl Judge {
             let age = (now - onset.since).as_seconds();
             let step = (age * CLOSE).max(1.0).ln();
             let unsure = unsure(age, worst);
-            for (group, Group { fault, least, log_rate, .. }) in ALL.iter().enumerate() {
+            for (group, FaultGroup { fault, least, log_rate, .. }) in ALL.iter().enumerate() {
                 let is_slow = *fault == Fault::GyroScale && age > QUICK;
                 let is_own_word = *fault == Fault::Slide;
                 let unsure = if is_own_word { unsure.min(OWN_WORD) } else { unsure };

@@ -43,7 +43,7 @@ use pessimist::Pessimist;
 use rows::Direct;
 use shadow::Shadow;
 pub use shadow::agitate;
-pub use verdict::{Alternative, Verdict};
+pub use verdict::{Alternative, Ruling};
 
 /// Looks are so far apart, s.
 const LOOK: f64 = 0.95;
@@ -321,7 +321,7 @@ impl Judge {
     /// Nobody of `excused` is judged: what looks like his lie may be a mistake of the installation, or of the heading. These do not
     /// make a height or a place leap. Nor is a receiver or the IMU where a mistake of the installation is nearly as likely, by the
     /// logarithm of the ratio of its likelihood to that of none.
-    pub fn look(&mut self, now: Time, excused: Parties, mistake: f64) -> Option<Verdict> {
+    pub fn look(&mut self, now: Time, excused: Parties, mistake: f64) -> Option<Ruling> {
         let unheard = self.looked.map_or(0.0, |last| (now - last).as_seconds());
         if unheard > UNHEARD {
             self.docket.postpone(unheard);

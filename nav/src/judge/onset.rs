@@ -14,7 +14,7 @@
 use insd_base::{Party, Time};
 use nalgebra::{Cholesky, Matrix3, Vector3};
 
-use super::rows::{self, ALL, Direct, GROUPS, Group};
+use super::rows::{self, ALL, Direct, FaultGroup, GROUPS};
 use crate::error_state::{Covariance, Effects, Errors, Weighed};
 
 /// What may have begun at an instant.
@@ -132,7 +132,7 @@ impl Onset {
     }
 
     /// What such a fault has done to the errors; the covariance of theirs is as much wider as its size is not known.
-    pub(super) fn correct(&self, group: &Group, sized: &Sized, p: &mut Covariance) -> Errors {
+    pub(super) fn correct(&self, group: &FaultGroup, sized: &Sized, p: &mut Covariance) -> Errors {
         let width = group.rows.len();
         let own = self.effects.some(group.rows.start, width);
         p.spread_by(&own, &sized.covariance.view((0, 0), (width, width)).clone_owned());

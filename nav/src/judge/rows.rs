@@ -1,7 +1,7 @@
 //! What may be wrong, and what a unit of it does to the measurements.
 //!
 //! Each row of the effects is one fault of unit size that began at an onset. Rows that belong together, such as
-//! the two components of a drift, make a [`Group`]: they are sized together.
+//! the two components of a drift, make a [`FaultGroup`]: they are sized together.
 
 use std::ops::Range;
 
@@ -40,7 +40,7 @@ pub type Direct = DMatrix<f64>;
 
 /// Faults that are sized together.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Group {
+pub struct FaultGroup {
     /// What they are.
     pub fault: Fault,
     /// Their rows.
@@ -59,8 +59,8 @@ const fn group(
     width: usize,
     [least, size]: [f64; 2],
     log_rate: f64,
-) -> Group {
-    Group { fault, rows: start..start + width, least, size, log_rate }
+) -> FaultGroup {
+    FaultGroup { fault, rows: start..start + width, least, size, log_rate }
 }
 
 /// A receiver that is disturbed or deceived: once in a thousand hours.
@@ -83,7 +83,7 @@ pub const OF_FALSE_PUSHES: usize = 20;
 pub const GROUPS: usize = 21;
 
 /// All groups.
-pub const ALL: [Group; GROUPS] = [
+pub const ALL: [FaultGroup; GROUPS] = [
     group(Fault::Jump, GNSS_JUMP, 3, [3.0, 1e3], DISTURBED),
     group(Fault::Height, GNSS_JUMP + 2, 1, [3.0, 1e3], DISTURBED),
     group(Fault::Drag, GNSS_DRAG, 2, [0.03, 3.0], DISTURBED),

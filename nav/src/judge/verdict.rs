@@ -35,7 +35,7 @@ const SET_BACK: f64 = 1.0;
 
 /// Somebody is found to lie.
 #[derive(Clone, Debug)]
-pub struct Verdict {
+pub struct Ruling {
     /// What he does.
     pub fault: Fault,
     /// The estimate without it, where that is another.
@@ -53,7 +53,7 @@ pub struct Alternative {
 
 impl Judge {
     /// While the IMU is not believed nobody else is judged; it is again when its word has been good for a while.
-    pub(super) fn look_at_imu(&mut self, now: Time) -> Option<Verdict> {
+    pub(super) fn look_at_imu(&mut self, now: Time) -> Option<Ruling> {
         let is_of_imu = |charge: &&Charge| charge.fault == Fault::ImuUseless;
         let of_imu = self.assessment.charges.iter().find(is_of_imu).copied();
         self.docket.consider_imu(now);
@@ -61,7 +61,7 @@ impl Judge {
         Some(self.convict(&wrong, now))
     }
 
-    pub(super) fn convict(&mut self, charge: &Charge, now: Time) -> Verdict {
+    pub(super) fn convict(&mut self, charge: &Charge, now: Time) -> Ruling {
         if charge.party() == Party::Imu {
             return self.convict_imu(charge, now);
         }
@@ -83,18 +83,18 @@ impl Judge {
         }
         if let Some(late) = late(charge) {
             if late.abs() < SET_BACK {
-                return Verdict { fault: charge.fault, mended: Some(mended) };
+                return Ruling { fault: charge.fault, mended: Some(mended) };
             }
             mended.error.scale_block(GNSS_DELAY, 0.0);
             GNSS_DELAY
                 .renew(&mut mended.covariance, &GNSS_DELAY.covariance(&self.shadow.covariance));
         }
-        Verdict { mended: Some(mended), ..self.leave_out(charge, now) }
+        Ruling { mended: Some(mended), ..self.leave_out(charge, now) }
     }
 
     /// An IMU cannot be left out: where a fault of a shape explains it all the estimate is mended, and it is believed
     /// with that; else it is not believed for a while.
-    fn convict_imu(&mut self, charge: &Charge, now: Time) -> Verdict {
+    fn convict_imu(&mut self, charge: &Charge, now: Time) -> Ruling {
         self.docket.note_witnesses(self.witnesses(now), now);
         let push = self.false_push(charge);
         if push.is_some() {
@@ -114,11 +114,11 @@ impl Judge {
             GYRO_SCALE.inflate(&mut mended.covariance, WRONG_SCALE * WRONG_SCALE);
         }
         self.docket.convict(plain.fault, now, NO_LIE);
-        Verdict { fault: plain.fault, mended: Some(mended) }
+        Ruling { fault: plain.fault, mended: Some(mended) }
     }
 
     /// Whether the IMU is worse than assumed, while nobody is known to lie.
-    pub(super) fn look_at_pessimist(&mut self, now: Time) -> Option<Verdict> {
+    pub(super) fn look_at_pessimist(&mut self, now: Time) -> Option<Ruling> {
         let is_any_out = self.docket.all().any(|stands| stands.standing != Standing::Trusted);
         // what an IMU does that is worse than assumed looks like another bias of it first
         let likeliest = self.assessment.charges.first();
@@ -136,12 +136,12 @@ impl Judge {
         }
         // a step is proven; what biases do that no aid sees, to the heading above all, asks for another
         self.docket = self.docket.with_worse_imu().with_worse_imu();
-        Some(Verdict { fault: Fault::ImuWorse, mended: Some(self.pessimist.shadow.alternative()) })
+        Some(Ruling { fault: Fault::ImuWorse, mended: Some(self.pessimist.shadow.alternative()) })
     }
 
     /// A log that scatters wildly, as one that tells now the speed over the bottom and now that through the water, while
     /// a receiver is heard: without one, what it says is better than nothing.
-    pub(super) fn look_at_scatter(&mut self, now: Time) -> Option<Verdict> {
+    pub(super) fn look_at_scatter(&mut self, now: Time) -> Option<Ruling> {
         let is_wild = [Aid::Log, Aid::LogStarboard].iter().any(|aid| self.noise(*aid) > WILD);
         let of_gnss = &self.hearings[Aid::GnssPosition as usize];
         let has_fixes = of_gnss.was_within(now, UNHEARD) && !self.docket.leaves_out_gnss();
@@ -159,7 +159,7 @@ impl Judge {
             let charge = Charge::shapeless(Party::Log, DOUBT);
             let mended = self.alternative(&charge);
             self.docket.convict(charge.fault, now, NO_LIE);
-            Verdict { fault: charge.fault, mended: Some(mended) }
+            Ruling { fault: charge.fault, mended: Some(mended) }
         })
     }
 
@@ -203,10 +203,10 @@ impl Judge {
     }
 
     /// Leaves somebody out for what he does; the estimate stays as it is, as it must where somebody else lies, too.
-    pub(super) fn leave_out(&mut self, charge: &Charge, now: Time) -> Verdict {
+    pub(super) fn leave_out(&mut self, charge: &Charge, now: Time) -> Ruling {
         let age = (now - charge.since(now)).as_seconds();
         self.docket.convict(charge.fault, now, lie_of_gnss(charge, age));
-        Verdict { fault: charge.fault, mended: None }
+        Ruling { fault: charge.fault, mended: None }
     }
 
     /// Whether somebody else lies beside him, as whoever does not believe him has found out: then what is made of the
@@ -276,7 +276,7 @@ impl Judge {
     /// Somebody is seen to lie by what he says alone, as one whose numbers stand still; gives the estimate of who has not believed him, or
     /// none where that follows somebody else who lies. What was made of the others meanwhile is of no account; but for what has followed already
     /// where the IMU was blamed.
-    pub fn disbelieve(&mut self, whom: Party, now: Time) -> Option<Verdict> {
+    pub fn disbelieve(&mut self, whom: Party, now: Time) -> Option<Ruling> {
         self.docket.doubt(None, now);
         let is_blamed = |since: Time| (now - since).as_seconds() < MEANWHILE;
         if self.docket.imu_doubted_since().is_some_and(is_blamed) {
@@ -285,7 +285,7 @@ impl Judge {
         }
         let charge = Charge::shapeless(whom, DOUBT);
         if self.lies_another(whom) || self.is_another_likelier(whom) {
-            return Some(Verdict { fault: charge.fault, mended: None });
+            return Some(Ruling { fault: charge.fault, mended: None });
         }
         let mut mended = self.alternative(&charge);
         if self.rehabilitate(whom, now) && whom == Party::Log {
@@ -295,7 +295,7 @@ impl Judge {
             let lean = FOLLOWED / (MEANWHILE * 1e6 * MICRO_G);
             ATTITUDE.inflate(&mut mended.covariance, lean * lean);
         }
-        Some(Verdict { fault: charge.fault, mended: Some(mended) })
+        Some(Ruling { fault: charge.fault, mended: Some(mended) })
     }
 
     /// Hears those again who were found to drift from somebody who has turned out to lie. Whether anybody was found to lie meanwhile: then the
@@ -315,12 +315,12 @@ impl Judge {
     }
 
     /// The IMU is wrong, as what it says is not what any ship does; gives the estimate without it.
-    pub fn disbelieve_imu(&mut self, now: Time) -> Verdict {
+    pub fn disbelieve_imu(&mut self, now: Time) -> Ruling {
         self.docket.note_witnesses(self.witnesses(now), now);
         self.imu_on_trial = true;
         self.docket.disbelieve_imu(now);
         let charge = Charge::shapeless(Party::Imu, DOUBT);
-        Verdict { fault: charge.fault, mended: Some(self.alternative(&charge)) }
+        Ruling { fault: charge.fault, mended: Some(self.alternative(&charge)) }
     }
 }
 

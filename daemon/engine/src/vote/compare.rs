@@ -14,7 +14,7 @@ const LENGTH: f64 = 1.0;
 
 /// What engines are compared by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Quantity {
+pub enum ComparedQuantity {
     /// Heading, rad.
     Heading,
     /// Roll, rad.
@@ -37,28 +37,34 @@ pub enum Quantity {
     Turn,
 }
 
-impl Quantity {
+impl ComparedQuantity {
     /// A word for tables and lines: `heading`, `velocity_north`, ...
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
-            Quantity::Heading => "heading",
-            Quantity::Roll => "roll",
-            Quantity::Pitch => "pitch",
-            Quantity::VelocityNorth => "velocity_north",
-            Quantity::VelocityEast => "velocity_east",
-            Quantity::VelocityDown => "velocity_down",
-            Quantity::PositionNorth => "position_north",
-            Quantity::PositionEast => "position_east",
-            Quantity::PositionDown => "position_down",
-            Quantity::Turn => "turn",
+            ComparedQuantity::Heading => "heading",
+            ComparedQuantity::Roll => "roll",
+            ComparedQuantity::Pitch => "pitch",
+            ComparedQuantity::VelocityNorth => "velocity_north",
+            ComparedQuantity::VelocityEast => "velocity_east",
+            ComparedQuantity::VelocityDown => "velocity_down",
+            ComparedQuantity::PositionNorth => "position_north",
+            ComparedQuantity::PositionEast => "position_east",
+            ComparedQuantity::PositionDown => "position_down",
+            ComparedQuantity::Turn => "turn",
         }
     }
 
     /// Whether it is of an angle, rad or rad/s; else it is in m/s or m.
     #[must_use]
     pub fn is_angle(self) -> bool {
-        matches!(self, Quantity::Heading | Quantity::Roll | Quantity::Pitch | Quantity::Turn)
+        matches!(
+            self,
+            ComparedQuantity::Heading
+                | ComparedQuantity::Roll
+                | ComparedQuantity::Pitch
+                | ComparedQuantity::Turn
+        )
     }
 }
 
@@ -66,7 +72,7 @@ impl Quantity {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
     /// Of what.
-    pub quantity: Quantity,
+    pub quantity: ComparedQuantity,
     /// The second minus the first, SI.
     pub value: f64,
     /// What it may be by their claims, SI.
@@ -124,9 +130,9 @@ pub fn differences(one: &Motion, other: &Motion, apart: &Apart) -> Vec<Differenc
     let way = if by_satellites { 0.0 } else { apart.distance };
     let meridians = convergence * a.velocity.0.xy().norm();
     let names = [
-        (Quantity::VelocityNorth, Quantity::PositionNorth),
-        (Quantity::VelocityEast, Quantity::PositionEast),
-        (Quantity::VelocityDown, Quantity::PositionDown),
+        (ComparedQuantity::VelocityNorth, ComparedQuantity::PositionNorth),
+        (ComparedQuantity::VelocityEast, ComparedQuantity::PositionEast),
+        (ComparedQuantity::VelocityDown, ComparedQuantity::PositionDown),
     ];
     let linear = names.into_iter().enumerate().flat_map(move |(axis, (speed, place))| {
         let spread = |sigmas: [f64; 2], rate: f64| sigmas[0].hypot(sigmas[1]).hypot(TIMING * rate);
@@ -170,19 +176,19 @@ fn angles(a: &Solution, b: &Solution, mounting: f64, convergence: f64) -> Vec<Di
     };
     let rate = &a.rate.0;
     let tilts = [
-        (Quantity::Roll, turned.roll - own.roll, a.sigma.roll, b.sigma.roll, rate.x),
-        (Quantity::Pitch, turned.pitch - own.pitch, a.sigma.pitch, b.sigma.pitch, rate.y),
+        (ComparedQuantity::Roll, turned.roll - own.roll, a.sigma.roll, b.sigma.roll, rate.x),
+        (ComparedQuantity::Pitch, turned.pitch - own.pitch, a.sigma.pitch, b.sigma.pitch, rate.y),
     ];
     let turn = a.rate_of_turn();
     let by_heading = turned.heading - own.heading;
-    let heading = (Quantity::Heading, by_heading, a.sigma.heading, b.sigma.heading, turn);
+    let heading = (ComparedQuantity::Heading, by_heading, a.sigma.heading, b.sigma.heading, turn);
     let both = is_navigating(a, b);
     let (share, heading) = if both { (1.0, Some(heading)) } else { (2.0, None) };
     let difference = |(quantity, value, one, other, rate)| Difference {
         quantity,
         value: wrap_pi(value),
         limit: share * limit(one, other, rate)
-            + if quantity == Quantity::Heading { convergence } else { 0.0 },
+            + if quantity == ComparedQuantity::Heading { convergence } else { 0.0 },
     };
     heading.into_iter().chain(tilts).map(difference).collect()
 }
@@ -192,16 +198,16 @@ pub(super) fn distance(one: &Motion, other: &Motion, apart: &Apart) -> SolutionS
     let mut all = SolutionSigma::default();
     for Difference { quantity, value, .. } in differences(one, other, apart) {
         let component = match quantity {
-            Quantity::Heading => &mut all.heading,
-            Quantity::Roll => &mut all.roll,
-            Quantity::Pitch => &mut all.pitch,
-            Quantity::VelocityNorth => &mut all.velocity.0.x,
-            Quantity::VelocityEast => &mut all.velocity.0.y,
-            Quantity::VelocityDown => &mut all.velocity.0.z,
-            Quantity::PositionNorth => &mut all.position.0.x,
-            Quantity::PositionEast => &mut all.position.0.y,
-            Quantity::PositionDown => &mut all.position.0.z,
-            Quantity::Turn => continue,
+            ComparedQuantity::Heading => &mut all.heading,
+            ComparedQuantity::Roll => &mut all.roll,
+            ComparedQuantity::Pitch => &mut all.pitch,
+            ComparedQuantity::VelocityNorth => &mut all.velocity.0.x,
+            ComparedQuantity::VelocityEast => &mut all.velocity.0.y,
+            ComparedQuantity::VelocityDown => &mut all.velocity.0.z,
+            ComparedQuantity::PositionNorth => &mut all.position.0.x,
+            ComparedQuantity::PositionEast => &mut all.position.0.y,
+            ComparedQuantity::PositionDown => &mut all.position.0.z,
+            ComparedQuantity::Turn => continue,
         };
         *component = value.abs();
     }

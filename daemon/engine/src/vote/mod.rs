@@ -20,7 +20,7 @@ mod turning;
 
 use insd_base::{Body, Mode, Motion, Solution, SolutionSigma, Time};
 
-pub use compare::{Apart, Difference, Quantity, differences};
+pub use compare::{Apart, ComparedQuantity, Difference, differences};
 pub use evidence::{Doubt, Testimony};
 pub use gyros::Gyros;
 pub use record::Record;

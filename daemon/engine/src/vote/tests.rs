@@ -124,7 +124,7 @@ fn two_that_are_apart_for_two_seconds_disagree_and_nobody_is_blamed_without_evid
     assert!((61.8..62.2).contains(&at), "{at}");
     assert_eq!((disagreement.between, disagreement.wrong), ((0, 1), None));
     let Difference { quantity, value, limit } = disagreement.difference;
-    assert_eq!(quantity, Quantity::Heading);
+    assert_eq!(quantity, ComparedQuantity::Heading);
     assert!((value - 3.0 * DEG).abs() < 1e-9 && limit < 0.7 * DEG, "{limit}");
     assert_eq!((voter.chosen(), voter.doubt(0), voter.doubt(1)), (0, None, None));
     let ended = sit(&mut voter, (90.0, 200.0), |t| vec![sound(t), sound(t)]);

@@ -8,7 +8,7 @@ use insd_base::Time;
 use insd_base::units::DEG;
 use nalgebra::Vector3;
 
-use super::compare::{Difference, Quantity};
+use super::compare::{ComparedQuantity, Difference};
 
 /// Rates that are apart by less are no matter, rad/s, look by look and over a second or so; so are so many sigmas of what is
 /// usual, and this share of a rate beyond so many sigmas of what is usual.
@@ -99,7 +99,7 @@ impl Turning {
             let limit = window.limit(FLOORS[i], askew);
             let axis = window.off.abs().component_div(&limit).imax();
             let (value, limit) = (window.off[axis], limit[axis]);
-            let own = Difference { quantity: Quantity::Turn, value, limit };
+            let own = Difference { quantity: ComparedQuantity::Turn, value, limit };
             let own = Some(own).filter(|_| is_known);
             let is_apart = own.is_some_and(|own| own.share() > 1.0);
             window.apart = if is_apart { window.apart + 1 } else { 0 };

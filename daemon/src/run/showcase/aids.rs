@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use insd_base::{Counts, Innovation, Time};
+use insd_base::{AidInnovation, Counts, Time};
 use insd_web::snapshot::{Cause, Samples, ShownAid};
 
 use super::spans::age;
@@ -25,7 +25,7 @@ struct Last {
 }
 
 impl Aids {
-    pub(super) fn note(&mut self, innovation: &Innovation) {
+    pub(super) fn note(&mut self, innovation: &AidInnovation) {
         let last = self.last.entry(innovation.aid).or_default();
         if innovation.accepted {
             last.used = Some(innovation.time);

@@ -111,7 +111,7 @@ fn the_derivatives_that_are_left_out_are_small() {
     let all = derivatives(&filter(&Errors::none()), &errors());
     let share = |n: usize| {
         let factorial: f64 = (1..=n).map(|k| k as f64).product();
-        all[n].norm() * Config::default().window.as_seconds().powi(n as i32) / factorial
+        all[n].norm() * PrefilterConfig::default().window.as_seconds().powi(n as i32) / factorial
     };
     let largest = (0..DERIVATIVES).map(share).fold(0.0, f64::max);
     assert!(share(DERIVATIVES - 1) < 2e-3 * largest, "{} of {largest}", share(DERIVATIVES - 1));

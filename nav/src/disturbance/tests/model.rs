@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use approx::assert_relative_eq;
 use nalgebra::{Matrix2, Vector2};
 
-use super::super::{Model, Order};
+use super::super::{Model, ModelOrder};
 use super::sea::{Dice, autoregressive, oscillator, oscillators, waves};
 use super::{coupled, prefilter, push_all};
 
@@ -105,7 +105,7 @@ fn the_residual_is_the_noise_that_drove_the_process() {
 #[test]
 fn a_fitted_model_whitens_the_waves_that_come_after() {
     let samples = waves(&mut Dice::new(12), 2120);
-    let mut prefilter = prefilter(Order::Chosen { max: 8 });
+    let mut prefilter = prefilter(ModelOrder::Chosen { max: 8 });
     push_all(&mut prefilter, samples[..120].iter().copied());
     let model = prefilter.estimate().unwrap().model;
     let past = |k: usize| samples[k - model.order()..=k].iter().rev().copied().collect::<Vec<_>>();

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use insd_base::{AlignmentStatus, Counts, Event, Finding, Innovation, Mode, Stands, Time};
+use insd_base::{AidInnovation, AlignmentStatus, Counts, Event, Finding, Mode, Stands, Time};
 use insd_drivers::recording::{FileReport, NavWriter};
 use insd_engine::Output;
 
@@ -125,7 +125,7 @@ fn open_nav(path: &Path) -> anyhow::Result<NavWriter<OutputFile>> {
     NavWriter::new(OutputFile::create(path)?).context("cannot write the solution")
 }
 
-fn row(innovation: &Innovation) -> InnovationRow {
+fn row(innovation: &AidInnovation) -> InnovationRow {
     InnovationRow {
         t_s: innovation.time.as_seconds(),
         aid: innovation.aid.to_owned(),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use insd_base::{Innovation, Time};
+use insd_base::{AidInnovation, Time};
 
 use super::lane::Lane;
 use crate::report::statistics::Statistics;
@@ -59,7 +59,7 @@ impl Aids {
     }
 
     /// Takes an innovation that came at this moment.
-    pub(crate) fn innovation(&mut self, now: Time, innovation: &Innovation) {
+    pub(crate) fn innovation(&mut self, now: Time, innovation: &AidInnovation) {
         let ratio = innovation.innovation / innovation.sigma;
         let component = usize::from(innovation.component);
         let Some(aid) = self.aid(innovation.aid) else { return };
