@@ -289,7 +289,7 @@ impl Fleet {
         if log.used.last() != Some(&used) {
             log.used.push(used);
         }
-        let alerts = pipeline.speaker().station().alerts();
+        let alerts = pipeline.outputs().station().alerts();
         let is_up = |condition| {
             !matches!(alerts.state(condition), AlertState::Normal | AlertState::Rectified)
         };

@@ -18,8 +18,7 @@ use insd_simulator::simulate;
 use insd_tests::feed::{Encoding, FeedConfig, Sending, feed};
 use insd_tests::scenario;
 use insd_tests::wire::Wire;
-use insd_vessel::Product;
-use insd_vessel::Spoken;
+use insd_vessel::{Product, Spoken};
 
 /// Seconds of the voyage that are sailed, and when the receiver is unplugged and plugged in again.
 const SAILED: f64 = 25.0;

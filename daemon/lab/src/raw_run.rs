@@ -3,10 +3,8 @@
 use std::path::Path;
 
 use insd_base::Arrival;
+use insd_config::{BadInput, Config};
 use insd_drivers::raw::{EXTENSION, FileHeader, RawFault, RawRead, RawReader};
-
-use insd_config::BadInput;
-use insd_config::Config;
 
 /// The arrivals of one run, and the configuration that it had.
 pub struct RawRun {

@@ -3,9 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use insd_simulator::{Override, Scenario, shipped};
-
 use insd_config::BadInput;
+use insd_simulator::{Override, Scenario, shipped};
 
 /// A scenario and what to call it.
 #[derive(Debug)]

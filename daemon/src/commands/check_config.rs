@@ -3,12 +3,11 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use insd_config::{BadInput, Config, OutputSection, Severity, check};
 use insd_drivers::ports::{Destination, Transport};
+use insd_lab::terminal::print;
 
 use crate::doctor::{Diagnosis, text};
-use insd_config::BadInput;
-use insd_config::{Config, OutputSection, Severity, check};
-use insd_lab::terminal::print;
 
 /// There are warnings, and they count: ends with exit status 1.
 #[derive(Debug, thiserror::Error)]

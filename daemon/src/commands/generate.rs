@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::{Command, ValueEnum};
 use clap_complete::Shell;
-
 use insd_config::reference;
 
 /// Options of `insd generate`.

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::{Context, bail};
+use insd_lab::terminal::{Farewell, Screen, print, quit_was_pressed};
 use insd_web::snapshot::Snapshot;
 
 use crate::monitor::{self, Board, Client, Link};
-use insd_lab::terminal::{Farewell, Screen, print, quit_was_pressed};
 
 /// Time between two pictures.
 const FRAME: Duration = Duration::from_millis(200);

@@ -6,10 +6,9 @@ use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 
 use insd_drivers::ports::{FoundKind, FoundPort, list};
-use serde::Serialize;
-
 use insd_lab::table::{Align, Table};
 use insd_lab::terminal::print;
+use serde::Serialize;
 
 /// Options of `insd ports`.
 #[derive(Clone, Copy, Debug, clap::Args)]

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
+use insd_config::{BadInput, Config, Severity, check};
+
 use crate::logging::Log;
 use crate::run::{self, RunOptions};
-use insd_config::BadInput;
-use insd_config::{Config, Severity, check};
 
 /// Options of `insd run`.
 #[derive(Clone, Debug, clap::Args)]

@@ -1,14 +1,14 @@
 //! Holds what arrives at a port against what was configured there.
 
+use insd_config::check::{ConfigFinding, ConfigPlace, Severity};
+use insd_config::{Config, PortSection};
 use insd_drivers::ports::Transport;
 use insd_intake::config::{Kind, Role, SensorConfig};
+use insd_lab::sniff::report::{PortReport, State};
 use insd_wire::stream::Protocol;
 use serde::Deserialize;
 
 use super::listen::Heard;
-use insd_config::check::{ConfigFinding, ConfigPlace, Severity};
-use insd_config::{Config, PortSection};
-use insd_lab::sniff::report::{PortReport, State};
 
 /// Share of damaged frames from which it is told, and the least number of frames that tell it.
 const DAMAGED: f64 = 0.01;

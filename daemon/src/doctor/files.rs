@@ -5,11 +5,11 @@ use std::io::ErrorKind;
 use std::os::unix::fs::{FileTypeExt, MetadataExt};
 use std::path::Path;
 
+use insd_config::Config;
+use insd_config::check::{ConfigFinding, ConfigPlace, Severity};
 use insd_web::MIN_TOKEN;
 
 use super::people::{Person, Wish, group_name};
-use insd_config::Config;
-use insd_config::check::{ConfigFinding, ConfigPlace, Severity};
 
 /// Bytes of a megabyte, as quotas count.
 const MEGABYTE: u64 = 1_000_000;

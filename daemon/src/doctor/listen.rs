@@ -5,15 +5,15 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use insd_base::PortId;
+use insd_config::Config;
+use insd_config::check::ConfigPlace;
 use insd_drivers::ports::{
     self, Judge, Judgement, PortConfig, Serial, Surroundings, Transport, WAITING_LIMIT,
 };
+use insd_lab::sniff::{PortToHear, SniffReport, Sniffed, is_proof};
 use insd_wire::stream::{Cutter, Protocol};
 
 use crate::clock::HostClock;
-use insd_config::Config;
-use insd_config::check::ConfigPlace;
-use insd_lab::sniff::{PortToHear, SniffReport, Sniffed, is_proof};
 
 /// Rates that are tried where nothing can be read at the configured one.
 const BAUDS: [u32; 9] = [115_200, 38_400, 4_800, 9_600, 460_800, 921_600, 230_400, 57_600, 19_200];

@@ -18,9 +18,9 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use insd_config::check::{ConfigFinding, ConfigPlace, Severity, examine};
 pub use people::Person;
 
+use insd_config::check::{ConfigFinding, ConfigPlace, Severity, examine};
 use insd_config::{Config, Examined};
 use insd_lab::sniff::SniffReport;
 

@@ -6,15 +6,15 @@ use std::net::{IpAddr, TcpListener, UdpSocket};
 use std::os::unix::fs::{FileTypeExt, MetadataExt};
 use std::path::{Path, PathBuf};
 
+use insd_config::Config;
+use insd_config::check::nearest::nearest;
+use insd_config::check::uses::{self, DeviceKind, UsedDevice};
+use insd_config::check::{ConfigFinding, ConfigPlace, Severity};
 use insd_drivers::ports::{self, Cable, FoundKind, FoundPort, Transport};
 
 use super::files::reason;
 use super::people::{Person, Wish, group_name};
 use super::processes;
-use insd_config::Config;
-use insd_config::check::nearest::nearest;
-use insd_config::check::uses::{self, DeviceKind, UsedDevice};
-use insd_config::check::{ConfigFinding, ConfigPlace, Severity};
 
 pub(super) fn look(config: &Config, person: &Person, is_running: bool) -> Vec<ConfigFinding> {
     let here = ports::list(Path::new("/"));

@@ -1,11 +1,11 @@
 //! What the ship's motion has shown of her installation: asked of the daemon that runs with the same file.
 
-use insd_web::snapshot::{ShownEstimate, ShownEstimates, Snapshot};
-
-use crate::monitor::Client;
 use insd_config::Config;
 use insd_config::check::{ConfigFinding, ConfigPlace, Severity};
 use insd_intake::config::Role;
+use insd_web::snapshot::{ShownEstimate, ShownEstimates, Snapshot};
+
+use crate::monitor::Client;
 
 /// A lever arm that is not known better, m, or a log whose scale is not, share, is not worth a line.
 const LEVER_KNOWN: f64 = 1.0;

@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 use std::fmt::{self, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use insd_config::calendar;
 use insd_web::snapshot::{MAX_EVENTS, ShownEvent as Line, ShownSeverity};
 use tracing::field::{Field, Visit};
 use tracing::{Event, Level, Subscriber};
@@ -11,7 +12,6 @@ use tracing_subscriber::Layer;
 use tracing_subscriber::layer::Context;
 
 use crate::clock::HostClock;
-use insd_config::calendar;
 
 /// Longest line that is kept, bytes.
 const LONGEST: usize = 500;

@@ -2,10 +2,9 @@
 
 use std::fmt::Write as _;
 
+use insd_lab::words;
 use insd_web::snapshot::{ShownAlertState, ShownMotion, Snapshot};
 use serde::Serialize;
-
-use insd_lab::words;
 
 /// What is not known.
 pub(super) const DASH: &str = "-";

@@ -3,13 +3,12 @@
 use std::collections::BTreeMap;
 
 use insd_output::alerts::AlertView;
+use insd_vessel::words::priority;
+use insd_vessel::{Names, Product};
 use insd_wire::nmea::{AlertPriority, AlertState};
 
 use super::journal::Audience;
 use super::report::Report;
-use insd_vessel::Names;
-use insd_vessel::Product;
-use insd_vessel::words::priority;
 
 /// Remembers how each alert stood last.
 #[derive(Debug, Default)]

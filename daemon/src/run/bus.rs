@@ -5,14 +5,12 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use insd_base::Time;
+use insd_config::{Config, NodeMemory, NodeSection, PortSection, output_file};
 use insd_drivers::can::SharedSpeaker;
 use insd_n2k::node::{Node, NodeEvent, NodeStatus};
 use insd_output::OutputEpoch;
 use insd_output::n2k::PgnSchedule;
 use insd_web::SECURITY;
-
-use insd_config::output_file;
-use insd_config::{Config, NodeMemory, NodeSection, PortSection};
 
 /// Time between two looks at what became of a node.
 const LOOK: Duration = Duration::from_millis(200);

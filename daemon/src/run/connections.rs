@@ -1,6 +1,7 @@
 //! All that is opened: ports in and out, buses, the clock that is told the time.
 
 use insd_base::{Arrival, PortId};
+use insd_config::{Config, PortSection};
 use insd_drivers::can::{self, CanConfig};
 use insd_drivers::ports::{self, PortConfig, PortHandle, Surroundings};
 use insd_output::Port;
@@ -9,7 +10,6 @@ use tokio::runtime::Handle;
 use super::bus::{self, Buses, NodeOfPort};
 use super::outputs::Outputs;
 use super::time_out::TimeOut;
-use insd_config::{Config, PortSection};
 
 /// The port of what comes from our own clock and from the operator: none of the configuration.
 pub(super) const NOWHERE: PortId = PortId(u16::MAX);

@@ -4,9 +4,8 @@ use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::time::Duration;
 
 use insd_base::Order;
-use tokio::sync::oneshot;
-
 use insd_vessel::Obeyed;
+use tokio::sync::oneshot;
 
 /// Orders that may wait.
 const WAITING: usize = 16;

@@ -2,13 +2,12 @@
 
 use insd_base::units::DEG;
 use insd_base::{Mode, Solution};
+use insd_vessel::{Names, Product};
 use insd_web::snapshot::Freshness;
 use tokio::sync::watch;
 
 use super::journal::Audience;
 use super::report::Report;
-use insd_vessel::Names;
-use insd_vessel::Product;
 
 /// Says how everything stands, every few seconds.
 pub(super) struct Headline {

@@ -7,11 +7,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{Builder, JoinHandle};
 
+use insd_config::Config;
+use insd_vessel::{Names, Product};
+
 use super::report::Report;
 use super::told::tell;
-use insd_config::Config;
-use insd_vessel::Names;
-use insd_vessel::Product;
 
 /// What may wait to be told: some seconds of a ship in trouble.
 const WAITING: usize = 1024;

@@ -26,6 +26,7 @@ use std::time::Duration;
 
 use anyhow::Context;
 use insd_base::Span;
+use insd_config::{Config, OutputFile, RecordingSection, StateSection};
 use insd_drivers::ports::{self, Surroundings};
 use insd_drivers::raw::{RawHeader, RawWriter, Recorder, RecordingConfig};
 use insd_drivers::recording::NavWriter;
@@ -35,8 +36,6 @@ use tokio::sync::oneshot;
 use crate::clock::{HostClock, boot_now};
 use crate::logging::Log;
 use crate::state::{self, Folders, Remains, Saver};
-use insd_config::OutputFile;
-use insd_config::{Config, RecordingSection, StateSection};
 
 use alert_journal::AlertJournal;
 use connections::Connections;
@@ -76,7 +75,7 @@ pub fn run(config: &Config, text: &str, options: &RunOptions, log: &Log) -> anyh
     let surroundings = Surroundings { clock: Arc::new(clock), queue, judge: Some(told::judge()) };
     let guard = runtime.enter();
     let pipeline = config.pipeline();
-    let made = pipeline.speaker().station().ports();
+    let made = pipeline.outputs().station().ports();
     let connections = Connections::open(config, made, &surroundings, runtime.handle());
     drop(surroundings);
     let (commander, controls) = control::channel();

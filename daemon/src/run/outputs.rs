@@ -1,6 +1,7 @@
 //! The ports that are written to.
 
 use insd_base::{Arrival, Input, PortId, PortState, Span};
+use insd_config::{Config, LanSection, OutputSection};
 use insd_drivers::ports::{
     self, AgeStatus, Destination, Outgoing, OutputConfig, OutputPort, OutputStatus, Surroundings,
     UdpOutput,
@@ -8,8 +9,6 @@ use insd_drivers::ports::{
 use insd_output::{Lan, MessageKind, Port, PortMessage};
 use insd_web::SECURITY;
 use insd_wire::nmea::TransmissionGroup;
-
-use insd_config::{Config, LanSection, OutputSection};
 
 /// All ports that are written to.
 pub(super) struct Outputs {

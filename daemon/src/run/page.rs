@@ -1,11 +1,11 @@
 //! The status page, if there is to be one.
 
+use insd_config::{Config, WebSection};
 use insd_web::orders::{self, OrderReceiver};
 use insd_web::{Listen, WebConfig, WebHandle};
 
 use super::showcase::{Origin, Showcase};
 use crate::logging::Log;
-use insd_config::{Config, WebSection};
 
 /// The page, and its two ends inside.
 pub(super) struct Page {

@@ -8,10 +8,10 @@ use insd_drivers::raw::RecorderState;
 use insd_intake::status::IntakeStatus;
 use insd_n2k::node::NodeStatus;
 use insd_output::alerts::AlertView;
+use insd_vessel::{Dispute, EngineStatus};
 
 use super::outputs::OutputReport;
 use crate::state::SaverState;
-use insd_vessel::{Dispute, EngineStatus};
 
 /// How everything stands at one moment. What is costly to find is looked at once a second and is `None` in
 /// between.

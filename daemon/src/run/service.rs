@@ -4,6 +4,8 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use insd_base::{AlertOrder, Order};
+use insd_config::Config;
+use insd_vessel::Obeyed;
 use insd_web::{OrderReceiver, Request, SECURITY};
 use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::{oneshot, watch};
@@ -12,8 +14,6 @@ use super::control::Commander;
 use super::heart::Heart;
 use super::manager::{Manager, Word};
 use crate::logging::Log;
-use insd_config::Config;
-use insd_vessel::Obeyed;
 
 /// Time between two looks where no watchdog asks for shorter ones.
 const LOOK: Duration = Duration::from_secs(1);

@@ -1,9 +1,8 @@
 //! Our own time for chronyd.
 
 use insd_base::{PortId, Span, Stamp, UtcTime};
-use insd_drivers::ports::{ChronySock, Leap, Sample, Surroundings};
-
 use insd_config::Config;
+use insd_drivers::ports::{ChronySock, Leap, Sample, Surroundings};
 
 /// Sends a sample each second while UTC is known.
 pub(super) struct TimeOut {

@@ -6,12 +6,9 @@ use insd_drivers::ports::{Judge, Judgement};
 use insd_engine::Output;
 use insd_engine::vote::{Doubt, VoteEvent};
 use insd_intake::event::{Happening, IntakeEvent};
+use insd_vessel::{Change, Commanded, Names, Obeyed, Product, Vote, words};
 use insd_web::SECURITY;
 use insd_wire::stream::{Cutter, Protocol};
-
-use insd_vessel::Commanded;
-use insd_vessel::Vote;
-use insd_vessel::{Change, Names, Obeyed, Product, words};
 
 /// Good frames at which a baud rate is taken as right.
 const CONVINCED: usize = 3;

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use anyhow::Context;
 use insd_base::{Arrival, Input, Order, Span, Stamp, StorageFaults, Time};
+use insd_config::{Config, OutputFile, stored};
 use insd_drivers::ports::Receiver;
 use insd_drivers::raw::Recorder;
 use insd_drivers::recording::NavWriter;
@@ -20,9 +21,6 @@ use super::journal::{Journal, Note};
 use super::report::{Report, Slow};
 use crate::clock::{HostClock, boot_now};
 use crate::state::{Kept, Remains, Saver};
-use insd_config::Config;
-use insd_config::OutputFile;
-use insd_config::stored;
 
 /// Longest wait for an arrival: time passes even when nothing comes.
 const TURN: Duration = Duration::from_millis(25);
@@ -213,15 +211,15 @@ impl Worker {
     }
 
     fn report(&self, now: &Stamp, is_second: bool, with_sea: bool) -> Report {
-        let (pipeline, speaker) = (&self.pipeline, self.pipeline.speaker());
+        let (pipeline, outputs) = (&self.pipeline, self.pipeline.outputs());
         Report {
             stamp: *now,
             utc: self.pipeline.utc_at(now.monotonic),
             mode: pipeline.mode(),
             motion: pipeline.motion(),
             heave: pipeline.heave(),
-            alignment: speaker.alignment(),
-            alerts: speaker.station().alerts().views().collect(),
+            alignment: outputs.alignment(),
+            alerts: outputs.station().alerts().views().collect(),
             engines: pipeline.engines(),
             heard: pipeline.heard().collect(),
             slow: is_second.then(|| Box::new(self.slow(with_sea))),
@@ -243,7 +241,7 @@ impl Worker {
             standings: self.pipeline.engine_in_use().standings().collect(),
             findings: self.pipeline.engine_in_use().findings().to_vec(),
             disturbance: with_sea.then(|| self.pipeline.engine_in_use().disturbance()).flatten(),
-            epochs: [epochs, late, self.pipeline.speaker().station().skipped()],
+            epochs: [epochs, late, self.pipeline.outputs().station().skipped()],
             untold: self.journal.lost(),
         }
     }
@@ -275,7 +273,7 @@ impl Worker {
         }
         let obeyed = self.order(Order::Configuration(text.clone()))?;
         self.tell_configuration(&text);
-        let made = self.pipeline.speaker().station().ports();
+        let made = self.pipeline.outputs().station().ports();
         self.connections.reopen(self.pipeline.reader(), made);
         Ok(obeyed)
     }
@@ -337,7 +335,7 @@ impl Worker {
             saver.finish();
         }
         self.connections.outputs.tell();
-        let skipped = self.pipeline.speaker().station().skipped();
+        let skipped = self.pipeline.outputs().station().skipped();
         let (epochs, late) = self.agenda.epochs;
         tracing::info!(epochs, late, skipped, "epochs, and those begun more than 1 ms late");
         if let Some(recorder) = self.recorder {

@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle};
 
 use insd_base::Span;
+use insd_config::output_file;
 
 use super::{Boot, Kept, NAVIGATION, Store, berth};
-use insd_config::output_file;
 
 /// Where is saved, and how often.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,6 +7,7 @@ mod table;
 mod world;
 
 use insd_config::{Config, ConfigFinding, Examined, Severity, check::examine};
+
 use table::{Mistake, TABLE};
 
 /// A ship as she should be.

@@ -90,7 +90,7 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// A speaker for these ports.
+    /// The outputs of a plan.
     #[must_use]
     pub fn new(plan: OutputPlan) -> Self {
         Outputs {
@@ -278,13 +278,13 @@ mod tests {
     }
 
     /// Formatters of what is told in some seconds.
-    fn told(speaker: &mut Outputs, seconds: std::ops::Range<i64>) -> Vec<String> {
+    fn told(outputs: &mut Outputs, seconds: std::ops::Range<i64>) -> Vec<String> {
         let scenario = insd_simulator::Scenario::from_toml(insd_simulator::shipped()[6].1).unwrap();
         let header = insd_simulator::simulate(&scenario.with_duration(1.0), 1).header;
         let engine = Engine::new(EngineConfig::for_voyage(&header, 10.0));
         let mut formatters = Vec::new();
         for tenth in seconds.start * 10..seconds.end * 10 {
-            speaker.speak(&engine, Time::from_nanos(tenth * 100_000_000), None, |spoken| {
+            outputs.speak(&engine, Time::from_nanos(tenth * 100_000_000), None, |spoken| {
                 let Spoken::Messages(_, messages) = spoken else { return };
                 for message in messages {
                     let bytes = message.content.to_bytes();
@@ -320,19 +320,19 @@ mod tests {
 
     #[test]
     fn commands_about_alerts_are_taken_from_the_port_that_is_obeyed_and_from_no_other() {
-        let mut speaker = obeying_the_bridge();
-        assert!(told(&mut speaker, 0..5).contains(&"ALF".to_owned()));
-        speaker.overhear(&command(PortId(2)), None, |_| {});
-        assert_eq!(told(&mut speaker, 5..8), Vec::<String>::new());
+        let mut outputs = obeying_the_bridge();
+        assert!(told(&mut outputs, 0..5).contains(&"ALF".to_owned()));
+        outputs.overhear(&command(PortId(2)), None, |_| {});
+        assert_eq!(told(&mut outputs, 5..8), Vec::<String>::new());
         // a caution has nothing to acknowledge, so the command is refused
-        speaker.overhear(&command(BRIDGE), None, |_| {});
-        assert_eq!(told(&mut speaker, 8..11), ["ARC"]);
+        outputs.overhear(&command(BRIDGE), None, |_| {});
+        assert_eq!(told(&mut outputs, 8..11), ["ARC"]);
     }
 
     /// What is told of a command when it arrives.
-    fn heard(speaker: &mut Outputs, arrival: &Arrival) -> Vec<(Option<String>, bool, u64)> {
+    fn heard(outputs: &mut Outputs, arrival: &Arrival) -> Vec<(Option<String>, bool, u64)> {
         let mut all = Vec::new();
-        speaker.overhear(arrival, None, |own| {
+        outputs.overhear(arrival, None, |own| {
             all.push((own.who.host, own.who.may_command, own.strangers));
         });
         all
@@ -340,29 +340,29 @@ mod tests {
 
     #[test]
     fn a_command_of_a_host_that_is_not_listed_is_refused_counted_and_told() {
-        let mut speaker = obeying_the_bridge();
-        told(&mut speaker, 0..5);
+        let mut outputs = obeying_the_bridge();
+        told(&mut outputs, 0..5);
         let stranger = sent("10.0.0.9", false, &acn());
         let name = Some("10.0.0.9".to_owned());
-        assert_eq!(heard(&mut speaker, &stranger), [(name, false, 1)]);
+        assert_eq!(heard(&mut outputs, &stranger), [(name, false, 1)]);
         // however many follow, the bridge's line is not filled with refusals
-        (0..100).for_each(|_| assert_eq!(heard(&mut speaker, &stranger), []));
-        assert_eq!(told(&mut speaker, 5..8), ["ARC"]);
+        (0..100).for_each(|_| assert_eq!(heard(&mut outputs, &stranger), []));
+        assert_eq!(told(&mut outputs, 5..8), ["ARC"]);
         let bridge = sent("10.0.0.2", true, &acn());
-        assert_eq!(heard(&mut speaker, &bridge), [(Some("10.0.0.2".to_owned()), true, 101)]);
+        assert_eq!(heard(&mut outputs, &bridge), [(Some("10.0.0.2".to_owned()), true, 101)]);
     }
 
     #[test]
     fn what_two_hosts_say_is_not_put_together() {
-        let mut speaker = obeying_the_bridge();
+        let mut outputs = obeying_the_bridge();
         let line = acn();
         let (first, second) = line.split_at(10);
-        assert_eq!(heard(&mut speaker, &sent("10.0.0.9", false, first)), []);
-        assert_eq!(heard(&mut speaker, &sent("10.0.0.2", true, second)), []);
+        assert_eq!(heard(&mut outputs, &sent("10.0.0.9", false, first)), []);
+        assert_eq!(heard(&mut outputs, &sent("10.0.0.2", true, second)), []);
         for stranger in 0..100 {
-            heard(&mut speaker, &sent(&format!("10.0.1.{stranger}"), false, b"$"));
+            heard(&mut outputs, &sent(&format!("10.0.1.{stranger}"), false, b"$"));
         }
-        assert_eq!(heard(&mut speaker, &sent("10.0.0.2", true, first)), []);
-        assert_eq!(heard(&mut speaker, &sent("10.0.0.2", true, second)).len(), 1);
+        assert_eq!(heard(&mut outputs, &sent("10.0.0.2", true, first)), []);
+        assert_eq!(heard(&mut outputs, &sent("10.0.0.2", true, second)).len(), 1);
     }
 }

@@ -86,7 +86,7 @@ pub struct Pipeline<R> {
     reader: R,
     intake: Intake,
     engine: Engine,
-    speaker: Outputs,
+    outputs: Outputs,
     /// The spare engines, if there are any.
     redundancy: Option<Redundancy>,
 }
@@ -100,7 +100,7 @@ impl<R: OrderReader> Pipeline<R> {
             reader,
             intake: Intake::new(&intake),
             engine: Engine::new(engine),
-            speaker: Outputs::new(outputs),
+            outputs: Outputs::new(outputs),
             redundancy: (!spares.is_empty()).then(|| Redundancy::new(spares)),
         }
     }
@@ -121,7 +121,7 @@ impl<R: OrderReader> Pipeline<R> {
             match taken {
                 Intaken::Event(event) => product(Product::Intake(event)),
                 Intaken::Measured(received) => {
-                    self.speaker.hear(&received);
+                    self.outputs.hear(&received);
                     self.redundancy.iter_mut().for_each(|own| own.overhear_first(&received));
                     self.engine.handle(&received);
                     self.hand_on(&mut product);
@@ -130,13 +130,13 @@ impl<R: OrderReader> Pipeline<R> {
         }
         self.handle_spares(arrival, &mut product);
         if let Input::Storage(faults) = arrival.input {
-            self.speaker.note_storage(faults);
+            self.outputs.note_storage(faults);
         }
         let utc = self.intake.utc_at(now);
-        self.speaker.overhear(arrival, utc, |own| product(Product::Command(own)));
+        self.outputs.overhear(arrival, utc, |own| product(Product::Command(own)));
         if arrival.input == Input::Tick {
             let known = InUse { first: &self.engine, redundancy: self.redundancy.as_ref() };
-            self.speaker.speak(&known, now, utc, |spoken| product(Product::Spoken(spoken)));
+            self.outputs.speak(&known, now, utc, |spoken| product(Product::Spoken(spoken)));
         }
     }
 
@@ -148,7 +148,7 @@ impl<R: OrderReader> Pipeline<R> {
                 None => Some(output),
             };
             let Some(output) = heard else { continue };
-            self.speaker.note(&output);
+            self.outputs.note(&output);
             product(Product::Engine(output));
         }
     }
@@ -160,7 +160,7 @@ impl<R: OrderReader> Pipeline<R> {
             Said::Spare(name, output) => product(Product::Spare(name, output)),
         });
         if let Some(status) = redundancy.alignment() {
-            self.speaker.note(&Output::Alignment(status));
+            self.outputs.note(&Output::Alignment(status));
         }
     }
 
@@ -172,7 +172,7 @@ impl<R: OrderReader> Pipeline<R> {
                     AlertOrder::Silence => AlertCommand::Silence,
                 };
                 let utc = self.intake.utc_at(now);
-                let done = self.speaker.obey(*identifier, ordered, now, utc);
+                let done = self.outputs.obey(*identifier, ordered, now, utc);
                 Obeyed::Alert { identifier: *identifier, command: *command, done }
             }
             Order::Configuration(text) => match self.reader.replan(text) {
@@ -210,7 +210,7 @@ impl<R: OrderReader> Pipeline<R> {
             self.intake = Intake::new(&plan.intake);
         }
         if change.outputs || change.inputs {
-            self.speaker.succeed(Outputs::new(plan.outputs));
+            self.outputs.succeed(Outputs::new(plan.outputs));
             self.engine.observe_points(plan.engine.points);
             self.redundancy.iter_mut().for_each(|own| own.configure(&plan.spares, change.inputs));
         }
@@ -289,13 +289,13 @@ impl<R: OrderReader> Pipeline<R> {
     /// When the next [`Input::Tick`] is wanted, and why; `None` if never. All else hangs on arrivals.
     #[must_use]
     pub fn wake_up(&self, now: Time) -> Option<WakeUp> {
-        self.speaker.next(now, self.intake.utc_at(now))
+        self.outputs.next(now, self.intake.utc_at(now))
     }
 
-    /// What speaks to the ports.
+    /// What is said at the ports.
     #[must_use]
-    pub fn speaker(&self) -> &Outputs {
-        &self.speaker
+    pub fn outputs(&self) -> &Outputs {
+        &self.outputs
     }
 
     /// UTC at an instant of the ship's time line, if it is known.

@@ -12,9 +12,10 @@ use std::net::SocketAddr;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use house::{House, TOKEN, body, with_token};
 use insd_web::snapshot::{SensorState, ShownAlertState, Snapshot};
 use insd_web::{Listen, WebConfig, WebError};
+
+use house::{House, TOKEN, body, with_token};
 use scene::{Scene, Show};
 use serde_json::Value;
 

@@ -9,8 +9,7 @@ use insd_base::{Arrival, Event, Input, PortId, Span, Time};
 use insd_config::Config;
 use insd_drivers::raw::{RawHeader, RawWriter, Recorder, RecordingConfig};
 use insd_engine::Output;
-use insd_vessel::Spoken;
-use insd_vessel::{Pipeline, Product};
+use insd_vessel::{Pipeline, Product, Spoken};
 
 use super::pipe;
 

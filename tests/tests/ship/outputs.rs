@@ -73,7 +73,7 @@ fn said(voyage: &Voyage, kinds: &[&str]) -> Vec<(Time, Sentence)> {
     let rate = Rate::from_hertz(50.0);
     let messages = kinds.iter().map(|kind| (MessageKind::named(kind).unwrap(), rate)).collect();
     let port = OutputPortConfig { messages, ..OutputPortConfig::default() };
-    let mut speaker = Outputs::new(OutputPlan {
+    let mut outputs = Outputs::new(OutputPlan {
         ports: vec![port],
         points: vec![Body::default()],
         ..OutputPlan::default()
@@ -83,7 +83,7 @@ fn said(voyage: &Voyage, kinds: &[&str]) -> Vec<(Time, Sentence)> {
     let mut sentences = Vec::new();
     for received in voyage.received() {
         let now = received.receipt;
-        speaker.speak(&engine, now, Some(start.plus(now - Time::START)), |spoken| {
+        outputs.speak(&engine, now, Some(start.plus(now - Time::START)), |spoken| {
             let Spoken::Messages(_, messages) = spoken else { return };
             for message in messages {
                 let bytes = message.content.to_bytes();

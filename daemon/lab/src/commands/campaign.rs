@@ -5,6 +5,7 @@ use std::ops::Range;
 use indicatif::{ProgressBar, ProgressStyle};
 use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::{AlignmentStatus, Solution, Time, Voyage, VoyageHeader};
+use insd_config::BadInput;
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_simulator::{LimitError, Override, Scenario, limit, simulate};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -16,7 +17,6 @@ use crate::evaluation::{
     CampaignReport, Instant, Run, StoredFate, Yardstick, drifts, errors, outages,
 };
 use crate::scenario;
-use insd_config::BadInput;
 
 /// Options of `insd campaign`.
 ///

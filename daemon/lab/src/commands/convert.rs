@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use insd_base::{Message, Received, Stamped, Time, Voyage, VoyageHeader};
+use insd_config::BadInput;
 use insd_drivers::recording::{Compression, write_voyage};
 use insd_intake::{Intake, Intaken};
 
 use crate::raw_run::RawRun;
-use insd_config::BadInput;
 
 /// Options of `insd convert`.
 #[derive(Clone, Debug, clap::Args)]

@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use insd_base::{Solution, Time};
+use insd_config::BadInput;
 use insd_drivers::recording::{read_nav_rows, read_truth_rows};
 
 use crate::evaluation::plot::Picture;
 use crate::evaluation::{ErrorReport, Evidence, drifts, errors, outages, read_rows};
-use insd_config::BadInput;
 
 /// Options of `insd evaluate`.
 ///

@@ -1,12 +1,12 @@
 //! `insd limit`: how well the optimal filter could do in a scenario.
 
 use insd_base::units::DEG;
+use insd_config::BadInput;
 use insd_simulator::{Limit, Override, Scenario, limit};
 use serde::Serialize;
 
 use crate::scenario;
 use crate::table::{Align, Table, significant};
-use insd_config::BadInput;
 
 /// The instants of the moored bars, s.
 const INSTANTS: [f64; 6] = [60.0, 120.0, 300.0, 600.0, 900.0, 1800.0];

@@ -4,11 +4,10 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::Context;
+use insd_config::{BadInput, OutputFile};
 
 use crate::raw_run::is_recording;
 use crate::report::VoyageReport;
-use insd_config::BadInput;
-use insd_config::OutputFile;
 
 /// Options of `insd report`.
 #[derive(Clone, Debug, clap::Args)]

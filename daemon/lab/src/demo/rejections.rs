@@ -1,7 +1,6 @@
 //! Aids, reasons and events in the words of a mariner.
 
 use insd_base::{Event, Rejection};
-
 use insd_vessel::words;
 
 /// An aid's name for people: `gnss_position` is `GNSS position`.

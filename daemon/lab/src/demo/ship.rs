@@ -2,16 +2,15 @@
 //! it is told, so that a picture of it can be made again bit by bit.
 
 use insd_base::{Body, Event, Geodetic, Message, Mode, Received, Solution, Time, Voyage};
+use insd_config::VoyageCalendar;
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_output::{Manner, OutputPortConfig, Profile};
-
 use insd_vessel::{OutputPlan, Outputs, Spoken};
 
 use super::board::{Board, Phase};
 use super::rejections;
 use super::sensors::Sensors;
 use super::truth::{TrueTrack, east_north};
-use insd_config::VoyageCalendar;
 
 /// Solutions per second.
 const OUTPUT_RATE: f64 = 10.0;
@@ -24,7 +23,7 @@ const TRACK_INTERVAL: i64 = 2_000_000_000;
 pub struct DemoShip {
     messages: std::vec::IntoIter<Received>,
     engine: Engine,
-    speaker: Outputs,
+    outputs: Outputs,
     calendar: Option<VoyageCalendar>,
     truth: TrueTrack,
     origin: Option<Geodetic>,
@@ -49,7 +48,7 @@ impl DemoShip {
         DemoShip {
             messages: voyage.received().into_iter(),
             engine: Engine::new(EngineConfig::for_voyage(&voyage.header, OUTPUT_RATE)),
-            speaker: Outputs::new(OutputPlan {
+            outputs: Outputs::new(OutputPlan {
                 ports: vec![bridge()],
                 points: vec![Body::default()],
                 ..OutputPlan::default()
@@ -74,7 +73,7 @@ impl DemoShip {
             self.hear(&received);
             self.engine.handle(&received);
             while let Some(output) = self.engine.poll_output() {
-                self.speaker.note(&output);
+                self.outputs.note(&output);
                 self.take(output);
             }
             self.speak(received.receipt, wire);
@@ -101,7 +100,7 @@ impl DemoShip {
     fn hear(&mut self, received: &Received) {
         self.board.now = received.receipt;
         self.sensors.hear(received);
-        self.speaker.hear(received);
+        self.outputs.hear(received);
         if let (Message::Gnss(fix), Some(origin)) = (&received.message, &self.origin)
             && let Some(position) = fix.position
         {
@@ -111,7 +110,7 @@ impl DemoShip {
 
     fn speak(&mut self, now: Time, wire: &mut dyn FnMut(&[u8])) {
         let utc = self.calendar.map(|calendar| calendar.utc(now));
-        self.speaker.speak(&self.engine, now, utc, |spoken| {
+        self.outputs.speak(&self.engine, now, utc, |spoken| {
             if let Spoken::Messages(_, messages) = spoken {
                 messages.iter().for_each(|message| wire(&message.content.to_bytes()));
             }

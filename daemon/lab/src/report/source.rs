@@ -3,16 +3,15 @@
 use std::path::Path;
 
 use insd_base::{Input, Order, Span, Time};
+use insd_config::{BadInput, VoyageCalendar};
 use insd_drivers::raw::RawFault;
 use insd_drivers::recording::VoyageReader;
 use insd_engine::{Engine, EngineConfig};
+use insd_vessel::Names;
 
 use super::bounded::Bounded;
 use super::gathered::{FAULTS, Faults, VoyageReport};
 use crate::raw_run::RawRun;
-use insd_config::BadInput;
-use insd_config::VoyageCalendar;
-use insd_vessel::Names;
 
 /// Solutions per second of a voyage.
 const RATE: f64 = 10.0;
@@ -72,7 +71,7 @@ impl VoyageReport {
         report.counts = pipeline.counts().clone();
         report.intake = Some(pipeline.status());
         report.outputs = settings.outputs.iter().map(|output| output.name.clone()).collect();
-        report.skipped = pipeline.speaker().station().skipped();
+        report.skipped = pipeline.outputs().station().skipped();
         report.faults = Faults { told, read: raw.read() };
         Ok(report)
     }

@@ -9,11 +9,11 @@ use insd_drivers::ports::{
     self, File, PortConfig, Pps, Serial, TcpClient, TcpServer, Transport, Udp,
 };
 use insd_drivers::raw;
+use insd_lab::sniff::bus::file::BusFile;
+use insd_lab::sniff::{PortToHear, SuggestedTransport as Suggested};
 
 use super::can::{self, Opened};
 use super::captured;
-use insd_lab::sniff::bus::file::BusFile;
-use insd_lab::sniff::{PortToHear, SuggestedTransport as Suggested};
 
 /// Rates at which a serial line is listened to when none is given, the most common first.
 const BAUDS: [u32; 9] = [115_200, 38_400, 4_800, 9_600, 460_800, 921_600, 230_400, 57_600, 19_200];

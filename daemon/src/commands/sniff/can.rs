@@ -7,9 +7,8 @@ use std::path::Path;
 
 use insd_drivers::can::{Candump, GatewayFormat, GatewayTcp, GatewayUdp, Socketcan};
 use insd_drivers::ports::Transport;
-use insd_n2k::text::candump;
-
 use insd_lab::sniff::{SuggestedTransport as Suggested, quoted};
+use insd_n2k::text::candump;
 
 /// What is opened, whether its times are those of receipt, and what to write into a configuration.
 pub(super) type Opened = (Transport, bool, Option<Suggested>);

@@ -6,11 +6,11 @@ use std::path::Path;
 
 use anyhow::Context;
 use insd_base::{Arrival, Input, PortId, PortState, Stamp, Time, UtcTime};
+use insd_lab::sniff::bus::file::{BusFile, Frames};
+use insd_lab::sniff::{PortToHear, SniffReport, Sniffed};
 use insd_wire::stream::Protocol;
 
 use super::frames;
-use insd_lab::sniff::bus::file::{BusFile, Frames};
-use insd_lab::sniff::{PortToHear, SniffReport, Sniffed};
 
 /// Bytes of a file that are looked at to find out what it is.
 const HEAD: u64 = 16 * 1024;

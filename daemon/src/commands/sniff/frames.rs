@@ -4,10 +4,9 @@ use std::fmt::Write as _;
 use std::io::{self, Write as _};
 
 use insd_base::UtcTime;
-use insd_wire::describe::Reading;
-
 use insd_lab::sniff::text::printable;
 use insd_lab::sniff::{Seen, SeenWhat};
+use insd_wire::describe::Reading;
 
 /// Bytes of one line of a dump.
 const ROW: usize = 16;

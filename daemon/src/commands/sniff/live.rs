@@ -10,14 +10,14 @@ use insd_drivers::can::{self, CanConfig, SharedSpeaker};
 use insd_drivers::ports::{
     self, Judge, Judgement, PortConfig, PortHandle, Receiver, Surroundings, WAITING_LIMIT,
 };
+use insd_lab::sniff::{PortToHear, SniffReport, Sniffed, is_proof, text};
+use insd_lab::terminal::Farewell;
 use insd_wire::stream::{Cutter, Protocol};
 use tokio::time::{MissedTickBehavior, interval};
 
 use super::asker::Asker;
 use super::{frames, screen};
 use crate::clock::HostClock;
-use insd_lab::sniff::{PortToHear, SniffReport, Sniffed, is_proof, text};
-use insd_lab::terminal::Farewell;
 
 /// Time between two looks at the clock, and how many of them make a picture.
 const TICK: Duration = Duration::from_millis(100);

@@ -14,10 +14,9 @@ use std::io::{self, IsTerminal, Write};
 
 use anyhow::Context;
 use insd_drivers::ports::PortConfig;
-use insd_wire::stream::Protocol;
-
 use insd_lab::sniff::report::PortReport;
 use insd_lab::sniff::{SniffReport, text};
+use insd_wire::stream::Protocol;
 
 pub use address::{Address, Source, parse};
 

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use anyhow::Context;
 use insd_base::{PortId, Time};
+use insd_config::BadInput;
 use insd_drivers::raw::{FileHeader, RawReader};
+use insd_lab::sniff::{PortToHear, SniffReport, Sniffed};
 use insd_wire::stream::Protocol;
 
 use super::frames;
-use insd_config::BadInput;
-use insd_lab::sniff::{PortToHear, SniffReport, Sniffed};
 
 /// What the ports of a recording heard. Faults of its files are told on standard error.
 pub(super) fn read(

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use insd_base::Time;
+use insd_config::calendar;
 use insd_output::alerts::AlertView;
 use insd_web::snapshot::{Alert, ShownAlertState, ShownPriority};
 use insd_wire::nmea;
 
 use super::super::report::Report;
-use insd_config::calendar;
 
 /// What was seen of each alert last.
 #[derive(Debug, Default)]

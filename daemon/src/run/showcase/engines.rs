@@ -2,13 +2,13 @@
 
 use insd_base::units::{DEG, DEG_PER_HOUR, MICRO_G};
 use insd_base::{self as base, Body, Party, Standing};
+use insd_vessel::{Dispute, EngineStatus};
 use insd_web::snapshot::{
     DisturbanceAxis, Found, ShownDisturbance, ShownEngine, ShownEstimate, ShownEstimates,
     ShownStands,
 };
 
 use super::super::report::Report;
-use insd_vessel::{Dispute, EngineStatus};
 
 /// Parts of a ratio in a million.
 const PPM: f64 = 1e-6;

@@ -16,7 +16,9 @@ mod spans;
 mod tests;
 
 use insd_base::{Event, ModeReason, Span, Time, UtcTime};
+use insd_config::{Config, calendar};
 use insd_engine::Output;
+use insd_vessel::{Dispute, Names, Obeyed, Product};
 use insd_web::Publisher;
 use insd_web::snapshot::{
     MAX_MODES, MAX_REJECTIONS, Rejected, ShownMode, ShownTransition, Snapshot,
@@ -25,11 +27,6 @@ use insd_web::snapshot::{
 use super::journal::Audience;
 use super::report::{Report, Slow};
 use crate::logging::Log;
-use insd_config::Config;
-use insd_config::calendar;
-use insd_vessel::Dispute;
-use insd_vessel::Names;
-use insd_vessel::{Obeyed, Product};
 
 use aids::Aids;
 pub(super) use program::{Origin, hash};

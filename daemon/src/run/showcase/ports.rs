@@ -1,6 +1,7 @@
 //! Ports and buses.
 
 use insd_base::{BusEvent, PortState as State, Time};
+use insd_config::{Config, OutputSection, PortSection};
 use insd_drivers::ports::{AgeStatus, Destination, Transport};
 use insd_intake::status::PortStatus;
 use insd_web::snapshot::{
@@ -11,7 +12,6 @@ use super::super::outputs::OutputReport;
 use super::super::report::Slow;
 use super::rates::Rates;
 use super::spans::{age, ms};
-use insd_config::{Config, OutputSection, PortSection};
 
 pub(super) fn inputs(config: &Config, slow: &Slow, rates: &Rates, now: Time) -> Vec<ShownInput> {
     let ports = config.ports.iter().zip(&slow.intake.ports).enumerate();

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crc::{CRC_32_ISO_HDLC, Crc};
 use insd_base::Stamp;
+use insd_config::{Config, calendar};
 use insd_intake::clock::TimeQuality;
 use insd_intake::status::TimeStatus;
 use insd_web::snapshot::{Program, RecordingState, Saving, ShownRecording};
@@ -12,8 +13,6 @@ use rustix::time::{ClockId, clock_gettime};
 use super::super::report::Slow;
 use crate::clock::HostClock;
 use crate::state::SaverState;
-use insd_config::Config;
-use insd_config::calendar;
 
 /// Bytes of a page of memory where the system says nothing else.
 const PAGE: u64 = 4096;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use insd_base::Time;
+use insd_config::Config;
 use insd_intake::status::{ChoiceStatus, SensorStatus};
 use insd_web::snapshot::{Cause, Sensor, SensorState, ShownChoice};
 
@@ -10,7 +11,6 @@ use super::super::report::Slow;
 use super::meaning::meaning;
 use super::rates::Rates;
 use super::spans::age;
-use insd_config::Config;
 
 pub(super) fn sensors(config: &Config, slow: &Slow, rates: &Rates, now: Time) -> Vec<Sensor> {
     let sections = config.sensors.iter().zip(&slow.intake.sensors).enumerate();

@@ -5,9 +5,8 @@ use std::f64::consts::PI;
 use insd_base::units::{DEG, KNOT, wrap_two_pi};
 use insd_base::{HeaveQuality, Integrity, Judgement, Mode, Motion, Solution, Time};
 use insd_output::{Ellipse, Policy};
-use nalgebra::Vector3;
-
 use insd_web::snapshot::{Freshness, ShownHeave, ShownMotion as Shown};
+use nalgebra::Vector3;
 
 /// What is shown of a motion, at the IMU.
 pub(super) fn motion(

@@ -9,6 +9,7 @@ use insd_wire::nmea::{
     OctansStatus, PashrDialect, PhoctState, Pixse, PixseAlgorithmStatus, PixseHighLevelStatus,
     PixseSystemStatus, Psxn, PsxnQuality, Sentence,
 };
+
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

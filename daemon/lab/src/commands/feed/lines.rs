@@ -6,7 +6,6 @@ use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-
 use insd_simulator::feed::Sending;
 
 use crate::pty::PseudoTerminal;

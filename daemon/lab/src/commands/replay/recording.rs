@@ -1,14 +1,13 @@
 //! A raw recording, through the very same intake and engine as the daemon.
 
 use anyhow::Context;
+use insd_config::stored;
+use insd_vessel::{Names, Pipeline, Product};
 
 use super::args::{ReplayArgs, Tell};
 use super::sent::Sent;
 use super::sink::Sink;
 use crate::raw_run::RawRun;
-use insd_config::stored;
-use insd_vessel::Names;
-use insd_vessel::{Pipeline, Product};
 
 /// Replays a recording.
 pub(super) fn run(args: &ReplayArgs, tell: Tell) -> anyhow::Result<()> {

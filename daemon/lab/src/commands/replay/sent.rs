@@ -5,13 +5,12 @@ use std::io::Write;
 use std::path::Path;
 
 use anyhow::Context;
+use insd_config::{Config, OutputFile};
 use insd_output::OutputEpoch;
+use insd_vessel::Spoken;
 use serde::Serialize;
 
 use crate::evaluation::RowWriter;
-use insd_config::Config;
-use insd_config::OutputFile;
-use insd_vessel::Spoken;
 
 /// The files of a folder.
 pub(super) struct Sent {

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use insd_base::{AidInnovation, AlignmentStatus, Counts, Event, Finding, Mode, Stands, Time};
+use insd_config::OutputFile;
 use insd_drivers::recording::{FileReport, NavWriter};
 use insd_engine::Output;
 
 use super::args::ReplayArgs;
 use crate::commands::summary::Summary;
 use crate::evaluation::{AlignmentRow, InnovationRow, RowWriter};
-use insd_config::OutputFile;
 
 /// Where the outputs of the engine go.
 pub(super) struct Sink {

@@ -4,17 +4,14 @@ use std::path::Path;
 
 use anyhow::Context;
 use insd_base::{Body, Received};
+use insd_config::{BadInput, Config, VoyageCalendar, stored};
 use insd_drivers::recording::VoyageReader;
 use insd_engine::{Engine, EngineConfig};
+use insd_vessel::Outputs;
 
 use super::args::ReplayArgs;
 use super::sent::Sent;
 use super::sink::Sink;
-use insd_config::BadInput;
-use insd_config::Config;
-use insd_config::VoyageCalendar;
-use insd_config::stored;
-use insd_vessel::Outputs;
 
 /// Solutions per second where nothing else is asked for.
 const RATE: f64 = 10.0;
@@ -38,7 +35,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         }
         engine.handle(&received);
         while let Some(output) = engine.poll_output() {
-            ports.iter_mut().for_each(|ports| ports.speaker.note(&output));
+            ports.iter_mut().for_each(|ports| ports.outputs.note(&output));
             sink.take(&output).context("cannot write the solution")?;
         }
         ports.iter_mut().try_for_each(|ports| ports.speak(&engine, &received))?;
@@ -54,7 +51,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
 
 /// The ports of a configuration, as they would be with the sensors of the voyage.
 struct Ports {
-    speaker: Outputs,
+    outputs: Outputs,
     sent: Sent,
     levers: Vec<Body>,
     calendar: Option<VoyageCalendar>,
@@ -70,7 +67,7 @@ impl Ports {
         };
         let (config, _) = Config::load(file)?;
         Ok(Some(Ports {
-            speaker: Outputs::new(config.output_plan()),
+            outputs: Outputs::new(config.output_plan()),
             sent: Sent::create(folder, &config)?,
             levers: config.levers(),
             calendar: VoyageCalendar::new(start_utc),
@@ -79,10 +76,10 @@ impl Ports {
 
     /// A voyage has no clock but its messages: what is due is said when the next one is received.
     fn speak(&mut self, engine: &Engine, received: &Received) -> anyhow::Result<()> {
-        self.speaker.hear(received);
+        self.outputs.hear(received);
         let utc = self.calendar.map(|calendar| calendar.utc(received.receipt));
         let mut written = Ok(());
-        self.speaker.speak(engine, received.receipt, utc, |spoken| {
+        self.outputs.speak(engine, received.receipt, utc, |spoken| {
             if written.is_ok() {
                 written = self.sent.take(&spoken);
             }

@@ -78,7 +78,7 @@ impl Collected {
             self.border.clocks(&arrival.stamp, utc);
         }
         self.times.note(now, None);
-        let station = pipeline.speaker().station();
+        let station = pipeline.outputs().station();
         if arrival.input == Input::Tick && !station.ports().is_empty() {
             for view in self.alerts.look(now, station.alerts().views()) {
                 self.journal.write(now, "alert", words::alert(&view));

@@ -1,12 +1,13 @@
 //! Alerts on a time line and as a table.
 
+use insd_vessel::words::priority;
+
 use super::html::{Column, Table, known};
 use super::record::left_out;
 use crate::report::VoyageReport;
 use crate::report::collect::alerts::{ASKS, KNOWN, OVER, Occurrence};
 use crate::report::draw::strips::{self, Meaning, Strip};
 use crate::report::draw::{figure, key};
-use insd_vessel::words::priority;
 
 const MEANINGS: [Meaning; 3] = [
     Meaning { bit: OVER, class: "m5", words: "rectified, not acknowledged" },

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use insd_base::{Span, Time};
 use insd_intake::status::{IntakeStatus, PortStatus, SensorStatus};
+use insd_vessel::words;
 
 use super::html::{Column, Table, UNKNOWN, count, known, number, quantity};
 use super::record::left_out;
@@ -11,7 +12,6 @@ use crate::report::VoyageReport;
 use crate::report::collect::border::{BAD, GOOD, Line, POOR};
 use crate::report::draw::strips::{self, Meaning, Strip};
 use crate::report::draw::{figure, key};
-use insd_vessel::words;
 
 const MEANINGS: [Meaning; 3] = [
     Meaning { bit: GOOD, class: "good", words: "speaks" },

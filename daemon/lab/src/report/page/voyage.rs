@@ -1,11 +1,11 @@
 //! What she did: modes, track, motion, and how sure that was.
 
 use insd_base::StartCondition;
+use insd_vessel::words;
 
 use super::head::duration;
 use super::html::{Column, Table};
 use crate::words::{latitude, longitude};
-use insd_vessel::words;
 
 use crate::report::VoyageReport;
 use crate::report::collect::lane::Lane;
