@@ -32,6 +32,10 @@ impl Config {
         };
         keep("ship", self.ship == before.ship);
         keep("imu", self.imu == before.imu);
+        keep("alignment", self.alignment == before.alignment);
+        keep("model", self.model == before.model);
+        keep("gate", self.gate == before.gate);
+        keep("floor", self.floor == before.floor);
         keep("spare", self.spares == before.spares);
         keep("node", self.nodes == before.nodes);
         keep("recording", self.recording == before.recording);
@@ -40,6 +44,8 @@ impl Config {
         keep("web", self.web == before.web);
         self.ship.clone_from(&before.ship);
         self.imu.clone_from(&before.imu);
+        (self.alignment, self.model) = (before.alignment, before.model);
+        (self.gate, self.floor) = (before.gate, before.floor);
         self.spares.clone_from(&before.spares);
         self.nodes.clone_from(&before.nodes);
         self.recording.clone_from(&before.recording);
@@ -82,6 +88,15 @@ mod tests {
     fn what_navigation_is_built_on_waits_for_the_next_start_and_is_named() {
         let (config, change) = change("gyro_bias_std_deg_h = 0.01", "gyro_bias_std_deg_h = 0.02");
         assert_eq!(change, Change { waiting: vec!["imu"], ..Change::default() });
+        assert_eq!(config, Config::of_text(SHIPPED).unwrap());
+    }
+
+    #[test]
+    fn so_does_what_the_navigator_assumes() {
+        let sections = "[alignment]\nmoored = \"white_noise\"\n[model]\ncurrent_std_mps = 1.0\n\
+                        [gate]\nprobability = 0.99\n[floor]\nlog_mps = 0.01\n[imu]";
+        let (config, change) = change("[imu]", sections);
+        assert_eq!(change.waiting, ["alignment", "model", "gate", "floor"]);
         assert_eq!(config, Config::of_text(SHIPPED).unwrap());
     }
 }
