@@ -53,10 +53,8 @@ impl Increment {
         let [first, second] = [self, next].map(|part| UnitQuaternion::new(part.rotation * 0.5));
         let turn = first * first * second * second;
         let rotation = turn.scaled_axis();
-        let [own_sum, next_sum] = [self, next].map(|part| {
-            let by = &part.rotation;
-            part.velocity + by.cross(&by.cross(&part.velocity)) / 24.0
-        });
+        let [own_sum, next_sum] =
+            [self, next].map(|part| part.velocity + second_order(&part.rotation, &part.velocity));
         let sum = first * own_sum + first * first * (second * next_sum);
         let velocity = UnitQuaternion::new(rotation * -0.5) * sum;
         let (own, rest) = (self.duration(), next.duration());
@@ -64,7 +62,7 @@ impl Increment {
         Increment {
             from: self.from,
             rotation,
-            velocity: velocity - rotation.cross(&rotation.cross(&velocity)) / 24.0,
+            velocity: velocity - second_order(&rotation, &velocity),
             rate_noise: self.rate_noise * share + next.rate_noise * (1.0 - share),
             force_noise: self.force_noise * share + next.force_noise * (1.0 - share),
             ..*next
@@ -100,6 +98,12 @@ impl Increment {
         };
         (head, tail)
     }
+}
+
+/// By what an increment of velocity that is turned by half the rotation of its interval differs from what it is turned by on the
+/// way, to the next order: theta x (theta x dv) / 24.
+pub(crate) fn second_order(rotation: &Vector3<f64>, velocity: &Vector3<f64>) -> Vector3<f64> {
+    rotation.cross(&rotation.cross(velocity)) / 24.0
 }
 
 /// What one IMU sample gave.

@@ -1,7 +1,7 @@
 //! Claimed 1-sigma of what a solution says, from the covariance of the error state.
 
 use insd_base::attitude::skew;
-use insd_base::{Geodetic, MotionCovariance, Ned, SolutionSigma, earth};
+use insd_base::{Geodetic, MotionCovariance, SolutionSigma, earth};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use crate::aids::View;
@@ -84,15 +84,7 @@ pub fn solution_sigma(
     dating: &Dating,
     p: &Covariance,
 ) -> SolutionSigma {
-    let errors = Errorwise::new(view, acceleration, dating, p);
-    let std = errors.variances().map(|variance| variance.max(0.0).sqrt());
-    SolutionSigma {
-        position: Ned(std.fixed_rows::<3>(0).into_owned()),
-        velocity: Ned(std.fixed_rows::<3>(3).into_owned()),
-        roll: std[6],
-        pitch: std[7],
-        heading: std[8],
-    }
+    SolutionSigma::of_variances(&Errorwise::new(view, acceleration, dating, p).variances())
 }
 
 /// How the same errors hang together.
@@ -113,14 +105,7 @@ pub fn difference(view: &View, error: &Errors) -> SolutionSigma {
     for (block, at) in [(POSITION, 0), (VELOCITY, 3), (ATTITUDE, 6)] {
         own.fixed_rows_mut::<3>(at).copy_from(&error.of(block));
     }
-    let sizes = (all_rows(view) * own).abs();
-    SolutionSigma {
-        position: Ned(sizes.fixed_rows::<3>(0).into_owned()),
-        velocity: Ned(sizes.fixed_rows::<3>(3).into_owned()),
-        roll: sizes[6],
-        pitch: sizes[7],
-        heading: sizes[8],
-    }
+    SolutionSigma::of(&(all_rows(view) * own).abs())
 }
 
 /// Derivatives of NED position and velocity and of the Euler angles with respect to the strapdown errors.

@@ -9,7 +9,7 @@ use insd_base::earth;
 use insd_base::{Ecef, Geodetic, Time};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
-use crate::increments::Increment;
+use crate::increments::{Increment, second_order};
 use crate::nominal::Nominal;
 
 /// Gravity near an anchor point: its value there and a linear change around it, so that the closed
@@ -73,7 +73,7 @@ pub fn integrate(nominal: &mut Nominal, gravity: &LocalGravity, increment: &Incr
     let c_eb = halfway.to_rotation_matrix().into_inner();
     // Turned by half the rotation the increment needs no half-angle term; the next order of the
     // mean rotation matrix over the step differs by theta x (theta x dv) / 24.
-    let force = c_eb * (velocity + rotation.cross(&rotation.cross(&velocity)) / 24.0);
+    let force = c_eb * (velocity + second_order(&rotation, &velocity));
     let old_velocity = nominal.velocity;
     let weight = gravity.at(&(nominal.position + 0.5 * h * old_velocity));
     let middle = old_velocity + 0.5 * (force + weight * h);

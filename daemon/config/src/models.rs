@@ -7,7 +7,6 @@ use insd_base::units::DEG;
 use insd_nav::berth::Method;
 use insd_nav::config::Models;
 use insd_nav::disturbance::ModelOrder;
-use insd_nav::floors::Believable;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -191,9 +190,9 @@ pub(super) fn models(
 ) -> Models {
     let mut models = Models::default();
     alignment.lay_over(&mut models);
-    model.lay_over(&mut models);
-    gate.lay_over(&mut models);
-    floor.lay_over(&mut models);
+    model.keys(&mut models).into_iter().for_each(ModelKey::lay_over);
+    gate.keys(&mut models).into_iter().for_each(ModelKey::lay_over);
+    floor.keys(&mut models).into_iter().for_each(ModelKey::lay_over);
     models
 }
 
@@ -205,8 +204,8 @@ pub(super) fn faults(
     gate: &GateSection,
     floor: &FloorSection,
 ) -> Vec<String> {
-    let all = alignment.ranges().into_iter().chain(model.ranges()).chain(gate.ranges());
-    let wrong = all.chain(floor.ranges()).filter(|(_, value, least, most)| {
+    let all = ranges(alignment, model, gate, floor);
+    let wrong = all.into_iter().filter(|(_, value, least, most)| {
         value.is_some_and(|value| !(*least..=*most).contains(&value))
     });
     let told = |(key, _, least, most): Range| {
@@ -216,121 +215,112 @@ pub(super) fn faults(
     wrong.map(told).collect()
 }
 
-fn lay_over<const N: usize>(all: [(&mut f64, Option<f64>); N]) {
-    for (value, own) in all {
-        *value = own.unwrap_or(*value);
+fn ranges(
+    alignment: &AlignmentSection,
+    model: &ModelSection,
+    gate: &GateSection,
+    floor: &FloorSection,
+) -> Vec<Range> {
+    let mut usual = Models::default();
+    let mut all = alignment.ranges().to_vec();
+    all.extend(model.keys(&mut usual).iter().map(ModelKey::range));
+    all.extend(gate.keys(&mut usual).iter().map(ModelKey::range));
+    all.extend(floor.keys(&mut usual).iter().map(ModelKey::range));
+    all
+}
+
+/// A key of a section: its name, what is given, its range, its unit in SI, and what it sets.
+struct ModelKey<'a> {
+    name: &'static str,
+    given: Option<f64>,
+    range: [f64; 2],
+    unit: f64,
+    sets: &'a mut f64,
+}
+
+impl ModelKey<'_> {
+    fn lay_over(self) {
+        *self.sets = self.given.map_or(*self.sets, |given| given * self.unit);
+    }
+
+    fn range(&self) -> Range {
+        let [least, most] = self.range;
+        (self.name, self.given, least, most)
     }
 }
 
-impl ModelSection {
-    fn lay_over(&self, models: &mut Models) {
-        let Models { gnss, log, sea, .. } = models;
-        let [least, initial] = self.mean_heave_std_m.map_or([None; 2], |own| own.map(Some));
-        lay_over([
-            (&mut gnss.position_slow_share, self.gnss_position_slow_share),
-            (&mut gnss.position_time, self.gnss_position_time_s),
-            (&mut gnss.rtk_slow_share, self.rtk_slow_share),
-            (&mut gnss.rtk_position_time, self.rtk_position_time_s),
-            (&mut gnss.velocity_slow_share, self.gnss_velocity_slow_share),
-            (&mut gnss.velocity_time, self.gnss_velocity_time_s),
-            (&mut gnss.velocity_delay_std, self.gnss_velocity_delay_std_s),
-            (&mut log.scale_std, self.log_scale_std),
-            (&mut log.misalignment_std, self.log_misalignment_std_deg.map(|own| own * DEG)),
-            (&mut log.current_std, self.current_std_mps),
-            (&mut log.current_time, self.current_time_s),
-            (&mut sea.level_walk, self.sea_level_walk_m_sqrt_s),
-            (&mut sea.least_mean_heave, least),
-            (&mut sea.initial_mean_heave, initial),
-        ]);
-    }
+/// A row for each key of a section: its name, its range, what it sets, and its unit if that is not of SI.
+macro_rules! keys {
+    ($section:literal, $own:ident: $($key:ident $range:tt => $sets:expr $(, $unit:expr)?;)*) => {
+        vec![$(ModelKey {
+            name: concat!($section, ".", stringify!($key)),
+            given: $own.$key,
+            range: $range,
+            unit: 1.0 $(* $unit)?,
+            sets: &mut $sets,
+        }),*]
+    };
+}
 
-    fn ranges(&self) -> [Range; 14] {
+impl ModelSection {
+    fn keys<'a>(&self, models: &'a mut Models) -> Vec<ModelKey<'a>> {
+        let Models { gnss, log, sea, .. } = models;
+        let mut keys = keys! { "model", self:
+            gnss_position_slow_share [0.0, 0.99] => gnss.position_slow_share;
+            gnss_position_time_s [1.0, 1e5] => gnss.position_time;
+            rtk_slow_share [0.0, 0.99] => gnss.rtk_slow_share;
+            rtk_position_time_s [1.0, 1e5] => gnss.rtk_position_time;
+            gnss_velocity_slow_share [0.0, 0.99] => gnss.velocity_slow_share;
+            gnss_velocity_time_s [1.0, 1e5] => gnss.velocity_time;
+            gnss_velocity_delay_std_s [1e-6, 10.0] => gnss.velocity_delay_std;
+            log_scale_std [1e-6, 0.5] => log.scale_std;
+            log_misalignment_std_deg [1e-3, 30.0] => log.misalignment_std, DEG;
+            current_std_mps [1e-3, 10.0] => log.current_std;
+            current_time_s [1.0, 1e6] => log.current_time;
+            sea_level_walk_m_sqrt_s [1e-6, 1.0] => sea.level_walk;
+        };
         let [least, initial] = self.mean_heave_std_m.map_or([None; 2], |own| own.map(Some));
-        [
-            ("model.gnss_position_slow_share", self.gnss_position_slow_share, 0.0, 0.99),
-            ("model.gnss_position_time_s", self.gnss_position_time_s, 1.0, 1e5),
-            ("model.rtk_slow_share", self.rtk_slow_share, 0.0, 0.99),
-            ("model.rtk_position_time_s", self.rtk_position_time_s, 1.0, 1e5),
-            ("model.gnss_velocity_slow_share", self.gnss_velocity_slow_share, 0.0, 0.99),
-            ("model.gnss_velocity_time_s", self.gnss_velocity_time_s, 1.0, 1e5),
-            ("model.gnss_velocity_delay_std_s", self.gnss_velocity_delay_std_s, 1e-6, 10.0),
-            ("model.log_scale_std", self.log_scale_std, 1e-6, 0.5),
-            ("model.log_misalignment_std_deg", self.log_misalignment_std_deg, 1e-3, 30.0),
-            ("model.current_std_mps", self.current_std_mps, 1e-3, 10.0),
-            ("model.current_time_s", self.current_time_s, 1.0, 1e6),
-            ("model.sea_level_walk_m_sqrt_s", self.sea_level_walk_m_sqrt_s, 1e-6, 1.0),
-            ("model.mean_heave_std_m", least, 1e-3, 10.0),
-            ("model.mean_heave_std_m", initial, 1e-3, 10.0),
-        ]
+        let name = "model.mean_heave_std_m";
+        for (given, sets) in
+            [(least, &mut sea.least_mean_heave), (initial, &mut sea.initial_mean_heave)]
+        {
+            keys.push(ModelKey { name, given, range: [1e-3, 10.0], unit: 1.0, sets });
+        }
+        keys
     }
 }
 
 impl GateSection {
-    fn lay_over(&self, models: &mut Models) {
+    fn keys<'a>(&self, models: &'a mut Models) -> Vec<ModelKey<'a>> {
         let gate = &mut models.gate;
-        lay_over([
-            (&mut gate.probability, self.probability),
-            (&mut gate.code_base_error, self.code_base_error_m),
-            (&mut gate.rtk_base_error, self.rtk_base_error_m),
-            (&mut gate.ins_growth, self.ins_growth_mps),
-            (&mut gate.suspect_time, self.suspect_time_s),
-            (&mut gate.reset_time, self.reset_time_s),
-            (&mut gate.judged_reset_time, self.judged_reset_time_s),
-        ]);
-    }
-
-    fn ranges(&self) -> [Range; 7] {
-        [
-            ("gate.probability", self.probability, 0.9, 0.999_999_9),
-            ("gate.code_base_error_m", self.code_base_error_m, 0.01, 1e3),
-            ("gate.rtk_base_error_m", self.rtk_base_error_m, 0.001, 1e3),
-            ("gate.ins_growth_mps", self.ins_growth_mps, 1e-3, 1e3),
-            ("gate.suspect_time_s", self.suspect_time_s, 0.1, 3600.0),
-            ("gate.reset_time_s", self.reset_time_s, 0.1, 3600.0),
-            ("gate.judged_reset_time_s", self.judged_reset_time_s, 0.1, 3600.0),
-        ]
+        keys! { "gate", self:
+            probability [0.9, 0.999_999_9] => gate.probability;
+            code_base_error_m [0.01, 1e3] => gate.code_base_error;
+            rtk_base_error_m [0.001, 1e3] => gate.rtk_base_error;
+            ins_growth_mps [1e-3, 1e3] => gate.ins_growth;
+            suspect_time_s [0.1, 3600.0] => gate.suspect_time;
+            reset_time_s [0.1, 3600.0] => gate.reset_time;
+            judged_reset_time_s [0.1, 3600.0] => gate.judged_reset_time;
+        }
     }
 }
 
 impl FloorSection {
-    fn lay_over(&self, models: &mut Models) {
+    fn keys<'a>(&self, models: &'a mut Models) -> Vec<ModelKey<'a>> {
         let all = &mut models.floors;
-        let degrees = |own: Option<f64>| own.map(|own| own * DEG);
-        let each: [(&mut Believable, Option<f64>); 9] = [
-            (&mut all.code, self.code_m),
-            (&mut all.differential, self.differential_m),
-            (&mut all.rtk_float, self.rtk_float_m),
-            (&mut all.rtk_fixed, self.rtk_fixed_m),
-            (&mut all.gnss_velocity, self.gnss_velocity_mps),
-            (&mut all.log, self.log_mps),
-            (&mut all.reference_velocity, self.reference_velocity_mps),
-            (&mut all.reference_position, self.reference_position_m),
-            (&mut all.reference_heading, degrees(self.reference_heading_deg)),
-        ];
-        for (range, own) in each {
-            range.least = own.unwrap_or(range.least);
+        keys! { "floor", self:
+            code_m [1e-4, 100.0] => all.code.least;
+            differential_m [1e-4, 100.0] => all.differential.least;
+            rtk_float_m [1e-4, 100.0] => all.rtk_float.least;
+            rtk_fixed_m [1e-4, 100.0] => all.rtk_fixed.least;
+            gnss_velocity_mps [1e-4, 10.0] => all.gnss_velocity.least;
+            log_mps [1e-4, 5.0] => all.log.least;
+            log_default_mps [1e-4, 5.0] => all.log.default;
+            reference_velocity_mps [1e-4, 10.0] => all.reference_velocity.least;
+            reference_position_m [1e-3, 1e3] => all.reference_position.least;
+            reference_heading_deg [1e-4, 90.0] => all.reference_heading.least, DEG;
+            reference_heading_default_deg [1e-4, 90.0] => all.reference_heading.default, DEG;
         }
-        lay_over([
-            (&mut all.log.default, self.log_default_mps),
-            (&mut all.reference_heading.default, degrees(self.reference_heading_default_deg)),
-        ]);
-    }
-
-    fn ranges(&self) -> [Range; 11] {
-        let heading = self.reference_heading_default_deg;
-        [
-            ("floor.code_m", self.code_m, 1e-4, 100.0),
-            ("floor.differential_m", self.differential_m, 1e-4, 100.0),
-            ("floor.rtk_float_m", self.rtk_float_m, 1e-4, 100.0),
-            ("floor.rtk_fixed_m", self.rtk_fixed_m, 1e-4, 100.0),
-            ("floor.gnss_velocity_mps", self.gnss_velocity_mps, 1e-4, 10.0),
-            ("floor.log_mps", self.log_mps, 1e-4, 5.0),
-            ("floor.log_default_mps", self.log_default_mps, 1e-4, 5.0),
-            ("floor.reference_velocity_mps", self.reference_velocity_mps, 1e-4, 10.0),
-            ("floor.reference_position_m", self.reference_position_m, 1e-3, 1e3),
-            ("floor.reference_heading_deg", self.reference_heading_deg, 1e-4, 90.0),
-            ("floor.reference_heading_default_deg", heading, 1e-4, 90.0),
-        ]
     }
 }
 
@@ -371,12 +361,11 @@ mod tests {
 
     /// How many keys the sections have that are given a value.
     fn said_keys(config: &Config) -> usize {
-        let (model, gate, floor) = (&config.model, &config.gate, &config.floor);
-        let given = |ranges: &[Range]| ranges.iter().filter(|range| range.1.is_some()).count();
+        let Config { alignment, model, gate, floor, .. } = config;
+        let given =
+            ranges(alignment, model, gate, floor).iter().filter(|range| range.1.is_some()).count();
         // two of the alignment are words, and two ranges of the model share a key
-        2 + given(&config.alignment.ranges()) + given(&model.ranges()) - 1
-            + given(&gate.ranges())
-            + given(&floor.ranges())
+        2 + given - 1
     }
 
     #[test]

@@ -12,6 +12,7 @@ pub mod raw_run;
 pub mod report;
 pub mod scenario;
 pub mod sniff;
+pub mod style;
 pub mod table;
 pub mod terminal;
 pub mod words;

@@ -82,7 +82,8 @@ impl Motion {
         let covariance = self.covariance.zip(inverse).map(|(own, by_angles)| {
             let beyond = Beyond::new(&from.sigma, &own);
             let seen = seen_from(&own, &arms, &by_angles);
-            solution.sigma = beyond.turned(&arms).hypot(&sigma_of(&seen));
+            solution.sigma =
+                beyond.turned(&arms).hypot(&SolutionSigma::of_variances(&seen.diagonal()));
             seen
         });
         if covariance.is_none() {
@@ -99,9 +100,9 @@ struct Beyond(SolutionSigma);
 
 impl Beyond {
     fn new(claimed: &SolutionSigma, covariance: &MotionCovariance) -> Self {
-        Beyond(
-            claimed.zip(&sigma_of(covariance), |all, own| (all * all - own * own).max(0.0).sqrt()),
-        )
+        Beyond(claimed.zip(&SolutionSigma::of_variances(&covariance.diagonal()), |all, own| {
+            (all * all - own * own).max(0.0).sqrt()
+        }))
     }
 
     /// The same at the end of an arm, of which position and velocity are that of the point less that of the solution, NED, m
@@ -129,18 +130,6 @@ fn seen_from(
         moved.fixed_view_mut::<3, 3>(row, 6).copy_from(&(-skew(arm) * by_angles));
     }
     moved * own * moved.transpose()
-}
-
-/// The 1-sigma of each component.
-fn sigma_of(covariance: &MotionCovariance) -> SolutionSigma {
-    let std = covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
-    SolutionSigma {
-        position: Ned(std.fixed_rows::<3>(0).into_owned()),
-        velocity: Ned(std.fixed_rows::<3>(3).into_owned()),
-        roll: std[6],
-        pitch: std[7],
-        heading: std[8],
-    }
 }
 
 /// A point some metres away, at any latitude.
@@ -207,7 +196,7 @@ mod tests {
         covariance[(8, 8)] = heading * heading;
         covariance[(0, 8)] = arm * heading * heading;
         covariance[(8, 0)] = covariance[(0, 8)];
-        let sigma = sigma_of(&covariance);
+        let sigma = SolutionSigma::of_variances(&covariance.diagonal());
         let ship = Motion {
             covariance: Some(covariance),
             solution: Solution { sigma, ..ship.solution },

@@ -1,6 +1,6 @@
 //! What the system says of the ship: a solution, its standard deviations and its mode.
 
-use nalgebra::Vector3;
+use nalgebra::{SVector, Vector3};
 
 use crate::attitude::Attitude;
 use crate::frames::{Body, Geodetic, Ned};
@@ -85,6 +85,24 @@ pub struct SolutionSigma {
 }
 
 impl SolutionSigma {
+    /// Of all components in their order: position and velocity north, east, down, and roll, pitch, heading.
+    #[must_use]
+    pub fn of(all: &SVector<f64, 9>) -> Self {
+        SolutionSigma {
+            position: Ned(all.fixed_rows::<3>(0).into_owned()),
+            velocity: Ned(all.fixed_rows::<3>(3).into_owned()),
+            roll: all[6],
+            pitch: all[7],
+            heading: all[8],
+        }
+    }
+
+    /// Of variances in the same order.
+    #[must_use]
+    pub fn of_variances(all: &SVector<f64, 9>) -> Self {
+        Self::of(&all.map(|variance| variance.max(0.0).sqrt()))
+    }
+
     pub(crate) fn zip(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
         SolutionSigma {
             position: Ned(self.position.0.zip_map(&other.position.0, &of)),

@@ -173,6 +173,7 @@ proptest! {
         let u = effects.matrix().transpose();
         let told = (&h * &u + direct.transpose()).transpose();
         let effect = weighed.effect_of(&effects, direct);
+        assert_relative_eq!(&effect, &weighed.whiten(told.clone()), epsilon = 1e-12);
         let s = &h * p.matrix() * h.transpose() + &one.r;
         let information = &told * s.try_inverse().unwrap_or_default() * told.transpose();
         assert_relative_eq!(&effect * effect.transpose(), information, epsilon = 1e-9);
@@ -180,11 +181,11 @@ proptest! {
             let expected = &u - &gain * told.transpose();
             let mut passed = effects.clone();
             weighed.pass_on_by(&mut passed, &effect, &gain);
-            assert_relative_eq!(passed.matrix(), &expected.transpose(), epsilon = 1e-9);
+            assert_relative_eq!(passed.matrix(), &expected.transpose(), epsilon = 1e-12);
         }
         let expected = &u - weighed.gain() * told.transpose();
         weighed.pass_on(&mut effects, &effect);
-        assert_relative_eq!(effects.matrix(), &expected.transpose(), epsilon = 1e-9);
+        assert_relative_eq!(effects.matrix(), &expected.transpose(), epsilon = 1e-12);
     }
 
     #[test]

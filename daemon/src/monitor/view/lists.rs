@@ -10,7 +10,7 @@ use ratatui::text::{Line, Text};
 use ratatui::widgets::{Paragraph, Row, Table};
 
 use super::super::text::{bytes, fixed, state, time_of_day};
-use super::style::{bad, dim, panel, strong};
+use insd_lab::style::{alarm, dim, strong, titled};
 
 fn right(text: String) -> Line<'static> {
     Line::from(text).right_aligned()
@@ -23,7 +23,7 @@ fn fault(count: u64) -> Line<'static> {
 }
 
 fn good(is_good: bool) -> Style {
-    if is_good { Style::new().fg(Color::Green) } else { bad() }
+    if is_good { Style::new().fg(Color::Green) } else { alarm() }
 }
 
 /// The sensors.
@@ -57,7 +57,7 @@ pub(super) fn sensors(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
         Constraint::Fill(1),
     ];
     let table = Table::new(rows, widths).column_spacing(0).header(Row::new(head).style(dim()));
-    frame.render_widget(table.block(panel("Sensors")), area);
+    frame.render_widget(table.block(titled("Sensors")), area);
 }
 
 fn heading(text: &'static str) -> Line<'static> {
@@ -102,7 +102,7 @@ pub(super) fn ports(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
     ];
     let rows = inputs.chain(outputs);
     let table = Table::new(rows, widths).column_spacing(0).header(Row::new(head).style(dim()));
-    frame.render_widget(table.block(panel("Ports")), area);
+    frame.render_widget(table.block(titled("Ports")), area);
 }
 
 /// Alerts in their colours.
@@ -129,11 +129,11 @@ pub(super) fn alerts(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
     if lines.len() > room {
         lines.truncate(room.saturating_sub(1));
         let more = snapshot.alerts.len() - lines.len();
-        lines.push(Line::styled(format!(" and {more} more"), bad()));
+        lines.push(Line::styled(format!(" and {more} more"), alarm()));
     }
     let none = if snapshot.time.told_ago_s > GONE { " not known" } else { " none" };
     let text = if lines.is_empty() { Text::from(none) } else { Text::from(lines) };
-    frame.render_widget(Paragraph::new(text).block(panel("Alerts")), area);
+    frame.render_widget(Paragraph::new(text).block(titled("Alerts")), area);
 }
 
 /// The last lines of the journal, newest first.
@@ -145,7 +145,7 @@ pub(super) fn events(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
         .take(usize::from(area.height))
         .map(|event| {
             let style = match event.severity {
-                ShownSeverity::Error => bad(),
+                ShownSeverity::Error => alarm(),
                 ShownSeverity::Warn => Style::new().fg(Color::Yellow),
                 _ => Style::new(),
             };
@@ -153,5 +153,5 @@ pub(super) fn events(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
             Line::styled(format!(" {time} {}", event.text), style)
         })
         .collect();
-    frame.render_widget(Paragraph::new(Text::from(lines)).block(panel("Journal")), area);
+    frame.render_widget(Paragraph::new(Text::from(lines)).block(titled("Journal")), area);
 }

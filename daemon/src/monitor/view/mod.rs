@@ -2,7 +2,6 @@
 
 mod lists;
 mod ship;
-mod style;
 
 #[cfg(test)]
 mod tests;
@@ -16,7 +15,7 @@ use ratatui::widgets::{Paragraph, Wrap};
 
 use super::board::{Board, Link};
 use super::text::{line, span, time_of_day, word};
-use style::{bad, dim, strong};
+use insd_lab::style::{alarm, dim, strong};
 
 /// Smallest terminal that the picture fits into.
 const LEAST: (u16, u16) = (72, 20);
@@ -94,7 +93,7 @@ fn head(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot, link: Link) {
     let utc = snapshot.time.utc.as_deref();
     let date = utc.and_then(|utc| utc.get(..10)).unwrap_or("");
     let text = format!("{date} {} UTC ", time_of_day(utc));
-    let style = if link == Link::Live { Style::new() } else { bad() };
+    let style = if link == Link::Live { Style::new() } else { alarm() };
     frame.render_widget(Line::styled(text, style).right_aligned(), area);
 }
 

@@ -7,7 +7,7 @@ use ratatui::text::{Line, Text};
 use ratatui::widgets::{Paragraph, Row, Table, Wrap};
 
 use super::super::text::{DASH, bytes, fixed, place, span, state as word_of, word};
-use super::style::{dim, panel, strong};
+use insd_lab::style::{dim, strong, titled};
 
 /// Rows of what is told of the ship.
 pub(super) const ROWS: u16 = 5;
@@ -16,7 +16,7 @@ pub(super) const ROWS: u16 = 5;
 pub(super) fn ship(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
     let nothing = ShownMotion::default();
     let motion = snapshot.present().unwrap_or(&nothing);
-    let block = panel("Ship, 1-sigma");
+    let block = titled("Ship, 1-sigma");
     let inner = block.inner(area);
     frame.render_widget(block, area);
     let halves = Layout::horizontal([Constraint::Fill(1), Constraint::Fill(1)]).areas(inner);
@@ -97,5 +97,5 @@ pub(super) fn state(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
         tell("Recording:", format!("{}, {written}", word_of(&recording.state)));
     }
     let text = Paragraph::new(Text::from(lines)).wrap(Wrap { trim: true });
-    frame.render_widget(text.block(panel("State")), area);
+    frame.render_widget(text.block(titled("State")), area);
 }

@@ -6,8 +6,8 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 use ratatui::text::{Line, Span};
 
-use super::style::{dim, strong};
 use crate::demo::board::{Board, Phase};
+use crate::style::{dim, strong};
 use crate::words;
 
 /// Age of a solution that is no longer worth showing as the present, s.

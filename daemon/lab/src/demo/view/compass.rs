@@ -8,8 +8,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 
-use super::style::{dim, strong};
 use crate::demo::board::Board;
+use crate::style::{dim, strong};
 
 /// Degrees in one column.
 const SCALE: f64 = 1.0;

@@ -5,7 +5,6 @@ mod compass;
 mod notes;
 mod sensors;
 mod ship;
-mod style;
 mod track;
 
 #[cfg(test)]

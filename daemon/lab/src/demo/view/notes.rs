@@ -7,9 +7,9 @@ use ratatui::style::{Color, Style};
 use ratatui::text::{Line, Span, Text};
 use ratatui::widgets::Paragraph;
 
-use super::style::{dim, panel, strong};
 use crate::demo::board::Board;
 use crate::demo::rejections;
+use crate::style::{dim, panel, strong};
 use crate::words;
 
 /// Rejected measurements by aid and reason, most frequent first.

@@ -7,9 +7,9 @@ use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 use ratatui::widgets::{Row, Table};
 
-use super::style::{alarm, dim, panel};
 use crate::demo::board::Board;
 use crate::demo::sensors::DemoSensorStatus;
+use crate::style::{alarm, dim, panel};
 
 /// Draws the box.
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, board: &Board) {

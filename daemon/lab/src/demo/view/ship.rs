@@ -8,8 +8,8 @@ use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 use ratatui::widgets::{Row, Table};
 
-use super::style::{dim, panel, strong};
 use crate::demo::board::Board;
+use crate::style::{dim, panel, strong};
 use crate::words;
 
 /// Draws the box.

@@ -7,8 +7,8 @@ use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{self, Canvas, Context, Points};
 
-use super::style::{dim, panel};
 use crate::demo::board::{Board, Tracks};
+use crate::style::{dim, panel};
 use crate::words;
 
 /// Least half-width of the map, m, so that a ship at her berth does not fill it.
