@@ -140,6 +140,7 @@ fn run<E: Estimator>(mut run: Run<E>) -> Run<E> {
 #[library_benchmark]
 #[bench::navigating(navigating())]
 #[bench::moorings(moored(Method::Moorings))]
+#[bench::as_published(moored(Method::AsPublished))]
 #[bench::autoregressive(moored(Method::Autoregressive))]
 #[bench::white_noise(moored(Method::WhiteNoise))]
 fn one_heading(prepared: Run<Navigator>) -> Run<Navigator> {

@@ -11,17 +11,22 @@ pub use departure::Departure;
 pub use moorings::{Moorings, SPACING};
 pub use prefiltered::Prefiltered;
 pub use white_noise::WhiteNoise;
+pub use whitened::Whitened;
 
 mod departure;
+mod hindsight;
 mod moorings;
 mod prefiltered;
+mod shifts;
 mod white_noise;
+mod whitened;
 
 /// What holds a filter at the berth, by one of the methods.
 #[derive(Clone, Debug)]
 pub(crate) enum Hold {
     WhiteNoise(WhiteNoise),
     Prefiltered(Box<Prefiltered>),
+    Whitened(Box<Whitened>),
     Moorings(Box<Moorings>),
 }
 
@@ -31,6 +36,7 @@ pub(crate) enum Hold {
 pub(crate) enum HoldCheckpoint {
     WhiteNoise,
     Prefiltered,
+    Whitened,
     Moorings(Box<Moorings>),
 }
 
@@ -39,7 +45,8 @@ impl Hold {
     pub(crate) fn new(method: Method, filter: &mut Filter) -> Self {
         match method {
             Method::WhiteNoise => Hold::WhiteNoise(WhiteNoise::new(filter)),
-            Method::Autoregressive => Hold::Prefiltered(Box::new(Prefiltered::new(filter))),
+            Method::AsPublished => Hold::Prefiltered(Box::new(Prefiltered::new(filter))),
+            Method::Autoregressive => Hold::Whitened(Box::new(Whitened::new(filter))),
             Method::Moorings => Hold::Moorings(Box::new(Moorings::new(filter))),
         }
     }
@@ -49,6 +56,7 @@ impl Hold {
         match self {
             Hold::WhiteNoise(white) => white.hold(filter),
             Hold::Prefiltered(prefiltered) => prefiltered.hold(filter),
+            Hold::Whitened(whitened) => whitened.hold(filter),
             Hold::Moorings(moorings) => moorings.hold(filter),
         }
     }
@@ -56,7 +64,8 @@ impl Hold {
     pub(crate) fn method(&self) -> Method {
         match self {
             Hold::WhiteNoise(_) => Method::WhiteNoise,
-            Hold::Prefiltered(_) => Method::Autoregressive,
+            Hold::Prefiltered(_) => Method::AsPublished,
+            Hold::Whitened(_) => Method::Autoregressive,
             Hold::Moorings(_) => Method::Moorings,
         }
     }
@@ -79,7 +88,7 @@ impl Hold {
     /// Whether a filter that is held so moves away as a moored ship does not.
     pub(crate) fn lets_go(&self, departure: &Departure) -> bool {
         match self {
-            Hold::Moorings(_) => departure.is_certain(),
+            Hold::Moorings(_) | Hold::Whitened(_) => departure.is_certain(),
             // nothing bounds the position: only speed tells
             _ => departure.is_fast(),
         }
@@ -103,6 +112,10 @@ impl Hold {
                 let stated = reference.position_std.filter(|std| (0.01..1e3).contains(std));
                 moorings.name_berth(filter, &place, stated);
             }
+            (Hold::Whitened(whitened), Some(place)) => {
+                let stated = reference.position_std.filter(|std| (0.01..1e3).contains(std));
+                whitened.name_berth(filter, &place, stated);
+            }
             _ if is_first => return false,
             _ => {}
         }
@@ -114,6 +127,7 @@ impl Hold {
         match self {
             Hold::WhiteNoise(_) => HoldCheckpoint::WhiteNoise,
             Hold::Prefiltered(_) => HoldCheckpoint::Prefiltered,
+            Hold::Whitened(_) => HoldCheckpoint::Whitened,
             Hold::Moorings(moorings) => HoldCheckpoint::Moorings(moorings.clone()),
         }
     }
@@ -122,7 +136,8 @@ impl Hold {
     pub(crate) fn taken_up(kept: &HoldCheckpoint, filter: &mut Filter, by: Span) -> Self {
         match kept {
             HoldCheckpoint::WhiteNoise => Hold::new(Method::WhiteNoise, filter),
-            HoldCheckpoint::Prefiltered => Hold::new(Method::Autoregressive, filter),
+            HoldCheckpoint::Prefiltered => Hold::new(Method::AsPublished, filter),
+            HoldCheckpoint::Whitened => Hold::new(Method::Autoregressive, filter),
             HoldCheckpoint::Moorings(moorings) => {
                 Hold::Moorings(Box::new(moorings.as_ref().clone().shifted(by)))
             }

@@ -4,7 +4,7 @@ use insd_base::units::{DEG, DEG_PER_HOUR};
 use insd_base::{Body, ImuSpec, LeverArms, VesselKind};
 use nalgebra::Vector3;
 
-use crate::disturbance::PrefilterConfig;
+use crate::disturbance::{PrefilterConfig, WhiteningConfig};
 use crate::floors::Floors;
 use crate::judge::Docket;
 
@@ -132,6 +132,8 @@ pub struct Models {
     pub floors: Floors,
     /// How the sea is taken out of the velocity at the berth, where that is the method.
     pub prefilter: PrefilterConfig,
+    /// How the displacement at the berth is whitened, where that is the method.
+    pub whitening: WhiteningConfig,
 }
 
 impl Default for GnssModel {
@@ -203,6 +205,8 @@ pub struct NavConfig {
     pub floors: Floors,
     /// How the sea is taken out of the velocity at the berth, where that is the method.
     pub prefilter: PrefilterConfig,
+    /// How the displacement at the berth is whitened, where that is the method.
+    pub whitening: WhiteningConfig,
     /// Longest interval between propagations of the covariance, s.
     pub covariance_interval: f64,
     /// How far everybody is believed at the begin.
@@ -233,6 +237,7 @@ impl NavConfig {
             gate: models.gate,
             floors: models.floors,
             prefilter: models.prefilter,
+            whitening: models.whitening,
             covariance_interval: 0.1,
             docket: Docket::default(),
         }

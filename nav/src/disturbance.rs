@@ -12,8 +12,10 @@
 //! [`Prefilter`] holds the window; [`SlowVelocity`] is its answer, [`PrefilterRefusal`] why there is none;
 //! [`Model`] is the sea that was found on the way: spectrum, period, significant motion, whitening.
 
+mod displacement;
 mod model;
 mod prefilter;
+mod prior;
 mod regression;
 mod slow;
 mod spectrum;
@@ -22,7 +24,9 @@ mod window;
 #[cfg(test)]
 mod tests;
 
+pub use displacement::{Displacement, SeaWindow, Whitener, WhiteningConfig};
 pub use model::Model;
 pub use prefilter::{ModelOrder, Prefilter, PrefilterConfig, PrefilterRefusal, SlowVelocity};
+pub use prior::SeaPrior;
 pub use spectrum::SpectralMotion;
 pub use window::Push;

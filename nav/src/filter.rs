@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use crate::aids::View;
 use crate::config::NavConfig;
-use crate::disturbance::PrefilterConfig;
+use crate::disturbance::{PrefilterConfig, WhiteningConfig};
 use crate::error_state::{Covariance, Errors, Innovation, Weighed};
 use crate::increments::Increment;
 use crate::initial::InitialState;
@@ -110,6 +110,12 @@ impl Filter {
     #[must_use]
     pub fn prefilter(&self) -> &PrefilterConfig {
         &self.config.prefilter
+    }
+
+    /// How the displacement at the berth is whitened, where that is the method.
+    #[must_use]
+    pub fn whitening(&self) -> &WhiteningConfig {
+        &self.config.whitening
     }
 
     /// The estimate.

@@ -5,8 +5,11 @@
 pub enum Method {
     /// Zero velocity with the sea as white noise: the plain Kalman filter, for comparison.
     WhiteNoise,
-    /// The reference method, of JP3375720B2: an autoregressive model of the velocity in a sliding
+    /// The prefilter as JP3375720B2 has it: an autoregressive model of the velocity in a sliding
     /// window takes the sea out before the Kalman filter ([`crate::disturbance`]).
+    AsPublished,
+    /// What an autoregressive model in a sliding window does not foretell of her displacement
+    /// ([`crate::berth::Whitened`]).
     Autoregressive,
     /// The ship's swaying on her moorings as states of the Kalman filter, observed by her
     /// displacement from the berth ([`crate::berth::Moorings`]).
@@ -16,13 +19,15 @@ pub enum Method {
 
 impl Method {
     /// All of them, in the order of their age.
-    pub const ALL: [Method; 3] = [Method::WhiteNoise, Method::Autoregressive, Method::Moorings];
+    pub const ALL: [Method; 4] =
+        [Method::WhiteNoise, Method::AsPublished, Method::Autoregressive, Method::Moorings];
 
     /// Its name in configuration: `white_noise`, `autoregressive`, `moorings`.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Method::WhiteNoise => "white_noise",
+            Method::AsPublished => "as_published",
             Method::Autoregressive => "autoregressive",
             Method::Moorings => "moorings",
         }

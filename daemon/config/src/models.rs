@@ -14,18 +14,24 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AlignmentSection {
-    /// What keeps the sea out of the alignment at the berth: `moorings`, `autoregressive` or `white_noise`.
+    /// What keeps the sea out of the alignment at the berth: `moorings`, `autoregressive`, `as_published` or `white_noise`.
     pub moored: Moored,
     /// How a ship under way finds her heading: `eight_state` or `bank`.
     pub in_motion: UnderWay,
     /// Heading sigma on the equator that counts as aligned, deg.
     pub accuracy_deg: Option<f64>,
-    /// Of `autoregressive`: the highest order of the model of the sea that is tried, 0 to 16.
+    /// Of `as_published`: the highest order of the model of the sea that is tried, 0 to 16.
     pub prefilter_order: Option<u8>,
-    /// Of `autoregressive`: length of the sliding window, s.
+    /// Of `as_published`: length of the sliding window, s.
     pub prefilter_window_s: Option<f64>,
-    /// Of `autoregressive`: from sample to sample of the velocity, s.
+    /// Of `as_published`: from sample to sample of the velocity, s.
     pub prefilter_interval_s: Option<f64>,
+    /// Of `autoregressive`: lags of the model of the sea, 0 to 24.
+    pub sea_order: Option<u8>,
+    /// Of `autoregressive`: length of the sliding window, s.
+    pub sea_window_s: Option<f64>,
+    /// Of `autoregressive`: from sample to sample of the displacement, s.
+    pub sea_spacing_s: Option<f64>,
 }
 
 /// What keeps the sea out of the alignment at the berth.
@@ -35,8 +41,10 @@ pub enum Moored {
     /// Her bounded displacement, with her slow swaying as states.
     #[default]
     Moorings,
-    /// A model of the sea in a sliding window, before the filter.
+    /// A model of her displacement in a sliding window, whose whitening filter goes before the Kalman filter.
     Autoregressive,
+    /// The prefilter of the velocity as its source has it.
+    AsPublished,
     /// Zero velocity with the sea as white noise.
     WhiteNoise,
 }
@@ -141,6 +149,7 @@ impl AlignmentSection {
             moored: match self.moored {
                 Moored::Moorings => Method::Moorings,
                 Moored::Autoregressive => Method::Autoregressive,
+                Moored::AsPublished => Method::AsPublished,
                 Moored::WhiteNoise => Method::WhiteNoise,
             },
             in_motion: match self.in_motion {
@@ -157,22 +166,30 @@ impl AlignmentSection {
         if let Some(order) = self.prefilter_order {
             prefilter.order = ModelOrder::Chosen { max: order.into() };
         }
+        let whitening = &mut models.whitening;
+        whitening.order = self.sea_order.map_or(whitening.order, usize::from);
         let spans = [
             (&mut prefilter.window, self.prefilter_window_s),
             (&mut prefilter.interval, self.prefilter_interval_s),
+            (&mut whitening.window, self.sea_window_s),
+            (&mut whitening.spacing, self.sea_spacing_s),
         ];
         for (span, own) in spans {
             *span = own.map_or(*span, Span::from_seconds);
         }
     }
 
-    fn ranges(&self) -> [Range; 4] {
+    fn ranges(&self) -> [Range; 7] {
         let order = self.prefilter_order.map(f64::from);
+        let lags = self.sea_order.map(f64::from);
         [
             ("alignment.accuracy_deg", self.accuracy_deg, 0.001, 10.0),
             ("alignment.prefilter_order", order, 0.0, 16.0),
             ("alignment.prefilter_window_s", self.prefilter_window_s, 32.0, 3600.0),
             ("alignment.prefilter_interval_s", self.prefilter_interval_s, 0.1, 10.0),
+            ("alignment.sea_order", lags, 0.0, 24.0),
+            ("alignment.sea_window_s", self.sea_window_s, 60.0, 3600.0),
+            ("alignment.sea_spacing_s", self.sea_spacing_s, 1.0, 10.0),
         ]
     }
 }

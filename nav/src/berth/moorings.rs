@@ -9,9 +9,10 @@
 //!
 //! A gust or a tug that shifts the ship is found by the innovation, and her mean place set free.
 
+use super::shifts::Shifts;
 use crate::aids::berth;
-use crate::error_state::{Errors, Innovation, POSITION, SWAY, VELOCITY};
-use crate::{Filter, Oscillator, Outcome, Sway};
+use crate::error_state::SWAY;
+use crate::{Filter, Oscillator, Sway};
 use insd_base::{Geodetic, Span, Time};
 use nalgebra::{DVector, Vector2};
 use serde::{Deserialize, Serialize};
@@ -24,14 +25,7 @@ pub struct Moorings {
     learning_time: f64,
     wave_variance: f64,
     next: Time,
-    shifting_until: Time,
-    start: Time,
-    refused: u32,
-    shifts: u32,
-    /// What the last samples have done to the estimate, sooner or later forgotten.
-    recent: Errors,
-    /// Running mean of the samples' innovations in units of their sigma.
-    lean: Vector2<f64>,
+    shifts: Shifts,
 }
 
 /// Spacing of the samples: about half a wave, so that the waves of consecutive ones have little in
@@ -62,21 +56,6 @@ const LEARNING_WAVES: f64 = 60.0;
 /// Least displacement by waves and by swaying that is believed, 1-sigma, m.
 const LEAST_WAVES: f64 = 0.005;
 const LEAST_SWAY: f64 = 0.01;
-/// Before this the filter is still finding its tilt, s.
-const SETTLING: f64 = 90.0;
-/// Samples one after the other that do not fit before the ship counts as shifted.
-const SHIFT: u32 = 2;
-/// After a shift was found, her mean place stays free for this long, s.
-const SHIFTING: f64 = 20.0;
-/// Weight of a sample in the running mean of the innovations. Of white ones with weight w the mean has a
-/// variance of w / (2 - w); a ship that begins to leave gives one after the other of the same sign.
-const LEANING: f64 = 0.4;
-/// Square of that mean over its variance beyond which she is not where she was: once in 10,000 samples.
-const LEAN: f64 = 18.4;
-/// A shift is found some samples after it began: for so long what they do to the estimate is remembered, s.
-const ONSET: f64 = 10.0;
-/// How far it may wander from one sample to the next where it is not seen to go further, 1-sigma, m.
-const WANDER: f64 = 0.5;
 
 /// North and east.
 fn pair(z: &DVector<f64>) -> Vector2<f64> {
@@ -94,12 +73,7 @@ impl Moorings {
             learning_time: LEARNING_UNSTATED,
             wave_variance: (WAVE_SHARE * UNSTATED).powi(2),
             next: filter.time() + Span::from_seconds(SPACING),
-            shifting_until: filter.time(),
-            start: filter.time(),
-            refused: 0,
-            shifts: 0,
-            recent: Errors::none(),
-            lean: Vector2::zeros(),
+            shifts: Shifts::new(filter.time(), SPACING),
         };
         moorings.begin(filter, UNSURVEYED);
         moorings
@@ -147,13 +121,13 @@ impl Moorings {
     /// How often her mean place was found to have shifted.
     #[must_use]
     pub fn shifts(&self) -> u32 {
-        self.shifts
+        self.shifts.count()
     }
 
     /// Since when the ship is held at the berth.
     #[must_use]
     pub fn start(&self) -> Time {
-        self.start
+        self.shifts.start()
     }
 
     /// The berth.
@@ -165,12 +139,7 @@ impl Moorings {
     /// The same on a time line that is later by a span.
     #[must_use]
     pub fn shifted(self, by: Span) -> Self {
-        Moorings {
-            next: self.next + by,
-            shifting_until: self.shifting_until + by,
-            start: self.start + by,
-            ..self
-        }
+        Moorings { next: self.next + by, shifts: self.shifts.shifted(by), ..self }
     }
 
     /// Holds the filter against the berth if it is time to; returns the log-likelihood.
@@ -182,74 +151,12 @@ impl Moorings {
         self.next = now + Span::from_seconds(SPACING);
         filter.settle_sway();
         let innovation = berth::innovation(&filter.view(), &self.place, self.waves_std());
-        if now < self.shifting_until {
-            filter.loosen_berth(innovation.z.norm().max(WANDER));
-        }
-        self.forget();
-        if self.leans(filter, &innovation) {
-            let likelihood = filter.decline(&innovation);
-            self.refuse(filter, &innovation);
-            return likelihood;
-        }
-        let before = *filter.nominal();
-        let judged = filter.impose(&innovation);
-        if judged.outcome == Outcome::Accepted {
-            self.recent += &before.error_to(filter.nominal());
+        let (judged, likelihood) = self.shifts.impose(filter, &innovation, innovation.z.norm());
+        if let Some(judged) = judged {
             let s = Vector2::from_fn(|i, _| judged.innovation[i].1.powi(2));
             self.learn(filter, &pair(&innovation.z), &s);
-            self.refused = 0;
-        } else {
-            self.refuse(filter, &innovation);
         }
-        judged.log_likelihood
-    }
-
-    /// Whether the last samples together do not fit, though each of them may.
-    fn leans(&mut self, filter: &Filter, innovation: &Innovation) -> bool {
-        let Some(weighed) = innovation.weigh(filter.covariance()) else { return false };
-        let off = pair(&innovation.z.component_div(&weighed.sigma()));
-        // a single wild sample is the gate's affair, and says little of the next
-        let bounded = off.map(|off| off.clamp(-4.0, 4.0));
-        self.lean += (bounded - self.lean) * LEANING;
-        let variance = LEANING / (2.0 - LEANING);
-        self.is_settled(filter.time()) && self.lean.norm_squared() > LEAN * variance
-    }
-
-    /// Whether the filter knows its tilt.
-    fn is_settled(&self, now: Time) -> bool {
-        (now - self.start).as_seconds() > SETTLING
-    }
-
-    /// Carries on what the last samples have done: a velocity that is off moves the position.
-    fn forget(&mut self) {
-        let moved = self.recent.of(POSITION) + self.recent.of(VELOCITY) * SPACING;
-        self.recent.set(POSITION, &moved);
-        self.recent.scale((-SPACING / ONSET).exp());
-    }
-
-    /// Before the filter knows its tilt, a sample that does not fit may well be the tilt's, and counts for
-    /// less. After that it is the ship who is not where she was, by a gust or for good: one sample is left
-    /// out, and with more of them her mean place is free for as long as they do not fit. To weigh what does
-    /// not fit just so little that it passes would draw a ship that leaves back to her berth, sample by sample.
-    fn refuse(&mut self, filter: &mut Filter, innovation: &Innovation) {
-        let now = filter.time();
-        self.refused += 1;
-        let settled = self.is_settled(now);
-        if settled && self.refused < SHIFT {
-            return;
-        }
-        if settled {
-            if self.refused == SHIFT {
-                self.shifts += 1;
-                filter.take_back(&std::mem::take(&mut self.recent));
-            }
-            self.shifting_until = now + Span::from_seconds(SHIFTING);
-            filter.loosen_berth(innovation.z.norm());
-        }
-        let mut doubtful = innovation.clone();
-        while filter.impose(&doubtful).outcome != Outcome::Accepted && doubtful.r[(0, 0)] < 1e8 {
-            doubtful.r *= 4.0;
-        }
+        likelihood
     }
 
     /// Learns the waves from what the filter did not foresee, and the swaying from what it found:
@@ -263,7 +170,7 @@ impl Moorings {
             self.wave_variance +=
                 SPACING / LEARNING_WAVES * clearness * (seen - self.wave_variance);
         }
-        if filter.time() < self.shifting_until {
+        if self.shifts.is_free(filter.time()) {
             return;
         }
         let variance = SWAY.covariance(filter.covariance()).diagonal();

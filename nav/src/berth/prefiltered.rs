@@ -156,4 +156,4 @@ fn derivatives(filter: &Filter, error: &Errors) -> [Vector2<f64>; DERIVATIVES] {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

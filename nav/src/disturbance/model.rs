@@ -9,7 +9,8 @@ const ROUNDS: usize = 1000;
 /// Doublings of the sum for the variance: 2^30 samples of memory.
 const DOUBLINGS: usize = 30;
 
-/// d(k) = sum A_i d(k-i) + eps(k), the disturbance d north and east, m/s (systems S1, eq. (2)).
+/// d(k) = sum A_i d(k-i) + eps(k), the disturbance d north and east, m/s (systems S1, eq. (2)); or a displacement, m, and
+/// all units of the same kind.
 ///
 /// Assumed stationary over the window: the ship does not turn in the waves.
 #[derive(Clone, Debug, PartialEq)]

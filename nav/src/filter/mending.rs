@@ -143,7 +143,7 @@ impl Filter {
     /// where it is said to be, until she turns: she may be off by that, her berth with her, and the antenna back where it was
     /// said to be.
     fn suspect_berth(&mut self, off: &Vector3<f64>) {
-        if self.state.sway.is_none() {
+        if !self.state.is_moored() {
             return;
         }
         let view = self.view();

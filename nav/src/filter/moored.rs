@@ -13,10 +13,16 @@ impl Filter {
     pub fn moor(&mut self, sway: Sway, offset_std: f64) {
         self.settle_sway();
         sway.begin(&mut self.state.nominal, &mut self.state.covariance);
+        self.state.sway = Some(sway);
+        self.lie(offset_std);
+    }
+
+    /// Takes the ship as lying at a berth; how far her mean place is from it is known to `offset_std` of each component, m.
+    pub fn lie(&mut self, offset_std: f64) {
+        self.settle_sway();
         self.state.nominal.berth_offset = Vector2::zeros();
         let offset = Matrix2::from_diagonal_element(offset_std * offset_std);
         BERTH_OFFSET.renew(&mut self.state.covariance, &offset);
-        self.state.sway = Some(sway);
         self.be_judged();
     }
 

@@ -42,7 +42,7 @@ impl Filter {
 
     /// A log without a component across: the ship makes little leeway.
     pub(super) fn hold_leeway(&mut self, log: &LogVelocity) {
-        if self.navigating && self.state.sway.is_none() {
+        if self.navigating && !self.state.is_moored() {
             let lever = self.config.lever_arms.log.0;
             self.hold_across(log.reference, &lever);
         }

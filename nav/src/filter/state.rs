@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use crate::aids::View;
 use crate::angular_rate::rate_variance;
 use crate::config::NavConfig;
-use crate::error_state::{ATTITUDE, Covariance, Errors, VELOCITY, Weighed};
+use crate::error_state::{ATTITUDE, BERTH_OFFSET, Covariance, Errors, VELOCITY, Weighed};
 use crate::increments::Increment;
 use crate::initial::InitialState;
 use crate::nominal::Nominal;
@@ -132,6 +132,11 @@ impl State {
         self.stretch = Stretch::new();
     }
 
+    /// Whether the ship is taken as lying at a berth.
+    pub(super) fn is_moored(&self) -> bool {
+        self.covariance.has(BERTH_OFFSET)
+    }
+
     /// Carries the swaying up to the time of the estimate.
     pub(super) fn settle_sway(&mut self) {
         if let Some(sway) = &self.sway {
@@ -152,7 +157,7 @@ impl State {
     pub(super) fn absorb(&mut self, weighed: &Weighed) -> Errors {
         let error = weighed.update(&mut self.covariance);
         self.correct(&error);
-        if self.sway.is_some() {
+        if self.is_moored() {
             let down = -self.nominal.position.normalize();
             keep_turn_unknown(&mut self.covariance, &error, &down);
         }

@@ -19,7 +19,7 @@ use campaigns::{Comparison, INSTANTS};
 /// Voyage of the pictures.
 const SEED: u64 = 1;
 /// Colours of the methods at the berth and under way.
-const MOORED: [&str; 3] = ["orange", "blue", "green"];
+const MOORED: [&str; 4] = ["orange", "blue", "purple", "green"];
 const IN_MOTION: [&str; 2] = ["blue", "green"];
 
 const HEAD: &str = "| voyage | method | 300 s | 600 s | 900 s | 1800 s | NEES | error below bar, \

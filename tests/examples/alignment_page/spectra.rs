@@ -3,9 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use insd_base::units::DEG;
-use insd_base::{Span, Time, Truth, Voyage};
+use insd_base::{Geodetic, Span, Time, Truth, Voyage};
 use insd_nav::aids::{berth, reference_position, reference_velocity};
-use insd_nav::berth::{Moorings, Prefiltered, WhiteNoise};
+use insd_nav::berth::{Moorings, Prefiltered, WhiteNoise, Whitened};
 use insd_nav::disturbance::Model;
 use insd_nav::error_state::Innovation;
 use insd_nav::error_state::{ATTITUDE, POSITION, VELOCITY};
@@ -43,11 +43,12 @@ struct Seen {
 pub(crate) fn panels(voyage: &Voyage) -> (Vec<Panel>, Vec<Panel>) {
     let columns = [
         ("(a) white_noise: velocity", "white noise", "orange", white(voyage)),
-        ("(b) autoregressive: velocity", "autoregression", "blue", prefiltered(voyage)),
-        ("(c) moorings: displacement", "oscillators, waves", "green", moored(voyage)),
+        ("(b) as_published: velocity", "autoregression", "blue", prefiltered(voyage)),
+        ("(c) autoregressive: displacement", "autoregression", "purple", whitened(voyage)),
+        ("(d) moorings: displacement", "oscillators, waves", "green", moored(voyage)),
     ];
     let above = columns.iter().map(|(title, name, class, seen)| {
-        let axis = if *class == "green" {
+        let axis = if title.ends_with("displacement") {
             Axis::decades("m\u{b2}/Hz", -4, 2)
         } else {
             Axis::decades("(m/s)\u{b2}/Hz", -4, 1)
@@ -215,13 +216,49 @@ fn prefiltered(voyage: &Voyage) -> Seen {
             since = 0;
         }
     });
-    let models: Vec<Model> = models.into_iter().skip(FIRST_MODELS).collect();
+    let model = mean_spectrum(&models[FIRST_MODELS.min(models.len())..], BAND.1);
+    Seen { spacing: 1.0, measured, residual, model }
+}
+
+/// Mean of the spectra of one component of some models, up to a frequency.
+fn mean_spectrum(models: &[Model], highest: f64) -> Vec<(f64, f64)> {
     let density = |f: f64| {
         let each = models.iter().filter_map(|model| Some(model.spectrum(f)?.trace().re / 2.0));
         (f, each.sum::<f64>() / models.len() as f64)
     };
-    let model = frequencies(BAND.1).into_iter().map(density).collect();
-    Seen { spacing: 1.0, measured, residual, model }
+    frequencies(highest).into_iter().map(density).collect()
+}
+
+/// The berth of a voyage and the displacement from it that is stated, 1-sigma, m.
+fn berth_of(voyage: &Voyage) -> Option<(Geodetic, Option<f64>)> {
+    let reference = voyage.reference.first()?.message;
+    Some((reference.position?, reference.position_std))
+}
+
+fn whitened(voyage: &Voyage) -> Seen {
+    const SPACING: f64 = 4.0;
+    let mut filter = start(voyage);
+    let mut hold = Whitened::new(&mut filter);
+    if let Some((place, std)) = berth_of(voyage) {
+        hold.name_berth(&mut filter, &place, std);
+    }
+    let mut is_due = ticker(SPACING);
+    let (mut measured, mut residual, mut models) = (Vec::new(), Vec::new(), Vec::new());
+    sail(voyage, &mut filter, |filter| {
+        hold.hold(filter);
+        if is_due(filter.time()) && is_settled(filter) {
+            let newest_first = hold.displacements(filter);
+            measured.extend(newest_first.first().copied());
+            if let Some(model) = hold.model() {
+                let sigma = model.residual_covariance().diagonal().map(f64::sqrt);
+                let left = model.residual(&newest_first);
+                residual.extend(left.map(|left| left.component_div(&sigma)));
+                models.push(model);
+            }
+        }
+    });
+    let model = mean_spectrum(&models, 0.5 / SPACING);
+    Seen { spacing: SPACING, measured, residual, model }
 }
 
 /// What a model leaves of the newest samples of a window, in units of its sigma.
@@ -248,8 +285,7 @@ fn moored(voyage: &Voyage) -> Seen {
     const SPACING: f64 = 2.0;
     let mut filter = start(voyage);
     let mut moorings = Moorings::new(&mut filter);
-    let reference = voyage.reference.first().map(|stamped| stamped.message);
-    if let Some((place, std)) = reference.and_then(|r| Some((r.position?, r.position_std))) {
+    if let Some((place, std)) = berth_of(voyage) {
         moorings.name_berth(&mut filter, &place, std);
     }
     let mut is_due = ticker(SPACING);

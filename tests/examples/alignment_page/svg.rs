@@ -16,11 +16,11 @@ const STYLE: &str = "\
 .paper{fill:#ffffff}.area{fill:#f7f8fa}text{fill:#24292f;font-family:system-ui,'DejaVu Sans',sans-serif}
 .grid{stroke:#d8dde3}.frame{stroke:#8c959f;fill:none}line,path{fill:none;stroke-width:1.5}
 .grid,.frame{stroke-width:1}
-.grey{stroke:#57606a}.orange{stroke:#bc4c00}.blue{stroke:#0969da}.green{stroke:#1a7f37}
+.grey{stroke:#57606a}.orange{stroke:#bc4c00}.blue{stroke:#0969da}.green{stroke:#1a7f37}.purple{stroke:#8250df}
 .band{stroke:none;fill:#8c959f;fill-opacity:.25}.dashed{stroke-dasharray:6 4}.strong{stroke-width:2.2}
 @media (prefers-color-scheme:dark){
 .paper{fill:#0d1117}.area{fill:#161b22}text{fill:#d0d7de}.grid{stroke:#30363d}.frame{stroke:#6e7681}
-.grey{stroke:#b1bac4}.orange{stroke:#f0883e}.blue{stroke:#58a6ff}.green{stroke:#3fb950}
+.grey{stroke:#b1bac4}.orange{stroke:#f0883e}.blue{stroke:#58a6ff}.green{stroke:#3fb950}.purple{stroke:#d2a8ff}
 .band{fill:#8b949e}}
 </style>
 ";

@@ -19,14 +19,8 @@ const GRAVITY: f64 = 9.81;
 const ROLL_SLOPE: f64 = 0.7;
 /// Yaw over wave slope in quartering seas.
 const YAW_SLOPE: f64 = 0.4;
-/// Components of each slow mooring motion and their periods, s. They are spread evenly in frequency,
-/// as in the moored voyages that we compare with: those have nothing slower than 150 s, and a mean
-/// period of 86 s.
+/// Components of each slow mooring motion, spread evenly in frequency over the band of the moorings.
 const MOORING_COMPONENTS: usize = 10;
-const MOORING_PERIODS: (f64, f64) = (60.0, 150.0);
-/// What has a longer period is motion in the moorings, s: waves of the longest peak period, 25 s, are
-/// cut off at twice that.
-const LONGEST_WAVE: f64 = 55.0;
 
 /// The six degrees of freedom in this order: surge, sway, heave (m, forward, starboard, up), roll,
 /// pitch, yaw (rad, starboard down, bow up, bow to starboard).
@@ -86,6 +80,8 @@ struct Component {
     cosine: [f64; DEGREES],
     /// Factor of the sine.
     sine: [f64; DEGREES],
+    /// Whether it is slow motion in the moorings, not in a wave.
+    is_mooring: bool,
 }
 
 /// The stationary motion of the ship on one heading at one speed.
@@ -125,7 +121,7 @@ impl Seaway {
             let amplitude = std * (2.0 / MOORING_COMPONENTS as f64).sqrt();
             for band in 0..MOORING_COMPONENTS {
                 let share = (band as f64 + uniform(rng, 0.0, 1.0)) / MOORING_COMPONENTS as f64;
-                let (fast, slow) = (TAU / MOORING_PERIODS.0, TAU / MOORING_PERIODS.1);
+                let [fast, slow] = sea.mooring_period_s.map(|period| TAU / period);
                 let mut cosine = [0.0; DEGREES];
                 cosine[degree] = amplitude;
                 self.0.push(Component {
@@ -133,6 +129,7 @@ impl Seaway {
                     phase: uniform(rng, 0.0, TAU),
                     cosine,
                     sine: [0.0; DEGREES],
+                    is_mooring: true,
                 });
             }
         }
@@ -148,12 +145,12 @@ impl Seaway {
 
     /// The motion in the waves of one horizontal axis: 0 surge, 1 sway.
     pub(crate) fn waves(&self, axis: usize) -> Swing {
-        self.swing(axis, |component| component.omega > TAU / LONGEST_WAVE)
+        self.swing(axis, |component| !component.is_mooring)
     }
 
     /// The slow motion in the moorings of one horizontal axis: 0 surge, 1 sway.
     pub(crate) fn mooring(&self, axis: usize) -> Swing {
-        self.swing(axis, |component| component.omega <= TAU / LONGEST_WAVE)
+        self.swing(axis, |component| component.is_mooring)
     }
 
     fn swing(&self, axis: usize, of_kind: impl Fn(&Component) -> bool) -> Swing {
@@ -234,6 +231,7 @@ fn respond(ship: &Ship, wave: &Wave, from: f64, to: Heading) -> Component {
         phase: wave.phase,
         cosine: response.map(|z| z.re),
         sine: response.map(|z| -z.im),
+        is_mooring: false,
     }
 }
 

@@ -90,6 +90,9 @@ pub(crate) struct Sea {
     pub(crate) mooring_sway_m: Option<f64>,
     /// Slow yaw of a moored ship, 1-sigma; grows with the waves unless given.
     pub(crate) mooring_yaw_deg: Option<f64>,
+    /// Shortest and longest period of that motion; as in the moored voyages that we compare with unless given: those have
+    /// nothing slower than 150 s, and a mean period of 86 s.
+    pub(crate) mooring_period_s: [f64; 2],
     /// How open the place is to the sea, in order of time, smooth between the points; 1 if empty.
     pub(crate) exposure: Vec<ExposurePoint>,
     /// Shifts of the moored ship.
@@ -108,6 +111,7 @@ impl Default for Sea {
             components: 40,
             mooring_sway_m: None,
             mooring_yaw_deg: None,
+            mooring_period_s: [60.0, 150.0],
             exposure: Vec::new(),
             shifts: Vec::new(),
         }
@@ -156,6 +160,9 @@ impl Sea {
         faults.range("sea.components", f64::from(self.components), 1.0, 1000.0);
         faults.range("sea.mooring_sway_m", self.mooring_sway(), 0.0, 20.0);
         faults.range("sea.mooring_yaw_deg", self.mooring_yaw_deg(), 0.0, 20.0);
+        let [shortest, longest] = self.mooring_period_s;
+        faults.range("sea.mooring_period_s[0]", shortest, 10.0, 600.0);
+        faults.range("sea.mooring_period_s[1]", longest, shortest.max(10.0), 600.0);
         for (index, point) in self.exposure.iter().enumerate() {
             let key = format!("sea.exposure[{index}]");
             faults.not_negative(format!("{key}.at_s"), point.at_s);

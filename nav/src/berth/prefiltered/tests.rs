@@ -38,7 +38,7 @@ fn lying() -> Attitude {
 }
 
 /// A filter whose estimate is wrong by `error`.
-fn filter(error: &Errors) -> Filter {
+pub(in crate::berth) fn filter(error: &Errors) -> Filter {
     let config = NavConfig::new(imu(), LeverArms::default());
     let mut nominal = Nominal::at(&berth(), &Vector3::zeros(), &lying().c_nb());
     nominal.inject(&-error);
@@ -50,7 +50,7 @@ fn filter(error: &Errors) -> Filter {
 }
 
 /// What the sensors of a ship say that does not move.
-fn increment(step: usize) -> Increment {
+pub(in crate::berth) fn increment(step: usize) -> Increment {
     let at = |step: usize| Time::START + Span::from_seconds(step as f64 * STEP);
     let turn = UnitQuaternion::from_matrix(&lying().c_nb()).inverse();
     let gravity = Vector3::z() * earth::normal_gravity(berth().latitude, berth().height);
@@ -70,7 +70,7 @@ fn increment(step: usize) -> Increment {
 }
 
 /// Errors of tilt, heading, velocity and sensors as they are while a ship is being aligned.
-fn errors() -> Errors {
+pub(in crate::berth) fn errors() -> Errors {
     let c_en = earth::c_ne(&berth()).transpose();
     let mut error = Errors::none();
     error.set(ATTITUDE, &(c_en * Vector3::new(1e-5, -2e-5, 0.1 * DEG)));

@@ -1,0 +1,305 @@
+//! An autoregressive model of the ship's displacement at her berth takes the sea out before the Kalman filter.
+//!
+//! Every few seconds her displacement d from the berth enters a sliding window ([`SeaWindow`]), which knows by A(q) what
+//! the sea makes of the next from those before. What the filter is told is not the displacement but what A(q) did not
+//! foretell of it, with a measurement matrix that went through the same A(q): of
+//!
+//! z(k) = o - d(k) = -H(k) dx(k) + sea,   A(q) z(k) = -[H(k) - sum A_i H(k-i)] dx(k) + eps(k),
+//!
+//! eps is white, and nothing of dx is lost: no trend is taken off, and an error that looks like the sea counts for as
+//! little as it is worth. H(k-i) is over the error of now ([`Hindsight`]). The sea needs no assumed band; that of these
+//! moorings and this swell is learnt. The whitening is that of an observation with coloured noise (Bryson and
+//! Henrikson, J. Spacecraft and Rockets 5 (1968)).
+//!
+//! A displacement is learnt from when the filter has corrected it for a while longer, and as far as it is known to be the
+//! ship's and not the navigator's own error.
+
+use std::collections::VecDeque;
+
+use insd_base::{Geodetic, Time};
+use nalgebra::{Matrix2, Vector2};
+
+use super::hindsight::Hindsight;
+use super::shifts::Shifts;
+use crate::Filter;
+use crate::aids::berth;
+use crate::disturbance::{Displacement, Model, SeaPrior, SeaWindow, Whitener, WhiteningConfig};
+use crate::error_state::{ATTITUDE, BERTH_OFFSET, Errors, Innovation, POSITION};
+
+/// Holds a filter at the berth by its whitened displacement.
+#[derive(Clone, Debug)]
+pub struct Whitened {
+    config: WhiteningConfig,
+    place: Geodetic,
+    is_named: bool,
+    prior: SeaPrior,
+    window: SeaWindow,
+    /// Displacements from the berth, newest first, as the filter sees them now, north and east, m.
+    past: VecDeque<Vector2<f64>>,
+    next: Time,
+    shifts: Shifts,
+}
+
+/// Samples that a displacement is corrected for before it is learnt from, beside those of the model's order.
+const DELAY: usize = 3;
+/// Displacement before anyone states it, 1-sigma of each component, m.
+const UNSTATED: f64 = 0.7;
+/// The same of a berth that is only known as the place of the start, m.
+const UNSURVEYED: f64 = 10.0;
+/// How far her mean place may be from the named berth, as share of her stated displacement.
+const OFFSET_SHARE: f64 = 0.15;
+/// Least motion that is believed, 1-sigma, m.
+const LEAST: f64 = 1e-3;
+
+impl Whitened {
+    /// Takes the ship as lying where the filter has her, until a reference names the berth.
+    #[must_use]
+    pub fn new(filter: &mut Filter) -> Self {
+        let (config, now) = (*filter.whitening(), filter.time());
+        let spacing = config.spacing.as_seconds();
+        filter.lie(UNSURVEYED);
+        Whitened {
+            config,
+            place: filter.nominal().geodetic(),
+            is_named: false,
+            prior: SeaPrior::new(spacing, config.order).stated(UNSTATED),
+            window: SeaWindow::new(&config),
+            past: VecDeque::new(),
+            next: now + config.spacing,
+            shifts: Shifts::new(now, spacing),
+        }
+    }
+
+    /// A reference names the berth and, if `stated`, the ship's displacement from it, 1-sigma of each
+    /// component, m. To name the same berth again tells nothing new.
+    pub fn name_berth(&mut self, filter: &mut Filter, place: &Geodetic, stated: Option<f64>) {
+        let same = place.latitude == self.place.latitude && place.longitude == self.place.longitude;
+        if same && self.is_named {
+            return;
+        }
+        let std = stated.unwrap_or(UNSTATED);
+        self.place = *place;
+        self.is_named = true;
+        self.prior = self.prior.clone().stated(std);
+        self.past.clear();
+        self.window = SeaWindow::new(&self.config);
+        filter.lie((OFFSET_SHARE * std).hypot(filter.berth_doubt()));
+    }
+
+    /// How often her mean place was found to have shifted.
+    #[must_use]
+    pub fn shifts(&self) -> u32 {
+        self.shifts.count()
+    }
+
+    /// Displacements from her mean place, m, newest first: as many as the filter still corrects.
+    #[must_use]
+    pub fn displacements(&self, filter: &Filter) -> Vec<Vector2<f64>> {
+        self.past.iter().map(|d| d - filter.nominal().berth_offset).collect()
+    }
+
+    /// The sea as it is taken for now: a model of the displacement, m.
+    #[must_use]
+    pub fn model(&self) -> Option<Model> {
+        let whitener = self.whitener()?;
+        let lags = whitener.coefficients().to_vec();
+        Some(Model::new(lags, *whitener.residual_covariance(), self.config.spacing.as_seconds()))
+    }
+
+    /// A(q) as it is now.
+    fn whitener(&self) -> Option<Whitener> {
+        self.window.fit(self.past.len().min(self.config.order), &self.prior)
+    }
+
+    /// Holds the filter against the berth if it is time to; returns the log-likelihood.
+    pub fn hold(&mut self, filter: &mut Filter) -> f64 {
+        let now = filter.time();
+        if now < self.next {
+            return 0.0;
+        }
+        self.bridge(now);
+        self.next = now + self.config.spacing;
+        filter.settle();
+        let hindsight = Hindsight::of(filter);
+        let spacing = self.config.spacing.as_seconds();
+        self.correct(filter, &hindsight, spacing);
+        let displacement = self.displacement(filter);
+        let likelihood = self.whitener().map_or(0.0, |whitener| {
+            let innovation = self.whiten(filter, &hindsight, &whitener, &displacement);
+            let away = (filter.nominal().berth_offset - displacement).norm();
+            self.shifts.impose(filter, &innovation, away).1
+        });
+        self.past.push_front(displacement);
+        self.correct(filter, &hindsight, 0.0);
+        self.learn(filter);
+        likelihood
+    }
+
+    /// Samples that were missed break the past of those that come.
+    fn bridge(&mut self, now: Time) {
+        let missed = (now - self.next).as_seconds() > 0.5 * self.config.spacing.as_seconds();
+        if missed && !self.past.is_empty() {
+            self.past.clear();
+            self.window.push(None);
+        }
+    }
+
+    /// Where the estimate has her, from the berth, north and east, m.
+    fn displacement(&self, filter: &Filter) -> Vector2<f64> {
+        let innovation = berth::innovation(&filter.view(), &self.place, 0.0);
+        let z = Vector2::new(innovation.z[0], innovation.z[1]);
+        filter.nominal().berth_offset + filter.nominal().swaying() - z
+    }
+
+    /// The displacements as if what was corrected since the last look, `age` seconds after the newest of them, had
+    /// always been so.
+    fn correct(&mut self, filter: &mut Filter, hindsight: &Hindsight, age: f64) {
+        let error: Errors = filter.take_correction();
+        let spacing = self.config.spacing.as_seconds();
+        let ages = (0..self.past.len()).map(|lag| age + lag as f64 * spacing);
+        let rows = hindsight.unturned(&self.displacement(filter), ages);
+        for (d, rows) in self.past.iter_mut().zip(rows) {
+            let turned = hindsight.turn(d) * error.of(ATTITUDE);
+            *d += rows.times(&error) - turned;
+        }
+    }
+
+    /// What A(q) does not foretell of a displacement.
+    fn whiten(
+        &self,
+        filter: &Filter,
+        hindsight: &Hindsight,
+        whitener: &Whitener,
+        displacement: &Vector2<f64>,
+    ) -> Innovation {
+        let lags = whitener.coefficients();
+        let spacing = self.config.spacing.as_seconds();
+        let ages = (0..=lags.len()).map(|lag| lag as f64 * spacing);
+        let rows = hindsight.unturned(displacement, ages);
+        let offset = filter.nominal().berth_offset;
+        let past: Vec<Vector2<f64>> =
+            self.past.iter().take(lags.len()).map(|d| offset - d).collect();
+        let (mut z, mut sum) = (offset - displacement, rows[0]);
+        let mut of_offset = -Matrix2::identity();
+        for ((a, past), rows) in lags.iter().zip(&past).zip(&rows[1..]) {
+            z -= a * past;
+            sum = sum.plus(&rows.under(&-a));
+            of_offset += a;
+        }
+        let least = Matrix2::from_diagonal_element(LEAST * LEAST);
+        let mut innovation = Innovation::silent(2);
+        innovation.z.copy_from(&z);
+        innovation.r.copy_from(&(whitener.covariance(&past) + least));
+        sum.fill(&mut innovation.h);
+        innovation.h.set(BERTH_OFFSET, &of_offset);
+        innovation
+    }
+
+    /// Learns from the displacement that is not corrected any more.
+    fn learn(&mut self, filter: &Filter) {
+        if self.past.len() <= self.config.order + DELAY {
+            return;
+        }
+        let oldest = self.past.pop_back();
+        let is_settled = self.shifts.is_settled(filter.time());
+        let sample = oldest.filter(|_| is_settled).map(|d| {
+            let north_east = d - filter.nominal().berth_offset;
+            Displacement { north_east, clearness: self.clearness(filter, &north_east) }
+        });
+        if sample.is_some() || !self.window.is_empty() {
+            self.window.push(sample);
+        }
+    }
+
+    /// How clearly a displacement is the ship's, by her share in the variance of what is seen: nothing where half of
+    /// it is the navigator's own error, which would be learnt as a sea that wanders as the navigator does.
+    fn clearness(&self, filter: &Filter, seen: &Vector2<f64>) -> f64 {
+        let p = filter.covariance();
+        let to_level = filter.view().c_ne.fixed_rows::<2>(0).into_owned();
+        let across = to_level * POSITION.covariance_with(BERTH_OFFSET, p);
+        let own = to_level * POSITION.covariance(p) * to_level.transpose()
+            + BERTH_OFFSET.covariance(p)
+            - across
+            - across.transpose();
+        let ship = self.window.mean_square().max(0.5 * seen.norm_squared());
+        let share = ship / (ship + 0.5 * own.trace()).max(f64::MIN_POSITIVE);
+        (2.0 * share - 1.0).max(0.0).powi(2)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Estimator;
+    use crate::berth::prefiltered::tests::{errors, filter, increment};
+
+    /// Steps of the shared helpers in a sample.
+    const STEPS: usize = 40;
+
+    /// Displacements of two ships of which one is not navigated as she should be, and their filters.
+    fn sailed(error: &Errors, samples: usize) -> (Whitened, Filter) {
+        let mut filter = filter(error);
+        let mut whitened = Whitened::new(&mut filter);
+        let still = super::super::prefiltered::tests::filter(&Errors::none());
+        whitened.place = still.nominal().geodetic();
+        for step in 0..samples * STEPS {
+            filter.advance(&increment(step));
+            if step % STEPS == STEPS - 1 {
+                let displacement = whitened.displacement(&filter);
+                whitened.past.push_front(displacement);
+            }
+        }
+        (whitened, filter)
+    }
+
+    #[test]
+    fn a_corrected_filter_leaves_the_displacements_as_if_it_had_always_been_right() {
+        let ((mut seen, mut wrong), (ideal, right)) =
+            (sailed(&errors(), 20), sailed(&Errors::none(), 20));
+        let distance = |seen: &Whitened| {
+            let pairs = seen.past.iter().zip(&ideal.past);
+            pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+        };
+        let before = distance(&seen);
+        assert!(before > 0.5, "the errors make {before} m");
+        wrong.settle();
+        wrong.take_correction();
+        wrong.join(&right, 1.0);
+        let hindsight = Hindsight::of(&wrong);
+        seen.correct(&mut wrong, &hindsight, 0.0);
+        assert!(distance(&seen) < 0.005 * before, "{} m are left", distance(&seen));
+    }
+
+    #[test]
+    fn a_turn_about_the_berth_does_not_show() {
+        let filter = filter(&errors());
+        let (hindsight, view) = (Hindsight::of(&filter), filter.view());
+        let (d, v, turn) = (Vector2::new(0.7, -0.4), view.v_n().xy(), 0.01);
+        let to_ecef = |across: Vector2<f64>| view.c_ne.transpose() * across.push(0.0);
+        let mut error = Errors::none();
+        error.set(ATTITUDE, &(view.c_ne.transpose() * nalgebra::Vector3::z() * turn));
+        error.set(POSITION, &to_ecef(Vector2::new(-d.y, d.x) * turn));
+        error.set(crate::error_state::VELOCITY, &to_ecef(Vector2::new(-v.y, v.x) * turn));
+        for rows in hindsight.unturned(&d, [0.0, 4.0]) {
+            // within seconds the Earth does not turn the heading into a tilt
+            assert!(rows.times(&error).norm() < 0.02 * turn * d.norm(), "{}", rows.times(&error));
+        }
+    }
+
+    #[test]
+    fn a_ship_whose_samples_are_missed_is_held_by_those_that_come() {
+        let mut filter = filter(&Errors::none());
+        let mut whitened = Whitened::new(&mut filter);
+        for step in 0..6000 {
+            filter.advance(&increment(step));
+            let is_missed = (2000..2600).contains(&step);
+            if !is_missed {
+                whitened.hold(&mut filter);
+            }
+        }
+        assert!(whitened.past.len() > whitened.config.order);
+        assert_eq!(whitened.shifts(), 0);
+        let away = whitened.displacement(&filter).norm();
+        assert!(away < 0.1, "{away} m from where she lies");
+    }
+}
