@@ -21,6 +21,13 @@ mod shifts;
 mod white_noise;
 mod whitened;
 
+/// How far her mean place may be from the named berth, as share of her stated displacement.
+const OFFSET_SHARE: f64 = 0.15;
+/// Displacement before anyone states it, 1-sigma of each component, m.
+const UNSTATED: f64 = 0.7;
+/// The same of a berth that is only known as the place of the start, m.
+const UNSURVEYED: f64 = 10.0;
+
 /// What holds a filter at the berth, by one of the methods.
 #[derive(Clone, Debug)]
 pub(crate) enum Hold {
@@ -106,14 +113,13 @@ impl Hold {
         reference: &mut ExternalReference,
         is_first: bool,
     ) -> bool {
+        let stated = reference.position_std.filter(|std| (0.01..1e3).contains(std));
         match (self, reference.position) {
             (_, None) => return false,
             (Hold::Moorings(moorings), Some(place)) => {
-                let stated = reference.position_std.filter(|std| (0.01..1e3).contains(std));
                 moorings.name_berth(filter, &place, stated);
             }
             (Hold::Whitened(whitened), Some(place)) => {
-                let stated = reference.position_std.filter(|std| (0.01..1e3).contains(std));
                 whitened.name_berth(filter, &place, stated);
             }
             _ if is_first => return false,

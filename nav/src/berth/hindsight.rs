@@ -63,9 +63,7 @@ impl Hindsight {
         d: &Vector2<f64>,
         ages: impl IntoIterator<Item = f64>,
     ) -> Vec<Rows> {
-        let none = Matrix2x3::zeros();
-        let position = self.c_ne.fixed_rows::<2>(0).into_owned();
-        let now = Rows { position, velocity: none, attitude: none, gyro: none, accel: none };
+        let now = Rows { position: self.level(), ..Rows::none() };
         let (turn, turn_velocity) = (self.turn(d), self.turn(&self.velocity));
         let ago = |age: f64| {
             let mut rows = self.before(&now, age);
@@ -90,6 +88,22 @@ impl Hindsight {
         sum
     }
 
+    /// Derivatives by time of the error of the velocity, north and east: m/s, m/s^2, and so on, if an error is never
+    /// corrected.
+    pub(super) fn derivatives<const N: usize>(&self, error: &Errors) -> [Vector2<f64>; N] {
+        let mut rows = Rows { velocity: self.level(), ..Rows::none() };
+        std::array::from_fn(|_| {
+            let now = rows.times(error);
+            rows = self.rate_of(&rows);
+            now
+        })
+    }
+
+    /// From ECEF axes to north and east.
+    fn level(&self) -> Matrix2x3<f64> {
+        self.c_ne.fixed_rows::<2>(0).into_owned()
+    }
+
     /// rows F.
     fn rate_of(&self, rows: &Rows) -> Rows {
         Rows {
@@ -103,6 +117,11 @@ impl Hindsight {
 }
 
 impl Rows {
+    fn none() -> Self {
+        let none = Matrix2x3::zeros();
+        Rows { position: none, velocity: none, attitude: none, gyro: none, accel: none }
+    }
+
     /// A times these rows.
     pub(super) fn under(&self, a: &Matrix2<f64>) -> Self {
         Rows {

@@ -10,6 +10,7 @@
 //! A gust or a tug that shifts the ship is found by the innovation, and her mean place set free.
 
 use super::shifts::Shifts;
+use super::{OFFSET_SHARE, UNSTATED, UNSURVEYED};
 use crate::aids::berth;
 use crate::error_state::SWAY;
 use crate::{Filter, Oscillator, Sway};
@@ -42,12 +43,6 @@ const SLOW_SHARE: f64 = 0.9;
 /// which of the two it is. In a swell most of it is waves, and their samples are not white: taken for
 /// less than they are they pass for a heading within half a minute.
 const WAVE_SHARE: f64 = 0.6;
-/// How far her mean place may be from the named berth, as share of her stated displacement.
-const OFFSET_SHARE: f64 = 0.15;
-/// Displacement before anyone states it, 1-sigma of each component, m.
-const UNSTATED: f64 = 0.7;
-/// The same of a berth that is only known as the place of the start, m.
-const UNSURVEYED: f64 = 10.0;
 /// Time over which the swaying is learnt where a reference states it, and where nobody does, s.
 const LEARNING_STATED: f64 = 900.0;
 const LEARNING_UNSTATED: f64 = 200.0;

@@ -14,12 +14,11 @@
 
 use crate::Filter;
 use crate::aids::reference_velocity;
-use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, Errors, GYRO_BIAS, GYRO_DRIFT, POSITION, VELOCITY,
-};
-use insd_base::{Span, Time, earth};
-use nalgebra::{Vector2, Vector3};
+use crate::error_state::{ATTITUDE, Errors};
+use insd_base::{Span, Time};
+use nalgebra::Vector2;
 
+use super::hindsight::Hindsight;
 use super::white_noise::{self, WhiteNoise};
 use crate::disturbance::{Model, Prefilter, PrefilterConfig, SlowVelocity};
 
@@ -125,34 +124,11 @@ fn feed(filter: &mut Filter, slow: &SlowVelocity, doubt: f64) -> f64 {
     white_noise::impose(filter, &innovation).log_likelihood
 }
 
-/// How the velocity of the past would have been other, had an error been corrected always and not
-/// only now: the derivatives by time of the error of the velocity, north and east, from the error
-/// equations of a ship that does not move ([`crate::propagation`]; her specific force f is -g),
-///
-/// dr' = dv,   dv' = -(g/R) dr_level - 2 omega x dv - f x phi - C db_a,   phi' = -omega x phi - C db_g.
-///
-/// The Earth's turn in phi' is what a heading is found by: left out, each correction of the heading
-/// would leave a parabola in the window to be found again.
+/// How the velocity of the past would have been other, had an error been corrected always and not only now: the
+/// derivatives by time of the error of the velocity, north and east. The Earth's turn in them is what a heading is found
+/// by: left out, each correction of the heading would leave a parabola in the window to be found again.
 fn derivatives(filter: &Filter, error: &Errors) -> [Vector2<f64>; DERIVATIVES] {
-    let view = filter.view();
-    let down = view.c_ne.row(2).transpose();
-    let gravity = earth::normal_gravity(view.geodetic.latitude, view.geodetic.height);
-    let (force, rate) = (down * -gravity, earth::rate_e());
-    let stiffness = gravity / filter.nominal().position.norm();
-    let mut gyro = -view.c_eb * (error.of(GYRO_BIAS) + error.of(GYRO_DRIFT));
-    let mut accel = -view.c_eb * (error.of(ACCEL_BIAS) + error.of(ACCEL_DRIFT));
-    let (mut r, mut v, mut phi): (Vector3<f64>, Vector3<f64>, Vector3<f64>) =
-        (error.of(POSITION), error.of(VELOCITY), error.of(ATTITUDE));
-    std::array::from_fn(|_| {
-        let now = (view.c_ne * v).xy();
-        let level = r - down * r.dot(&down);
-        let v_rate = -level * stiffness - rate.cross(&v) * 2.0 - force.cross(&phi) + accel;
-        let phi_rate = -rate.cross(&phi) + gyro;
-        (r, v, phi) = (v, v_rate, phi_rate);
-        // a bias is constant: it drives the first derivative and through it the others
-        (gyro, accel) = (Vector3::zeros(), Vector3::zeros());
-        now
-    })
+    Hindsight::of(filter).derivatives(error)
 }
 
 #[cfg(test)]

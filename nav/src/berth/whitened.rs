@@ -21,8 +21,9 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::hindsight::Hindsight;
 use super::shifts::Shifts;
+use super::{OFFSET_SHARE, UNSTATED, UNSURVEYED};
 use crate::Filter;
-use crate::aids::berth;
+use crate::aids::reference_position;
 use crate::disturbance::{Displacement, Model, SeaPrior, SeaWindow, Whitener, WhiteningConfig};
 use crate::error_state::{ATTITUDE, BERTH_OFFSET, Errors, Innovation, POSITION};
 
@@ -42,12 +43,6 @@ pub struct Whitened {
 
 /// Samples that a displacement is corrected for before it is learnt from, beside those of the model's order.
 const DELAY: usize = 3;
-/// Displacement before anyone states it, 1-sigma of each component, m.
-const UNSTATED: f64 = 0.7;
-/// The same of a berth that is only known as the place of the start, m.
-const UNSURVEYED: f64 = 10.0;
-/// How far her mean place may be from the named berth, as share of her stated displacement.
-const OFFSET_SHARE: f64 = 0.15;
 /// Least motion that is believed, 1-sigma, m.
 const LEAST: f64 = 1e-3;
 
@@ -146,9 +141,8 @@ impl Whitened {
 
     /// Where the estimate has her, from the berth, north and east, m.
     fn displacement(&self, filter: &Filter) -> Vector2<f64> {
-        let innovation = berth::innovation(&filter.view(), &self.place, 0.0);
-        let z = Vector2::new(innovation.z[0], innovation.z[1]);
-        filter.nominal().berth_offset + filter.nominal().swaying() - z
+        let off = reference_position::innovation(&filter.view(), &self.place, 0.0).z;
+        -Vector2::new(off[0], off[1])
     }
 
     /// The displacements as if what was corrected since the last look, `age` seconds after the newest of them, had
@@ -231,19 +225,19 @@ impl Whitened {
 mod tests {
     use super::*;
     use crate::Estimator;
-    use crate::berth::prefiltered::tests::{errors, filter, increment};
+    use crate::berth::prefiltered::tests as ship;
 
     /// Steps of the shared helpers in a sample.
     const STEPS: usize = 40;
 
     /// Displacements of two ships of which one is not navigated as she should be, and their filters.
     fn sailed(error: &Errors, samples: usize) -> (Whitened, Filter) {
-        let mut filter = filter(error);
+        let mut filter = ship::filter(error);
         let mut whitened = Whitened::new(&mut filter);
-        let still = super::super::prefiltered::tests::filter(&Errors::none());
+        let still = ship::filter(&Errors::none());
         whitened.place = still.nominal().geodetic();
         for step in 0..samples * STEPS {
-            filter.advance(&increment(step));
+            filter.advance(&ship::increment(step));
             if step % STEPS == STEPS - 1 {
                 let displacement = whitened.displacement(&filter);
                 whitened.past.push_front(displacement);
@@ -255,7 +249,7 @@ mod tests {
     #[test]
     fn a_corrected_filter_leaves_the_displacements_as_if_it_had_always_been_right() {
         let ((mut seen, mut wrong), (ideal, right)) =
-            (sailed(&errors(), 20), sailed(&Errors::none(), 20));
+            (sailed(&ship::errors(), 20), sailed(&Errors::none(), 20));
         let distance = |seen: &Whitened| {
             let pairs = seen.past.iter().zip(&ideal.past);
             pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
@@ -272,7 +266,7 @@ mod tests {
 
     #[test]
     fn a_turn_about_the_berth_does_not_show() {
-        let filter = filter(&errors());
+        let filter = ship::filter(&ship::errors());
         let (hindsight, view) = (Hindsight::of(&filter), filter.view());
         let (d, v, turn) = (Vector2::new(0.7, -0.4), view.v_n().xy(), 0.01);
         let to_ecef = |across: Vector2<f64>| view.c_ne.transpose() * across.push(0.0);
@@ -288,10 +282,10 @@ mod tests {
 
     #[test]
     fn a_ship_whose_samples_are_missed_is_held_by_those_that_come() {
-        let mut filter = filter(&Errors::none());
+        let mut filter = ship::filter(&Errors::none());
         let mut whitened = Whitened::new(&mut filter);
         for step in 0..6000 {
-            filter.advance(&increment(step));
+            filter.advance(&ship::increment(step));
             let is_missed = (2000..2600).contains(&step);
             if !is_missed {
                 whitened.hold(&mut filter);

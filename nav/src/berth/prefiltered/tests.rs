@@ -1,12 +1,14 @@
 //! Claims about the reference method.
 
+use crate::error_state::{ACCEL_BIAS, GYRO_BIAS, POSITION, VELOCITY};
 use crate::initial::sensor_covariance;
 use crate::{Estimator, Increment, InitialState, NavConfig, Nominal};
 use insd_base::units::{DEG, DEG_PER_HOUR, DEG_PER_SQRT_HOUR, MICRO_G};
 use insd_base::{
     Attitude, ExternalReference, Geodetic, ImuSpec, LeverArms, Message, Received, Source, Triad,
+    earth,
 };
-use nalgebra::{Matrix3, UnitQuaternion};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::*;
 use crate::Navigator;
