@@ -229,6 +229,16 @@ impl Bank {
         }
     }
 
+    /// All take the sea for what the likeliest has learnt that it is: with a sea of its own each would be judged by other
+    /// evidence, and one that takes its errors for the sea's would be the likeliest in the end.
+    fn share_sea(&mut self) {
+        let Some(likeliest) = self.index_of_likeliest() else { return };
+        let sea = self.members[likeliest].navigator.learnt_sea();
+        for (index, member) in self.members.iter_mut().enumerate() {
+            member.navigator.lend_sea(sea.as_ref().filter(|_| index != likeliest));
+        }
+    }
+
     fn tidy(&mut self) {
         let best = self.members.iter().map(|m| m.log_weight).fold(f64::NEG_INFINITY, f64::max);
         for member in &mut self.members {
@@ -294,6 +304,7 @@ impl Estimator for Bank {
             self.next_tidy = at + TIDY;
             self.catch_up();
             self.tidy();
+            self.share_sea();
             self.follow_departure();
         }
     }
@@ -410,3 +421,6 @@ fn hypothesis(
     ATTITUDE.renew(&mut covariance, &(c_en * in_ned * c_en.transpose()));
     InitialState::new(level.time, nominal, covariance, level.rate)
 }
+
+#[cfg(test)]
+mod tests;

@@ -8,15 +8,16 @@ use crate::disturbance::Model;
 use crate::filter::Filter;
 pub use crate::method::Method;
 pub use departure::Departure;
-pub use moorings::{Moorings, SPACING};
+pub use moorings::{MooredSea, Moorings, SPACING};
 pub use prefiltered::Prefiltered;
 pub use white_noise::WhiteNoise;
-pub use whitened::Whitened;
+pub use whitened::{Whitened, WhitenedSea};
 
 mod departure;
 mod hindsight;
 mod moorings;
 mod prefiltered;
+mod seen;
 mod shifts;
 mod white_noise;
 mod whitened;
@@ -35,6 +36,17 @@ pub(crate) enum Hold {
     Prefiltered(Box<Prefiltered>),
     Whitened(Box<Whitened>),
     Moorings(Box<Moorings>),
+}
+
+/// The sea as a ship at her berth has learnt it, by the method that holds her.
+#[derive(Clone, Debug)]
+pub enum LearntSea {
+    /// White noise of her velocity, variance of a component, (m/s)^2.
+    WhiteNoise(f64),
+    /// An autoregression of her displacement.
+    Whitened(WhitenedSea),
+    /// Swaying and waves.
+    Moorings(MooredSea),
 }
 
 /// What is worth keeping of it: the moorings go on; the other two methods begin with a new window, as theirs has a gap
@@ -65,6 +77,29 @@ impl Hold {
             Hold::Prefiltered(prefiltered) => prefiltered.hold(filter),
             Hold::Whitened(whitened) => whitened.hold(filter),
             Hold::Moorings(moorings) => moorings.hold(filter),
+        }
+    }
+
+    /// The sea as it was learnt; the prefilter's is that of a window that is its own.
+    pub(crate) fn learnt(&self) -> Option<LearntSea> {
+        match self {
+            Hold::WhiteNoise(white) => Some(LearntSea::WhiteNoise(white.learnt())),
+            Hold::Prefiltered(_) => None,
+            Hold::Whitened(whitened) => Some(LearntSea::Whitened(whitened.learnt())),
+            Hold::Moorings(moorings) => Some(LearntSea::Moorings(moorings.learnt())),
+        }
+    }
+
+    /// From now on the sea is what another has learnt by the same method; nothing for her own.
+    pub(crate) fn lend(&mut self, filter: &mut Filter, sea: Option<&LearntSea>) {
+        match (self, sea) {
+            (Hold::WhiteNoise(white), Some(LearntSea::WhiteNoise(sea))) => white.lend(Some(*sea)),
+            (Hold::Whitened(own), Some(LearntSea::Whitened(sea))) => own.lend(Some(sea.clone())),
+            (Hold::Moorings(own), Some(LearntSea::Moorings(sea))) => own.lend(filter, Some(*sea)),
+            (Hold::WhiteNoise(white), _) => white.lend(None),
+            (Hold::Whitened(own), _) => own.lend(None),
+            (Hold::Moorings(own), _) => own.lend(filter, None),
+            (Hold::Prefiltered(_), _) => {}
         }
     }
 

@@ -24,9 +24,9 @@ mod window;
 #[cfg(test)]
 mod tests;
 
-pub use displacement::{Displacement, SeaWindow, Whitener, WhiteningConfig};
+pub use displacement::{Displacement, SeaSums, SeaWindow, Whitener, WhiteningConfig};
 pub use model::Model;
 pub use prefilter::{ModelOrder, Prefilter, PrefilterConfig, PrefilterRefusal, SlowVelocity};
-pub use prior::SeaPrior;
+pub use prior::{Foretold, SeaPrior};
 pub use spectrum::SpectralMotion;
 pub use window::Push;

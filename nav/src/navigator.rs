@@ -7,7 +7,7 @@ pub mod checkpoint;
 
 use insd_base::{Message, Received, SeaEstimate, Solution, Time};
 
-use crate::berth::{Departure, Hold, Method, Moorings};
+use crate::berth::{Departure, Hold, LearntSea, Method, Moorings};
 use crate::config::NavConfig;
 use crate::disturbance::Model;
 use crate::filter::Filter;
@@ -118,6 +118,19 @@ impl Navigator {
     #[must_use]
     pub fn sea_model(&self) -> Option<&Model> {
         self.hold.as_ref().and_then(Hold::sea_model)
+    }
+
+    /// The sea as a ship at her berth has learnt it.
+    #[must_use]
+    pub fn learnt_sea(&self) -> Option<LearntSea> {
+        self.hold.as_ref().and_then(Hold::learnt)
+    }
+
+    /// From now on the sea at the berth is what another has learnt; nothing for what this one learns itself.
+    pub fn lend_sea(&mut self, sea: Option<&LearntSea>) {
+        if let Some(hold) = &mut self.hold {
+            hold.lend(&mut self.filter, sea);
+        }
     }
 
     /// How she moves in the waves, once that has been seen.

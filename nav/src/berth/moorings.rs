@@ -25,8 +25,18 @@ pub struct Moorings {
     sway_variance: [f64; 2],
     learning_time: f64,
     wave_variance: f64,
+    /// The sea of another, where that is what counts.
+    #[serde(skip)]
+    lent: Option<MooredSea>,
     next: Time,
     shifts: Shifts,
+}
+
+/// How much of her displacement is swaying, by oscillator, and waves: variance of a component, m^2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MooredSea {
+    sway: [f64; 2],
+    waves: f64,
 }
 
 /// Spacing of the samples: about half a wave, so that the waves of consecutive ones have little in
@@ -67,6 +77,7 @@ impl Moorings {
             sway_variance: [0.5 * UNSTATED * UNSTATED; 2],
             learning_time: LEARNING_UNSTATED,
             wave_variance: (WAVE_SHARE * UNSTATED).powi(2),
+            lent: None,
             next: filter.time() + Span::from_seconds(SPACING),
             shifts: Shifts::new(filter.time(), SPACING),
         };
@@ -93,9 +104,29 @@ impl Moorings {
         filter.moor(self.sway(), offset_std);
     }
 
+    /// The sea as she has learnt it.
+    #[must_use]
+    pub fn learnt(&self) -> MooredSea {
+        MooredSea { sway: self.sway_variance, waves: self.wave_variance }
+    }
+
+    /// From now on the sea is what another has learnt; nothing for what she learns herself.
+    pub fn lend(&mut self, filter: &mut Filter, sea: Option<MooredSea>) {
+        if self.lent != sea {
+            self.lent = sea;
+            filter.settle_sway();
+            filter.set_sway(self.sway());
+        }
+    }
+
+    /// The sea that counts.
+    fn sea(&self) -> MooredSea {
+        self.lent.unwrap_or_else(|| self.learnt())
+    }
+
     fn sway(&self) -> Sway {
         Sway(std::array::from_fn(|i| Oscillator {
-            std: self.sway_variance[i].sqrt().max(LEAST_SWAY),
+            std: self.sea().sway[i].sqrt().max(LEAST_SWAY),
             period: PERIODS[i],
             damping: DAMPING,
         }))
@@ -104,7 +135,7 @@ impl Moorings {
     /// Displacement by waves, 1-sigma of each horizontal component, m.
     #[must_use]
     pub fn waves_std(&self) -> f64 {
-        self.wave_variance.sqrt().max(LEAST_WAVES)
+        self.sea().waves.sqrt().max(LEAST_WAVES)
     }
 
     /// Displacement by slow swaying, 1-sigma of each horizontal component, m.

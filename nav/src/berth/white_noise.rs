@@ -21,6 +21,8 @@ use nalgebra::Vector2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WhiteNoise {
     variance: f64,
+    /// That of another, where it is what counts.
+    lent: Option<f64>,
     doubt: f64,
     next: Time,
 }
@@ -46,13 +48,24 @@ impl WhiteNoise {
     /// The same with the variance of the noise taken so many times larger than it is seen.
     #[must_use]
     pub fn doubted(filter: &Filter, doubt: f64) -> Self {
-        WhiteNoise { variance: UNSEEN * UNSEEN, doubt, next: filter.time() }
+        WhiteNoise { variance: UNSEEN * UNSEEN, lent: None, doubt, next: filter.time() }
     }
 
     /// Velocity by the sea, 1-sigma of each component, m/s.
     #[must_use]
     pub fn std(&self) -> f64 {
-        self.variance.sqrt().max(LEAST)
+        self.lent.unwrap_or(self.variance).sqrt().max(LEAST)
+    }
+
+    /// Variance of the velocity by the sea as it was learnt, (m/s)^2.
+    #[must_use]
+    pub fn learnt(&self) -> f64 {
+        self.variance
+    }
+
+    /// From now on the sea is what another has learnt; nothing for what she learns herself.
+    pub fn lend(&mut self, variance: Option<f64>) {
+        self.lent = variance;
     }
 
     /// Holds the filter if it is time to; returns the log-likelihood.

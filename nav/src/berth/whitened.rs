@@ -11,7 +11,12 @@
 //! moorings and this swell is learnt. The whitening is that of an observation with coloured noise (Bryson and
 //! Henrikson, J. Spacecraft and Rockets 5 (1968)).
 //!
-//! A displacement is learnt from when the filter has corrected it for a while longer, and as far as it is known to be the
+//! The model is in the axes of the ship, where surge and sway differ and a heading that is not known yet does not matter:
+//! every filter of the bank sees the same motion, and all take the sea for what the likeliest has learnt.
+//!
+//! Before it has been learnt it is one of some kinds of sea, which are weighed by how well each foretells the next
+//! displacement, given what the filter knows of its own errors. That tells a band within a period or two, while a
+//! displacement is learnt from when the filter has corrected it for a while longer, and as far as it is known to be the
 //! ship's and not the navigator's own error.
 
 use std::collections::VecDeque;
@@ -20,12 +25,22 @@ use insd_base::{Geodetic, Time};
 use nalgebra::{Matrix2, Vector2};
 
 use super::hindsight::Hindsight;
+use super::seen::Seen;
 use super::shifts::Shifts;
 use super::{OFFSET_SHARE, UNSTATED, UNSURVEYED};
 use crate::Filter;
 use crate::aids::reference_position;
-use crate::disturbance::{Displacement, Model, SeaPrior, SeaWindow, Whitener, WhiteningConfig};
-use crate::error_state::{ATTITUDE, BERTH_OFFSET, Errors, Innovation, POSITION};
+use crate::disturbance::{
+    Displacement, Model, SeaPrior, SeaSums, SeaWindow, Whitener, WhiteningConfig,
+};
+use crate::error_state::{ATTITUDE, BERTH_OFFSET, Errors, POSITION};
+
+/// What a ship's displacement has told of the sea.
+#[derive(Clone, Debug)]
+pub struct WhitenedSea {
+    sums: SeaSums,
+    odds: Vec<f64>,
+}
 
 /// Holds a filter at the berth by its whitened displacement.
 #[derive(Clone, Debug)]
@@ -35,6 +50,10 @@ pub struct Whitened {
     is_named: bool,
     prior: SeaPrior,
     window: SeaWindow,
+    /// Logarithms of the odds of the kinds of sea.
+    odds: Vec<f64>,
+    /// The sea of another, where that is what counts.
+    lent: Option<WhitenedSea>,
     /// Displacements from the berth, newest first, as the filter sees them now, north and east, m.
     past: VecDeque<Vector2<f64>>,
     next: Time,
@@ -43,8 +62,13 @@ pub struct Whitened {
 
 /// Samples that a displacement is corrected for before it is learnt from, beside those of the model's order.
 const DELAY: usize = 3;
-/// Least motion that is believed, 1-sigma, m.
-const LEAST: f64 = 1e-3;
+/// Time over which the odds of the kinds of sea are forgotten, s.
+const FORGETTING: f64 = 900.0;
+/// Square of a sample's innovation over its variance beyond which it counts no more against a kind.
+const BOUND: f64 = 12.0;
+/// What a sample says of the kinds counts for so much: it was told to the filter, whose errors of now hang together with
+/// those of the sample before.
+const EVIDENCE: f64 = 0.5;
 
 impl Whitened {
     /// Takes the ship as lying where the filter has her, until a reference names the berth.
@@ -53,12 +77,15 @@ impl Whitened {
         let (config, now) = (*filter.whitening(), filter.time());
         let spacing = config.spacing.as_seconds();
         filter.lie(UNSURVEYED);
+        let prior = SeaPrior::new(spacing, config.order).stated(UNSTATED);
         Whitened {
             config,
             place: filter.nominal().geodetic(),
             is_named: false,
-            prior: SeaPrior::new(spacing, config.order).stated(UNSTATED),
+            odds: prior.odds(),
+            prior,
             window: SeaWindow::new(&config),
+            lent: None,
             past: VecDeque::new(),
             next: now + config.spacing,
             shifts: Shifts::new(now, spacing),
@@ -78,6 +105,7 @@ impl Whitened {
         self.prior = self.prior.clone().stated(std);
         self.past.clear();
         self.window = SeaWindow::new(&self.config);
+        self.odds = self.prior.odds();
         filter.lie((OFFSET_SHARE * std).hypot(filter.berth_doubt()));
     }
 
@@ -87,13 +115,15 @@ impl Whitened {
         self.shifts.count()
     }
 
-    /// Displacements from her mean place, m, newest first: as many as the filter still corrects.
+    /// Displacements from her mean place, forward and to starboard, m, newest first: as many as the filter still
+    /// corrects.
     #[must_use]
     pub fn displacements(&self, filter: &Filter) -> Vec<Vector2<f64>> {
-        self.past.iter().map(|d| d - filter.nominal().berth_offset).collect()
+        let (axes, offset) = (ship_axes(filter), filter.nominal().berth_offset);
+        self.past.iter().map(|d| axes.tr_mul(&(d - offset))).collect()
     }
 
-    /// The sea as it is taken for now: a model of the displacement, m.
+    /// The sea as it is taken for now: a model of the displacement forward and to starboard, m.
     #[must_use]
     pub fn model(&self) -> Option<Model> {
         let whitener = self.whitener()?;
@@ -101,9 +131,29 @@ impl Whitened {
         Some(Model::new(lags, *whitener.residual_covariance(), self.config.spacing.as_seconds()))
     }
 
+    /// What she has told of the sea.
+    #[must_use]
+    pub fn learnt(&self) -> WhitenedSea {
+        WhitenedSea { sums: self.window.sums().clone(), odds: self.odds.clone() }
+    }
+
+    /// From now on the sea is what another has learnt; nothing for what she learns herself.
+    pub fn lend(&mut self, sea: Option<WhitenedSea>) {
+        self.lent = sea;
+    }
+
+    /// Sums and odds that count.
+    fn sea(&self) -> (&SeaSums, &[f64]) {
+        match &self.lent {
+            Some(lent) => (&lent.sums, &lent.odds),
+            None => (self.window.sums(), &self.odds),
+        }
+    }
+
     /// A(q) as it is now.
     fn whitener(&self) -> Option<Whitener> {
-        self.window.fit(self.past.len().min(self.config.order), &self.prior)
+        let (sums, odds) = self.sea();
+        sums.fit(self.past.len().min(self.config.order), &self.prior, odds)
     }
 
     /// Holds the filter against the berth if it is time to; returns the log-likelihood.
@@ -119,8 +169,15 @@ impl Whitened {
         let spacing = self.config.spacing.as_seconds();
         self.correct(filter, &hindsight, spacing);
         let displacement = self.displacement(filter);
+        let before = self.past.iter().take(self.config.order);
+        let seen = Seen::of(filter, &hindsight, &displacement, before, spacing);
+        self.weigh_kinds(filter, &seen);
         let likelihood = self.whitener().map_or(0.0, |whitener| {
-            let innovation = self.whiten(filter, &hindsight, &whitener, &displacement);
+            let axes = ship_axes(filter);
+            let lags = whitener.coefficients().iter().map(|a| axes * a * axes.transpose());
+            let before: Vec<_> = seen.before().iter().map(|off| axes.tr_mul(off)).collect();
+            let covariance = axes * whitener.covariance(&before) * axes.transpose();
+            let innovation = seen.whitened(lags, &covariance);
             let away = (filter.nominal().berth_offset - displacement).norm();
             self.shifts.impose(filter, &innovation, away).1
         });
@@ -158,35 +215,22 @@ impl Whitened {
         }
     }
 
-    /// What A(q) does not foretell of a displacement.
-    fn whiten(
-        &self,
-        filter: &Filter,
-        hindsight: &Hindsight,
-        whitener: &Whitener,
-        displacement: &Vector2<f64>,
-    ) -> Innovation {
-        let lags = whitener.coefficients();
-        let spacing = self.config.spacing.as_seconds();
-        let ages = (0..=lags.len()).map(|lag| lag as f64 * spacing);
-        let rows = hindsight.unturned(displacement, ages);
-        let offset = filter.nominal().berth_offset;
-        let past: Vec<Vector2<f64>> =
-            self.past.iter().take(lags.len()).map(|d| offset - d).collect();
-        let (mut z, mut sum) = (offset - displacement, rows[0]);
-        let mut of_offset = -Matrix2::identity();
-        for ((a, past), rows) in lags.iter().zip(&past).zip(&rows[1..]) {
-            z -= a * past;
-            sum = sum.plus(&rows.under(&-a));
-            of_offset += a;
+    /// Weighs the kinds of sea by how well each foretold what is seen.
+    fn weigh_kinds(&mut self, filter: &Filter, seen: &Seen) {
+        let variance = self.prior.variance(self.sea().0);
+        let share = self.config.spacing.as_seconds() / FORGETTING;
+        let kinds = self.prior.foretold(seen.before().len());
+        for ((odds, first), kind) in self.odds.iter_mut().zip(self.prior.odds()).zip(kinds) {
+            let lags = kind.lags.iter().map(|a| Matrix2::from_diagonal_element(*a));
+            let covariance = Matrix2::from_diagonal_element(kind.unexplained * variance);
+            let weighed = seen.whitened(lags, &covariance).weigh(filter.covariance());
+            let said = weighed.map_or(0.0, |weighed| {
+                -0.5 * weighed.nis().min(BOUND) - weighed.log_root_determinant()
+            });
+            *odds += share * (first - *odds) + EVIDENCE * said;
         }
-        let least = Matrix2::from_diagonal_element(LEAST * LEAST);
-        let mut innovation = Innovation::silent(2);
-        innovation.z.copy_from(&z);
-        innovation.r.copy_from(&(whitener.covariance(&past) + least));
-        sum.fill(&mut innovation.h);
-        innovation.h.set(BERTH_OFFSET, &of_offset);
-        innovation
+        let most = self.odds.iter().copied().fold(f64::MIN, f64::max);
+        self.odds.iter_mut().for_each(|odds| *odds -= most);
     }
 
     /// Learns from the displacement that is not corrected any more.
@@ -197,16 +241,16 @@ impl Whitened {
         let oldest = self.past.pop_back();
         let is_settled = self.shifts.is_settled(filter.time());
         let sample = oldest.filter(|_| is_settled).map(|d| {
-            let north_east = d - filter.nominal().berth_offset;
-            Displacement { north_east, clearness: self.clearness(filter, &north_east) }
+            let seen = ship_axes(filter).tr_mul(&(d - filter.nominal().berth_offset));
+            Displacement { seen, clearness: self.clearness(filter, &seen) }
         });
         if sample.is_some() || !self.window.is_empty() {
             self.window.push(sample);
         }
     }
 
-    /// How clearly a displacement is the ship's, by her share in the variance of what is seen: nothing where half of
-    /// it is the navigator's own error, which would be learnt as a sea that wanders as the navigator does.
+    /// How clearly a displacement is the ship's, by her share in the variance of what is seen: little where much of it is
+    /// the navigator's own error, which would be learnt as a sea that wanders as the navigator does.
     fn clearness(&self, filter: &Filter, seen: &Vector2<f64>) -> f64 {
         let p = filter.covariance();
         let to_level = filter.view().c_ne.fixed_rows::<2>(0).into_owned();
@@ -215,10 +259,17 @@ impl Whitened {
             + BERTH_OFFSET.covariance(p)
             - across
             - across.transpose();
-        let ship = self.window.mean_square().max(0.5 * seen.norm_squared());
+        let ship = self.sea().0.mean_square().max(0.5 * seen.norm_squared());
         let share = ship / (ship + 0.5 * own.trace()).max(f64::MIN_POSITIVE);
-        (2.0 * share - 1.0).max(0.0).powi(2)
+        share * share
     }
+}
+
+/// From forward and starboard to north and east.
+fn ship_axes(filter: &Filter) -> Matrix2<f64> {
+    let view = filter.view();
+    let forward = (view.c_ne * view.c_eb).column(0).xy().normalize();
+    Matrix2::new(forward.x, -forward.y, forward.y, forward.x)
 }
 
 #[cfg(test)]
@@ -278,6 +329,39 @@ mod tests {
             // within seconds the Earth does not turn the heading into a tilt
             assert!(rows.times(&error).norm() < 0.02 * turn * d.norm(), "{}", rows.times(&error));
         }
+    }
+
+    /// A ship held for so many seconds.
+    fn held(seconds: usize) -> Whitened {
+        let mut filter = ship::filter(&ship::errors());
+        let mut whitened = Whitened::new(&mut filter);
+        for step in 0..seconds * 10 {
+            filter.advance(&ship::increment(step));
+            whitened.hold(&mut filter);
+        }
+        whitened
+    }
+
+    #[test]
+    fn a_sea_that_is_lent_counts_until_it_is_taken_back() {
+        let (mut whitened, other) = (held(400), held(200));
+        let fit = |whitened: &Whitened| whitened.whitener().expect("a model").coefficients()[0];
+        let own = fit(&whitened);
+        assert_ne!(own, fit(&other));
+        whitened.lend(Some(other.learnt()));
+        assert_eq!(fit(&whitened), fit(&other));
+        whitened.lend(None);
+        assert_eq!(fit(&whitened), own);
+    }
+
+    #[test]
+    fn forward_is_where_the_bow_is_taken_to_point() {
+        let filter = ship::filter(&ship::errors());
+        let heading = filter.solution().attitude.heading;
+        let forward = ship_axes(&filter) * Vector2::x();
+        assert!((forward - Vector2::new(heading.cos(), heading.sin())).norm() < 1e-9);
+        let starboard = ship_axes(&filter) * Vector2::y();
+        assert!((starboard - Vector2::new(-heading.sin(), heading.cos())).norm() < 1e-9);
     }
 
     #[test]

@@ -32,28 +32,34 @@ impl Default for WhiteningConfig {
     }
 }
 
-/// A displacement, north and east, m, and how clearly it was seen, 0..1.
+/// A displacement and how clearly it was seen.
 #[derive(Clone, Copy, Debug)]
 pub struct Displacement {
-    /// The displacement, m.
-    pub north_east: Vector2<f64>,
-    /// Weight of it in the fit.
+    /// Forward and to starboard, m.
+    pub seen: Vector2<f64>,
+    /// Weight of it in the fit, 0..1.
     pub clearness: f64,
 }
 
-/// Sums of products of the samples of a sliding window with those before them: with x(k) = [d(k); d(k-1); ..; d(k-p)],
-/// sum x x^T over the samples that have an unbroken past, the normal equations of every order up to p. A sample that
-/// comes is added, one that leaves is taken away.
+/// Samples of a sliding window, and what they tell of the sea: a sample that comes is added to the sums, one that leaves
+/// is taken away.
 #[derive(Clone, Debug)]
 pub struct SeaWindow {
     /// Newest first; nothing where one was lost.
     samples: VecDeque<Option<Displacement>>,
-    moments: DMatrix<f64>,
-    weight: f64,
-    order: usize,
+    sums: SeaSums,
     length: usize,
     /// Samples since the sums were last added up from nothing.
     since_renewal: usize,
+}
+
+/// Sums of products of samples with those before them: with x(k) = [d(k); d(k-1); ..; d(k-p)], sum x x^T over the samples
+/// that have an unbroken past, the normal equations of every order up to p.
+#[derive(Clone, Debug)]
+pub struct SeaSums {
+    moments: DMatrix<f64>,
+    weight: f64,
+    order: usize,
 }
 
 /// A(q) of an order.
@@ -68,13 +74,10 @@ impl SeaWindow {
     /// An empty window.
     #[must_use]
     pub fn new(config: &WhiteningConfig) -> Self {
-        let size = 2 * (config.order + 1);
         let length = (config.window.as_seconds() / config.spacing.as_seconds()).round() as usize;
         SeaWindow {
             samples: VecDeque::new(),
-            moments: DMatrix::zeros(size, size),
-            weight: 0.0,
-            order: config.order,
+            sums: SeaSums::none(config.order),
             length: length.max(2 * config.order),
             since_renewal: 0,
         }
@@ -86,6 +89,12 @@ impl SeaWindow {
         self.samples.is_empty()
     }
 
+    /// What the samples tell.
+    #[must_use]
+    pub fn sums(&self) -> &SeaSums {
+        &self.sums
+    }
+
     /// The next sample; nothing where it was lost.
     pub fn push(&mut self, sample: Option<Displacement>) {
         self.samples.push_front(sample);
@@ -93,7 +102,7 @@ impl SeaWindow {
         if self.samples.len() <= self.length {
             return;
         }
-        self.add_row(self.samples.len() - 1 - self.order, -1.0);
+        self.add_row(self.samples.len() - 1 - self.sums.order, -1.0);
         self.samples.pop_back();
         self.since_renewal += 1;
         if self.since_renewal >= self.length {
@@ -103,9 +112,9 @@ impl SeaWindow {
 
     /// Adds the sums up from nothing: adding and taking away leaves its rounding.
     fn renew(&mut self) {
-        self.moments.fill(0.0);
-        (self.weight, self.since_renewal) = (0.0, 0);
-        for newest in 0..self.samples.len().saturating_sub(self.order) {
+        self.sums = SeaSums::none(self.sums.order);
+        self.since_renewal = 0;
+        for newest in 0..self.samples.len().saturating_sub(self.sums.order) {
             self.add_row(newest, 1.0);
         }
     }
@@ -113,18 +122,33 @@ impl SeaWindow {
     /// Adds the row whose newest sample lies so many back, or takes it away.
     fn add_row(&mut self, newest: usize, sign: f64) {
         let Some((row, clearness)) = self.row(newest) else { return };
-        self.moments.ger(sign * clearness, &row, &row, 1.0);
-        self.weight += sign * clearness;
+        self.sums.moments.ger(sign * clearness, &row, &row, 1.0);
+        self.sums.weight += sign * clearness;
     }
 
     fn row(&self, newest: usize) -> Option<(DVector<f64>, f64)> {
         let clearness = self.samples.get(newest).copied().flatten()?.clearness;
-        let mut row = DVector::zeros(2 * (self.order + 1));
-        for lag in 0..=self.order {
+        let mut row = DVector::zeros(2 * (self.sums.order + 1));
+        for lag in 0..=self.sums.order {
             let sample = self.samples.get(newest + lag).copied().flatten()?;
-            row.fixed_rows_mut::<2>(2 * lag).copy_from(&sample.north_east);
+            row.fixed_rows_mut::<2>(2 * lag).copy_from(&sample.seen);
         }
         Some((row, clearness))
+    }
+}
+
+impl SeaSums {
+    /// Of no samples.
+    #[must_use]
+    pub fn none(order: usize) -> Self {
+        let size = 2 * (order + 1);
+        SeaSums { moments: DMatrix::zeros(size, size), weight: 0.0, order }
+    }
+
+    /// So many samples, each as far as it was seen clearly.
+    #[must_use]
+    pub fn weight(&self) -> f64 {
+        self.weight
     }
 
     /// Mean square of one component, m^2; zero before any was seen.
@@ -134,14 +158,12 @@ impl SeaWindow {
         if self.weight > 0.0 { sum / (2.0 * self.weight) } else { 0.0 }
     }
 
-    /// The model of so many lags that follows from what was seen and what was known before. `None` if the numbers are
-    /// out of range.
+    /// The model of so many lags that follows from what was seen and what was known before, if the kinds of sea that
+    /// are known have these logarithms of their odds. `None` if the numbers are out of range.
     #[must_use]
-    pub fn fit(&self, lags: usize, prior: &SeaPrior) -> Option<Whitener> {
+    pub fn fit(&self, lags: usize, prior: &SeaPrior, odds: &[f64]) -> Option<Whitener> {
         let lags = lags.min(self.order);
-        let variance = prior.variance(self.weight, self.mean_square());
-        let known = prior.moments(&self.moments, self.weight, variance);
-        let moments = &self.moments + known;
+        let moments = &self.moments + prior.moments(odds, prior.variance(self));
         let past = 2 * lags;
         let regressors = Cholesky::new(moments.view((2, 2), (past, past)).into_owned())?;
         let across = moments.view((2, 0), (past, 2)).into_owned();
@@ -199,8 +221,8 @@ mod tests {
         (*state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
     }
 
-    fn clear(north_east: Vector2<f64>) -> Option<Displacement> {
-        Some(Displacement { north_east, clearness: 1.0 })
+    fn clear(seen: Vector2<f64>) -> Option<Displacement> {
+        Some(Displacement { seen, clearness: 1.0 })
     }
 
     /// Samples of d(k) = A_1 d(k-1) + A_2 d(k-2) + eps(k).
@@ -224,7 +246,10 @@ mod tests {
         let mut window = SeaWindow::new(&config(2, 20_000.0));
         sea(swaying(), 20_000).into_iter().for_each(|d| window.push(clear(d)));
         let prior = SeaPrior::new(4.0, 2).stated(1.0);
-        let whitener = window.fit(2, &prior).expect("a model");
+        // 40 to 90 s and few waves, as its samples told one after the other
+        let mut odds = prior.odds();
+        odds[4] = 30.0;
+        let whitener = window.sums().fit(2, &prior, &odds).expect("a model");
         for (found, made) in whitener.coefficients().iter().zip(swaying()) {
             assert_relative_eq!(*found, made, epsilon = 0.03);
         }
@@ -245,8 +270,8 @@ mod tests {
                 fresh.push(lost(k, *d));
             }
         }
-        assert_relative_eq!(slid.moments, fresh.moments, max_relative = 1e-10);
-        assert_relative_eq!(slid.weight, fresh.weight, max_relative = 1e-12);
+        assert_relative_eq!(slid.sums.moments, fresh.sums.moments, max_relative = 1e-10);
+        assert_relative_eq!(slid.sums.weight, fresh.sums.weight, max_relative = 1e-12);
     }
 
     #[test]
@@ -255,7 +280,7 @@ mod tests {
         let prior = SeaPrior::new(4.0, 12).stated(0.5);
         let claims: Vec<f64> = (0..=12)
             .map(|lags| {
-                let whitener = window.fit(lags, &prior).expect("a model");
+                let whitener = window.sums().fit(lags, &prior, &prior.odds()).expect("a model");
                 whitener.covariance(&vec![Vector2::zeros(); lags])[(0, 0)].sqrt()
             })
             .collect();
@@ -267,13 +292,12 @@ mod tests {
     #[test]
     fn what_was_not_seen_clearly_teaches_little() {
         let mut window = SeaWindow::new(&config(2, 300.0));
-        for north_east in sea(swaying(), 300) {
-            window.push(Some(Displacement { north_east, clearness: 1e-4 }));
+        for seen in sea(swaying(), 300) {
+            window.push(Some(Displacement { seen, clearness: 1e-4 }));
         }
         let prior = SeaPrior::new(4.0, 2).stated(1.0);
-        let (seen, unseen) =
-            (window.fit(2, &prior), SeaWindow::new(&config(2, 300.0)).fit(2, &prior));
-        let first = |whitener: Option<Whitener>| whitener.expect("a model").coefficients()[0];
-        assert_relative_eq!(first(seen), first(unseen), epsilon = 0.02);
+        let first =
+            |sums: &SeaSums| sums.fit(2, &prior, &prior.odds()).expect("a model").coefficients()[0];
+        assert_relative_eq!(first(window.sums()), first(&SeaSums::none(2)), epsilon = 0.02);
     }
 }

@@ -4,17 +4,23 @@
 //! A kind is a band of swaying on the moorings, even in the logarithm of the period, and a share of waves of 4 to 20 s,
 //! which at a spacing of some seconds are nearly white. It counts as so many samples that were seen before the first
 //! (a conjugate prior of the regression; Kadiyala and Karlsson, J. Applied Econometrics 12 (1997)), and the kinds are
-//! weighed by how well they foretold what was seen since (their marginal likelihood; Bishop, Pattern Recognition and
-//! Machine Learning, section 3.4).
+//! weighed by how well each foretells the samples, one after the other, given what the filter knows of its own errors
+//! (multiple models: Magill, IEEE Trans. Automatic Control 10 (1965)).
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use nalgebra::{Cholesky, DMatrix};
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+use super::displacement::SeaSums;
 
 /// Bands of swaying, s. The first is for moorings of any kind.
 const BANDS: [(f64, f64); 5] =
     [(25.0, 180.0), (20.0, 50.0), (40.0, 90.0), (60.0, 150.0), (100.0, 200.0)];
+/// That of most ships (docs/systems.md, S1), and by how much it is likelier than another before anything was seen, as
+/// logarithm.
+const USUAL: (f64, f64) = BANDS[3];
+const LIKELIER: f64 = 2.0;
 /// Periods of waves, s.
 const WAVES: (f64, f64) = (4.0, 20.0);
 /// Shares of the swaying in the variance of the displacement.
@@ -27,7 +33,7 @@ pub(super) const SAMPLES: f64 = 60.0;
 /// its variance is taken larger: before anything was seen the kinds together claim more than each of them.
 const STATED_SAMPLES: f64 = 4.0;
 const STATED_UNTIL: f64 = 15.0;
-const STATED_DOUBT: f64 = 1.5;
+const STATED_DOUBT: f64 = 1.25;
 /// Intervals of the quadrature over a band.
 const GRID: u32 = 200;
 
@@ -36,8 +42,19 @@ const GRID: u32 = 200;
 struct Kind {
     /// Products of samples and those before them, of [`SAMPLES`] samples of a displacement of 1 m.
     moments: DMatrix<f64>,
-    /// Logarithm of the evidence of these alone.
-    evidence: f64,
+    /// What it foretells from so many samples before.
+    foretold: Vec<Foretold>,
+    /// Logarithm of its odds before anything was seen.
+    odds: f64,
+}
+
+/// What a kind of sea foretells of a component of the displacement from those before.
+#[derive(Clone, Debug)]
+pub struct Foretold {
+    /// Factors of the samples before, newest first.
+    pub lags: Vec<f64>,
+    /// Variance of what it does not foretell, over that of the displacement.
+    pub unexplained: f64,
 }
 
 /// The kinds of sea that a moored ship may lie in, for samples at a spacing.
@@ -63,31 +80,36 @@ impl SeaPrior {
         SeaPrior { variance: std * std, ..self }
     }
 
-    /// Variance of the displacement when `weight` samples had a mean square of `seen`, m^2.
-    pub(super) fn variance(&self, weight: f64, seen: f64) -> f64 {
-        let stated = STATED_SAMPLES * (-weight / STATED_UNTIL).exp();
-        (stated * STATED_DOUBT * self.variance + weight * seen) / (stated + weight)
+    /// Logarithms of the odds of the kinds before anything was seen.
+    #[must_use]
+    pub fn odds(&self) -> Vec<f64> {
+        self.kinds.iter().map(|kind| kind.odds).collect()
     }
 
-    /// The products that the kinds together are worth when the sums of products `moments` of samples with this weight
-    /// were seen, of a displacement of `variance`, m^2.
-    pub(super) fn moments(
-        &self,
-        moments: &DMatrix<f64>,
-        weight: f64,
-        variance: f64,
-    ) -> DMatrix<f64> {
-        let surprise = |kind: &Kind| {
-            let after = &kind.moments * variance + moments;
-            evidence(&after, SAMPLES + weight).map_or(f64::NEG_INFINITY, |log| log - kind.evidence)
-        };
-        let logs: Vec<f64> = self.kinds.iter().map(surprise).collect();
-        let most = logs.iter().copied().fold(f64::MIN, f64::max);
-        let shares: Vec<f64> = logs.iter().map(|log| (log - most).exp()).collect();
+    /// What each kind foretells from so many samples before.
+    pub fn foretold(&self, lags: usize) -> impl Iterator<Item = &Foretold> {
+        self.kinds.iter().map(move |kind| &kind.foretold[lags])
+    }
+
+    /// Variance of one component of the displacement, m^2, when these samples were seen.
+    #[must_use]
+    pub fn variance(&self, seen: &SeaSums) -> f64 {
+        let weight = seen.weight();
+        let stated = STATED_SAMPLES * (-weight / STATED_UNTIL).exp();
+        (stated * STATED_DOUBT * self.variance + weight * seen.mean_square()) / (stated + weight)
+    }
+
+    /// The products that the kinds together are worth, if they have these logarithms of their odds, of a displacement
+    /// of `variance`, m^2.
+    pub(super) fn moments(&self, odds: &[f64], variance: f64) -> DMatrix<f64> {
+        let most = odds.iter().copied().fold(f64::MIN, f64::max);
+        let shares: Vec<f64> = odds.iter().map(|log| (log - most).exp()).collect();
         let scale = variance / shares.iter().sum::<f64>();
-        let none = DMatrix::zeros(moments.nrows(), moments.ncols());
+        let size = self.kinds[0].moments.nrows();
         let kinds = self.kinds.iter().zip(&shares);
-        kinds.fold(none, |sum, (kind, share)| sum + &kind.moments * (share * scale))
+        kinds.fold(DMatrix::zeros(size, size), |sum, (kind, share)| {
+            sum + &kind.moments * (share * scale)
+        })
     }
 }
 
@@ -105,8 +127,20 @@ impl Kind {
             let correlation = correlations[(i / 2).abs_diff(j / 2)];
             if is_same_axis { SAMPLES * correlation } else { 0.0 }
         });
-        let evidence = evidence(&moments, SAMPLES).unwrap_or(f64::INFINITY);
-        Kind { moments, evidence }
+        let foretold = (0..=order).map(|lags| Foretold::from(&correlations, lags)).collect();
+        Kind { moments, foretold, odds: if band == USUAL { LIKELIER } else { 0.0 } }
+    }
+}
+
+impl Foretold {
+    /// By the correlations of samples at every lag (the equations of Yule and Walker).
+    fn from(correlations: &[f64], lags: usize) -> Self {
+        let among = DMatrix::from_fn(lags, lags, |i, j| correlations[i.abs_diff(j)]);
+        let across = DVector::from_fn(lags, |i, _| correlations[i + 1]);
+        let solved = Cholesky::new(among).map(|root| root.solve(&across));
+        let lags = solved.unwrap_or_else(|| DVector::zeros(lags));
+        let unexplained = correlations[0] - across.dot(&lags);
+        Foretold { lags: lags.as_slice().to_vec(), unexplained }
     }
 }
 
@@ -120,25 +154,13 @@ fn mean_cosine((shortest, longest): (f64, f64), apart: f64) -> f64 {
     (0..GRID).map(cosine).sum::<f64>() / f64::from(GRID)
 }
 
-/// Logarithm of the evidence of sums of products of so many samples, but for what all kinds have in common: with R
-/// the part of the regressors and S what they do not explain,
-///
-/// log p = -(m/2) log det R - (n/2) log det S,   m = 2 components.
-fn evidence(moments: &DMatrix<f64>, samples: f64) -> Option<f64> {
-    // the newest last: its pivots are the root of what its past does not explain
-    let last = moments.nrows() - 1;
-    let turned = DMatrix::from_fn(last + 1, last + 1, |i, j| moments[(last - i, last - j)]);
-    let root = Cholesky::new(turned)?;
-    let pivots = root.l_dirty().diagonal().map(f64::ln);
-    let regressors = pivots.rows(0, last - 1).sum();
-    let unexplained = pivots.rows(last - 1, 2).sum();
-    Some(-2.0 * regressors - samples * unexplained)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::disturbance::{Displacement, SeaWindow, WhiteningConfig};
     use approx::assert_relative_eq;
+    use insd_base::Span;
+    use nalgebra::Vector2;
 
     #[test]
     fn an_oscillation_is_correlated_as_a_cosine() {
@@ -147,23 +169,40 @@ mod tests {
     }
 
     #[test]
-    fn what_was_seen_of_a_kind_makes_it_the_likely_one() {
-        let (spacing, order) = (4.0, 12);
-        let prior = SeaPrior::new(spacing, order);
-        let swaying = |band| Kind::new(band, 0.9, spacing, order).moments;
-        for (index, band) in BANDS.into_iter().enumerate().skip(1) {
-            let seen = swaying(band) * 4.0;
-            let worth = prior.moments(&seen, 4.0 * SAMPLES, 1.0);
-            let distance = |other: usize| (&worth - swaying(BANDS[other])).norm();
-            let nearest = (0..BANDS.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-            assert_eq!(nearest, Some(index), "{band:?}");
+    fn the_likely_kind_is_what_the_model_begins_with() {
+        let prior = SeaPrior::new(4.0, 12);
+        let distance = |odds: &[f64], kind: usize| {
+            (prior.moments(odds, 1.0) - &prior.kinds[kind].moments).norm()
+        };
+        for likely in 0..prior.kinds.len() {
+            let odds: Vec<f64> = (0..prior.kinds.len())
+                .map(|kind| if kind == likely { 30.0 } else { 0.0 })
+                .collect();
+            assert!(distance(&odds, likely) < 1e-6);
+            assert!(distance(&prior.odds(), likely) > 1.0);
         }
     }
 
     #[test]
-    fn the_stated_displacement_is_forgotten_when_the_sea_was_seen() {
+    fn a_slow_swaying_is_foretold_and_waves_are_not() {
+        let (slow, waves) =
+            (Kind::new((100.0, 200.0), 0.98, 4.0, 8), Kind::new(BANDS[0], 0.0, 4.0, 8));
+        assert!(slow.foretold[8].unexplained < 0.1, "{:?}", slow.foretold[8]);
+        assert!(waves.foretold[8].unexplained > 0.5, "{:?}", waves.foretold[8]);
+        assert_relative_eq!(slow.foretold[0].unexplained, 1.0 + WHITE, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn the_stated_displacement_is_what_counts_before_the_sea_was_seen() {
         let prior = SeaPrior::new(4.0, 2).stated(0.7);
-        assert_relative_eq!(prior.variance(0.0, 0.0), STATED_DOUBT * 0.49, max_relative = 1e-12);
-        assert_relative_eq!(prior.variance(200.0, 1e-4), 1e-4, max_relative = 0.05);
+        let variance = prior.variance(&SeaSums::none(2));
+        assert_relative_eq!(variance, STATED_DOUBT * 0.49, max_relative = 1e-12);
+        let [spacing, window] = [1.0, 300.0].map(Span::from_seconds);
+        let config = WhiteningConfig { spacing, window, order: 2 };
+        let mut window = SeaWindow::new(&config);
+        (0..300).for_each(|_| {
+            window.push(Some(Displacement { seen: Vector2::new(0.01, -0.01), clearness: 1.0 }));
+        });
+        assert_relative_eq!(prior.variance(window.sums()), 1e-4, max_relative = 0.05);
     }
 }
