@@ -173,6 +173,10 @@ page-pictures:
 alignment-page:
     cargo run --release -p insd-tests --example alignment_page -- docs
 
+# ships at their berths in all seas, on all moorings, with all grades: the table of docs/figures.md; ten minutes for 24 seeds
+berth-campaign seeds="24":
+    cargo run --release -p insd-tests --example berth_campaign -- {{seeds}} docs/figures.md
+
 # independent readers on what the ports send in a simulated voyage; INSD_GPSDECODE: gpsd 3.27's decoder
 conformance-outputs *options:
     #!/usr/bin/env bash

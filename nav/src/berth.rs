@@ -49,7 +49,7 @@ pub enum LearntSea {
     Moorings(MooredSea),
 }
 
-/// What is worth keeping of it: the moorings go on; the other two methods begin with a new window, as theirs has a gap
+/// What is worth keeping of it: the moorings go on; the other methods begin with a new window, as theirs has a gap
 /// in it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum HoldCheckpoint {

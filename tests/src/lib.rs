@@ -10,6 +10,7 @@ struct Architecture;
 
 pub mod engines;
 pub mod noise_free;
+pub mod pages;
 pub mod recorded;
 pub mod sailing;
 pub mod scores;

@@ -217,7 +217,8 @@ impl Whitened {
 
     /// Weighs the kinds of sea by how well each foretold what is seen.
     fn weigh_kinds(&mut self, filter: &Filter, seen: &Seen) {
-        let variance = self.prior.variance(self.sea().0);
+        let (sums, _) = self.sea();
+        let variance = self.prior.variance(sums.weight(), sums.mean_square());
         let share = self.config.spacing.as_seconds() / FORGETTING;
         let kinds = self.prior.foretold(seen.before().len());
         for ((odds, first), kind) in self.odds.iter_mut().zip(self.prior.odds()).zip(kinds) {

@@ -163,7 +163,8 @@ impl SeaSums {
     #[must_use]
     pub fn fit(&self, lags: usize, prior: &SeaPrior, odds: &[f64]) -> Option<Whitener> {
         let lags = lags.min(self.order);
-        let moments = &self.moments + prior.moments(odds, prior.variance(self));
+        let moments =
+            &self.moments + prior.moments(odds, prior.variance(self.weight, self.mean_square()));
         let past = 2 * lags;
         let regressors = Cholesky::new(moments.view((2, 2), (past, past)).into_owned())?;
         let across = moments.view((2, 0), (past, 2)).into_owned();

@@ -12,8 +12,6 @@ use std::sync::Arc;
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::displacement::SeaSums;
-
 /// Bands of swaying, s. The first is for moorings of any kind.
 const BANDS: [(f64, f64); 5] =
     [(25.0, 180.0), (20.0, 50.0), (40.0, 90.0), (60.0, 150.0), (100.0, 200.0)];
@@ -91,12 +89,11 @@ impl SeaPrior {
         self.kinds.iter().map(move |kind| &kind.foretold[lags])
     }
 
-    /// Variance of one component of the displacement, m^2, when these samples were seen.
+    /// Variance of one component of the displacement, m^2, when `weight` samples had a mean square of `seen`, m^2.
     #[must_use]
-    pub fn variance(&self, seen: &SeaSums) -> f64 {
-        let weight = seen.weight();
+    pub fn variance(&self, weight: f64, seen: f64) -> f64 {
         let stated = STATED_SAMPLES * (-weight / STATED_UNTIL).exp();
-        (stated * STATED_DOUBT * self.variance + weight * seen.mean_square()) / (stated + weight)
+        (stated * STATED_DOUBT * self.variance + weight * seen) / (stated + weight)
     }
 
     /// The products that the kinds together are worth, if they have these logarithms of their odds, of a displacement
@@ -157,10 +154,7 @@ fn mean_cosine((shortest, longest): (f64, f64), apart: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::disturbance::{Displacement, SeaWindow, WhiteningConfig};
     use approx::assert_relative_eq;
-    use insd_base::Span;
-    use nalgebra::Vector2;
 
     #[test]
     fn an_oscillation_is_correlated_as_a_cosine() {
@@ -193,16 +187,9 @@ mod tests {
     }
 
     #[test]
-    fn the_stated_displacement_is_what_counts_before_the_sea_was_seen() {
+    fn the_stated_displacement_is_forgotten_when_the_sea_was_seen() {
         let prior = SeaPrior::new(4.0, 2).stated(0.7);
-        let variance = prior.variance(&SeaSums::none(2));
-        assert_relative_eq!(variance, STATED_DOUBT * 0.49, max_relative = 1e-12);
-        let [spacing, window] = [1.0, 300.0].map(Span::from_seconds);
-        let config = WhiteningConfig { spacing, window, order: 2 };
-        let mut window = SeaWindow::new(&config);
-        (0..300).for_each(|_| {
-            window.push(Some(Displacement { seen: Vector2::new(0.01, -0.01), clearness: 1.0 }));
-        });
-        assert_relative_eq!(prior.variance(window.sums()), 1e-4, max_relative = 0.05);
+        assert_relative_eq!(prior.variance(0.0, 0.0), STATED_DOUBT * 0.49, max_relative = 1e-12);
+        assert_relative_eq!(prior.variance(200.0, 1e-4), 1e-4, max_relative = 0.05);
     }
 }

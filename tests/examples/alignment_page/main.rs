@@ -12,6 +12,7 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use insd_simulator::simulate;
+use insd_tests::pages::filled;
 use insd_tests::scenario;
 
 use campaigns::{Comparison, INSTANTS};
@@ -88,13 +89,4 @@ fn draw_errors(
     let picture = svg::picture("Heading errors of two voyages", &[row(slight), row(rough)]);
     std::fs::write(pictures.join("errors.svg"), picture)?;
     Ok(())
-}
-
-/// The page with a table put between its marks.
-fn filled(text: &str, name: &str, table: &str) -> Result<String, Box<dyn Error>> {
-    let (begin, end) = (format!("<!-- table {name} -->\n"), "<!-- end of table -->");
-    let missing = || format!("the page has no table {name}");
-    let (before, rest) = text.split_once(&begin).ok_or_else(missing)?;
-    let (_, after) = rest.split_once(end).ok_or_else(missing)?;
-    Ok(format!("{before}{begin}{table}{end}{after}"))
 }

@@ -27,6 +27,17 @@ fn the_same_state_gives_the_same_bytes_and_they_are_few() {
 }
 
 #[test]
+fn a_state_of_another_shape_has_another_version() {
+    let moored = watch(&scenario(Way::Moored, 3, "navigation", 410.0), 1, 400.0, 30.0);
+    let shape = |watched: &Watched| {
+        let bytes = &watched.kept[0].2;
+        (u16::from_le_bytes([bytes[4], bytes[5]]), bytes.len())
+    };
+    // who finds other numbers here raises the version: an older state would be read as what it is not
+    assert_eq!([shape(watched()), shape(&moored)], [(12, 13_376), (12, 17_623)]);
+}
+
+#[test]
 fn an_engine_that_is_at_work_another_imu_another_mounting_and_an_old_state_are_refused() {
     let watched = watched();
     let bytes = &watched.kept[0].2;
