@@ -15,9 +15,8 @@
 
 use insd_base::alignment::gyrocompass_sigma;
 use insd_base::{Forecast, ImuSpec, Lack, Limiting, Span, Time, earth};
-use insd_nav::aids::berth;
-use insd_nav::berth::{Moorings, SPACING};
-use insd_nav::{Filter, Navigator};
+use insd_nav::Navigator;
+use insd_nav::berth::BerthSample;
 
 /// No forecast goes further, s.
 const HORIZON: f64 = 7200.0;
@@ -33,12 +32,12 @@ const PATIENCE: f64 = 600.0;
 /// settled.
 #[must_use]
 pub fn at_the_berth(navigator: &Navigator, imu: &ImuSpec, target: f64) -> Forecast {
-    let Some(moorings) = navigator.moorings() else {
+    let Some(BerthSample { innovation: mut sample, spacing, start }) = navigator.berth_sample()
+    else {
         return Forecast::Unknown { lacks: Lack::Method };
     };
     let (filter, waves) = (navigator.filter(), navigator.waves());
     let mut ahead = filter.ahead();
-    let mut sample = berth::innovation(ahead.view(), moorings.place(), moorings.waves_std());
     let white = sample.r.clone();
     let speed = waves.map_or(0.0, |waves| waves.velocity.xy().norm());
     let latitude = ahead.view().geodetic.latitude;
@@ -48,7 +47,7 @@ pub fn at_the_berth(navigator: &Navigator, imu: &ImuSpec, target: f64) -> Foreca
     while sigma >= target {
         let step = (STEP_SHARE * gone).clamp(STEPS.0, STEPS.1);
         ahead.advance(step);
-        sample.r = &white * (SPACING / step);
+        sample.r = &white * (spacing / step);
         ahead.observe(&sample);
         ahead.observe_gnss_velocity(speed, step);
         gone += step;
@@ -68,15 +67,8 @@ pub fn at_the_berth(navigator: &Navigator, imu: &ImuSpec, target: f64) -> Foreca
         }
     }
     let at = filter.time() + Span::from_seconds(gone);
-    Forecast::Expected {
-        at,
-        limiting: limiting(imu, latitude, target, since(filter, moorings, gone)),
-    }
-}
-
-/// Time from the start at the berth to the end of a forecast, s.
-fn since(filter: &Filter, moorings: &Moorings, gone: f64) -> f64 {
-    (filter.time() - moorings.start()).as_seconds() + gone
+    let since = (at - start).as_seconds();
+    Forecast::Expected { at, limiting: limiting(imu, latitude, target, since) }
 }
 
 /// What can be said before any data: that the bias of the gyros alone keeps the heading from its

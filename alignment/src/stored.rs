@@ -13,7 +13,7 @@
 
 use insd_base::units::DEG;
 use insd_base::{Attitude, Geodetic, ImuSpec, StoredDoubt, Time, Triad, earth};
-use insd_nav::berth::Moorings;
+use insd_nav::berth::UNSTATED;
 use insd_nav::error_state::{ACCEL_BIAS, ACCEL_DRIFT, Covariance, GYRO_BIAS, GYRO_DRIFT, POSITION};
 use insd_nav::{Estimator, Navigator, Nominal};
 use nalgebra::{Matrix3, Vector3};
@@ -86,7 +86,7 @@ impl StoredState {
             gyro_bias_std: GYRO_BIAS.std_of_sum(GYRO_DRIFT, p),
             accel_bias: nominal.accel_bias + nominal.accel_drift,
             accel_bias_std: ACCEL_BIAS.std_of_sum(ACCEL_DRIFT, p),
-            sway_std: navigator.moorings().map_or(0.0, Moorings::sway_std),
+            sway_std: navigator.sea_std().map_or(UNSTATED, |(_, sway)| sway),
         };
         stored.is_finite().then_some(stored)
     }

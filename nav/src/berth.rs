@@ -1,14 +1,15 @@
 //! The ship at her berth: what holds a filter that navigates while she lies there, and what tells that she
 //! has left. It comes with the [`crate::InitialState`] and goes when she does.
 
-use insd_base::{ExternalReference, Span};
+use insd_base::{ExternalReference, Span, Time};
 use serde::{Deserialize, Serialize};
 
 use crate::disturbance::Model;
+use crate::error_state::Innovation;
 use crate::filter::Filter;
 pub use crate::method::Method;
 pub use departure::Departure;
-pub use moorings::{MooredSea, Moorings, SPACING};
+pub use moorings::{MooredSea, Moorings};
 pub use prefiltered::Prefiltered;
 pub use white_noise::WhiteNoise;
 pub use whitened::{Whitened, WhitenedSea};
@@ -25,7 +26,7 @@ mod whitened;
 /// How far her mean place may be from the named berth, as share of her stated displacement.
 const OFFSET_SHARE: f64 = 0.15;
 /// Displacement before anyone states it, 1-sigma of each component, m.
-const UNSTATED: f64 = 0.7;
+pub const UNSTATED: f64 = 0.7;
 /// The same of a berth that is only known as the place of the start, m.
 const UNSURVEYED: f64 = 10.0;
 
@@ -47,6 +48,17 @@ pub enum LearntSea {
     Whitened(WhitenedSea),
     /// Swaying and waves.
     Moorings(MooredSea),
+}
+
+/// What the berth says next, if nothing moves: for looking ahead.
+#[derive(Clone, Debug)]
+pub struct BerthSample {
+    /// The sample, with the noise of one.
+    pub innovation: Innovation,
+    /// From one to the next, s.
+    pub spacing: f64,
+    /// Since when the ship is held so.
+    pub start: Time,
 }
 
 /// What is worth keeping of it: the moorings go on; the other methods begin with a new window, as theirs has a gap
@@ -116,6 +128,33 @@ impl Hold {
         match self {
             Hold::Moorings(moorings) => Some(moorings),
             _ => None,
+        }
+    }
+
+    /// What the berth says next, where her displacement is held; the covariance of the filter must be settled.
+    pub(crate) fn sample(&self, filter: &Filter) -> Option<BerthSample> {
+        match self {
+            Hold::Moorings(moorings) => Some(moorings.sample(filter)),
+            Hold::Whitened(whitened) => whitened.sample(filter),
+            Hold::WhiteNoise(_) | Hold::Prefiltered(_) => None,
+        }
+    }
+
+    /// What of her displacement is taken for white, and what for swaying, 1-sigma of a component, m, where it is held.
+    pub(crate) fn sea_std(&self) -> Option<(f64, f64)> {
+        match self {
+            Hold::Moorings(moorings) => Some((moorings.waves_std(), moorings.sway_std())),
+            Hold::Whitened(whitened) => whitened.sea_std(),
+            Hold::WhiteNoise(_) | Hold::Prefiltered(_) => None,
+        }
+    }
+
+    /// How often her mean place was found to have shifted.
+    pub(crate) fn shifts(&self) -> u32 {
+        match self {
+            Hold::Moorings(moorings) => moorings.shifts(),
+            Hold::Whitened(whitened) => whitened.shifts(),
+            Hold::WhiteNoise(_) | Hold::Prefiltered(_) => 0,
         }
     }
 

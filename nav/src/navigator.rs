@@ -7,7 +7,7 @@ pub mod checkpoint;
 
 use insd_base::{Message, Received, SeaEstimate, Solution, Time};
 
-use crate::berth::{Departure, Hold, LearntSea, Method, Moorings};
+use crate::berth::{BerthSample, Departure, Hold, LearntSea, Method, Moorings};
 use crate::config::NavConfig;
 use crate::disturbance::Model;
 use crate::filter::Filter;
@@ -114,6 +114,12 @@ impl Navigator {
         self.hold.as_ref().and_then(Hold::moorings)
     }
 
+    /// What the berth says next, where her displacement is held; the covariance of the filter must be settled.
+    #[must_use]
+    pub fn berth_sample(&self) -> Option<BerthSample> {
+        self.hold.as_ref()?.sample(&self.filter)
+    }
+
     /// The model of the sea that the prefilter found last, where it is what holds the filter.
     #[must_use]
     pub fn sea_model(&self) -> Option<&Model> {
@@ -148,8 +154,21 @@ impl Navigator {
             significant_heave: motion.significant_heave(),
             significant_horizontal: motion.significant_horizontal(),
             waves_std: self.moorings().map(Moorings::waves_std),
-            sway_std: self.moorings().map(Moorings::sway_std),
+            sway_std: self.sea_std().map(|(_, sway)| sway),
         })
+    }
+
+    /// What of a moored ship's displacement is taken for white, and what for swaying, 1-sigma of a component, m, where she
+    /// is held by it.
+    #[must_use]
+    pub fn sea_std(&self) -> Option<(f64, f64)> {
+        self.hold.as_ref()?.sea_std()
+    }
+
+    /// How often her mean place at the berth was found to have shifted.
+    #[must_use]
+    pub fn shifts(&self) -> u32 {
+        self.hold.as_ref().map_or(0, Hold::shifts)
     }
 
     /// Log-likelihood of what the berth said since the last call.

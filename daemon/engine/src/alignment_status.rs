@@ -13,7 +13,6 @@ use insd_base::{
     AlignmentPhase, AlignmentStatus, AttitudeSigma, Event, Forecast, Geodetic, ImuSpec, Lack,
     Message, Received, Span, Time,
 };
-use insd_nav::berth::Moorings;
 use insd_nav::{Estimator, Navigator};
 use serde::{Deserialize, Serialize};
 
@@ -244,7 +243,7 @@ impl StatusTeller {
 
     /// The last forecast, or a new one if it is time to.
     fn think(&mut self, navigator: &Navigator, aim: &Aim) -> Forecast {
-        let sea = navigator.moorings().map(|moorings| (moorings.waves_std(), moorings.sway_std()));
+        let sea = navigator.sea_std();
         if let Some(last) =
             self.forecast.filter(|last| !last.is_stale(aim.now, sea, shifts(Some(navigator))))
         {
@@ -295,5 +294,5 @@ impl Heard {
 }
 
 fn shifts(navigator: Option<&Navigator>) -> u32 {
-    navigator.and_then(Navigator::moorings).map_or(0, Moorings::shifts)
+    navigator.map_or(0, Navigator::shifts)
 }

@@ -10,7 +10,7 @@
 //! A gust or a tug that shifts the ship is found by the innovation, and her mean place set free.
 
 use super::shifts::Shifts;
-use super::{OFFSET_SHARE, UNSTATED, UNSURVEYED};
+use super::{BerthSample, OFFSET_SHARE, UNSTATED, UNSURVEYED};
 use crate::aids::berth;
 use crate::error_state::SWAY;
 use crate::{Filter, Oscillator, Sway};
@@ -41,7 +41,7 @@ pub struct MooredSea {
 
 /// Spacing of the samples: about half a wave, so that the waves of consecutive ones have little in
 /// common, s.
-pub const SPACING: f64 = 4.0;
+const SPACING: f64 = 4.0;
 /// Natural periods of the two oscillators that cover the one to three minutes of a ship on her
 /// moorings (docs/systems.md, S1), s.
 const PERIODS: [f64; 2] = [66.0, 106.0];
@@ -150,12 +150,6 @@ impl Moorings {
         self.shifts.count()
     }
 
-    /// Since when the ship is held at the berth.
-    #[must_use]
-    pub fn start(&self) -> Time {
-        self.shifts.start()
-    }
-
     /// The berth.
     #[must_use]
     pub fn place(&self) -> &Geodetic {
@@ -166,6 +160,12 @@ impl Moorings {
     #[must_use]
     pub fn shifted(self, by: Span) -> Self {
         Moorings { next: self.next + by, shifts: self.shifts.shifted(by), ..self }
+    }
+
+    /// What the berth says next.
+    pub(super) fn sample(&self, filter: &Filter) -> BerthSample {
+        let innovation = berth::innovation(&filter.view(), &self.place, self.waves_std());
+        BerthSample { innovation, spacing: SPACING, start: self.shifts.start() }
     }
 
     /// Holds the filter against the berth if it is time to; returns the log-likelihood.

@@ -27,13 +27,13 @@ use nalgebra::{Matrix2, Vector2};
 use super::hindsight::Hindsight;
 use super::seen::Seen;
 use super::shifts::Shifts;
-use super::{OFFSET_SHARE, UNSTATED, UNSURVEYED};
+use super::{BerthSample, OFFSET_SHARE, UNSTATED, UNSURVEYED};
 use crate::Filter;
 use crate::aids::reference_position;
 use crate::disturbance::{
     Displacement, Model, SeaPrior, SeaSums, SeaWindow, Whitener, WhiteningConfig,
 };
-use crate::error_state::{ATTITUDE, BERTH_OFFSET, Errors, POSITION};
+use crate::error_state::{ATTITUDE, BERTH_OFFSET, Errors, Innovation, POSITION};
 
 /// What a ship's displacement has told of the sea.
 #[derive(Clone, Debug)]
@@ -169,15 +169,10 @@ impl Whitened {
         let spacing = self.config.spacing.as_seconds();
         self.correct(filter, &hindsight, spacing);
         let displacement = self.displacement(filter);
-        let before = self.past.iter().take(self.config.order);
-        let seen = Seen::of(filter, &hindsight, &displacement, before, spacing);
+        let seen = self.seen(filter, &hindsight, &displacement);
         self.weigh_kinds(filter, &seen);
         let likelihood = self.whitener().map_or(0.0, |whitener| {
-            let axes = ship_axes(filter);
-            let lags = whitener.coefficients().iter().map(|a| axes * a * axes.transpose());
-            let before: Vec<_> = seen.before().iter().map(|off| axes.tr_mul(off)).collect();
-            let covariance = axes * whitener.covariance(&before) * axes.transpose();
-            let innovation = seen.whitened(lags, &covariance);
+            let innovation = whiten(filter, &seen, &whitener);
             let away = (filter.nominal().berth_offset - displacement).norm();
             self.shifts.impose(filter, &innovation, away).1
         });
@@ -185,6 +180,34 @@ impl Whitened {
         self.correct(filter, &hindsight, 0.0);
         self.learn(filter);
         likelihood
+    }
+
+    /// What the berth says next.
+    pub(super) fn sample(&self, filter: &Filter) -> Option<BerthSample> {
+        let seen = self.seen(filter, &Hindsight::of(filter), &self.displacement(filter));
+        Some(BerthSample {
+            innovation: whiten(filter, &seen, &self.whitener()?),
+            spacing: self.config.spacing.as_seconds(),
+            start: self.shifts.start(),
+        })
+    }
+
+    /// Her displacement and those before.
+    fn seen(&self, filter: &Filter, hindsight: &Hindsight, now: &Vector2<f64>) -> Seen {
+        let before = self.past.iter().take(self.config.order);
+        Seen::of(filter, hindsight, now, before, self.config.spacing.as_seconds())
+    }
+
+    /// What of her displacement is not foretold, and all of it, 1-sigma of a component, m.
+    pub(super) fn sea_std(&self) -> Option<(f64, f64)> {
+        let unforeseen = 0.5 * self.whitener()?.residual_covariance().trace();
+        Some((unforeseen.sqrt(), self.variance().sqrt()))
+    }
+
+    /// Variance of a component of her displacement, m^2.
+    fn variance(&self) -> f64 {
+        let (sums, _) = self.sea();
+        self.prior.variance(sums.weight(), sums.mean_square())
     }
 
     /// Samples that were missed break the past of those that come.
@@ -217,8 +240,7 @@ impl Whitened {
 
     /// Weighs the kinds of sea by how well each foretold what is seen.
     fn weigh_kinds(&mut self, filter: &Filter, seen: &Seen) {
-        let (sums, _) = self.sea();
-        let variance = self.prior.variance(sums.weight(), sums.mean_square());
+        let variance = self.variance();
         let share = self.config.spacing.as_seconds() / FORGETTING;
         let kinds = self.prior.foretold(seen.before().len());
         for ((odds, first), kind) in self.odds.iter_mut().zip(self.prior.odds()).zip(kinds) {
@@ -264,6 +286,15 @@ impl Whitened {
         let share = ship / (ship + 0.5 * own.trace()).max(f64::MIN_POSITIVE);
         share * share
     }
+}
+
+/// What A(q) does not foretell of what is seen.
+fn whiten(filter: &Filter, seen: &Seen, whitener: &Whitener) -> Innovation {
+    let axes = ship_axes(filter);
+    let lags = whitener.coefficients().iter().map(|a| axes * a * axes.transpose());
+    let before: Vec<_> = seen.before().iter().map(|off| axes.tr_mul(off)).collect();
+    let covariance = axes * whitener.covariance(&before) * axes.transpose();
+    seen.whitened(lags, &covariance)
 }
 
 /// From forward and starboard to north and east.

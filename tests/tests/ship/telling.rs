@@ -1,8 +1,10 @@
 //! What the alignment says of itself: when it will be done, why not sooner, what it cannot do, the sea.
 
+use insd_alignment::AlignmentConfig;
 use insd_base::units::DEG;
 use insd_base::{AlignmentPhase, AlignmentStatus, Event, Forecast, Lack, Limiting, StartCondition};
 use insd_engine::EngineConfig;
+use insd_nav::berth::Method;
 use insd_simulator::{Scenario, simulate};
 use insd_tests::sailing::{
     Logbook, OUTPUT_RATE, Passage, sail, sail_all, sail_messages, sail_voyage,
@@ -38,6 +40,23 @@ fn after_two_minutes_it_says_when_the_heading_will_be_good() {
             assert!((last.ready.ready_at().unwrap().as_seconds() - actual).abs() < 2.0);
         }
     }
+}
+
+#[test]
+fn where_the_sea_is_learnt_as_an_autoregression_it_says_so_too() {
+    let voyage = simulate(&scenario(7).with_duration(360.0), 1);
+    let alignment =
+        AlignmentConfig { moored: Method::Autoregressive, ..AlignmentConfig::default() };
+    let config =
+        EngineConfig { alignment, ..EngineConfig::for_voyage(&voyage.header, OUTPUT_RATE) };
+    let log = sail_messages(&config, &voyage.received(), 1);
+    let said = status_at(&log, 120.0);
+    let Forecast::Expected { at, .. } = said.ready else { panic!("{said}") };
+    let actual = claimed(&log, said.target.unwrap());
+    figure!("{at:?}, in fact {actual} s");
+    assert!((at.as_seconds() / actual - 1.0).abs() < 0.25, "{said}");
+    let sway = said.sea.and_then(|sea| sea.sway_std).unwrap();
+    assert!((0.15..0.6).contains(&sway), "{sway} m");
 }
 
 #[test]
