@@ -1,5 +1,6 @@
 //! A voyage in memory through the engine, and all that came out of it.
 
+use insd_alignment::AlignmentConfig;
 use insd_base::{
     AidInnovation, AlignmentStatus, Counts, Event, Message, Mode, Received, Rejection, Solution,
     Source, Time, Voyage,
@@ -55,6 +56,14 @@ pub fn sail_all(scenario: &Scenario, seeds: std::ops::Range<u64>) -> Vec<Passage
 #[must_use]
 pub fn sail_voyage(voyage: &Voyage) -> Logbook {
     sail_messages(&EngineConfig::for_voyage(&voyage.header, OUTPUT_RATE), &voyage.received(), 1)
+}
+
+/// The same with a choice of how she aligns.
+#[must_use]
+pub fn sail_aligned(voyage: &Voyage, alignment: &AlignmentConfig) -> Logbook {
+    let usual = EngineConfig::for_voyage(&voyage.header, OUTPUT_RATE);
+    let config = EngineConfig { alignment: *alignment, ..usual };
+    sail_messages(&config, &voyage.received(), 1)
 }
 
 /// Hands messages to a new engine and drains it after every `batch` of them and at the end.

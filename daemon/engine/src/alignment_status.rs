@@ -200,7 +200,7 @@ impl StatusTeller {
             gyrocompass: Some(gyrocompass_sigma(&self.imu, latitude)),
             ready,
             sea: navigator.and_then(Navigator::sea),
-            shifts: shifts(navigator),
+            shifts: navigator.map_or(0, Navigator::shifts),
         })
     }
 
@@ -245,14 +245,14 @@ impl StatusTeller {
     fn think(&mut self, navigator: &Navigator, aim: &Aim) -> Forecast {
         let sea = navigator.sea_std();
         if let Some(last) =
-            self.forecast.filter(|last| !last.is_stale(aim.now, sea, shifts(Some(navigator))))
+            self.forecast.filter(|last| !last.is_stale(aim.now, sea, navigator.shifts()))
         {
             return last.forecast;
         }
         let forecast = forecast::at_the_berth(navigator, &self.imu, aim.target);
         let next = forecast::next_look(aim.start, aim.now, forecast);
         self.forecast =
-            Some(Thought { at: aim.now, next, forecast, sea, shifts: shifts(Some(navigator)) });
+            Some(Thought { at: aim.now, next, forecast, sea, shifts: navigator.shifts() });
         forecast
     }
 }
@@ -291,8 +291,4 @@ impl Heard {
             Lack::Aid
         }
     }
-}
-
-fn shifts(navigator: Option<&Navigator>) -> u32 {
-    navigator.map_or(0, Navigator::shifts)
 }

@@ -229,6 +229,9 @@ impl Whitened {
     /// always been so.
     fn correct(&mut self, filter: &mut Filter, hindsight: &Hindsight, age: f64) {
         let error: Errors = filter.take_correction();
+        if error == Errors::none() {
+            return;
+        }
         let spacing = self.config.spacing.as_seconds();
         let ages = (0..self.past.len()).map(|lag| age + lag as f64 * spacing);
         let rows = hindsight.unturned(&self.displacement(filter), ages);

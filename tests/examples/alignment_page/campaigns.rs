@@ -7,12 +7,11 @@ use insd_alignment::{AlignmentConfig, InMotion};
 use insd_base::Voyage;
 use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::units::DEG;
-use insd_engine::EngineConfig;
 use insd_lab::evaluation::{Component, EpochError, alignment, errors, mean};
 use insd_lab::table::significant;
 use insd_nav::berth::Method;
 use insd_simulator::{Scenario, limit, simulate};
-use insd_tests::sailing::sail_messages;
+use insd_tests::sailing::sail_aligned;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use crate::svg::{Axis, Panel, Series};
@@ -22,8 +21,6 @@ const SEEDS: Range<u64> = 1..25;
 pub(crate) const INSTANTS: [f64; 4] = [300.0, 600.0, 900.0, 1800.0];
 /// Every so many seconds of a voyage are drawn.
 const DRAWN: usize = 4;
-/// Messages that the engine is handed at once.
-const BATCH: usize = 64;
 
 /// The errors of one method, by voyage.
 pub(crate) struct Campaign {
@@ -74,9 +71,7 @@ fn compare(
 }
 
 fn sail(voyage: &Voyage, choice: &AlignmentConfig) -> Vec<EpochError> {
-    let config =
-        EngineConfig { alignment: *choice, ..EngineConfig::for_voyage(&voyage.header, 1.0) };
-    let log = sail_messages(&config, &voyage.received(), BATCH);
+    let log = sail_aligned(voyage, choice);
     errors(&log.solutions, &voyage.truth, None).epochs
 }
 

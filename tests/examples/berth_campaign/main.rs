@@ -11,14 +11,12 @@ mod cells;
 use std::error::Error;
 
 use insd_alignment::AlignmentConfig;
-use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::{Time, Voyage};
-use insd_engine::EngineConfig;
-use insd_lab::evaluation::{CampaignReport, Instant, InstantEstimates, Run, Yardstick, errors};
+use insd_lab::evaluation::{CampaignReport, InstantEstimates, Run, Yardstick, errors};
 use insd_nav::berth::Method;
-use insd_simulator::{Override, Scenario, limit, simulate};
+use insd_simulator::{Override, simulate};
 use insd_tests::pages::filled;
-use insd_tests::sailing::sail_messages;
+use insd_tests::sailing::sail_aligned;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use cells::{CELLS, Cell};
@@ -28,8 +26,6 @@ const METHODS: [Method; 2] = [Method::Autoregressive, Method::Moorings];
 const INSTANTS: [f64; 4] = [300.0, 600.0, 900.0, 1800.0];
 /// From when on claims are judged, s.
 const SETTLED: f64 = 60.0;
-/// Messages that the engine is handed at once.
-const BATCH: usize = 64;
 const HEAD: &str = "| at the berth | method | RMS / limit at 300 s | 600 s | 900 s | 1800 s | claim / limit at 300 s \
     | NEES | within 2 sigma | worst, sigma | claimed by all, s |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
 
@@ -56,7 +52,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn sailed(cell: &Cell, seeds: u64) -> Result<String, Box<dyn Error>> {
     let sets: Result<Vec<Override>, String> = cell.sets.iter().map(|set| set.parse()).collect();
     let scenario = insd_lab::scenario::find(cell.scenario, &sets?)?.scenario;
-    let yardstick = yardstick(&scenario);
+    let yardstick = Yardstick::of(&scenario, &INSTANTS)?;
     let of_seed = |seed: u64| {
         let voyage = simulate(&scenario, seed);
         METHODS.map(|method| run(seed, &voyage, method, &yardstick))
@@ -70,22 +66,9 @@ fn sailed(cell: &Cell, seeds: u64) -> Result<String, Box<dyn Error>> {
     Ok(METHODS.into_iter().enumerate().map(row).collect())
 }
 
-fn yardstick(scenario: &Scenario) -> Yardstick {
-    let limits = limit(scenario, &INSTANTS);
-    let of = |index: usize| limits.as_ref().ok().map(|limits| limits[index].heading);
-    let instants =
-        INSTANTS.iter().enumerate().map(|(index, at)| Instant { at: *at, limit: of(index) });
-    Yardstick {
-        instants: instants.collect(),
-        no_limit: limits.as_ref().err().map(ToString::to_string),
-        bar: heading_target(ACCURACY, scenario.start_latitude()),
-    }
-}
-
 fn run(seed: u64, voyage: &Voyage, moored: Method, yardstick: &Yardstick) -> Run {
     let alignment = AlignmentConfig { moored, ..AlignmentConfig::default() };
-    let config = EngineConfig { alignment, ..EngineConfig::for_voyage(&voyage.header, 1.0) };
-    let log = sail_messages(&config, &voyage.received(), BATCH);
+    let log = sail_aligned(voyage, &alignment);
     let found = |from| errors(&log.solutions, &voyage.truth, from);
     let settled = found(Some(Time::from_seconds(SETTLED)));
     Run::new(seed, &settled, Vec::new()).measured(&found(None).epochs, yardstick)

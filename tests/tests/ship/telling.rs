@@ -7,7 +7,7 @@ use insd_engine::EngineConfig;
 use insd_nav::berth::Method;
 use insd_simulator::{Scenario, simulate};
 use insd_tests::sailing::{
-    Logbook, OUTPUT_RATE, Passage, sail, sail_all, sail_messages, sail_voyage,
+    Logbook, OUTPUT_RATE, Passage, sail, sail_aligned, sail_all, sail_messages, sail_voyage,
 };
 use insd_tests::{scenario, variant};
 
@@ -47,9 +47,7 @@ fn where_the_sea_is_learnt_as_an_autoregression_it_says_so_too() {
     let voyage = simulate(&scenario(7).with_duration(360.0), 1);
     let alignment =
         AlignmentConfig { moored: Method::Autoregressive, ..AlignmentConfig::default() };
-    let config =
-        EngineConfig { alignment, ..EngineConfig::for_voyage(&voyage.header, OUTPUT_RATE) };
-    let log = sail_messages(&config, &voyage.received(), 1);
+    let log = sail_aligned(&voyage, &alignment);
     let said = status_at(&log, 120.0);
     let Forecast::Expected { at, .. } = said.ready else { panic!("{said}") };
     let actual = claimed(&log, said.target.unwrap());

@@ -3,19 +3,16 @@
 use std::ops::Range;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use insd_base::alignment::{ACCURACY, heading_target};
 use insd_base::{AlignmentStatus, Solution, Time, Voyage, VoyageHeader};
 use insd_config::BadInput;
 use insd_engine::{Engine, EngineConfig, Output};
-use insd_simulator::{LimitError, Override, Scenario, limit, simulate};
+use insd_simulator::{Override, Scenario, simulate};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::alignment::AlignmentArgs;
 use super::outage::SensorOutage;
 use super::{limit as limits, stored_start};
-use crate::evaluation::{
-    CampaignReport, Instant, Run, StoredFate, Yardstick, drifts, errors, outages,
-};
+use crate::evaluation::{CampaignReport, Run, StoredFate, Yardstick, drifts, errors, outages};
 use crate::scenario;
 
 /// Options of `insd campaign`.
@@ -99,20 +96,10 @@ fn yardstick(scenario: &scenario::Named, at: &[f64]) -> anyhow::Result<Option<Ya
     }
     let mut at = if at.is_empty() { limits::instants(scenario) } else { at.to_vec() };
     at.sort_by(f64::total_cmp);
-    let (instants, no_limit) = match limit(scenario, &at) {
-        Ok(limits) => {
-            let instant =
-                |limit: insd_simulator::Limit| Instant { at: limit.at, limit: Some(limit.heading) };
-            (limits.into_iter().map(instant).collect(), None)
-        }
-        Err(fault @ LimitError::NotCovered(_)) => {
-            let instants = at.into_iter().map(|at| Instant { at, limit: None });
-            (instants.collect(), Some(fault.to_string()))
-        }
-        Err(fault) => return Err(BadInput(format!("{name}: {fault}")).into()),
-    };
-    let bar = heading_target(ACCURACY, scenario.start_latitude());
-    Ok(Some(Yardstick { instants, no_limit, bar }))
+    match Yardstick::of(scenario, &at) {
+        Ok(yardstick) => Ok(Some(yardstick)),
+        Err(fault) => Err(BadInput(format!("{name}: {fault}")).into()),
+    }
 }
 
 fn run_seed(

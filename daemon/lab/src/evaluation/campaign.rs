@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use insd_base::AlignmentStatus;
+use insd_base::alignment::{ACCURACY, heading_target};
+use insd_simulator::{LimitError, Scenario, limit};
 use serde::Serialize;
 
 use super::aligned::{self, AlignedEstimates, WorstHeading, WorstRun};
@@ -53,6 +55,25 @@ pub struct Yardstick {
     pub no_limit: Option<String>,
     /// The heading that counts as aligned, rad.
     pub bar: f64,
+}
+
+impl Yardstick {
+    /// That of a scenario at some instants, s, in order of time; without limits where they do not cover the scenario.
+    ///
+    /// # Errors
+    /// The limit cannot be computed for another reason.
+    pub fn of(scenario: &Scenario, at: &[f64]) -> Result<Self, LimitError> {
+        let (limits, no_limit) = match limit(scenario, at) {
+            Ok(limits) => (limits.iter().map(|limit| Some(limit.heading)).collect(), None),
+            Err(fault @ LimitError::NotCovered(_)) => {
+                (vec![None; at.len()], Some(fault.to_string()))
+            }
+            Err(fault) => return Err(fault),
+        };
+        let instants = at.iter().zip(limits).map(|(at, limit)| Instant { at: *at, limit });
+        let bar = heading_target(ACCURACY, scenario.start_latitude());
+        Ok(Yardstick { instants: instants.collect(), no_limit, bar })
+    }
 }
 
 /// One component over all seeds.
