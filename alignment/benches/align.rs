@@ -120,8 +120,8 @@ fn kinematics(moored: bool) -> Kinematics {
     }
 }
 
-fn bank() -> Run<Bank> {
-    let bank = Bank::new(&config(), &level(), &kinematics(true), Method::Moorings);
+fn bank(method: Method) -> Run<Bank> {
+    let bank = Bank::new(&config(), &level(), &kinematics(true), method);
     prepared(bank, 100)
 }
 
@@ -148,7 +148,8 @@ fn one_heading(prepared: Run<Navigator>) -> Run<Navigator> {
 }
 
 #[library_benchmark]
-#[bench::all_headings(bank())]
+#[bench::moorings(bank(Method::Moorings))]
+#[bench::autoregressive(bank(Method::Autoregressive))]
 fn searching(prepared: Run<Bank>) -> Run<Bank> {
     run(prepared)
 }

@@ -1,34 +1,32 @@
 //! The ship at her berth: what holds a filter that navigates while she lies there, and what tells that she
 //! has left. It comes with the [`crate::InitialState`] and goes when she does.
 
-use insd_base::{ExternalReference, Span, Time};
+use insd_base::{ExternalReference, SeaFit, Span};
 use serde::{Deserialize, Serialize};
 
-use crate::disturbance::Model;
-use crate::error_state::Innovation;
 use crate::filter::Filter;
 pub use crate::method::Method;
 pub use departure::Departure;
+pub use learner::WhitenedSea;
 pub use moorings::{MooredSea, Moorings};
 pub use prefiltered::Prefiltered;
+pub use sight::{BerthSample, SeaSight};
+pub use stated::UNSTATED;
 pub use white_noise::WhiteNoise;
-pub use whitened::{Whitened, WhitenedSea};
+pub use whitened::Whitened;
+use whitened::WhitenedCheckpoint;
 
 mod departure;
 mod hindsight;
+mod learner;
 mod moorings;
 mod prefiltered;
 mod seen;
 mod shifts;
+mod sight;
+mod stated;
 mod white_noise;
 mod whitened;
-
-/// How far her mean place may be from the named berth, as share of her stated displacement.
-const OFFSET_SHARE: f64 = 0.15;
-/// Displacement before anyone states it, 1-sigma of each component, m.
-pub const UNSTATED: f64 = 0.7;
-/// The same of a berth that is only known as the place of the start, m.
-const UNSURVEYED: f64 = 10.0;
 
 /// What holds a filter at the berth, by one of the methods.
 #[derive(Clone, Debug)]
@@ -50,24 +48,12 @@ pub enum LearntSea {
     Moorings(MooredSea),
 }
 
-/// What the berth says next, if nothing moves: for looking ahead.
-#[derive(Clone, Debug)]
-pub struct BerthSample {
-    /// The sample, with the noise of one.
-    pub innovation: Innovation,
-    /// From one to the next, s.
-    pub spacing: f64,
-    /// Since when the ship is held so.
-    pub start: Time,
-}
-
-/// What is worth keeping of it: the moorings go on; the other methods begin with a new window, as theirs has a gap
-/// in it.
+/// What is worth keeping of it: what was learnt of the sea where it outlasts a gap; the others begin with a new window.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum HoldCheckpoint {
     WhiteNoise,
     Prefiltered,
-    Whitened,
+    Whitened(Box<WhitenedCheckpoint>),
     Moorings(Box<Moorings>),
 }
 
@@ -158,11 +144,20 @@ impl Hold {
         }
     }
 
-    /// The model of the sea that the prefilter found last.
-    pub(crate) fn sea_model(&self) -> Option<&Model> {
+    /// The sea as a model has it that holds her.
+    pub(crate) fn sea_sight(&self) -> Option<SeaSight> {
         match self {
-            Hold::Prefiltered(prefiltered) => prefiltered.model(),
-            _ => None,
+            Hold::Prefiltered(prefiltered) => prefiltered.sight(),
+            Hold::Whitened(whitened) => whitened.sight(),
+            Hold::WhiteNoise(_) | Hold::Moorings(_) => None,
+        }
+    }
+
+    /// How well the model fits of the sea that holds her.
+    pub(crate) fn sea_fit(&self) -> Option<SeaFit> {
+        match self {
+            Hold::Whitened(whitened) => whitened.fit(),
+            Hold::WhiteNoise(_) | Hold::Prefiltered(_) | Hold::Moorings(_) => None,
         }
     }
 
@@ -207,7 +202,7 @@ impl Hold {
         match self {
             Hold::WhiteNoise(_) => HoldCheckpoint::WhiteNoise,
             Hold::Prefiltered(_) => HoldCheckpoint::Prefiltered,
-            Hold::Whitened(_) => HoldCheckpoint::Whitened,
+            Hold::Whitened(whitened) => HoldCheckpoint::Whitened(Box::new(whitened.kept())),
             Hold::Moorings(moorings) => HoldCheckpoint::Moorings(moorings.clone()),
         }
     }
@@ -217,7 +212,10 @@ impl Hold {
         match kept {
             HoldCheckpoint::WhiteNoise => Hold::new(Method::WhiteNoise, filter),
             HoldCheckpoint::Prefiltered => Hold::new(Method::AsPublished, filter),
-            HoldCheckpoint::Whitened => Hold::new(Method::Autoregressive, filter),
+            HoldCheckpoint::Whitened(kept) => Whitened::taken_up(kept, filter, by).map_or_else(
+                || Hold::new(Method::Autoregressive, filter),
+                |whitened| Hold::Whitened(Box::new(whitened)),
+            ),
             HoldCheckpoint::Moorings(moorings) => {
                 Hold::Moorings(Box::new(moorings.as_ref().clone().shifted(by)))
             }

@@ -13,20 +13,24 @@
 //! [`Model`] is the sea that was found on the way: spectrum, period, significant motion, whitening.
 
 mod displacement;
+mod measured;
 mod model;
 mod prefilter;
 mod prior;
 mod regression;
 mod slow;
 mod spectrum;
+mod whiteness;
 mod window;
 
 #[cfg(test)]
 mod tests;
 
 pub use displacement::{Displacement, SeaSums, SeaWindow, Whitener, WhiteningConfig};
+pub use measured::measured_spectrum;
 pub use model::Model;
 pub use prefilter::{ModelOrder, Prefilter, PrefilterConfig, PrefilterRefusal, SlowVelocity};
 pub use prior::{Foretold, SeaPrior};
 pub use spectrum::SpectralMotion;
+pub use whiteness::Whiteness;
 pub use window::Push;

@@ -215,16 +215,21 @@ impl Filter {
     /// absorbed as a measurement.
     pub fn impose(&mut self, innovation: &Innovation) -> Judged {
         self.settle_sway();
-        let judged = self.gated(innovation, None);
+        let weighed = innovation.weigh(&self.state.covariance);
+        self.impose_weighed(weighed.as_ref())
+    }
+
+    /// The same of one that was weighed as the filter is now, if it could be.
+    pub fn impose_weighed(&mut self, weighed: Option<&Weighed>) -> Judged {
+        let judged = self.gated_as(weighed, None);
         self.note(judged.outcome);
         judged
     }
 
     /// Log-likelihood of a condition from outside that is not to be brought in.
-    pub fn decline(&mut self, innovation: &Innovation) -> f64 {
-        let weighed = innovation.weigh(&self.state.covariance);
+    pub fn decline(&mut self, weighed: &Weighed) -> f64 {
         self.note(Outcome::Rejected(Rejection::SourceSuspect));
-        weighed.map_or(0.0, |weighed| self.bounded_likelihood(&weighed))
+        self.bounded_likelihood(weighed)
     }
 
     /// Sum of all corrections of the estimate since the last call.

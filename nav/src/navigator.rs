@@ -5,11 +5,10 @@
 
 pub mod checkpoint;
 
-use insd_base::{Message, Received, SeaEstimate, Solution, Time};
+use insd_base::{Message, Received, SeaEstimate, SeaFit, Solution, Time};
 
-use crate::berth::{BerthSample, Departure, Hold, LearntSea, Method, Moorings};
+use crate::berth::{BerthSample, Departure, Hold, LearntSea, Method, Moorings, SeaSight};
 use crate::config::NavConfig;
-use crate::disturbance::Model;
 use crate::filter::Filter;
 use crate::increments::Increment;
 use crate::initial::InitialState;
@@ -120,10 +119,16 @@ impl Navigator {
         self.hold.as_ref()?.sample(&self.filter)
     }
 
-    /// The model of the sea that the prefilter found last, where it is what holds the filter.
+    /// The sea as a model has it, where one holds the filter at the berth.
     #[must_use]
-    pub fn sea_model(&self) -> Option<&Model> {
-        self.hold.as_ref().and_then(Hold::sea_model)
+    pub fn sea_sight(&self) -> Option<SeaSight> {
+        self.hold.as_ref()?.sea_sight()
+    }
+
+    /// How well the model of the sea fits that holds the filter at the berth.
+    #[must_use]
+    pub fn sea_fit(&self) -> Option<SeaFit> {
+        self.hold.as_ref()?.sea_fit()
     }
 
     /// The sea as a ship at her berth has learnt it.

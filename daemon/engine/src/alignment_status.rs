@@ -139,6 +139,7 @@ impl StatusTeller {
                 forecast::of_the_gyros(&self.imu, latitude, target)
             }),
             sea: None,
+            fit: None,
             shifts: 0,
         })
     }
@@ -200,6 +201,7 @@ impl StatusTeller {
             gyrocompass: Some(gyrocompass_sigma(&self.imu, latitude)),
             ready,
             sea: navigator.and_then(Navigator::sea),
+            fit: navigator.and_then(Navigator::sea_fit),
             shifts: navigator.map_or(0, Navigator::shifts),
         })
     }

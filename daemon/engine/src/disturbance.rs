@@ -1,9 +1,10 @@
 //! The sea for those who look on: the model of the prefilter where it is what aligns the ship, otherwise
 //! one fitted to the horizontal velocity of the last two and a half minutes.
 
-use insd_base::{Disturbance, Span, Time, earth};
+use insd_base::{Disturbance, SeaQuantity, Span, Time, earth};
 use insd_nav::Navigator;
-use insd_nav::disturbance::{Model, ModelOrder, Prefilter, PrefilterConfig};
+use insd_nav::berth::{Method, SeaSight};
+use insd_nav::disturbance::{ModelOrder, Prefilter, PrefilterConfig, measured_spectrum};
 use nalgebra::Vector2;
 
 /// Spacing of the samples: waves down to a period of one second.
@@ -12,9 +13,10 @@ const SPACING: Span = Span::from_nanos(500_000_000);
 const WINDOW: f64 = 150.0;
 /// Highest order that is tried.
 const HIGHEST_ORDER: usize = 8;
-/// Points of a spectrum, from one period of a minute to two samples, evenly on a logarithmic scale.
+/// Points of a spectrum, from the longest period that its window tells to two samples, evenly on a logarithmic scale.
 const POINTS: usize = 96;
-const SLOWEST: f64 = 1.0 / 60.0;
+/// Longest period of a spectrum of the velocity, and of the displacement, s.
+const SLOWEST: (f64, f64) = (60.0, 300.0);
 
 /// The window.
 #[derive(Clone, Debug)]
@@ -61,27 +63,45 @@ impl Trace {
 
     /// The sea; `None` while too little has been seen of it, or nothing is to be seen.
     pub(crate) fn disturbance(&self, navigator: &Navigator) -> Option<Disturbance> {
-        if let Some(model) = navigator.sea_model() {
-            return Some(described("prefilter", model));
+        if let Some(sight) = navigator.sea_sight() {
+            return Some(described(&sight));
         }
-        let slow = self.window.estimate().ok()?;
-        Some(described("window", &slow.model))
+        let sight = SeaSight {
+            method: None,
+            model: self.window.estimate().ok()?.model,
+            quantity: SeaQuantity::Velocity,
+            samples: self.window.newest_run(),
+            fit: None,
+        };
+        Some(described(&sight))
     }
 }
 
-fn described(method: &'static str, model: &Model) -> Disturbance {
+fn described(sight: &SeaSight) -> Disturbance {
+    let model = &sight.model;
     let rows = model.coefficients().iter().flat_map(|a| [a.m11, a.m12, a.m21, a.m22]);
     let fastest = 0.5 / model.interval();
-    let ratio = fastest / SLOWEST;
-    let density = |point: usize| {
-        let frequency = SLOWEST * ratio.powf(point as f64 / (POINTS - 1) as f64);
-        let density = model.spectrum(frequency)?.trace().re;
-        density.is_finite().then_some((frequency, density))
+    let slowest = match sight.quantity {
+        SeaQuantity::Velocity => 1.0 / SLOWEST.0,
+        SeaQuantity::Displacement => 1.0 / SLOWEST.1,
+    };
+    let ratio = fastest / slowest;
+    let frequencies: Vec<f64> =
+        (0..POINTS).map(|point| slowest * ratio.powf(point as f64 / (POINTS - 1) as f64)).collect();
+    let density = |frequency: &f64| {
+        let density = model.spectrum(*frequency)?.trace().re;
+        density.is_finite().then_some((*frequency, density))
     };
     Disturbance {
-        method,
+        method: sight.method.map_or("window", Method::as_str),
+        quantity: sight.quantity,
         interval: model.interval(),
+        window: sight.samples.len() as f64 * model.interval(),
         coefficients: rows.collect(),
-        spectrum: (0..POINTS).filter_map(density).collect(),
+        radius: model.radius(),
+        residual: (0.5 * model.residual_covariance().trace()).sqrt(),
+        spectrum: frequencies.iter().filter_map(density).collect(),
+        measured: measured_spectrum(&sight.samples, model.interval(), &frequencies),
+        fit: sight.fit,
     }
 }

@@ -96,8 +96,12 @@ export function disturbance(data) {
   const window = known(found?.window_s) ? `, window ${fixed(found.window_s, 0)} s` : "";
   const radius = known(found?.radius) ? `, radius ${fixed(found.radius, 3)}` : "";
   setText(byId("disturbance-method"), found ? `${words(found.method)}${order}${window}${radius}` : "");
+  const isPlace = found?.quantity === "displacement";
+  setText(byId("disturbance-quantity"), isPlace ? "displacement, m²/Hz" : "velocity, (m/s)²/Hz");
+  setText(byId("disturbance-fit"), found?.fit ? `The model is ${found.fit.text}.` : "");
+  const left = (axis) => (isPlace ? `${fixed(axis.residual_m, 3)} m` : `${fixed(axis.residual_mps, 4)} m/s`);
   fill(byId("ar"), (found?.axes ?? []).map((axis) => [
-    axis.name, right(fixed(axis.dominant_period_s, 1)), right(fixed(axis.residual_mps, 4)),
+    axis.name, right(fixed(axis.dominant_period_s, 1)), right(left(axis)),
     { text: axis.coefficients.map((one) => fixed(one, 3)).join("  ") || DASH, cls: "num wrap" },
   ]));
 }

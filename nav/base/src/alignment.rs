@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::earth;
+use crate::sea_fit::SeaFit;
 use crate::sensor::ImuSpec;
 use crate::time::Time;
 use crate::units::DEG;
@@ -187,6 +188,8 @@ pub struct AlignmentStatus {
     pub ready: Forecast,
     /// The sea, once it has been seen.
     pub sea: Option<SeaEstimate>,
+    /// How well the model of the sea fits, where one holds her.
+    pub fit: Option<SeaFit>,
     /// How often the ship's mean place at the berth was found to have shifted.
     pub shifts: u32,
 }
@@ -316,6 +319,7 @@ mod tests {
             gyrocompass: Some(0.04 * DEG),
             ready: Forecast::Expected { at: Time::from_seconds(260.0), limiting: Limiting::Sea },
             sea: None,
+            fit: None,
             shifts: 0,
         };
         let text = status.to_string();

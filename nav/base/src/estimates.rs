@@ -2,6 +2,7 @@
 
 use crate::frames::Body;
 use crate::motion::Current;
+use crate::sea_fit::SeaFit;
 
 /// A number and its 1-sigma, in the same unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,18 +52,50 @@ pub struct Estimates {
     pub moored: bool,
 }
 
-/// The sea as an autoregressive model of the velocity that it gives the ship, of the last minutes.
+/// What of the ship a model of the sea is a model of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SeaQuantity {
+    /// Her velocity, m/s.
+    Velocity,
+    /// Her displacement from her mean place, m.
+    Displacement,
+}
+
+impl SeaQuantity {
+    /// Its name: `velocity`, `displacement`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            SeaQuantity::Velocity => "velocity",
+            SeaQuantity::Displacement => "displacement",
+        }
+    }
+}
+
+/// The sea of the last minutes as an autoregressive model of how it moves the ship.
 ///
-/// d(k) = sum A_i d(k-i) + eps(k), with d the velocity of two horizontal components: north and east where
+/// d(k) = sum A_i d(k-i) + eps(k), with d of two horizontal components: north and east where
 /// the prefilter holds a ship at her berth, otherwise forward and starboard.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Disturbance {
-    /// `prefilter`: the model that the alignment works with; `window`: one fitted to be looked at.
+    /// `as_published`, `autoregressive`: the model that the alignment works with; `window`: one fitted to be looked at.
     pub method: &'static str,
+    /// What d is.
+    pub quantity: SeaQuantity,
     /// From sample to sample, s.
     pub interval: f64,
+    /// From the oldest sample that is shown to the newest, s.
+    pub window: f64,
     /// A_1, A_2, ..: four numbers each, by rows, without unit.
     pub coefficients: Vec<f64>,
-    /// Frequency, Hz, and spectral density of both components together, one-sided, (m/s)^2/Hz.
+    /// Largest magnitude of the roots; below 1 the model is stable.
+    pub radius: f64,
+    /// 1-sigma of eps, root mean square of both components, m/s or m.
+    pub residual: f64,
+    /// Frequency, Hz, and spectral density of both components together, one-sided, (m/s)^2/Hz or m^2/Hz, by the model.
     pub spectrum: Vec<(f64, f64)>,
+    /// The same as measured; empty where too little was seen.
+    pub measured: Vec<(f64, f64)>,
+    /// How well the model fits that the alignment works with.
+    pub fit: Option<SeaFit>,
 }

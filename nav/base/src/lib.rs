@@ -26,6 +26,7 @@ pub mod messages;
 pub mod motion;
 pub mod party;
 pub mod protection;
+pub mod sea_fit;
 pub mod sensor;
 pub mod solution;
 pub mod time;
@@ -40,7 +41,7 @@ pub use alignment::{
 };
 pub use attitude::Attitude;
 pub use can::{BusEvent, CanFrame, CanId};
-pub use estimates::{Disturbance, Estimate, Estimates};
+pub use estimates::{Disturbance, Estimate, Estimates, SeaQuantity};
 pub use events::{AidInnovation, Counts, Event, ModeReason, Rejection, ResumeDoubt, StoredDoubt};
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
@@ -55,6 +56,7 @@ pub use messages::{
 pub use motion::{Current, Motion, MotionCovariance};
 pub use party::{Fault, Integrity, Judgement, Parties, Party, ReceiverChange, Standing, Stands};
 pub use protection::{Availability, Protection};
+pub use sea_fit::{Residual, SeaFit, SeenResidual};
 pub use sensor::{ImuSpec, LeverArms, Triad};
 pub use solution::{Mode, Solution, SolutionSigma};
 pub use time::{Span, Time};

@@ -137,6 +137,7 @@ fn a_system_that_levels_has_not_failed_but_one_that_has_come_to_a_halt_has() {
             gyrocompass: None,
             ready: Forecast::Unknown { lacks: Lack::Time },
             sea: None,
+            fit: None,
             shifts: 0,
         };
         OutputEpoch { solution: None, alignment: Some(alignment), ..epoch(Mode::Aided) }

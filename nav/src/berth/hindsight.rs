@@ -9,7 +9,7 @@ use crate::error_state::{
 };
 
 /// Terms of the exponential that carries an error back: over a minute the next is below a millionth of the first.
-const TERMS: u32 = 6;
+const TERMS: usize = 6;
 
 /// Two rows, north and east, over the errors that an inertial navigator moves by.
 #[derive(Clone, Copy, Debug)]
@@ -52,40 +52,31 @@ impl Hindsight {
         }
     }
 
+    /// From forward and starboard to north and east.
+    pub(super) fn ship_axes(&self) -> Matrix2<f64> {
+        let forward = (self.c_ne * self.c_eb.column(0)).xy().normalize();
+        Matrix2::new(forward.x, -forward.y, forward.y, forward.x)
+    }
+
     /// -phi_D k x d as rows over the attitude.
     pub(super) fn turn(&self, d: &Vector2<f64>) -> Matrix2x3<f64> {
         Vector2::new(d.y, -d.x) * self.c_ne.row(2)
     }
 
-    /// Rows of the error of the displacement `ages` seconds ago, less the turn of it all; the displacement is `d` now.
-    pub(super) fn unturned(
-        &self,
-        d: &Vector2<f64>,
-        ages: impl IntoIterator<Item = f64>,
-    ) -> Vec<Rows> {
-        let now = Rows { position: self.level(), ..Rows::none() };
+    /// The error of the displacement at any time before now, less the turn of it all; the displacement is `d` now.
+    pub(super) fn unturned(&self, d: &Vector2<f64>) -> Unturned {
         let (turn, turn_velocity) = (self.turn(d), self.turn(&self.velocity));
-        let ago = |age: f64| {
-            let mut rows = self.before(&now, age);
-            let to_level = |block: Matrix2x3<f64>| -> Matrix2<f64> {
-                (block * self.c_ne.transpose()).fixed_columns::<2>(0).into_owned()
-            };
-            rows.attitude += to_level(rows.position) * turn;
-            rows.attitude += to_level(rows.velocity) * turn_velocity;
-            rows
+        let to_level = |block: Matrix2x3<f64>| -> Matrix2<f64> {
+            (block * self.c_ne.transpose()).fixed_columns::<2>(0).into_owned()
         };
-        ages.into_iter().map(ago).collect()
-    }
-
-    /// Rows over the error of now of what `rows` say of the error `age` seconds ago: rows e^(-F age).
-    fn before(&self, rows: &Rows, age: f64) -> Rows {
-        let (mut sum, mut term) = (*rows, *rows);
-        for n in 1..TERMS {
-            let scale = Matrix2::from_diagonal_element(-age / f64::from(n));
-            term = self.rate_of(&term).under(&scale);
-            sum = sum.plus(&term);
-        }
-        sum
+        let mut power = Rows { position: self.level(), ..Rows::none() };
+        let powers = std::array::from_fn(|_| {
+            let this = power;
+            power = self.rate_of(&power);
+            let turned = to_level(this.position) * turn + to_level(this.velocity) * turn_velocity;
+            Rows { attitude: this.attitude + turned, ..this }
+        });
+        Unturned { powers }
     }
 
     /// Derivatives by time of the error of the velocity, north and east: m/s, m/s^2, and so on, if an error is never
@@ -116,6 +107,35 @@ impl Hindsight {
     }
 }
 
+/// The error of a displacement before now, by the powers of F: e^(-F age).
+pub(super) struct Unturned {
+    powers: [Rows; TERMS],
+}
+
+impl Unturned {
+    /// As rows over the error of now, so many seconds ago.
+    pub(super) fn rows(&self, age: f64) -> Rows {
+        let terms = self.powers.iter().zip(series(age));
+        terms.fold(Rows::none(), |sum, (power, factor)| sum.plus_scaled(power, factor))
+    }
+
+    /// Of this error of now, so many seconds ago, north and east, m.
+    pub(super) fn of(&self, error: &Errors) -> impl Fn(f64) -> Vector2<f64> + use<> {
+        let powers = self.powers.map(|power| power.times(error));
+        move |age| powers.iter().zip(series(age)).map(|(power, factor)| power * factor).sum()
+    }
+}
+
+/// (-age)^n / n!, n = 0, 1, ..
+fn series(age: f64) -> [f64; TERMS] {
+    let mut term = 1.0;
+    std::array::from_fn(|n| {
+        let this = term;
+        term *= -age / (n + 1) as f64;
+        this
+    })
+}
+
 impl Rows {
     fn none() -> Self {
         let none = Matrix2x3::zeros();
@@ -134,12 +154,16 @@ impl Rows {
     }
 
     pub(super) fn plus(&self, other: &Self) -> Self {
+        self.plus_scaled(other, 1.0)
+    }
+
+    fn plus_scaled(&self, other: &Self, factor: f64) -> Self {
         Rows {
-            position: self.position + other.position,
-            velocity: self.velocity + other.velocity,
-            attitude: self.attitude + other.attitude,
-            gyro: self.gyro + other.gyro,
-            accel: self.accel + other.accel,
+            position: self.position + other.position * factor,
+            velocity: self.velocity + other.velocity * factor,
+            attitude: self.attitude + other.attitude * factor,
+            gyro: self.gyro + other.gyro * factor,
+            accel: self.accel + other.accel * factor,
         }
     }
 
@@ -150,6 +174,11 @@ impl Rows {
             + self.attitude * error.of(ATTITUDE)
             + self.gyro * (error.of(GYRO_BIAS) + error.of(GYRO_DRIFT))
             + self.accel * (error.of(ACCEL_BIAS) + error.of(ACCEL_DRIFT))
+    }
+
+    /// Over position, velocity, attitude, what is wrong with the gyros, and with the accelerometers.
+    pub(super) fn blocks(&self) -> [&Matrix2x3<f64>; 5] {
+        [&self.position, &self.velocity, &self.attitude, &self.gyro, &self.accel]
     }
 
     /// Puts them into a measurement matrix.

@@ -10,7 +10,8 @@
 //! A gust or a tug that shifts the ship is found by the innovation, and her mean place set free.
 
 use super::shifts::Shifts;
-use super::{BerthSample, OFFSET_SHARE, UNSTATED, UNSURVEYED};
+use super::sight::BerthSample;
+use super::stated::{OFFSET_SHARE, UNSTATED, UNSURVEYED};
 use crate::aids::berth;
 use crate::error_state::SWAY;
 use crate::{Filter, Oscillator, Sway};
@@ -177,12 +178,12 @@ impl Moorings {
         self.next = now + Span::from_seconds(SPACING);
         filter.settle_sway();
         let innovation = berth::innovation(&filter.view(), &self.place, self.waves_std());
-        let (judged, likelihood) = self.shifts.impose(filter, &innovation, innovation.z.norm());
-        if let Some(judged) = judged {
+        let told = self.shifts.impose(filter, &innovation, innovation.z.norm());
+        if let Some(judged) = told.judged {
             let s = Vector2::from_fn(|i, _| judged.innovation[i].1.powi(2));
             self.learn(filter, &pair(&innovation.z), &s);
         }
-        likelihood
+        told.likelihood
     }
 
     /// Learns the waves from what the filter did not foresee, and the swaying from what it found:

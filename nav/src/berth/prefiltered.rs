@@ -15,10 +15,12 @@
 use crate::Filter;
 use crate::aids::reference_velocity;
 use crate::error_state::{ATTITUDE, Errors};
-use insd_base::{Span, Time};
+use crate::method::Method;
+use insd_base::{SeaQuantity, Span, Time};
 use nalgebra::Vector2;
 
 use super::hindsight::Hindsight;
+use super::sight::SeaSight;
 use super::white_noise::{self, WhiteNoise};
 use crate::disturbance::{Model, Prefilter, PrefilterConfig, SlowVelocity};
 
@@ -65,6 +67,17 @@ impl Prefiltered {
     #[must_use]
     pub fn model(&self) -> Option<&Model> {
         self.model.as_ref()
+    }
+
+    /// The sea as it was found last, and what of it was seen.
+    pub(super) fn sight(&self) -> Option<SeaSight> {
+        Some(SeaSight {
+            method: Some(Method::AsPublished),
+            model: self.model()?.clone(),
+            quantity: SeaQuantity::Velocity,
+            samples: self.prefilter.newest_run(),
+            fit: None,
+        })
     }
 
     /// The window.

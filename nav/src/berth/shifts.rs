@@ -4,7 +4,7 @@ use insd_base::{Span, Time};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
-use crate::error_state::{Errors, Innovation, POSITION, VELOCITY};
+use crate::error_state::{Errors, Innovation, POSITION, VELOCITY, Weighed};
 use crate::filter::Judged;
 use crate::{Filter, Outcome};
 
@@ -23,10 +23,22 @@ pub(super) struct Shifts {
     lean: Vector2<f64>,
 }
 
+/// What became of a sample.
+pub(super) struct Told {
+    /// How it was judged, if it was accepted.
+    pub(super) judged: Option<Judged>,
+    /// Its log-likelihood.
+    pub(super) likelihood: f64,
+    /// Each component over its sigma, bounded; nothing if that is out of range.
+    pub(super) residual: Option<Vector2<f64>>,
+}
+
 /// Before this the filter is still finding its tilt, s.
 const SETTLING: f64 = 90.0;
 /// Samples one after the other that do not fit before the ship counts as shifted.
 const SHIFT: u32 = 2;
+/// Sigmas beyond which a single wild sample is the gate's affair, and says little of the next.
+const WILD: f64 = 4.0;
 /// After a shift was found, her mean place stays free for this long, s.
 const FREE: f64 = 20.0;
 /// Weight of a sample in the running mean of the innovations. Of white ones with weight w the mean has a
@@ -81,41 +93,41 @@ impl Shifts {
     }
 
     /// Tells the filter what a sample says, when the ship is `away` from her mean place, m: accepted, or not believed,
-    /// or the word that she is not where she was. What was judged, and the log-likelihood.
+    /// or the word that she is not where she was.
     pub(super) fn impose(
         &mut self,
         filter: &mut Filter,
         innovation: &Innovation,
         away: f64,
-    ) -> (Option<Judged>, f64) {
+    ) -> Told {
         if self.is_free(filter.time()) {
             filter.loosen_berth(away.max(WANDER));
         }
         self.forget();
-        if self.leans(filter, innovation) {
-            let likelihood = filter.decline(innovation);
+        filter.settle_sway();
+        let weighed = innovation.weigh(filter.covariance());
+        let residual = weighed.as_ref().map(bounded);
+        let leaning = residual.is_some_and(|residual| self.leans(filter, &residual));
+        if let Some(weighed) = weighed.as_ref().filter(|_| leaning) {
+            let likelihood = filter.decline(weighed);
             self.refuse(filter, innovation, away);
-            return (None, likelihood);
+            return Told { judged: None, likelihood, residual };
         }
         let before = *filter.nominal();
-        let judged = filter.impose(innovation);
+        let judged = filter.impose_weighed(weighed.as_ref());
         let likelihood = judged.log_likelihood;
         if judged.outcome == Outcome::Accepted {
             self.recent += &before.error_to(filter.nominal());
             self.refused = 0;
-            return (Some(judged), likelihood);
+            return Told { judged: Some(judged), likelihood, residual };
         }
         self.refuse(filter, innovation, away);
-        (None, likelihood)
+        Told { judged: None, likelihood, residual }
     }
 
     /// Whether the last samples together do not fit, though each of them may.
-    fn leans(&mut self, filter: &Filter, innovation: &Innovation) -> bool {
-        let Some(weighed) = innovation.weigh(filter.covariance()) else { return false };
-        let off = innovation.z.component_div(&weighed.sigma());
-        // a single wild sample is the gate's affair, and says little of the next
-        let bounded = Vector2::new(off[0], off[1]).map(|off| off.clamp(-4.0, 4.0));
-        self.lean += (bounded - self.lean) * LEANING;
+    fn leans(&mut self, filter: &Filter, residual: &Vector2<f64>) -> bool {
+        self.lean += (residual - self.lean) * LEANING;
         let variance = LEANING / (2.0 - LEANING);
         self.is_settled(filter.time()) && self.lean.norm_squared() > LEAN * variance
     }
@@ -152,4 +164,10 @@ impl Shifts {
             doubtful.r *= 4.0;
         }
     }
+}
+
+/// Each component of a sample over its sigma, bounded.
+fn bounded(weighed: &Weighed) -> Vector2<f64> {
+    let off = weighed.z().component_div(&weighed.sigma());
+    Vector2::new(off[0], off[1]).map(|off| off.clamp(-WILD, WILD))
 }

@@ -21,26 +21,21 @@
 
 use std::collections::VecDeque;
 
-use insd_base::{Geodetic, Time};
+use insd_base::{Geodetic, SeaFit, SeaQuantity, Span, Time};
 use nalgebra::{Matrix2, Vector2};
+use serde::{Deserialize, Serialize};
 
 use super::hindsight::Hindsight;
+use super::learner::{SeaLearner, SeaLearnerCheckpoint, WhitenedSea};
 use super::seen::Seen;
 use super::shifts::Shifts;
-use super::{BerthSample, OFFSET_SHARE, UNSTATED, UNSURVEYED};
+use super::sight::{BerthSample, SeaSight};
+use super::stated::{OFFSET_SHARE, UNSTATED, UNSURVEYED};
 use crate::Filter;
 use crate::aids::reference_position;
-use crate::disturbance::{
-    Displacement, Model, SeaPrior, SeaSums, SeaWindow, Whitener, WhiteningConfig,
-};
+use crate::disturbance::{Displacement, Model, Whitener, WhiteningConfig};
 use crate::error_state::{ATTITUDE, BERTH_OFFSET, Errors, Innovation, POSITION};
-
-/// What a ship's displacement has told of the sea.
-#[derive(Clone, Debug)]
-pub struct WhitenedSea {
-    sums: SeaSums,
-    odds: Vec<f64>,
-}
+use crate::method::Method;
 
 /// Holds a filter at the berth by its whitened displacement.
 #[derive(Clone, Debug)]
@@ -48,27 +43,24 @@ pub struct Whitened {
     config: WhiteningConfig,
     place: Geodetic,
     is_named: bool,
-    prior: SeaPrior,
-    window: SeaWindow,
-    /// Logarithms of the odds of the kinds of sea.
-    odds: Vec<f64>,
-    /// The sea of another, where that is what counts.
-    lent: Option<WhitenedSea>,
+    sea: SeaLearner,
     /// Displacements from the berth, newest first, as the filter sees them now, north and east, m.
     past: VecDeque<Vector2<f64>>,
     next: Time,
     shifts: Shifts,
 }
 
+/// What is kept of it for the next start of the program: the displacements that the filter still corrects are begun anew.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct WhitenedCheckpoint {
+    place: Geodetic,
+    is_named: bool,
+    sea: SeaLearnerCheckpoint,
+    shifts: Shifts,
+}
+
 /// Samples that a displacement is corrected for before it is learnt from, beside those of the model's order.
 const DELAY: usize = 3;
-/// Time over which the odds of the kinds of sea are forgotten, s.
-const FORGETTING: f64 = 900.0;
-/// Square of a sample's innovation over its variance beyond which it counts no more against a kind.
-const BOUND: f64 = 12.0;
-/// What a sample says of the kinds counts for so much: it was told to the filter, whose errors of now hang together with
-/// those of the sample before.
-const EVIDENCE: f64 = 0.5;
 
 impl Whitened {
     /// Takes the ship as lying where the filter has her, until a reference names the berth.
@@ -77,19 +69,39 @@ impl Whitened {
         let (config, now) = (*filter.whitening(), filter.time());
         let spacing = config.spacing.as_seconds();
         filter.lie(UNSURVEYED);
-        let prior = SeaPrior::new(spacing, config.order).stated(UNSTATED);
         Whitened {
             config,
             place: filter.nominal().geodetic(),
             is_named: false,
-            odds: prior.odds(),
-            prior,
-            window: SeaWindow::new(&config),
-            lent: None,
+            sea: SeaLearner::new(&config, UNSTATED),
             past: VecDeque::new(),
             next: now + config.spacing,
             shifts: Shifts::new(now, spacing),
         }
+    }
+
+    /// What is worth keeping of it.
+    pub(super) fn kept(&self) -> WhitenedCheckpoint {
+        WhitenedCheckpoint {
+            place: self.place,
+            is_named: self.is_named,
+            sea: self.sea.kept(),
+            shifts: self.shifts.clone(),
+        }
+    }
+
+    /// Goes on from what was kept, on a time line that is later by a span; `None` if it is of other kinds of sea.
+    pub(super) fn taken_up(kept: &WhitenedCheckpoint, filter: &Filter, by: Span) -> Option<Self> {
+        let config = *filter.whitening();
+        Some(Whitened {
+            config,
+            place: kept.place,
+            is_named: kept.is_named,
+            sea: SeaLearner::taken_up(&config, &kept.sea)?,
+            past: VecDeque::new(),
+            next: filter.time() + config.spacing,
+            shifts: kept.shifts.clone().shifted(by),
+        })
     }
 
     /// A reference names the berth and, if `stated`, the ship's displacement from it, 1-sigma of each
@@ -102,10 +114,8 @@ impl Whitened {
         let std = stated.unwrap_or(UNSTATED);
         self.place = *place;
         self.is_named = true;
-        self.prior = self.prior.clone().stated(std);
         self.past.clear();
-        self.window = SeaWindow::new(&self.config);
-        self.odds = self.prior.odds();
+        self.sea.restate(std);
         filter.lie((OFFSET_SHARE * std).hypot(filter.berth_doubt()));
     }
 
@@ -119,7 +129,7 @@ impl Whitened {
     /// corrects.
     #[must_use]
     pub fn displacements(&self, filter: &Filter) -> Vec<Vector2<f64>> {
-        let (axes, offset) = (ship_axes(filter), filter.nominal().berth_offset);
+        let (axes, offset) = (Hindsight::of(filter).ship_axes(), filter.nominal().berth_offset);
         self.past.iter().map(|d| axes.tr_mul(&(d - offset))).collect()
     }
 
@@ -131,29 +141,37 @@ impl Whitened {
         Some(Model::new(lags, *whitener.residual_covariance(), self.config.spacing.as_seconds()))
     }
 
+    /// The sea as it is taken for, what of it was seen, and how well the one fits the other.
+    pub(super) fn sight(&self) -> Option<SeaSight> {
+        Some(SeaSight {
+            method: Some(Method::Autoregressive),
+            model: self.model()?,
+            quantity: SeaQuantity::Displacement,
+            samples: self.sea.samples(),
+            fit: self.sea.fit(),
+        })
+    }
+
+    /// How well the sea fits that is taken for hers.
+    #[must_use]
+    pub fn fit(&self) -> Option<SeaFit> {
+        self.sea.fit()
+    }
+
     /// What she has told of the sea.
     #[must_use]
     pub fn learnt(&self) -> WhitenedSea {
-        WhitenedSea { sums: self.window.sums().clone(), odds: self.odds.clone() }
+        self.sea.learnt()
     }
 
     /// From now on the sea is what another has learnt; nothing for what she learns herself.
     pub fn lend(&mut self, sea: Option<WhitenedSea>) {
-        self.lent = sea;
-    }
-
-    /// Sums and odds that count.
-    fn sea(&self) -> (&SeaSums, &[f64]) {
-        match &self.lent {
-            Some(lent) => (&lent.sums, &lent.odds),
-            None => (self.window.sums(), &self.odds),
-        }
+        self.sea.lend(sea);
     }
 
     /// A(q) as it is now.
     fn whitener(&self) -> Option<Whitener> {
-        let (sums, odds) = self.sea();
-        sums.fit(self.past.len().min(self.config.order), &self.prior, odds)
+        self.sea.whitener(self.past.len())
     }
 
     /// Holds the filter against the berth if it is time to; returns the log-likelihood.
@@ -162,6 +180,13 @@ impl Whitened {
         if now < self.next {
             return 0.0;
         }
+        self.take_sample(filter)
+    }
+
+    /// Takes the next sample and holds the filter by it; apart, so that a step without one costs nothing.
+    #[inline(never)]
+    fn take_sample(&mut self, filter: &mut Filter) -> f64 {
+        let now = filter.time();
         self.bridge(now);
         self.next = now + self.config.spacing;
         filter.settle();
@@ -170,23 +195,29 @@ impl Whitened {
         self.correct(filter, &hindsight, spacing);
         let displacement = self.displacement(filter);
         let seen = self.seen(filter, &hindsight, &displacement);
-        self.weigh_kinds(filter, &seen);
+        self.sea.weigh_kinds(filter, &seen);
         let likelihood = self.whitener().map_or(0.0, |whitener| {
-            let innovation = whiten(filter, &seen, &whitener);
+            let innovation = whiten(&hindsight.ship_axes(), &seen, &whitener);
             let away = (filter.nominal().berth_offset - displacement).norm();
-            self.shifts.impose(filter, &innovation, away).1
+            let told = self.shifts.impose(filter, &innovation, away);
+            let is_telling = self.shifts.is_settled(now) && !self.shifts.is_free(now);
+            if let Some(residual) = told.residual.filter(|_| is_telling) {
+                self.sea.judge(residual);
+            }
+            told.likelihood
         });
         self.past.push_front(displacement);
         self.correct(filter, &hindsight, 0.0);
-        self.learn(filter);
+        self.learn(filter, &hindsight);
         likelihood
     }
 
     /// What the berth says next.
     pub(super) fn sample(&self, filter: &Filter) -> Option<BerthSample> {
-        let seen = self.seen(filter, &Hindsight::of(filter), &self.displacement(filter));
+        let hindsight = Hindsight::of(filter);
+        let seen = self.seen(filter, &hindsight, &self.displacement(filter));
         Some(BerthSample {
-            innovation: whiten(filter, &seen, &self.whitener()?),
+            innovation: whiten(&hindsight.ship_axes(), &seen, &self.whitener()?),
             spacing: self.config.spacing.as_seconds(),
             start: self.shifts.start(),
         })
@@ -201,13 +232,7 @@ impl Whitened {
     /// What of her displacement is not foretold, and all of it, 1-sigma of a component, m.
     pub(super) fn sea_std(&self) -> Option<(f64, f64)> {
         let unforeseen = 0.5 * self.whitener()?.residual_covariance().trace();
-        Some((unforeseen.sqrt(), self.variance().sqrt()))
-    }
-
-    /// Variance of a component of her displacement, m^2.
-    fn variance(&self) -> f64 {
-        let (sums, _) = self.sea();
-        self.prior.variance(sums.weight(), sums.mean_square())
+        Some((unforeseen.sqrt(), self.sea.variance().sqrt()))
     }
 
     /// Samples that were missed break the past of those that come.
@@ -215,7 +240,7 @@ impl Whitened {
         let missed = (now - self.next).as_seconds() > 0.5 * self.config.spacing.as_seconds();
         if missed && !self.past.is_empty() {
             self.past.clear();
-            self.window.push(None);
+            self.sea.push(None);
         }
     }
 
@@ -233,46 +258,25 @@ impl Whitened {
             return;
         }
         let spacing = self.config.spacing.as_seconds();
-        let ages = (0..self.past.len()).map(|lag| age + lag as f64 * spacing);
-        let rows = hindsight.unturned(&self.displacement(filter), ages);
-        for (d, rows) in self.past.iter_mut().zip(rows) {
+        let unturned = hindsight.unturned(&self.displacement(filter)).of(&error);
+        for (lag, d) in self.past.iter_mut().enumerate() {
             let turned = hindsight.turn(d) * error.of(ATTITUDE);
-            *d += rows.times(&error) - turned;
+            *d += unturned(age + lag as f64 * spacing) - turned;
         }
-    }
-
-    /// Weighs the kinds of sea by how well each foretold what is seen.
-    fn weigh_kinds(&mut self, filter: &Filter, seen: &Seen) {
-        let variance = self.variance();
-        let share = self.config.spacing.as_seconds() / FORGETTING;
-        let kinds = self.prior.foretold(seen.before().len());
-        for ((odds, first), kind) in self.odds.iter_mut().zip(self.prior.odds()).zip(kinds) {
-            let lags = kind.lags.iter().map(|a| Matrix2::from_diagonal_element(*a));
-            let covariance = Matrix2::from_diagonal_element(kind.unexplained * variance);
-            let weighed = seen.whitened(lags, &covariance).weigh(filter.covariance());
-            let said = weighed.map_or(0.0, |weighed| {
-                -0.5 * weighed.nis().min(BOUND) - weighed.log_root_determinant()
-            });
-            *odds += share * (first - *odds) + EVIDENCE * said;
-        }
-        let most = self.odds.iter().copied().fold(f64::MIN, f64::max);
-        self.odds.iter_mut().for_each(|odds| *odds -= most);
     }
 
     /// Learns from the displacement that is not corrected any more.
-    fn learn(&mut self, filter: &Filter) {
+    fn learn(&mut self, filter: &Filter, hindsight: &Hindsight) {
         if self.past.len() <= self.config.order + DELAY {
             return;
         }
         let oldest = self.past.pop_back();
         let is_settled = self.shifts.is_settled(filter.time());
         let sample = oldest.filter(|_| is_settled).map(|d| {
-            let seen = ship_axes(filter).tr_mul(&(d - filter.nominal().berth_offset));
+            let seen = hindsight.ship_axes().tr_mul(&(d - filter.nominal().berth_offset));
             Displacement { seen, clearness: self.clearness(filter, &seen) }
         });
-        if sample.is_some() || !self.window.is_empty() {
-            self.window.push(sample);
-        }
+        self.sea.push(sample);
     }
 
     /// How clearly a displacement is the ship's, by her share in the variance of what is seen: little where much of it is
@@ -285,26 +289,18 @@ impl Whitened {
             + BERTH_OFFSET.covariance(p)
             - across
             - across.transpose();
-        let ship = self.sea().0.mean_square().max(0.5 * seen.norm_squared());
+        let ship = self.sea.mean_square().max(0.5 * seen.norm_squared());
         let share = ship / (ship + 0.5 * own.trace()).max(f64::MIN_POSITIVE);
         share * share
     }
 }
 
-/// What A(q) does not foretell of what is seen.
-fn whiten(filter: &Filter, seen: &Seen, whitener: &Whitener) -> Innovation {
-    let axes = ship_axes(filter);
+/// What A(q) does not foretell of what is seen; A(q) is in the axes of the ship.
+fn whiten(axes: &Matrix2<f64>, seen: &Seen, whitener: &Whitener) -> Innovation {
     let lags = whitener.coefficients().iter().map(|a| axes * a * axes.transpose());
     let before: Vec<_> = seen.before().iter().map(|off| axes.tr_mul(off)).collect();
     let covariance = axes * whitener.covariance(&before) * axes.transpose();
     seen.whitened(lags, &covariance)
-}
-
-/// From forward and starboard to north and east.
-fn ship_axes(filter: &Filter) -> Matrix2<f64> {
-    let view = filter.view();
-    let forward = (view.c_ne * view.c_eb).column(0).xy().normalize();
-    Matrix2::new(forward.x, -forward.y, forward.y, forward.x)
 }
 
 #[cfg(test)]
@@ -360,9 +356,12 @@ mod tests {
         error.set(ATTITUDE, &(view.c_ne.transpose() * nalgebra::Vector3::z() * turn));
         error.set(POSITION, &to_ecef(Vector2::new(-d.y, d.x) * turn));
         error.set(crate::error_state::VELOCITY, &to_ecef(Vector2::new(-v.y, v.x) * turn));
-        for rows in hindsight.unturned(&d, [0.0, 4.0]) {
+        let unturned = hindsight.unturned(&d);
+        for age in [0.0, 4.0] {
             // within seconds the Earth does not turn the heading into a tilt
-            assert!(rows.times(&error).norm() < 0.02 * turn * d.norm(), "{}", rows.times(&error));
+            let moved = unturned.rows(age).times(&error);
+            assert!(moved.norm() < 0.02 * turn * d.norm(), "{moved}");
+            assert!((moved - unturned.of(&error)(age)).norm() < 1e-12);
         }
     }
 
@@ -390,12 +389,31 @@ mod tests {
     }
 
     #[test]
+    fn what_was_learnt_outlasts_a_new_start_of_the_program() {
+        let mut filter = ship::filter(&ship::errors());
+        let mut whitened = Whitened::new(&mut filter);
+        for k in 0..40 {
+            let seen = Vector2::new(0.1, 0.2) * (f64::from(k) * 0.3).cos();
+            whitened.sea.push(Some(Displacement { seen, clearness: 1.0 }));
+        }
+        let by = Span::from_seconds(7.0);
+        let again = Whitened::taken_up(&whitened.kept(), &filter, by).expect("the same kinds");
+        let of_order_0 =
+            |whitened: &Whitened| *whitened.sea.whitener(0).expect("a model").residual_covariance();
+        let unlearnt = Whitened::new(&mut filter);
+        assert!((of_order_0(&again) - of_order_0(&whitened)).norm() < 1e-9);
+        assert!((of_order_0(&unlearnt) - of_order_0(&whitened)).norm() > 0.1);
+        assert_eq!(again.shifts.start(), whitened.shifts.start() + by);
+    }
+
+    #[test]
     fn forward_is_where_the_bow_is_taken_to_point() {
         let filter = ship::filter(&ship::errors());
         let heading = filter.solution().attitude.heading;
-        let forward = ship_axes(&filter) * Vector2::x();
+        let axes = Hindsight::of(&filter).ship_axes();
+        let forward = axes * Vector2::x();
         assert!((forward - Vector2::new(heading.cos(), heading.sin())).norm() < 1e-9);
-        let starboard = ship_axes(&filter) * Vector2::y();
+        let starboard = axes * Vector2::y();
         assert!((starboard - Vector2::new(-heading.sin(), heading.cos())).norm() < 1e-9);
     }
 

@@ -8,6 +8,7 @@ use std::collections::VecDeque;
 
 use insd_base::Span;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix2, Vector2};
+use serde::{Deserialize, Serialize};
 
 use super::prior::{SAMPLES, SeaPrior};
 
@@ -33,7 +34,7 @@ impl Default for WhiteningConfig {
 }
 
 /// A displacement and how clearly it was seen.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Displacement {
     /// Forward and to starboard, m.
     pub seen: Vector2<f64>,
@@ -93,6 +94,19 @@ impl SeaWindow {
     #[must_use]
     pub fn sums(&self) -> &SeaSums {
         &self.sums
+    }
+
+    /// The samples, oldest first; nothing where one was lost.
+    pub fn samples(&self) -> impl Iterator<Item = Option<Displacement>> {
+        self.samples.iter().rev().copied()
+    }
+
+    /// The newest samples before the first that was lost, oldest first, m.
+    #[must_use]
+    pub fn newest_run(&self) -> Vec<Vector2<f64>> {
+        let run = self.samples.iter().map_while(|sample| sample.map(|sample| sample.seen));
+        let newest_first: Vec<_> = run.collect();
+        newest_first.into_iter().rev().collect()
     }
 
     /// The next sample; nothing where it was lost.

@@ -196,6 +196,14 @@ impl Prefilter {
         self.window.slots().flatten()
     }
 
+    /// The newest samples before the first that was lost, oldest first.
+    #[must_use]
+    pub fn newest_run(&self) -> Vec<Vector2<f64>> {
+        let slots: Vec<_> = self.window.slots().copied().collect();
+        let first = slots.iter().rposition(Option::is_none).map_or(0, |lost| lost + 1);
+        slots.into_iter().skip(first).flatten().collect()
+    }
+
     /// Forgets all samples.
     pub fn clear(&mut self) {
         self.window.clear();

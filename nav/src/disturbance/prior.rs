@@ -38,8 +38,8 @@ const GRID: u32 = 200;
 /// A kind of sea.
 #[derive(Clone, Debug)]
 struct Kind {
-    /// Products of samples and those before them, of [`SAMPLES`] samples of a displacement of 1 m.
-    moments: DMatrix<f64>,
+    /// Correlations of samples with those so many lags before.
+    correlations: Vec<f64>,
     /// What it foretells from so many samples before.
     foretold: Vec<Foretold>,
     /// Logarithm of its odds before anything was seen.
@@ -67,8 +67,15 @@ impl SeaPrior {
     /// For samples at a spacing, s, and models of up to `order` lags.
     #[must_use]
     pub fn new(spacing: f64, order: usize) -> Self {
-        let of = |band: (f64, f64), swaying: f64| Kind::new(band, swaying, spacing, order);
-        let kinds = BANDS.into_iter().flat_map(|band| SWAYING.map(|swaying| of(band, swaying)));
+        let correlations = |band: (f64, f64)| -> Vec<f64> {
+            (0..=order).map(|lag| mean_cosine(band, lag as f64 * spacing)).collect()
+        };
+        let waves = correlations(WAVES);
+        let kinds = BANDS.into_iter().flat_map(|band| {
+            let odds = if band == USUAL { LIKELIER } else { 0.0 };
+            let band = correlations(band);
+            SWAYING.map(|swaying| Kind::new(&band, &waves, swaying, odds))
+        });
         SeaPrior { kinds: Arc::new(kinds.collect()), variance: 0.0 }
     }
 
@@ -76,6 +83,12 @@ impl SeaPrior {
     #[must_use]
     pub fn stated(self, std: f64) -> Self {
         SeaPrior { variance: std * std, ..self }
+    }
+
+    /// What is stated, 1-sigma of a component, m.
+    #[must_use]
+    pub fn stated_std(&self) -> f64 {
+        self.variance.sqrt()
     }
 
     /// Logarithms of the odds of the kinds before anything was seen.
@@ -96,36 +109,35 @@ impl SeaPrior {
         (stated * STATED_DOUBT * self.variance + weight * seen) / (stated + weight)
     }
 
-    /// The products that the kinds together are worth, if they have these logarithms of their odds, of a displacement
+    /// The products of samples and those before them that the kinds together are worth, if they have these logarithms of their odds, of a displacement
     /// of `variance`, m^2.
     pub(super) fn moments(&self, odds: &[f64], variance: f64) -> DMatrix<f64> {
         let most = odds.iter().copied().fold(f64::MIN, f64::max);
         let shares: Vec<f64> = odds.iter().map(|log| (log - most).exp()).collect();
-        let scale = variance / shares.iter().sum::<f64>();
-        let size = self.kinds[0].moments.nrows();
-        let kinds = self.kinds.iter().zip(&shares);
-        kinds.fold(DMatrix::zeros(size, size), |sum, (kind, share)| {
-            sum + &kind.moments * (share * scale)
+        let scale = SAMPLES * variance / shares.iter().sum::<f64>();
+        let mut products = vec![0.0; self.kinds[0].correlations.len()];
+        for (kind, share) in self.kinds.iter().zip(&shares) {
+            for (product, correlation) in products.iter_mut().zip(&kind.correlations) {
+                *product += scale * share * correlation;
+            }
+        }
+        let size = 2 * products.len();
+        DMatrix::from_fn(size, size, |i, j| {
+            let is_same_axis = i % 2 == j % 2;
+            if is_same_axis { products[(i / 2).abs_diff(j / 2)] } else { 0.0 }
         })
     }
 }
 
 impl Kind {
-    fn new(band: (f64, f64), swaying: f64, spacing: f64, order: usize) -> Self {
-        let correlation = |lag: usize| {
-            let apart = lag as f64 * spacing;
-            let white = if lag == 0 { WHITE } else { 0.0 };
-            swaying * mean_cosine(band, apart) + (1.0 - swaying) * mean_cosine(WAVES, apart) + white
-        };
-        let correlations: Vec<f64> = (0..=order).map(correlation).collect();
-        let size = 2 * (order + 1);
-        let moments = DMatrix::from_fn(size, size, |i, j| {
-            let is_same_axis = i % 2 == j % 2;
-            let correlation = correlations[(i / 2).abs_diff(j / 2)];
-            if is_same_axis { SAMPLES * correlation } else { 0.0 }
-        });
+    /// Of swaying and waves that are correlated so from lag to lag, and share the variance.
+    fn new(band: &[f64], waves: &[f64], swaying: f64, odds: f64) -> Self {
+        let mut correlations: Vec<f64> =
+            band.iter().zip(waves).map(|(of, by)| swaying * of + (1.0 - swaying) * by).collect();
+        correlations[0] += WHITE;
+        let order = correlations.len() - 1;
         let foretold = (0..=order).map(|lags| Foretold::from(&correlations, lags)).collect();
-        Kind { moments, foretold, odds: if band == USUAL { LIKELIER } else { 0.0 } }
+        Kind { correlations, foretold, odds }
     }
 }
 
@@ -144,11 +156,11 @@ impl Foretold {
 /// Correlation over `apart` seconds of an oscillation whose period lies anywhere in a band.
 fn mean_cosine((shortest, longest): (f64, f64), apart: f64) -> f64 {
     let ratio: f64 = longest / shortest;
-    let cosine = |i: u32| {
-        let period = shortest * ratio.powf((f64::from(i) + 0.5) / f64::from(GRID));
-        (TAU * apart / period).cos()
-    };
-    (0..GRID).map(cosine).sum::<f64>() / f64::from(GRID)
+    let (first, step) =
+        (shortest * ratio.powf(0.5 / f64::from(GRID)), ratio.powf(1.0 / f64::from(GRID)));
+    let periods = std::iter::successors(Some(first), |period| Some(period * step));
+    let cosines = periods.take(GRID as usize).map(|period| (TAU * apart / period).cos());
+    cosines.sum::<f64>() / f64::from(GRID)
 }
 
 #[cfg(test)]
@@ -166,21 +178,28 @@ mod tests {
     fn the_likely_kind_is_what_the_model_begins_with() {
         let prior = SeaPrior::new(4.0, 12);
         let distance = |odds: &[f64], kind: usize| {
-            (prior.moments(odds, 1.0) - &prior.kinds[kind].moments).norm()
+            let moments = prior.moments(odds, 1.0);
+            let kind = &prior.kinds[kind].correlations;
+            let lags = kind.iter().enumerate();
+            lags.map(|(lag, own)| (moments[(0, 2 * lag)] - SAMPLES * own).abs()).fold(0.0, f64::max)
         };
         for likely in 0..prior.kinds.len() {
             let odds: Vec<f64> = (0..prior.kinds.len())
                 .map(|kind| if kind == likely { 30.0 } else { 0.0 })
                 .collect();
             assert!(distance(&odds, likely) < 1e-6);
-            assert!(distance(&prior.odds(), likely) > 1.0);
+            assert!(distance(&prior.odds(), likely) > 0.5);
         }
     }
 
     #[test]
     fn a_slow_swaying_is_foretold_and_waves_are_not() {
-        let (slow, waves) =
-            (Kind::new((100.0, 200.0), 0.98, 4.0, 8), Kind::new(BANDS[0], 0.0, 4.0, 8));
+        let correlations = |band| -> Vec<f64> {
+            (0..=8).map(|lag| mean_cosine(band, f64::from(lag) * 4.0)).collect()
+        };
+        let (band, waves) = (correlations((100.0, 200.0)), correlations(WAVES));
+        let of = |swaying: f64| Kind::new(&band, &waves, swaying, 0.0);
+        let (slow, waves) = (of(0.98), of(0.0));
         assert!(slow.foretold[8].unexplained < 0.1, "{:?}", slow.foretold[8]);
         assert!(waves.foretold[8].unexplained > 0.5, "{:?}", waves.foretold[8]);
         assert_relative_eq!(slow.foretold[0].unexplained, 1.0 + WHITE, max_relative = 1e-9);

@@ -115,6 +115,9 @@ impl Summary<'_> {
             let (heave, level) = (sea.significant_heave, sea.significant_horizontal);
             writeln!(f, "  heave {heave:.2} m {period}, {level:.2} m horizontally (significant)")?;
         }
+        if let Some(fit) = last.fit {
+            writeln!(f, "  model of the sea {fit}")?;
+        }
         Ok(())
     }
 }

@@ -44,11 +44,33 @@ pub struct AlignmentRow {
     pub sway_std_m: Option<f64>,
     /// Shifts of the ship's mean place so far.
     pub shifts: u32,
+    /// Samples that the model of the sea looks back.
+    #[serde(default)]
+    pub model_order: Option<usize>,
+    /// What it leaves: `white`, `coloured`, `loud`.
+    #[serde(default)]
+    pub residual: Option<String>,
+    /// The variance of that over the claimed one.
+    #[serde(default)]
+    pub residual_level: Option<f64>,
+    /// The same of its slow part.
+    #[serde(default)]
+    pub residual_slow: Option<f64>,
+    /// Its largest correlation with what was left before.
+    #[serde(default)]
+    pub residual_correlation: Option<f64>,
+    /// So long before, s.
+    #[serde(default)]
+    pub residual_apart_s: Option<f64>,
+    /// How often the model did not hold and was begun anew.
+    #[serde(default)]
+    pub model_fallbacks: Option<u32>,
 }
 
 impl From<&AlignmentStatus> for AlignmentRow {
     fn from(status: &AlignmentStatus) -> Self {
         let (sigma, sea) = (status.sigma, status.sea);
+        let seen = status.fit.and_then(|fit| fit.seen);
         let (best, because) = match status.ready {
             Forecast::Reached { .. } => (None, None),
             Forecast::Expected { limiting, .. } => (None, Some(limiting.as_str())),
@@ -74,6 +96,13 @@ impl From<&AlignmentStatus> for AlignmentRow {
             waves_std_m: sea.and_then(|sea| sea.waves_std),
             sway_std_m: sea.and_then(|sea| sea.sway_std),
             shifts: status.shifts,
+            model_order: status.fit.map(|fit| fit.order),
+            residual: seen.map(|seen| seen.verdict.as_str().to_owned()),
+            residual_level: seen.map(|seen| seen.level),
+            residual_slow: seen.map(|seen| seen.slow),
+            residual_correlation: seen.map(|seen| seen.correlation),
+            residual_apart_s: seen.map(|seen| seen.apart),
+            model_fallbacks: status.fit.map(|fit| fit.fallbacks),
         }
     }
 }
@@ -97,6 +126,7 @@ mod tests {
             gyrocompass: None,
             ready: Forecast::Unknown { lacks: Lack::Time },
             sea: None,
+            fit: None,
             shifts: 2,
         };
         let first = AlignmentRow::from(&status);

@@ -133,6 +133,7 @@ mod tests {
             gyrocompass: None,
             ready,
             sea: None,
+            fit: None,
             shifts: 0,
         }
     }

@@ -4,7 +4,7 @@ use insd_base::units::{DEG, DEG_PER_HOUR, MICRO_G};
 use insd_base::{self as base, Body, Party, Standing};
 use insd_vessel::{Dispute, EngineStatus};
 use insd_web::snapshot::{
-    DisturbanceAxis, Found, ShownDisturbance, ShownEngine, ShownEstimate, ShownEstimates,
+    DisturbanceAxis, Found, ShownDisturbance, ShownEngine, ShownEstimate, ShownEstimates, ShownFit,
     ShownStands,
 };
 
@@ -109,27 +109,45 @@ fn estimate(own: &base::Estimate, unit: f64) -> ShownEstimate {
 }
 
 pub(super) fn disturbance(found: &base::Disturbance) -> ShownDisturbance {
-    let model: Vec<[f64; 2]> = found
-        .spectrum
-        .iter()
-        .filter(|(frequency, density)| frequency.is_finite() && density.is_finite())
-        .map(|(frequency, density)| [*frequency, *density])
-        .collect();
+    let is_velocity = found.quantity == base::SeaQuantity::Velocity;
+    let model = pairs(&found.spectrum);
     let peak = model.iter().max_by(|one, other| one[1].total_cmp(&other[1]));
+    let residual = Some(found.residual).filter(|residual| residual.is_finite());
     let axis = DisturbanceAxis {
         name: "horizontal".to_owned(),
         dominant_period_s: peak.filter(|peak| peak[0] > 0.0).map(|peak| 1.0 / peak[0]),
         coefficients: found.coefficients.clone(),
-        residual_mps: None,
+        residual_mps: residual.filter(|_| is_velocity),
+        residual_m: residual.filter(|_| !is_velocity),
         model,
-        measured: Vec::new(),
+        measured: pairs(&found.measured),
     };
     ShownDisturbance {
         method: found.method.to_owned(),
+        quantity: found.quantity.as_str().to_owned(),
         order: u32::try_from(found.coefficients.len() / 4).ok(),
         interval_s: Some(found.interval),
-        window_s: None,
-        radius: None,
+        window_s: Some(found.window),
+        radius: Some(found.radius).filter(|radius| radius.is_finite()),
+        fit: found.fit.as_ref().map(fit),
         axes: vec![axis],
     }
+}
+
+fn fit(fit: &base::SeaFit) -> ShownFit {
+    let seen = fit.seen;
+    ShownFit {
+        residual: seen.map(|seen| seen.verdict.as_str().to_owned()),
+        level: seen.map(|seen| seen.level),
+        slow: seen.map(|seen| seen.slow),
+        correlation: seen.map(|seen| seen.correlation),
+        apart_s: seen.map(|seen| seen.apart),
+        fallbacks: fit.fallbacks,
+        text: fit.to_string(),
+    }
+}
+
+fn pairs(densities: &[(f64, f64)]) -> Vec<[f64; 2]> {
+    let finite = densities.iter().filter(|(hz, density)| hz.is_finite() && density.is_finite());
+    finite.map(|(hz, density)| [*hz, *density]).collect()
 }

@@ -51,23 +51,47 @@ pub struct ShownAlignment {
     pub stored_state: Option<String>,
 }
 
-/// What moves the ship, as an autoregressive model of her velocity.
+/// What moves the ship, as an autoregressive model of her velocity or displacement.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ShownDisturbance {
-    /// `prefilter`: the model that the alignment works with; `window`: one fitted to the last minutes to be
-    /// looked at.
+    /// `autoregressive`, `as_published`: the model that the alignment works with; `window`: one fitted to the last
+    /// minutes to be looked at.
     pub method: String,
+    /// What it is a model of: `velocity`, `displacement`.
+    pub quantity: String,
     /// Order of the model.
     pub order: Option<u32>,
     /// Interval of its samples, s.
     pub interval_s: Option<f64>,
-    /// Length of the window that it was fitted to, s.
+    /// Time from the first to the last of the samples that are measured, s.
     pub window_s: Option<f64>,
     /// Largest magnitude of its roots; below 1 it is stable.
     pub radius: Option<f64>,
+    /// How well it fits, where the alignment works with it and that is looked at.
+    pub fit: Option<ShownFit>,
     /// Each axis.
     pub axes: Vec<DisturbanceAxis>,
+}
+
+/// How well the model of the sea fits.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ShownFit {
+    /// What it leaves: `white`; `coloured`: not white, but its slow part is no more than claimed; `loud`: more than that.
+    pub residual: Option<String>,
+    /// Variance of what it leaves over the claimed one.
+    pub level: Option<f64>,
+    /// The same of its slow part, which the claimed heading rests on.
+    pub slow: Option<f64>,
+    /// Its largest correlation with what was left before.
+    pub correlation: Option<f64>,
+    /// So long before, s.
+    pub apart_s: Option<f64>,
+    /// How often it did not hold, and what is known of any sea counted again.
+    pub fallbacks: u32,
+    /// All of that as a sentence.
+    pub text: String,
 }
 
 /// One axis of the disturbance.
@@ -79,10 +103,11 @@ pub struct DisturbanceAxis {
     /// Coefficients a(1) to a(p) of the model of this axis, no unit; of both together four numbers each, by
     /// rows.
     pub coefficients: Vec<f64>,
-    /// Standard deviation of what the model leaves, m/s.
+    /// Standard deviation of what a model of the velocity leaves, m/s.
     pub residual_mps: Option<f64>,
-    /// Power spectral density of the velocity by the model: frequency in Hz, density in (m/s)^2/Hz. All
-    /// numbers are finite.
+    /// Standard deviation of what a model of the displacement leaves, m.
+    pub residual_m: Option<f64>,
+    /// Power spectral density by the model: frequency in Hz, density in (m/s)^2/Hz or m^2/Hz. All numbers are finite.
     pub model: Vec<[f64; 2]>,
     /// The same as measured, if it is.
     pub measured: Vec<[f64; 2]>,

@@ -23,7 +23,7 @@ mod ship;
 
 pub use aids::{Cause, Rejected, Samples, ShownAid};
 pub use alerts::{Alert, ShownAlertState, ShownEvent, ShownPriority, ShownSeverity};
-pub use alignment::{DisturbanceAxis, ShownAlignment, ShownDisturbance};
+pub use alignment::{DisturbanceAxis, ShownAlignment, ShownDisturbance, ShownFit};
 pub use freshness::{Freshness, GONE, OLD};
 pub use ports::{
     Age, Bus, BusNode, BusState, OutputMessage, Schedule, ShownInput, ShownOutput, ShownPortState,

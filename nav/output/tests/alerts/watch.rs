@@ -73,6 +73,7 @@ fn levelling(told: Time) -> Option<AlignmentStatus> {
         gyrocompass: None,
         ready: Forecast::Unknown { lacks: Lack::Time },
         sea: None,
+        fit: None,
         shifts: 0,
     })
 }

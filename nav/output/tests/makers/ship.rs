@@ -122,6 +122,7 @@ fn alignment() -> AlignmentStatus {
         gyrocompass: Some(0.04 * DEG),
         ready: Forecast::Expected { at: Time::from_seconds(1006.0), limiting: Limiting::Sea },
         sea: None,
+        fit: None,
         shifts: 0,
     }
 }

@@ -101,6 +101,7 @@ mod tests {
             gyrocompass: Some(0.04 * DEG),
             ready,
             sea: None,
+            fit: None,
             shifts: 0,
         }
     }
