@@ -10,10 +10,10 @@ pub enum Method {
     AsPublished,
     /// What an autoregressive model in a sliding window does not foretell of her displacement
     /// ([`crate::berth::Whitened`]).
+    #[default]
     Autoregressive,
     /// The ship's swaying on her moorings as states of the Kalman filter, observed by her
     /// displacement from the berth ([`crate::berth::Moorings`]).
-    #[default]
     Moorings,
 }
 

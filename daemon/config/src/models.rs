@@ -38,11 +38,11 @@ pub struct AlignmentSection {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Moored {
-    /// Her bounded displacement, with her slow swaying as states.
-    #[default]
-    Moorings,
     /// A model of her displacement in a sliding window, whose whitening filter goes before the Kalman filter.
+    #[default]
     Autoregressive,
+    /// Her bounded displacement, with her slow swaying as states.
+    Moorings,
     /// The prefilter of the velocity as its source has it.
     AsPublished,
     /// Zero velocity with the sea as white noise.
@@ -388,7 +388,7 @@ mod tests {
     #[test]
     fn what_is_said_reaches_the_engine() {
         let text = said()
-            .replace("moored = \"moorings\"", "moored = \"autoregressive\"")
+            .replace("moored = \"autoregressive\"", "moored = \"moorings\"")
             .replace("in_motion = \"eight_state\"", "in_motion = \"bank\"")
             .replace("prefilter_order = 8", "prefilter_order = 3")
             .replace("prefilter_window_s = 300.0", "prefilter_window_s = 120.0")
@@ -396,7 +396,7 @@ mod tests {
             .replace("log_scale_std = 0.005", "log_scale_std = 0.02")
             .replace("reference_heading_deg = 0.01", "reference_heading_deg = 0.5");
         let engine = Config::of_text(&text).unwrap().engine();
-        assert_eq!(engine.alignment.moored, Method::Autoregressive);
+        assert_eq!(engine.alignment.moored, Method::Moorings);
         assert_eq!(engine.alignment.in_motion, InMotion::Bank);
         let Models { log, gate, floors, prefilter, .. } = engine.models;
         assert_eq!(prefilter.order, ModelOrder::Chosen { max: 3 });

@@ -194,9 +194,11 @@ impl Panel {
     }
 
     fn draw_legend(&self, svg: &mut String) {
+        // two lines of it fit above the frame
+        let columns = self.series.len().div_ceil(2).max(2);
         for (index, series) in self.series.iter().enumerate() {
-            let x = (index % 2) as f64 * AREA.0 / 2.0;
-            let y = -24.0 + (index / 2) as f64 * 15.0;
+            let x = (index % columns) as f64 * AREA.0 / columns as f64;
+            let y = -24.0 + (index / columns) as f64 * 15.0;
             let sample = if series.class == "band" {
                 format!(
                     "<rect class=\"band\" x=\"{x}\" y=\"{:.0}\" width=\"20\" height=\"9\"/>",

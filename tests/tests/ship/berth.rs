@@ -1,9 +1,11 @@
 //! At the berth: near the limit, honest, and not to be upset by gusts, tugs and steep swells.
 
+use insd_alignment::AlignmentConfig;
 use insd_base::units::{DEG, wrap_pi};
 use insd_lab::evaluation::Component;
-use insd_simulator::limit;
-use insd_tests::sailing::{Passage, sail_all};
+use insd_nav::berth::Method;
+use insd_simulator::{Scenario, limit, simulate};
+use insd_tests::sailing::{Passage, sail_aligned, sail_all};
 use insd_tests::scores::{Scores, pooled};
 use insd_tests::{scenario, variant};
 
@@ -16,6 +18,17 @@ fn heading_at(passage: &Passage, at: f64) -> (f64, f64) {
     let truth = passage.voyage.truth.iter().find(|t| close(t.time)).unwrap();
     let error = wrap_pi(solution.attitude.heading - truth.attitude.unwrap().heading);
     (error, solution.sigma.heading)
+}
+
+/// Voyages of a ship that is held at her berth by a method.
+fn moored_by(method: Method, ship: &Scenario, seeds: std::ops::Range<u64>) -> Vec<Passage> {
+    let alignment = AlignmentConfig { moored: method, ..AlignmentConfig::default() };
+    let sailed = |seed: u64| {
+        let voyage = simulate(ship, seed);
+        let log = sail_aligned(&voyage, &alignment);
+        Passage { voyage, log }
+    };
+    seeds.map(sailed).collect()
 }
 
 /// Largest heading error in claimed sigmas after the first half minute.
@@ -32,16 +45,24 @@ fn worst(passages: &[Passage]) -> f64 {
 
 #[test]
 fn s07_the_claimed_heading_is_near_that_of_the_optimal_filter() {
-    for number in [7, 8, 17] {
-        let ship = scenario(number).with_duration(620.0);
-        let passages = sail_all(&ship, 0..2);
-        let bound = limit(&ship, &[300.0, 600.0]).unwrap();
-        for (at, limit) in [300.0, 600.0].into_iter().zip(bound) {
-            let (_, sigma) = heading_at(&passages[0], at);
-            figure!("s{number} {at} s: {} deg, limit {}", sigma / DEG, limit.heading / DEG);
-            assert!(sigma < 1.1 * limit.heading, "s{number} at {at} s");
+    // the autoregression has to learn the band of the swaying that the moorings are told
+    for (method, early) in [(Method::Moorings, 1.1), (Method::Autoregressive, 1.25)] {
+        for number in [7, 8, 17] {
+            let ship = scenario(number).with_duration(620.0);
+            let passages = moored_by(method, &ship, 0..2);
+            let bound = limit(&ship, &[300.0, 600.0]).unwrap();
+            for ((at, bar), limit) in [(300.0, early), (600.0, 1.1)].into_iter().zip(bound) {
+                let (_, sigma) = heading_at(&passages[0], at);
+                let name = method.as_str();
+                figure!(
+                    "s{number} {name} {at} s: {} deg, limit {}",
+                    sigma / DEG,
+                    limit.heading / DEG
+                );
+                assert!(sigma < bar * limit.heading, "s{number} {name} at {at} s");
+            }
+            assert!(worst(&passages) < 4.5, "s{number}: {}", worst(&passages));
         }
-        assert!(worst(&passages) < 4.5, "s{number}: {}", worst(&passages));
     }
 }
 

@@ -27,7 +27,7 @@ fn claimed(log: &Logbook, bar: f64) -> f64 {
 #[test]
 fn after_two_minutes_it_says_when_the_heading_will_be_good() {
     for number in [8, 22, 24] {
-        for passage in sail_all(&scenario(number).with_duration(360.0), 0..2) {
+        for passage in sail_all(&scenario(number).with_duration(480.0), 0..2) {
             let said = status_at(&passage.log, 120.0);
             let Forecast::Expected { at, limiting } = said.ready else {
                 panic!("s{number:02}: {said}");
