@@ -15,9 +15,9 @@
 //! every filter of the bank sees the same motion, and all take the sea for what the likeliest has learnt.
 //!
 //! Before it has been learnt it is one of some kinds of sea, which are weighed by how well each foretells the next
-//! displacement, given what the filter knows of its own errors. That tells a band within a period or two, while a
-//! displacement is learnt from when the filter has corrected it for a while longer, and as far as it is known to be the
-//! ship's and not the navigator's own error.
+//! displacement, given what the filter knows of its own errors. That tells a band within a period or two. A displacement
+//! is learnt from when the filter has corrected it for a while, and as far as it is known to be the ship's and not the
+//! navigator's own error; where most of it is the navigator's, for a while longer.
 
 use std::collections::VecDeque;
 
@@ -46,6 +46,8 @@ pub struct Whitened {
     sea: SeaLearner,
     /// Displacements from the berth, newest first, as the filter sees them now, north and east, m.
     past: VecDeque<Vector2<f64>>,
+    /// So many of them are still to be learnt from.
+    unlearnt: usize,
     next: Time,
     shifts: Shifts,
 }
@@ -59,8 +61,11 @@ pub(crate) struct WhitenedCheckpoint {
     shifts: Shifts,
 }
 
-/// Samples that a displacement is corrected for before it is learnt from, beside those of the model's order.
+/// Samples that a displacement is corrected for before it is learnt from where it is clear; where it is not, those of the
+/// model's order come on top.
 const DELAY: usize = 3;
+/// It is clear where the variance of the navigator's own error is below this share of the ship's.
+const CLEAR: f64 = 1.0;
 
 impl Whitened {
     /// Takes the ship as lying where the filter has her, until a reference names the berth.
@@ -75,6 +80,7 @@ impl Whitened {
             is_named: false,
             sea: SeaLearner::new(&config, UNSTATED),
             past: VecDeque::new(),
+            unlearnt: 0,
             next: now + config.spacing,
             shifts: Shifts::new(now, spacing),
         }
@@ -99,6 +105,7 @@ impl Whitened {
             is_named: kept.is_named,
             sea: SeaLearner::taken_up(&config, &kept.sea)?,
             past: VecDeque::new(),
+            unlearnt: 0,
             next: filter.time() + config.spacing,
             shifts: kept.shifts.clone().shifted(by),
         })
@@ -115,6 +122,7 @@ impl Whitened {
         self.place = *place;
         self.is_named = true;
         self.past.clear();
+        self.unlearnt = 0;
         self.sea.restate(std);
         filter.lie((OFFSET_SHARE * std).hypot(filter.berth_doubt()));
     }
@@ -207,6 +215,7 @@ impl Whitened {
             told.likelihood
         });
         self.past.push_front(displacement);
+        self.unlearnt += 1;
         self.correct(filter, &hindsight, 0.0);
         self.learn(filter, &hindsight);
         likelihood
@@ -240,6 +249,7 @@ impl Whitened {
         let missed = (now - self.next).as_seconds() > 0.5 * self.config.spacing.as_seconds();
         if missed && !self.past.is_empty() {
             self.past.clear();
+            self.unlearnt = 0;
             self.sea.push(None);
         }
     }
@@ -265,34 +275,41 @@ impl Whitened {
         }
     }
 
-    /// Learns from the displacement that is not corrected any more.
+    /// Learns from the displacements that are corrected as far as they need to be.
     fn learn(&mut self, filter: &Filter, hindsight: &Hindsight) {
-        if self.past.len() <= self.config.order + DELAY {
-            return;
+        let own = own_variance(filter);
+        let is_clear = own < CLEAR * self.sea.variance();
+        let kept = self.config.order + DELAY;
+        let wait = if is_clear { DELAY } else { kept };
+        while self.unlearnt > wait {
+            self.unlearnt -= 1;
+            let seen = self.past[self.unlearnt] - filter.nominal().berth_offset;
+            let seen = hindsight.ship_axes().tr_mul(&seen);
+            let is_settled = self.shifts.is_settled(filter.time());
+            let clearness = self.clearness(own, &seen);
+            self.sea.push(is_settled.then_some(Displacement { seen, clearness }));
         }
-        let oldest = self.past.pop_back();
-        let is_settled = self.shifts.is_settled(filter.time());
-        let sample = oldest.filter(|_| is_settled).map(|d| {
-            let seen = hindsight.ship_axes().tr_mul(&(d - filter.nominal().berth_offset));
-            Displacement { seen, clearness: self.clearness(filter, &seen) }
-        });
-        self.sea.push(sample);
+        self.past.truncate(kept);
     }
 
     /// How clearly a displacement is the ship's, by her share in the variance of what is seen: little where much of it is
-    /// the navigator's own error, which would be learnt as a sea that wanders as the navigator does.
-    fn clearness(&self, filter: &Filter, seen: &Vector2<f64>) -> f64 {
-        let p = filter.covariance();
-        let to_level = filter.view().c_ne.fixed_rows::<2>(0).into_owned();
-        let across = to_level * POSITION.covariance_with(BERTH_OFFSET, p);
-        let own = to_level * POSITION.covariance(p) * to_level.transpose()
-            + BERTH_OFFSET.covariance(p)
-            - across
-            - across.transpose();
+    /// the navigator's own error, m^2, which would be learnt as a sea that wanders as the navigator does.
+    fn clearness(&self, own: f64, seen: &Vector2<f64>) -> f64 {
         let ship = self.sea.mean_square().max(0.5 * seen.norm_squared());
-        let share = ship / (ship + 0.5 * own.trace()).max(f64::MIN_POSITIVE);
+        let share = ship / (ship + own).max(f64::MIN_POSITIVE);
         share * share
     }
+}
+
+/// Variance of a component of the error of the displacement from her mean place, m^2.
+fn own_variance(filter: &Filter) -> f64 {
+    let p = filter.covariance();
+    let to_level = filter.view().c_ne.fixed_rows::<2>(0).into_owned();
+    let across = to_level * POSITION.covariance_with(BERTH_OFFSET, p);
+    let own = to_level * POSITION.covariance(p) * to_level.transpose() + BERTH_OFFSET.covariance(p)
+        - across
+        - across.transpose();
+    0.5 * own.trace()
 }
 
 /// What A(q) does not foretell of what is seen; A(q) is in the axes of the ship.
