@@ -46,7 +46,7 @@ const FORGETTING: f64 = 900.0;
 const BOUND: f64 = 12.0;
 /// What a sample says of the kinds counts for so much: it was told to the filter, whose errors of now hang together with
 /// those of the sample before.
-const EVIDENCE: f64 = 0.7;
+const EVIDENCE: f64 = 0.5;
 
 impl SeaLearner {
     /// Nothing is known but the stated displacement, 1-sigma of each component, m.

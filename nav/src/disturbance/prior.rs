@@ -18,7 +18,7 @@ const BANDS: [(f64, f64); 5] =
 /// That of most ships (docs/systems.md, S1), and by how much it is likelier than another before anything was seen, as
 /// logarithm.
 const USUAL: (f64, f64) = BANDS[3];
-const LIKELIER: f64 = 1.0;
+const LIKELIER: f64 = 2.0;
 /// Periods of waves, s.
 const WAVES: (f64, f64) = (4.0, 20.0);
 /// Shares of the swaying in the variance of the displacement.
