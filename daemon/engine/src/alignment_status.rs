@@ -245,16 +245,13 @@ impl StatusTeller {
 
     /// The last forecast, or a new one if it is time to.
     fn think(&mut self, navigator: &Navigator, aim: &Aim) -> Forecast {
-        let sea = navigator.sea_std();
-        if let Some(last) =
-            self.forecast.filter(|last| !last.is_stale(aim.now, sea, navigator.shifts()))
-        {
+        if let Some(last) = self.forecast.filter(|last| !last.is_stale(aim.now, navigator)) {
             return last.forecast;
         }
+        let (sea, shifts) = (navigator.sea_std(), navigator.shifts());
         let forecast = forecast::at_the_berth(navigator, &self.imu, aim.target);
         let next = forecast::next_look(aim.start, aim.now, forecast);
-        self.forecast =
-            Some(Thought { at: aim.now, next, forecast, sea, shifts: navigator.shifts() });
+        self.forecast = Some(Thought { at: aim.now, next, forecast, sea, shifts });
         forecast
     }
 }
@@ -269,14 +266,20 @@ struct Aim {
 }
 
 impl Thought {
-    fn is_stale(&self, now: Time, sea: Option<(f64, f64)>, shifts: u32) -> bool {
+    fn is_stale(&self, now: Time, navigator: &Navigator) -> bool {
+        let is_broken = self.forecast.ready_at().is_some_and(|at| at <= now);
+        let is_other =
+            || is_broken || navigator.shifts() != self.shifts || self.is_changed(navigator);
+        now >= self.next || (now - self.at >= THINK && is_other())
+    }
+
+    /// Whether the sea has changed; to ask costs a fit of its model.
+    fn is_changed(&self, navigator: &Navigator) -> bool {
         let differs = |a: f64, b: f64| a > CHANGE * b || b > CHANGE * a;
-        let changed = match (self.sea, sea) {
+        match (self.sea, navigator.sea_std()) {
             (Some(then), Some(now)) => differs(then.0, now.0) || differs(then.1, now.1),
             (then, now) => then.is_some() != now.is_some(),
-        };
-        let broken = self.forecast.ready_at().is_some_and(|at| at <= now);
-        now >= self.next || (now - self.at >= THINK && (changed || broken || shifts != self.shifts))
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! The sea for those who look on: the model of the prefilter where it is what aligns the ship, otherwise
+//! The sea for those who look on: the model that holds the ship at her berth where one does, otherwise
 //! one fitted to the horizontal velocity of the last two and a half minutes.
 
 use insd_base::{Disturbance, SeaQuantity, Span, Time, earth};
@@ -15,6 +15,8 @@ const WINDOW: f64 = 150.0;
 const HIGHEST_ORDER: usize = 8;
 /// Points of a spectrum, from the longest period that its window tells to two samples, evenly on a logarithmic scale.
 const POINTS: usize = 96;
+/// Segments that the samples make, with others that overlap them, for the measured spectrum.
+const SEGMENTS: usize = 2;
 /// Longest period of a spectrum of the velocity, and of the displacement, s.
 const SLOWEST: (f64, f64) = (60.0, 300.0);
 
@@ -101,7 +103,12 @@ fn described(sight: &SeaSight) -> Disturbance {
         radius: model.radius(),
         residual: (0.5 * model.residual_covariance().trace()).sqrt(),
         spectrum: frequencies.iter().filter_map(density).collect(),
-        measured: measured_spectrum(&sight.samples, model.interval(), &frequencies),
+        measured: measured_spectrum(
+            &sight.samples,
+            model.interval(),
+            sight.samples.len() / SEGMENTS,
+            &frequencies,
+        ),
         fit: sight.fit,
     }
 }

@@ -91,7 +91,7 @@ impl Hindsight {
     }
 
     /// From ECEF axes to north and east.
-    fn level(&self) -> Matrix2x3<f64> {
+    pub(super) fn level(&self) -> Matrix2x3<f64> {
         self.c_ne.fixed_rows::<2>(0).into_owned()
     }
 

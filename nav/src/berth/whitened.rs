@@ -61,11 +61,9 @@ pub(crate) struct WhitenedCheckpoint {
     shifts: Shifts,
 }
 
-/// Samples that a displacement is corrected for before it is learnt from where it is clear; where it is not, those of the
-/// model's order come on top.
+/// Samples that a displacement is corrected for before it is learnt from where the navigator's own error has a smaller variance
+/// than the ship's displacement; otherwise those of the model's order come on top.
 const DELAY: usize = 3;
-/// It is clear where the variance of the navigator's own error is below this share of the ship's.
-const CLEAR: f64 = 1.0;
 
 impl Whitened {
     /// Takes the ship as lying where the filter has her, until a reference names the berth.
@@ -277,15 +275,14 @@ impl Whitened {
 
     /// Learns from the displacements that are corrected as far as they need to be.
     fn learn(&mut self, filter: &Filter, hindsight: &Hindsight) {
-        let own = own_variance(filter);
-        let is_clear = own < CLEAR * self.sea.variance();
+        let own = own_variance(filter, hindsight);
         let kept = self.config.order + DELAY;
-        let wait = if is_clear { DELAY } else { kept };
+        let wait = if own < self.sea.variance() { DELAY } else { kept };
+        let is_settled = self.shifts.is_settled(filter.time());
+        let axes = hindsight.ship_axes();
         while self.unlearnt > wait {
             self.unlearnt -= 1;
-            let seen = self.past[self.unlearnt] - filter.nominal().berth_offset;
-            let seen = hindsight.ship_axes().tr_mul(&seen);
-            let is_settled = self.shifts.is_settled(filter.time());
+            let seen = axes.tr_mul(&(self.past[self.unlearnt] - filter.nominal().berth_offset));
             let clearness = self.clearness(own, &seen);
             self.sea.push(is_settled.then_some(Displacement { seen, clearness }));
         }
@@ -302,9 +299,9 @@ impl Whitened {
 }
 
 /// Variance of a component of the error of the displacement from her mean place, m^2.
-fn own_variance(filter: &Filter) -> f64 {
+fn own_variance(filter: &Filter, hindsight: &Hindsight) -> f64 {
     let p = filter.covariance();
-    let to_level = filter.view().c_ne.fixed_rows::<2>(0).into_owned();
+    let to_level = hindsight.level();
     let across = to_level * POSITION.covariance_with(BERTH_OFFSET, p);
     let own = to_level * POSITION.covariance(p) * to_level.transpose() + BERTH_OFFSET.covariance(p)
         - across

@@ -45,27 +45,28 @@ impl Whiteness {
     /// What is to be said of it, if it was looked at for long enough.
     #[must_use]
     pub fn verdict(&self) -> Option<Residual> {
-        let correlations = self.correlations()?;
-        // what is only slow and loud is the error of a navigator, too
-        Some(if slow(&correlations) > LOUD {
+        self.correlations().map(|correlations| self.judged(&correlations))
+    }
+
+    fn judged(&self, correlations: &[f64; LAGS + 1]) -> Residual {
+        if slow(correlations) > LOUD {
             Residual::Loud
-        } else if self.portmanteau(&correlations) > COLOURED {
+        } else if self.portmanteau(correlations) > COLOURED {
             Residual::Coloured
         } else {
             Residual::White
-        })
+        }
     }
 
     /// What was seen of residuals at a spacing, s.
     #[must_use]
     pub fn seen(&self, spacing: f64) -> Option<SeenResidual> {
-        let verdict = self.verdict()?;
         let correlations = self.correlations()?;
         let lags = correlations.iter().enumerate().skip(1);
         let most = lags.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
         let (lag, correlation) = most?;
         Some(SeenResidual {
-            verdict,
+            verdict: self.judged(&correlations),
             level: correlations[0],
             slow: slow(&correlations),
             correlation: correlation / correlations[0].max(f64::MIN_POSITIVE),

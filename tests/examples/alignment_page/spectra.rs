@@ -1,25 +1,25 @@
 //! What each method takes the sea for, beside what it meets.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use insd_base::units::DEG;
 use insd_base::{Geodetic, Span, Time, Truth, Voyage};
 use insd_nav::aids::{berth, reference_position, reference_velocity};
 use insd_nav::berth::{Moorings, Prefiltered, WhiteNoise, Whitened};
-use insd_nav::disturbance::Model;
+use insd_nav::disturbance::{Model, measured_spectrum};
 use insd_nav::error_state::Innovation;
 use insd_nav::error_state::{ATTITUDE, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
 use insd_nav::{
     Conditioned, Conditioner, Estimator, Filter, InitialState, NavConfig, Nominal, Oscillator,
 };
-use nalgebra::{Complex, Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 
 use crate::svg::{Axis, Panel, Series};
 
 /// What comes before is still settling, s.
 const SETTLED: f64 = 300.0;
-/// Samples of a piece of Welch's estimate.
+/// Length of a segment of the measured spectra, s.
 const PIECE: usize = 400;
 /// Models that come from windows which are still being filled.
 const FIRST_MODELS: usize = 4;
@@ -60,7 +60,7 @@ pub(crate) fn panels(voyage: &Voyage) -> (Vec<Panel>, Vec<Panel>) {
                 Series {
                     class: "grey",
                     label: "measured",
-                    points: welch(&seen.measured, seen.spacing),
+                    points: measured(&seen.measured, seen.spacing),
                 },
                 Series { class, label: name, points: seen.model.clone() },
             ],
@@ -69,7 +69,7 @@ pub(crate) fn panels(voyage: &Voyage) -> (Vec<Panel>, Vec<Panel>) {
     let below = columns.iter().map(|(title, _, class, seen)| {
         let scale = 1.0 / (2.0 * seen.spacing);
         let points =
-            welch(&seen.residual, seen.spacing).iter().map(|(f, s)| (*f, s * scale)).collect();
+            measured(&seen.residual, seen.spacing).iter().map(|(f, s)| (*f, s * scale)).collect();
         let title = title.split(':').next().unwrap_or_default().to_owned();
         spectrum(
             &title,
@@ -97,31 +97,13 @@ fn frequencies(highest: f64) -> Vec<f64> {
     (0..POINTS).map(|i| BAND.0 * ratio.powf(i as f64 / (POINTS - 1) as f64)).collect()
 }
 
-/// One-sided spectral density of one component, mean of both, by Welch's method: pieces that overlap
-/// by half, without their mean, under a Hann window (IEEE Trans. Audio AU-15 (1967)).
-fn welch(samples: &[Vector2<f64>], spacing: f64) -> Vec<(f64, f64)> {
+/// One-sided spectral density of one component, mean of both, as it is measured.
+fn measured(samples: &[Vector2<f64>], spacing: f64) -> Vec<(f64, f64)> {
     let length = (PIECE as f64 / spacing) as usize;
-    let window: Vec<f64> =
-        (0..length).map(|i| (PI * (i as f64 + 0.5) / length as f64).sin().powi(2)).collect();
-    let power: f64 = window.iter().map(|w| w * w).sum();
-    let mut density = vec![0.0; length / 2];
-    let mut pieces = 0.0;
-    for piece in samples.windows(length).step_by(length / 2) {
-        let mean = piece.iter().sum::<Vector2<f64>>() / length as f64;
-        for (k, sum) in density.iter_mut().enumerate() {
-            let mut transform = [Complex::new(0.0, 0.0); 2];
-            for (i, (sample, w)) in piece.iter().zip(&window).enumerate() {
-                let turn = Complex::from_polar(*w, -TAU * (i * k % length) as f64 / length as f64);
-                for (axis, sum) in transform.iter_mut().enumerate() {
-                    *sum += turn * (sample[axis] - mean[axis]);
-                }
-            }
-            *sum += spacing / power * (transform[0].norm_sqr() + transform[1].norm_sqr());
-        }
-        pieces += 1.0;
-    }
     let step = 1.0 / (length as f64 * spacing);
-    (1..length / 2).map(|k| (k as f64 * step, density[k] / pieces)).collect()
+    let frequencies: Vec<f64> = (1..length / 2).map(|k| k as f64 * step).collect();
+    let both = measured_spectrum(samples, spacing, length, &frequencies);
+    both.into_iter().map(|(frequency, density)| (frequency, density / 2.0)).collect()
 }
 
 /// A filter that starts from the truth, and does not know it.
