@@ -26,6 +26,7 @@ pub mod messages;
 pub mod motion;
 pub mod party;
 pub mod protection;
+pub mod satellites;
 pub mod sea_fit;
 pub mod sensor;
 pub mod solution;
@@ -56,6 +57,10 @@ pub use messages::{
 pub use motion::{Current, Motion, MotionCovariance};
 pub use party::{Fault, Integrity, Judgement, Parties, Party, ReceiverChange, Standing, Stands};
 pub use protection::{Availability, Protection};
+pub use satellites::{
+    BroadcastRecord, Constellation, IonosphereModel, SatelliteEpoch, SatelliteId, SignalCode,
+    SignalObservation,
+};
 pub use sea_fit::{Residual, SeaFit, SeenResidual};
 pub use sensor::{ImuSpec, LeverArms, Triad};
 pub use solution::{Mode, Solution, SolutionSigma};

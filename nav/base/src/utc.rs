@@ -1,5 +1,7 @@
 //! Time scales at the border: UTC and GPS time. Inside, everything runs on [`crate::Time`].
 
+use serde::{Deserialize, Serialize};
+
 use crate::time::Span;
 
 /// An instant in UTC: nanoseconds since 1970-01-01T00:00:00Z, leap seconds not counted (POSIX).
@@ -9,7 +11,7 @@ use crate::time::Span;
 pub struct UtcTime(i64);
 
 /// An instant in GPS time: nanoseconds since 1980-01-06T00:00:00 GPS, which knows no leap seconds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct GpsTime(i64);
 
 const SECOND: i64 = 1_000_000_000;
@@ -118,6 +120,18 @@ impl GpsTime {
     #[must_use]
     pub fn to_week(self) -> (i64, i64) {
         (self.0.div_euclid(WEEK * SECOND), self.0.rem_euclid(WEEK * SECOND))
+    }
+
+    /// This instant later by a span.
+    #[must_use]
+    pub fn plus(self, span: Span) -> Self {
+        GpsTime(self.0.saturating_add(span.as_nanos()))
+    }
+
+    /// The span since an earlier instant.
+    #[must_use]
+    pub fn since(self, earlier: GpsTime) -> Span {
+        Span::from_nanos(self.0.saturating_sub(earlier.0))
     }
 
     /// The instant with this time of week that is nearest to `self`.

@@ -1,0 +1,12 @@
+//! Satellites of navigation, what a receiver measures of each signal, and what they broadcast of themselves.
+
+mod broadcast;
+mod epoch;
+mod signal;
+
+pub use broadcast::{
+    BroadcastRecord, ClockPolynomial, GlonassRecord, IonosphereModel, KeplerOrbit, KeplerRecord,
+    MessageKind,
+};
+pub use epoch::{SatelliteEpoch, SignalObservation};
+pub use signal::{Constellation, SPEED_OF_LIGHT, SatelliteId, SignalCode};
