@@ -1,0 +1,16 @@
+//! What the atmosphere adds to a range: ionosphere by the broadcast models, troposphere by a standard one.
+
+mod klobuchar;
+mod troposphere;
+
+pub use klobuchar::klobuchar;
+pub use troposphere::{Mapping, Troposphere};
+
+/// Where a satellite stands as seen from an antenna, rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Direction {
+    /// Clockwise from north.
+    pub azimuth: f64,
+    /// Above the horizon.
+    pub elevation: f64,
+}
