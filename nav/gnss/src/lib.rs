@@ -4,8 +4,26 @@
 //! displacements with their covariances come out. ECEF axes, metres, seconds, radians; e points from the antenna to the satellite.
 
 pub mod atmosphere;
+mod carrier;
+mod context;
 mod ephemerides;
+mod least_squares;
 pub mod orbit;
+mod sight;
+mod signals;
+mod single_point;
+mod velocity;
 
+pub use carrier::{CarrierDisplacement, CarrierTracker, PhaseChange};
+pub use context::{Context, Delays};
 pub use ephemerides::{Ephemerides, Refusal};
 pub use orbit::SatelliteState;
+pub use sight::Sight;
+pub use signals::{Noise, best_of_each_band, dispersion, first_band, group_delay, inflation};
+pub use single_point::{NoPosition, SinglePoint, Verdict, Witness};
+pub use velocity::DopplerVelocity;
+
+#[cfg(test)]
+mod sky;
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,7 @@
+//! Differences of carrier phase between two epochs: how far an antenna has moved, to millimetres, without any ambiguity.
+
+mod displacement;
+mod tracker;
+
+pub use displacement::CarrierDisplacement;
+pub use tracker::{CarrierTracker, PhaseChange};
