@@ -301,6 +301,7 @@ impl Estimator for Filter {
             Message::Gnss(fix) => self.apply_gnss(fix, received.source, &mut report),
             Message::Log(log) => self.apply_log(log, received.source, &mut report),
             Message::Reference(r) => self.apply_reference(r, received.source, &mut report),
+            Message::Ranges(_) => {}
         }
         self.heed();
         report

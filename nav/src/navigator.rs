@@ -194,7 +194,7 @@ impl Navigator {
 
     /// Gives the position of a reference to what holds the ship and leaves the rest for the filter.
     fn take_berth(&mut self, received: &Received, report: &mut Report) -> Received {
-        let mut rest = *received;
+        let mut rest = received.clone();
         let (Some(hold), Message::Reference(reference)) = (&mut self.hold, &mut rest.message)
         else {
             return rest;

@@ -84,7 +84,7 @@ impl<E: Estimator> Timeline<E> {
         self.keep_checkpoint();
         let mut reports = Vec::new();
         let mut rest = *increment;
-        while let Some(next) = self.pending.front().copied() {
+        while let Some(next) = self.pending.front().cloned() {
             let at = next.message.time();
             if at > increment.to {
                 break;
@@ -105,12 +105,12 @@ impl<E: Estimator> Timeline<E> {
     pub fn measure(&mut self, received: &Received) -> Option<Report> {
         let at = received.message.time();
         if at > self.now {
-            insert_in_order(&mut self.pending, *received);
+            insert_in_order(&mut self.pending, received.clone());
             return None;
         }
         let is_newest = self.measurements.back().is_none_or(|m| order(m) <= order(received));
         if at == self.now && is_newest {
-            insert_in_order(&mut self.measurements, *received);
+            insert_in_order(&mut self.measurements, received.clone());
             return Some(self.estimator.apply(received));
         }
         Some(self.rewind_to(received))
@@ -121,7 +121,7 @@ impl<E: Estimator> Timeline<E> {
         let Some(index) = self.checkpoints.iter().rposition(|(time, _)| *time < at) else {
             return too_late(received);
         };
-        let place = insert_in_order(&mut self.measurements, *received);
+        let place = insert_in_order(&mut self.measurements, received.clone());
         self.checkpoints.truncate(index + 1);
         let (from, state) = &self.checkpoints[index];
         let from = *from;
@@ -139,7 +139,7 @@ impl<E: Estimator> Timeline<E> {
         for increment in increments.iter().filter(|increment| increment.from >= from) {
             self.keep_checkpoint();
             let mut rest = *increment;
-            while let Some(next) = self.measurements.get(index).copied() {
+            while let Some(next) = self.measurements.get(index).cloned() {
                 let at = next.message.time();
                 if at > increment.to {
                     break;

@@ -327,7 +327,8 @@ impl Estimator for EightState {
 
     fn apply(&mut self, received: &Received) -> Report {
         match &received.message {
-            Message::Imu(_) => Report::default(),
+            // ranges come with fixes made of them as long as there is no navigator
+            Message::Imu(_) | Message::Ranges(_) => Report::default(),
             Message::Gnss(fix) => self.gnss(fix, received.source),
             Message::Log(log) => self.log(log, received.source),
             Message::Reference(reference) => self.reference(reference, received.source),

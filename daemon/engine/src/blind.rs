@@ -82,11 +82,11 @@ pub(crate) fn unchecked(solution: Solution) -> Solution {
 
 /// A message without the heading that it may tell.
 pub(crate) fn without_heading(received: &Received) -> Received {
-    let message = match received.message {
+    let message = match &received.message {
         Message::Reference(told) => {
-            Message::Reference(ExternalReference { heading: None, heading_std: None, ..told })
+            Message::Reference(ExternalReference { heading: None, heading_std: None, ..*told })
         }
-        other => other,
+        other => other.clone(),
     };
     Received { message, ..*received }
 }

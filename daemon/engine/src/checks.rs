@@ -13,9 +13,10 @@ pub(crate) fn checked(received: &Received, vessel: VesselKind) -> (Received, Vec
     let mut faults = Vec::new();
     let fastest = vessel.greatest_speed();
     let is_speed = |speed: &f64| speed.abs() < fastest;
-    let mut clean = *received;
+    let mut clean = received.clone();
     match &mut clean.message {
-        Message::Imu(_) => {}
+        // ranges are judged one by one where they are made
+        Message::Imu(_) | Message::Ranges(_) => {}
         Message::Gnss(fix) => {
             keep(&mut fix.position, is_place, "gnss_position", &mut faults);
             keep(&mut fix.velocity, |v| v.0.iter().all(is_speed), "gnss_velocity", &mut faults);

@@ -62,7 +62,7 @@ impl Coarse {
             }
             _ => {}
         }
-        self.messages.push(*received);
+        self.messages.push(received.clone());
     }
 
     /// Level and kinematics of the window's start, once both are known.

@@ -121,11 +121,11 @@ impl Engine {
     /// A message without a velocity that the others refute: nobody is measured by it.
     pub(crate) fn unrefuted(&self, received: &Received) -> Received {
         let is_refuted = self.judge().is_some_and(|judge| judge.withholds(Aid::GnssVelocity));
-        let message = match received.message {
+        let message = match &received.message {
             Message::Gnss(fix) if is_refuted => {
-                Message::Gnss(GnssFix { velocity: None, velocity_std: None, ..fix })
+                Message::Gnss(GnssFix { velocity: None, velocity_std: None, ..*fix })
             }
-            other => other,
+            other => other.clone(),
         };
         Received { message, ..*received }
     }

@@ -115,15 +115,16 @@ impl Receivers {
 impl Engine {
     /// A message as it is to be used. The fix of a receiver that is not in use is compared, and goes no further.
     pub(crate) fn as_used(&mut self, received: &Received) -> Option<Received> {
-        let (Message::Gnss(fix), Source::Gnss(number)) = (received.message, received.source) else {
-            return Some(*received);
+        let (Message::Gnss(fix), Source::Gnss(number)) = (&received.message, received.source)
+        else {
+            return Some(received.clone());
         };
         let own = index(number);
-        self.receivers.hear(own, &fix, received.receipt);
+        self.receivers.hear(own, fix, received.receipt);
         self.choose_receiver(received.receipt);
         let is_used = self.receivers.in_use == Some(own);
         let rank = if is_used { 0 } else { fix.rank.max(1) };
-        let marked = Received { message: Message::Gnss(GnssFix { rank, ..fix }), ..*received };
+        let marked = Received { message: Message::Gnss(GnssFix { rank, ..*fix }), ..*received };
         if is_used {
             return Some(marked);
         }

@@ -414,7 +414,7 @@ impl Estimator for Ship {
                     *blind = Some(Blind::beside(finder));
                 }
                 blind.iter_mut().for_each(|blind| blind.apply(received));
-                let heard = if is_left_out { without_heading(received) } else { *received };
+                let heard = if is_left_out { without_heading(received) } else { received.clone() };
                 let report = finder.apply(&heard);
                 images.apply(&heard, &report);
                 self.hand_over();

@@ -311,7 +311,7 @@ impl Running {
 /// hangs on the heading: by no more than the way between them, which its sigma is made to say.
 #[must_use]
 pub fn loosened(received: &Received, home: &Body) -> Received {
-    let mut received = *received;
+    let mut received = received.clone();
     if let Message::Reference(reference) = &mut received.message
         && reference.position.is_some()
     {

@@ -1,8 +1,11 @@
 //! Messages from sensors. Each carries its time of validity; [`Received`] adds when and from whom
 //! it came.
 
+use std::sync::Arc;
+
 use crate::frames::{Body, Geodetic, Ned};
 use crate::gnss::GnssFix;
+use crate::satellites::SatelliteRanges;
 use crate::time::Time;
 
 /// Increments of one IMU sampling interval, ending at `time`.
@@ -98,7 +101,7 @@ impl Source {
 }
 
 /// Any sensor message.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Message {
     /// IMU increments.
     Imu(ImuSample),
@@ -108,6 +111,8 @@ pub enum Message {
     Log(LogVelocity),
     /// External reference.
     Reference(ExternalReference),
+    /// Ranges of satellites; they are many, and shared by whoever keeps them.
+    Ranges(Arc<SatelliteRanges>),
 }
 
 impl Message {
@@ -119,12 +124,13 @@ impl Message {
             Message::Gnss(m) => m.time,
             Message::Log(m) => m.time,
             Message::Reference(m) => m.time,
+            Message::Ranges(m) => m.time,
         }
     }
 }
 
 /// A message with its time of receipt and its source; the time of validity is in the message.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Received {
     /// When it reached this computer.
     pub receipt: Time,

@@ -2,6 +2,7 @@
 
 mod broadcast;
 mod epoch;
+mod ranges;
 mod signal;
 
 pub use broadcast::{
@@ -9,4 +10,5 @@ pub use broadcast::{
     MessageKind,
 };
 pub use epoch::{SatelliteEpoch, SignalObservation};
+pub use ranges::{ArcPhase, Measured, SatelliteRange, SatelliteRanges, Transmitter, time_keeper};
 pub use signal::{Constellation, SPEED_OF_LIGHT, SatelliteId, SignalCode};

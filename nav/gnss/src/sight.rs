@@ -1,14 +1,11 @@
 //! A satellite as one antenna sees it at one epoch: when the signal left, along which line it came, how long the way should be.
 
-use insd_base::satellites::SPEED_OF_LIGHT;
+use insd_base::satellites::{SPEED_OF_LIGHT, Transmitter};
 use insd_base::{BroadcastRecord, GpsTime, Span, earth, frames::Ecef};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::atmosphere::Direction;
 use crate::orbit::{SatelliteState, clock_alone};
-
-/// Rotation rate of the Earth by which signals are carried along, rad/s (IS-GPS-200N, 20.3.3.4.3).
-const EARTH_RATE: f64 = 7.292_115_146_7e-5;
 
 /// A satellite at the instant at which it sent what was received.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,33 +28,17 @@ impl Sight {
         Self { sent, satellite: SatelliteState::at(record, sent) }
     }
 
-    /// Geometric range to a point of the turning Earth at reception, m: `|r_s - r_a| + w/c (x_s y_a - y_s x_a)`
-    /// (Groves, 2nd ed., eq. 8.37 to first order; the rest is below 0.1 mm).
+    /// The satellite as the geometry of the range has it.
     #[must_use]
-    pub fn range(&self, antenna: &Vector3<f64>) -> f64 {
-        let s = &self.satellite.position;
-        (s - antenna).norm() + EARTH_RATE / SPEED_OF_LIGHT * (s.x * antenna.y - s.y * antenna.x)
-    }
-
-    /// Rate of [`Self::range`] for an antenna with this velocity over the Earth, m/s.
-    #[must_use]
-    pub fn range_rate(&self, antenna: &Vector3<f64>, velocity: &Vector3<f64>) -> f64 {
-        let (s, v) = (&self.satellite.position, &self.satellite.velocity);
-        let carried = v.x * antenna.y + s.x * velocity.y - v.y * antenna.x - s.y * velocity.x;
-        self.line(antenna).dot(&(v - velocity)) + EARTH_RATE / SPEED_OF_LIGHT * carried
-    }
-
-    /// Unit vector e from the antenna to the satellite: the range changes by `-e . dr`.
-    #[must_use]
-    pub fn line(&self, antenna: &Vector3<f64>) -> Vector3<f64> {
-        (self.satellite.position - antenna).normalize()
+    pub fn transmitter(&self) -> Transmitter {
+        Transmitter { position: self.satellite.position, velocity: self.satellite.velocity }
     }
 
     /// Azimuth and elevation at the antenna.
     #[must_use]
     pub fn direction(&self, antenna: &Vector3<f64>) -> Direction {
         let c_ne: Matrix3<f64> = earth::c_ne(&earth::geodetic(&Ecef(*antenna)));
-        let n = c_ne * self.line(antenna);
+        let n = c_ne * self.transmitter().line(antenna);
         Direction {
             azimuth: n.y.atan2(n.x).rem_euclid(std::f64::consts::TAU),
             elevation: (-n.z).asin(),

@@ -104,7 +104,8 @@ fn sight(record: &BroadcastRecord, tag: GpsTime, antenna: &Vector3<f64>) -> Sigh
     let mut code = 2.2e7;
     for _ in 0..8 {
         let sight = Sight::new(record, tag, code);
-        code = sight.range(antenna) + SPEED_OF_LIGHT * (CLOCK - sight.satellite.clock);
+        code =
+            sight.transmitter().range(antenna) + SPEED_OF_LIGHT * (CLOCK - sight.satellite.clock);
     }
     Sight::new(record, tag, code)
 }
@@ -121,9 +122,9 @@ fn observation(
     let delays = context.delays(&place, sight.direction(antenna), tag);
     let ionosphere = delays.ionosphere * dispersion(satellite, signal).unwrap();
     let clock = CLOCK - sight.satellite.clock + group_delay(record, signal).unwrap();
-    let range = sight.range(antenna) + delays.troposphere + SPEED_OF_LIGHT * clock;
+    let range = sight.transmitter().range(antenna) + delays.troposphere + SPEED_OF_LIGHT * clock;
     let drift = SPEED_OF_LIGHT * -sight.satellite.clock_drift;
-    let rate = sight.range_rate(antenna, velocity) + drift;
+    let rate = sight.transmitter().range_rate(antenna, velocity) + drift;
     let unknown = SignalObservation::unknown(satellite, signal);
     let wavelength = unknown.wavelength().unwrap();
     SignalObservation {

@@ -92,8 +92,8 @@ fn rate(
     let mut shifts = best.iter().filter(|signal| signal.doppler.is_some());
     let shift = shifts.clone().find(|signal| signal.signal.band == first).or(shifts.next())?;
     let measured = -shift.wavelength()? * shift.doppler?;
-    let at_rest = sight.range_rate(position, &Vector3::zeros());
-    let line = sight.line(position);
+    let at_rest = sight.transmitter().range_rate(position, &Vector3::zeros());
+    let line = sight.transmitter().line(position);
     let observation = Observation {
         row: RowVector4::new(-line.x, -line.y, -line.z, 1.0),
         observed: measured - at_rest + SPEED_OF_LIGHT * sight.satellite.clock_drift,

@@ -39,11 +39,12 @@ fn measured(all: &[Intaken]) -> Measured {
     let mut measured = Measured::default();
     for taken in all {
         let Intaken::Measured(received) = taken else { continue };
-        match received.message {
-            Message::Imu(sample) => measured.imu.push(sample),
-            Message::Gnss(fix) => measured.gnss.push(fix),
-            Message::Log(log) => measured.log.push(log),
-            Message::Reference(reference) => measured.heading.push(reference),
+        match &received.message {
+            Message::Imu(sample) => measured.imu.push(*sample),
+            Message::Gnss(fix) => measured.gnss.push(*fix),
+            Message::Log(log) => measured.log.push(*log),
+            Message::Reference(reference) => measured.heading.push(*reference),
+            Message::Ranges(_) => {}
         }
     }
     measured

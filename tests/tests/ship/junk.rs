@@ -1,5 +1,7 @@
 //! Whatever the sensors send, the engine neither panics nor says something that is not a number.
 
+use std::sync::Arc;
+
 use insd_base::{
     Body, FixQuality, Geodetic, Message, Ned, Received, Solution, Source, Span, Time, Voyage,
 };
@@ -67,7 +69,7 @@ impl Mischief {
             Mischief::Field(at, field, value) => {
                 spoil(at.get_mut(messages), *field, *value);
             }
-            Mischief::Twice(at) => messages.insert(at.index(length), *at.get(messages)),
+            Mischief::Twice(at) => messages.insert(at.index(length), at.get(messages).clone()),
             Mischief::Swap(a, b) => messages.swap(a.index(length), b.index(length)),
             Mischief::Loss(at, count) => {
                 let from = at.index(length);
@@ -86,6 +88,10 @@ fn restamp(received: &mut Received, off: f64) {
         Message::Gnss(m) => m.time = m.time + span,
         Message::Log(m) => m.time = m.time + span,
         Message::Reference(m) => m.time = m.time + span,
+        Message::Ranges(m) => {
+            let ranges = Arc::make_mut(m);
+            ranges.time = ranges.time + span;
+        }
     }
 }
 
@@ -116,6 +122,7 @@ fn spoil(received: &mut Received, field: u8, value: f64) {
             2 => m.heading_std = Some(value),
             _ => m.position = Some(Geodetic { latitude: value, longitude: 0.0, height: value }),
         },
+        Message::Ranges(m) => Arc::make_mut(m).ranges.clear(),
     }
 }
 
@@ -166,7 +173,7 @@ fn a_message_from_the_far_future_does_not_stop_the_clock() {
     let mut messages = voyage.received();
     for share in [3, 5] {
         let at = messages.len() / share;
-        let mut astray = messages[at];
+        let mut astray = messages[at].clone();
         restamp(&mut astray, 1e9);
         messages.insert(at, astray);
     }

@@ -206,7 +206,7 @@ impl Surveyor {
                     self.probation.hear(told, (own.attitude.heading, own.sigma.heading));
                 }
             }
-            Message::Imu(_) => {}
+            Message::Imu(_) | Message::Ranges(_) => {}
         }
     }
 
@@ -234,9 +234,9 @@ impl Surveyor {
         let with = |message: Message| Some(Received { message, ..*received });
         let is_wrong = |found: &Finding| matches!(found, Finding::LogMounting { .. });
         let is_turned = |found: &Finding| matches!(found, Finding::MountingTurned { .. });
-        match received.message {
+        match &received.message {
             Message::Gnss(fix) => {
-                let (left, refused) = self.still.fix(&fix);
+                let (left, refused) = self.still.fix(fix);
                 (left.map(Message::Gnss).and_then(with), refused)
             }
             Message::Log(_) if self.still.is_log_frozen() => {
@@ -248,21 +248,21 @@ impl Surveyor {
             // it would tell where her bow points, and not where the IMU does
             Message::Log(_) if self.findings.iter().any(is_turned) => (None, None),
             Message::Reference(told) if self.still.is_heading_frozen() => {
-                let left = ExternalReference { heading: None, heading_std: None, ..told };
+                let left = ExternalReference { heading: None, heading_std: None, ..*told };
                 (with(Message::Reference(left)), Some(("reference_heading", Rejection::Frozen)))
             }
-            _ => (Some(*received), None),
+            _ => (Some(received.clone()), None),
         }
     }
 
     /// A message with all that is known of its receiver: the lever arm of its antenna; and epochs that were
     /// found to be tagged late are set back.
     pub(crate) fn completed(&self, received: &Received) -> Received {
-        let Message::Gnss(fix) = received.message else { return *received };
+        let Message::Gnss(fix) = &received.message else { return received.clone() };
         let arm = fix.lever.unwrap_or(self.arms.gnss);
         let redated = self.late.filter(|(own, _)| *own == arm).map_or(0.0, |(_, by)| by);
         let time = fix.time - Span::from_seconds(redated);
-        let fix = GnssFix { time, redated, lever: Some(arm), ..fix };
+        let fix = GnssFix { time, redated, lever: Some(arm), ..*fix };
         Received { message: Message::Gnss(fix), ..*received }
     }
 

@@ -1,5 +1,7 @@
 //! Short voyages, with checkpoints taken on the way, and engines that go on from them.
 
+use std::sync::Arc;
+
 use insd_base::units::wrap_pi;
 use insd_base::{Event, Message, Received, ResumeDoubt, Solution, Span, Time, Truth, Voyage};
 use insd_engine::{Engine, EngineConfig, Output};
@@ -150,13 +152,14 @@ impl Watched {
 }
 
 fn shifted(received: &Received, by: Span) -> Received {
-    let mut moved = *received;
+    let mut moved = received.clone();
     moved.receipt = moved.receipt + by;
     let time = match &mut moved.message {
         Message::Imu(m) => &mut m.time,
         Message::Gnss(m) => &mut m.time,
         Message::Log(m) => &mut m.time,
         Message::Reference(m) => &mut m.time,
+        Message::Ranges(m) => &mut Arc::make_mut(m).time,
     };
     *time = *time + by;
     moved

@@ -80,13 +80,17 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
 
 fn enter(voyage: &mut Voyage, received: &Received) {
     let arrival = Some(received.receipt);
-    match received.message {
-        Message::Imu(message) => voyage.imu.push(Stamped { message, arrival }),
+    match &received.message {
+        Message::Imu(message) => voyage.imu.push(Stamped { message: *message, arrival }),
         // a voyage directory holds one receiver
         Message::Gnss(message) if message.rank > 0 => {}
-        Message::Gnss(message) => voyage.gnss.push(Stamped { message, arrival }),
-        Message::Log(message) => voyage.log.push(Stamped { message, arrival }),
-        Message::Reference(message) => voyage.reference.push(Stamped { message, arrival }),
+        // made of raw data, which are kept as such
+        Message::Ranges(_) => {}
+        Message::Gnss(message) => voyage.gnss.push(Stamped { message: *message, arrival }),
+        Message::Log(message) => voyage.log.push(Stamped { message: *message, arrival }),
+        Message::Reference(message) => {
+            voyage.reference.push(Stamped { message: *message, arrival })
+        }
     }
 }
 

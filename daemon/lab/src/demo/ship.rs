@@ -65,7 +65,7 @@ impl DemoShip {
     /// Sails to `until`: all messages received by then go through the engine, and the sentences of
     /// the solutions that come out go to `wire`.
     pub fn advance(&mut self, until: Time, wire: &mut dyn FnMut(&[u8])) {
-        while let Some(received) = self.messages.as_slice().first().copied() {
+        while let Some(received) = self.messages.as_slice().first().cloned() {
             if received.receipt > until {
                 break;
             }

@@ -201,6 +201,7 @@ fn is_sane(message: &Message) -> usize {
             finite(&[reference.position_std, reference.heading, reference.heading_std]);
             3
         }
+        Message::Ranges(_) => panic!("no port tells ranges"),
     }
 }
 

@@ -69,10 +69,11 @@ fn converge(
 }
 
 fn observation(change: &PhaseChange, before: &Vector3<f64>, now: &Vector3<f64>) -> Observation {
-    let line = change.now.line(now);
+    let line = change.now.transmitter().line(now);
     Observation {
         row: RowVector4::new(-line.x, -line.y, -line.z, 1.0),
-        observed: change.change - (change.now.range(now) - change.before.range(before)),
+        observed: change.change
+            - (change.now.transmitter().range(now) - change.before.transmitter().range(before)),
         variance: change.variance,
     }
 }

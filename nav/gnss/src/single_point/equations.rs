@@ -93,8 +93,8 @@ impl Equations {
     ) -> Rows {
         let count = candidate.rangings.len();
         let clock = clock_of(candidate.satellite.constellation);
-        let line = candidate.sight.line(&self.position);
-        let range = candidate.sight.range(&self.position);
+        let line = candidate.sight.transmitter().line(&self.position);
+        let range = candidate.sight.transmitter().range(&self.position);
         let mut rows = DMatrix::zeros(count, self.unknowns());
         let mut observed = DVector::zeros(count);
         for (row, ranging) in candidate.rangings.iter().enumerate() {

@@ -35,6 +35,8 @@ fn read(dir: &Path) -> anyhow::Result<Voyage> {
             Message::Gnss(own) => voyage.gnss.push(Stamped::prompt(own)),
             Message::Log(own) => voyage.log.push(Stamped::prompt(own)),
             Message::Reference(own) => voyage.reference.push(Stamped::prompt(own)),
+            // no file of a voyage holds them
+            Message::Ranges(_) => {}
         }
     }
     Ok(voyage)
