@@ -8,8 +8,8 @@ mod rows;
 mod tests;
 mod write;
 
+pub(crate) use header::{Draft, leap_seconds, version};
 pub use header::{Equipment, ObservationHeader};
-pub(crate) use header::{leap_seconds, version};
 pub use reader::ObservationReader;
-pub(crate) use rows::satellite;
+pub(crate) use rows::{instant, satellite};
 pub use write::write_observations;

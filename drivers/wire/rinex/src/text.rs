@@ -17,6 +17,11 @@ impl<'a> Lines<'a> {
         self.number
     }
 
+    /// What has not been taken.
+    pub(crate) fn rest(&self) -> &'a [u8] {
+        self.rest
+    }
+
     /// The next line without its end, which stays.
     pub(crate) fn peek(&self) -> Option<&'a [u8]> {
         self.clone().next()
@@ -60,8 +65,9 @@ pub(crate) fn is_blank(line: &[u8]) -> bool {
 
 /// Writes a line of a header: contents padded to 60 columns, then the label.
 pub(crate) fn push_header(out: &mut String, contents: &str, label: &str) {
-    // characters, not bytes, so that a name with an accent does not shift what a reader of characters sees
-    let contents: String = contents.chars().take(60).collect();
+    // one byte a character, or the label leaves its columns
+    let plain = |c: char| if c == ' ' || c.is_ascii_graphic() { c } else { '?' };
+    let contents: String = contents.chars().map(plain).take(60).collect();
     out.push_str(&format!("{contents:<60}{label}\n"));
 }
 
@@ -75,6 +81,14 @@ mod tests {
         assert_eq!(lines.peek(), Some(&b"a"[..]));
         assert_eq!(lines.by_ref().collect::<Vec<_>>(), [&b"a"[..], b"", b"b"]);
         assert_eq!(lines.number(), 3);
+    }
+
+    #[test]
+    fn a_label_stays_in_its_columns_whatever_the_name() {
+        let mut line = String::new();
+        push_header(&mut line, "Z\u{fc}rich\n", "MARKER NAME");
+        assert_eq!(label(line.as_bytes()), b"MARKER NAME");
+        assert!(line.starts_with("Z?rich? "));
     }
 
     #[test]

@@ -172,7 +172,8 @@ impl Draft {
     fn numbers(&mut self, line: &[u8], number: usize) {
         let taken = match label(line) {
             b"APPROX POSITION XYZ" => triple(line).map(|position| {
-                self.header.position = position.filter(|position| *position != [0.0; 3]);
+                self.header.position =
+                    position.filter(|position| position.iter().any(|x| x.abs() >= 1.0));
             }),
             b"ANTENNA: DELTA H/E/N" => triple(line).map(|delta| self.header.antenna_delta = delta),
             b"INTERVAL" => decimal(columns(line, 0, 10)).ok().map(|interval| {

@@ -86,7 +86,7 @@ pub(crate) fn head<'a>(
     let count =
         whole(field(places.count)).ok().flatten().and_then(|count| usize::try_from(count).ok());
     let count = count.ok_or_else(|| flaw("number of satellites", "a number in its columns"))?;
-    let tag = instant(line, &places, draft);
+    let tag = instant(line, draft);
     if tag.is_none() && !(2..=5).contains(&flag) {
         return Err(flaw("epoch", "a date and a time of day that exist"));
     }
@@ -103,7 +103,9 @@ pub(crate) fn head<'a>(
     Ok(Head { flag, count, tag, names, line: number })
 }
 
-fn instant(line: &[u8], places: &Places, draft: &Draft) -> Option<GpsTime> {
+/// The instant of a head, where it is a date and a time of day.
+pub(crate) fn instant(line: &[u8], draft: &Draft) -> Option<GpsTime> {
+    let places = if draft.is_early() { EARLY } else { MODERN };
     let mut numbers = [0; 5];
     for (number, (from, to)) in numbers.iter_mut().zip(places.date) {
         *number = whole(columns(line, from, to)).ok()??;

@@ -83,11 +83,12 @@ fn push_station(out: &mut String, header: &ObservationHeader) {
     push_header(out, "", "OBSERVER / AGENCY");
     push_header(out, &equipment(&header.receiver), "REC # / TYPE / VERS");
     push_header(out, &equipment(&header.antenna), "ANT # / TYPE");
-    if let Some(position) = header.position {
-        push_header(out, &triple(position), "APPROX POSITION XYZ");
+    let told = |numbers: Option<[f64; 3]>| numbers.and_then(triple);
+    if let Some(position) = told(header.position) {
+        push_header(out, &position, "APPROX POSITION XYZ");
     }
-    if let Some(delta) = header.antenna_delta {
-        push_header(out, &triple(delta), "ANTENNA: DELTA H/E/N");
+    if let Some(delta) = told(header.antenna_delta) {
+        push_header(out, &delta, "ANTENNA: DELTA H/E/N");
     }
 }
 
@@ -97,8 +98,10 @@ fn equipment(equipment: &Equipment) -> String {
     format!("{:20}{:20}{:20}", cut(number), cut(kind), cut(version))
 }
 
-fn triple(numbers: [f64; 3]) -> String {
-    numbers.map(|number| format!("{number:14.4}")).concat()
+/// `3F14.4`, where the numbers have room.
+fn triple(numbers: [f64; 3]) -> Option<String> {
+    let text = numbers.map(|number| format!("{number:14.4}")).concat();
+    (text.len() == 42 && numbers.iter().all(|number| number.is_finite())).then_some(text)
 }
 
 /// `A1,2X,I3,13(1X,A3)`.
@@ -118,7 +121,8 @@ fn push_types(out: &mut String, own: &Columns) {
 
 fn push_times(out: &mut String, header: &ObservationHeader, epochs: &[SatelliteEpoch]) {
     push_header(out, "DBHZ", "SIGNAL STRENGTH UNIT");
-    if let Some(interval) = header.interval {
+    let interval = header.interval.filter(|interval| (0.001..1e6).contains(interval));
+    if let Some(interval) = interval {
         push_header(out, &format!("{interval:10.3}"), "INTERVAL");
     }
     let first = epochs.first();
