@@ -4,6 +4,18 @@
 //! log. Readers never panic, whatever the bytes; what they leave out they report as a [`Flaw`] with its line. All
 //! times are GPS time; metres, seconds, cycles and radians. Facts of the format are from "RINEX: The Receiver
 //! Independent Exchange Format" 2.11, 3.05 and 4.02 (IGS/RTCM), whose tables are named where they are used.
+//!
+//! ```
+//! # let file = include_str!("../tests/data/moving.obs");
+//! use insd_rinex::{ObservationReader, write_observations};
+//!
+//! let mut reader = ObservationReader::new(file)?;
+//! let epochs: Vec<_> = reader.by_ref().filter_map(Result::ok).collect();
+//! assert_eq!(epochs.len(), 3);
+//! let text = write_observations(reader.header(), &epochs);
+//! assert!(ObservationReader::new(&text)?.eq(epochs.into_iter().map(Ok)));
+//! # Ok::<(), insd_rinex::RinexError>(())
+//! ```
 
 mod calendar;
 mod compact;

@@ -30,6 +30,10 @@ pub fn write_observations(header: &ObservationHeader, epochs: &[SatelliteEpoch])
     for own in &columns {
         push_types(&mut out, own);
     }
+    for own in &columns {
+        // a letter alone: whether phases were aligned among signals is not known
+        push_header(&mut out, &own.constellation.letter().to_string(), "SYS / PHASE SHIFT");
+    }
     push_times(&mut out, header, epochs);
     push_channels(&mut out, header, epochs);
     push_header(&mut out, "", "END OF HEADER");
@@ -155,6 +159,10 @@ fn push_channels(out: &mut String, header: &ObservationHeader, epochs: &[Satelli
             contents.push_str(&format!("R{slot:02} {channel:2} "));
         }
         push_header(out, &contents, "GLONASS SLOT / FRQ #");
+    }
+    if !channels.is_empty() {
+        // blank: biases between code and phase are not known
+        push_header(out, "", "GLONASS COD/PHS/BIS");
     }
 }
 

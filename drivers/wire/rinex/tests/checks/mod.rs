@@ -24,18 +24,22 @@ pub(crate) fn observations(
     Some((reader.header().clone(), epochs, flaws))
 }
 
-/// No panic whatever the bytes; numbers are finite; what is read, written and read again is the same.
-pub(crate) fn everything(bytes: &[u8]) {
+/// No panic whatever the bytes; numbers are finite; what is read, written and read again is the same. Gives back how many
+/// epochs, records and epochs of compact files were read.
+pub(crate) fn everything(bytes: &[u8]) -> [usize; 3] {
+    let mut read = [0; 3];
     if let Some((header, epochs, _)) = observations(bytes) {
         assert!(epochs.iter().flat_map(|epoch| &epoch.signals).all(is_finite));
         observations_come_back(&header, &epochs);
+        read[0] = epochs.len();
     }
-    navigation_comes_back(bytes);
+    read[1] = navigation_comes_back(bytes);
     let plain = expand(bytes);
     assert!(is_compact(bytes) || plain.is_err());
     if let Ok(plain) = plain {
-        observations(plain.text.as_bytes());
+        read[2] = observations(plain.text.as_bytes()).map_or(0, |(_, epochs, _)| epochs.len());
     }
+    read
 }
 
 fn numbers(own: &SignalObservation) -> impl Iterator<Item = f64> {
@@ -87,9 +91,9 @@ pub(crate) fn observations_come_back(header: &ObservationHeader, epochs: &[Satel
     }
 }
 
-/// The same for messages: after one round nothing changes any more.
-pub(crate) fn navigation_comes_back(bytes: &[u8]) {
-    let Ok(first) = read_navigation(bytes) else { return };
+/// The same for messages: after one round nothing changes any more. Gives back how many.
+pub(crate) fn navigation_comes_back(bytes: &[u8]) -> usize {
+    let Ok(first) = read_navigation(bytes) else { return 0 };
     let write = |bytes: &[u8]| {
         let read = read_navigation(bytes).unwrap();
         (read.records.len(), write_navigation(&read.records, &read.ionosphere, read.leap_seconds))
@@ -101,4 +105,5 @@ pub(crate) fn navigation_comes_back(bytes: &[u8]) {
     if count == first.records.len() && third == count {
         assert!(twice == thrice, "written otherwise than\n{twice}");
     }
+    first.records.len()
 }
