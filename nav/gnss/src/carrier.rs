@@ -1,6 +1,8 @@
 //! Differences of carrier phase between two epochs: how far an antenna has moved, to millimetres, without any ambiguity.
 
 mod displacement;
+mod ionosphere;
+mod observed;
 mod tracker;
 
 pub use displacement::CarrierDisplacement;

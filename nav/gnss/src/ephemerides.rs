@@ -7,8 +7,8 @@ use insd_base::satellites::{GlonassRecord, KeplerRecord, MessageKind};
 use insd_base::{BroadcastRecord, Constellation, GpsTime, SatelliteId};
 use serde::{Deserialize, Serialize};
 
-/// Records kept of one satellite: a day's of GPS, four hours' of Galileo.
-const KEPT: usize = 24;
+/// Records kept of one satellite: a day's of Galileo's two messages, which change every ten minutes.
+const KEPT: usize = 300;
 
 /// Why a satellite has no orbit at an instant, or a record is not taken.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -83,24 +83,25 @@ pub(crate) fn solve(observations: &[Observation]) -> Option<Solved> {
 }
 
 impl Solved {
-    /// What an observation has over the solution, in units of what that should scatter by; zero where nothing checks it.
-    pub(crate) fn surprise(&self, observation: &Observation) -> f64 {
+    /// What an observation has over the solution, and the 1-sigma that it should have; `None` where nothing checks it.
+    fn residual(&self, observation: &Observation) -> Option<(f64, f64)> {
         let row = DMatrix::from_row_slice(1, 4, observation.row.as_slice());
         let drawn = (&row * &self.covariance * row.transpose())[0];
         let left = observation.variance - drawn;
         let residual = observation.observed - (&row * &self.unknowns)[0];
-        if left > 1e-9 * observation.variance { residual / left.sqrt() } else { 0.0 }
+        (left > 1e-9 * observation.variance).then(|| (residual, left.sqrt()))
     }
 
-    /// The observation that contradicts the others most, if one does.
-    pub(crate) fn worst(&self, observations: &[Observation]) -> Option<usize> {
+    /// The observation that contradicts the others most, if one does, by more than `least`.
+    pub(crate) fn worst(&self, observations: &[Observation], least: f64) -> Option<usize> {
         let limit = -Gaussian::standard().inverse_cdf(FALSE_ALARM / 2.0);
-        let surprises = observations.iter().map(|observation| self.surprise(observation).abs());
-        surprises
-            .enumerate()
-            .filter(|(_, surprise)| *surprise > limit)
-            .max_by(|(_, a), (_, b)| a.total_cmp(b))
-            .map(|(index, _)| index)
+        let surprise = |(index, observation): (usize, &Observation)| {
+            let (residual, std) = self.residual(observation)?;
+            let is_far = residual.abs() > limit * std && residual.abs() > least;
+            is_far.then(|| (index, residual.abs() / std))
+        };
+        let far = observations.iter().enumerate().filter_map(surprise);
+        far.max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(index, _)| index)
     }
 }
 

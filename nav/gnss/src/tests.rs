@@ -125,8 +125,8 @@ fn phases_tell_a_displacement_to_a_millimetre_though_the_place_is_tens_of_metres
     let wrong = berth() + Vector3::new(20.0, -10.0, 15.0);
     let first = epoch(&context, 0.0, &berth(), &still());
     let second = epoch(&context, 1.0, &(berth() + moved), &still());
-    assert!(tracker.advance(&context, &first, &wrong).is_empty());
-    let changes = tracker.advance(&context, &second, &wrong);
+    assert!(tracker.advance(&context, &first, &wrong, 0.0).is_empty());
+    let changes = tracker.advance(&context, &second, &wrong, 0.0);
     let found = CarrierDisplacement::solve(&changes, &berth()).unwrap();
     assert!((found.displacement - moved).norm() < 2e-3, "{}", (found.displacement - moved).norm());
     assert!(found.slipped.is_empty());
@@ -136,7 +136,7 @@ fn phases_tell_a_displacement_to_a_millimetre_though_the_place_is_tens_of_metres
 fn an_untold_slip_is_found_and_a_told_one_or_a_half_cycle_is_not_used() {
     let context = context();
     let mut tracker = CarrierTracker::default();
-    tracker.advance(&context, &epoch(&context, 0.0, &berth(), &still()), &berth());
+    tracker.advance(&context, &epoch(&context, 0.0, &berth(), &still()), &berth(), 0.0);
     let mut next = epoch(&context, 1.0, &berth(), &still());
     let (slipped, told, half) =
         (next.signals[2].satellite, next.signals[6].satellite, next.signals[10].satellite);
@@ -147,7 +147,7 @@ fn an_untold_slip_is_found_and_a_told_one_or_a_half_cycle_is_not_used() {
         signal.slip = signal.satellite == told;
         signal.half_cycle = signal.satellite == half;
     }
-    let changes = tracker.advance(&context, &next, &berth());
+    let changes = tracker.advance(&context, &next, &berth(), 0.0);
     assert!(!changes.iter().any(|change| [told, half].contains(&change.satellite)));
     let found = CarrierDisplacement::solve(&changes, &berth()).unwrap();
     assert_eq!(found.slipped, [slipped]);
@@ -160,11 +160,11 @@ fn epochs_that_repeat_or_go_back_or_lie_minutes_apart_give_no_difference() {
     let mut tracker = CarrierTracker::default();
     let at = |after: f64| epoch(&context, after, &berth(), &still());
     for after in [10.0, 10.0, 9.0, 80.0] {
-        assert!(tracker.advance(&context, &at(after), &berth()).is_empty(), "{after}");
+        assert!(tracker.advance(&context, &at(after), &berth(), 0.0).is_empty(), "{after}");
     }
-    assert!(!tracker.advance(&context, &at(81.0), &berth()).is_empty());
+    assert!(!tracker.advance(&context, &at(81.0), &berth(), 0.0).is_empty());
     let mut reset = at(82.0);
     reset.clock_reset = true;
-    assert!(tracker.advance(&context, &reset, &berth()).is_empty());
+    assert!(tracker.advance(&context, &reset, &berth(), 0.0).is_empty());
     assert_eq!(reset.tag.since(at(80.0).tag), Span::from_seconds(2.0));
 }

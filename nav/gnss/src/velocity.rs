@@ -43,7 +43,7 @@ impl DopplerVelocity {
         let mut faulty = Vec::new();
         loop {
             let solved = solve(&rates)?;
-            let Some(worst) = solved.worst(&rates) else {
+            let Some(worst) = solved.worst(&rates, 0.0) else {
                 return Some(Self::told(&rates, &solved, satellites, faulty));
             };
             if rates.len() < 6 {

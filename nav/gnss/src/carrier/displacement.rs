@@ -6,6 +6,9 @@ use nalgebra::{Matrix3, RowVector4, Vector3};
 use super::tracker::PhaseChange;
 use crate::least_squares::{Observation, Solved, solve};
 
+/// No slip is smaller, m: half a cycle on L1 is 95 mm, of which a part goes into the solution.
+const SLIP: f64 = 0.05;
+
 /// A displacement between two epochs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CarrierDisplacement {
@@ -30,7 +33,7 @@ impl CarrierDisplacement {
         let mut slipped = Vec::new();
         loop {
             let (displacement, solved, observations) = converge(&changes, before)?;
-            let Some(worst) = solved.worst(&observations) else {
+            let Some(worst) = solved.worst(&observations, SLIP) else {
                 return Some(Self {
                     displacement,
                     covariance: solved.covariance.fixed_view::<3, 3>(0, 0).into(),

@@ -2,21 +2,17 @@
 
 use std::collections::BTreeMap;
 
-use insd_base::frames::Ecef;
-use insd_base::satellites::SPEED_OF_LIGHT;
-use insd_base::{
-    BroadcastRecord, GpsTime, SatelliteEpoch, SatelliteId, SignalCode, SignalObservation, earth,
-};
+use insd_base::satellites::{ArcPhase, Measured, SPEED_OF_LIGHT};
+use insd_base::{GpsTime, SatelliteEpoch, SatelliteId, SignalCode};
 use nalgebra::Vector3;
 
-use crate::context::{Context, Delays};
+use super::ionosphere::IonosphereTrack;
+use super::observed::{Observed, Phase};
+use crate::context::Context;
 use crate::sight::Sight;
-use crate::signals::{dispersion, inflation};
 
 /// The longest that two epochs may lie apart, s: the ionosphere and a satellite's clock move by centimetres in a minute.
 const LONGEST: f64 = 60.0;
-/// Satellites below this elevation are not used, rad: 10 degrees.
-const LOWEST: f64 = 0.1745;
 /// 1-sigma of the rate of the ionosphere on L1 at the zenith that its model does not have, m/s.
 const IONOSPHERE_RATE: f64 = 0.002;
 
@@ -33,166 +29,186 @@ pub struct PhaseChange {
     pub change: f64,
     /// Its variance, m^2.
     pub variance: f64,
-    /// Elevation, rad.
-    pub elevation: f64,
 }
 
-/// One band of a satellite, as it was at an epoch.
+/// A satellite whose phase is tracked.
 #[derive(Clone, Copy, Debug)]
-struct Phase {
-    signal: SignalCode,
-    /// m.
-    phase: f64,
-    variance: f64,
-    dispersion: f64,
-    lock: Option<f64>,
+struct Arc {
+    phase: ArcPhase,
+    ionosphere: Option<Dispersive>,
 }
 
-/// A satellite as it was at an epoch.
-#[derive(Clone, Debug)]
-struct Seen {
-    record: BroadcastRecord,
-    code: f64,
-    sight: Sight,
-    delays: Delays,
-    phases: Vec<Phase>,
+/// The ionosphere as two bands see it: of which phases, by their place.
+#[derive(Clone, Copy, Debug)]
+struct Dispersive {
+    bands: [SignalCode; 2],
+    track: IonosphereTrack,
 }
 
 /// Remembers the epoch before.
 #[derive(Clone, Debug, Default)]
 pub struct CarrierTracker {
     tag: Option<GpsTime>,
-    seen: BTreeMap<SatelliteId, Seen>,
+    seen: BTreeMap<SatelliteId, (Observed, Arc)>,
+    /// Arcs begun so far.
+    arcs: u32,
+    /// Turns of the antenna so far, clockwise as seen from above.
+    turns: f64,
 }
 
 impl CarrierTracker {
     /// The changes since the epoch before, for an antenna at about this place, ECEF, m: an error of 100 m there makes one of 15 mm/s at the most
-    /// (gnss.md, section 6), and none in a solution that knows its place before.
+    /// (satellites move by 1.5e-4 rad/s as seen from the Earth), and none in a solution that knows its place before. `turned`: by what the antenna
+    /// has turned since, rad, clockwise as seen from above, if that is known.
     pub fn advance(
         &mut self,
         context: &Context,
         epoch: &SatelliteEpoch,
         antenna: &Vector3<f64>,
+        turned: f64,
     ) -> Vec<PhaseChange> {
-        let now: BTreeMap<_, _> = epoch
-            .signals
-            .chunk_by(|a, b| a.satellite == b.satellite)
-            .filter_map(|signals| {
-                Some((signals.first()?.satellite, seen(context, epoch, signals, antenna)?))
-            })
-            .collect();
+        self.turns += turned / std::f64::consts::TAU;
         let elapsed = self.tag.map(|before| epoch.tag.since(before).as_seconds());
-        let usable =
+        let elapsed =
             elapsed.filter(|elapsed| *elapsed > 0.0 && *elapsed < LONGEST && !epoch.clock_reset);
-        let changes = usable.map_or_else(Vec::new, |elapsed| {
-            let both = now.iter().filter_map(|(id, now)| Some((*id, self.seen.get(id)?, now)));
-            both.filter_map(|(id, before, now)| {
-                change(id, before, now, elapsed, self.tag?, antenna)
-            })
-            .collect()
-        });
+        let before = std::mem::take(&mut self.seen);
+        let mut changes = Vec::new();
+        for signals in epoch.signals.chunk_by(|a, b| a.satellite == b.satellite) {
+            let Some(now) = Observed::new(context, epoch.tag, signals, (antenna, self.turns))
+            else {
+                continue;
+            };
+            let kept = elapsed.zip(before.get(&now.satellite)).zip(self.tag);
+            let change = kept.and_then(|((elapsed, (earlier, arc)), tag)| {
+                change((tag, earlier, arc), &now, elapsed, antenna)
+            });
+            let arc = match change {
+                Some((change, arc)) => {
+                    changes.push(change);
+                    arc
+                }
+                None => self.begin(&now),
+            };
+            self.seen.insert(now.satellite, (now, arc));
+        }
         self.tag = Some(epoch.tag);
-        self.seen = now;
         changes
     }
-}
 
-fn seen(
-    context: &Context,
-    epoch: &SatelliteEpoch,
-    signals: &[SignalObservation],
-    antenna: &Vector3<f64>,
-) -> Option<Seen> {
-    let satellite = signals.first()?.satellite;
-    let code = signals.iter().find_map(|signal| signal.code)?;
-    let record = context.ephemerides.select(satellite, epoch.tag).ok()?;
-    let sight = Sight::new(record, epoch.tag, code);
-    let direction = sight.direction(antenna);
-    if direction.elevation < LOWEST {
-        return None;
+    /// The phase of a satellite in the newest epoch.
+    #[must_use]
+    pub fn phase(&self, satellite: SatelliteId) -> Option<ArcPhase> {
+        let (observed, arc) = self.seen.get(&satellite)?;
+        (!observed.phases.is_empty()).then_some(arc.phase)
     }
-    let delays = context.delays(&earth::geodetic(&Ecef(*antenna)), direction, epoch.tag);
-    let noise = context.noise.phase * context.noise.phase;
-    let phases: Vec<_> = signals
-        .iter()
-        .filter(|signal| !signal.half_cycle)
-        .filter_map(|signal| {
-            Some(Phase {
-                signal: signal.signal,
-                phase: signal.phase? * signal.wavelength()?,
-                variance: noise * inflation(direction.elevation, signal.cn0),
-                dispersion: dispersion(satellite, signal.signal)?,
-                lock: if signal.slip { Some(0.0) } else { signal.lock },
-            })
-        })
-        .collect();
-    Some(Seen { record: *record, code, sight, delays, phases })
+
+    fn begin(&mut self, now: &Observed) -> Arc {
+        self.arcs += 1;
+        let weights: f64 = now.phases.iter().map(|phase| 1.0 / phase.variance).sum();
+        let phase = Measured { value: now.range(), variance: 1.0 / weights };
+        Arc { phase: ArcPhase { phase, arc: self.arcs }, ionosphere: dispersive(now, None) }
+    }
 }
 
 /// `None` where no phase was tracked through both epochs.
 fn change(
-    satellite: SatelliteId,
-    before: &Seen,
-    now: &Seen,
+    (tag, before, arc): (GpsTime, &Observed, &Arc),
+    now: &Observed,
     elapsed: f64,
-    tag_before: GpsTime,
     antenna: &Vector3<f64>,
-) -> Option<PhaseChange> {
+) -> Option<(PhaseChange, Arc)> {
     // the same record on both sides: another one is another orbit and another clock
     let sight_before = if before.record == now.record {
         before.sight
     } else {
-        Sight::new(&now.record, tag_before, before.code)
+        Sight::new(&now.record, tag, before.code)
     };
     let clock = SPEED_OF_LIGHT * (now.sight.satellite.clock - sight_before.satellite.clock);
     let troposphere = now.delays.troposphere - before.delays.troposphere;
-    let ionosphere = now.delays.ionosphere - before.delays.ionosphere;
-    let elevation = now.sight.direction(antenna).elevation;
-    let rate = IONOSPHERE_RATE * elapsed / elevation.sin().max(0.3);
-    let tracked: Vec<_> = now
+    let kept: Vec<(&Phase, &Phase)> = now
         .phases
         .iter()
         .filter_map(|phase| {
             let earlier = before.phases.iter().find(|earlier| earlier.signal == phase.signal)?;
-            kept(earlier, phase, elapsed).then(|| {
-                let moved = phase.phase - earlier.phase + phase.dispersion * ionosphere;
-                (moved, phase.variance + earlier.variance, phase.dispersion)
-            })
+            phase.continues(earlier, elapsed).then_some((earlier, phase))
         })
         .collect();
-    let (moved, variance) = without_ionosphere(&tracked, rate)?;
-    Some(PhaseChange {
-        satellite,
-        before: sight_before,
-        now: now.sight,
-        change: moved + clock - troposphere,
-        variance,
-        elevation,
+    let (ionosphere, tracked) = tracked(arc.ionosphere, now, &kept, elapsed);
+    // a leap between two bands: the lower one is the weaker
+    let leapt = tracked.is_none() && ionosphere.is_some() && arc.ionosphere.is_some();
+    let kept = if leapt { first_band_alone(&kept) } else { kept };
+    let (delay, delay_std) = tracked.unwrap_or_else(|| {
+        let model = now.delays.ionosphere - before.delays.ionosphere;
+        (model, IONOSPHERE_RATE * elapsed / now.elevation.sin().max(0.3))
+    });
+    let (moved, variance) = without_ionosphere(&kept, delay, delay_std)?;
+    let change = moved + clock - troposphere;
+    // what is constant stays so when another record has the satellite elsewhere
+    let elsewhere =
+        sight_before.transmitter().range(antenna) - before.sight.transmitter().range(antenna);
+    let value = arc.phase.phase.value + elsewhere + change;
+    let phase = ArcPhase { phase: Measured { value, variance: variance / 2.0 }, ..arc.phase };
+    let (satellite, now) = (now.satellite, now.sight);
+    let change = PhaseChange { satellite, before: sight_before, now, change, variance };
+    Some((change, Arc { phase, ionosphere }))
+}
+
+/// What two bands make of the ionosphere: the track as it goes on, and the change of the delay with its 1-sigma if it was tracked.
+fn tracked(
+    before: Option<Dispersive>,
+    now: &Observed,
+    kept: &[(&Phase, &Phase)],
+    elapsed: f64,
+) -> (Option<Dispersive>, Option<(f64, f64)>) {
+    let is_kept = |band: &SignalCode| kept.iter().any(|(_, phase)| phase.signal == *band);
+    let same = before.zip(two_bands(now)).filter(|(known, (bands, ..))| known.bands == *bands);
+    if let Some((mut known, (_, delay, variance))) =
+        same.filter(|(known, _)| known.bands.iter().all(is_kept))
+        && let Some(change) = known.track.advance(elapsed, delay, variance)
+    {
+        return (Some(known), Some(change));
+    }
+    (dispersive(now, before), None)
+}
+
+fn first_band_alone<'a>(kept: &[(&'a Phase, &'a Phase)]) -> Vec<(&'a Phase, &'a Phase)> {
+    let least = kept.iter().map(|(_, phase)| phase.dispersion).fold(f64::INFINITY, f64::min);
+    kept.iter().filter(|(_, phase)| phase.dispersion < least + 0.1).copied().collect()
+}
+
+/// Two bands begin to track the ionosphere, at the rate that was known.
+fn dispersive(now: &Observed, before: Option<Dispersive>) -> Option<Dispersive> {
+    let (bands, delay, variance) = two_bands(now)?;
+    let rate = before.map_or(0.0, |known| known.track.rate());
+    Some(Dispersive { bands, track: IonosphereTrack::begin(delay, variance, rate) })
+}
+
+/// The delay on L1 but for a constant by the two bands that lie farthest apart, m, and its variance.
+fn two_bands(now: &Observed) -> Option<([SignalCode; 2], f64, f64)> {
+    let by_dispersion = |a: &&Phase, b: &&Phase| a.dispersion.total_cmp(&b.dispersion);
+    let low = now.phases.iter().min_by(by_dispersion)?;
+    let high = now.phases.iter().max_by(by_dispersion)?;
+    let apart = high.dispersion - low.dispersion;
+    (apart > 0.1).then(|| {
+        let variance = (low.variance + high.variance) / (apart * apart);
+        ([low.signal, high.signal], (low.phase - high.phase) / apart, variance)
     })
 }
 
-/// Whether the receiver tracked without a break, by its own word.
-fn kept(before: &Phase, now: &Phase, elapsed: f64) -> bool {
-    match (before.lock, now.lock) {
-        // lower bounds: they may stand, but not fall
-        (Some(before), Some(now)) => now >= before || now >= elapsed,
-        (None, Some(now)) => now > 0.0,
-        (_, None) => true,
-    }
-}
-
-/// The change of the way by those of all bands, and its variance: the ionosphere's change on L1 is zero to within `rate`, m, and each band has
-/// its own noise; so that one band rests on the model, and two take its place by what each is worth.
-fn without_ionosphere(tracked: &[(f64, f64, f64)], rate: f64) -> Option<(f64, f64)> {
-    // unknowns: the change of the way and of the ionosphere; 2 x 2 normal equations
-    let (mut n11, mut n12, mut n22) = (0.0, 0.0, 1.0 / (rate * rate));
+/// The change of the way by those of all bands, and its variance. The ionosphere's change on L1 is known to within its 1-sigma, m, and each band has
+/// its own noise: one band rests on what is known, and two take its place by what each is worth.
+fn without_ionosphere(kept: &[(&Phase, &Phase)], delay: f64, std: f64) -> Option<(f64, f64)> {
+    // unknowns: the change of the way and the rest of the ionosphere's; 2 x 2 normal equations
+    let (mut n11, mut n12, mut n22) = (0.0, 0.0, 1.0 / (std * std).max(1e-12));
     let (mut b1, mut b2) = (0.0, 0.0);
-    for (moved, variance, dispersion) in tracked {
-        n11 += 1.0 / variance;
-        n12 -= dispersion / variance;
-        n22 += dispersion * dispersion / variance;
-        b1 += moved / variance;
-        b2 -= dispersion * moved / variance;
+    for (before, now) in kept {
+        let moved = now.phase - before.phase + now.dispersion * delay;
+        let weight = 1.0 / (now.variance + before.variance);
+        n11 += weight;
+        n12 -= now.dispersion * weight;
+        n22 += now.dispersion * now.dispersion * weight;
+        b1 += moved * weight;
+        b2 -= now.dispersion * moved * weight;
     }
     let determinant = n11 * n22 - n12 * n12;
     (n11 > 0.0).then(|| ((n22 * b1 - n12 * b2) / determinant, n22 / determinant))

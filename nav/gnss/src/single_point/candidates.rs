@@ -11,6 +11,7 @@ use crate::signals::{best_of_each_band, dispersion, first_band, group_delay};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ranging {
     pub(super) band: u8,
+    pub(super) attribute: u8,
     /// Code, m, with the satellite's clock and group delay taken out.
     pub(super) code: f64,
     /// How much more than on L1 the ionosphere delays it.
@@ -67,6 +68,7 @@ fn ranging(record: &BroadcastRecord, sight: &Sight, signal: &SignalObservation) 
     let clock = sight.satellite.clock - group_delay(record, signal.signal)?;
     Some(Ranging {
         band: signal.signal.band,
+        attribute: signal.signal.attribute,
         code: signal.code? + clock * SPEED_OF_LIGHT,
         dispersion: dispersion(signal.satellite, signal.signal)?,
         cn0: signal.cn0,

@@ -10,13 +10,27 @@ use crate::context::{Context, Delays};
 use crate::least_squares::{Normal, Solved};
 use crate::signals::inflation;
 
-/// 1-sigma of what a broadcast orbit and clock add to a range, m: 0.98 to 2.9 m in space against precise orbits, of which
-/// about half is along the line.
-const ORBIT: f64 = 0.8;
+/// 1-sigma of what a broadcast orbit and clock add to a range, m: in space they are off by 0.98 (Galileo), 1.4 (GPS), 2.6 (BeiDou) and
+/// 2.9 m (GLONASS, whose receivers' delays differ from channel to channel besides) against precise orbits, of which more than half is along the line.
+fn orbit_std(constellation: Constellation) -> f64 {
+    match constellation {
+        Constellation::Galileo => 0.6,
+        Constellation::BeiDou => 1.5,
+        Constellation::Glonass => 2.5,
+        _ => 0.9,
+    }
+}
+
 /// 1-sigma of a receiver's delay on a further band against its first, m.
-const BAND_DELAY: f64 = 5.0;
+const BAND_DELAY: f64 = 10.0;
 /// 1-sigma of a satellite's delay on L5, of which GPS' and QZSS' old messages tell nothing, m.
-const UNTOLD_DELAY: f64 = 1.5;
+const UNTOLD_L5: f64 = 1.5;
+/// The same of its codes on L1 and L2 that are not those which its clock refers to.
+const UNTOLD_L2: f64 = 0.5;
+/// 1-sigma of a code that is tracked without being known, m, against one that is: it has the other's noise as well.
+const CODELESS: f64 = 1.6;
+/// The same between the bands of GLONASS, where a receiver has another delay on each channel.
+const UNTOLD_GLONASS: f64 = 3.0;
 /// By what share the ionosphere as a whole may be other than its model; 1-sigma (IS-GPS-200N, 20.3.3.5.2.5: half of it is left).
 const IONOSPHERE_SCALE: f64 = 0.5;
 /// By what share it may be so on one ray alone.
@@ -144,7 +158,8 @@ fn noise(candidate: &Candidate, ray: Option<(f64, Delays)>, code_std: f64) -> DM
     let Some((elevation, delays)) = ray else {
         return DMatrix::identity(count, count) * 1e4;
     };
-    let shared = ORBIT * ORBIT + delays.troposphere_std * delays.troposphere_std;
+    let orbit = orbit_std(candidate.satellite.constellation);
+    let shared = orbit * orbit + delays.troposphere_std * delays.troposphere_std;
     let ionosphere = IONOSPHERE_RAY * delays.ionosphere;
     DMatrix::from_fn(count, count, |i, j| {
         let (a, b) = (&candidate.rangings[i], &candidate.rangings[j]);
@@ -154,10 +169,14 @@ fn noise(candidate: &Candidate, ray: Option<(f64, Delays)>, code_std: f64) -> DM
 }
 
 fn own_noise(candidate: &Candidate, ranging: &Ranging, elevation: f64, code_std: f64) -> f64 {
-    let clock = clock_of(candidate.satellite.constellation);
-    let untold = clock == Constellation::Gps && ranging.band == 5;
-    let untold = if untold { UNTOLD_DELAY * UNTOLD_DELAY } else { 0.0 };
-    code_std * code_std * inflation(elevation, ranging.cn0) + untold
+    let untold = match (clock_of(candidate.satellite.constellation), ranging.band) {
+        (Constellation::Gps, 5) => UNTOLD_L5,
+        (Constellation::Gps, 2) => UNTOLD_L2,
+        (Constellation::Glonass, 2) => UNTOLD_GLONASS,
+        _ => 0.0,
+    };
+    let codeless = if ranging.attribute == b'W' { CODELESS } else { 0.0 };
+    code_std * code_std * inflation(elevation, ranging.cn0) + untold * untold + codeless * codeless
 }
 
 /// A position and what each satellite says of it.
