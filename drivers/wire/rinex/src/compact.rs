@@ -46,13 +46,10 @@ pub fn expand<T: AsRef<[u8]> + ?Sized>(text: &T) -> Result<PlainObservations, Ri
         return Err(Flaw::new(1, LABEL, "this label, and version 1.0 or 3.0", first).into());
     }
     lines.next();
-    let mut header = lines.clone();
-    // the version stands in the first line of the plain header
-    let mut counted = Lines::new(header.rest());
-    let draft = Draft::read(&mut counted)?;
+    let header = lines.clone();
+    let draft = Draft::read(&mut lines)?;
     let mut expansion = Expansion {
-        lines: counted,
-        offset: header.number(),
+        lines,
         draft,
         epoch: Vec::new(),
         clock: None,
@@ -60,7 +57,8 @@ pub fn expand<T: AsRef<[u8]> + ?Sized>(text: &T) -> Result<PlainObservations, Ri
         epochs: 0,
         plain: PlainObservations::default(),
     };
-    for line in header.by_ref().take(expansion.lines.number()) {
+    let length = expansion.lines.number() - header.number();
+    for line in header.take(length) {
         expansion.push_line(line);
     }
     while expansion.step() {}
@@ -113,8 +111,6 @@ struct Track {
 
 struct Expansion<'a> {
     lines: Lines<'a>,
-    /// Lines before the plain header.
-    offset: usize,
     draft: Draft,
     /// The epoch's line with its satellites; empty where the next has to stand by itself.
     epoch: Vec<u8>,
@@ -160,7 +156,7 @@ impl Expansion<'_> {
     }
 
     fn flaw(&mut self, field: &'static str, expected: &'static str, found: &[u8]) {
-        let line = self.lines.number() + self.offset;
+        let line = self.lines.number();
         self.plain.flaws.add(Flaw::new(line, field, expected, found));
     }
 
@@ -219,10 +215,10 @@ impl Expansion<'_> {
             let Some(line) = self.lines.peek().filter(|line| !self.is_whole(line)) else { break };
             self.lines.next();
             self.push_line(line);
-            if let Err(flaw) = self.draft.line(line, self.lines.number() + self.offset) {
-                self.plain.flaws.add(flaw);
-            }
+            // what is wrong with it the reader of the plain file will say
+            let _ = self.draft.line(line, self.lines.number());
         }
+        self.draft.flaws.clear();
         self.draft.settle();
     }
 

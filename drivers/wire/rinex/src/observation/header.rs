@@ -127,11 +127,12 @@ impl Draft {
 
     fn version(&mut self, lines: &mut Lines<'_>) -> Result<(), RinexError> {
         let line = lines.next().ok_or(RinexError::Missing("RINEX VERSION / TYPE"))?;
-        let flaw = |expected, found| Flaw::new(1, "RINEX VERSION / TYPE", expected, found);
+        let number = lines.number();
+        let flaw = |expected, found| Flaw::new(number, "RINEX VERSION / TYPE", expected, found);
         if label(line) != b"RINEX VERSION / TYPE" {
             return Err(flaw("this label in columns 61 to 80", line).into());
         }
-        self.header.version = version(line)?;
+        self.header.version = version(line, number)?;
         if columns(line, 20, 21) != b"O" {
             return Err(flaw("a file of observations, O in column 21", line).into());
         }
@@ -284,12 +285,12 @@ impl Draft {
 }
 
 /// The version in hundredths, of a first line whose label was seen.
-pub(crate) fn version(line: &[u8]) -> Result<u16, Flaw> {
+pub(crate) fn version(line: &[u8], number: usize) -> Result<u16, Flaw> {
     let field = columns(line, 0, 9);
     let told = decimal(field).ok().flatten().filter(|told| (2.0..5.0).contains(told));
     // three digits at the most
     told.map(|told| (told * 100.0).round() as u16)
-        .ok_or_else(|| Flaw::new(1, "RINEX VERSION / TYPE", "a version from 2 to 4", field))
+        .ok_or_else(|| Flaw::new(number, "RINEX VERSION / TYPE", "a version from 2 to 4", field))
 }
 
 /// GPS - UTC; BeiDou's count, which is so marked from version 3.05 on, is 14 s less.
