@@ -1,6 +1,6 @@
 //! Epoch after epoch out of a text.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 use insd_base::{
     Constellation, GpsTime, SatelliteEpoch, SatelliteId, SignalCode, SignalObservation,
@@ -23,7 +23,7 @@ pub struct ObservationReader<'a> {
     flaws: VecDeque<Flaw>,
     ready: Option<SatelliteEpoch>,
     /// Signals that slipped by a record of flag 6 or in an epoch that was left out, for the next one.
-    slipped: Vec<(SatelliteId, SignalCode)>,
+    slipped: BTreeSet<(SatelliteId, SignalCode)>,
     last: Option<GpsTime>,
     rows: Rows<'a>,
     signals: Vec<SignalObservation>,
@@ -43,7 +43,7 @@ impl<'a> ObservationReader<'a> {
             draft,
             flaws,
             ready: None,
-            slipped: Vec::new(),
+            slipped: BTreeSet::new(),
             last: None,
             rows: Rows::default(),
             signals: Vec::new(),
