@@ -42,7 +42,9 @@ pub fn is_compact<T: AsRef<[u8]> + ?Sized>(text: &T) -> bool {
 pub fn expand<T: AsRef<[u8]> + ?Sized>(text: &T) -> Result<PlainObservations, RinexError> {
     let mut lines = Lines::new(text.as_ref());
     let first = lines.next().ok_or(RinexError::Missing(LABEL))?;
-    if label(first) != LABEL.as_bytes() || !matches!(first.first(), Some(b'1' | b'3')) {
+    if label(first) != LABEL.as_bytes()
+        || !matches!(first.trim_ascii_start().first(), Some(b'1' | b'3'))
+    {
         return Err(Flaw::new(1, LABEL, "this label, and version 1.0 or 3.0", first).into());
     }
     lines.next();

@@ -69,6 +69,8 @@ pub(crate) struct Draft {
     pub(crate) header: ObservationHeader,
     /// Fields of the header that could not be read and are left out.
     pub(crate) flaws: Vec<Flaw>,
+    /// Version 2: whether the phases of bands 1 and 2 are those of receivers that square, ambiguous by half cycles.
+    pub(crate) squared: [bool; 2],
     layouts: Vec<(Constellation, Layout)>,
     listed: Listed,
 }
@@ -160,6 +162,7 @@ impl Draft {
             b"# / TYPES OF OBSERV" => return self.early_types(line, number),
             b"TIME OF FIRST OBS" => return self.first(line, number),
             b"SYS / SCALE FACTOR" => return scale(line, number),
+            b"WAVELENGTH FACT L1/2" => return self.wavelengths(line, number),
             b"MARKER NAME" => self.header.marker = words(line, 0, 60),
             b"REC # / TYPE / VERS" => self.header.receiver = equipment(line),
             b"ANT # / TYPE" => self.header.antenna = equipment(line),
@@ -217,6 +220,21 @@ impl Draft {
             let expected = "GPS, GLO, GAL, QZS, BDT or IRN in columns 49 to 51";
             self.header.time_system = TimeSystem::from_name(name)
                 .ok_or_else(|| Flaw::new(number, "TIME OF FIRST OBS", expected, name))?;
+        }
+        Ok(())
+    }
+
+    /// `2I6,I6`: 2 for half cycles. Lines for single satellites that say otherwise than the first are not read.
+    fn wavelengths(&mut self, line: &[u8], number: usize) -> Result<(), Flaw> {
+        let is_half = |from| matches!(whole(columns(line, from, from + 6)), Ok(Some(2)));
+        let told = [is_half(0), is_half(6)];
+        if matches!(whole(columns(line, 12, 18)), Ok(Some(1..))) {
+            if told != self.squared {
+                let expected = "the same factors for all satellites";
+                self.flaws.push(Flaw::new(number, "WAVELENGTH FACT L1/2", expected, line));
+            }
+        } else {
+            self.squared = told;
         }
         Ok(())
     }

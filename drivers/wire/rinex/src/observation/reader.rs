@@ -216,7 +216,7 @@ impl<'a> ObservationReader<'a> {
             channel,
             ..SignalObservation::unknown(own, *signal)
         }));
-        let read = self.rows.read(layout, self.draft.strength_is_cn0(), &mut self.signals);
+        let read = self.rows.read(layout, &self.draft, &mut self.signals);
         read.map_err(|(expected, found)| flaw(expected, found))?;
         signals.extend(self.signals.iter().filter(|own| is_observed(own)).copied());
         Ok(())

@@ -267,3 +267,17 @@ fn events_without_a_date_are_passed_over_in_version_two() {
         epochs.iter().map(|e| (e.signals[0].satellite.to_string(), e.signals[0].phase)).collect();
     assert_eq!(told, [("G03".to_owned(), Some(1e6)), ("G03".to_owned(), None)]);
 }
+
+#[test]
+fn phases_of_receivers_that_square_are_ambiguous_by_half_cycles() {
+    let text = headed("     2.10           OBSERVATION DATA", "RINEX VERSION / TYPE")
+        + &headed("     1     2", "WAVELENGTH FACT L1/2")
+        + &headed("     2    L1    L2", "# / TYPES OF OBSERV")
+        + &headed("", "END OF HEADER")
+        + " 05  4  2  0  0  0.0000000  0  2G 3G 4\n"
+        + "   1000000.000     1000000.000\n   1000000.000     1000000.0002\n";
+    let (epochs, flaws) = read(&text);
+    assert!(flaws.is_empty(), "{flaws:?}");
+    let told: Vec<_> = epochs[0].signals.iter().map(|own| own.half_cycle).collect();
+    assert_eq!(told, [false, true, false, false]);
+}
