@@ -5,6 +5,7 @@
 //! replaces. Numbers stand as differences of a rising order: `3&123` begins a series of third differences.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 use crate::decimal::whole;
 use crate::error::{Flaw, Flaws, RinexError};
@@ -26,8 +27,8 @@ const LABEL: &str = "CRINEX VERS   / TYPE";
 const EARLY_SATELLITES: usize = 12;
 const EARLY_FIELDS: usize = 5;
 
-/// Most digits of an observation F14.3 without its point, and of a clock offset F15.12.
-const LARGEST: i64 = 9_999_999_999_999;
+/// What an observation F14.3 has room for, without its point.
+const ROOM: RangeInclusive<i64> = -999_999_999_999..=9_999_999_999_999;
 
 /// Whether a text is compact RINEX.
 #[must_use]
@@ -85,7 +86,7 @@ impl Series {
             let difference = whole(text).ok()??;
             own.as_mut()?.add(difference)?;
         }
-        own.as_ref()?.differences.first().copied().filter(|value| value.abs() <= LARGEST)
+        own.as_ref()?.differences.first().copied().filter(|value| ROOM.contains(value))
     }
 
     fn add(&mut self, difference: i64) -> Option<()> {
@@ -417,7 +418,7 @@ mod tests {
     proptest! {
         #[test]
         fn a_series_of_any_order_gives_back_its_values(
-            values in prop::collection::vec(-LARGEST..=LARGEST, 1..20),
+            values in prop::collection::vec(ROOM, 1..20),
             order in 0_usize..4,
         ) {
             let mut differences: Vec<i64> = Vec::new();
