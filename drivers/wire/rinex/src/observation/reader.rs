@@ -16,6 +16,9 @@ use crate::text::{Lines, columns, is_blank};
 /// What is flawed is left out and nothing else: a line, a satellite, or an epoch whose first line cannot be read or
 /// whose time is not after that of the one before. The flaws of an epoch come before it. Events (flags 2 to 5) are
 /// no epochs; those that bring lines of a header change [`Self::header`].
+///
+/// A slip that only an unreadable line told of is lost with it: a satellite that was away for an epoch may have slipped.
+/// The slips of an epoch that came out of order, and of records of flag 6, are told with the next.
 #[derive(Debug)]
 pub struct ObservationReader<'a> {
     lines: Lines<'a>,
