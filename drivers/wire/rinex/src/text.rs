@@ -17,11 +17,6 @@ impl<'a> Lines<'a> {
         self.number
     }
 
-    /// What has not been taken.
-    pub(crate) fn rest(&self) -> &'a [u8] {
-        self.rest
-    }
-
     /// The next line without its end, which stays.
     pub(crate) fn peek(&self) -> Option<&'a [u8]> {
         self.clone().next()

@@ -73,7 +73,7 @@ fn edition(lines: &mut Lines<'_>) -> Result<Edition, RinexError> {
     if label(line) != b"RINEX VERSION / TYPE" {
         return Err(flaw("this label in columns 61 to 80").into());
     }
-    match (version(line)?, columns(line, 20, 21)) {
+    match (version(line, 1)?, columns(line, 20, 21)) {
         (..300, b"N") => Ok(Edition::Early(Constellation::Gps)),
         (..300, b"G") => Ok(Edition::Early(Constellation::Glonass)),
         (300..400, b"N") => Ok(Edition::Modern),

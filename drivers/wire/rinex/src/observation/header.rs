@@ -69,6 +69,8 @@ pub(crate) struct Draft {
     pub(crate) header: ObservationHeader,
     /// Fields of the header that could not be read and are left out.
     pub(crate) flaws: Vec<Flaw>,
+    /// Version 2: whether the phases of bands 1 and 2 are those of receivers that square, ambiguous by half cycles.
+    pub(crate) squared: [bool; 2],
     layouts: Vec<(Constellation, Layout)>,
     listed: Listed,
 }
@@ -127,11 +129,12 @@ impl Draft {
 
     fn version(&mut self, lines: &mut Lines<'_>) -> Result<(), RinexError> {
         let line = lines.next().ok_or(RinexError::Missing("RINEX VERSION / TYPE"))?;
-        let flaw = |expected, found| Flaw::new(1, "RINEX VERSION / TYPE", expected, found);
+        let number = lines.number();
+        let flaw = |expected, found| Flaw::new(number, "RINEX VERSION / TYPE", expected, found);
         if label(line) != b"RINEX VERSION / TYPE" {
             return Err(flaw("this label in columns 61 to 80", line).into());
         }
-        self.header.version = version(line)?;
+        self.header.version = version(line, number)?;
         if columns(line, 20, 21) != b"O" {
             return Err(flaw("a file of observations, O in column 21", line).into());
         }
@@ -159,6 +162,7 @@ impl Draft {
             b"# / TYPES OF OBSERV" => return self.early_types(line, number),
             b"TIME OF FIRST OBS" => return self.first(line, number),
             b"SYS / SCALE FACTOR" => return scale(line, number),
+            b"WAVELENGTH FACT L1/2" => return self.wavelengths(line, number),
             b"MARKER NAME" => self.header.marker = words(line, 0, 60),
             b"REC # / TYPE / VERS" => self.header.receiver = equipment(line),
             b"ANT # / TYPE" => self.header.antenna = equipment(line),
@@ -216,6 +220,21 @@ impl Draft {
             let expected = "GPS, GLO, GAL, QZS, BDT or IRN in columns 49 to 51";
             self.header.time_system = TimeSystem::from_name(name)
                 .ok_or_else(|| Flaw::new(number, "TIME OF FIRST OBS", expected, name))?;
+        }
+        Ok(())
+    }
+
+    /// `2I6,I6`: 2 for half cycles. Lines for single satellites that say otherwise than the first are not read.
+    fn wavelengths(&mut self, line: &[u8], number: usize) -> Result<(), Flaw> {
+        let is_half = |from| matches!(whole(columns(line, from, from + 6)), Ok(Some(2)));
+        let told = [is_half(0), is_half(6)];
+        if matches!(whole(columns(line, 12, 18)), Ok(Some(1..))) {
+            if told != self.squared {
+                let expected = "the same factors for all satellites";
+                self.flaws.push(Flaw::new(number, "WAVELENGTH FACT L1/2", expected, line));
+            }
+        } else {
+            self.squared = told;
         }
         Ok(())
     }
@@ -284,12 +303,12 @@ impl Draft {
 }
 
 /// The version in hundredths, of a first line whose label was seen.
-pub(crate) fn version(line: &[u8]) -> Result<u16, Flaw> {
+pub(crate) fn version(line: &[u8], number: usize) -> Result<u16, Flaw> {
     let field = columns(line, 0, 9);
     let told = decimal(field).ok().flatten().filter(|told| (2.0..5.0).contains(told));
     // three digits at the most
     told.map(|told| (told * 100.0).round() as u16)
-        .ok_or_else(|| Flaw::new(1, "RINEX VERSION / TYPE", "a version from 2 to 4", field))
+        .ok_or_else(|| Flaw::new(number, "RINEX VERSION / TYPE", "a version from 2 to 4", field))
 }
 
 /// GPS - UTC; BeiDou's count, which is so marked from version 3.05 on, is 14 s less.

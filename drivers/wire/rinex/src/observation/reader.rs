@@ -1,6 +1,6 @@
 //! Epoch after epoch out of a text.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 use insd_base::{
     Constellation, GpsTime, SatelliteEpoch, SatelliteId, SignalCode, SignalObservation,
@@ -16,6 +16,9 @@ use crate::text::{Lines, columns, is_blank};
 /// What is flawed is left out and nothing else: a line, a satellite, or an epoch whose first line cannot be read or
 /// whose time is not after that of the one before. The flaws of an epoch come before it. Events (flags 2 to 5) are
 /// no epochs; those that bring lines of a header change [`Self::header`].
+///
+/// A slip that only an unreadable line told of is lost with it: a satellite that was away for an epoch may have slipped.
+/// The slips of an epoch that came out of order, and of records of flag 6, are told with the next.
 #[derive(Debug)]
 pub struct ObservationReader<'a> {
     lines: Lines<'a>,
@@ -23,7 +26,7 @@ pub struct ObservationReader<'a> {
     flaws: VecDeque<Flaw>,
     ready: Option<SatelliteEpoch>,
     /// Signals that slipped by a record of flag 6 or in an epoch that was left out, for the next one.
-    slipped: Vec<(SatelliteId, SignalCode)>,
+    slipped: BTreeSet<(SatelliteId, SignalCode)>,
     last: Option<GpsTime>,
     rows: Rows<'a>,
     signals: Vec<SignalObservation>,
@@ -43,7 +46,7 @@ impl<'a> ObservationReader<'a> {
             draft,
             flaws,
             ready: None,
-            slipped: Vec::new(),
+            slipped: BTreeSet::new(),
             last: None,
             rows: Rows::default(),
             signals: Vec::new(),
@@ -216,7 +219,7 @@ impl<'a> ObservationReader<'a> {
             channel,
             ..SignalObservation::unknown(own, *signal)
         }));
-        let read = self.rows.read(layout, self.draft.strength_is_cn0(), &mut self.signals);
+        let read = self.rows.read(layout, &self.draft, &mut self.signals);
         read.map_err(|(expected, found)| flaw(expected, found))?;
         signals.extend(self.signals.iter().filter(|own| is_observed(own)).copied());
         Ok(())

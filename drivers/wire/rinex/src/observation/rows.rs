@@ -180,13 +180,14 @@ impl<'a> Rows<'a> {
         !self.early && !is_blank(columns(line, width * FIELD, usize::MAX))
     }
 
-    /// Reads the fields into the signals of the layout; an error names the field and what is there.
+    /// Reads the fields into the signals of a layout; an error names the field and what is there.
     pub(crate) fn read(
         &self,
         layout: &Layout,
-        with_cn0: bool,
+        draft: &Draft,
         signals: &mut [SignalObservation],
     ) -> Result<(), (&'static str, &'a [u8])> {
+        let with_cn0 = draft.strength_is_cn0();
         let width = layout.columns.len();
         if self.overflows(width) {
             return Err(("no more observations than the header has types", self.field(width)));
@@ -209,7 +210,13 @@ impl<'a> Rows<'a> {
                         Some(_) => return Err(("a digit for the loss of lock", field)),
                     };
                     signal.slip |= lock & 1 != 0;
-                    signal.half_cycle = lock & 2 != 0;
+                    // of a receiver that squares the second bit says that this satellite's is whole
+                    let squared = match signal.signal.band {
+                        1 => draft.squared[0],
+                        2 => draft.squared[1],
+                        _ => false,
+                    };
+                    signal.half_cycle = (lock & 2 != 0) != squared;
                 }
             }
         }

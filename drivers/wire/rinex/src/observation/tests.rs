@@ -211,3 +211,73 @@ fn version_two_names_more_than_twelve_satellites_on_more_lines() {
     assert_eq!(last, ["R13 1C", "R13 2P"]);
     assert_eq!(signals[1].cn0, Some(40.0));
 }
+
+#[test]
+fn headers_go_on_over_several_lines() {
+    let types = [
+        "C   15 X1  C1I L1I D1I S1I C7I L7I D7I S7I C6I L6I D6I S6I",
+        "       C1X L1X",
+        "R    1 C1C",
+    ];
+    let lines = headed(
+        "  9 R01  1 R02 -4 R03  5 R11  0 R12 -1 R13 -2 R17  4 R18 -3",
+        "GLONASS SLOT / FRQ #",
+    ) + &headed("    R24  2", "GLONASS SLOT / FRQ #")
+        + &headed(&format!("{:6}{:18}BDS", 4, ""), "LEAP SECONDS")
+        + &headed("ARBITRARY", "SIGNAL STRENGTH UNIT")
+        + &headed("     x", "INTERVAL")
+        + &headed("", "END OF HEADER");
+    let text = modern("3.02", &types, "").replace(&headed("", "END OF HEADER"), &lines);
+    let mut reader = ObservationReader::new(&text).unwrap();
+    let header = reader.header();
+    assert_eq!(header.leap_seconds, Some(18));
+    assert_eq!(header.glonass_channels.len(), 9);
+    assert_eq!(header.glonass_channels[8], (24, 2));
+    let names: Vec<String> = header.signals[0].1.iter().map(ToString::to_string).collect();
+    assert_eq!(names, ["2I", "7I", "6I", "2X"]);
+    let flaw = reader.next().unwrap().unwrap_err();
+    assert_eq!((flaw.line, flaw.found.as_str()), (9, "     x"));
+    assert!(reader.next().is_none());
+}
+
+#[test]
+fn strengths_of_an_unknown_unit_are_not_taken_for_decibels() {
+    let unit = headed("ARBITRARY", "SIGNAL STRENGTH UNIT") + &headed("", "END OF HEADER");
+    let body = epoch(" 0.0000000", "  0  1")
+        + "G01  20000000.000                                            7.000\n";
+    let text = modern("3.04", &[GPS], &body);
+    assert_eq!(read(&text).0[0].signals[0].cn0, Some(7.0));
+    let text = text.replace(&headed("", "END OF HEADER"), &unit);
+    assert_eq!(read(&text).0[0].signals[0].cn0, None);
+}
+
+#[test]
+fn events_without_a_date_are_passed_over_in_version_two() {
+    let text = headed("     2.10           OBSERVATION DATA", "RINEX VERSION / TYPE")
+        + &headed("     2    C1    L1", "# / TYPES OF OBSERV")
+        + &headed("", "END OF HEADER")
+        + " 05  4  2  0  0  0.0000000  0  1  3\n  20000000.000   1000000.000\n"
+        + &format!("{:28}4  2\n", "")
+        + &headed("2", "COMMENT")
+        + &headed("     1    C1", "# / TYPES OF OBSERV")
+        + " 05  4  2  0  0 30.0000000  0  1G 3\n  20000000.000\n";
+    let (epochs, flaws) = read(&text);
+    assert!(flaws.is_empty(), "{flaws:?}");
+    let told: Vec<_> =
+        epochs.iter().map(|e| (e.signals[0].satellite.to_string(), e.signals[0].phase)).collect();
+    assert_eq!(told, [("G03".to_owned(), Some(1e6)), ("G03".to_owned(), None)]);
+}
+
+#[test]
+fn phases_of_receivers_that_square_are_ambiguous_by_half_cycles() {
+    let text = headed("     2.10           OBSERVATION DATA", "RINEX VERSION / TYPE")
+        + &headed("     1     2", "WAVELENGTH FACT L1/2")
+        + &headed("     2    L1    L2", "# / TYPES OF OBSERV")
+        + &headed("", "END OF HEADER")
+        + " 05  4  2  0  0  0.0000000  0  2G 3G 4\n"
+        + "   1000000.000     1000000.000\n   1000000.000     1000000.0002\n";
+    let (epochs, flaws) = read(&text);
+    assert!(flaws.is_empty(), "{flaws:?}");
+    let told: Vec<_> = epochs[0].signals.iter().map(|own| own.half_cycle).collect();
+    assert_eq!(told, [false, true, false, false]);
+}
