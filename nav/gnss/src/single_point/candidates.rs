@@ -3,20 +3,29 @@
 use insd_base::{BroadcastRecord, SatelliteEpoch, SatelliteId, SignalObservation};
 
 use super::witness::{Verdict, Witness};
+use crate::budget::untold_std;
 use crate::context::Context;
 use crate::sight::Sight;
-use crate::signals::{best_of_each_band, dispersion, first_band, group_delay};
+use crate::signals::{best_of_each_band, dispersion, first_band, group_delay, inflation};
 
 /// One band of a satellite.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ranging {
     pub(super) band: u8,
-    pub(super) attribute: u8,
     /// Code, m, with the satellite's clock and group delay taken out.
     pub(super) code: f64,
     /// How much more than on L1 the ionosphere delays it.
     pub(super) dispersion: f64,
-    pub(super) cn0: Option<f64>,
+    /// 1-sigma of what nobody tells of its delay, m.
+    untold: f64,
+    cn0: Option<f64>,
+}
+
+impl Ranging {
+    /// Variance of its own part of the error, m^2; the noise of a good code at the zenith has this 1-sigma, m.
+    pub(super) fn variance(&self, elevation: f64, code_std: f64) -> f64 {
+        code_std * code_std * inflation(elevation, self.cn0) + self.untold * self.untold
+    }
 }
 
 /// A satellite that may be used.
@@ -68,9 +77,9 @@ fn ranging(record: &BroadcastRecord, sight: &Sight, signal: &SignalObservation) 
     let clock = sight.satellite.clock - group_delay(record, signal.signal)?;
     Some(Ranging {
         band: signal.signal.band,
-        attribute: signal.signal.attribute,
         code: signal.code? + clock * SPEED_OF_LIGHT,
         dispersion: dispersion(signal.satellite, signal.signal)?,
+        untold: untold_std(signal.satellite, signal.signal),
         cn0: signal.cn0,
     })
 }

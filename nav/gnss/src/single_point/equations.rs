@@ -1,40 +1,15 @@
 //! The linear equations of one epoch around a position, and what solves them.
 
 use insd_base::frames::Ecef;
+use insd_base::satellites::time_keeper;
 use insd_base::{Constellation, GpsTime, earth};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-use super::candidates::{Candidate, Ranging};
+use super::candidates::Candidate;
 use super::witness::{NoPosition, Verdict, Witness};
+use crate::budget::{BAND_DELAY, IONOSPHERE_RAY, IONOSPHERE_SCALE, orbit_std};
 use crate::context::{Context, Delays};
 use crate::least_squares::{Normal, Solved};
-use crate::signals::inflation;
-
-/// 1-sigma of what a broadcast orbit and clock add to a range, m: in space they are off by 0.98 (Galileo), 1.4 (GPS), 2.6 (BeiDou) and
-/// 2.9 m (GLONASS, whose receivers' delays differ from channel to channel besides) against precise orbits, of which more than half is along the line.
-fn orbit_std(constellation: Constellation) -> f64 {
-    match constellation {
-        Constellation::Galileo => 0.6,
-        Constellation::BeiDou => 1.5,
-        Constellation::Glonass => 2.5,
-        _ => 0.9,
-    }
-}
-
-/// 1-sigma of a receiver's delay on a further band against its first, m.
-const BAND_DELAY: f64 = 10.0;
-/// 1-sigma of a satellite's delay on L5, of which GPS' and QZSS' old messages tell nothing, m.
-const UNTOLD_L5: f64 = 1.5;
-/// The same of its codes on L1 and L2 that are not those which its clock refers to.
-const UNTOLD_L2: f64 = 0.5;
-/// 1-sigma of a code that is tracked without being known, m, against one that is: it has the other's noise as well.
-const CODELESS: f64 = 1.6;
-/// The same between the bands of GLONASS, where a receiver has another delay on each channel.
-const UNTOLD_GLONASS: f64 = 3.0;
-/// By what share the ionosphere as a whole may be other than its model; 1-sigma (IS-GPS-200N, 20.3.3.5.2.5: half of it is left).
-const IONOSPHERE_SCALE: f64 = 0.5;
-/// By what share it may be so on one ray alone.
-const IONOSPHERE_RAY: f64 = 0.2;
 
 /// Observations of one satellite.
 struct Rows {
@@ -52,14 +27,6 @@ pub(super) struct Equations {
     bands: Vec<(Constellation, u8)>,
 }
 
-/// Whose clock a constellation shares.
-fn clock_of(constellation: Constellation) -> Constellation {
-    match constellation {
-        Constellation::Qzss => Constellation::Gps,
-        other => other,
-    }
-}
-
 impl Equations {
     /// Around a position. Far from the Earth's surface neither elevations nor the atmosphere are known, and all codes weigh alike.
     pub(super) fn new(
@@ -70,13 +37,13 @@ impl Equations {
         on_earth: bool,
     ) -> Self {
         let mut clocks: Vec<_> =
-            candidates.iter().map(|c| clock_of(c.satellite.constellation)).collect();
+            candidates.iter().map(|c| time_keeper(c.satellite.constellation)).collect();
         clocks.sort_unstable();
         clocks.dedup();
         let mut bands: Vec<_> = candidates
             .iter()
             .flat_map(|c| {
-                let clock = clock_of(c.satellite.constellation);
+                let clock = time_keeper(c.satellite.constellation);
                 c.rangings.iter().skip(1).map(move |ranging| (clock, ranging.band))
             })
             .collect();
@@ -106,7 +73,7 @@ impl Equations {
         code_std: f64,
     ) -> Rows {
         let count = candidate.rangings.len();
-        let clock = clock_of(candidate.satellite.constellation);
+        let clock = time_keeper(candidate.satellite.constellation);
         let line = candidate.sight.transmitter().line(&self.position);
         let range = candidate.sight.transmitter().range(&self.position);
         let mut rows = DMatrix::zeros(count, self.unknowns());
@@ -163,20 +130,9 @@ fn noise(candidate: &Candidate, ray: Option<(f64, Delays)>, code_std: f64) -> DM
     let ionosphere = IONOSPHERE_RAY * delays.ionosphere;
     DMatrix::from_fn(count, count, |i, j| {
         let (a, b) = (&candidate.rangings[i], &candidate.rangings[j]);
-        let own = if i == j { own_noise(candidate, a, elevation, code_std) } else { 0.0 };
+        let own = if i == j { a.variance(elevation, code_std) } else { 0.0 };
         shared + ionosphere * ionosphere * a.dispersion * b.dispersion + own
     })
-}
-
-fn own_noise(candidate: &Candidate, ranging: &Ranging, elevation: f64, code_std: f64) -> f64 {
-    let untold = match (clock_of(candidate.satellite.constellation), ranging.band) {
-        (Constellation::Gps, 5) => UNTOLD_L5,
-        (Constellation::Gps, 2) => UNTOLD_L2,
-        (Constellation::Glonass, 2) => UNTOLD_GLONASS,
-        _ => 0.0,
-    };
-    let codeless = if ranging.attribute == b'W' { CODELESS } else { 0.0 };
-    code_std * code_std * inflation(elevation, ranging.cn0) + untold * untold + codeless * codeless
 }
 
 /// A position and what each satellite says of it.
