@@ -1,8 +1,11 @@
-use insd_base::{SatelliteEpoch, Span};
+use std::collections::BTreeMap;
+
+use insd_base::{SatelliteEpoch, SatelliteId, Span};
 use nalgebra::Vector3;
 
 use crate::carrier::{CarrierDisplacement, CarrierTracker};
 use crate::ephemerides::Refusal;
+use crate::ranging::{Guess, Ranging};
 use crate::single_point::{NoPosition, SinglePoint, Verdict};
 use crate::sky::{CLOCK, berth, context, epoch};
 use crate::velocity::DopplerVelocity;
@@ -167,4 +170,29 @@ fn epochs_that_repeat_or_go_back_or_lie_minutes_apart_give_no_difference() {
     reset.clock_reset = true;
     assert!(tracker.advance(&context, &reset, &berth(), 0.0).is_empty());
     assert_eq!(reset.tag.since(at(80.0).tag), Span::from_seconds(2.0));
+}
+
+#[test]
+fn ranges_for_a_filter_are_those_of_the_geometry_and_phases_keep_their_constant() {
+    let context = context();
+    let mut ranging = Ranging::default();
+    let light = insd_base::satellites::SPEED_OF_LIGHT;
+    let mut constants: BTreeMap<SatelliteId, f64> = BTreeMap::new();
+    for after in 0..5 {
+        let moved = berth() + Vector3::new(3.0, 1.0, 0.0) * f64::from(after);
+        let velocity = Vector3::new(3.0, 1.0, 0.0);
+        let epoch = epoch(&context, f64::from(after), &moved, &velocity);
+        let ranged = ranging.take(&context, &epoch, Guess::default());
+        assert!((ranged.sampled.since(epoch.tag).as_seconds() + CLOCK).abs() < 1e-8);
+        for range in &ranged.ranges {
+            let expected = range.transmitter.range(&moved) + CLOCK * light;
+            assert!((range.code.unwrap().value - expected).abs() < 0.02);
+            let rate = range.transmitter.range_rate(&moved, &velocity);
+            assert!((range.rate.unwrap().value - rate).abs() < 1e-3);
+            let constant = range.phase.unwrap().phase.value - expected;
+            let first = *constants.entry(range.satellite).or_insert(constant);
+            assert!((constant - first).abs() < 2e-3, "{}: {constant} {first}", range.satellite);
+        }
+    }
+    assert!(constants.len() > 10);
 }

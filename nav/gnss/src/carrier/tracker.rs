@@ -137,10 +137,9 @@ fn change(
     // a leap between two bands: the lower one is the weaker
     let leapt = tracked.is_none() && ionosphere.is_some() && arc.ionosphere.is_some();
     let kept = if leapt { first_band_alone(&kept) } else { kept };
-    let (delay, delay_std) = tracked.unwrap_or_else(|| {
-        let model = now.delays.ionosphere - before.delays.ionosphere;
-        (model, IONOSPHERE_RATE * elapsed / now.elevation.sin().max(0.3))
-    });
+    let untracked = (0.0, IONOSPHERE_RATE * elapsed / now.elevation.sin().max(0.3));
+    let (beyond_model, delay_std) = tracked.unwrap_or(untracked);
+    let delay = now.delays.ionosphere - before.delays.ionosphere + beyond_model;
     let (moved, variance) = without_ionosphere(&kept, delay, delay_std)?;
     let change = moved + clock - troposphere;
     // what is constant stays so when another record has the satellite elsewhere
@@ -183,7 +182,7 @@ fn dispersive(now: &Observed, before: Option<Dispersive>) -> Option<Dispersive> 
     Some(Dispersive { bands, track: IonosphereTrack::begin(delay, variance, rate) })
 }
 
-/// The delay on L1 but for a constant by the two bands that lie farthest apart, m, and its variance.
+/// The delay on L1 but for a constant by the two bands that lie farthest apart, less that of the model, m, and its variance.
 fn two_bands(now: &Observed) -> Option<([SignalCode; 2], f64, f64)> {
     let by_dispersion = |a: &&Phase, b: &&Phase| a.dispersion.total_cmp(&b.dispersion);
     let low = now.phases.iter().min_by(by_dispersion)?;
@@ -191,7 +190,8 @@ fn two_bands(now: &Observed) -> Option<([SignalCode; 2], f64, f64)> {
     let apart = high.dispersion - low.dispersion;
     (apart > 0.1).then(|| {
         let variance = (low.variance + high.variance) / (apart * apart);
-        ([low.signal, high.signal], (low.phase - high.phase) / apart, variance)
+        let beyond_model = (low.phase - high.phase) / apart - now.delays.ionosphere;
+        ([low.signal, high.signal], beyond_model, variance)
     })
 }
 

@@ -1,0 +1,138 @@
+//! A receiver's epochs made ready for a filter: when they were sampled, what each satellite tells with all that is known taken out, and what follows
+//! without a filter.
+
+mod combined;
+
+use insd_base::satellites::{Measured, SPEED_OF_LIGHT, SatelliteRange};
+use insd_base::{GpsTime, SatelliteEpoch, SignalObservation, Span};
+use nalgebra::Vector3;
+
+use crate::carrier::CarrierTracker;
+use crate::context::Context;
+use crate::orbit::SatelliteState;
+use crate::sight::Sight;
+use crate::signals::{best_of_each_band, first_band, inflation};
+use crate::single_point::{NoPosition, SinglePoint};
+use crate::velocity::DopplerVelocity;
+use combined::combined_code;
+
+/// Satellites below this elevation are not used, rad: 10 degrees.
+const LOWEST: f64 = 0.1745;
+
+/// What is made of an epoch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ranged {
+    /// When it was sampled: the tag less what the receiver's clock was ahead.
+    pub sampled: GpsTime,
+    /// The receiver's clock ahead and its drift, m and m/s, where this epoch tells them.
+    pub clock: Option<(f64, f64)>,
+    /// What each satellite tells.
+    pub ranges: Vec<SatelliteRange>,
+    /// The position that the codes alone make.
+    pub point: Result<SinglePoint, NoPosition>,
+    /// The velocity that the Doppler shifts alone make.
+    pub velocity: Option<DopplerVelocity>,
+}
+
+/// Where the antenna is and how it turns, by whoever knows it better than an epoch alone.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Guess {
+    /// Position of the antenna, ECEF, m, to some ten metres.
+    pub antenna: Option<Vector3<f64>>,
+    /// By what it has turned since the epoch before, rad, clockwise as seen from above.
+    pub turned: f64,
+}
+
+/// A receiver that is followed from epoch to epoch.
+#[derive(Clone, Debug, Default)]
+pub struct Ranging {
+    tracker: CarrierTracker,
+    known: Option<Known>,
+}
+
+/// What an epoch told of place and clock.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    tag: GpsTime,
+    antenna: Vector3<f64>,
+    clock: f64,
+    drift: f64,
+}
+
+impl Ranging {
+    /// Takes an epoch. Without a position, known or guessed, nothing can be made of it but the reason why; with one, each satellite counts for itself.
+    pub fn take(&mut self, context: &Context, epoch: &SatelliteEpoch, guess: Guess) -> Ranged {
+        let near = guess.antenna.or(self.known.map(|known| known.antenna));
+        let point = SinglePoint::solve(context, epoch, near);
+        let found = point.as_ref().ok();
+        let antenna = guess.antenna.or(found.map(|point| point.position)).or(near);
+        let velocity = antenna.and_then(|at| DopplerVelocity::solve(context, epoch, &at));
+        let clock = found.zip(velocity.as_ref()).and_then(|(point, velocity)| {
+            let (_, clock) = point.clocks.first()?;
+            Some((*clock, velocity.clock_drift))
+        });
+        if let Some((antenna, (clock, drift))) = antenna.zip(clock) {
+            self.known = Some(Known { tag: epoch.tag, antenna, clock, drift });
+        }
+        let ranges = antenna.map_or_else(Vec::new, |antenna| {
+            self.tracker.advance(context, epoch, &antenna, guess.turned);
+            let satellites = epoch.signals.chunk_by(|a, b| a.satellite == b.satellite);
+            satellites
+                .filter_map(|signals| self.range(context, epoch.tag, signals, &antenna))
+                .collect()
+        });
+        Ranged { sampled: self.sampled(epoch.tag), clock, ranges, point, velocity }
+    }
+
+    /// By the clock as it was told last, carried on by its drift.
+    fn sampled(&self, tag: GpsTime) -> GpsTime {
+        let ahead = self.known.map_or(0.0, |known| {
+            let elapsed = tag.since(known.tag).as_seconds();
+            (known.clock + known.drift * elapsed) / SPEED_OF_LIGHT
+        });
+        tag.plus(Span::from_seconds(-ahead))
+    }
+
+    fn range(
+        &self,
+        context: &Context,
+        tag: GpsTime,
+        signals: &[SignalObservation],
+        antenna: &Vector3<f64>,
+    ) -> Option<SatelliteRange> {
+        let best = best_of_each_band(signals);
+        let satellite = best.first()?.satellite;
+        let record = context.ephemerides.select(satellite, tag).ok()?;
+        let sight = Sight::new(record, tag, best.first()?.code?);
+        let direction = sight.direction(antenna);
+        if direction.elevation < LOWEST {
+            return None;
+        }
+        let (code, slow_std) =
+            combined_code(context, tag, (record, &sight, &best), (antenna, direction))?;
+        Some(SatelliteRange {
+            satellite,
+            transmitter: sight.transmitter(),
+            elevation: direction.elevation,
+            code: Some(code),
+            rate: rate(context, &best, &sight.satellite, direction.elevation),
+            phase: self.tracker.phase(satellite),
+            slow_std,
+        })
+    }
+}
+
+/// The rate of the range and of the receiver's clock, m/s.
+fn rate(
+    context: &Context,
+    best: &[&SignalObservation],
+    satellite: &SatelliteState,
+    elevation: f64,
+) -> Option<Measured> {
+    let first = first_band(best.first()?.satellite.constellation);
+    let shift = best.iter().find(|signal| signal.signal.band == first)?;
+    Some(Measured {
+        value: -shift.wavelength()? * shift.doppler? + SPEED_OF_LIGHT * satellite.clock_drift,
+        variance: context.noise.rate.powi(2) * inflation(elevation, shift.cn0),
+    })
+}

@@ -1,0 +1,60 @@
+//! The codes of all bands as one range.
+
+use insd_base::frames::Ecef;
+use insd_base::satellites::{Measured, SPEED_OF_LIGHT};
+use insd_base::{BroadcastRecord, GpsTime, SignalObservation, earth};
+use nalgebra::{DMatrix, DVector, Vector3};
+
+use crate::atmosphere::Direction;
+use crate::budget::{BAND_DELAY, IONOSPHERE_RAY, IONOSPHERE_SCALE, orbit_std, untold_std};
+use crate::context::Context;
+use crate::sight::Sight;
+use crate::signals::{dispersion, first_band, group_delay, inflation};
+
+/// The range and the receiver's clock with all models taken out, m, the variance of its noise, and the 1-sigma of what is slow in its error: orbit and
+/// clock, what is left of the atmosphere, delays that nobody tells. Bands are weighed as their errors hang together (Gauss and Markov).
+pub(super) fn combined_code(
+    context: &Context,
+    tag: GpsTime,
+    (record, sight, best): (&BroadcastRecord, &Sight, &[&SignalObservation]),
+    (antenna, direction): (&Vector3<f64>, Direction),
+) -> Option<(Measured, f64)> {
+    let satellite = record.satellite();
+    let first = first_band(satellite.constellation);
+    let delays = context.delays(&earth::geodetic(&Ecef(*antenna)), direction, tag);
+    let mut codes = Vec::with_capacity(best.len());
+    let mut bands = Vec::with_capacity(best.len());
+    for signal in best {
+        let Some(delay) = group_delay(record, signal.signal) else { continue };
+        let spread = dispersion(satellite, signal.signal)?;
+        let clock = SPEED_OF_LIGHT * (sight.satellite.clock - delay);
+        codes.push(signal.code? + clock - delays.troposphere - spread * delays.ionosphere);
+        let noise = context.noise.code.powi(2) * inflation(direction.elevation, signal.cn0);
+        let further = if signal.signal.band == first { 0.0 } else { BAND_DELAY };
+        let own = untold_std(satellite, signal.signal).hypot(further);
+        bands.push((spread, noise, own * own));
+    }
+    let ionosphere = delays.ionosphere * IONOSPHERE_SCALE.hypot(IONOSPHERE_RAY);
+    let shared = orbit_std(satellite.constellation).hypot(delays.troposphere_std).powi(2);
+    let slow = DMatrix::from_fn(bands.len(), bands.len(), |i, j| {
+        let own = if i == j { bands[i].2 } else { 0.0 };
+        shared + ionosphere * ionosphere * bands[i].0 * bands[j].0 + own
+    });
+    let noise = DMatrix::from_diagonal(&DVector::from_iterator(
+        bands.len(),
+        bands.iter().map(|(_, noise, _)| *noise),
+    ));
+    let weights = gauss_markov(&(&slow + &noise))?;
+    let value = weights.dot(&DVector::from_vec(codes));
+    let variance = (weights.transpose() * noise * &weights)[0];
+    let slow_std = (weights.transpose() * slow * &weights)[0].sqrt();
+    Some((Measured { value, variance }, slow_std))
+}
+
+/// Weights of several measurements of one quantity, by the covariance of their errors; their sum is one.
+fn gauss_markov(covariance: &DMatrix<f64>) -> Option<DVector<f64>> {
+    let ones = DVector::repeat(covariance.nrows(), 1.0);
+    let raw = covariance.clone().cholesky()?.solve(&ones);
+    let sum = raw.sum();
+    (sum > 0.0).then(|| raw / sum)
+}
