@@ -4,15 +4,22 @@
 //! and its covariances). Each becomes a [`GnssPart`]; whoever puts an epoch together knows by
 //! [`GnssPart::epoch`] which belong to each other.
 
+pub mod navigation;
 pub mod rtcm;
 pub mod sbf;
 pub mod ubx;
 
+mod bits;
+mod crc24q;
 mod epoch;
+mod locks;
 mod pulse;
+mod words;
 
 pub use epoch::Epoch;
+pub use locks::Locks;
 pub use pulse::{PulseOrder, PulseTime};
+pub use words::NavigationWords;
 
 use insd_base::{FixQuality, Geodetic, GpsTime, UtcTime};
 

@@ -1,0 +1,20 @@
+//! Navigation messages: words of satellites, subframe by subframe, put together to records of their orbits and clocks.
+//!
+//! Whatever the words are, nothing panics; what is refused is refused with a reason. Weeks of ten, twelve or thirteen bits and
+//! times of day are resolved by the time of reception, which has to be right to a few hours for GLONASS and to ten years for the others.
+
+mod assembler;
+mod beidou;
+mod checks;
+mod galileo;
+pub(super) mod glonass;
+mod kepler;
+mod leap;
+mod lnav;
+mod told;
+
+pub use assembler::Assembler;
+pub use told::{Refusal, Told};
+
+#[cfg(test)]
+mod tests;
