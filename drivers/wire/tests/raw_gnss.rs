@@ -16,7 +16,7 @@ use insd_base::satellites::{
     BroadcastRecord, KeplerRecord, MessageKind, SatelliteEpoch, SatelliteId, SignalObservation,
 };
 use insd_wire::gnss::Locks;
-use insd_wire::gnss::navigation::{Assembler, Told};
+use insd_wire::gnss::navigation::{Broadcast, NavigationAssembler};
 use insd_wire::gnss::ubx::Message;
 use insd_wire::stream::{Cutter, Protocol};
 
@@ -24,7 +24,7 @@ use insd_wire::stream::{Cutter, Protocol};
 #[derive(Default)]
 struct Heard {
     epochs: Vec<SatelliteEpoch>,
-    told: Vec<Told>,
+    told: Vec<Broadcast>,
     /// Refusals by their text, and how often.
     refused: BTreeMap<String, usize>,
     words: usize,
@@ -34,7 +34,7 @@ struct Heard {
 fn hear(bytes: &[u8]) -> Heard {
     let mut heard = Heard::default();
     let (mut cutter, mut locks) = (Cutter::new(&[Protocol::Ubx, Protocol::Nmea]), Locks::new());
-    let mut assembler = Assembler::new();
+    let mut assembler = NavigationAssembler::new();
     let mut now = GpsTime::from_week(2381, 0);
     cutter.push(bytes);
     while let Some(cut) = cutter.cut() {
@@ -67,8 +67,8 @@ fn hear(bytes: &[u8]) -> Heard {
 
 impl Heard {
     fn records(&self, kind: MessageKind) -> Vec<KeplerRecord> {
-        let record = |told: &Told| match told {
-            Told::Record(BroadcastRecord::Kepler(record)) => Some(*record),
+        let record = |told: &Broadcast| match told {
+            Broadcast::Record(BroadcastRecord::Kepler(record)) => Some(*record),
             _ => None,
         };
         self.told.iter().filter_map(record).filter(|record| record.kind == kind).collect()
@@ -123,7 +123,7 @@ fn a_piece_of_a_recording_says_what_rinex_of_another_program_says() {
         assert_eq!(heard.compare_records(navigation, kind), 1, "{kind:?}");
     }
     assert_eq!(heard.compare_messages_of_galileo(), 1);
-    assert!(heard.told.contains(&Told::LeapSeconds(18)));
+    assert!(heard.told.contains(&Broadcast::LeapSeconds(18)));
 }
 
 /// Phases of the piece that RINEX has, and how many of them may be half a cycle off.
@@ -154,7 +154,7 @@ fn words_with_a_wrong_bit_are_refused_or_say_the_same() {
         }
     }
     for bit in 0..320 {
-        let mut assembler = Assembler::new();
+        let mut assembler = NavigationAssembler::new();
         for (number, words) in words.iter().enumerate() {
             let mut wrong = words.clone();
             let word = (bit / 32 + number) % wrong.words.len();

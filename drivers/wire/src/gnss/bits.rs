@@ -115,7 +115,6 @@ pub(super) struct Bits {
 
 impl Bits {
     /// All bits of some bytes.
-    #[cfg(test)]
     pub(super) fn of(bytes: &[u8]) -> Self {
         Bits { bytes: bytes.to_vec(), length: bytes.len() * 8 }
     }

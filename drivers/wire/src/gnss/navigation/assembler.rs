@@ -10,7 +10,7 @@ use insd_base::satellites::{
 
 use super::super::bits::Bits;
 use super::super::words::NavigationWords;
-use super::told::{Refusal, Told};
+use super::broadcast::{Broadcast, WordsRefusal};
 use super::{beidou, galileo, glonass, lnav};
 
 /// The newest pages of one message of one satellite.
@@ -32,7 +32,7 @@ impl Pages {
     }
 
     /// A record that was not told before, but for the time of its transmission.
-    fn news(&mut self, record: BroadcastRecord) -> Option<Told> {
+    fn news(&mut self, record: BroadcastRecord) -> Option<Broadcast> {
         let undated = |record: BroadcastRecord| match record {
             BroadcastRecord::Kepler(mut record) => {
                 record.transmitted = None;
@@ -42,13 +42,13 @@ impl Pages {
         };
         let is_new = self.last.is_none_or(|last| undated(last) != undated(record));
         self.last = Some(record);
-        is_new.then_some(Told::Record(record))
+        is_new.then_some(Broadcast::Record(record))
     }
 }
 
 /// Puts the pages of all satellites together. Each record, model and count of leap seconds is told once until it changes.
 #[derive(Clone, Debug, Default)]
-pub struct Assembler {
+pub struct NavigationAssembler {
     messages: BTreeMap<(SatelliteId, MessageKind), Pages>,
     ionospheres: Vec<IonosphereModel>,
     leap_seconds: Option<i8>,
@@ -71,7 +71,7 @@ fn kind(words: &NavigationWords) -> Option<MessageKind> {
 }
 
 /// Number and bits of a page; `None` for one that says nothing.
-fn page(kind: MessageKind, words: &[u32]) -> Result<Option<(u8, Bits)>, Refusal> {
+fn page(kind: MessageKind, words: &[u32]) -> Result<Option<(u8, Bits)>, WordsRefusal> {
     match kind {
         MessageKind::Lnav => lnav::page(words).map(Some),
         MessageKind::Inav => galileo::inav_page(words),
@@ -91,7 +91,7 @@ fn pages(kind: MessageKind) -> u8 {
     }
 }
 
-impl Assembler {
+impl NavigationAssembler {
     /// An assembler that has heard nothing.
     #[must_use]
     pub fn new() -> Self {
@@ -111,7 +111,7 @@ impl Assembler {
         &mut self,
         words: &NavigationWords,
         received: GpsTime,
-    ) -> Result<Vec<Told>, Refusal> {
+    ) -> Result<Vec<Broadcast>, WordsRefusal> {
         let Some(kind) = kind(words) else { return Ok(Vec::new()) };
         let Some((number, bits)) = page(kind, &words.words)? else { return Ok(Vec::new()) };
         let mut told = self.aside(words.satellite, kind, (number, &bits), received);
@@ -133,7 +133,7 @@ impl Assembler {
         words: &NavigationWords,
         kind: MessageKind,
         received: GpsTime,
-    ) -> Result<Option<Told>, Refusal> {
+    ) -> Result<Option<Broadcast>, WordsRefusal> {
         let satellite = words.satellite;
         let Some(own) = self.messages.get_mut(&(satellite, kind)) else { return Ok(None) };
         let Some(bits) = own.joined(pages(kind)) else { return Ok(None) };
@@ -145,7 +145,7 @@ impl Assembler {
             MessageKind::D2 => beidou::D2.record(satellite, &bits, received)?,
             MessageKind::Fdma => {
                 let Some(channel) = words.channel else { return Ok(None) };
-                let leap = self.leap_seconds.unwrap_or_else(|| leap_seconds(received));
+                let leap = self.leap_seconds.unwrap_or_else(|| crate::gnss::leap_seconds(received));
                 let record = glonass::record(satellite, channel, &bits, (received, leap));
                 return Ok(own.news(BroadcastRecord::Glonass(record)));
             }
@@ -160,7 +160,7 @@ impl Assembler {
         kind: MessageKind,
         (number, bits): (u8, &Bits),
         received: GpsTime,
-    ) -> Vec<Told> {
+    ) -> Vec<Broadcast> {
         let (ionosphere, leap) = match (kind, number) {
             (MessageKind::Lnav, 4) if satellite.constellation == Constellation::Gps => {
                 lnav::page_18(bits, received)
@@ -172,9 +172,9 @@ impl Assembler {
             (MessageKind::Fnav, 4) => (None, galileo::FNAV.leap_seconds(&alone(bits, 4), received)),
             _ => (None, None),
         };
-        let ionosphere = ionosphere.filter(|model| self.is_new(*model)).map(Told::Ionosphere);
+        let ionosphere = ionosphere.filter(|model| self.is_new(*model)).map(Broadcast::Ionosphere);
         let leap = leap.filter(|leap| self.leap_seconds.replace(*leap) != Some(*leap));
-        ionosphere.into_iter().chain(leap.map(Told::LeapSeconds)).collect()
+        ionosphere.into_iter().chain(leap.map(Broadcast::LeapSeconds)).collect()
     }
 
     /// Whether a model is another than the last of its kind, which it takes the place of.
@@ -196,10 +196,4 @@ fn alone(page: &Bits, number: usize) -> Bits {
     }
     bits.append(page, 0, page.len());
     bits
-}
-
-/// GPS - UTC by the table of this version, s.
-fn leap_seconds(at: GpsTime) -> i8 {
-    let without = at.to_utc(Some(0));
-    i8::try_from(without.since(at.to_utc(None)).as_nanos() / 1_000_000_000).unwrap_or_default()
 }

@@ -7,9 +7,9 @@ use insd_base::GpsTime;
 use insd_base::satellites::{KeplerRecord, MessageKind, SatelliteId};
 
 use super::super::bits::{Bits, Field};
+use super::super::kepler::{Layout, SECOND, half, range_accuracy, semi};
+use super::broadcast::WordsRefusal;
 use super::checks::beidou_data;
-use super::kepler::{Layout, SECOND, half, range_accuracy, semi};
-use super::told::Refusal;
 
 /// Data bits of a subframe.
 pub(super) const SIZE: usize = 224;
@@ -129,10 +129,10 @@ pub(super) const D2: Message = Message {
 };
 
 /// Number and data of a subframe of D1, or of a page of subframe 1 of D2; other subframes of D2 have number 0.
-pub(super) fn page(words: &[u32], kind: MessageKind) -> Result<(u8, Bits), Refusal> {
+pub(super) fn page(words: &[u32], kind: MessageKind) -> Result<(u8, Bits), WordsRefusal> {
     let bits = beidou_data(words)?;
     if PREAMBLE.raw(&bits) != 0b111_0001_0010 {
-        return Err(Refusal::Damaged);
+        return Err(WordsRefusal::Damaged);
     }
     let number = NUMBER.raw(&bits) as u8;
     Ok(match kind {
@@ -159,7 +159,7 @@ impl Message {
         satellite: SatelliteId,
         bits: &Bits,
         received: GpsTime,
-    ) -> Result<Option<KeplerRecord>, Refusal> {
+    ) -> Result<Option<KeplerRecord>, WordsRefusal> {
         if !self.is_of_one_turn(bits) {
             return Ok(None);
         }
@@ -175,7 +175,7 @@ impl Message {
             health: self.health.raw(bits) as u16,
             accuracy: range_accuracy(self.accuracy.whole(bits)),
             group_delays: self.group_delays.map(|field| field.value(bits)),
-            orbit: self.layout.orbit(bits, sent)?,
+            orbit: self.layout.orbit(bits, sent).ok_or(WordsRefusal::Implausible)?,
             clock: self.layout.clock(bits, sent),
             transmitted: Some(sent),
         }))

@@ -1,7 +1,7 @@
 //! Parities of words.
 
 use super::super::bits::Bits;
-use super::told::Refusal;
+use super::broadcast::WordsRefusal;
 
 /// The data bits of which each of the six parity bits of GPS is the sum, d1 first, and whether it begins with D30* of the word
 /// before or with D29* (IS-GPS-200N, table 20-XIV).
@@ -46,22 +46,22 @@ pub(super) fn bch_parity(data: u32) -> u32 {
 }
 
 /// Ten words of a subframe.
-pub(super) fn ten(words: &[u32]) -> Result<&[u32; 10], Refusal> {
-    words.first_chunk().ok_or(Refusal::Short { needed: 10, found: words.len() })
+pub(super) fn ten(words: &[u32]) -> Result<&[u32; 10], WordsRefusal> {
+    words.first_chunk().ok_or(WordsRefusal::Short { needed: 10, found: words.len() })
 }
 
 /// The 240 data bits of a subframe of GPS; before its first word stand two zeros, as the last word of every subframe ends.
 ///
 /// Behind a word that ends with a one the encoder turns the data bits of the next one round. Receivers turn them back; u-blox
 /// turns the parity bits round along with them, so that both forms of these are taken.
-pub(super) fn gps_data(words: &[u32]) -> Result<Bits, Refusal> {
+pub(super) fn gps_data(words: &[u32]) -> Result<Bits, WordsRefusal> {
     let (mut bits, mut before) = (Bits::default(), 0);
     for word in ten(words)? {
         let data = word >> 6 & 0xFF_FFFF;
         let parity = gps_parity(data, before);
         let turned = before & 1 == 1 && parity ^ 63 == word & 63;
         if parity != word & 63 && !turned {
-            return Err(Refusal::Damaged);
+            return Err(WordsRefusal::Damaged);
         }
         bits.push(data.into(), 24);
         before = parity & 3;
@@ -82,7 +82,7 @@ pub(super) fn gps_words(bits: &Bits) -> Vec<u32> {
 }
 
 /// The 224 data bits of a subframe of BeiDou: in the first word the last eleven of 26 are guarded, in the others 22 by two codes.
-pub(super) fn beidou_data(words: &[u32]) -> Result<Bits, Refusal> {
+pub(super) fn beidou_data(words: &[u32]) -> Result<Bits, WordsRefusal> {
     let [first, others @ ..] = ten(words)?;
     let mut bits = Bits::default();
     bits.push(u64::from(first >> 4), 26);
@@ -92,7 +92,7 @@ pub(super) fn beidou_data(words: &[u32]) -> Result<Bits, Refusal> {
         good &= beidou_parity(data) == word & 0xFF;
         bits.push(data.into(), 22);
     }
-    if good { Ok(bits) } else { Err(Refusal::Damaged) }
+    if good { Ok(bits) } else { Err(WordsRefusal::Damaged) }
 }
 
 /// The eight parity bits of 22: those of the first eleven, then those of the others.

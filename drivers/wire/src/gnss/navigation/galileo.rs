@@ -8,9 +8,9 @@ use insd_base::satellites::{IonosphereModel, KeplerRecord, MessageKind, Satellit
 
 use super::super::bits::{Bits, Field};
 use super::super::crc24q::crc24q;
-use super::kepler::{Layout, SECOND, half, semi, signal_in_space_accuracy};
+use super::super::kepler::{Layout, SECOND, half, semi, signal_in_space_accuracy};
+use super::broadcast::WordsRefusal;
 use super::leap::LeapLayout;
-use super::told::Refusal;
 
 /// Bits of a word of I/NAV.
 pub(super) const WORD: usize = 128;
@@ -170,13 +170,13 @@ pub(super) const FNAV: Message = Message {
 };
 
 /// Type and 128 bits of a word of I/NAV; `None` for an alert page, which has none.
-pub(super) fn inav_page(words: &[u32]) -> Result<Option<(u8, Bits)>, Refusal> {
+pub(super) fn inav_page(words: &[u32]) -> Result<Option<(u8, Bits)>, WordsRefusal> {
     let halves: &[u32; 8] =
-        words.first_chunk().ok_or(Refusal::Short { needed: 8, found: words.len() })?;
+        words.first_chunk().ok_or(WordsRefusal::Short { needed: 8, found: words.len() })?;
     let mut page = Bits::default();
     halves.iter().for_each(|word| _ = page.push(u64::from(*word), 32));
     if page.get(0, 1) != 0 || page.get(128, 1) != 1 {
-        return Err(Refusal::Halves);
+        return Err(WordsRefusal::Halves);
     }
     if page.get(1, 1) == 1 || page.get(129, 1) == 1 {
         return Ok(None);
@@ -184,7 +184,7 @@ pub(super) fn inav_page(words: &[u32]) -> Result<Option<(u8, Bits)>, Refusal> {
     let mut summed = Bits::default();
     summed.push(0, 4).append(&page, 0, 114).append(&page, 128, 82);
     if u64::from(crc24q(summed.bytes())) != page.get(128 + 82, 24) {
-        return Err(Refusal::Damaged);
+        return Err(WordsRefusal::Damaged);
     }
     let mut word = Bits::default();
     word.append(&page, 2, 112).append(&page, 130, 16);
@@ -192,15 +192,15 @@ pub(super) fn inav_page(words: &[u32]) -> Result<Option<(u8, Bits)>, Refusal> {
 }
 
 /// Type and 214 bits of a page of F/NAV.
-pub(super) fn fnav_page(words: &[u32]) -> Result<(u8, Bits), Refusal> {
+pub(super) fn fnav_page(words: &[u32]) -> Result<(u8, Bits), WordsRefusal> {
     let words: &[u32; 8] =
-        words.first_chunk().ok_or(Refusal::Short { needed: 8, found: words.len() })?;
+        words.first_chunk().ok_or(WordsRefusal::Short { needed: 8, found: words.len() })?;
     let mut page = Bits::default();
     words.iter().for_each(|word| _ = page.push(u64::from(*word), 32));
     let mut summed = Bits::default();
     summed.push(0, 2).append(&page, 0, PAGE);
     if u64::from(crc24q(summed.bytes())) != page.get(PAGE, 24) {
-        return Err(Refusal::Damaged);
+        return Err(WordsRefusal::Damaged);
     }
     let mut own = Bits::default();
     own.append(&page, 0, PAGE);
@@ -214,7 +214,7 @@ impl Message {
         satellite: SatelliteId,
         bits: &Bits,
         received: GpsTime,
-    ) -> Result<Option<KeplerRecord>, Refusal> {
+    ) -> Result<Option<KeplerRecord>, WordsRefusal> {
         let issues = self.issues.iter().map(|field| field.raw(bits));
         let issue = self.issues[0].raw(bits);
         if !issues.into_iter().all(|other| other == issue) {
@@ -232,7 +232,7 @@ impl Message {
             health: health as u16,
             accuracy: signal_in_space_accuracy(self.accuracy.whole(bits)),
             group_delays: self.group_delays.map(|field| field.value(bits)),
-            orbit: self.layout.orbit(bits, sent)?,
+            orbit: self.layout.orbit(bits, sent).ok_or(WordsRefusal::Implausible)?,
             clock: self.layout.clock(bits, sent),
             transmitted: Some(sent),
         }))

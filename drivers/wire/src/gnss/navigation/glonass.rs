@@ -6,9 +6,9 @@ use insd_base::satellites::{GlonassRecord, SatelliteId};
 use insd_base::{GpsTime, Span};
 
 use super::super::bits::{Bits, Field};
+use super::super::kepler::{SECOND, half};
+use super::broadcast::WordsRefusal;
 use super::checks::glonass_is_good;
-use super::kepler::{SECOND, half};
-use super::told::Refusal;
 
 /// Bits of a string.
 pub(super) const SIZE: usize = 85;
@@ -54,14 +54,18 @@ const TAU: Field = Field::magnitude(bit(4, 80), 22, half(30));
 const AGE: Field = Field::count(bit(4, 53), 5);
 
 /// Number and bits of a string.
-pub(super) fn string(words: &[u32]) -> Result<(u8, Bits), Refusal> {
+pub(super) fn string(words: &[u32]) -> Result<(u8, Bits), WordsRefusal> {
     let words: &[u32; 3] =
-        words.first_chunk().ok_or(Refusal::Short { needed: 3, found: words.len() })?;
+        words.first_chunk().ok_or(WordsRefusal::Short { needed: 3, found: words.len() })?;
     let mut all = Bits::default();
     words.iter().for_each(|word| _ = all.push(u64::from(*word), 32));
     let mut bits = Bits::default();
     bits.append(&all, 0, SIZE);
-    if glonass_is_good(&bits) { Ok((NUMBER.raw(&bits) as u8, bits)) } else { Err(Refusal::Damaged) }
+    if glonass_is_good(&bits) {
+        Ok((NUMBER.raw(&bits) as u8, bits))
+    } else {
+        Err(WordsRefusal::Damaged)
+    }
 }
 
 /// The instant nearest to another at which Moscow has a time of day.

@@ -3,7 +3,7 @@
 use insd_base::GpsTime;
 
 use super::super::bits::{Bits, Field};
-use super::kepler::SECOND;
+use super::super::kepler::SECOND;
 
 /// Weeks that eight bits count.
 const CYCLE: i64 = 256;

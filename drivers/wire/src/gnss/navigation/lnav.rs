@@ -6,10 +6,10 @@ use insd_base::GpsTime;
 use insd_base::satellites::{IonosphereModel, KeplerRecord, MessageKind, SatelliteId};
 
 use super::super::bits::{Bits, Field};
+use super::super::kepler::{Layout, SECOND, half, range_accuracy, semi};
+use super::broadcast::WordsRefusal;
 use super::checks::gps_data;
-use super::kepler::{Layout, SECOND, half, range_accuracy, semi};
 use super::leap::LeapLayout;
-use super::told::Refusal;
 
 /// Data bits of a subframe.
 pub(super) const SIZE: usize = 240;
@@ -84,10 +84,10 @@ const LEAP: LeapLayout = LeapLayout {
 };
 
 /// Number and data of a subframe.
-pub(super) fn page(words: &[u32]) -> Result<(u8, Bits), Refusal> {
+pub(super) fn page(words: &[u32]) -> Result<(u8, Bits), WordsRefusal> {
     let bits = gps_data(words)?;
     if PREAMBLE.whole(&bits) != 0x8B {
-        return Err(Refusal::Damaged);
+        return Err(WordsRefusal::Damaged);
     }
     Ok((NUMBER.raw(&bits) as u8, bits))
 }
@@ -97,7 +97,7 @@ pub(super) fn record(
     satellite: SatelliteId,
     bits: &Bits,
     received: GpsTime,
-) -> Result<Option<KeplerRecord>, Refusal> {
+) -> Result<Option<KeplerRecord>, WordsRefusal> {
     let issue = IODE[0].raw(bits);
     let clock_issue = IODC.raw(bits);
     if issue != IODE[1].raw(bits) || issue != clock_issue & 0xFF {
@@ -116,7 +116,7 @@ pub(super) fn record(
         health: HEALTH.raw(bits) as u16,
         accuracy: range_accuracy(ACCURACY.whole(bits)),
         group_delays: [GROUP_DELAY.value(bits), 0.0],
-        orbit: LAYOUT.orbit(bits, sent)?,
+        orbit: LAYOUT.orbit(bits, sent).ok_or(WordsRefusal::Implausible)?,
         clock: LAYOUT.clock(bits, sent),
         transmitted: Some(sent),
     }))

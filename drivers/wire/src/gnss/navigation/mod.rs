@@ -5,16 +5,17 @@
 
 mod assembler;
 mod beidou;
+mod broadcast;
 mod checks;
 mod galileo;
-pub(super) mod glonass;
-mod kepler;
+mod glonass;
 mod leap;
 mod lnav;
-mod told;
 
-pub use assembler::Assembler;
-pub use told::{Refusal, Told};
+pub use assembler::NavigationAssembler;
+pub(super) use glonass::nearest_time_of_day;
+
+pub use broadcast::{Broadcast, WordsRefusal};
 
 #[cfg(test)]
 mod tests;

@@ -8,9 +8,9 @@ use insd_base::satellites::{
 use proptest::prelude::*;
 
 use super::super::bits::Bits;
+use super::super::kepler::SECOND;
 use super::super::words::NavigationWords;
-use super::kepler::SECOND;
-use super::{Assembler, Refusal, Told, beidou, galileo, glonass, lnav};
+use super::{Broadcast, NavigationAssembler, WordsRefusal, beidou, galileo, glonass, lnav};
 
 /// An instant in 2025, on a whole half minute.
 fn now() -> GpsTime {
@@ -71,8 +71,8 @@ fn record(name: &str, kind: MessageKind, steps: i64) -> KeplerRecord {
 }
 
 /// What is told of words that come one after the other.
-fn heard(satellite: SatelliteId, signal: &str, words: Vec<Vec<u32>>) -> Vec<Told> {
-    let mut assembler = Assembler::new();
+fn heard(satellite: SatelliteId, signal: &str, words: Vec<Vec<u32>>) -> Vec<Broadcast> {
+    let mut assembler = NavigationAssembler::new();
     let [band, attribute] = signal.as_bytes() else { panic!("{signal}") };
     let signal = SignalCode::new(band - b'0', *attribute);
     let channel = Some(-4);
@@ -109,7 +109,7 @@ proptest! {
         for name in ["G07", "J02"] {
             let record = record(name, MessageKind::Lnav, steps);
             let told = heard(record.satellite, "1C", lnav::words(&record).into());
-            prop_assert_eq!(told, [Told::Record(BroadcastRecord::Kepler(record))]);
+            prop_assert_eq!(told, [Broadcast::Record(BroadcastRecord::Kepler(record))]);
         }
     }
 
@@ -127,8 +127,8 @@ proptest! {
                 typed(pages(&bits, galileo::PAGE)).iter().map(galileo::fnav_words).collect()
             };
             let told = heard(record.satellite, signal, words);
-            prop_assert!(told.contains(&Told::Record(BroadcastRecord::Kepler(record))), "{told:?}");
-            prop_assert!(told.contains(&Told::Ionosphere(model)), "{told:?}");
+            prop_assert!(told.contains(&Broadcast::Record(BroadcastRecord::Kepler(record))), "{told:?}");
+            prop_assert!(told.contains(&Broadcast::Ionosphere(model)), "{told:?}");
         }
     }
 
@@ -136,10 +136,10 @@ proptest! {
     fn a_record_of_beidou_comes_back_from_its_subframes(steps in -500_i64..500) {
         let d1 = record("C21", MessageKind::D1, steps);
         let told = heard(d1.satellite, "2I", beidou::D1.words(&d1));
-        prop_assert_eq!(told, [Told::Record(BroadcastRecord::Kepler(d1))]);
+        prop_assert_eq!(told, [Broadcast::Record(BroadcastRecord::Kepler(d1))]);
         let d2 = record("C03", MessageKind::D2, steps);
         let told = heard(d2.satellite, "2I", beidou::D2.words(&d2));
-        prop_assert_eq!(told, [Told::Record(BroadcastRecord::Kepler(d2))]);
+        prop_assert_eq!(told, [Broadcast::Record(BroadcastRecord::Kepler(d2))]);
     }
 
     #[test]
@@ -159,7 +159,7 @@ proptest! {
             age_days: 7.0,
         };
         let told = heard(record.satellite, "1C", glonass::words(&record, 18));
-        prop_assert_eq!(told, [Told::Record(BroadcastRecord::Glonass(record))]);
+        prop_assert_eq!(told, [Broadcast::Record(BroadcastRecord::Glonass(record))]);
     }
 
     #[test]
@@ -173,7 +173,7 @@ proptest! {
         let satellite = SatelliteId::new(Constellation::ALL[system], number).unwrap();
         let signal = SignalCode::new(signal.as_bytes()[0] - b'0', signal.as_bytes()[1]);
         let words = NavigationWords { satellite, signal, channel: None, words };
-        let _ = Assembler::new().take(&words, GpsTime::from_nanos(when));
+        let _ = NavigationAssembler::new().take(&words, GpsTime::from_nanos(when));
     }
 }
 
@@ -189,7 +189,7 @@ fn one_wrong_bit_is_refused() {
         (beidou.satellite, SignalCode::new(2, b'I'), beidou::D1.words(&beidou).remove(0), 0..15),
     ];
     for (satellite, signal, good, bits) in cases {
-        let mut assembler = Assembler::new();
+        let mut assembler = NavigationAssembler::new();
         let mut take = |words| {
             assembler.take(&NavigationWords { satellite, signal, channel: None, words }, now())
         };
@@ -197,9 +197,9 @@ fn one_wrong_bit_is_refused() {
         for bit in bits {
             let mut wrong = good.clone();
             wrong[0] ^= 1 << bit;
-            assert_eq!(take(wrong), Err(Refusal::Damaged), "{satellite} {bit}");
+            assert_eq!(take(wrong), Err(WordsRefusal::Damaged), "{satellite} {bit}");
         }
-        assert!(matches!(take(good[..2].to_vec()), Err(Refusal::Short { found: 2, .. })));
+        assert!(matches!(take(good[..2].to_vec()), Err(WordsRefusal::Short { found: 2, .. })));
     }
 }
 

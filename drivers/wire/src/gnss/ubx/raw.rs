@@ -207,7 +207,7 @@ impl RxmSfrbx {
         framed(SFRBX, &writer)
     }
 
-    /// The words of a signal that is known, for [`crate::gnss::navigation::Assembler`].
+    /// The words of a signal that is known, for [`crate::gnss::navigation::NavigationAssembler`].
     #[must_use]
     pub fn navigation(&self) -> Option<NavigationWords> {
         let (satellite, signal) = self.signal.known()?;

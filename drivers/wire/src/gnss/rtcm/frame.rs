@@ -1,10 +1,7 @@
-//! RTCM 10403 ("RTCM3"): the frame alone, so that a mixed stream is cut well and corrections are
-//! passed on. What a message says is not read.
-//!
-//! Layout: D3, six zero bits, ten bits of length, the message, CRC-24Q. A message begins with twelve
+//! The frame: D3, six zero bits, ten bits of length, the message, CRC-24Q. A message begins with twelve
 //! bits of its number; one of no length is filler between messages.
 
-use super::crc24q::crc24q;
+use super::super::crc24q::crc24q;
 use crate::binary::{Fault, Writer};
 use crate::stream::Look;
 

@@ -3,11 +3,13 @@
 use insd_base::GpsTime;
 use insd_base::satellites::{ClockPolynomial, KeplerOrbit};
 
-use super::super::bits::{Bits, Field};
-use super::told::Refusal;
+use super::bits::{Bits, Field};
 
 /// Nanoseconds of a second.
 pub(super) const SECOND: i64 = 1_000_000_000;
+
+/// Seconds of a week.
+const WEEK: f64 = 604_800.0;
 
 /// Least root of a semi-major axis, m^1/2: that of an orbit of 16 000 km, below all satellites of navigation.
 const LEAST_ROOT: f64 = 4000.0;
@@ -53,8 +55,8 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// The orbit, with the reference time that is nearest to the transmission.
-    pub(super) fn orbit(&self, bits: &Bits, sent: GpsTime) -> Result<KeplerOrbit, Refusal> {
+    /// The orbit, with the reference time that is nearest to the transmission; `None` if it is none of a satellite of navigation.
+    pub(super) fn orbit(&self, bits: &Bits, sent: GpsTime) -> Option<KeplerOrbit> {
         let value = |field: &Field| field.value(bits);
         let [[cuc, cus], [crc, crs], [cic, cis]] =
             [&self.latitude, &self.radius, &self.inclination]
@@ -77,8 +79,9 @@ impl Layout {
             cic,
             cis,
         };
+        let is_of_week = [&self.toe, &self.toc].iter().all(|time| value(time) < WEEK);
         let plausible = orbit.sqrt_a >= LEAST_ROOT && orbit.eccentricity <= GREATEST_ECCENTRICITY;
-        if plausible { Ok(orbit) } else { Err(Refusal::Implausible) }
+        (is_of_week && plausible).then_some(orbit)
     }
 
     /// The clock.

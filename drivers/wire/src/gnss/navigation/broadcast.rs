@@ -6,7 +6,7 @@ use insd_base::satellites::{BroadcastRecord, IonosphereModel};
 
 /// Something that a satellite has told.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Told {
+pub enum Broadcast {
     /// Its orbit and its clock.
     Record(BroadcastRecord),
     /// The ionosphere.
@@ -17,7 +17,7 @@ pub enum Told {
 
 /// Why words say nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refusal {
+pub enum WordsRefusal {
     /// Fewer words than the message has.
     Short {
         /// Words that it has.
@@ -33,15 +33,17 @@ pub enum Refusal {
     Implausible,
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for WordsRefusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Refusal::Short { needed, found } => write!(f, "{needed} words expected, {found} found"),
-            Refusal::Damaged => f.write_str("a parity, a sum or the start is wrong"),
-            Refusal::Halves => f.write_str("two halves that are not of one page"),
-            Refusal::Implausible => f.write_str("no orbit of a satellite of navigation"),
+            WordsRefusal::Short { needed, found } => {
+                write!(f, "{needed} words expected, {found} found")
+            }
+            WordsRefusal::Damaged => f.write_str("a parity, a sum or the start is wrong"),
+            WordsRefusal::Halves => f.write_str("two halves that are not of one page"),
+            WordsRefusal::Implausible => f.write_str("no orbit of a satellite of navigation"),
         }
     }
 }
 
-impl std::error::Error for Refusal {}
+impl std::error::Error for WordsRefusal {}
