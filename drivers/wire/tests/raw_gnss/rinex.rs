@@ -32,12 +32,12 @@ fn header(text: &str) -> (BTreeMap<char, Vec<String>>, &str) {
     (types, body.split_once('\n').unwrap().1)
 }
 
-/// Compares all observations of a file, to its last decimal, with those of as many epochs. The density is left out where
-/// `densities` says so: convbin 2.4.3 writes those of SBF in other units.
+/// Compares all observations of a file, to its last decimal, with those of as many epochs, but those whose satellite and name
+/// (`E10 L7Q`) are left out.
 pub(crate) fn compare_observations(
     epochs: &[SatelliteEpoch],
     text: &str,
-    densities: bool,
+    is_left_out: impl Fn(&str) -> bool,
 ) -> Compared {
     let (types, body) = header(text);
     let mut compared = Compared::default();
@@ -53,7 +53,7 @@ pub(crate) fn compare_observations(
         for (number, name) in types[&line.chars().next().unwrap()].iter().enumerate() {
             let Some(field) = line.get(3 + COLUMN * number..) else { continue };
             let Some(told) = Told::read(field) else { continue };
-            if !densities && name.starts_with('S') {
+            if is_left_out(&format!("{satellite} {name}")) {
                 continue;
             }
             let named = |own: &&SignalObservation| {
