@@ -9,6 +9,7 @@ use insd_base::satellites::{
 };
 
 use super::super::bits::Bits;
+use super::super::kepler::SECOND;
 use super::super::words::NavigationWords;
 use super::broadcast::{Broadcast, WordsRefusal};
 use super::{beidou, galileo, glonass, lnav};
@@ -18,7 +19,12 @@ use super::{beidou, galileo, glonass, lnav};
 struct Pages {
     pages: BTreeMap<u8, Bits>,
     last: Option<BroadcastRecord>,
+    /// GLONASS: when the first string of the frame came.
+    begun: Option<GpsTime>,
 }
+
+/// GLONASS: longest time from string 1 to string 4 of one frame, ns: six seconds, and what receivers take to tell them.
+const FRAME: i64 = 15 * SECOND;
 
 impl Pages {
     /// All pages up to a number end to end; `None` unless they are all there.
@@ -29,6 +35,16 @@ impl Pages {
             joined.append(page, 0, page.len());
         }
         Some(joined)
+    }
+
+    /// Drops strings of GLONASS of another frame: they have no issue, so that only those that follow each other belong together.
+    fn begin_frame(&mut self, number: u8, now: GpsTime) {
+        if number == 1 {
+            self.begun = Some(now);
+        }
+        let age = |begun: GpsTime| now.since(begun).as_nanos();
+        let is_same = self.begun.is_some_and(|begun| (0..=FRAME).contains(&age(begun)));
+        self.pages.retain(|earlier, _| is_same && *earlier < number);
     }
 
     /// A record that was not told before, but for the time of its transmission.
@@ -118,8 +134,7 @@ impl NavigationAssembler {
         if (1..=pages(kind)).contains(&number) {
             let own = self.messages.entry((words.satellite, kind)).or_default();
             if kind == MessageKind::Fdma {
-                // strings have no issue: those of one frame follow each other, and no other way is taken
-                own.pages.retain(|earlier, _| *earlier < number);
+                own.begin_frame(number, received);
             }
             own.pages.insert(number, bits);
             told.extend(self.record(words, kind, received)?);

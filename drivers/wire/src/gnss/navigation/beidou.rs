@@ -185,14 +185,14 @@ impl Message {
     #[cfg(test)]
     pub(super) fn words(&self, record: &KeplerRecord) -> Vec<Vec<u32>> {
         let mut bits = Bits::zeros(self.pages * SIZE);
-        let (week, time) = record.transmitted.unwrap().to_week();
+        let (week, time) = record.transmitted.unwrap_or(record.orbit.reference).to_week();
         self.layout.put(&mut bits, &record.orbit, &record.clock);
         self.week.put(&mut bits, (week - 1356) as f64);
         self.health.put(&mut bits, record.health.into());
         self.issues[0].put(&mut bits, record.clock_issue.into());
         self.issues[1].put(&mut bits, record.issue.into());
         let index = (0..16).find(|index| range_accuracy(*index) == record.accuracy);
-        self.accuracy.put(&mut bits, index.unwrap() as f64);
+        self.accuracy.put(&mut bits, index.unwrap_or(15) as f64);
         for (field, value) in self.group_delays.iter().zip(record.group_delays) {
             field.put(&mut bits, value);
         }

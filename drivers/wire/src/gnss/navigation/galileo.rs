@@ -254,13 +254,13 @@ impl Message {
     pub(super) fn bits(&self, record: &KeplerRecord, ionisation: [f64; 3]) -> Bits {
         let size = if self.kind == MessageKind::Inav { 5 * WORD } else { 4 * PAGE };
         let mut bits = Bits::zeros(size);
-        let (week, time) = record.transmitted.unwrap().to_week();
+        let (week, time) = record.transmitted.unwrap_or(record.orbit.reference).to_week();
         self.layout.put(&mut bits, &record.orbit, &record.clock);
         self.week.put(&mut bits, (week - 1024) as f64);
         self.time.put(&mut bits, (time / SECOND) as f64);
         self.issues.iter().for_each(|field| field.put(&mut bits, record.issue.into()));
         let index = (0..256).find(|index| signal_in_space_accuracy(*index) == record.accuracy);
-        self.accuracy.put(&mut bits, index.unwrap() as f64);
+        self.accuracy.put(&mut bits, index.unwrap_or(15) as f64);
         for (field, value) in self.group_delays.iter().zip(record.group_delays) {
             field.put(&mut bits, value);
         }

@@ -135,7 +135,7 @@ pub(super) fn page_18(bits: &Bits, now: GpsTime) -> Option<(IonosphereModel, Opt
 #[cfg(test)]
 pub(super) fn words(record: &KeplerRecord) -> [Vec<u32>; 3] {
     let mut bits = Bits::zeros(3 * SIZE);
-    let (week, time) = record.transmitted.unwrap().to_week();
+    let (week, time) = record.transmitted.unwrap_or(record.orbit.reference).to_week();
     LAYOUT.put(&mut bits, &record.orbit, &record.clock);
     WEEK.put(&mut bits, (week % 1024) as f64);
     HEALTH.put(&mut bits, record.health.into());
@@ -143,7 +143,7 @@ pub(super) fn words(record: &KeplerRecord) -> [Vec<u32>; 3] {
     GROUP_DELAY.put(&mut bits, record.group_delays[0]);
     IODE.iter().for_each(|field| field.put(&mut bits, record.issue.into()));
     let index = (0..16).find(|index| range_accuracy(*index) == record.accuracy);
-    ACCURACY.put(&mut bits, index.unwrap() as f64);
+    ACCURACY.put(&mut bits, index.unwrap_or(15) as f64);
     [0, 1, 2].map(|frame| {
         let mut own = Bits::default();
         own.append(&bits, frame * SIZE, SIZE);

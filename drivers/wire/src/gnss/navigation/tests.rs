@@ -103,6 +103,54 @@ fn typed(pages: Vec<Bits>) -> Vec<Bits> {
     pages.into_iter().zip(1..).map(typed).collect()
 }
 
+/// Pages of every message, each with its number and good parities, and any bits else.
+fn any_pages(content: &[u8]) -> Vec<(SatelliteId, SignalCode, Vec<Vec<u32>>)> {
+    let bits = Bits::of(content);
+    let cut = |size: usize, pages: usize| -> Vec<Bits> {
+        let mut all = Bits::default();
+        all.append(&bits, 0, size * pages);
+        self::pages(&all, size)
+    };
+    let numbered = |pages: Vec<Bits>, at: usize, length: usize| -> Vec<Bits> {
+        let field = super::super::bits::Field::count(at, length);
+        let number = |(mut page, number): (Bits, u64)| {
+            field.put_raw(&mut page, number);
+            page
+        };
+        pages.into_iter().zip(1..).map(number).collect()
+    };
+    let begun = |pages: Vec<Bits>, length: usize, preamble: u64| -> Vec<Bits> {
+        let field = super::super::bits::Field::count(0, length);
+        let begin = |mut page: Bits| {
+            field.put_raw(&mut page, preamble);
+            page
+        };
+        pages.into_iter().map(begin).collect()
+    };
+    let gps = begun(numbered(cut(lnav::SIZE, 4), 43, 3), 8, 0x8B);
+    let beidou = begun(numbered(cut(beidou::SIZE, 3), 15, 3), 11, 0b111_0001_0010);
+    let named = |name: &str, signal: &[u8; 2]| {
+        (name.parse::<SatelliteId>().unwrap(), SignalCode::new(signal[0] - b'0', signal[1]))
+    };
+    let glonass = |number: usize| {
+        let mut string = numbered(cut(glonass::SIZE, 4), 1, 4).remove(number);
+        super::super::bits::Field::count(77, 8).put_raw(&mut string, 0);
+        super::checks::glonass_guard(&mut string);
+        string.push(0, 11);
+        (0..3).map(|word| string.get(word * 32, 32) as u32).collect()
+    };
+    let inav = typed(cut(galileo::WORD, 6)).iter().map(galileo::inav_words).collect();
+    let fnav = typed(cut(galileo::PAGE, 4)).iter().map(galileo::fnav_words).collect();
+    let words = [
+        (named("G07", b"1C"), gps.iter().map(super::checks::gps_words).collect()),
+        (named("E11", b"1B"), inav),
+        (named("E11", b"5I"), fnav),
+        (named("C21", b"2I"), beidou.iter().map(super::checks::beidou_words).collect()),
+        (named("R24", b"1C"), (0..4).map(glonass).collect()),
+    ];
+    words.into_iter().map(|((satellite, signal), words)| (satellite, signal, words)).collect()
+}
+
 proptest! {
     #[test]
     fn a_record_of_gps_comes_back_from_its_subframes(steps in -120_i64..120) {
@@ -163,6 +211,22 @@ proptest! {
     }
 
     #[test]
+    fn any_bits_behind_good_parities_are_taken_or_are_no_orbit(
+        content in prop::collection::vec(any::<u8>(), 28 * 10),
+        when in prop_oneof![any::<i64>(), Just(1_440_437_460_000_000_000)],
+    ) {
+        for (satellite, signal, words) in any_pages(&content) {
+            let mut assembler = NavigationAssembler::new();
+            for words in words {
+                let words = NavigationWords { satellite, signal, channel: Some(0), words };
+                let told = assembler.take(&words, GpsTime::from_nanos(when));
+                let refused = matches!(told, Err(WordsRefusal::Implausible));
+                prop_assert!(refused || told.is_ok(), "{satellite}: {told:?}");
+            }
+        }
+    }
+
+    #[test]
     fn no_words_make_the_assembler_panic(
         number in 1_u8..64,
         system in 0..Constellation::ALL.len(),
@@ -217,4 +281,32 @@ fn a_record_is_told_once() {
     let record = record("G07", MessageKind::Lnav, 7);
     let twice = [lnav::words(&record), lnav::words(&record)].concat();
     assert_eq!(heard(record.satellite, "1C", twice).len(), 1);
+}
+
+#[test]
+fn strings_of_two_frames_of_glonass_make_no_record() {
+    let record = GlonassRecord {
+        satellite: SatelliteId::new(Constellation::Glonass, 24).unwrap(),
+        channel: -4,
+        reference: now(),
+        position: [12_345e3; 3],
+        velocity: [0.0; 3],
+        acceleration: [0.0; 3],
+        clock_offset: 0.0,
+        clock_drift: 0.0,
+        health: 0,
+        age_days: 0.0,
+    };
+    let satellite = record.satellite;
+    let signal = SignalCode::new(1, b'C');
+    for (late, records) in [(6, 1), (36, 0)] {
+        let mut assembler = NavigationAssembler::new();
+        let mut told = Vec::new();
+        for (words, second) in glonass::words(&record, 18).into_iter().zip([0, 2, 4, late]) {
+            let words = NavigationWords { satellite, signal, channel: Some(-4), words };
+            let received = GpsTime::from_nanos(now().as_nanos() + second * SECOND);
+            told.extend(assembler.take(&words, received).unwrap());
+        }
+        assert_eq!(told.len(), records, "{late}");
+    }
 }

@@ -22,6 +22,10 @@ const MILLI: f64 = 1e-3;
 /// One step of Doppler shifts, Hz.
 const DOPPLER: f64 = 1e-4;
 
+/// Longest lock that is told of every signal, s. The first one tells more; a signal that is the first for a while and another again
+/// would seem to have slipped.
+const LONGEST_LOCK: f64 = 254.0;
+
 /// `CommonFlags`, bit 6: the signal of E6 is E6-B, not E6-C.
 const E6B: u8 = 1 << 6;
 
@@ -251,7 +255,7 @@ impl First {
 
     fn own(&self, own: &MeasChannel, code: SignalCode) -> SignalObservation {
         let carrier = carrier(own.carrier_high, own.carrier_low);
-        let lock = (own.lock_time != u16::MAX).then(|| f64::from(own.lock_time));
+        let lock = (own.lock_time != u16::MAX).then(|| f64::from(own.lock_time).min(LONGEST_LOCK));
         let common = self.common(code, (self.range, carrier), own.density, own.info);
         SignalObservation { doppler: self.doppler, lock, ..common }
     }
