@@ -20,6 +20,7 @@ impl Locks {
 
     /// Marks the phases of an epoch whose lock is younger than it was, or begins.
     ///
+    /// A lock of zero always counts, so that of a receiver that counts whole seconds all phases of the first one are marked.
     /// Formats tell no more of a slip than that; a receiver that loses lock and holds it again for longer than before between two epochs
     /// can not be found out.
     pub fn mark(&mut self, epoch: &mut SatelliteEpoch) {

@@ -153,3 +153,18 @@ pub(super) fn words(record: &KeplerRecord) -> [Vec<u32>; 3] {
         super::checks::gps_words(&own)
     })
 }
+
+/// The words of page 18 of subframe 4: ionosphere, then leap seconds before a change, its week and day, and after it.
+#[cfg(test)]
+pub(super) fn page_18_words(alpha: [f64; 4], beta: [f64; 4], leap: [f64; 4]) -> Vec<u32> {
+    let mut bits = Bits::zeros(SIZE);
+    PREAMBLE.put_raw(&mut bits, 0x8B);
+    NUMBER.put_raw(&mut bits, 4);
+    PAGE.put_raw(&mut bits, PAGE_18 as u64);
+    let fields = ALPHA.iter().zip(alpha).chain(BETA.iter().zip(beta));
+    let leaps = [&LEAP.before, &LEAP.week, &LEAP.day, &LEAP.after];
+    for (field, value) in fields.chain(leaps.into_iter().zip(leap)) {
+        field.put(&mut bits, value);
+    }
+    super::checks::gps_words(&bits)
+}

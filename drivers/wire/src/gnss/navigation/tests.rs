@@ -310,3 +310,18 @@ fn strings_of_two_frames_of_glonass_make_no_record() {
         assert_eq!(told.len(), records, "{late}");
     }
 }
+
+#[test]
+fn page_18_of_gps_tells_the_ionosphere_and_the_leap_seconds() {
+    let alpha = [5.0 * 2_f64.powi(-30), -2.0_f64.powi(-27), 2_f64.powi(-24), -2.0_f64.powi(-24)];
+    let beta = [2_f64.powi(11), -2.0_f64.powi(14), 2_f64.powi(16), -2.0_f64.powi(16)];
+    let satellite = SatelliteId::new(Constellation::Gps, 7).unwrap();
+    // now is Thursday, the fifth day of week 2381
+    let (week, thursday) = (f64::from(2381_u16 % 256), 5.0);
+    for (day, expected) in [(4.0, 19), (thursday, 18)] {
+        let words = lnav::page_18_words(alpha, beta, [18.0, week, day, 19.0]);
+        let told = heard(satellite, "1C", vec![words]);
+        let model = IonosphereModel::Klobuchar { alpha, beta };
+        assert_eq!(told, [Broadcast::Ionosphere(model), Broadcast::LeapSeconds(expected)]);
+    }
+}
