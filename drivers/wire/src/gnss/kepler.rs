@@ -127,7 +127,7 @@ impl Layout {
     }
 }
 
-/// Accuracy of an index of GPS, QZSS or BeiDou, m (IS-GPS-200N, 20.3.3.3.1.3; BDS-SIS-ICD-B1I 3.0, 5.2.4.5): the nominal value.
+/// Accuracy of an index of GPS, QZSS or BeiDou, m (IS-GPS-200N, 20.3.3.3.1.3; BDS-SIS-ICD-B1I 3.0, 5.2.4, URAI): the nominal value.
 pub(super) fn range_accuracy(index: i64) -> Option<f64> {
     const NOMINAL: [f64; 15] = [
         2.0, 2.8, 4.0, 5.7, 8.0, 11.3, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0, 2048.0,
@@ -136,7 +136,7 @@ pub(super) fn range_accuracy(index: i64) -> Option<f64> {
     usize::try_from(index).ok().and_then(|index| NOMINAL.get(index)).copied()
 }
 
-/// Accuracy of an index of Galileo, m (OS SIS ICD 2.1, table 89).
+/// Accuracy of an index of Galileo, m (OS SIS ICD 2.1, 5.1, SISA).
 pub(super) fn signal_in_space_accuracy(index: i64) -> Option<f64> {
     Some(match index {
         0..=49 => index as f64 * 0.01,

@@ -14,7 +14,7 @@ const GPS: [(u32, bool); 6] = [
     (mask(&[3, 5, 6, 8, 9, 10, 11, 13, 15, 19, 22, 23, 24]), false),
 ];
 
-/// Generator of BCH(15,11,1), x^4 + x + 1 (BDS-SIS-ICD-B1I 3.0, 5.1.3).
+/// Generator of BCH(15,11,1), x^4 + x + 1 (BDS-SIS-ICD-B1I 3.0, 5.1).
 const BCH: u32 = 0b1_0011;
 
 const fn mask(numbers: &[u32]) -> u32 {

@@ -1,4 +1,4 @@
-//! I/NAV of Galileo on E1-B and E5b-I (OS SIS ICD 2.1, 4.3, tables 39 to 49), and F/NAV on E5a-I (4.2, tables 28 to 33).
+//! I/NAV of Galileo on E1-B and E5b-I (OS SIS ICD 2.1, 4.3), and F/NAV on E5a-I (4.2).
 //!
 //! I/NAV: positions count the 128 bits of each word type, types 1 to 5 end to end. F/NAV: the 214 bits of each page that the sum
 //! guards, types 1 to 4 end to end.

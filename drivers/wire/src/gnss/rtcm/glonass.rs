@@ -1,6 +1,6 @@
 //! 1020: a record of GLONASS.
 //!
-//! Layout: RTCM 10403.3, table 3.5-22 (DF038, DF040, DF104 to DF136); numbers with a sign have it in their first bit.
+//! Layout: RTCM 10403.3, the contents of 1020 (DF038, DF040, DF104 to DF136); numbers with a sign have it in their first bit.
 
 use insd_base::GpsTime;
 use insd_base::satellites::{Constellation, GlonassRecord, SatelliteId};

@@ -1,6 +1,6 @@
 //! Records with Keplerian elements: 1019 (GPS), 1042 (BeiDou), 1044 (QZSS), 1045 and 1046 (Galileo F/NAV and I/NAV).
 //!
-//! Layouts: RTCM 10403.3, tables 3.5-21, 3.5-105 to 3.5-108 (fields DF009 and DF071 to DF103, DF252 and DF289 to DF317,
+//! Layouts: RTCM 10403.3, the contents of each message (fields DF009 and DF071 to DF103, DF252 and DF289 to DF317,
 //! DF429 to DF457, DF488 to DF515). The week is not needed: reference times are those nearest to the reception, which has to be right to three days.
 
 use insd_base::GpsTime;

@@ -1,6 +1,6 @@
 //! MSM4 to MSM7: what a base or a caster's receiver measured, packed over masks.
 //!
-//! Layout: RTCM 10403.3, tables 3.5-78 to 3.5-90. Masks tell which satellites and signals there are, and which cells of their product are filled;
+//! Layout: RTCM 10403.3, the contents of MSM (DF393 to DF408, DF416 to DF420). Masks tell which satellites and signals there are, and which cells of their product are filled;
 //! a product of more than 64 cells has no mask, and is refused.
 
 use insd_base::satellites::{

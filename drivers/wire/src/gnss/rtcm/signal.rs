@@ -1,6 +1,6 @@
 //! Satellites and signals of the masks of MSM.
 //!
-//! Tables: RTCM 10403.3, 3.5-91 to 3.5-108 (DF394 and DF395 of each constellation).
+//! Tables: RTCM 10403.3, the satellite and signal masks (DF394 and DF395 of each constellation).
 
 use insd_base::satellites::{Constellation, SatelliteId, SignalCode};
 

@@ -1,6 +1,6 @@
 //! 1005 and 1006: where the antenna of the base is.
 //!
-//! Layout: RTCM 10403.3, tables 3.5-6 and 3.5-7 (DF003, DF025 to DF028).
+//! Layout: RTCM 10403.3, the contents of 1005 and 1006 (DF003, DF025 to DF028).
 
 use super::super::bits::{Bits, Field};
 use crate::binary::Fault;
