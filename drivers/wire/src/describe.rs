@@ -97,7 +97,11 @@ fn sbf(frame: &[u8]) -> Described {
         Err(_) => "SBF".to_owned(),
     };
     match sbf::Message::read(frame) {
-        Ok(sbf::Message::Other { .. }) => described(name, Reading::Other),
+        Ok(
+            sbf::Message::Other { .. }
+            | sbf::Message::MeasEpoch(_)
+            | sbf::Message::RawNavigation(_),
+        ) => described(name, Reading::Other),
         Ok(_) => described(name, Reading::Used),
         Err(_) => described(name, Reading::Refused),
     }

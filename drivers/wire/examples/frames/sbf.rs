@@ -1,7 +1,8 @@
 //! SBF blocks as JSON.
 
 use insd_wire::gnss::sbf::{
-    AttCovEuler, AttEuler, Covariance, Message, Mode, PvtGeodetic, ReceiverTime, Stamp, XppsOffset,
+    AttCovEuler, AttEuler, Covariance, MeasChannel, MeasEpoch, MeasOther, Message, Mode,
+    PvtGeodetic, RawNavigation, RawNavigationKind, ReceiverTime, Stamp, XppsOffset,
 };
 use serde_json::{Value, json};
 
@@ -19,6 +20,8 @@ pub(crate) fn describe(block: &[u8]) -> (String, Value) {
         Message::AttCovEuler(block) => ("AttCovEuler", attitude_cov(block)),
         Message::ReceiverTime(block) => ("ReceiverTime", time(block)),
         Message::XppsOffset(block) => ("xPPSOffset", pulse(block)),
+        Message::MeasEpoch(block) => ("MeasEpoch", measurements(block)),
+        Message::RawNavigation(block) => (raw_name(block.kind), raw(block)),
         Message::Other { id, revision } => return (format!("{id}-{revision}"), Value::Null),
     };
     (name.to_owned(), fields)
@@ -88,6 +91,50 @@ fn pulse(block: &XppsOffset) -> Value {
     let fields = json!({
         "SyncAge": block.age, "TimeScale": block.scale, "Offset": block.offset,
         "pulse": block.pulse().as_ref().map(crate::ubx::instant),
+    });
+    with(block.stamp, None, fields)
+}
+
+fn measurements(block: &MeasEpoch) -> Value {
+    let other = |own: &MeasOther| {
+        json!({
+            "Type": own.kind, "LockTime": own.lock_time, "CN0": own.density, "OffsetMSB": own.high,
+            "CarrierMSB": own.carrier_high, "ObsInfo": own.info, "CodeOffsetLSB": own.code_low,
+            "CarrierLSB": own.carrier_low, "DopplerOffsetLSB": own.doppler_low,
+        })
+    };
+    let channel = |own: &MeasChannel| {
+        json!({
+            "RxChannel": own.receiver_channel, "Type": own.kind, "SVID": own.satellite,
+            "Misc": own.misc, "CodeLSB": own.code, "Doppler": own.doppler,
+            "CarrierLSB": own.carrier_low, "CarrierMSB": own.carrier_high, "CN0": own.density,
+            "LockTime": own.lock_time, "ObsInfo": own.info,
+            "Type2": own.others.iter().map(other).collect::<Vec<_>>(),
+        })
+    };
+    let channels: Vec<_> = block.channels.iter().map(channel).collect();
+    let fields = json!({
+        "CommonFlags": block.flags, "CumClkJumps": block.clock_jumps, "Type1": channels,
+    });
+    with(block.stamp, None, fields)
+}
+
+fn raw_name(kind: RawNavigationKind) -> &'static str {
+    match kind {
+        RawNavigationKind::Gps => "GPSRawCA",
+        RawNavigationKind::GalileoFnav => "GALRawFNAV",
+        RawNavigationKind::GalileoInav => "GALRawINAV",
+        RawNavigationKind::Glonass => "GLORawCA",
+        RawNavigationKind::BeiDou => "BDSRaw",
+        RawNavigationKind::Qzss => "QZSRawL1CA",
+    }
+}
+
+fn raw(block: &RawNavigation) -> Value {
+    let fields = json!({
+        "SVID": block.satellite, "CRCPassed": block.passed, "ViterbiCnt": block.mended,
+        "Source": block.source, "FreqNr": block.frequency, "RxChannel": block.receiver_channel,
+        "NAVBits": block.words,
     });
     with(block.stamp, None, fields)
 }

@@ -4,15 +4,23 @@
 //! and its covariances). Each becomes a [`GnssPart`]; whoever puts an epoch together knows by
 //! [`GnssPart::epoch`] which belong to each other.
 
+pub mod navigation;
 pub mod rtcm;
 pub mod sbf;
 pub mod ubx;
 
+mod bits;
+mod crc24q;
 mod epoch;
+mod kepler;
+mod locks;
 mod pulse;
+mod words;
 
 pub use epoch::Epoch;
+pub use locks::Locks;
 pub use pulse::{PulseOrder, PulseTime};
+pub use words::NavigationWords;
 
 use insd_base::{FixQuality, Geodetic, GpsTime, UtcTime};
 
@@ -78,4 +86,10 @@ const LAST_WEEK: u16 = 9999;
 /// The instant of a full week and nanoseconds of the week, if it is a sane one.
 fn gps_time(week: u16, time_of_week: i64) -> Option<GpsTime> {
     (week <= LAST_WEEK).then(|| GpsTime::from_week(week, time_of_week))
+}
+
+/// GPS - UTC by the table of this version, s.
+fn leap_seconds(at: GpsTime) -> i8 {
+    let leap = at.to_utc(Some(0)).since(at.to_utc(None));
+    i8::try_from(leap.as_nanos() / 1_000_000_000).unwrap_or_default()
 }

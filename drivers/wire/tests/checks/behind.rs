@@ -3,8 +3,10 @@
 use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 
-use insd_base::LogReference;
-use insd_wire::gnss::{GnssPart, nmea as gnss_nmea, rtcm, sbf, ubx};
+use insd_base::satellites::SatelliteEpoch;
+use insd_base::{GpsTime, LogReference};
+use insd_wire::gnss::navigation::NavigationAssembler;
+use insd_wire::gnss::{GnssPart, Locks, NavigationWords, nmea as gnss_nmea, rtcm, sbf, ubx};
 use insd_wire::imu::kvh::{KvhFormat, KvhLinear, KvhMessage, KvhRotation, KvhTemperature};
 use insd_wire::imu::stim::{StimConfiguration, StimDatagram, StimFormat, StimKind, StimRange};
 use insd_wire::imu::{ImuReading, mip, sbg, stdbin, xbus};
@@ -127,6 +129,11 @@ fn ubx(frame: &[u8]) {
     let Some(message) = again(frame, Everything, read, write) else { return };
     message.part().iter().for_each(is_sane_part);
     make(message.pulse());
+    match message {
+        Message::RxmRawx(message) => message.epoch().iter().for_each(is_sane_epoch),
+        Message::RxmSfrbx(message) => message.navigation().iter().for_each(are_sane_words),
+        _ => {}
+    }
 }
 
 fn sbf(frame: &[u8]) {
@@ -142,17 +149,52 @@ fn sbf(frame: &[u8]) {
         Message::AttCovEuler(block) => block.write(),
         Message::ReceiverTime(block) => block.write(),
         Message::XppsOffset(block) => block.write(),
+        Message::MeasEpoch(block) => block.write(),
+        Message::RawNavigation(block) => block.write(),
         Message::Other { .. } => frame.to_vec(),
     };
     let Some(message) = again(frame, Everything, read, write) else { return };
     message.part().iter().for_each(is_sane_part);
     make(message.pulse());
+    match message {
+        Message::MeasEpoch(block) => block.epoch(Some(0)).iter().for_each(is_sane_epoch),
+        Message::RawNavigation(block) => block.navigation().iter().for_each(are_sane_words),
+        _ => {}
+    }
 }
 
 fn rtcm(frame: &[u8]) {
     if let Ok(open) = rtcm::Frame::open(frame) {
         assert_eq!(open.write(), frame);
         make(open.number());
+    }
+    for received in [GpsTime::from_week(2381, 0), GpsTime::from_nanos(i64::MAX)] {
+        let told = rtcm::MsmCollector::new().take(frame, received).unwrap_or_default();
+        for correction in told {
+            if let rtcm::Correction::Epoch(epoch) = correction {
+                is_sane_epoch(&epoch);
+            }
+        }
+    }
+}
+
+fn is_sane_epoch(epoch: &SatelliteEpoch) {
+    let mut marked = epoch.clone();
+    Locks::new().mark(&mut marked);
+    for own in &marked.signals {
+        let numbers = [own.code, own.phase, own.doppler, own.cn0, own.lock];
+        assert!(is_finite(numbers), "{own:?}");
+        assert!(own.lock.is_none_or(|lock| lock >= 0.0), "{own:?}");
+        assert!(own.phase.is_some() || !own.half_cycle && !own.slip, "{own:?}");
+        make(own.wavelength());
+    }
+}
+
+/// Whatever is assembled of words, alone and as every page of one satellite one after the other, at any time.
+fn are_sane_words(words: &NavigationWords) {
+    let mut assembler = NavigationAssembler::new();
+    for nanos in [0, 1_440_437_460_000_000_000, i64::MIN, i64::MAX] {
+        make(assembler.take(words, GpsTime::from_nanos(nanos)));
     }
 }
 

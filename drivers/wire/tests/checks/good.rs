@@ -70,8 +70,10 @@ fn ubx_frame(choice: u8, payload: &[u8]) -> Vec<u8> {
     ubx::Frame { class, id, payload }.write()
 }
 
-/// Numbers of the blocks that are read, and of one that is not.
-const SBF: [u16; 8] = [4007, 5906, 5908, 5938, 5939, 5914, 5911, 4027];
+/// Numbers of the blocks that are read, and of two that are not.
+const SBF: [u16; 16] = [
+    4007, 5906, 5908, 5938, 5939, 5914, 5911, 4027, 4017, 4022, 4023, 4026, 4047, 4066, 4000, 4018,
+];
 
 fn sbf_frame(choice: u8, payload: &[u8]) -> Vec<u8> {
     sbf::Frame { id: chosen(&SBF, choice), revision: choice >> 5, payload }.write()

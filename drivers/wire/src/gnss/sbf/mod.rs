@@ -2,19 +2,24 @@
 //!
 //! Readers never panic, whatever the bytes. Blocks may be longer than their document says: padding,
 //! and fields of later revisions, are skipped. `WNc` is a whole week and knows no rollover of 1024.
-//! Layouts are from the maker's guides and pysbf2; no log of a device was at hand.
+//! Layouts are from the maker's guides and pysbf2; logs of a device were at hand for MeasEpoch and raw navigation bits only.
 
 mod attitude;
 mod cov;
 mod field;
 mod frame;
+mod measurements;
+mod navigation;
 mod pvt;
+mod signal;
 mod time;
 
 pub use attitude::{AttCovEuler, AttEuler};
 pub use cov::{Covariance, PosCovGeodetic, VelCovGeodetic};
 pub use field::{Mode, Solution};
 pub use frame::{Frame, Stamp, look};
+pub use measurements::{MeasChannel, MeasEpoch, MeasOther};
+pub use navigation::{RawNavigation, RawNavigationKind};
 pub use pvt::{PvtAccuracy, PvtGeodetic};
 pub use time::{ReceiverTime, XppsOffset};
 
@@ -38,6 +43,10 @@ pub enum Message {
     ReceiverTime(ReceiverTime),
     /// Time of the last pulse.
     XppsOffset(XppsOffset),
+    /// Measurements.
+    MeasEpoch(MeasEpoch),
+    /// Bits of a navigation message.
+    RawNavigation(RawNavigation),
     /// A good block that is not read here.
     Other {
         /// Its number.
@@ -62,6 +71,10 @@ impl Message {
             attitude::COVARIANCE => Message::AttCovEuler(AttCovEuler::read(block)?),
             time::RECEIVER_TIME => Message::ReceiverTime(ReceiverTime::read(block)?),
             time::PULSE => Message::XppsOffset(XppsOffset::read(block)?),
+            measurements::ID => Message::MeasEpoch(MeasEpoch::read(block)?),
+            _ if RawNavigationKind::of(id).is_some() => {
+                Message::RawNavigation(RawNavigation::read(block)?)
+            }
             _ => Message::Other { id, revision },
         })
     }

@@ -10,13 +10,15 @@ mod frame;
 mod hpposllh;
 mod pvt;
 mod raw;
+mod signal;
 mod time;
 
 pub use cov::{Covariance, NavCov, NavDop};
 pub use frame::{Frame, look};
 pub use hpposllh::NavHpPosLlh;
 pub use pvt::{Carrier, FixType, NavPvt, PvtTime};
-pub use raw::{RawMeasurement, RxmRawx, RxmSfrbx, Signal};
+pub use raw::{RawMeasurement, RxmRawx, RxmSfrbx};
+pub use signal::Signal;
 pub use time::{LeapEvent, NavTimeGps, NavTimeLs, TimTp};
 
 use super::{GnssPart, PulseTime};

@@ -1,11 +1,14 @@
 //! RXM-RAWX and RXM-SFRBX: what the receiver measured and what the satellites sent, to be passed on.
 //!
-//! Layouts: u-blox ZED-F9P Interface Description (UBX-18010854). No log of a device with RXM-RAWX was
-//! at hand.
+//! Layouts: u-blox ZED-F9P Interface Description (UBX-18010854).
+
+use insd_base::satellites::{SatelliteEpoch, SignalObservation};
 
 use super::field::bit;
 use super::frame::{Frame, framed};
+use super::signal::Signal;
 use crate::binary::{Fault, Reader, Writer};
+use crate::gnss::{NavigationWords, gps_time};
 
 /// Class and id of RXM-RAWX.
 pub(super) const RAWX: (u8, u8) = (0x02, 0x15);
@@ -13,18 +16,8 @@ pub(super) const RAWX: (u8, u8) = (0x02, 0x15);
 /// Class and id of RXM-SFRBX.
 pub(super) const SFRBX: (u8, u8) = (0x02, 0x13);
 
-/// A signal of a satellite in u-blox's numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
-pub struct Signal {
-    /// `gnssId`: 0 GPS, 1 SBAS, 2 Galileo, 3 `BeiDou`, 5 QZSS, 6 GLONASS, 7 NavIC.
-    pub system: u8,
-    /// `svId`.
-    pub satellite: u8,
-    /// `sigId`; zero on receivers older than generation 9.
-    pub signal: u8,
-    /// `freqId`: GLONASS frequency slot + 7.
-    pub slot: u8,
-}
+/// Seconds of a week.
+const WEEK: f64 = 604_800.0;
 
 /// One measurement of RXM-RAWX.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,6 +101,23 @@ impl RawMeasurement {
         writer.u8(self.carrier_to_noise).u8(self.pseudorange_exponent & 15).u8(phase_std);
         writer.put(&[self.doppler_exponent & 15, status, 0]);
     }
+
+    /// The measurement of a signal that is known; that a half cycle was subtracted does no harm.
+    fn observation(&self) -> Option<SignalObservation> {
+        let (satellite, signal) = self.signal.known()?;
+        let finite = |value: &f64| value.is_finite();
+        let phase = self.carrier_phase.filter(finite);
+        Some(SignalObservation {
+            channel: self.signal.channel(),
+            code: self.pseudorange.filter(finite),
+            phase,
+            doppler: Some(f64::from(self.doppler)).filter(finite),
+            cn0: Some(f64::from(self.carrier_to_noise)),
+            lock: Some(self.lock_time),
+            half_cycle: phase.is_some() && !self.half_cycle_valid,
+            ..SignalObservation::unknown(satellite, signal)
+        })
+    }
 }
 
 impl RxmRawx {
@@ -143,6 +153,18 @@ impl RxmRawx {
             measurement.write(&mut writer);
         }
         framed(RAWX, &writer)
+    }
+
+    /// What was measured of signals that are known; `None` if the time is no time. Slips are for [`crate::gnss::Locks`].
+    #[must_use]
+    pub fn epoch(&self) -> Option<SatelliteEpoch> {
+        let time_of_week = Some(self.time_of_week).filter(|time| (0.0..WEEK).contains(time))?;
+        Some(SatelliteEpoch {
+            tag: gps_time(self.week, (time_of_week * 1e9).round() as i64)?,
+            signals: self.measurements.iter().filter_map(RawMeasurement::observation).collect(),
+            leap_seconds: self.leap_seconds_valid.then_some(self.leap_seconds),
+            clock_reset: self.clock_reset,
+        })
     }
 }
 
@@ -183,5 +205,13 @@ impl RxmSfrbx {
             writer.le_u32(*word);
         }
         framed(SFRBX, &writer)
+    }
+
+    /// The words of a signal that is known, for [`crate::gnss::navigation::NavigationAssembler`].
+    #[must_use]
+    pub fn navigation(&self) -> Option<NavigationWords> {
+        let (satellite, signal) = self.signal.known()?;
+        let channel = self.signal.channel();
+        Some(NavigationWords { satellite, signal, channel, words: self.words.clone() })
     }
 }

@@ -1,16 +1,9 @@
-//! RTCM 10403 ("RTCM3"): the frame alone, so that a mixed stream is cut well and corrections are
-//! passed on. What a message says is not read.
-//!
-//! Layout: D3, six zero bits, ten bits of length, the message, CRC-24Q. A message begins with twelve
+//! The frame: D3, six zero bits, ten bits of length, the message, CRC-24Q. A message begins with twelve
 //! bits of its number; one of no length is filler between messages.
 
-use crc::{CRC_24_LTE_A, Crc, Table};
-
+use super::super::crc24q::crc24q;
 use crate::binary::{Fault, Writer};
 use crate::stream::Look;
-
-/// Qualcomm's CRC of 24 bits: the polynomial of LTE-A with the same start.
-const CRC_24Q: Crc<u32, Table<16>> = Crc::<u32, Table<16>>::new(&CRC_24_LTE_A);
 
 /// First byte of every frame.
 const PREAMBLE: u8 = 0xD3;
@@ -50,7 +43,7 @@ fn whole(bytes: &[u8], message: usize) -> Look {
 }
 
 fn crc(bytes: &[u8]) -> [u8; 3] {
-    let [_, sum @ ..] = CRC_24Q.checksum(bytes).to_be_bytes();
+    let [_, sum @ ..] = crc24q(bytes).to_be_bytes();
     sum
 }
 
