@@ -13,7 +13,7 @@ use std::process::Command;
 
 use insd_base::GpsTime;
 use insd_base::satellites::{
-    BroadcastRecord, KeplerRecord, MessageKind, SatelliteEpoch, SatelliteId, SignalObservation,
+    BroadcastKind, BroadcastRecord, KeplerRecord, SatelliteEpoch, SatelliteId, SignalObservation,
 };
 use insd_wire::gnss::Locks;
 use insd_wire::gnss::navigation::{Broadcast, NavigationAssembler};
@@ -66,7 +66,7 @@ fn hear(bytes: &[u8]) -> Heard {
 }
 
 impl Heard {
-    fn records(&self, kind: MessageKind) -> Vec<KeplerRecord> {
+    fn records(&self, kind: BroadcastKind) -> Vec<KeplerRecord> {
         let record = |told: &Broadcast| match told {
             Broadcast::Record(BroadcastRecord::Kepler(record)) => Some(*record),
             _ => None,
@@ -79,7 +79,7 @@ impl Heard {
     }
 
     /// Every record of a file is among those of one kind, all numbers the same; gives how many.
-    fn compare_records(&self, navigation: &str, kind: MessageKind) -> usize {
+    fn compare_records(&self, navigation: &str, kind: BroadcastKind) -> usize {
         let own = self.records(kind);
         let is_same = |satellite| own.iter().filter(move |own| own.satellite == satellite);
         let told = rinex::records(navigation);
@@ -94,7 +94,7 @@ impl Heard {
 
     /// Galileo sends the same orbit in two messages that are laid out otherwise; gives how many satellites sent both.
     fn compare_messages_of_galileo(&self) -> usize {
-        let pages = self.records(MessageKind::Fnav);
+        let pages = self.records(BroadcastKind::Fnav);
         let same = |words: &&KeplerRecord| {
             let mut pages = pages.iter();
             let same = |page: &&KeplerRecord| {
@@ -106,7 +106,7 @@ impl Heard {
                 true
             })
         };
-        self.records(MessageKind::Inav).iter().filter(same).count()
+        self.records(BroadcastKind::Inav).iter().filter(same).count()
     }
 }
 
@@ -119,7 +119,7 @@ fn a_piece_of_a_recording_says_what_rinex_of_another_program_says() {
     assert_eq!(compared.phases, PIECE_PHASES);
     assert_eq!(compared.half_cycles, PIECE_HALF_CYCLES);
     let navigation = include_str!("data/walk_1730.nav");
-    for kind in [MessageKind::Lnav, MessageKind::D1] {
+    for kind in [BroadcastKind::Lnav, BroadcastKind::D1] {
         assert_eq!(heard.compare_records(navigation, kind), 1, "{kind:?}");
     }
     assert_eq!(heard.compare_messages_of_galileo(), 1);
@@ -173,9 +173,9 @@ fn the_whole_recording_says_what_rinex_of_another_program_says() {
     assert_eq!(heard.epochs.len(), 536);
     assert!(heard.refused.is_empty(), "{:?} of {} words", heard.refused, heard.words);
     for (kind, satellites) in [
-        (MessageKind::Lnav, "G10 G23 G27 G32"),
-        (MessageKind::Inav, "E07 E08 E13 E14 E26 E29 E33"),
-        (MessageKind::D1, "C11 C21 C22 C34 C42 C43 C44 C50"),
+        (BroadcastKind::Lnav, "G10 G23 G27 G32"),
+        (BroadcastKind::Inav, "E07 E08 E13 E14 E26 E29 E33"),
+        (BroadcastKind::D1, "C11 C21 C22 C34 C42 C43 C44 C50"),
     ] {
         let own: BTreeSet<_> = heard.records(kind).iter().map(|own| own.satellite).collect();
         let own: Vec<_> = own.iter().map(ToString::to_string).collect();
@@ -201,6 +201,6 @@ fn against_convbin(bytes: &[u8], heard: &Heard) {
     assert_eq!(compared.codes, 12_735);
     assert_eq!(compared.phases, 8432);
     let navigation = read("log.nav");
-    assert_eq!(heard.compare_records(&navigation, MessageKind::Lnav), 4);
-    assert_eq!(heard.compare_records(&navigation, MessageKind::D1), 8);
+    assert_eq!(heard.compare_records(&navigation, BroadcastKind::Lnav), 4);
+    assert_eq!(heard.compare_records(&navigation, BroadcastKind::D1), 8);
 }

@@ -6,8 +6,8 @@ mod ranges;
 mod signal;
 
 pub use broadcast::{
-    BroadcastRecord, ClockPolynomial, GlonassRecord, IonosphereModel, KeplerOrbit, KeplerRecord,
-    MessageKind,
+    BroadcastKind, BroadcastRecord, ClockPolynomial, GlonassRecord, IonosphereModel, KeplerOrbit,
+    KeplerRecord,
 };
 pub use epoch::{SatelliteEpoch, SignalObservation};
 pub use ranges::{ArcPhase, Measured, SatelliteRange, SatelliteRanges, Transmitter, time_keeper};

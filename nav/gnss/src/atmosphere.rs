@@ -10,7 +10,7 @@ pub use troposphere::{Mapping, Troposphere};
 
 /// Where a satellite stands as seen from an antenna, rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Direction {
+pub struct LookAngles {
     /// Clockwise from north.
     pub azimuth: f64,
     /// Above the horizon.

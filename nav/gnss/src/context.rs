@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use insd_base::{Constellation, Geodetic, GpsTime, IonosphereModel};
 
-use crate::atmosphere::{Direction, Mapping, Troposphere, klobuchar};
+use crate::atmosphere::{LookAngles, Mapping, Troposphere, klobuchar};
 use crate::ephemerides::Ephemerides;
 use crate::signals::Noise;
 
@@ -39,7 +39,7 @@ pub struct Delays {
 impl Context {
     /// Delays along the ray to an antenna near the Earth's surface.
     #[must_use]
-    pub fn delays(&self, antenna: &Geodetic, direction: Direction, time: GpsTime) -> Delays {
+    pub fn delays(&self, antenna: &Geodetic, direction: LookAngles, time: GpsTime) -> Delays {
         let mapping = Mapping::niell(antenna, direction.elevation, time);
         Delays {
             ionosphere: self
@@ -50,7 +50,7 @@ impl Context {
         }
     }
 
-    fn klobuchar(&self, antenna: &Geodetic, direction: Direction, time: GpsTime) -> Option<f64> {
+    fn klobuchar(&self, antenna: &Geodetic, direction: LookAngles, time: GpsTime) -> Option<f64> {
         let all = [Constellation::Gps, Constellation::Qzss];
         all.iter().find_map(|constellation| match self.ionosphere.get(constellation)? {
             IonosphereModel::Klobuchar { alpha, beta } => {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use insd_base::satellites::{GlonassRecord, KeplerRecord, MessageKind};
+use insd_base::satellites::{BroadcastKind, GlonassRecord, KeplerRecord};
 use insd_base::{BroadcastRecord, Constellation, GpsTime, SatelliteId};
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ const KEPT: usize = 300;
 
 /// Why a satellite has no orbit at an instant, or a record is not taken.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Refusal {
+pub enum OrbitRefusal {
     /// Nothing is known of the satellite.
     NoRecord,
     /// The nearest record refers to another time: seconds from the reference time, signed, and the limit.
@@ -28,7 +28,7 @@ pub enum Refusal {
     Implausible(&'static str),
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for OrbitRefusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoRecord => write!(f, "no orbit known"),
@@ -56,8 +56,8 @@ impl Ephemerides {
     /// Takes a record; one for the same satellite, message and reference time gives way. Returns whether it says anything new.
     ///
     /// # Errors
-    /// [`Refusal::Implausible`] for elements that no satellite has.
-    pub fn insert(&mut self, record: BroadcastRecord) -> Result<bool, Refusal> {
+    /// [`OrbitRefusal::Implausible`] for elements that no satellite has.
+    pub fn insert(&mut self, record: BroadcastRecord) -> Result<bool, OrbitRefusal> {
         plausible(&record)?;
         let known = self.records.entry(record.satellite()).or_default();
         if known.contains(&record) {
@@ -80,23 +80,23 @@ impl Ephemerides {
         &self,
         satellite: SatelliteId,
         time: GpsTime,
-    ) -> Result<&BroadcastRecord, Refusal> {
+    ) -> Result<&BroadcastRecord, OrbitRefusal> {
         let known = self.records.get(&satellite).map_or(&[][..], Vec::as_slice);
-        let nearest = |kind: MessageKind| {
+        let nearest = |kind: BroadcastKind| {
             known
                 .iter()
                 .filter(|record| slot(record).1 == kind)
                 .min_by_key(|record| time.since(record.reference()).as_nanos().abs())
-                .ok_or(Refusal::NoRecord)
+                .ok_or(OrbitRefusal::NoRecord)
                 .and_then(|record| usable(record, time).map(|()| record))
         };
         match satellite.constellation {
-            Constellation::Galileo => nearest(MessageKind::Inav)
-                .or_else(|refusal| nearest(MessageKind::Fnav).map_err(|_| refusal)),
-            Constellation::Glonass => nearest(MessageKind::Fdma),
-            Constellation::BeiDou if satellite.is_geostationary() => nearest(MessageKind::D2),
-            Constellation::BeiDou => nearest(MessageKind::D1),
-            _ => nearest(MessageKind::Lnav),
+            Constellation::Galileo => nearest(BroadcastKind::Inav)
+                .or_else(|refusal| nearest(BroadcastKind::Fnav).map_err(|_| refusal)),
+            Constellation::Glonass => nearest(BroadcastKind::Fdma),
+            Constellation::BeiDou if satellite.is_geostationary() => nearest(BroadcastKind::D2),
+            Constellation::BeiDou => nearest(BroadcastKind::D1),
+            _ => nearest(BroadcastKind::Lnav),
         }
     }
 
@@ -107,23 +107,23 @@ impl Ephemerides {
 }
 
 /// What two records of the same thing share, in order of time.
-fn slot(record: &BroadcastRecord) -> (GpsTime, MessageKind) {
+fn slot(record: &BroadcastRecord) -> (GpsTime, BroadcastKind) {
     let kind = match record {
         BroadcastRecord::Kepler(record) => record.kind,
-        BroadcastRecord::Glonass(_) => MessageKind::Fdma,
+        BroadcastRecord::Glonass(_) => BroadcastKind::Fdma,
     };
     (record.reference(), kind)
 }
 
-fn usable(record: &BroadcastRecord, time: GpsTime) -> Result<(), Refusal> {
+fn usable(record: &BroadcastRecord, time: GpsTime) -> Result<(), OrbitRefusal> {
     let age = time.since(record.reference()).as_seconds();
     let limit = limit(record.satellite().constellation);
     if age.abs() > limit {
-        return Err(Refusal::Stale { age, limit });
+        return Err(OrbitRefusal::Stale { age, limit });
     }
     match health(record) {
         0 => Ok(()),
-        health => Err(Refusal::Unhealthy(health)),
+        health => Err(OrbitRefusal::Unhealthy(health)),
     }
 }
 
@@ -147,7 +147,7 @@ fn health(record: &BroadcastRecord) -> u16 {
             record.health
                 & match (record.satellite.constellation, record.kind) {
                     // RINEX 3.05, table A8: E1-B and E5b, or E5a
-                    (Constellation::Galileo, MessageKind::Fnav) => 0b000_111_000,
+                    (Constellation::Galileo, BroadcastKind::Fnav) => 0b000_111_000,
                     (Constellation::Galileo, _) => 0b111_000_111,
                     // the last bit is of L1C/B alone (IS-QZSS-PNT-005, 4.1.2.3)
                     (Constellation::Qzss, _) => !1,
@@ -157,12 +157,12 @@ fn health(record: &BroadcastRecord) -> u16 {
     }
 }
 
-fn plausible(record: &BroadcastRecord) -> Result<(), Refusal> {
+fn plausible(record: &BroadcastRecord) -> Result<(), OrbitRefusal> {
     let fault = match record {
         BroadcastRecord::Kepler(record) => implausible_orbit(record),
         BroadcastRecord::Glonass(record) => implausible_state(record),
     };
-    fault.map_or(Ok(()), |what| Err(Refusal::Implausible(what)))
+    fault.map_or(Ok(()), |what| Err(OrbitRefusal::Implausible(what)))
 }
 
 fn implausible_orbit(record: &KeplerRecord) -> Option<&'static str> {

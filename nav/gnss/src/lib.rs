@@ -18,7 +18,7 @@ mod velocity;
 
 pub use carrier::{CarrierDisplacement, CarrierTracker, PhaseChange};
 pub use context::{Context, Delays};
-pub use ephemerides::{Ephemerides, Refusal};
+pub use ephemerides::{Ephemerides, OrbitRefusal};
 pub use orbit::SatelliteState;
 pub use ranging::{Guess, Ranged, Ranging};
 pub use sight::Sight;

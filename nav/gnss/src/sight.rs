@@ -4,7 +4,7 @@ use insd_base::satellites::{SPEED_OF_LIGHT, Transmitter};
 use insd_base::{BroadcastRecord, GpsTime, Span, earth, frames::Ecef};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::atmosphere::Direction;
+use crate::atmosphere::LookAngles;
 use crate::orbit::{SatelliteState, clock_alone};
 
 /// A satellite at the instant at which it sent what was received.
@@ -36,10 +36,10 @@ impl Sight {
 
     /// Azimuth and elevation at the antenna.
     #[must_use]
-    pub fn direction(&self, antenna: &Vector3<f64>) -> Direction {
+    pub fn direction(&self, antenna: &Vector3<f64>) -> LookAngles {
         let c_ne: Matrix3<f64> = earth::c_ne(&earth::geodetic(&Ecef(*antenna)));
         let n = c_ne * self.transmitter().line(antenna);
-        Direction {
+        LookAngles {
             azimuth: n.y.atan2(n.x).rem_euclid(std::f64::consts::TAU),
             elevation: (-n.z).asin(),
         }

@@ -1,6 +1,6 @@
 //! Which signal of a band is used, what its satellite's group delay is, and how much noise it has.
 
-use insd_base::satellites::MessageKind;
+use insd_base::satellites::BroadcastKind;
 use insd_base::{BroadcastRecord, Constellation, SatelliteId, SignalCode, SignalObservation};
 
 /// Ways of tracking, best first: civil codes and pilots before combined ones before what is got without knowing the code.
@@ -48,7 +48,7 @@ pub fn group_delay(record: &BroadcastRecord, signal: SignalCode) -> Option<f64> 
     match (constellation, signal.band) {
         (Constellation::Galileo, band) => {
             let (own, own_band, other) = match record.kind {
-                MessageKind::Fnav => (first, 5, second),
+                BroadcastKind::Fnav => (first, 5, second),
                 _ => (second, 7, first),
             };
             match band {

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use insd_base::satellites::{
-    ClockPolynomial, KeplerOrbit, KeplerRecord, MessageKind, SPEED_OF_LIGHT,
+    BroadcastKind, ClockPolynomial, KeplerOrbit, KeplerRecord, SPEED_OF_LIGHT,
 };
 use insd_base::{
     BroadcastRecord, Constellation, Geodetic, GpsTime, SatelliteEpoch, SatelliteId, SignalCode,
@@ -32,8 +32,8 @@ pub(crate) fn berth() -> Vector3<f64> {
 pub(crate) fn context() -> Context {
     let mut context = Context::default();
     for (constellation, kind, planes, sqrt_a) in [
-        (Constellation::Gps, MessageKind::Lnav, 6, 5153.6),
-        (Constellation::Galileo, MessageKind::Inav, 3, 5440.6),
+        (Constellation::Gps, BroadcastKind::Lnav, 6, 5153.6),
+        (Constellation::Galileo, BroadcastKind::Inav, 3, 5440.6),
     ] {
         for number in 1..=24_u8 {
             let satellite = SatelliteId { constellation, number };
@@ -44,7 +44,7 @@ pub(crate) fn context() -> Context {
     context
 }
 
-fn record(satellite: SatelliteId, kind: MessageKind, planes: u8, sqrt_a: f64) -> KeplerRecord {
+fn record(satellite: SatelliteId, kind: BroadcastKind, planes: u8, sqrt_a: f64) -> KeplerRecord {
     let place = f64::from(satellite.number - 1);
     let plane = f64::from((satellite.number - 1) % planes);
     KeplerRecord {

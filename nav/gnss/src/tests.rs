@@ -4,7 +4,7 @@ use insd_base::{SatelliteEpoch, SatelliteId, Span};
 use nalgebra::Vector3;
 
 use crate::carrier::{CarrierDisplacement, CarrierTracker};
-use crate::ephemerides::Refusal;
+use crate::ephemerides::OrbitRefusal;
 use crate::ranging::{Guess, Ranging};
 use crate::single_point::{NoPosition, SinglePoint, Verdict};
 use crate::sky::{CLOCK, berth, context, epoch};
@@ -98,7 +98,7 @@ fn a_satellite_without_a_fresh_orbit_is_refused_with_the_reason() {
     // Galileo's records hold for four hours, GPS' for two: nothing is left
     assert_eq!(point.unwrap_err(), NoPosition::TooFew { satellites: 0 });
     let refusal = context.ephemerides.select(gps.unwrap().satellite, epoch.tag).unwrap_err();
-    assert!(matches!(refusal, Refusal::Stale { .. }), "{refusal}");
+    assert!(matches!(refusal, OrbitRefusal::Stale { .. }), "{refusal}");
 }
 
 #[test]

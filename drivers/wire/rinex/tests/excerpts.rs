@@ -4,7 +4,7 @@
 
 mod checks;
 
-use insd_base::satellites::MessageKind;
+use insd_base::satellites::BroadcastKind;
 use insd_base::{BroadcastRecord, Constellation, GpsTime, SatelliteEpoch};
 use insd_rinex::{ObservationReader, expand, is_compact, read_navigation};
 
@@ -84,7 +84,7 @@ fn messages_of_all_constellations_are_read() {
         assert_eq!((navigation.flaws.total, navigation.skipped), (0, 0));
         let kind = |record: &BroadcastRecord| match record {
             BroadcastRecord::Kepler(record) => record.kind,
-            BroadcastRecord::Glonass(_) => MessageKind::Fdma,
+            BroadcastRecord::Glonass(_) => BroadcastKind::Fdma,
         };
         let names =
             navigation.records.iter().map(|own| format!("{} {:?}", own.satellite(), kind(own)));

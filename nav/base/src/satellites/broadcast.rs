@@ -7,7 +7,7 @@ use crate::utc::GpsTime;
 
 /// The message that a record was broadcast in. It says which combination of signals the clock refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub enum MessageKind {
+pub enum BroadcastKind {
     /// GPS and QZSS L1 C/A; also NavIC and SBAS in files.
     Lnav,
     /// Galileo E1-B and E5b-I: clock of E1 and E5b.
@@ -78,7 +78,7 @@ pub struct KeplerRecord {
     /// The satellite.
     pub satellite: SatelliteId,
     /// The message it came in.
-    pub kind: MessageKind,
+    pub kind: BroadcastKind,
     /// Issue of the orbit: IODE, IODnav or AODE.
     pub issue: u16,
     /// Issue of the clock: IODC, IODnav or AODC.

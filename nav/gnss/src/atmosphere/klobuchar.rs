@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use insd_base::satellites::SPEED_OF_LIGHT;
 use insd_base::{Geodetic, GpsTime};
 
-use super::Direction;
+use super::LookAngles;
 
 /// Delay of the code on L1 (1575.42 MHz), m; other frequencies times (f_L1/f)^2. `alpha` and `beta` as broadcast, angles
 /// in semicircles. Never below its value at night, 1.5 m at the zenith.
@@ -13,7 +13,7 @@ use super::Direction;
 pub fn klobuchar(
     (alpha, beta): (&[f64; 4], &[f64; 4]),
     antenna: &Geodetic,
-    direction: Direction,
+    direction: LookAngles,
     time: GpsTime,
 ) -> f64 {
     const DAY: f64 = 86_400.0;
@@ -79,7 +79,7 @@ mod tests {
         ] {
             let time = GpsTime::from_week(2100, (tow * 1e9) as i64);
             let direction =
-                Direction { azimuth: f64::to_radians(az), elevation: f64::to_radians(el) };
+                LookAngles { azimuth: f64::to_radians(az), elevation: f64::to_radians(el) };
             let delay =
                 klobuchar((&alpha, &beta), &Geodetic::from_degrees(lat, lon, 0.0), direction, time);
             assert!((delay - expected).abs() < 1e-4, "{delay} for {expected}");

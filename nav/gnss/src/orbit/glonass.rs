@@ -4,7 +4,7 @@ use insd_base::GpsTime;
 use insd_base::satellites::GlonassRecord;
 use nalgebra::{Vector3, Vector6};
 
-use super::SatelliteState;
+use super::state::SatelliteState;
 
 /// Gravitational constant, m^3/s^2 (PZ-90.11).
 const GM: f64 = 3.986_004_4e14;

@@ -5,7 +5,7 @@ use insd_base::satellites::{ClockPolynomial, KeplerOrbit, KeplerRecord};
 use insd_base::{Constellation, GpsTime};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::SatelliteState;
+use super::state::SatelliteState;
 
 /// Tilt of the plane in which geostationary BeiDou satellites are told, rad (BDS-SIS-ICD-B1I 3.0, table 5-11).
 const GEOSTATIONARY_TILT: f64 = -5.0 * std::f64::consts::PI / 180.0;

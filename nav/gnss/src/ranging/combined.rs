@@ -5,7 +5,7 @@ use insd_base::satellites::{Measured, SPEED_OF_LIGHT};
 use insd_base::{BroadcastRecord, GpsTime, SignalObservation, earth};
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use crate::atmosphere::Direction;
+use crate::atmosphere::LookAngles;
 use crate::budget::{BAND_DELAY, IONOSPHERE_RAY, IONOSPHERE_SCALE, orbit_std, untold_std};
 use crate::context::Context;
 use crate::sight::Sight;
@@ -17,7 +17,7 @@ pub(super) fn combined_code(
     context: &Context,
     tag: GpsTime,
     (record, sight, best): (&BroadcastRecord, &Sight, &[&SignalObservation]),
-    (antenna, direction): (&Vector3<f64>, Direction),
+    (antenna, direction): (&Vector3<f64>, LookAngles),
 ) -> Option<(Measured, f64)> {
     let satellite = record.satellite();
     let first = first_band(satellite.constellation);

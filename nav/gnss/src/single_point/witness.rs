@@ -4,8 +4,8 @@ use std::fmt;
 
 use insd_base::SatelliteId;
 
-use crate::atmosphere::Direction;
-use crate::ephemerides::Refusal;
+use crate::atmosphere::LookAngles;
+use crate::ephemerides::OrbitRefusal;
 
 /// Why an epoch has no position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +40,7 @@ pub enum Verdict {
     /// Used.
     Used,
     /// It has no orbit.
-    NoOrbit(Refusal),
+    NoOrbit(OrbitRefusal),
     /// No code on the band that positions rest on.
     NoCode,
     /// Too low.
@@ -57,7 +57,7 @@ pub struct Witness {
     /// What became of it.
     pub verdict: Verdict,
     /// Where it stands, where its orbit is known.
-    pub direction: Option<Direction>,
+    pub direction: Option<LookAngles>,
     /// What its code has over what the position says, m.
     pub residual: Option<f64>,
     /// 1-sigma of that, m.

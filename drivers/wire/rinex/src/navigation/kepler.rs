@@ -2,7 +2,7 @@
 //!
 //! All five lay out orbit and clock alike. They differ in the lines for the week, the accuracy and the health.
 
-use insd_base::satellites::{ClockPolynomial, KeplerOrbit, KeplerRecord, MessageKind};
+use insd_base::satellites::{BroadcastKind, ClockPolynomial, KeplerOrbit, KeplerRecord};
 use insd_base::{Constellation, GpsTime};
 
 use crate::calendar::{BEIDOU_BEHIND, SECOND, TimeSystem};
@@ -176,21 +176,21 @@ fn delays(entry: &Entry<'_>, issue: u16) -> Result<([f64; 2], u16), Flaw> {
 }
 
 /// The message: of Galileo by its data sources, of BeiDou by the orbit.
-fn kind(entry: &Entry<'_>) -> Result<MessageKind, Flaw> {
+fn kind(entry: &Entry<'_>) -> Result<BroadcastKind, Flaw> {
     match entry.satellite.constellation {
         Constellation::Galileo => {
             let sources: u16 = entry.count(SOURCES, "data sources")?;
             if sources & (E1_B | E5B_I) != 0 {
-                Ok(MessageKind::Inav)
+                Ok(BroadcastKind::Inav)
             } else if sources & E5A_I != 0 {
-                Ok(MessageKind::Fnav)
+                Ok(BroadcastKind::Fnav)
             } else {
                 Err(entry.flaw(SOURCES, "data sources", "one of bits 0, 1 and 2"))
             }
         }
-        Constellation::BeiDou if entry.satellite.is_geostationary() => Ok(MessageKind::D2),
-        Constellation::BeiDou => Ok(MessageKind::D1),
-        _ => Ok(MessageKind::Lnav),
+        Constellation::BeiDou if entry.satellite.is_geostationary() => Ok(BroadcastKind::D2),
+        Constellation::BeiDou => Ok(BroadcastKind::D1),
+        _ => Ok(BroadcastKind::Lnav),
     }
 }
 
@@ -226,7 +226,7 @@ fn push_own(fields: &mut [Option<f64>; FIELDS], record: &KeplerRecord) {
     match record.satellite.constellation {
         Constellation::Galileo => {
             let sources = match record.kind {
-                MessageKind::Fnav => E5A_I | CLOCK_E5A,
+                BroadcastKind::Fnav => E5A_I | CLOCK_E5A,
                 _ => E1_B | E5B_I | CLOCK_E5B,
             };
             fields[SOURCES] = Some(f64::from(sources));

@@ -1,7 +1,7 @@
 //! What is read of small files of navigation messages, good and bad, and what comes back of what is written.
 
 use insd_base::satellites::{
-    ClockPolynomial, GlonassRecord, KeplerOrbit, KeplerRecord, MessageKind,
+    BroadcastKind, ClockPolynomial, GlonassRecord, KeplerOrbit, KeplerRecord,
 };
 use insd_base::{BroadcastRecord, Constellation, GpsTime, IonosphereModel, SatelliteId};
 use proptest::prelude::*;
@@ -89,7 +89,7 @@ fn each_constellation_has_its_own_week_accuracy_and_issue() {
     let toe = GpsTime::from_week(2111, 360_000 * SECOND);
     let all: Vec<KeplerRecord> = (0..6).map(|index| kepler(&navigation, index)).collect();
     let kinds: Vec<_> = all.iter().map(|own| own.kind).collect();
-    use MessageKind as M;
+    use BroadcastKind as M;
     assert_eq!(kinds, [M::Lnav, M::Inav, M::Fnav, M::D2, M::D1, M::Lnav]);
     let ahead: Vec<_> =
         all.iter().map(|own| own.orbit.reference.since(toe).as_nanos() / SECOND).collect();
@@ -266,12 +266,12 @@ prop_compose! {
         let reference = GpsTime::from_nanos(week * WEEK + seconds * SECOND);
         let at = |seconds: i64| GpsTime::from_nanos(reference.as_nanos() + seconds * SECOND);
         let (kind, clock_issue, second) = match satellite.constellation {
-            C::Galileo if fnav => (MessageKind::Fnav, issues[0], n[17]),
-            C::Galileo => (MessageKind::Inav, issues[0], n[17]),
-            C::BeiDou if satellite.is_geostationary() => (MessageKind::D2, issues[1], n[17]),
-            C::BeiDou => (MessageKind::D1, issues[1], n[17]),
-            C::Navic => (MessageKind::Lnav, issues[0], 0.0),
-            _ => (MessageKind::Lnav, issues[1], 0.0),
+            C::Galileo if fnav => (BroadcastKind::Fnav, issues[0], n[17]),
+            C::Galileo => (BroadcastKind::Inav, issues[0], n[17]),
+            C::BeiDou if satellite.is_geostationary() => (BroadcastKind::D2, issues[1], n[17]),
+            C::BeiDou => (BroadcastKind::D1, issues[1], n[17]),
+            C::Navic => (BroadcastKind::Lnav, issues[0], 0.0),
+            _ => (BroadcastKind::Lnav, issues[1], 0.0),
         };
         KeplerRecord {
             satellite, kind, issue: issues[0].into(), clock_issue: clock_issue.into(), health,

@@ -5,7 +5,7 @@ use std::mem::discriminant;
 
 use insd_base::GpsTime;
 use insd_base::satellites::{
-    BroadcastRecord, Constellation, IonosphereModel, MessageKind, SatelliteId,
+    BroadcastKind, BroadcastRecord, Constellation, IonosphereModel, SatelliteId,
 };
 
 use super::super::bits::Bits;
@@ -65,45 +65,45 @@ impl Pages {
 /// Puts the pages of all satellites together. Each record, model and count of leap seconds is told once until it changes.
 #[derive(Clone, Debug, Default)]
 pub struct NavigationAssembler {
-    messages: BTreeMap<(SatelliteId, MessageKind), Pages>,
+    messages: BTreeMap<(SatelliteId, BroadcastKind), Pages>,
     ionospheres: Vec<IonosphereModel>,
     leap_seconds: Option<i8>,
 }
 
 /// The message that a satellite sends on a signal; `None` where it is not read.
-fn kind(words: &NavigationWords) -> Option<MessageKind> {
+fn kind(words: &NavigationWords) -> Option<BroadcastKind> {
     use Constellation as C;
     let (band, attribute) = (words.signal.band, words.signal.attribute);
     Some(match (words.satellite.constellation, band, attribute) {
-        (C::Gps | C::Qzss, 1, b'C') => MessageKind::Lnav,
+        (C::Gps | C::Qzss, 1, b'C') => BroadcastKind::Lnav,
         // receivers before generation 9 do not tell E1-B from E1-C
-        (C::Galileo, 1 | 7, _) => MessageKind::Inav,
-        (C::Galileo, 5, _) => MessageKind::Fnav,
-        (C::BeiDou, 2 | 6 | 7, b'I') if words.satellite.is_geostationary() => MessageKind::D2,
-        (C::BeiDou, 2 | 6 | 7, b'I') => MessageKind::D1,
-        (C::Glonass, 1 | 2, b'C') => MessageKind::Fdma,
+        (C::Galileo, 1 | 7, _) => BroadcastKind::Inav,
+        (C::Galileo, 5, _) => BroadcastKind::Fnav,
+        (C::BeiDou, 2 | 6 | 7, b'I') if words.satellite.is_geostationary() => BroadcastKind::D2,
+        (C::BeiDou, 2 | 6 | 7, b'I') => BroadcastKind::D1,
+        (C::Glonass, 1 | 2, b'C') => BroadcastKind::Fdma,
         _ => return None,
     })
 }
 
 /// Number and bits of a page; `None` for one that says nothing.
-fn page(kind: MessageKind, words: &[u32]) -> Result<Option<(u8, Bits)>, WordsRefusal> {
+fn page(kind: BroadcastKind, words: &[u32]) -> Result<Option<(u8, Bits)>, WordsRefusal> {
     match kind {
-        MessageKind::Lnav => lnav::page(words).map(Some),
-        MessageKind::Inav => galileo::inav_page(words),
-        MessageKind::Fnav => galileo::fnav_page(words).map(Some),
-        MessageKind::D1 | MessageKind::D2 => beidou::page(words, kind).map(Some),
-        MessageKind::Fdma => glonass::string(words).map(Some),
+        BroadcastKind::Lnav => lnav::page(words).map(Some),
+        BroadcastKind::Inav => galileo::inav_page(words),
+        BroadcastKind::Fnav => galileo::fnav_page(words).map(Some),
+        BroadcastKind::D1 | BroadcastKind::D2 => beidou::page(words, kind).map(Some),
+        BroadcastKind::Fdma => glonass::string(words).map(Some),
     }
 }
 
 /// How many pages make a record.
-fn pages(kind: MessageKind) -> u8 {
+fn pages(kind: BroadcastKind) -> u8 {
     match kind {
-        MessageKind::Lnav | MessageKind::D1 => 3,
-        MessageKind::Inav => 5,
-        MessageKind::Fnav | MessageKind::Fdma => 4,
-        MessageKind::D2 => 10,
+        BroadcastKind::Lnav | BroadcastKind::D1 => 3,
+        BroadcastKind::Inav => 5,
+        BroadcastKind::Fnav | BroadcastKind::Fdma => 4,
+        BroadcastKind::D2 => 10,
     }
 }
 
@@ -133,7 +133,7 @@ impl NavigationAssembler {
         let mut told = self.aside(words.satellite, kind, (number, &bits), received);
         if (1..=pages(kind)).contains(&number) {
             let own = self.messages.entry((words.satellite, kind)).or_default();
-            if kind == MessageKind::Fdma {
+            if kind == BroadcastKind::Fdma {
                 own.begin_frame(number, received);
             }
             own.pages.insert(number, bits);
@@ -146,19 +146,19 @@ impl NavigationAssembler {
     fn record(
         &mut self,
         words: &NavigationWords,
-        kind: MessageKind,
+        kind: BroadcastKind,
         received: GpsTime,
     ) -> Result<Option<Broadcast>, WordsRefusal> {
         let satellite = words.satellite;
         let Some(own) = self.messages.get_mut(&(satellite, kind)) else { return Ok(None) };
         let Some(bits) = own.joined(pages(kind)) else { return Ok(None) };
         let record = match kind {
-            MessageKind::Lnav => lnav::record(satellite, &bits, received)?,
-            MessageKind::Inav => galileo::INAV.record(satellite, &bits, received)?,
-            MessageKind::Fnav => galileo::FNAV.record(satellite, &bits, received)?,
-            MessageKind::D1 => beidou::D1.record(satellite, &bits, received)?,
-            MessageKind::D2 => beidou::D2.record(satellite, &bits, received)?,
-            MessageKind::Fdma => {
+            BroadcastKind::Lnav => lnav::record(satellite, &bits, received)?,
+            BroadcastKind::Inav => galileo::INAV.record(satellite, &bits, received)?,
+            BroadcastKind::Fnav => galileo::FNAV.record(satellite, &bits, received)?,
+            BroadcastKind::D1 => beidou::D1.record(satellite, &bits, received)?,
+            BroadcastKind::D2 => beidou::D2.record(satellite, &bits, received)?,
+            BroadcastKind::Fdma => {
                 let Some(channel) = words.channel else { return Ok(None) };
                 let leap = self.leap_seconds.unwrap_or_else(|| crate::gnss::leap_seconds(received));
                 let record = glonass::record(satellite, channel, &bits, (received, leap));
@@ -172,19 +172,21 @@ impl NavigationAssembler {
     fn aside(
         &mut self,
         satellite: SatelliteId,
-        kind: MessageKind,
+        kind: BroadcastKind,
         (number, bits): (u8, &Bits),
         received: GpsTime,
     ) -> Vec<Broadcast> {
         let (ionosphere, leap) = match (kind, number) {
-            (MessageKind::Lnav, 4) if satellite.constellation == Constellation::Gps => {
+            (BroadcastKind::Lnav, 4) if satellite.constellation == Constellation::Gps => {
                 lnav::page_18(bits, received)
                     .map_or((None, None), |(ionosphere, leap)| (Some(ionosphere), leap))
             }
-            (MessageKind::Inav, 5) => (galileo::INAV.ionosphere(&alone(bits, 5)), None),
-            (MessageKind::Inav, 6) => (None, galileo::INAV.leap_seconds(bits, received)),
-            (MessageKind::Fnav, 1) => (galileo::FNAV.ionosphere(&alone(bits, 1)), None),
-            (MessageKind::Fnav, 4) => (None, galileo::FNAV.leap_seconds(&alone(bits, 4), received)),
+            (BroadcastKind::Inav, 5) => (galileo::INAV.ionosphere(&alone(bits, 5)), None),
+            (BroadcastKind::Inav, 6) => (None, galileo::INAV.leap_seconds(bits, received)),
+            (BroadcastKind::Fnav, 1) => (galileo::FNAV.ionosphere(&alone(bits, 1)), None),
+            (BroadcastKind::Fnav, 4) => {
+                (None, galileo::FNAV.leap_seconds(&alone(bits, 4), received))
+            }
             _ => (None, None),
         };
         let ionosphere = ionosphere.filter(|model| self.is_new(*model)).map(Broadcast::Ionosphere);

@@ -4,7 +4,7 @@
 //! another model than those of GPS and are not read.
 
 use insd_base::GpsTime;
-use insd_base::satellites::{KeplerRecord, MessageKind, SatelliteId};
+use insd_base::satellites::{BroadcastKind, KeplerRecord, SatelliteId};
 
 use super::super::bits::{Bits, Field};
 use super::super::kepler::{Layout, SECOND, half, range_accuracy, semi};
@@ -37,7 +37,7 @@ const fn on(page: usize, at: usize) -> usize {
 
 /// One message of BeiDou: where it says what.
 pub(super) struct Message {
-    kind: MessageKind,
+    kind: BroadcastKind,
     layout: Layout,
     pages: usize,
     /// Seconds from the start of one of its subframes or pages to the next.
@@ -53,7 +53,7 @@ pub(super) struct Message {
 
 /// D1: satellites in medium and inclined orbits.
 pub(super) const D1: Message = Message {
-    kind: MessageKind::D1,
+    kind: BroadcastKind::D1,
     layout: Layout {
         toe: Field::unsigned(on(3, 38), 15, 8.0).behind(on(2, 222), 2),
         sqrt_a: Field::unsigned(on(2, 190), 32, half(19)),
@@ -90,7 +90,7 @@ pub(super) const D1: Message = Message {
 
 /// D2: geostationary satellites.
 pub(super) const D2: Message = Message {
-    kind: MessageKind::D2,
+    kind: BroadcastKind::D2,
     layout: Layout {
         toe: Field::unsigned(on(7, 68), 17, 8.0),
         sqrt_a: Field::unsigned(on(6, 64), 32, half(19)),
@@ -129,15 +129,15 @@ pub(super) const D2: Message = Message {
 };
 
 /// Number and data of a subframe of D1, or of a page of subframe 1 of D2; other subframes of D2 have number 0.
-pub(super) fn page(words: &[u32], kind: MessageKind) -> Result<(u8, Bits), WordsRefusal> {
+pub(super) fn page(words: &[u32], kind: BroadcastKind) -> Result<(u8, Bits), WordsRefusal> {
     let bits = beidou_data(words)?;
     if PREAMBLE.raw(&bits) != 0b111_0001_0010 {
         return Err(WordsRefusal::Damaged);
     }
     let number = NUMBER.raw(&bits) as u8;
     Ok(match kind {
-        MessageKind::D2 if number == 1 => (PAGE.raw(&bits) as u8, bits),
-        MessageKind::D2 => (0, bits),
+        BroadcastKind::D2 if number == 1 => (PAGE.raw(&bits) as u8, bits),
+        BroadcastKind::D2 => (0, bits),
         _ => (number, bits),
     })
 }
@@ -202,7 +202,7 @@ impl Message {
             own.append(&bits, page * SIZE, SIZE);
             PREAMBLE.put_raw(&mut own, 0b111_0001_0010);
             TIME.put_raw(&mut own, started(page));
-            let is_d1 = self.kind == MessageKind::D1;
+            let is_d1 = self.kind == BroadcastKind::D1;
             NUMBER.put_raw(&mut own, if is_d1 { page as u64 + 1 } else { 1 });
             if !is_d1 {
                 PAGE.put_raw(&mut own, page as u64 + 1);

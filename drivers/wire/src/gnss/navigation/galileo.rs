@@ -4,7 +4,7 @@
 //! guards, types 1 to 4 end to end.
 
 use insd_base::GpsTime;
-use insd_base::satellites::{IonosphereModel, KeplerRecord, MessageKind, SatelliteId};
+use insd_base::satellites::{BroadcastKind, IonosphereModel, KeplerRecord, SatelliteId};
 
 use super::super::bits::{Bits, Field};
 use super::super::crc24q::crc24q;
@@ -23,7 +23,7 @@ const FIRST_WEEK: u16 = 1024;
 
 /// One message of Galileo: where it says what.
 pub(super) struct Message {
-    kind: MessageKind,
+    kind: BroadcastKind,
     layout: Layout,
     /// IODnav, once a word or page that has one.
     issues: &'static [Field],
@@ -50,7 +50,7 @@ const fn fnav(page: usize, at: usize) -> usize {
 
 /// I/NAV, word types 1 to 5; leap seconds are those of word type 6 on its own.
 pub(super) const INAV: Message = Message {
-    kind: MessageKind::Inav,
+    kind: BroadcastKind::Inav,
     layout: Layout {
         toe: Field::unsigned(inav(1, 16), 14, 60.0),
         sqrt_a: Field::unsigned(inav(1, 94), 32, half(19)),
@@ -113,7 +113,7 @@ pub(super) const INAV: Message = Message {
 
 /// F/NAV, page types 1 to 4, which holds the leap seconds, too.
 pub(super) const FNAV: Message = Message {
-    kind: MessageKind::Fnav,
+    kind: BroadcastKind::Fnav,
     layout: Layout {
         toe: Field::unsigned(fnav(3, 160), 14, 60.0),
         sqrt_a: Field::unsigned(fnav(2, 104), 32, half(19)),
@@ -252,7 +252,7 @@ impl Message {
     /// The bits of all words or pages that say a record.
     #[cfg(test)]
     pub(super) fn bits(&self, record: &KeplerRecord, ionisation: [f64; 3]) -> Bits {
-        let size = if self.kind == MessageKind::Inav { 5 * WORD } else { 4 * PAGE };
+        let size = if self.kind == BroadcastKind::Inav { 5 * WORD } else { 4 * PAGE };
         let mut bits = Bits::zeros(size);
         let (week, time) = record.transmitted.unwrap_or(record.orbit.reference).to_week();
         self.layout.put(&mut bits, &record.orbit, &record.clock);

@@ -3,7 +3,7 @@
 //! Positions count data bits, 24 of each word, parity taken out.
 
 use insd_base::GpsTime;
-use insd_base::satellites::{IonosphereModel, KeplerRecord, MessageKind, SatelliteId};
+use insd_base::satellites::{BroadcastKind, IonosphereModel, KeplerRecord, SatelliteId};
 
 use super::super::bits::{Bits, Field};
 use super::super::kepler::{Layout, SECOND, half, range_accuracy, semi};
@@ -110,7 +110,7 @@ pub(super) fn record(
     let sent = GpsTime::from_nanos(start.as_nanos().saturating_add(6 * SECOND));
     Ok(Some(KeplerRecord {
         satellite,
-        kind: MessageKind::Lnav,
+        kind: BroadcastKind::Lnav,
         issue: issue as u16,
         clock_issue: clock_issue as u16,
         health: HEALTH.raw(bits) as u16,

@@ -2,8 +2,8 @@
 
 use insd_base::GpsTime;
 use insd_base::satellites::{
-    BroadcastRecord, ClockPolynomial, Constellation, GlonassRecord, IonosphereModel, KeplerOrbit,
-    KeplerRecord, MessageKind, SatelliteId, SignalCode,
+    BroadcastKind, BroadcastRecord, ClockPolynomial, Constellation, GlonassRecord, IonosphereModel,
+    KeplerOrbit, KeplerRecord, SatelliteId, SignalCode,
 };
 use proptest::prelude::*;
 
@@ -18,11 +18,11 @@ fn now() -> GpsTime {
 }
 
 /// Whole steps of every field, so that what comes back is the same number.
-fn record(name: &str, kind: MessageKind, steps: i64) -> KeplerRecord {
+fn record(name: &str, kind: BroadcastKind, steps: i64) -> KeplerRecord {
     let whole = |power: i32| steps as f64 * 2_f64.powi(-power);
     let semi = |power: i32| steps as f64 * (2_f64.powi(-power) * std::f64::consts::PI);
-    let beidou = matches!(kind, MessageKind::D1 | MessageKind::D2);
-    let galileo = matches!(kind, MessageKind::Inav | MessageKind::Fnav);
+    let beidou = matches!(kind, BroadcastKind::D1 | BroadcastKind::D2);
+    let galileo = matches!(kind, BroadcastKind::Inav | BroadcastKind::Fnav);
     let finer = |gps: i32, beidou_power: i32| whole(if beidou { beidou_power } else { gps });
     let behind = if beidou { 14 } else { 0 };
     let reference = GpsTime::from_week(2381, (410_400 + behind) * SECOND);
@@ -41,7 +41,7 @@ fn record(name: &str, kind: MessageKind, steps: i64) -> KeplerRecord {
         clock_issue: 21,
         health: u16::from(!galileo),
         accuracy: Some(2.0),
-        group_delays: [delay, if beidou || kind == MessageKind::Inav { -delay } else { 0.0 }],
+        group_delays: [delay, if beidou || kind == BroadcastKind::Inav { -delay } else { 0.0 }],
         orbit: KeplerOrbit {
             reference,
             sqrt_a: 5153.5 + whole(19),
@@ -155,7 +155,7 @@ proptest! {
     #[test]
     fn a_record_of_gps_comes_back_from_its_subframes(steps in -120_i64..120) {
         for name in ["G07", "J02"] {
-            let record = record(name, MessageKind::Lnav, steps);
+            let record = record(name, BroadcastKind::Lnav, steps);
             let told = heard(record.satellite, "1C", lnav::words(&record).into());
             prop_assert_eq!(told, [Broadcast::Record(BroadcastRecord::Kepler(record))]);
         }
@@ -164,10 +164,10 @@ proptest! {
     #[test]
     fn a_record_of_galileo_comes_back_from_its_pages(steps in -30_i64..30) {
         let model = IonosphereModel::NeQuickG { ionisation: [51.25, -0.25, 2_f64.powi(-15)] };
-        for (kind, signal) in [(MessageKind::Inav, "1B"), (MessageKind::Fnav, "5I")] {
+        for (kind, signal) in [(BroadcastKind::Inav, "1B"), (BroadcastKind::Fnav, "5I")] {
             let record = record("E11", kind, steps);
             let ionisation = [51.25, -0.25, 2_f64.powi(-15)];
-            let words: Vec<_> = if kind == MessageKind::Inav {
+            let words: Vec<_> = if kind == BroadcastKind::Inav {
                 let bits = galileo::INAV.bits(&record, ionisation);
                 typed(pages(&bits, galileo::WORD)).iter().map(galileo::inav_words).collect()
             } else {
@@ -182,10 +182,10 @@ proptest! {
 
     #[test]
     fn a_record_of_beidou_comes_back_from_its_subframes(steps in -500_i64..500) {
-        let d1 = record("C21", MessageKind::D1, steps);
+        let d1 = record("C21", BroadcastKind::D1, steps);
         let told = heard(d1.satellite, "2I", beidou::D1.words(&d1));
         prop_assert_eq!(told, [Broadcast::Record(BroadcastRecord::Kepler(d1))]);
-        let d2 = record("C03", MessageKind::D2, steps);
+        let d2 = record("C03", BroadcastKind::D2, steps);
         let told = heard(d2.satellite, "2I", beidou::D2.words(&d2));
         prop_assert_eq!(told, [Broadcast::Record(BroadcastRecord::Kepler(d2))]);
     }
@@ -243,9 +243,9 @@ proptest! {
 
 #[test]
 fn one_wrong_bit_is_refused() {
-    let gps = record("G07", MessageKind::Lnav, 7);
-    let galileo = record("E11", MessageKind::Inav, 7);
-    let beidou = record("C21", MessageKind::D1, 7);
+    let gps = record("G07", BroadcastKind::Lnav, 7);
+    let galileo = record("E11", BroadcastKind::Inav, 7);
+    let beidou = record("C21", BroadcastKind::D1, 7);
     let page = typed(pages(&galileo::INAV.bits(&galileo, [0.0; 3]), galileo::WORD)).remove(0);
     let cases = [
         (gps.satellite, SignalCode::new(1, b'C'), lnav::words(&gps)[0].clone(), 0..30),
@@ -269,7 +269,7 @@ fn one_wrong_bit_is_refused() {
 
 #[test]
 fn subframes_of_two_issues_make_no_record() {
-    let old = record("G07", MessageKind::Lnav, 7);
+    let old = record("G07", BroadcastKind::Lnav, 7);
     let new = KeplerRecord { issue: 22, clock_issue: 22, ..old };
     let [first, second, _] = lnav::words(&old);
     let [.., third] = lnav::words(&new);
@@ -278,7 +278,7 @@ fn subframes_of_two_issues_make_no_record() {
 
 #[test]
 fn a_record_is_told_once() {
-    let record = record("G07", MessageKind::Lnav, 7);
+    let record = record("G07", BroadcastKind::Lnav, 7);
     let twice = [lnav::words(&record), lnav::words(&record)].concat();
     assert_eq!(heard(record.satellite, "1C", twice).len(), 1);
 }

@@ -4,7 +4,7 @@
 //! DF429 to DF457, DF488 to DF515). The week is not needed: reference times are those nearest to the reception, which has to be right to three days.
 
 use insd_base::GpsTime;
-use insd_base::satellites::{Constellation, KeplerRecord, MessageKind, SatelliteId};
+use insd_base::satellites::{BroadcastKind, Constellation, KeplerRecord, SatelliteId};
 
 use super::super::bits::{Bits, Field};
 use super::super::kepler::{Layout, half, range_accuracy, semi, signal_in_space_accuracy};
@@ -14,7 +14,7 @@ use crate::binary::Fault;
 struct Ephemeris {
     number: u16,
     constellation: Constellation,
-    kind: MessageKind,
+    kind: BroadcastKind,
     /// Bits, its number included.
     length: usize,
     satellite: Field,
@@ -34,7 +34,7 @@ const ALL: [&Ephemeris; 5] = [&GPS, &QZSS, &BEIDOU, &GALILEO_FNAV, &GALILEO_INAV
 const GPS: Ephemeris = Ephemeris {
     number: 1019,
     constellation: Constellation::Gps,
-    kind: MessageKind::Lnav,
+    kind: BroadcastKind::Lnav,
     length: 488,
     satellite: Field::count(12, 6),
     issues: [Field::count(48, 8), Field::count(118, 10)],
@@ -69,7 +69,7 @@ const GPS: Ephemeris = Ephemeris {
 const QZSS: Ephemeris = Ephemeris {
     number: 1044,
     constellation: Constellation::Qzss,
-    kind: MessageKind::Lnav,
+    kind: BroadcastKind::Lnav,
     length: 485,
     satellite: Field::count(12, 4),
     issues: [Field::count(78, 8), Field::count(474, 10)],
@@ -104,7 +104,7 @@ const QZSS: Ephemeris = Ephemeris {
 const BEIDOU: Ephemeris = Ephemeris {
     number: 1042,
     constellation: Constellation::BeiDou,
-    kind: MessageKind::D1,
+    kind: BroadcastKind::D1,
     length: 511,
     satellite: Field::count(12, 6),
     issues: [Field::count(49, 5), Field::count(128, 5)],
@@ -139,7 +139,7 @@ const BEIDOU: Ephemeris = Ephemeris {
 const GALILEO_FNAV: Ephemeris = Ephemeris {
     number: 1045,
     constellation: Constellation::Galileo,
-    kind: MessageKind::Fnav,
+    kind: BroadcastKind::Fnav,
     length: 496,
     satellite: Field::count(12, 6),
     issues: [Field::count(30, 10), Field::count(30, 10)],
@@ -174,7 +174,7 @@ const GALILEO_FNAV: Ephemeris = Ephemeris {
 const GALILEO_INAV: Ephemeris = Ephemeris {
     number: 1046,
     constellation: Constellation::Galileo,
-    kind: MessageKind::Inav,
+    kind: BroadcastKind::Inav,
     length: 504,
     satellite: Field::count(12, 6),
     issues: [Field::count(30, 10), Field::count(30, 10)],
@@ -237,7 +237,7 @@ impl Ephemeris {
             if galileo { signal_in_space_accuracy(accuracy) } else { range_accuracy(accuracy) };
         Ok(KeplerRecord {
             satellite,
-            kind: if satellite.is_geostationary() { MessageKind::D2 } else { self.kind },
+            kind: if satellite.is_geostationary() { BroadcastKind::D2 } else { self.kind },
             issue,
             clock_issue,
             health: health as u16,
