@@ -59,6 +59,8 @@ pub enum Carried {
     WithLog,
     /// From the first heading of a reference on.
     WithHeading,
+    /// From the first ranges of satellites on.
+    WithRanges,
     /// While the ship is held at her berth.
     AtBerth,
 }
@@ -81,6 +83,8 @@ pub enum Process {
     },
     /// Oscillators, carried where the berth is looked at ([`crate::sway`]).
     Swaying,
+    /// A clock and its drift, carried where ranges are looked at ([`crate::receiver_clock`]).
+    Clock,
 }
 
 /// What an error of a block does to the estimate.

@@ -12,16 +12,29 @@ pub use insd_estimation::{Block, Covariance, Effects, Errors, Innovation, Jacobi
 use crate::aids::reference_heading;
 use crate::declaration::{Carried, Correction, Declaration, Process, StateAxes};
 
+/// Satellites that are used at once, the highest ones.
+pub const SATELLITES: usize = 32;
+/// 1-sigma of a receiver's clock before anything is known of it, m and m/s: a millisecond.
+const CLOCK_UNKNOWN: f64 = 3e5;
+/// 1-sigma of the offset between two systems in a receiver, m.
+const OFFSET_UNKNOWN: f64 = 100.0;
+/// Its random walk, m per root of a second.
+const OFFSET_WALK: f64 = 1e-3;
+/// How long orbits, clocks, the ionosphere and reflections go on to be wrong by the same, s.
+const RANGE_ERROR_TIME: f64 = 600.0;
+/// By what the slow errors of a phase walk, m per root of a second.
+const PHASE_WALK: f64 = 5e-4;
+
 /// 1-sigma of the mean height before anything is known of it, m.
 const SEA_LEVEL_UNKNOWN: f64 = 30.0;
 
 /// One row for each block of error states, in the order in which they stand when all are carried.
 macro_rules! declare {
-    ($($(#[$doc:meta])+ $block:ident: $width:literal, $name:literal, $unit:literal, $axes:ident, $carried:ident,
+    ($($(#[$doc:meta])+ $block:ident: $width:expr, $name:literal, $unit:literal, $axes:ident, $carried:ident,
         first: $first:expr, process: $process:expr, correction: $correction:expr;)+) => {
         #[allow(non_camel_case_types, clippy::upper_case_acronyms)] // named as the blocks are
         enum Kind { $($block),+ }
-        $($(#[$doc])+ pub const $block: Block<$width> = Block::new(Kind::$block as u16);)+
+        $($(#[$doc])+ pub const $block: Block<{ $width }> = Block::new(Kind::$block as u16);)+
         /// What is known of each, by the number of its kind.
         pub static DECLARATIONS: [Declaration; [$($width),+].len()] = [$(Declaration {
             key: $block.key(),
@@ -118,6 +131,22 @@ declare! {
     HEADING_ERROR: 1, "heading_error", "sigma", Scalar, WithHeading,
         first: |_| 1.0, process: |_, _| Process::of_sigmas(reference_heading::TIME),
         correction: Correction::Adds(|nominal| from_mut(&mut nominal.heading_error));
+    /// Clock of the receiver of ranges against GPS time and its drift, m and m/s.
+    RECEIVER_CLOCK: 2, "receiver_clock", "m, m/s", Scalar, WithRanges,
+        first: |_| CLOCK_UNKNOWN, process: |_, _| Process::Clock,
+        correction: Correction::Adds(|nominal| nominal.receiver_clock.as_mut_slice());
+    /// What it adds for Galileo, BeiDou and GLONASS, m, random walk.
+    SYSTEM_OFFSETS: 3, "system_offsets", "m", Scalar, WithRanges,
+        first: |_| OFFSET_UNKNOWN, process: |_, _| Process::Walk(OFFSET_WALK),
+        correction: Correction::Adds(|nominal| nominal.system_offsets.as_mut_slice());
+    /// Slowly varying error of the code of each satellite in use, in units of its own sigma, Gauss-Markov.
+    RANGE_ERRORS: SATELLITES, "range_errors", "sigma", Scalar, WithRanges,
+        first: |_| 1.0, process: |_, _| Process::of_sigmas(RANGE_ERROR_TIME),
+        correction: Correction::Adds(|nominal| nominal.range_errors.as_mut_slice());
+    /// Constant of the phase of each, m, random walk.
+    PHASE_CONSTANTS: SATELLITES, "phase_constants", "m", Scalar, WithRanges,
+        first: |_| 1.0, process: |_, _| Process::Walk(PHASE_WALK),
+        correction: Correction::Adds(|nominal| nominal.phase_constants.as_mut_slice());
     /// Mean place of a moored ship from her named berth, north and east, m, constant but for shifts.
     BERTH_OFFSET: 2, "berth_offset", "m", ComputedNed, AtBerth,
         first: |_| 0.0, process: |_, _| Process::Constant,

@@ -28,6 +28,7 @@ use entry::detail;
 use heard::Heard;
 use installation::Installation;
 use receiver::Receiver;
+use satellites::Satellites;
 use state::State;
 
 pub mod ahead;
@@ -51,8 +52,10 @@ mod mode;
 mod moored;
 mod motion;
 mod others;
+mod ranges;
 mod receiver;
 mod receivers;
+mod satellites;
 mod sideways;
 mod slow;
 mod state;
@@ -73,6 +76,7 @@ pub struct Filter {
     conduct: Conduct,
     installation: Installation,
     court: Court,
+    satellites: Satellites,
     navigating: bool,
 }
 
@@ -90,6 +94,7 @@ impl Filter {
             conduct: Conduct::default(),
             installation: Installation::default(),
             court: Court::new(initial.time),
+            satellites: Satellites::default(),
             navigating: false,
         }
     }
@@ -298,10 +303,12 @@ impl Estimator for Filter {
         match &received.message {
             Message::Imu(_) => {}
             Message::Gnss(fix) if fix.rank > 0 => self.compare(fix, received.source),
+            // its own receiver's fix is made of the same ranges
+            Message::Gnss(_) if self.satellites.are_fresh(self.state.time) => {}
             Message::Gnss(fix) => self.apply_gnss(fix, received.source, &mut report),
             Message::Log(log) => self.apply_log(log, received.source, &mut report),
             Message::Reference(r) => self.apply_reference(r, received.source, &mut report),
-            Message::Ranges(_) => {}
+            Message::Ranges(ranges) => self.apply_ranges(ranges, received.source, &mut report),
         }
         self.heed();
         report

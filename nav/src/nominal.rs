@@ -3,11 +3,11 @@
 
 use insd_base::earth;
 use insd_base::{Ecef, Geodetic};
-use nalgebra::{Matrix3, Rotation2, UnitQuaternion, Vector2, Vector3, Vector4};
+use nalgebra::{Matrix3, Rotation2, SVector, UnitQuaternion, Vector2, Vector3, Vector4};
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::{declaration, no_errors};
-use crate::error_state::{ATTITUDE, DECLARATIONS, Errors, POSITION};
+use crate::error_state::{ATTITUDE, DECLARATIONS, Errors, POSITION, SATELLITES};
 
 /// Estimated values of everything in the error state; units and axes as stated there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,6 +56,14 @@ pub struct Nominal {
     pub sea_level: f64,
     /// Slow error of a reference's heading, sigmas.
     pub heading_error: f64,
+    /// Clock of the receiver of ranges ahead, m, and its drift, m/s.
+    pub receiver_clock: Vector2<f64>,
+    /// What it adds for Galileo, BeiDou and GLONASS, m.
+    pub system_offsets: Vector3<f64>,
+    /// Slow error of each satellite's code, sigmas.
+    pub range_errors: SVector<f64, SATELLITES>,
+    /// Constant of each satellite's phase, m.
+    pub phase_constants: SVector<f64, SATELLITES>,
 }
 
 impl Nominal {
@@ -86,6 +94,10 @@ impl Nominal {
             log_misalignment: Vector2::zeros(),
             sea_level: position.height,
             heading_error: 0.0,
+            receiver_clock: Vector2::zeros(),
+            system_offsets: Vector3::zeros(),
+            range_errors: SVector::zeros(),
+            phase_constants: SVector::zeros(),
         }
     }
 

@@ -236,9 +236,14 @@ pub fn markov_decay(dt: f64, time_constant: f64) -> f64 {
     (-dt / time_constant).exp()
 }
 
-/// The expected values of Gauss-Markov states decay as the states do.
-pub fn relax(nominal: &mut Nominal, dt: f64, config: &NavConfig, regime: &Regime) {
-    for declared in &DECLARATIONS {
+/// The expected values of Gauss-Markov states that are carried decay as the states do.
+pub fn relax(
+    nominal: &mut Nominal,
+    dt: f64,
+    (layout, config): (&Layout, &NavConfig),
+    regime: &Regime,
+) {
+    for declared in layout.places().iter().filter_map(|place| declaration(place.key)) {
         if let Process::Markov { time, .. } = (declared.process)(config, regime) {
             let left = markov_decay(dt, time);
             declared.value(nominal).iter_mut().for_each(|value| *value *= left);

@@ -129,6 +129,17 @@ impl Covariance {
         *self = other;
     }
 
+    /// Forgets what is known of one state of a block, if that is there: a new variance, no correlation with the rest.
+    pub fn renew_state(&mut self, key: Key, state: usize, variance: f64) {
+        let Some(place) = self.layout.place(key).filter(|place| state < place.width) else {
+            return;
+        };
+        let index = place.start + state;
+        self.p.row_mut(index).fill(0.0);
+        self.p.column_mut(index).fill(0.0);
+        self.p[(index, index)] = variance;
+    }
+
     /// Adds a variance to each state of a block, by its name, if it is there.
     pub fn inflate(&mut self, key: Key, variance: f64) {
         let Some(place) = self.layout.place(key) else { return };

@@ -8,6 +8,7 @@ pub mod log_velocity;
 pub mod reference_heading;
 pub mod reference_position;
 pub mod reference_velocity;
+pub mod satellite_range;
 pub mod sea_level;
 
 use insd_base::attitude::skew;

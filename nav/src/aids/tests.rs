@@ -1,10 +1,12 @@
 //! Measurement matrices against perturbed predictions, driven from one table.
 
+use insd_base::satellites::{ArcPhase, Measured, SatelliteRange, Transmitter};
 use insd_base::units::DEG;
 use insd_base::{Attitude, Geodetic, LogReference};
 use insd_estimation::Place;
 use nalgebra::{Vector2, Vector3, Vector4};
 
+use super::satellite_range::Sighted;
 use super::*;
 use crate::declaration::{all_states, no_errors};
 use crate::error_state::Innovation;
@@ -26,6 +28,10 @@ fn estimate() -> Nominal {
     nominal.log_misalignment = Vector2::new(0.02, -0.03);
     nominal.sea_level = 24.0;
     nominal.heading_error = 0.4;
+    nominal.receiver_clock = Vector2::new(120.0, 0.3);
+    nominal.system_offsets = Vector3::new(5.0, -3.0, 2.0);
+    nominal.range_errors[7] = 0.6;
+    nominal.phase_constants[7] = 1.5;
     nominal
 }
 
@@ -38,11 +44,29 @@ fn rows(innovation: &Innovation) -> Rows {
     (0..innovation.rows()).map(row).collect()
 }
 
+const LEVER: Vector3<f64> = Vector3::new(-6.0, -0.8, -14.0);
+
+/// A satellite of Galileo over the estimate, and its antenna.
+fn sighted(view: &View) -> (satellite_range::Antenna, SatelliteRange) {
+    let over = estimate().position.normalize() * 2.9e7 + Vector3::new(4e6, 5e6, -3e6);
+    let measured = Measured { value: 2.4e7, variance: 0.1 };
+    let range = SatelliteRange {
+        satellite: "E11".parse().unwrap(),
+        transmitter: Transmitter { position: over, velocity: Vector3::new(1200.0, -900.0, 2100.0) },
+        elevation: 1.0,
+        code: Some(measured),
+        rate: Some(Measured { value: 300.0, variance: 0.01 }),
+        phase: Some(ArcPhase { phase: measured, arc: 3 }),
+        slow_std: 1.7,
+    };
+    let lever = LEVER + view.nominal.gnss_lever;
+    (satellite_range::Antenna::of(view, &lever, &Vector3::new(5.0, -3.0, 0.4)), range)
+}
+
 /// A named aid and its rows.
 type Entry = (&'static str, fn(&View) -> Rows);
 
 fn table() -> Vec<Entry> {
-    const LEVER: Vector3<f64> = Vector3::new(-6.0, -0.8, -14.0);
     let position = |view: &View| {
         let fix = gnss_position::PositionFix {
             position: Geodetic::from_degrees(52.000_01, 179.900_02, 40.0),
@@ -71,6 +95,24 @@ fn table() -> Vec<Entry> {
             let half = 10.0 * view.v_n().z;
             let mean = view.geodetic.height + half;
             rows(&sea_level::innovation(view, mean, 20.0, 0.3))
+        }),
+        ("satellite_code", |view| {
+            let (antenna, range) = sighted(view);
+            rows(
+                &satellite_range::code(view, &antenna, Sighted { range: &range, slot: 7 }).unwrap(),
+            )
+        }),
+        ("satellite_phase", |view| {
+            let (antenna, range) = sighted(view);
+            rows(
+                &satellite_range::phase(view, &antenna, Sighted { range: &range, slot: 7 })
+                    .unwrap(),
+            )
+        }),
+        ("satellite_rate", |view| {
+            let (antenna, range) = sighted(view);
+            let lever = LEVER + view.nominal.gnss_lever;
+            rows(&satellite_range::rate(view, &antenna, &range, &lever).unwrap())
         }),
         ("reference_heading", |view| rows(&reference_heading::innovation(view, 2.0, DEG))),
         ("reference_velocity", |view| {
@@ -112,9 +154,13 @@ fn view_moved_by(state: usize, amount: f64) -> View {
     View::new(&nominal, &MEASURED_RATE, 0.0)
 }
 
-/// A step large enough against rounding and small enough against curvature.
-fn step_of(state: usize) -> f64 {
-    if state < 3 { 1.0 } else { 1e-5 }
+/// A step large enough against rounding, of ranges of 20 000 km, too, and small enough against curvature.
+fn step_of(name: &str, state: usize) -> f64 {
+    match state {
+        0..3 => 1.0,
+        _ if name.starts_with("satellite") => 1e-3,
+        _ => 1e-5,
+    }
 }
 
 #[test]
@@ -122,7 +168,7 @@ fn every_measurement_matrix_agrees_with_perturbed_predictions() {
     for (name, rows_of) in table() {
         let here = rows_of(&view_moved_by(0, 0.0));
         for state in 0..all_states().states() {
-            let step = step_of(state);
+            let step = step_of(name, state);
             let ahead = rows_of(&view_moved_by(state, step));
             let behind = rows_of(&view_moved_by(state, -step));
             for (row, (_, h)) in here.iter().enumerate() {

@@ -43,7 +43,7 @@ pub enum ImuState {
 impl Filter {
     /// Has a judge from now on, if the filter navigates and nothing holds the ship.
     pub(super) fn be_judged(&mut self) {
-        let is_free = self.navigating && !self.state.is_moored();
+        let is_free = self.navigating && !self.state.is_moored() && self.satellites.last.is_none();
         let docket = self.docket();
         self.config = self.config.with_docket(docket);
         let judge = is_free.then(|| Judge::new(&self.state.covariance, &self.config, docket));

@@ -115,7 +115,8 @@ impl State {
             passing.covariance(&mut self.covariance);
             along(passing);
         });
-        propagation::relax(&mut self.nominal, self.stretch.duration, config, &regime);
+        let carried = (self.covariance.layout(), config);
+        propagation::relax(&mut self.nominal, self.stretch.duration, carried, &regime);
         self.unswayed += self.stretch.duration;
         self.nominal.attitude.renormalize();
     }

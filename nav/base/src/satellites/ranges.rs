@@ -40,6 +40,13 @@ impl Transmitter {
     pub fn line(&self, antenna: &Vector3<f64>) -> Vector3<f64> {
         (self.position - antenna).normalize()
     }
+
+    /// How the range changes with the antenna's place, and its rate with the antenna's velocity: `-e` and what the turning Earth adds.
+    #[must_use]
+    pub fn gradient(&self, antenna: &Vector3<f64>) -> Vector3<f64> {
+        let s = &self.position;
+        Vector3::new(-s.y, s.x, 0.0) * (EARTH_RATE / SPEED_OF_LIGHT) - self.line(antenna)
+    }
 }
 
 /// A measured quantity and the variance of its noise.

@@ -1,0 +1,268 @@
+//! Ranges of satellites: each counts for itself, down to the last one.
+
+use insd_base::satellites::{SatelliteRange, SatelliteRanges};
+use insd_base::{Rejection, Source};
+use insd_estimation::Innovation;
+
+use super::Filter;
+use super::entry::{Judged, NO_INNOVATION, enter};
+use crate::aids::satellite_range::{self, Antenna, Sighted};
+use crate::declaration::Carried;
+use crate::error_state::{PHASE_CONSTANTS, RANGE_ERRORS};
+use crate::receiver_clock;
+use crate::report::{Outcome, Report};
+
+const CODE_AID: &str = "satellite_code";
+const RATE_AID: &str = "satellite_rate";
+const PHASE_AID: &str = "satellite_phase";
+
+/// A row is at fault beyond so many sigmas of what all others let expect of it: by chance once in 150 000.
+const FAULT: f64 = 4.5;
+/// No slip is smaller, m.
+const SLIP: f64 = 0.03;
+/// A clock that is off by more than this has jumped, m: codes err by less.
+const JUMP: f64 = 300.0;
+/// A constant of which nothing is known, m.
+const UNKNOWN_CONSTANT: f64 = 100.0;
+
+/// A satellite with its place among the states.
+#[derive(Clone, Copy, Debug)]
+struct Seated {
+    range: SatelliteRange,
+    slot: usize,
+}
+
+/// Rows of one kind, and whose they are.
+struct Rows {
+    all: Innovation,
+    of: Vec<usize>,
+}
+
+impl Filter {
+    pub(super) fn apply_ranges(
+        &mut self,
+        told: &SatelliteRanges,
+        source: Source,
+        report: &mut Report,
+    ) {
+        if told.ranges.is_empty() || !self.navigating {
+            return;
+        }
+        self.begin_with_ranges(told);
+        self.carry_clock();
+        let seated = self.seat(told);
+        self.look_for_clock_jump(&seated);
+        self.begin_arcs(&seated);
+        let by_phase = self.use_phases(&seated, (told, source), report);
+        self.use_rates(&seated, &by_phase, (told, source), report);
+        self.use_codes(&seated, (told, source), report);
+    }
+
+    /// The states of satellites join; what judges fixes has nothing to judge.
+    fn begin_with_ranges(&mut self, told: &SatelliteRanges) {
+        self.begin_to_carry(Carried::WithRanges);
+        if self.satellites.last.is_none() {
+            let (offset, drift) = told.clock.unwrap_or_default();
+            let state = &mut self.state;
+            receiver_clock::renew(&mut state.nominal, &mut state.covariance, offset, Some(drift));
+            self.satellites.last = Some(self.state.time);
+            self.be_judged();
+        }
+    }
+
+    fn carry_clock(&mut self) {
+        let now = self.state.time;
+        let elapsed = self.satellites.last.map_or(0.0, |last| (now - last).as_seconds());
+        let state = &mut self.state;
+        receiver_clock::carry(&mut state.nominal, &mut state.covariance, elapsed.max(0.0));
+        self.satellites.last = Some(now);
+    }
+
+    fn seat(&mut self, told: &SatelliteRanges) -> Vec<Seated> {
+        let now = self.state.time;
+        let mut highest: Vec<_> = told.ranges.iter().collect();
+        highest.sort_by(|a, b| b.elevation.total_cmp(&a.elevation));
+        let mut seated = Vec::with_capacity(highest.len());
+        for range in highest {
+            let Some((slot, is_new)) = self.satellites.seat(range, now) else { continue };
+            if is_new {
+                self.state.nominal.range_errors[slot] = 0.0;
+                self.state.covariance.renew_state(RANGE_ERRORS.key(), slot, 1.0);
+            }
+            seated.push(Seated { range: *range, slot });
+        }
+        seated
+    }
+
+    fn antenna(&self) -> Antenna {
+        Antenna::of(&self.view(), &self.antenna_lever(), &self.antenna_velocity())
+    }
+
+    /// A clock that is set moves all ranges alike.
+    fn look_for_clock_jump(&mut self, seated: &[Seated]) {
+        let (view, antenna) = (self.view(), self.antenna());
+        let off = |seated: &Seated| {
+            let code = seated.range.code?.value;
+            Some(code - satellite_range::predicted(&view, &antenna, &seated.range))
+        };
+        let mut off: Vec<f64> = seated.iter().filter_map(off).collect();
+        off.sort_by(f64::total_cmp);
+        let Some(middle) = off.get(off.len() / 2).copied() else { return };
+        if middle.abs() > JUMP {
+            let offset = self.state.nominal.receiver_clock.x + middle;
+            let state = &mut self.state;
+            receiver_clock::renew(&mut state.nominal, &mut state.covariance, offset, None);
+        }
+    }
+
+    /// Constants of arcs that have begun are what makes the phase fit, and unknown.
+    fn begin_arcs(&mut self, seated: &[Seated]) {
+        for one in seated {
+            let Some(phase) = one.range.phase else { continue };
+            let known = self.satellites.slot_mut(one.slot);
+            let is_new = known.is_some_and(|slot| slot.arc.replace(phase.arc) != Some(phase.arc));
+            if is_new {
+                self.begin_arc(one);
+            }
+        }
+    }
+
+    fn begin_arc(&mut self, one: &Seated) {
+        let (view, antenna) = (self.view(), self.antenna());
+        let Some(phase) = one.range.phase else { return };
+        let constant = phase.phase.value - satellite_range::predicted(&view, &antenna, &one.range);
+        self.state.nominal.phase_constants[one.slot] = constant;
+        let variance = UNKNOWN_CONSTANT * UNKNOWN_CONSTANT;
+        self.state.covariance.renew_state(PHASE_CONSTANTS.key(), one.slot, variance);
+    }
+
+    /// Returns the places of satellites whose phase was used.
+    fn use_phases(
+        &mut self,
+        seated: &[Seated],
+        from: (&SatelliteRanges, Source),
+        report: &mut Report,
+    ) -> Vec<usize> {
+        let (view, antenna) = (self.view(), self.antenna());
+        let row = |one: &Seated| {
+            let sighted = Sighted { range: &one.range, slot: one.slot };
+            satellite_range::phase(&view, &antenna, sighted)
+        };
+        let Some(rows) = Rows::of(seated, row) else { return Vec::new() };
+        let (used, slipped) = self.absorb_rows(rows, SLIP, (PHASE_AID, from), report);
+        for one in slipped.iter().filter_map(|index| seated.get(*index)) {
+            self.begin_arc(one);
+        }
+        used.iter().map(|index| seated[*index].slot).collect()
+    }
+
+    /// Of satellites whose phase does not tell it better.
+    fn use_rates(
+        &mut self,
+        seated: &[Seated],
+        by_phase: &[usize],
+        from: (&SatelliteRanges, Source),
+        report: &mut Report,
+    ) {
+        let (view, antenna) = (self.view(), self.antenna());
+        let lever = self.antenna_lever();
+        let row = |one: &Seated| {
+            let is_told = by_phase.contains(&one.slot);
+            (!is_told).then(|| satellite_range::rate(&view, &antenna, &one.range, &lever)).flatten()
+        };
+        if let Some(rows) = Rows::of(seated, row) {
+            self.absorb_rows(rows, 0.0, (RATE_AID, from), report);
+        }
+    }
+
+    fn use_codes(
+        &mut self,
+        seated: &[Seated],
+        from: (&SatelliteRanges, Source),
+        report: &mut Report,
+    ) {
+        let (view, antenna) = (self.view(), self.antenna());
+        let row = |one: &Seated| {
+            let sighted = Sighted { range: &one.range, slot: one.slot };
+            satellite_range::code(&view, &antenna, sighted)
+        };
+        let Some(rows) = Rows::of(seated, row) else { return };
+        let (used, _) = self.absorb_rows(rows, 0.0, (CODE_AID, from), report);
+        if !used.is_empty() {
+            self.receiver.trust.used(self.state.time);
+        }
+    }
+
+    /// Absorbs rows but for those that contradict all others by more than `least`; returns whose were used, and whose were not.
+    fn absorb_rows(
+        &mut self,
+        mut rows: Rows,
+        least: f64,
+        (aid, (told, source)): (&'static str, (&SatelliteRanges, Source)),
+        report: &mut Report,
+    ) -> (Vec<usize>, Vec<usize>) {
+        let mut left_out = Vec::new();
+        let weighed = loop {
+            let Some(weighed) = rows.all.weigh(&self.state.covariance) else { break None };
+            match worst(&weighed, least) {
+                Some(row) if rows.of.len() > 1 => left_out.push(rows.remove(row)),
+                Some(_) => {
+                    left_out.append(&mut rows.of);
+                    break None;
+                }
+                None => break Some(weighed),
+            }
+        };
+        let outcome = match &weighed {
+            Some(weighed) => {
+                self.absorb(weighed);
+                Outcome::Accepted
+            }
+            None => Outcome::Rejected(Rejection::ChiSquare),
+        };
+        let judged = Judged { outcome, log_likelihood: 0.0, innovation: NO_INNOVATION };
+        enter(report, told.time, source, aid, &judged);
+        let used = if weighed.is_some() { rows.of } else { Vec::new() };
+        (used, left_out)
+    }
+}
+
+impl Rows {
+    /// Of all that have one; `None` where nobody has.
+    fn of(seated: &[Seated], row: impl Fn(&Seated) -> Option<Innovation>) -> Option<Self> {
+        let mut rows: Option<Rows> = None;
+        for (index, one) in seated.iter().enumerate() {
+            let Some(own) = row(one) else { continue };
+            match &mut rows {
+                Some(rows) => {
+                    rows.all = rows.all.beside(&own);
+                    rows.of.push(index);
+                }
+                None => rows = Some(Rows { all: own, of: vec![index] }),
+            }
+        }
+        rows
+    }
+
+    /// Takes a row out; returns whose it was.
+    fn remove(&mut self, row: usize) -> usize {
+        let kept: Vec<usize> = (0..self.of.len()).filter(|index| *index != row).collect();
+        self.all = self.all.select(&kept);
+        self.of.remove(row)
+    }
+}
+
+/// The row that lies farthest from what all others let expect of it, if that is a fault: `(S^-1 z)_i / sqrt((S^-1)_ii)`, which is what is left of a row
+/// after an update with all others, in its sigmas (Teunissen, Testing Theory, section 4.3), and by more than `least`.
+fn worst(weighed: &crate::error_state::Weighed, least: f64) -> Option<usize> {
+    let inverse = weighed.covariance().try_inverse()?;
+    let drawn = &inverse * weighed.z();
+    let left = |row: usize| {
+        let precision = inverse[(row, row)];
+        let beyond = drawn[row].abs() / precision;
+        let sigmas = drawn[row].abs() / precision.sqrt();
+        (sigmas > FAULT && beyond > least).then_some((row, sigmas))
+    };
+    let far = (0..weighed.rows()).filter_map(left);
+    far.max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(row, _)| row)
+}

@@ -1,0 +1,56 @@
+//! Which satellites have which states.
+
+use insd_base::Time;
+use insd_base::satellites::{SatelliteId, SatelliteRange};
+
+use crate::error_state::SATELLITES;
+
+/// A satellite that is not seen for so long, s, gives its place away.
+const FORGOTTEN: f64 = 120.0;
+/// Ranges of less than so long ago are fresh, s.
+const FRESH: f64 = 5.0;
+
+/// One satellite with states.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slot {
+    satellite: SatelliteId,
+    seen: Time,
+    /// The arc whose constant is estimated.
+    pub(super) arc: Option<u32>,
+}
+
+/// The satellites in use.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Satellites {
+    slots: Vec<Option<Slot>>,
+    /// Time of the newest ranges.
+    pub(super) last: Option<Time>,
+}
+
+impl Satellites {
+    /// Whether ranges are in use.
+    pub(super) fn are_fresh(&self, now: Time) -> bool {
+        self.last.is_some_and(|last| (now - last).as_seconds() < FRESH)
+    }
+
+    /// The place of a satellite, and whether it is new there. `None` where all are taken.
+    pub(super) fn seat(&mut self, range: &SatelliteRange, now: Time) -> Option<(usize, bool)> {
+        self.slots.resize(SATELLITES, None);
+        let own = |slot: &Option<Slot>| slot.is_some_and(|slot| slot.satellite == range.satellite);
+        if let Some(place) = self.slots.iter().position(own) {
+            self.slots[place].iter_mut().for_each(|slot| slot.seen = now);
+            return Some((place, false));
+        }
+        let is_free = |slot: &Option<Slot>| {
+            slot.is_none_or(|slot| (now - slot.seen).as_seconds() > FORGOTTEN)
+        };
+        let place = self.slots.iter().position(is_free)?;
+        self.slots[place] = Some(Slot { satellite: range.satellite, seen: now, arc: None });
+        Some((place, true))
+    }
+
+    /// The satellite at a place that is taken.
+    pub(super) fn slot_mut(&mut self, place: usize) -> Option<&mut Slot> {
+        self.slots.get_mut(place)?.as_mut()
+    }
+}

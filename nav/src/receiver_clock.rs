@@ -1,0 +1,42 @@
+//! The clock of a receiver: an offset that drifts.
+//!
+//! c' = d + w_c, d' = w_d; over dt: Phi = [1 dt; 0 1], Q = [S_c dt + S_d dt^3 / 3, S_d dt^2 / 2; S_d dt^2 / 2, S_d dt] (Brown and Hwang, Introduction to
+//! Random Signals and Applied Kalman Filtering, 4th ed., eqs. (9.3.2) to (9.3.4)). Nothing else depends on it, so that it is carried only when ranges are looked at.
+
+use nalgebra::{Matrix2, Vector2};
+
+use crate::error_state::{Covariance, RECEIVER_CLOCK};
+use crate::nominal::Nominal;
+
+/// Random walk of the offset, m per root of a second: the white frequency noise of a compensated crystal.
+const OFFSET_WALK: f64 = 0.03;
+/// Random walk of the drift, m/s per root of a second.
+const DRIFT_WALK: f64 = 0.03;
+
+/// Carries the clock over some seconds.
+pub(crate) fn carry(nominal: &mut Nominal, p: &mut Covariance, dt: f64) {
+    let phi = Matrix2::new(1.0, dt, 0.0, 1.0);
+    nominal.receiver_clock = phi * nominal.receiver_clock;
+    RECEIVER_CLOCK.transform(p, &phi);
+    let (offset, drift) = (OFFSET_WALK * OFFSET_WALK, DRIFT_WALK * DRIFT_WALK);
+    let between = drift * dt * dt / 2.0;
+    let q = Matrix2::new(offset * dt + drift * dt.powi(3) / 3.0, between, between, drift * dt);
+    RECEIVER_CLOCK.add(p, &q);
+}
+
+/// Forgets the offset; `drift` tells whether the drift is forgotten as well.
+pub(crate) fn renew(nominal: &mut Nominal, p: &mut Covariance, offset: f64, drift: Option<f64>) {
+    const UNKNOWN_OFFSET: f64 = 1e3;
+    const UNKNOWN_DRIFT: f64 = 300.0;
+    match drift {
+        Some(drift) => {
+            nominal.receiver_clock = Vector2::new(offset, drift);
+            let variances = Vector2::new(UNKNOWN_OFFSET, UNKNOWN_DRIFT).map(|std| std * std);
+            RECEIVER_CLOCK.renew(p, &Matrix2::from_diagonal(&variances));
+        }
+        None => {
+            nominal.receiver_clock.x = offset;
+            p.renew_state(RECEIVER_CLOCK.key(), 0, UNKNOWN_OFFSET * UNKNOWN_OFFSET);
+        }
+    }
+}
