@@ -136,6 +136,7 @@ const ARROWS: [(&str, &[&str]); 15] = [
             "insd-n2k",
             "insd-nav",
             "insd-output",
+            "insd-rinex",
             "insd-simulator",
             "insd-vessel",
             "insd-wire",

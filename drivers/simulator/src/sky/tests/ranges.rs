@@ -27,7 +27,7 @@ fn without_errors_the_code_is_the_geometric_range_to_the_millimetre() {
 #[test]
 fn the_ionosphere_delays_the_code_and_advances_the_phase_by_the_square_of_the_wavelength() {
     let sky = CLEAR.replace("[0.0, 0.0]", "[1.0, 1.0]");
-    let (scenario, with) = made(&format!("{PERFECT}{sky}"), 1);
+    let (_, with) = made(&format!("{PERFECT}{sky}"), 1);
     let (_, without) = made(&format!("{PERFECT}{CLEAR}"), 1);
     let mut all = BTreeMap::new();
     for (a, b) in with.antennas[0].iter().zip(&without.antennas[0]) {
@@ -45,12 +45,10 @@ fn the_ionosphere_delays_the_code_and_advances_the_phase_by_the_square_of_the_wa
             all.insert((a.satellite, a.signal.band), delay / wavelength.powi(2));
         }
     }
-    for ((id, band), l1) in all.iter().filter(|((_, band), _)| *band == 1) {
+    for ((id, _), l1) in all.iter().filter(|((_, band), _)| *band == 1) {
         let second = if id.constellation == Constellation::Gps { 2 } else { 5 };
         assert_relative_eq!(all[&(*id, second)], *l1, max_relative = 1e-6);
-        assert_eq!(*band, 1);
     }
-    assert!(scenario.duration() > 0.0);
 }
 
 #[test]
