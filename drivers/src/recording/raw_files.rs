@@ -62,3 +62,41 @@ pub fn write_raw(
     let file = OpenOptions::new().append(true).open(&header);
     guard(&header, file.and_then(|mut file| write!(file, "\n{}", raw.tables)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn files(antennas: usize) -> RawFiles {
+        RawFiles {
+            antennas: vec!["observations\n".to_owned(); antennas],
+            navigation: "navigation\n".to_owned(),
+            truth: "{}".to_owned(),
+            tables: "[raw]\nrate_hz = 1.0\n".to_owned(),
+            ..RawFiles::default()
+        }
+    }
+
+    fn names(dir: &Path) -> Vec<String> {
+        let entries = fs::read_dir(dir.join(FOLDER)).unwrap();
+        let name = |entry: std::io::Result<fs::DirEntry>| entry.unwrap().file_name();
+        let mut names: Vec<String> =
+            entries.map(|entry| name(entry).to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn files_of_an_older_voyage_go_and_the_tables_stand_behind_the_others() {
+        let desk = tempfile::tempdir().unwrap();
+        let header = desk.path().join(FILE_NAME);
+        fs::write(&header, "mode = \"moored\"\n").unwrap();
+        write_raw(desk.path(), Some(&files(2)), Compression::Zstd).unwrap();
+        assert_eq!(names(desk.path()), ["a1.obs.zst", "a2.obs.zst", "nav.rnx.zst"]);
+        assert!(fs::read_to_string(&header).unwrap().ends_with("\n\n[raw]\nrate_hz = 1.0\n"));
+        write_raw(desk.path(), Some(&files(1)), Compression::None).unwrap();
+        assert_eq!(names(desk.path()), ["a1.obs", "nav.rnx"]);
+        write_raw(desk.path(), None, Compression::None).unwrap();
+        assert!(names(desk.path()).is_empty() && !desk.path().join(TRUTH).exists());
+    }
+}
