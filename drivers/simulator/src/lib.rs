@@ -18,6 +18,7 @@ mod random;
 mod scenario;
 mod sensors;
 mod shipped;
+mod sky;
 mod track;
 
 use insd_base::earth::{c_ne, ecef, geodetic};
@@ -35,6 +36,10 @@ use track::Track;
 pub use limit::{Limit, LimitError, limit};
 pub use scenario::{Fault, Override, Scenario, ScenarioError};
 pub use shipped::shipped;
+pub use sky::{
+    InjectedFault, InjectedSlip, InjectedSpoof, JudgedSegment, RawBaseStation, RawGnss, RawSpec,
+    RawTruth,
+};
 
 /// Simulates the voyage of a scenario. The same scenario and seed give the same voyage; every source
 /// of error draws from a random stream of its own, so that a change to one leaves the others alone.
@@ -55,6 +60,13 @@ pub fn simulate(scenario: &Scenario, seed: u64) -> Voyage {
         reference: scenario.reference.as_ref().map(reference).unwrap_or_default(),
         truth: truth(&track, scenario.truth.rate_hz, duration),
     }
+}
+
+/// The raw GNSS of the voyage of a scenario with `[raw]`; `None` of one without. The voyage itself, [`simulate`], knows nothing of it.
+#[must_use]
+pub fn raw_gnss(scenario: &Scenario, seed: u64) -> Option<RawGnss> {
+    let raw = scenario.raw.as_ref()?;
+    sky::raw_gnss(scenario, raw, &Track::new(scenario, seed), seed)
 }
 
 /// The samples of a further IMU of the same kind on the same ship and voyage, `lever` from the first, body

@@ -46,11 +46,26 @@ pub(crate) enum Purpose {
     Compass,
     SecondReceiver,
     Vibration,
+    Constellation,
+    OrbitError,
+    Ionosphere,
+    Troposphere,
+    RawClock,
+    RawConstant,
+    RawNoise,
+    RawMultipath,
+    RawArc,
+    RawScene,
 }
 
 /// The stream of one purpose in the voyage of one seed.
 pub(crate) fn stream(seed: u64, purpose: Purpose) -> Pcg64 {
     Pcg64::seed_from_u64(mix(mix(seed) ^ purpose as u64))
+}
+
+/// One of many streams of one purpose, told apart by a number.
+pub(crate) fn numbered(seed: u64, purpose: Purpose, number: u64) -> Pcg64 {
+    Pcg64::seed_from_u64(mix(mix(mix(seed) ^ purpose as u64) ^ number))
 }
 
 /// The finaliser of `SplitMix64` (Steele, Lea and Flood, OOPSLA 2014): neighbouring inputs give

@@ -35,5 +35,7 @@ pub fn shipped() -> &'static [(&'static str, &'static str)] {
         "23-moored-departure.toml",
         "24-moored-engine.toml",
         "25-moored-mems-gnss.toml",
+        "26-tight-port.toml",
+        "27-satellite-faults.toml",
     ]
 }

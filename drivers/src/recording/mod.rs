@@ -1,7 +1,7 @@
 //! Voyages as directories of CSV files: the exchange format for recordings and simulations.
 //!
 //! [`VoyageReader`] streams the sensor messages of a directory in order of receipt and in constant
-//! memory; [`write_voyage`] makes such a directory; [`NavWriter`] writes the answer of a replay,
+//! memory; [`write_voyage`] makes such a directory, [`write_raw`] adds raw GNSS; [`NavWriter`] writes the answer of a replay,
 //! `nav.csv`. Files may be compressed (`NAME.csv.zst`).
 //!
 //! No input makes this module panic. Faults come in two kinds:
@@ -23,6 +23,7 @@ mod lines;
 mod nav;
 mod nav_row;
 mod number;
+mod raw_files;
 mod reader;
 mod report;
 mod rows;
@@ -35,6 +36,7 @@ pub use header::read_header;
 pub use lines::MAX_LINE;
 pub use nav::{NavWriter, read_nav, read_nav_rows};
 pub use nav_row::NavRow;
+pub use raw_files::{RawFiles, write_raw};
 pub use reader::{Rows, VoyageReader, read_truth, read_truth_rows};
 pub use report::{BadRow, FileReport, RowFault};
 pub use writer::{Compression, write_voyage};

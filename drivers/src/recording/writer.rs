@@ -27,7 +27,7 @@ const DELTA_VELOCITY: usize = 11;
 /// zstd's own default.
 const LEVEL: i32 = 3;
 
-/// How the large files, `imu.csv` and `truth.csv`, are written.
+/// How the large files, `imu.csv`, `truth.csv` and those of raw GNSS, are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Compression {
     /// As text.
@@ -52,8 +52,7 @@ pub fn write_voyage(
 ) -> Result<(), RecordingError> {
     guard(dir, fs::create_dir_all(dir))?;
     for name in ["imu.csv", "gnss.csv", "log.csv", "reference.csv", "truth.csv"] {
-        remove(&dir.join(name))?;
-        remove(&compressed_form(&dir.join(name)))?;
+        remove_both(&dir.join(name))?;
     }
     let toml = dir.join(FILE_NAME);
     guard(&toml, fs::write(&toml, header_text(&voyage.header)))?;
@@ -65,6 +64,12 @@ pub fn write_voyage(
     write_rows(&dir.join("truth.csv"), Truth::COLUMNS, &voyage.truth, compression, push_truth)
 }
 
+/// Removes a file of an older voyage, plain or compressed.
+pub(super) fn remove_both(path: &Path) -> Result<(), RecordingError> {
+    remove(path)?;
+    remove(&compressed_form(path))
+}
+
 fn remove(path: &Path) -> Result<(), RecordingError> {
     match fs::remove_file(path) {
         Err(fault) if fault.kind() != io::ErrorKind::NotFound => guard(path, Err(fault)),
@@ -72,7 +77,8 @@ fn remove(path: &Path) -> Result<(), RecordingError> {
     }
 }
 
-fn guard<T>(path: &Path, result: io::Result<T>) -> Result<T, RecordingError> {
+/// What failed, with the file at which it did.
+pub(super) fn guard<T>(path: &Path, result: io::Result<T>) -> Result<T, RecordingError> {
     result.map_err(|source| RecordingError::Write { file: path.to_owned(), source })
 }
 
@@ -122,7 +128,8 @@ fn write_rows<T>(
     guard(path, to_file(path, compression, write))
 }
 
-fn to_file(
+/// Writes a file, compressed or not.
+pub(super) fn to_file(
     path: &Path,
     compression: Compression,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,

@@ -140,6 +140,7 @@ const ARROWS: [(&str, &[&str]); 17] = [
             "insd-n2k",
             "insd-nav",
             "insd-output",
+            "insd-rinex",
             "insd-simulator",
             "insd-vessel",
             "insd-wire",

@@ -7,6 +7,7 @@ pub mod evaluate;
 pub mod feed;
 pub mod limit;
 mod outage;
+mod raw_gnss;
 pub mod replay;
 pub mod report;
 pub mod simulate;

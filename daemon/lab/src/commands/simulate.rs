@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::Context;
-use insd_drivers::recording::{Compression, write_voyage};
-use insd_simulator::{Override, simulate};
+use insd_drivers::recording::{Compression, write_raw, write_voyage};
+use insd_simulator::{Override, raw_gnss, simulate};
 
+use super::raw_gnss::files;
 use crate::scenario;
 
 /// Options of `insd simulate`.
@@ -26,7 +27,7 @@ pub struct SimulateArgs {
     /// Set a key of the scenario to another value, as start.lat_deg=60; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     sets: Vec<Override>,
-    /// Compress imu.csv and truth.csv
+    /// Compress imu.csv, truth.csv and raw GNSS
     #[arg(long)]
     compress: bool,
 }
@@ -43,8 +44,11 @@ pub fn run(args: &SimulateArgs) -> anyhow::Result<()> {
     let voyage = simulate(&scenario.scenario, *seed);
     let compression = if args.compress { Compression::Zstd } else { Compression::None };
     write_voyage(out, &voyage, compression).context("cannot write the voyage")?;
+    let raw = raw_gnss(&scenario.scenario, *seed).map(|raw| files(&raw)).transpose()?;
+    write_raw(out, raw.as_ref(), compression).context("cannot write the raw GNSS")?;
+    let antennas = raw.map(|raw| format!(", {} antennas raw", raw.antennas.len()));
     eprintln!(
-        "{}, seed {}: {} imu, {} gnss, {} log, {} reference, {} truth rows in {}",
+        "{}, seed {}: {} imu, {} gnss, {} log, {} reference, {} truth rows{} in {}",
         scenario.name,
         seed,
         voyage.imu.len(),
@@ -52,6 +56,7 @@ pub fn run(args: &SimulateArgs) -> anyhow::Result<()> {
         voyage.log.len(),
         voyage.reference.len(),
         voyage.truth.len(),
+        antennas.unwrap_or_default(),
         out.display()
     );
     Ok(())

@@ -8,6 +8,8 @@ mod gnss;
 mod imu;
 mod log;
 mod overrides;
+mod raw;
+mod raw_check;
 mod reference;
 mod sea;
 mod voyage;
@@ -23,6 +25,7 @@ pub(crate) use gnss::{Gnss, GnssGrade, GnssNoise, StdFault};
 pub(crate) use imu::{Imu, Vibration};
 pub(crate) use log::{Current, Log, LogAxes};
 pub use overrides::Override;
+pub(crate) use raw::{Raw, RawBase, RawCrane, RawFault, RawSegment, RawSky, RawSpoof};
 pub(crate) use reference::{PositionReference, Reference};
 pub(crate) use sea::{ExposurePoint, Sea, Shift};
 pub(crate) use voyage::{
@@ -62,6 +65,8 @@ pub struct Scenario {
     pub(crate) imu: Imu,
     /// GNSS receiver.
     pub(crate) gnss: Option<Gnss>,
+    /// Raw GNSS.
+    pub(crate) raw: Option<Raw>,
     /// Velocity log.
     pub(crate) log: Option<Log>,
     /// Current of the water, seen by a log that measures against it.
@@ -172,6 +177,9 @@ impl Scenario {
         }
         if let Some(gnss) = &self.gnss {
             gnss.check(&mut faults);
+        }
+        if let Some(raw) = &self.raw {
+            raw_check::check(raw, &mut faults);
         }
         if let Some(log) = &self.log {
             log.check(&mut faults);

@@ -1,0 +1,102 @@
+//! Raw GNSS in a voyage directory: files of RINEX, what was done to it, and its tables in `voyage.toml`.
+
+use std::fs::{self, OpenOptions};
+use std::io::Write;
+use std::path::Path;
+
+use super::error::RecordingError;
+use super::header::FILE_NAME;
+use super::writer::{Compression, guard, remove_both, to_file};
+
+/// The folder of the files of RINEX.
+const FOLDER: &str = "raw";
+/// What was done to the raw GNSS, for those who judge.
+const TRUTH: &str = "truth.json";
+/// Most antennas whose files of an older voyage are looked for.
+const ANTENNAS: usize = 9;
+
+/// The raw GNSS of a voyage as text.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct RawFiles {
+    /// Observations of each antenna, RINEX.
+    pub antennas: Vec<String>,
+    /// Observations of the base station, RINEX.
+    pub base: Option<String>,
+    /// What the satellites broadcast, RINEX.
+    pub navigation: String,
+    /// What was done to it, JSON.
+    pub truth: String,
+    /// The tables `[raw]` and `[base]` of `voyage.toml`.
+    pub tables: String,
+}
+
+/// Puts raw GNSS into the directory of a voyage that [`super::write_voyage`] has written: `raw/a1.obs` and so on, `raw/base.obs`, `raw/nav.rnx`,
+/// `truth.json`, and its tables behind those of `voyage.toml`. Those of an older voyage are removed, also where there is none.
+///
+/// # Errors
+/// A file cannot be written or removed.
+pub fn write_raw(
+    dir: &Path,
+    raw: Option<&RawFiles>,
+    compression: Compression,
+) -> Result<(), RecordingError> {
+    let folder = dir.join(FOLDER);
+    let antennas = (1..=ANTENNAS).map(|number| format!("a{number}.obs"));
+    for name in antennas.chain(["base.obs".to_owned(), "nav.rnx".to_owned()]) {
+        remove_both(&folder.join(name))?;
+    }
+    remove_both(&dir.join(TRUTH))?;
+    let Some(raw) = raw else { return Ok(()) };
+    guard(&folder, fs::create_dir_all(&folder))?;
+    let antennas =
+        raw.antennas.iter().zip(1..).map(|(text, number)| (format!("a{number}.obs"), text));
+    let base = raw.base.iter().map(|text| ("base.obs".to_owned(), text));
+    let navigation = ("nav.rnx".to_owned(), &raw.navigation);
+    for (name, text) in antennas.chain(base).chain([navigation]) {
+        let path = folder.join(name);
+        guard(&path, to_file(&path, compression, |target| target.write_all(text.as_bytes())))?;
+    }
+    let truth = dir.join(TRUTH);
+    guard(&truth, fs::write(&truth, &raw.truth))?;
+    let header = dir.join(FILE_NAME);
+    let file = OpenOptions::new().append(true).open(&header);
+    guard(&header, file.and_then(|mut file| write!(file, "\n{}", raw.tables)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn files(antennas: usize) -> RawFiles {
+        RawFiles {
+            antennas: vec!["observations\n".to_owned(); antennas],
+            navigation: "navigation\n".to_owned(),
+            truth: "{}".to_owned(),
+            tables: "[raw]\nrate_hz = 1.0\n".to_owned(),
+            ..RawFiles::default()
+        }
+    }
+
+    fn names(dir: &Path) -> Vec<String> {
+        let entries = fs::read_dir(dir.join(FOLDER)).unwrap();
+        let name = |entry: std::io::Result<fs::DirEntry>| entry.unwrap().file_name();
+        let mut names: Vec<String> =
+            entries.map(|entry| name(entry).to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn files_of_an_older_voyage_go_and_the_tables_stand_behind_the_others() {
+        let desk = tempfile::tempdir().unwrap();
+        let header = desk.path().join(FILE_NAME);
+        fs::write(&header, "mode = \"moored\"\n").unwrap();
+        write_raw(desk.path(), Some(&files(2)), Compression::Zstd).unwrap();
+        assert_eq!(names(desk.path()), ["a1.obs.zst", "a2.obs.zst", "nav.rnx.zst"]);
+        assert!(fs::read_to_string(&header).unwrap().ends_with("\n\n[raw]\nrate_hz = 1.0\n"));
+        write_raw(desk.path(), Some(&files(1)), Compression::None).unwrap();
+        assert_eq!(names(desk.path()), ["a1.obs", "nav.rnx"]);
+        write_raw(desk.path(), None, Compression::None).unwrap();
+        assert!(names(desk.path()).is_empty() && !desk.path().join(TRUTH).exists());
+    }
+}
