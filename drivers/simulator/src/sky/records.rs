@@ -2,7 +2,7 @@
 
 use insd_base::satellites::{
     BroadcastRecord, ClockPolynomial, Constellation, IonosphereModel, KeplerOrbit, KeplerRecord,
-    MessageKind, SPEED_OF_LIGHT,
+    BroadcastKind, SPEED_OF_LIGHT,
 };
 use insd_base::units::wrap_pi;
 use insd_base::{GpsTime, Span};
@@ -77,9 +77,9 @@ fn record(
     KeplerRecord {
         satellite: satellite.id,
         kind: match constellation {
-            Constellation::Galileo => MessageKind::Inav,
-            Constellation::BeiDou => MessageKind::D1,
-            _ => MessageKind::Lnav,
+            Constellation::Galileo => BroadcastKind::Inav,
+            Constellation::BeiDou => BroadcastKind::D1,
+            _ => BroadcastKind::Lnav,
         },
         issue: issue as u16,
         clock_issue: issue as u16,
