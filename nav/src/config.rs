@@ -134,6 +134,23 @@ pub struct Models {
     pub prefilter: PrefilterConfig,
     /// How the displacement at the berth is whitened, where that is the method.
     pub whitening: WhiteningConfig,
+    /// The receiver of ranges.
+    pub ranges: RangeModel,
+}
+
+/// The receiver that ranges of satellites come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RangeModel {
+    /// Random walk of its clock, m per root of a second: the white frequency noise of a compensated crystal.
+    pub clock_walk: f64,
+    /// Random walk of the clock's drift, m/s per root of a second.
+    pub drift_walk: f64,
+}
+
+impl Default for RangeModel {
+    fn default() -> Self {
+        RangeModel { clock_walk: 0.03, drift_walk: 0.03 }
+    }
 }
 
 impl Default for GnssModel {
@@ -207,6 +224,8 @@ pub struct NavConfig {
     pub prefilter: PrefilterConfig,
     /// How the displacement at the berth is whitened, where that is the method.
     pub whitening: WhiteningConfig,
+    /// The receiver of ranges.
+    pub ranges: RangeModel,
     /// Longest interval between propagations of the covariance, s.
     pub covariance_interval: f64,
     /// How far everybody is believed at the begin.
@@ -238,6 +257,7 @@ impl NavConfig {
             floors: models.floors,
             prefilter: models.prefilter,
             whitening: models.whitening,
+            ranges: models.ranges,
             covariance_interval: 0.1,
             docket: Docket::default(),
         }

@@ -13,17 +13,22 @@ use crate::aids::reference_heading;
 use crate::declaration::{Carried, Correction, Declaration, Process, StateAxes};
 
 /// Satellites that are used at once, the highest ones.
-pub const SATELLITES: usize = 32;
+pub const SATELLITES: usize = 24;
 /// 1-sigma of a receiver's clock before anything is known of it, m and m/s: a millisecond.
 const CLOCK_UNKNOWN: f64 = 3e5;
 /// 1-sigma of the offset between two systems in a receiver, m.
 const OFFSET_UNKNOWN: f64 = 100.0;
 /// Its random walk, m per root of a second.
 const OFFSET_WALK: f64 = 1e-3;
-/// How long orbits, clocks, the ionosphere and reflections go on to be wrong by the same, s.
-const RANGE_ERROR_TIME: f64 = 600.0;
+/// By what share the ionosphere is other than its model, 1-sigma (IS-GPS-200N, 20.3.3.5.2.5: the model takes half of it away), and for how long, s.
+const IONOSPHERE_UNKNOWN: f64 = 0.5;
+const IONOSPHERE_TIME: f64 = 7200.0;
+/// How long orbits, clocks and the ionosphere go on to be wrong by the same, s.
+const RANGE_ERROR_TIME: f64 = 3600.0;
+/// How long reflections go on, s: a ship passes through their pattern within a minute.
+const REFLECTION_TIME: f64 = 300.0;
 /// By what the slow errors of a phase walk, m per root of a second.
-const PHASE_WALK: f64 = 5e-4;
+const PHASE_WALK: f64 = 1e-3;
 
 /// 1-sigma of the mean height before anything is known of it, m.
 const SEA_LEVEL_UNKNOWN: f64 = 30.0;
@@ -139,10 +144,19 @@ declare! {
     SYSTEM_OFFSETS: 3, "system_offsets", "m", Scalar, WithRanges,
         first: |_| OFFSET_UNKNOWN, process: |_, _| Process::Walk(OFFSET_WALK),
         correction: Correction::Adds(|nominal| nominal.system_offsets.as_mut_slice());
+    /// Share by which the ionosphere as a whole is more than its model, Gauss-Markov.
+    IONOSPHERE: 1, "ionosphere", "ratio", Scalar, WithRanges,
+        first: |_| IONOSPHERE_UNKNOWN,
+        process: |_, _| Process::Markov { std: IONOSPHERE_UNKNOWN, time: IONOSPHERE_TIME },
+        correction: Correction::Adds(|nominal| from_mut(&mut nominal.ionosphere));
     /// Slowly varying error of the code of each satellite in use, in units of its own sigma, Gauss-Markov.
     RANGE_ERRORS: SATELLITES, "range_errors", "sigma", Scalar, WithRanges,
         first: |_| 1.0, process: |_, _| Process::of_sigmas(RANGE_ERROR_TIME),
         correction: Correction::Adds(|nominal| nominal.range_errors.as_mut_slice());
+    /// What reflections add to the code of each, in units of its sigma, Gauss-Markov.
+    REFLECTIONS: SATELLITES, "reflections", "sigma", Scalar, WithRanges,
+        first: |_| 1.0, process: |_, _| Process::of_sigmas(REFLECTION_TIME),
+        correction: Correction::Adds(|nominal| nominal.reflections.as_mut_slice());
     /// Constant of the phase of each, m, random walk.
     PHASE_CONSTANTS: SATELLITES, "phase_constants", "m", Scalar, WithRanges,
         first: |_| 1.0, process: |_, _| Process::Walk(PHASE_WALK),

@@ -60,8 +60,12 @@ pub struct Nominal {
     pub receiver_clock: Vector2<f64>,
     /// What it adds for Galileo, BeiDou and GLONASS, m.
     pub system_offsets: Vector3<f64>,
+    /// Share by which the ionosphere is more than its model.
+    pub ionosphere: f64,
     /// Slow error of each satellite's code, sigmas.
     pub range_errors: SVector<f64, SATELLITES>,
+    /// What reflections add to each satellite's code, sigmas.
+    pub reflections: SVector<f64, SATELLITES>,
     /// Constant of each satellite's phase, m.
     pub phase_constants: SVector<f64, SATELLITES>,
 }
@@ -97,6 +101,8 @@ impl Nominal {
             receiver_clock: Vector2::zeros(),
             system_offsets: Vector3::zeros(),
             range_errors: SVector::zeros(),
+            ionosphere: 0.0,
+            reflections: SVector::zeros(),
             phase_constants: SVector::zeros(),
         }
     }

@@ -5,20 +5,16 @@
 
 use nalgebra::{Matrix2, Vector2};
 
+use crate::config::RangeModel;
 use crate::error_state::{Covariance, RECEIVER_CLOCK};
 use crate::nominal::Nominal;
 
-/// Random walk of the offset, m per root of a second: the white frequency noise of a compensated crystal.
-const OFFSET_WALK: f64 = 0.03;
-/// Random walk of the drift, m/s per root of a second.
-const DRIFT_WALK: f64 = 0.03;
-
 /// Carries the clock over some seconds.
-pub(crate) fn carry(nominal: &mut Nominal, p: &mut Covariance, dt: f64) {
+pub(crate) fn carry(nominal: &mut Nominal, p: &mut Covariance, model: &RangeModel, dt: f64) {
     let phi = Matrix2::new(1.0, dt, 0.0, 1.0);
     nominal.receiver_clock = phi * nominal.receiver_clock;
     RECEIVER_CLOCK.transform(p, &phi);
-    let (offset, drift) = (OFFSET_WALK * OFFSET_WALK, DRIFT_WALK * DRIFT_WALK);
+    let (offset, drift) = (model.clock_walk.powi(2), model.drift_walk.powi(2));
     let between = drift * dt * dt / 2.0;
     let q = Matrix2::new(offset * dt + drift * dt.powi(3) / 3.0, between, between, drift * dt);
     RECEIVER_CLOCK.add(p, &q);

@@ -1,11 +1,12 @@
 //! Raw GNSS in a voyage directory: files of RINEX, what was done to it, and its tables in `voyage.toml`.
 
 use std::fs::{self, OpenOptions};
-use std::io::Write;
-use std::path::Path;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
 
 use super::error::RecordingError;
 use super::header::FILE_NAME;
+use super::input::{find, open};
 use super::writer::{Compression, guard, remove_both, to_file};
 
 /// The folder of the files of RINEX.
@@ -61,6 +62,35 @@ pub fn write_raw(
     let header = dir.join(FILE_NAME);
     let file = OpenOptions::new().append(true).open(&header);
     guard(&header, file.and_then(|mut file| write!(file, "\n{}", raw.tables)))
+}
+
+/// The observations of one antenna and what the satellites broadcast, RINEX as it stands in the files, with their paths for whoever finds fault with them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RawTexts {
+    /// Observations.
+    pub observations: (PathBuf, Vec<u8>),
+    /// Messages.
+    pub navigation: (PathBuf, Vec<u8>),
+}
+
+/// Reads the raw GNSS of an antenna, counted from 1, out of the directory of a voyage; `None` where there is none.
+///
+/// # Errors
+/// A file cannot be read, or there are observations of the antenna and no messages.
+pub fn read_raw(dir: &Path, antenna: usize) -> Result<Option<RawTexts>, RecordingError> {
+    let folder = dir.join(FOLDER);
+    let Some(observations) = find(&folder, &format!("a{antenna}.obs")) else { return Ok(None) };
+    let navigation = find(&folder, "nav.rnx").ok_or_else(|| RecordingError::Missing {
+        file: folder.join("nav.rnx"),
+        or_compressed: true,
+    })?;
+    let text = |path: PathBuf| {
+        let mut text = Vec::new();
+        let read = open(&path)?.read_to_end(&mut text);
+        let fault = |source| RecordingError::Read { file: path.clone(), line: 0, source };
+        read.map_err(fault).map(|_| (path.clone(), text))
+    };
+    Ok(Some(RawTexts { observations: text(observations)?, navigation: text(navigation)? }))
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use crate::sight::Sight;
 use crate::signals::{best_of_each_band, first_band, inflation};
 use crate::single_point::{NoPosition, SinglePoint};
 use crate::velocity::DopplerVelocity;
-use combined::combined_code;
+use combined::{Combined, combined_code};
 
 /// Satellites below this elevation are not used, rad: 10 degrees.
 const LOWEST: f64 = 0.1745;
@@ -108,7 +108,7 @@ impl Ranging {
         if direction.elevation < LOWEST {
             return None;
         }
-        let (code, slow_std) =
+        let Combined { code, slow_std, by_ionosphere } =
             combined_code(context, tag, (record, &sight, &best), (antenna, direction))?;
         Some(SatelliteRange {
             satellite,
@@ -118,6 +118,9 @@ impl Ranging {
             rate: rate(context, &best, &sight.satellite, direction.elevation),
             phase: self.tracker.phase(satellite),
             slow_std,
+            by_ionosphere,
+            multipath_std: context.noise.multipath
+                * inflation(direction.elevation, best.first()?.cn0).sqrt(),
         })
     }
 }

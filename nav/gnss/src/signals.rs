@@ -84,12 +84,14 @@ pub struct Noise {
     pub phase: f64,
     /// Range rate by the Doppler shift, m/s.
     pub rate: f64,
+    /// What reflections add to the code for a minute, m.
+    pub multipath: f64,
 }
 
 impl Default for Noise {
     /// A receiver for surveying, its multipath included (measured on the receivers of the real sets in docs/satellites.md).
     fn default() -> Self {
-        Self { code: 0.4, phase: 0.003, rate: 0.05 }
+        Self { code: 0.4, phase: 0.003, rate: 0.05, multipath: 0.4 }
     }
 }
 

@@ -3,7 +3,9 @@
 //! Predicted for the antenna at `r_a = r + C_eb l - v_a tau`, which moves with `v_a = v + C_eb (omega_eb x l)`, tau the delay of the epochs behind
 //! the IMU's time base; e points to the satellite, c is the receiver's clock and s what it adds for another system:
 //!
-//! z_code = -e . (dr - [C_eb l x] phi + C_eb dl - v_a dtau) + dc + ds + sigma_slow x_slow + white,
+//! z_code = -e . (dr - [C_eb l x] phi + C_eb dl - v_a dtau) + dc + ds + sigma_slow x_slow + sigma_r x_r + white,
+//!
+//! slow errors of orbits and the ionosphere apart from those of reflections,
 //! z_phase = the same with the constant of its arc in place of the slow error,
 //! z_rate = -e . (dv - [C_eb (omega x l) x] phi + C_eb [l x] db_g + C_eb [omega x] dl) + d(drift) + white.
 //!
@@ -17,8 +19,9 @@ use nalgebra::{Matrix1, RowVector2, RowVector3, SMatrix, Vector1, Vector3};
 
 use super::View;
 use crate::error_state::{
-    ATTITUDE, GNSS_DELAY, GNSS_LEVER, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, Innovation,
-    PHASE_CONSTANTS, POSITION, RANGE_ERRORS, RECEIVER_CLOCK, SATELLITES, SYSTEM_OFFSETS, VELOCITY,
+    ATTITUDE, GNSS_DELAY, GNSS_LEVER, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, IONOSPHERE, Innovation,
+    PHASE_CONSTANTS, POSITION, RANGE_ERRORS, RECEIVER_CLOCK, REFLECTIONS, SATELLITES,
+    SYSTEM_OFFSETS, VELOCITY,
 };
 
 /// The antenna as the estimate has it, ECEF axes.
@@ -117,9 +120,13 @@ fn unit<const W: usize>(index: usize, value: f64) -> SMatrix<f64, 1, W> {
 pub fn code(view: &View, antenna: &Antenna, sighted: Sighted<'_>) -> Option<Innovation> {
     let Sighted { range, slot } = sighted;
     let code = range.code?;
-    let slow = range.slow_std * view.nominal.range_errors[slot];
+    let slow = range.slow_std * view.nominal.range_errors[slot]
+        + range.multipath_std * view.nominal.reflections[slot]
+        + range.by_ionosphere * view.nominal.ionosphere;
     let mut h = geometry(view, antenna, range);
     h.set(RANGE_ERRORS, &unit::<SATELLITES>(slot, range.slow_std));
+    h.set(IONOSPHERE, &Matrix1::new(range.by_ionosphere));
+    h.set(REFLECTIONS, &unit::<SATELLITES>(slot, range.multipath_std));
     Some(scalar(code.value - predicted(view, antenna, range) - slow, h, &code))
 }
 

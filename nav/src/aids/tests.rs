@@ -31,6 +31,8 @@ fn estimate() -> Nominal {
     nominal.receiver_clock = Vector2::new(120.0, 0.3);
     nominal.system_offsets = Vector3::new(5.0, -3.0, 2.0);
     nominal.range_errors[7] = 0.6;
+    nominal.reflections[7] = -0.3;
+    nominal.ionosphere = 0.2;
     nominal.phase_constants[7] = 1.5;
     nominal
 }
@@ -58,6 +60,8 @@ fn sighted(view: &View) -> (satellite_range::Antenna, SatelliteRange) {
         rate: Some(Measured { value: 300.0, variance: 0.01 }),
         phase: Some(ArcPhase { phase: measured, arc: 3 }),
         slow_std: 1.7,
+        by_ionosphere: 4.2,
+        multipath_std: 0.4,
     };
     let lever = LEVER + view.nominal.gnss_lever;
     (satellite_range::Antenna::of(view, &lever, &Vector3::new(5.0, -3.0, 0.4)), range)

@@ -5,10 +5,11 @@ use insd_base::{Rejection, Source};
 use insd_estimation::Innovation;
 
 use super::Filter;
+use super::ahead::heading_std;
 use super::entry::{Judged, NO_INNOVATION, enter};
 use crate::aids::satellite_range::{self, Antenna, Sighted};
 use crate::declaration::Carried;
-use crate::error_state::{PHASE_CONSTANTS, RANGE_ERRORS};
+use crate::error_state::{ATTITUDE, PHASE_CONSTANTS, RANGE_ERRORS, REFLECTIONS};
 use crate::receiver_clock;
 use crate::report::{Outcome, Report};
 
@@ -52,10 +53,10 @@ impl Filter {
         self.carry_clock();
         let seated = self.seat(told);
         self.look_for_clock_jump(&seated);
+        let seated = self.use_codes(seated, (told, source), report);
         self.begin_arcs(&seated);
-        let by_phase = self.use_phases(&seated, (told, source), report);
-        self.use_rates(&seated, &by_phase, (told, source), report);
-        self.use_codes(&seated, (told, source), report);
+        self.use_phases(&seated, (told, source), report);
+        self.use_rates(&seated, (told, source), report);
     }
 
     /// The states of satellites join; what judges fixes has nothing to judge.
@@ -66,15 +67,35 @@ impl Filter {
             let state = &mut self.state;
             receiver_clock::renew(&mut state.nominal, &mut state.covariance, offset, Some(drift));
             self.satellites.last = Some(self.state.time);
+            self.take_over_claims();
             self.be_judged();
         }
+    }
+
+    /// What was claimed of the heading because somebody may lie is what the filter itself takes it for from now on.
+    fn take_over_claims(&mut self) {
+        let Some(covered) = self.court.covered.take() else { return };
+        let own = heading_std(&self.view(), &self.state.covariance);
+        let more = covered.heading * covered.heading - own * own;
+        let down = self.view().c_ne.row(2).transpose();
+        ATTITUDE.add(&mut self.state.covariance, &(down * down.transpose() * more.max(0.0)));
+    }
+
+    /// Variance of what a linear filter leaves out of the lever arm that a heading error turns, along the line to a satellite, m^2: the mean of half the
+    /// square of the error and its scatter (Jazwinski, Stochastic Processes and Filtering Theory, section 9.3).
+    fn bent_range(&self, antenna: &Antenna, range: &SatelliteRange) -> f64 {
+        let variance = heading_std(&self.view(), &self.state.covariance).powi(2);
+        let along = range.transmitter.line(&antenna.position).dot(&antenna.arm);
+        let turned = variance * (antenna.arm.norm_squared() - along * along).sqrt();
+        0.75 * turned * turned
     }
 
     fn carry_clock(&mut self) {
         let now = self.state.time;
         let elapsed = self.satellites.last.map_or(0.0, |last| (now - last).as_seconds());
         let state = &mut self.state;
-        receiver_clock::carry(&mut state.nominal, &mut state.covariance, elapsed.max(0.0));
+        let model = &self.config.ranges;
+        receiver_clock::carry(&mut state.nominal, &mut state.covariance, model, elapsed.max(0.0));
         self.satellites.last = Some(now);
     }
 
@@ -87,7 +108,10 @@ impl Filter {
             let Some((slot, is_new)) = self.satellites.seat(range, now) else { continue };
             if is_new {
                 self.state.nominal.range_errors[slot] = 0.0;
-                self.state.covariance.renew_state(RANGE_ERRORS.key(), slot, 1.0);
+                self.state.nominal.reflections[slot] = 0.0;
+                for key in [RANGE_ERRORS.key(), REFLECTIONS.key()] {
+                    self.state.covariance.renew_state(key, slot, 1.0);
+                }
             }
             seated.push(Seated { range: *range, slot });
         }
@@ -136,61 +160,69 @@ impl Filter {
         self.state.covariance.renew_state(PHASE_CONSTANTS.key(), one.slot, variance);
     }
 
-    /// Returns the places of satellites whose phase was used.
     fn use_phases(
         &mut self,
         seated: &[Seated],
         from: (&SatelliteRanges, Source),
         report: &mut Report,
-    ) -> Vec<usize> {
+    ) {
         let (view, antenna) = (self.view(), self.antenna());
         let row = |one: &Seated| {
             let sighted = Sighted { range: &one.range, slot: one.slot };
-            satellite_range::phase(&view, &antenna, sighted)
+            let mut row = satellite_range::phase(&view, &antenna, sighted)?;
+            row.r[(0, 0)] += self.bent_range(&antenna, &one.range);
+            Some(row)
         };
-        let Some(rows) = Rows::of(seated, row) else { return Vec::new() };
-        let (used, slipped) = self.absorb_rows(rows, SLIP, (PHASE_AID, from), report);
+        let Some(rows) = Rows::of(seated, row) else { return };
+        let (_, slipped) = self.absorb_rows(rows, SLIP, (PHASE_AID, from), report);
         for one in slipped.iter().filter_map(|index| seated.get(*index)) {
             self.begin_arc(one);
         }
-        used.iter().map(|index| seated[*index].slot).collect()
     }
 
-    /// Of satellites whose phase does not tell it better.
+    /// Of satellites without a phase, which tells it better; one whose phase has just slipped may be a reflection.
     fn use_rates(
         &mut self,
         seated: &[Seated],
-        by_phase: &[usize],
         from: (&SatelliteRanges, Source),
         report: &mut Report,
     ) {
         let (view, antenna) = (self.view(), self.antenna());
         let lever = self.antenna_lever();
         let row = |one: &Seated| {
-            let is_told = by_phase.contains(&one.slot);
-            (!is_told).then(|| satellite_range::rate(&view, &antenna, &one.range, &lever)).flatten()
+            one.range
+                .phase
+                .is_none()
+                .then(|| satellite_range::rate(&view, &antenna, &one.range, &lever))
+                .flatten()
         };
         if let Some(rows) = Rows::of(seated, row) {
             self.absorb_rows(rows, 0.0, (RATE_AID, from), report);
         }
     }
 
+    /// Returns the satellites that nothing speaks against: one whose code is a reflection's has that phase, too.
     fn use_codes(
         &mut self,
-        seated: &[Seated],
+        seated: Vec<Seated>,
         from: (&SatelliteRanges, Source),
         report: &mut Report,
-    ) {
+    ) -> Vec<Seated> {
         let (view, antenna) = (self.view(), self.antenna());
         let row = |one: &Seated| {
             let sighted = Sighted { range: &one.range, slot: one.slot };
             satellite_range::code(&view, &antenna, sighted)
         };
-        let Some(rows) = Rows::of(seated, row) else { return };
-        let (used, _) = self.absorb_rows(rows, 0.0, (CODE_AID, from), report);
+        let Some(rows) = Rows::of(&seated, row) else { return seated };
+        let (used, faulty) = self.absorb_rows(rows, 0.0, (CODE_AID, from), report);
         if !used.is_empty() {
             self.receiver.trust.used(self.state.time);
         }
+        for slot in faulty.iter().filter_map(|index| seated.get(*index)).map(|one| one.slot) {
+            self.satellites.slot_mut(slot).into_iter().for_each(|slot| slot.arc = None);
+        }
+        let good = seated.into_iter().enumerate().filter(|(index, _)| !faulty.contains(index));
+        good.map(|(_, one)| one).collect()
     }
 
     /// Absorbs rows but for those that contradict all others by more than `least`; returns whose were used, and whose were not.

@@ -1,8 +1,8 @@
 //! What the satellites broadcast.
 
 use insd_base::satellites::{
-    BroadcastRecord, ClockPolynomial, Constellation, IonosphereModel, KeplerOrbit, KeplerRecord,
-    BroadcastKind, SPEED_OF_LIGHT,
+    BroadcastKind, BroadcastRecord, ClockPolynomial, Constellation, IonosphereModel, KeplerOrbit,
+    KeplerRecord, SPEED_OF_LIGHT,
 };
 use insd_base::units::wrap_pi;
 use insd_base::{GpsTime, Span};

@@ -82,8 +82,12 @@ pub struct SatelliteRange {
     pub rate: Option<Measured>,
     /// Range, clock and a constant, m.
     pub phase: Option<ArcPhase>,
-    /// 1-sigma of what orbit, clock and atmosphere are off by for many minutes, m.
+    /// 1-sigma of what orbit, clock and atmosphere are off by for an hour, m.
     pub slow_std: f64,
+    /// How the code changes with the share by which the ionosphere as a whole is more than its model, m.
+    pub by_ionosphere: f64,
+    /// 1-sigma of what reflections add to the code for a minute, m.
+    pub multipath_std: f64,
 }
 
 /// The ranges that one receiver took together.

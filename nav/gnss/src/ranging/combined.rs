@@ -11,14 +11,23 @@ use crate::context::Context;
 use crate::sight::Sight;
 use crate::signals::{dispersion, first_band, group_delay, inflation};
 
-/// The range and the receiver's clock with all models taken out, m, the variance of its noise, and the 1-sigma of what is slow in its error: orbit and
-/// clock, what is left of the atmosphere, delays that nobody tells. Bands are weighed as their errors hang together (Gauss and Markov).
+/// The codes of all bands as one.
+pub(super) struct Combined {
+    /// The range and the receiver's clock with all models taken out, m, and the variance of its noise.
+    pub(super) code: Measured,
+    /// 1-sigma of what is slow in its error: orbit and clock, what is left of the atmosphere on this ray alone, delays that nobody tells, m.
+    pub(super) slow_std: f64,
+    /// How it changes with the share by which the ionosphere as a whole is more than its model, m.
+    pub(super) by_ionosphere: f64,
+}
+
+/// Bands are weighed as their errors hang together (Gauss and Markov).
 pub(super) fn combined_code(
     context: &Context,
     tag: GpsTime,
     (record, sight, best): (&BroadcastRecord, &Sight, &[&SignalObservation]),
     (antenna, direction): (&Vector3<f64>, LookAngles),
-) -> Option<(Measured, f64)> {
+) -> Option<Combined> {
     let satellite = record.satellite();
     let first = first_band(satellite.constellation);
     let delays = context.delays(&earth::geodetic(&Ecef(*antenna)), direction, tag);
@@ -34,21 +43,28 @@ pub(super) fn combined_code(
         let own = untold_std(satellite, signal.signal).hypot(further);
         bands.push((spread, noise, own * own));
     }
-    let ionosphere = delays.ionosphere * IONOSPHERE_SCALE.hypot(IONOSPHERE_RAY);
+    let (scale, ray) = (delays.ionosphere * IONOSPHERE_SCALE, delays.ionosphere * IONOSPHERE_RAY);
     let shared = orbit_std(satellite.constellation).hypot(delays.troposphere_std).powi(2);
     let slow = DMatrix::from_fn(bands.len(), bands.len(), |i, j| {
         let own = if i == j { bands[i].2 } else { 0.0 };
-        shared + ionosphere * ionosphere * bands[i].0 * bands[j].0 + own
+        shared + ray * ray * bands[i].0 * bands[j].0 + own
     });
     let noise = DMatrix::from_diagonal(&DVector::from_iterator(
         bands.len(),
         bands.iter().map(|(_, noise, _)| *noise),
     ));
-    let weights = gauss_markov(&(&slow + &noise))?;
+    let common =
+        DMatrix::from_fn(bands.len(), bands.len(), |i, j| scale * scale * bands[i].0 * bands[j].0);
+    let weights = gauss_markov(&(&slow + &noise + common))?;
     let value = weights.dot(&DVector::from_vec(codes));
     let variance = (weights.transpose() * noise * &weights)[0];
     let slow_std = (weights.transpose() * slow * &weights)[0].sqrt();
-    Some((Measured { value, variance }, slow_std))
+    let spread = weights.iter().zip(&bands).map(|(weight, (spread, ..))| weight * spread);
+    Some(Combined {
+        code: Measured { value, variance },
+        slow_std,
+        by_ionosphere: spread.sum::<f64>() * delays.ionosphere,
+    })
 }
 
 /// Weights of several measurements of one quantity, by the covariance of their errors; their sum is one.

@@ -6,6 +6,7 @@ use insd_vessel::{Names, Product};
 
 use super::super::alignment::AlignmentArgs;
 use super::super::outage::SensorOutage;
+use super::raw::{GnssUse, SatelliteMask};
 
 /// Tells the journal of a product as the daemon does.
 pub type Tell = fn(&Names, &Product);
@@ -34,6 +35,12 @@ pub struct ReplayArgs {
     /// Take a sensor (imu, gnss, log, reference) away while FROM <= t_s < TO; may be repeated
     #[arg(long = "outage", value_name = "SENSOR:FROM..TO")]
     pub(super) outages: Vec<SensorOutage>,
+    /// What raw GNSS is made of: a fix of each epoch, or ranges; `none` leaves GNSS out [default: tight where raw GNSS is there]
+    #[arg(long, value_enum)]
+    pub(super) gnss: Option<GnssUse>,
+    /// Leave N satellites of the raw GNSS while FROM <= t_s < TO, those that stand highest; may be repeated
+    #[arg(long = "mask", value_name = "FROM..TO:N")]
+    pub(super) masks: Vec<SatelliteMask>,
     #[command(flatten)]
     pub(super) alignment: AlignmentArgs,
     /// Start warm: the state stored at the last shutdown, believed once the sensors confirm it

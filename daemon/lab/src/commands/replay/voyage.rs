@@ -10,6 +10,8 @@ use insd_engine::{Engine, EngineConfig};
 use insd_vessel::Outputs;
 
 use super::args::ReplayArgs;
+use super::raw::RawVoyage;
+use super::raw_table::RawTable;
 use super::sent::Sent;
 use super::sink::Sink;
 
@@ -21,14 +23,23 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     let mut reader = VoyageReader::open(&args.dir)?;
     let mut config = EngineConfig::for_voyage(reader.header(), args.rate.unwrap_or(RATE));
     config.alignment = args.alignment.config();
+    let table = RawTable::read(&args.dir)?;
+    config.models.ranges = table.model();
     config.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
     let mut ports = Ports::of(args, &reader.header().start_utc)?;
     config.points = ports.as_ref().map(|ports| ports.levers.clone()).unwrap_or_default();
     let mut engine = Engine::new(config);
     let mut sink = Sink::create(args)?;
     let mut dropped = 0_u64;
+    let mut raw = RawVoyage::open(args, &table, &reader.header().start_utc)?;
     for received in &mut reader {
         let received = received?;
+        for ranges in raw.until(received.receipt) {
+            engine.handle(&ranges);
+        }
+        if raw.replaces(&received) {
+            continue;
+        }
         if args.outages.iter().any(|outage| outage.drops(&received)) {
             dropped += 1;
             continue;
