@@ -27,8 +27,10 @@ const IONOSPHERE_TIME: f64 = 7200.0;
 const RANGE_ERROR_TIME: f64 = 3600.0;
 /// How long reflections go on, s: a ship passes through their pattern within a minute.
 const REFLECTION_TIME: f64 = 300.0;
-/// By what the slow errors of a phase walk, m per root of a second.
-const PHASE_WALK: f64 = 1e-3;
+/// By what a phase drifts for an hour, 1-sigma, m/s: sums of differences of real phases drift by as much (docs/satellites.md).
+pub const PHASE_DRIFT: f64 = 5e-4;
+/// By what its reflections walk beside that, m per root of a second.
+const PHASE_WALK: f64 = 5e-4;
 
 /// 1-sigma of the mean height before anything is known of it, m.
 const SEA_LEVEL_UNKNOWN: f64 = 30.0;
@@ -161,6 +163,11 @@ declare! {
     PHASE_CONSTANTS: SATELLITES, "phase_constants", "m", Scalar, WithRanges,
         first: |_| 1.0, process: |_, _| Process::Walk(PHASE_WALK),
         correction: Correction::Adds(|nominal| nominal.phase_constants.as_mut_slice());
+    /// What orbit, clock and ionosphere make each constant drift by, m/s, Gauss-Markov.
+    PHASE_DRIFTS: SATELLITES, "phase_drifts", "m/s", Scalar, WithRanges,
+        first: |_| PHASE_DRIFT,
+        process: |_, _| Process::Markov { std: PHASE_DRIFT, time: RANGE_ERROR_TIME },
+        correction: Correction::Adds(|nominal| nominal.phase_drifts.as_mut_slice());
     /// Mean place of a moored ship from her named berth, north and east, m, constant but for shifts.
     BERTH_OFFSET: 2, "berth_offset", "m", ComputedNed, AtBerth,
         first: |_| 0.0, process: |_, _| Process::Constant,

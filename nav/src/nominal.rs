@@ -68,6 +68,8 @@ pub struct Nominal {
     pub reflections: SVector<f64, SATELLITES>,
     /// Constant of each satellite's phase, m.
     pub phase_constants: SVector<f64, SATELLITES>,
+    /// Its drift, m/s.
+    pub phase_drifts: SVector<f64, SATELLITES>,
 }
 
 impl Nominal {
@@ -104,6 +106,7 @@ impl Nominal {
             ionosphere: 0.0,
             reflections: SVector::zeros(),
             phase_constants: SVector::zeros(),
+            phase_drifts: SVector::zeros(),
         }
     }
 

@@ -3,10 +3,10 @@
 //! c' = d + w_c, d' = w_d; over dt: Phi = [1 dt; 0 1], Q = [S_c dt + S_d dt^3 / 3, S_d dt^2 / 2; S_d dt^2 / 2, S_d dt] (Brown and Hwang, Introduction to
 //! Random Signals and Applied Kalman Filtering, 4th ed., eqs. (9.3.2) to (9.3.4)). Nothing else depends on it, so that it is carried only when ranges are looked at.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{Matrix2, SMatrix, Vector2};
 
 use crate::config::RangeModel;
-use crate::error_state::{Covariance, RECEIVER_CLOCK};
+use crate::error_state::{Covariance, PHASE_CONSTANTS, PHASE_DRIFTS, RECEIVER_CLOCK};
 use crate::nominal::Nominal;
 
 /// Carries the clock over some seconds.
@@ -18,6 +18,12 @@ pub(crate) fn carry(nominal: &mut Nominal, p: &mut Covariance, model: &RangeMode
     let between = drift * dt * dt / 2.0;
     let q = Matrix2::new(offset * dt + drift * dt.powi(3) / 3.0, between, between, drift * dt);
     RECEIVER_CLOCK.add(p, &q);
+}
+
+/// Carries the constants of phases along their drifts over some seconds: k' = r.
+pub(crate) fn carry_constants(nominal: &mut Nominal, p: &mut Covariance, dt: f64) {
+    nominal.phase_constants += nominal.phase_drifts * dt;
+    PHASE_DRIFTS.add_to(PHASE_CONSTANTS, p, &SMatrix::from_diagonal_element(dt));
 }
 
 /// Forgets the offset; `drift` tells whether the drift is forgotten as well.

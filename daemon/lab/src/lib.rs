@@ -8,6 +8,7 @@ pub mod commands;
 pub mod demo;
 pub mod evaluation;
 pub mod pty;
+pub mod ranges;
 pub mod raw_run;
 pub mod report;
 pub mod scenario;

@@ -9,7 +9,9 @@ use super::ahead::heading_std;
 use super::entry::{Judged, NO_INNOVATION, enter};
 use crate::aids::satellite_range::{self, Antenna, Sighted};
 use crate::declaration::Carried;
-use crate::error_state::{ATTITUDE, PHASE_CONSTANTS, RANGE_ERRORS, REFLECTIONS};
+use crate::error_state::{
+    ATTITUDE, PHASE_CONSTANTS, PHASE_DRIFT, PHASE_DRIFTS, RANGE_ERRORS, REFLECTIONS,
+};
 use crate::receiver_clock;
 use crate::report::{Outcome, Report};
 
@@ -95,7 +97,9 @@ impl Filter {
         let elapsed = self.satellites.last.map_or(0.0, |last| (now - last).as_seconds());
         let state = &mut self.state;
         let model = &self.config.ranges;
-        receiver_clock::carry(&mut state.nominal, &mut state.covariance, model, elapsed.max(0.0));
+        let elapsed = elapsed.max(0.0);
+        receiver_clock::carry(&mut state.nominal, &mut state.covariance, model, elapsed);
+        receiver_clock::carry_constants(&mut state.nominal, &mut state.covariance, elapsed);
         self.satellites.last = Some(now);
     }
 
@@ -109,9 +113,11 @@ impl Filter {
             if is_new {
                 self.state.nominal.range_errors[slot] = 0.0;
                 self.state.nominal.reflections[slot] = 0.0;
-                for key in [RANGE_ERRORS.key(), REFLECTIONS.key()] {
-                    self.state.covariance.renew_state(key, slot, 1.0);
-                }
+                self.state.nominal.phase_drifts[slot] = 0.0;
+                let covariance = &mut self.state.covariance;
+                covariance.renew_state(RANGE_ERRORS.key(), slot, 1.0);
+                covariance.renew_state(REFLECTIONS.key(), slot, 1.0);
+                covariance.renew_state(PHASE_DRIFTS.key(), slot, PHASE_DRIFT * PHASE_DRIFT);
             }
             seated.push(Seated { range: *range, slot });
         }

@@ -36,7 +36,7 @@ impl Default for RawSky {
             record_step_m: 0.2,
             ionosphere_factor: [0.7, 1.3],
             ionosphere_std: 0.1,
-            period_s: 2400.0,
+            period_s: 14_400.0,
             troposphere_factor: 1.0,
             wet_zenith_std_m: 0.03,
         }

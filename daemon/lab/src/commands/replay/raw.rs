@@ -1,0 +1,100 @@
+//! Raw GNSS of a voyage directory on its way into the engine.
+
+use std::collections::VecDeque;
+use std::path::Path;
+
+use anyhow::Context as _;
+use insd_base::{GpsTime, Received, Source, Time};
+use insd_config::{BadInput, VoyageCalendar};
+use insd_drivers::recording::{RawTexts, read_raw};
+use insd_gnss::{Context, Noise};
+use insd_rinex::{ObservationReader, expand, is_compact, read_navigation};
+
+use super::args::ReplayArgs;
+use super::raw_table::RawTable;
+use crate::ranges::{self, SatelliteMask};
+
+/// What is made of GNSS.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum GnssUse {
+    /// Fixes: those of the receiver.
+    Loose,
+    /// Ranges of each satellite, from raw GNSS.
+    Tight,
+    /// Nothing.
+    None,
+}
+
+/// The messages that raw GNSS makes, in the order in which they are received.
+#[derive(Debug, Default)]
+pub(super) struct RawVoyage {
+    waiting: VecDeque<Received>,
+    gnss: Option<GnssUse>,
+}
+
+impl RawVoyage {
+    /// Reads the raw GNSS of the first antenna, if it is there and wanted.
+    ///
+    /// # Errors
+    /// A file that is there cannot be read, or it is missing where it was asked for.
+    pub(super) fn open(
+        args: &ReplayArgs,
+        table: &RawTable,
+        start_utc: &str,
+    ) -> anyhow::Result<Self> {
+        let own = RawVoyage { waiting: VecDeque::new(), gnss: args.gnss };
+        if matches!(args.gnss, Some(GnssUse::Loose | GnssUse::None)) {
+            return Ok(own);
+        }
+        let Some(texts) = read_raw(&args.dir, 1)? else {
+            if args.gnss.is_some() || !args.masks.is_empty() {
+                let dir = args.dir.join("raw").display().to_string();
+                return Err(BadInput(format!(
+                    "{dir}: no a1.obs, which --gnss tight and --mask need"
+                ))
+                .into());
+            }
+            return Ok(own);
+        };
+        let calendar = VoyageCalendar::new(start_utc).context("start_utc")?;
+        let start = calendar.utc(Time::START).to_gps();
+        Ok(RawVoyage { waiting: messages(&texts, table.noise(), start, &args.masks)?, ..own })
+    }
+
+    /// What is received up to an instant.
+    pub(super) fn until(&mut self, receipt: Time) -> impl Iterator<Item = Received> + '_ {
+        std::iter::from_fn(move || self.waiting.pop_front_if(|first| first.receipt <= receipt))
+    }
+
+    /// Whether a message is not wanted.
+    pub(super) fn replaces(&self, received: &Received) -> bool {
+        self.gnss == Some(GnssUse::None) && matches!(received.source, Source::Gnss(_))
+    }
+}
+
+fn messages(
+    texts: &RawTexts,
+    noise: Noise,
+    start: GpsTime,
+    masks: &[SatelliteMask],
+) -> anyhow::Result<VecDeque<Received>> {
+    let context = Context { noise, ..context(&texts.navigation)? };
+    let (path, text) = &texts.observations;
+    let plain = if is_compact(text) { expand(text)?.text.into_bytes() } else { text.clone() };
+    let fault = |error| BadInput(format!("{}: {error}", path.display()));
+    let reader = ObservationReader::new(&plain).map_err(fault)?;
+    Ok(ranges::messages(&context, reader.flatten(), start, masks))
+}
+
+fn context((path, text): &(impl AsRef<Path>, Vec<u8>)) -> anyhow::Result<Context> {
+    let path = path.as_ref().display();
+    let told = read_navigation(text).map_err(|error| BadInput(format!("{path}: {error}")))?;
+    let mut context = Context::default();
+    for record in told.records {
+        if let Err(refusal) = context.ephemerides.insert(record) {
+            eprintln!("{path}: {}: {refusal}", record.satellite());
+        }
+    }
+    context.ionosphere.extend(told.ionosphere);
+    Ok(context)
+}

@@ -1,0 +1,92 @@
+//! Raw GNSS of a voyage as messages for the engine.
+
+use std::collections::VecDeque;
+use std::str::FromStr;
+use std::sync::Arc;
+
+use insd_base::satellites::{SatelliteEpoch, SatelliteRanges};
+use insd_base::{GpsTime, Message, Received, SatelliteId, Source, Time};
+use insd_gnss::{Context, Guess, Ranged, Ranging};
+
+/// A stretch of time in which only so many satellites are left, those that stand highest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SatelliteMask {
+    from: f64,
+    to: f64,
+    left: usize,
+}
+
+impl FromStr for SatelliteMask {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let expected = || {
+            "expected FROM..TO:N with FROM < TO in seconds and N satellites, for example 300..360:3"
+                .to_owned()
+        };
+        let (span, left) = text.split_once(':').ok_or_else(expected)?;
+        let (from, to) = span.split_once("..").ok_or_else(expected)?;
+        let seconds = |text| crate::commands::seconds(text).map_err(|_| expected());
+        let (from, to) = (seconds(from)?, seconds(to)?);
+        let left = left.parse().map_err(|_| expected())?;
+        if from < to { Ok(SatelliteMask { from, to, left }) } else { Err(expected()) }
+    }
+}
+
+/// The ranges of each epoch of a receiver, in the order in which they are received, for a voyage that starts at an instant of GPS time.
+#[must_use]
+pub fn messages(
+    context: &Context,
+    epochs: impl Iterator<Item = SatelliteEpoch>,
+    start: GpsTime,
+    masks: &[SatelliteMask],
+) -> VecDeque<Received> {
+    let mut ranging = Ranging::default();
+    let mut highest: Vec<SatelliteId> = Vec::new();
+    let mut messages = VecDeque::new();
+    for mut epoch in epochs {
+        let seconds = epoch.tag.since(start).as_seconds();
+        let mask = masks.iter().find(|mask| (mask.from..mask.to).contains(&seconds));
+        if let Some(mask) = mask {
+            let left = &highest[..highest.len().min(mask.left)];
+            epoch.signals.retain(|signal| left.contains(&signal.satellite));
+        }
+        let ranged = ranging.take(context, &epoch, Guess::default());
+        if mask.is_none() {
+            highest = by_elevation(&ranged);
+        }
+        messages.push_back(message(&epoch, ranged, start));
+    }
+    messages
+}
+
+fn by_elevation(ranged: &Ranged) -> Vec<SatelliteId> {
+    let mut all: Vec<_> = ranged.ranges.iter().collect();
+    all.sort_by(|a, b| b.elevation.total_cmp(&a.elevation));
+    all.into_iter().map(|range| range.satellite).collect()
+}
+
+fn message(epoch: &SatelliteEpoch, ranged: Ranged, start: GpsTime) -> Received {
+    let at = |instant: GpsTime| Time::START + instant.since(start);
+    let (receipt, time) = (at(epoch.tag), at(ranged.sampled));
+    let told = SatelliteRanges { time, lever: None, clock: ranged.clock, ranges: ranged.ranges };
+    Received {
+        receipt: receipt.max(time),
+        source: Source::Gnss(0),
+        message: Message::Ranges(Arc::new(told)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mask_is_read_and_one_that_is_none_says_what_was_expected() {
+        let mask: SatelliteMask = "300..360.5:3".parse().unwrap();
+        assert_eq!(mask, SatelliteMask { from: 300.0, to: 360.5, left: 3 });
+        for wrong in ["", "300:3", "360..300:3", "300..360", "300..360:-1", "a..b:c"] {
+            assert!(wrong.parse::<SatelliteMask>().unwrap_err().contains("300..360:3"), "{wrong}");
+        }
+    }
+}

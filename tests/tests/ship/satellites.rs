@@ -1,0 +1,122 @@
+//! A ship among cranes: ranges of satellites where there are too few for a fix.
+
+use insd_base::{Message, Received, Solution, Truth, Voyage, earth};
+use insd_config::VoyageCalendar;
+use insd_engine::EngineConfig;
+use insd_gnss::{Context, Noise};
+use insd_lab::ranges;
+use insd_simulator::{RawGnss, Scenario, raw_gnss, simulate};
+use insd_tests::sailing::sail_messages;
+use nalgebra::Vector2;
+
+use crate::figure;
+
+/// The shipped scenario of a tight port, whose segments leave 3, 2, 1 and no satellites.
+fn tight_port() -> Scenario {
+    insd_lab::scenario::find("26", &[]).unwrap().scenario
+}
+
+fn context(raw: &RawGnss) -> Context {
+    let spec = &raw.spec;
+    let mut context = Context {
+        noise: Noise {
+            code: spec.code_std_m,
+            phase: spec.phase_std_m,
+            rate: spec.doppler_std_mps,
+            multipath: spec.multipath_code_std_m,
+        },
+        ..Context::default()
+    };
+    for record in &raw.broadcast {
+        context.ephemerides.insert(*record).unwrap();
+    }
+    context.ionosphere.insert(insd_base::Constellation::Gps, raw.ionosphere);
+    context
+}
+
+/// All messages of a voyage in the order of their receipt, with ranges or without.
+fn messages(voyage: &Voyage, raw: Option<&RawGnss>) -> Vec<Received> {
+    let mut all = voyage.received();
+    if let Some(raw) = raw {
+        let calendar = VoyageCalendar::new(&voyage.header.start_utc).unwrap();
+        let start = calendar.utc(insd_base::Time::START).to_gps();
+        let epochs = raw.antennas[0].iter().cloned();
+        all.extend(ranges::messages(&context(raw), epochs, start, &[]));
+        all.sort_by_key(|received| received.receipt);
+    }
+    all
+}
+
+/// Horizontal errors against truth, north and east, m, with the claimed sigmas.
+fn errors(solutions: &[Solution], truth: &[Truth]) -> Vec<(f64, Vector2<f64>, Vector2<f64>)> {
+    let mut errors = Vec::new();
+    for solution in solutions {
+        let Ok(place) = truth.binary_search_by_key(&solution.time, |truth| truth.time) else {
+            continue;
+        };
+        let apart = earth::ecef(&solution.position).0 - earth::ecef(&truth[place].position).0;
+        let off = earth::c_ne(&solution.position) * apart;
+        let sigma = solution.sigma.position.0.xy();
+        errors.push((solution.time.as_seconds(), off.xy(), sigma));
+    }
+    errors
+}
+
+/// RMS of the error against that at the begin of a segment, m, and the mean square of error by claim.
+fn segment(errors: &[(f64, Vector2<f64>, Vector2<f64>)], from: f64, to: f64) -> (f64, f64) {
+    let within: Vec<_> = errors.iter().filter(|(t, ..)| (from..to).contains(t)).collect();
+    let first = within[0].1;
+    let count = within.len() as f64;
+    let moved = within.iter().map(|(_, error, _)| (error - first).norm_squared()).sum::<f64>();
+    let nees =
+        within.iter().map(|(_, error, sigma)| error.component_div(sigma).norm_squared() / 2.0);
+    ((moved / count).sqrt(), nees.sum::<f64>() / count)
+}
+
+#[test]
+fn three_two_and_one_satellites_still_help() {
+    let scenario = tight_port();
+    let (voyage, raw) = (simulate(&scenario, 4), raw_gnss(&scenario, 4).unwrap());
+    let config = EngineConfig::for_voyage(&voyage.header, 1.0);
+    let sail = |raw: Option<&RawGnss>| {
+        let log = sail_messages(&config, &messages(&voyage, raw), 100);
+        errors(&log.solutions, &voyage.truth)
+    };
+    let (loose, tight) = (sail(None), sail(Some(&raw)));
+    for (label, most) in [("3", 0.8), ("2", 4.0), ("1", 6.0)] {
+        let own = raw.truth.segments.iter().find(|segment| segment.label == label).unwrap();
+        let (of_fixes, _) = segment(&loose, own.t0_s, own.t1_s);
+        let (of_ranges, nees) = segment(&tight, own.t0_s, own.t1_s);
+        figure!("{label} satellites: {of_ranges:.2} m, by fixes {of_fixes:.2} m, NEES {nees:.2}");
+        assert!(of_ranges < most && of_ranges < of_fixes, "{label}: {of_ranges} {of_fixes}");
+        assert!(nees < 5.0, "{label}: {nees}");
+    }
+}
+
+#[test]
+fn reflected_signals_do_not_move_a_ship_that_uses_ranges() {
+    let scenario = tight_port();
+    let (voyage, raw) = (simulate(&scenario, 5), raw_gnss(&scenario, 5).unwrap());
+    let config = EngineConfig::for_voyage(&voyage.header, 1.0);
+    let log = sail_messages(&config, &messages(&voyage, Some(&raw)), 100);
+    let tight = errors(&log.solutions, &voyage.truth);
+    let reflected = raw.truth.segments.iter().filter(|segment| segment.label == "nlos");
+    for own in reflected {
+        let (moved, nees) = segment(&tight, own.t0_s, own.t1_s);
+        figure!("reflections from {} s on: {moved:.2} m, NEES {nees:.2}", own.t0_s);
+        assert!(moved < 1.0 && nees < 5.0, "{}: {moved} {nees}", own.t0_s);
+    }
+}
+
+#[test]
+fn the_same_ranges_give_the_same_bits_and_nobody_is_moved_by_ranges_without_a_navigator() {
+    let scenario = tight_port().with_duration(60.0);
+    let (voyage, raw) = (simulate(&scenario, 1), raw_gnss(&scenario, 1).unwrap());
+    let config = EngineConfig::for_voyage(&voyage.header, 1.0);
+    let all = messages(&voyage, Some(&raw));
+    let sail = || sail_messages(&config, &all, 7).solutions;
+    assert_eq!(sail(), sail());
+    let without: Vec<_> =
+        all.iter().filter(|m| !matches!(m.message, Message::Ranges(_))).cloned().collect();
+    assert_eq!(sail_messages(&config, &without, 7).solutions.len(), sail().len());
+}
