@@ -8,6 +8,17 @@ use insd_base::satellites::{SatelliteEpoch, SatelliteRanges};
 use insd_base::{GpsTime, Message, Received, SatelliteId, Source, Time};
 use insd_gnss::{Context, Guess, Ranged, Ranging};
 
+/// What is made of GNSS.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum GnssUse {
+    /// Fixes: those of the receiver.
+    Loose,
+    /// Ranges of each satellite, from raw GNSS.
+    Tight,
+    /// Nothing.
+    None,
+}
+
 /// A stretch of time in which only so many satellites are left, those that stand highest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SatelliteMask {

@@ -27,6 +27,4 @@ pub use single_point::{NoPosition, SinglePoint, Verdict, Witness};
 pub use velocity::DopplerVelocity;
 
 #[cfg(test)]
-mod sky;
-#[cfg(test)]
 mod tests;

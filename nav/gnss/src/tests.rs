@@ -1,3 +1,5 @@
+mod sky;
+
 use std::collections::BTreeMap;
 
 use insd_base::{SatelliteEpoch, SatelliteId, Span};
@@ -7,8 +9,8 @@ use crate::carrier::{CarrierDisplacement, CarrierTracker};
 use crate::ephemerides::OrbitRefusal;
 use crate::ranging::{Guess, Ranging};
 use crate::single_point::{NoPosition, SinglePoint, Verdict};
-use crate::sky::{CLOCK, berth, context, epoch};
 use crate::velocity::DopplerVelocity;
+use sky::{CLOCK, berth, context, epoch};
 
 fn still() -> Vector3<f64> {
     Vector3::zeros()

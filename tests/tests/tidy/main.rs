@@ -136,6 +136,7 @@ const ARROWS: [(&str, &[&str]); 17] = [
             "insd-config",
             "insd-drivers",
             "insd-engine",
+            "insd-gnss",
             "insd-intake",
             "insd-n2k",
             "insd-nav",

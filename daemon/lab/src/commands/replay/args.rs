@@ -6,8 +6,7 @@ use insd_vessel::{Names, Product};
 
 use super::super::alignment::AlignmentArgs;
 use super::super::outage::SensorOutage;
-use super::raw::GnssUse;
-use crate::ranges::SatelliteMask;
+use crate::ranges::{GnssUse, SatelliteMask};
 
 /// Tells the journal of a product as the daemon does.
 pub type Tell = fn(&Names, &Product);

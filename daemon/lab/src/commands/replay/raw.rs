@@ -12,18 +12,7 @@ use insd_rinex::{ObservationReader, expand, is_compact, read_navigation};
 
 use super::args::ReplayArgs;
 use super::raw_table::RawTable;
-use crate::ranges::{self, SatelliteMask};
-
-/// What is made of GNSS.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum GnssUse {
-    /// Fixes: those of the receiver.
-    Loose,
-    /// Ranges of each satellite, from raw GNSS.
-    Tight,
-    /// Nothing.
-    None,
-}
+use crate::ranges::{self, GnssUse, SatelliteMask};
 
 /// The messages that raw GNSS makes, in the order in which they are received.
 #[derive(Debug, Default)]
