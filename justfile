@@ -173,6 +173,10 @@ page-pictures:
 alignment-page:
     cargo run --release -p insd-tests --example alignment_page -- docs
 
+# single points and carrier differences of real receivers against where they were: the table of docs/satellites.md; INSD_RAW_GNSS: the sets that the page names
+satellites:
+    cargo run --release -p insd-tests --example satellites -- docs/satellites.md
+
 # ships at their berths in all seas, on all moorings, with all grades: the table of docs/figures.md; ten minutes for 24 seeds
 berth-campaign seeds="24":
     cargo run --release -p insd-tests --example berth_campaign -- {{seeds}} docs/figures.md

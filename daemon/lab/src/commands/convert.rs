@@ -89,7 +89,7 @@ fn enter(voyage: &mut Voyage, received: &Received) {
         Message::Gnss(message) => voyage.gnss.push(Stamped { message: *message, arrival }),
         Message::Log(message) => voyage.log.push(Stamped { message: *message, arrival }),
         Message::Reference(message) => {
-            voyage.reference.push(Stamped { message: *message, arrival })
+            voyage.reference.push(Stamped { message: *message, arrival });
         }
     }
 }
