@@ -25,6 +25,9 @@ const FAULT: f64 = 4.5;
 const SLIP: f64 = 0.03;
 /// A clock that is off by more than this has jumped, m: codes err by less.
 const JUMP: f64 = 300.0;
+/// How stiff clocks and masts are taken to be, 1-sigma of a code and of a phase, m.
+const SLACK: f64 = 0.3;
+const SLACK_PHASE: f64 = 0.01;
 /// A constant of which nothing is known, m.
 const UNKNOWN_CONSTANT: f64 = 100.0;
 
@@ -253,6 +256,8 @@ impl Filter {
         };
         let outcome = match &weighed {
             Some(weighed) => {
+                let slack = if aid == CODE_AID { SLACK } else { SLACK_PHASE };
+                self.installation.bias.iter_mut().for_each(|bias| bias.hear(weighed, slack));
                 self.absorb(weighed);
                 Outcome::Accepted
             }
