@@ -120,7 +120,7 @@ impl Ranging {
             slow_std,
             by_ionosphere,
             multipath_std: context.noise.multipath
-                * inflation(direction.elevation, best.first()?.cn0).sqrt(),
+                * inflation(direction.elevation, None).sqrt(),
         })
     }
 }

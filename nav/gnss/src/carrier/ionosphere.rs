@@ -64,7 +64,7 @@ mod tests {
 
     #[test]
     fn a_steady_drift_is_followed_without_lag_and_noise_is_smoothed() {
-        let noise = |k: u32| if k % 2 == 0 { 0.005 } else { -0.005 };
+        let noise = |k: u32| if k.is_multiple_of(2) { 0.005 } else { -0.005 };
         let mut track = IonosphereTrack::begin(3.0 + noise(0), 5e-5, 0.0);
         let mut sum = 0.0;
         let mut scatter: f64 = 0.0;
