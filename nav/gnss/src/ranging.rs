@@ -119,8 +119,7 @@ impl Ranging {
             phase: self.tracker.phase(satellite),
             slow_std,
             by_ionosphere,
-            multipath_std: context.noise.multipath
-                * inflation(direction.elevation, None).sqrt(),
+            multipath_std: context.noise.multipath * inflation(direction.elevation, None).sqrt(),
         })
     }
 }
