@@ -1,6 +1,6 @@
 //! What the filter did with a measurement.
 
-use insd_base::{Rejection, Source, Time};
+use insd_base::{Rejection, SatelliteId, Source, Time};
 
 /// Whether a quantity was used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,4 +38,6 @@ pub struct Report {
     pub log_likelihood: f64,
     /// The position was set anew.
     pub position_reset: bool,
+    /// Satellites that are left out from an instant on (`true`), or used again.
+    pub satellites: Vec<(Time, SatelliteId, bool)>,
 }

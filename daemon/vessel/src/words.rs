@@ -63,6 +63,13 @@ pub fn engine(event: &Event) -> (&'static str, Option<String>) {
         Event::InstallationFound { finding, .. } => ("installation", Some(finding.to_string())),
         Event::Judged { stands, .. } => ("sensors", Some(stands.to_string())),
         Event::ReceiverUsed { change, .. } => ("sensors", Some(change.to_string())),
+        Event::SatelliteJudged { satellite, is_excluded: true, .. } => (
+            "satellite",
+            Some(format!("{satellite} is left out: its ranges contradict the others")),
+        ),
+        Event::SatelliteJudged { satellite, .. } => {
+            ("satellite", Some(format!("{satellite} is used again")))
+        }
         Event::PositionReset { .. } => {
             let words = "the position was set anew from a source that was kept out for too long";
             ("position reset", Some(words.to_owned()))

@@ -1,10 +1,11 @@
 //! `nav.csv`: the answer of a replay.
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::io::{self, Write};
 use std::path::Path;
 
-use insd_base::{Ned, Solution};
+use insd_base::{Ned, SatelliteId, Solution};
 
 use super::error::RecordingError;
 use super::nav_row::NavRow;
@@ -26,6 +27,7 @@ pub struct NavWriter<W: Write> {
     target: W,
     row: Vec<u8>,
     left_out: u64,
+    satellites: BTreeSet<SatelliteId>,
 }
 
 impl<W: Write> NavWriter<W> {
@@ -35,7 +37,8 @@ impl<W: Write> NavWriter<W> {
     /// The target cannot be written.
     pub fn new(mut target: W) -> io::Result<Self> {
         writeln!(target, "{}", NAV.join(","))?;
-        Ok(NavWriter { target, row: Vec::with_capacity(256), left_out: 0 })
+        let (row, satellites) = (Vec::with_capacity(256), BTreeSet::new());
+        Ok(NavWriter { target, row, left_out: 0, satellites })
     }
 
     /// Writes one row. A solution that is not finite is left out and counted.
@@ -52,9 +55,18 @@ impl<W: Write> NavWriter<W> {
         push_sigmas(&mut self.row, solution);
         self.row.push(b',');
         self.row.extend_from_slice(solution.mode.as_str().as_bytes());
-        push_judgement(&mut self.row, solution);
+        push_judgement(&mut self.row, solution, &self.satellites);
         self.row.push(b'\n');
         self.target.write_all(&self.row)
+    }
+
+    /// A satellite is left out of the solutions from now on, or used again: the rows name it.
+    pub fn leave_out(&mut self, satellite: SatelliteId, is_excluded: bool) {
+        if is_excluded {
+            self.satellites.insert(satellite);
+        } else {
+            self.satellites.remove(&satellite);
+        }
     }
 
     /// Solutions that were left out because they were not finite.
@@ -109,18 +121,20 @@ fn push_state(row: &mut Vec<u8>, solution: &Solution) {
 }
 
 /// Protection levels, whether they may be relied on, and who is left out.
-fn push_judgement(row: &mut Vec<u8>, solution: &Solution) {
+fn push_judgement(row: &mut Vec<u8>, solution: &Solution, satellites: &BTreeSet<SatelliteId>) {
     let levels = solution.protection();
     push_sigma(row, levels.horizontal, METRE_PLACES);
     push_sigma(row, levels.vertical, METRE_PLACES);
     row.push(b',');
     row.extend_from_slice(solution.availability().as_str().as_bytes());
     row.push(b',');
-    for (at, party) in solution.judgement.excluded.iter().enumerate() {
+    let parties = solution.judgement.excluded.iter().map(|party| party.as_str().to_owned());
+    let all = parties.chain(satellites.iter().map(SatelliteId::to_string));
+    for (at, name) in all.enumerate() {
         if at > 0 {
             row.push(b' ');
         }
-        row.extend_from_slice(party.as_str().as_bytes());
+        row.extend_from_slice(name.as_bytes());
     }
 }
 

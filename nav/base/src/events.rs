@@ -6,6 +6,7 @@ use std::fmt;
 use crate::installation::Finding;
 use crate::messages::Source;
 use crate::party::{ReceiverChange, Stands};
+use crate::satellites::SatelliteId;
 use crate::solution::Mode;
 use crate::time::Time;
 
@@ -330,6 +331,15 @@ pub enum Event {
         time: Time,
         /// Who, and how.
         stands: Stands,
+    },
+    /// A satellite whose ranges contradict those of the others is left out, or used again.
+    SatelliteJudged {
+        /// When.
+        time: Time,
+        /// Which.
+        satellite: SatelliteId,
+        /// Whether it is left out from now on.
+        is_excluded: bool,
     },
     /// Another receiver is used from now on.
     ReceiverUsed {

@@ -7,6 +7,7 @@ use insd_estimation::Innovation;
 use super::Filter;
 use super::ahead::heading_std;
 use super::entry::{Judged, NO_INNOVATION, enter};
+use super::satellites::Slot;
 use crate::aids::satellite_range::{self, Antenna, Sighted};
 use crate::declaration::Carried;
 use crate::error_state::{
@@ -21,6 +22,8 @@ const PHASE_AID: &str = "satellite_phase";
 
 /// A row is at fault beyond so many sigmas of what all others let expect of it: by chance once in 150 000.
 const FAULT: f64 = 4.5;
+/// One that was at fault agrees within so many sigmas.
+const AGREES: f64 = 3.0;
 /// No slip is smaller, m.
 const SLIP: f64 = 0.03;
 /// A clock that is off by more than this has jumped, m: codes err by less.
@@ -217,21 +220,43 @@ impl Filter {
         from: (&SatelliteRanges, Source),
         report: &mut Report,
     ) -> Vec<Seated> {
-        let (view, antenna) = (self.view(), self.antenna());
-        let row = |one: &Seated| {
-            let sighted = Sighted { range: &one.range, slot: one.slot };
-            satellite_range::code(&view, &antenna, sighted)
-        };
-        let Some(rows) = Rows::of(&seated, row) else { return seated };
-        let (used, faulty) = self.absorb_rows(rows, 0.0, (CODE_AID, from), report);
-        if !used.is_empty() {
+        let is_out = |one: &Seated| self.satellites.slot(one.slot).is_some_and(Slot::is_excluded);
+        let (out, used): (Vec<_>, Vec<_>) = seated.into_iter().partition(is_out);
+        self.hear_excluded(&out, report);
+        let now = self.state.time;
+        let Some(rows) = self.code_rows(&used) else { return used };
+        let (accepted, faulty) = self.absorb_rows(rows, 0.0, (CODE_AID, from), report);
+        if !accepted.is_empty() {
             self.receiver.trust.used(self.state.time);
         }
-        for slot in faulty.iter().filter_map(|index| seated.get(*index)).map(|one| one.slot) {
-            self.satellites.slot_mut(slot).into_iter().for_each(|slot| slot.arc = None);
+        for one in faulty.iter().filter_map(|index| used.get(*index)) {
+            let excluded = self.satellites.slot_mut(one.slot).and_then(Slot::exclude);
+            report.satellites.extend(excluded.map(|satellite| (now, satellite, true)));
         }
-        let good = seated.into_iter().enumerate().filter(|(index, _)| !faulty.contains(index));
+        let good = used.into_iter().enumerate().filter(|(index, _)| !faulty.contains(index));
         good.map(|(_, one)| one).collect()
+    }
+
+    fn code_rows(&self, seated: &[Seated]) -> Option<Rows> {
+        let (view, antenna) = (self.view(), self.antenna());
+        Rows::of(seated, |one| {
+            let sighted = Sighted { range: &one.range, slot: one.slot };
+            satellite_range::code(&view, &antenna, sighted)
+        })
+    }
+
+    /// Those that are left out are listened to and not used.
+    fn hear_excluded(&mut self, out: &[Seated], report: &mut Report) {
+        let now = self.state.time;
+        for one in out {
+            let rows = self.code_rows(std::slice::from_ref(one));
+            let weighed = rows.and_then(|rows| rows.all.weigh(&self.state.covariance));
+            let agrees = weighed.is_some_and(|weighed| weighed.nis() < AGREES * AGREES);
+            let Some(slot) = self.satellites.slot_mut(one.slot) else { continue };
+            let readmitted = if agrees { slot.agree() } else { slot.exclude() };
+            let is_excluded = !agrees;
+            report.satellites.extend(readmitted.map(|satellite| (now, satellite, is_excluded)));
+        }
     }
 
     /// Absorbs rows but for those that contradict all others by more than `least`; returns whose were used, and whose were not.

@@ -7,6 +7,8 @@ use crate::error_state::SATELLITES;
 
 /// A satellite that is not seen for so long, s, gives its place away.
 const FORGOTTEN: f64 = 120.0;
+/// One that is left out is used again after so many codes that agree.
+const READMITTED: u8 = 5;
 /// Ranges of less than so long ago are fresh, s.
 const FRESH: f64 = 5.0;
 
@@ -17,6 +19,32 @@ pub(super) struct Slot {
     seen: Time,
     /// The arc whose constant is estimated.
     pub(super) arc: Option<u32>,
+    /// Codes in a row that agree, of one that is left out; `None` of one that is used.
+    agreeing: Option<u8>,
+}
+
+impl Slot {
+    /// Whether it is left out.
+    pub(super) fn is_excluded(&self) -> bool {
+        self.agreeing.is_some()
+    }
+
+    /// Its code contradicts those of the others: it is left out, and its phase begins anew when it comes back. Returns it if that is new.
+    pub(super) fn exclude(&mut self) -> Option<SatelliteId> {
+        self.arc = None;
+        self.agreeing.replace(0).is_none().then_some(self.satellite)
+    }
+
+    /// Its code agrees, while it is left out. Returns it if it is used from now on.
+    pub(super) fn agree(&mut self) -> Option<SatelliteId> {
+        let agreeing = self.agreeing.as_mut()?;
+        *agreeing += 1;
+        if *agreeing < READMITTED {
+            return None;
+        }
+        self.agreeing = None;
+        Some(self.satellite)
+    }
 }
 
 /// The satellites in use.
@@ -45,11 +73,17 @@ impl Satellites {
             slot.is_none_or(|slot| (now - slot.seen).as_seconds() > FORGOTTEN)
         };
         let place = self.slots.iter().position(is_free)?;
-        self.slots[place] = Some(Slot { satellite: range.satellite, seen: now, arc: None });
+        let satellite = range.satellite;
+        self.slots[place] = Some(Slot { satellite, seen: now, arc: None, agreeing: None });
         Some((place, true))
     }
 
-    /// The satellite at a place that is taken.
+    /// The satellite at a place, if that is taken.
+    pub(super) fn slot(&self, place: usize) -> Option<&Slot> {
+        self.slots.get(place)?.as_ref()
+    }
+
+    /// The same, to be changed.
     pub(super) fn slot_mut(&mut self, place: usize) -> Option<&mut Slot> {
         self.slots.get_mut(place)?.as_mut()
     }

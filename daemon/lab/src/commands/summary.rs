@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use insd_base::{AlignmentStatus, Counts, Event, Finding, Forecast, Mode, Stands, Time};
+use insd_base::{
+    AlignmentStatus, Counts, Event, Finding, Forecast, Mode, SatelliteId, Stands, Time,
+};
 use insd_drivers::recording::FileReport;
 
 use crate::table::{Align, Table};
@@ -23,6 +25,7 @@ pub(super) struct Summary<'a> {
     pub(super) resets: &'a [Time],
     pub(super) findings: &'a [(Time, Finding)],
     pub(super) standings: &'a [Stands],
+    pub(super) satellites: &'a [(Time, SatelliteId, bool)],
     pub(super) stored: Option<&'a Event>,
     pub(super) counts: &'a Counts,
     pub(super) dropped: u64,
@@ -79,6 +82,13 @@ impl Summary<'_> {
         }
         if self.standings.len() > MODES_TOLD {
             writeln!(f, "  ... and {} more of the sensors", self.standings.len() - MODES_TOLD)?;
+        }
+        for (time, satellite, is_excluded) in self.satellites.iter().take(MODES_TOLD) {
+            let what = if *is_excluded { "is left out" } else { "is used again" };
+            writeln!(f, "  {:>10.1} s  {satellite} {what}", time.as_seconds())?;
+        }
+        if self.satellites.len() > MODES_TOLD {
+            writeln!(f, "  ... and {} more of the satellites", self.satellites.len() - MODES_TOLD)?;
         }
         match self.stored {
             Some(Event::StoredStateUsed { time }) => {
@@ -195,6 +205,7 @@ mod tests {
             resets: &[],
             findings: &[],
             standings: &[],
+            satellites: &[],
             stored: None,
             counts: &counts,
             dropped: 2,

@@ -61,6 +61,10 @@ pub fn event(event: &Event) -> String {
         }
         Event::Judged { stands, .. } => capitalised(&stands.to_string()),
         Event::ReceiverUsed { change, .. } => capitalised(&change.to_string()),
+        Event::SatelliteJudged { satellite, is_excluded: true, .. } => {
+            format!("✗ {satellite} is left out")
+        }
+        Event::SatelliteJudged { satellite, .. } => format!("{satellite} is used again"),
         Event::PositionReset { .. } => "Position set anew".to_owned(),
         Event::StoredStateUsed { .. } => "Stored heading confirmed".to_owned(),
         Event::StoredStateDropped { reason, .. } => {

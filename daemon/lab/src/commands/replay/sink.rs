@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use insd_base::{AidInnovation, AlignmentStatus, Counts, Event, Finding, Mode, Stands, Time};
+use insd_base::{
+    AidInnovation, AlignmentStatus, Counts, Event, Finding, Mode, SatelliteId, Stands, Time,
+};
 use insd_config::OutputFile;
 use insd_drivers::recording::{FileReport, NavWriter};
 use insd_engine::Output;
@@ -23,6 +25,7 @@ pub(super) struct Sink {
     resets: Vec<Time>,
     findings: Vec<(Time, Finding)>,
     standings: Vec<Stands>,
+    satellites: Vec<(Time, SatelliteId, bool)>,
     stored: Option<Event>,
     solutions: u64,
 }
@@ -41,6 +44,7 @@ impl Sink {
             resets: Vec::new(),
             findings: Vec::new(),
             standings: Vec::new(),
+            satellites: Vec::new(),
             stored: None,
             solutions: 0,
         })
@@ -78,6 +82,10 @@ impl Sink {
             Event::PositionReset { time } => self.resets.push(time),
             Event::InstallationFound { time, finding } => self.findings.push((time, finding)),
             Event::Judged { stands, .. } => self.standings.push(stands),
+            Event::SatelliteJudged { time, satellite, is_excluded } => {
+                self.nav.leave_out(satellite, is_excluded);
+                self.satellites.push((time, satellite, is_excluded));
+            }
             Event::StoredStateUsed { .. } | Event::StoredStateDropped { .. } => {
                 self.stored = Some(*event);
             }
@@ -102,6 +110,7 @@ impl Sink {
             resets: &self.resets,
             findings: &self.findings,
             standings: &self.standings,
+            satellites: &self.satellites,
             stored: self.stored.as_ref(),
             counts,
             dropped,
