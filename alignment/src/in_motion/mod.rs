@@ -327,7 +327,7 @@ impl Estimator for EightState {
 
     fn apply(&mut self, received: &Received) -> Report {
         match &received.message {
-            // ranges come with fixes made of them as long as there is no navigator
+            // ranges are for a navigator; until there is one, fixes of the same receiver tell
             Message::Imu(_) | Message::Ranges(_) => Report::default(),
             Message::Gnss(fix) => self.gnss(fix, received.source),
             Message::Log(log) => self.log(log, received.source),

@@ -80,7 +80,7 @@ fn by_elevation(ranged: &Ranged) -> Vec<SatelliteId> {
 fn message(epoch: &SatelliteEpoch, ranged: Ranged, start: GpsTime) -> Received {
     let at = |instant: GpsTime| Time::START + instant.since(start);
     let (receipt, time) = (at(epoch.tag), at(ranged.sampled));
-    let told = SatelliteRanges { time, lever: None, clock: ranged.clock, ranges: ranged.ranges };
+    let told = SatelliteRanges { time, clock: ranged.clock, ranges: ranged.ranges };
     Received {
         receipt: receipt.max(time),
         source: Source::Gnss(0),

@@ -3,6 +3,8 @@
 use insd_base::satellites::time_keeper;
 use insd_base::{Constellation, SatelliteId, SignalCode};
 
+/// Satellites below this elevation are not used, rad: 10 degrees.
+pub(crate) const LOWEST: f64 = 0.1745;
 /// 1-sigma of a receiver's delay on a further band against its first, m.
 pub(crate) const BAND_DELAY: f64 = 10.0;
 /// By what share the ionosphere as a whole may be other than its model; 1-sigma (IS-GPS-200N, 20.3.3.5.2.5: half of it is left).

@@ -4,6 +4,7 @@
 //! displacements with their covariances come out. ECEF axes, metres, seconds, radians; e points from the antenna to the satellite.
 
 pub mod atmosphere;
+mod band_code;
 mod budget;
 mod carrier;
 mod context;

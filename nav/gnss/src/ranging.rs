@@ -3,21 +3,18 @@
 
 mod combined;
 
-use insd_base::satellites::{Measured, SPEED_OF_LIGHT, SatelliteRange};
+use insd_base::satellites::{SPEED_OF_LIGHT, SatelliteRange};
 use insd_base::{GpsTime, SatelliteEpoch, SignalObservation, Span};
 use nalgebra::Vector3;
 
+use crate::budget::LOWEST;
 use crate::carrier::CarrierTracker;
 use crate::context::Context;
-use crate::orbit::SatelliteState;
 use crate::sight::Sight;
-use crate::signals::{best_of_each_band, first_band, inflation};
+use crate::signals::{best_of_each_band, first_band, inflation, range_rate};
 use crate::single_point::{NoPosition, SinglePoint};
 use crate::velocity::DopplerVelocity;
 use combined::{Combined, combined_code};
-
-/// Satellites below this elevation are not used, rad: 10 degrees.
-const LOWEST: f64 = 0.1745;
 
 /// What is made of an epoch.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,6 +105,8 @@ impl Ranging {
         if direction.elevation < LOWEST {
             return None;
         }
+        let first = first_band(satellite.constellation);
+        let shift = best.iter().find(|signal| signal.signal.band == first);
         let Combined { code, slow_std, by_ionosphere } =
             combined_code(context, tag, (record, &sight, &best), (antenna, direction))?;
         Some(SatelliteRange {
@@ -115,26 +114,13 @@ impl Ranging {
             transmitter: sight.transmitter(),
             elevation: direction.elevation,
             code: Some(code),
-            rate: rate(context, &best, &sight.satellite, direction.elevation),
+            rate: shift.and_then(|shift| {
+                range_rate(context.noise, shift, &sight.satellite, direction.elevation)
+            }),
             phase: self.tracker.phase(satellite),
             slow_std,
             by_ionosphere,
             multipath_std: context.noise.multipath * inflation(direction.elevation, None).sqrt(),
         })
     }
-}
-
-/// The rate of the range and of the receiver's clock, m/s.
-fn rate(
-    context: &Context,
-    best: &[&SignalObservation],
-    satellite: &SatelliteState,
-    elevation: f64,
-) -> Option<Measured> {
-    let first = first_band(best.first()?.satellite.constellation);
-    let shift = best.iter().find(|signal| signal.signal.band == first)?;
-    Some(Measured {
-        value: -shift.wavelength()? * shift.doppler? + SPEED_OF_LIGHT * satellite.clock_drift,
-        variance: context.noise.rate.powi(2) * inflation(elevation, shift.cn0),
-    })
 }

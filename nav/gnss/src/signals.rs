@@ -1,7 +1,9 @@
 //! Which signal of a band is used, what its satellite's group delay is, and how much noise it has.
 
-use insd_base::satellites::BroadcastKind;
+use insd_base::satellites::{BroadcastKind, Measured, SPEED_OF_LIGHT};
 use insd_base::{BroadcastRecord, Constellation, SatelliteId, SignalCode, SignalObservation};
+
+use crate::orbit::SatelliteState;
 
 /// Ways of tracking, best first: civil codes and pilots before combined ones before what is got without knowing the code.
 const PREFERENCE: &[u8] = b"CQLIXSPWYBDZAMNE";
@@ -93,6 +95,19 @@ impl Default for Noise {
     fn default() -> Self {
         Self { code: 0.4, phase: 0.003, rate: 0.05, multipath: 0.4 }
     }
+}
+
+/// The rate at which the range and the receiver's clock grow by a Doppler shift, m/s, with the satellite's own clock taken out.
+pub(crate) fn range_rate(
+    noise: Noise,
+    shift: &SignalObservation,
+    satellite: &SatelliteState,
+    elevation: f64,
+) -> Option<Measured> {
+    Some(Measured {
+        value: -shift.wavelength()? * shift.doppler? + SPEED_OF_LIGHT * satellite.clock_drift,
+        variance: noise.rate.powi(2) * inflation(elevation, shift.cn0),
+    })
 }
 
 /// By how much the variance at the zenith is multiplied: `(1 + 1/sin^2 E) / 2`, and tenfold for each 10 dB that the signal is below 42 dB Hz.

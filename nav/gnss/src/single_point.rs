@@ -8,15 +8,13 @@ use insd_base::{Constellation, GpsTime, SatelliteEpoch};
 use nalgebra::{Matrix3, Vector3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+use crate::budget::LOWEST;
 use crate::context::Context;
 use crate::least_squares::FALSE_ALARM;
 use candidates::Candidate;
 use equations::{Equations, Solution};
 
 pub use witness::{NoPosition, Verdict, Witness};
-
-/// Satellites below this elevation are not used, rad: 10 degrees.
-const LOWEST: f64 = 0.1745;
 
 /// A position from one epoch.
 #[derive(Clone, Debug, PartialEq)]

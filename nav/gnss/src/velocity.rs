@@ -1,16 +1,13 @@
 //! Velocity from the Doppler shifts of one epoch.
 
-use insd_base::satellites::SPEED_OF_LIGHT;
 use insd_base::{SatelliteEpoch, SatelliteId, SignalObservation};
 use nalgebra::{Matrix3, RowVector4, Vector3};
 
+use crate::budget::LOWEST;
 use crate::context::Context;
 use crate::least_squares::{Observation, Solved, solve};
 use crate::sight::Sight;
-use crate::signals::{best_of_each_band, first_band, inflation};
-
-/// Satellites below this elevation are not used, rad: 10 degrees.
-const LOWEST: f64 = 0.1745;
+use crate::signals::{best_of_each_band, first_band, range_rate};
 
 /// A velocity from one epoch.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,13 +88,13 @@ fn rate(
     let elevation = sight.direction(position).elevation;
     let mut shifts = best.iter().filter(|signal| signal.doppler.is_some());
     let shift = shifts.clone().find(|signal| signal.signal.band == first).or(shifts.next())?;
-    let measured = -shift.wavelength()? * shift.doppler?;
+    let measured = range_rate(context.noise, shift, &sight.satellite, elevation)?;
     let at_rest = sight.transmitter().range_rate(position, &Vector3::zeros());
     let line = sight.transmitter().line(position);
     let observation = Observation {
         row: RowVector4::new(-line.x, -line.y, -line.z, 1.0),
-        observed: measured - at_rest + SPEED_OF_LIGHT * sight.satellite.clock_drift,
-        variance: context.noise.rate.powi(2) * inflation(elevation, shift.cn0),
+        observed: measured.value - at_rest,
+        variance: measured.variance,
     };
     (elevation >= LOWEST).then_some((satellite, observation))
 }

@@ -38,7 +38,7 @@ const LOST: f64 = 1.0;
 /// Noise of a height that is known to be wrong, 1-sigma, m.
 const WORTHLESS: f64 = 1e5;
 /// How stiff clocks and masts are taken to be, 1-sigma, m and m/s.
-const SLACK: f64 = 0.3;
+pub(super) const SLACK: f64 = 0.3;
 const SLACK_VELOCITY: f64 = 0.05;
 /// Attitude that a filter found to be lost is unsure of, 1-sigma, rad.
 const LOST_ATTITUDE: f64 = 0.05;

@@ -7,11 +7,12 @@ use insd_estimation::Innovation;
 use super::Filter;
 use super::ahead::heading_std;
 use super::entry::{Judged, NO_INNOVATION, enter};
+use super::gnss::SLACK;
 use super::satellites::Slot;
 use crate::aids::satellite_range::{self, Antenna, Sighted};
 use crate::declaration::Carried;
 use crate::error_state::{
-    ATTITUDE, PHASE_CONSTANTS, PHASE_DRIFT, PHASE_DRIFTS, RANGE_ERRORS, REFLECTIONS,
+    ATTITUDE, PHASE_CONSTANTS, PHASE_DRIFT, PHASE_DRIFTS, RANGE_ERRORS, REFLECTIONS, Weighed,
 };
 use crate::receiver_clock;
 use crate::report::{Outcome, Report};
@@ -28,18 +29,10 @@ const AGREES: f64 = 3.0;
 const SLIP: f64 = 0.03;
 /// A clock that is off by more than this has jumped, m: codes err by less.
 const JUMP: f64 = 300.0;
-/// How stiff clocks and masts are taken to be, 1-sigma of a code and of a phase, m.
-const SLACK: f64 = 0.3;
+/// How stiff masts are taken to be where phases tell, 1-sigma, m.
 const SLACK_PHASE: f64 = 0.01;
 /// A constant of which nothing is known, m.
 const UNKNOWN_CONSTANT: f64 = 100.0;
-
-/// A satellite with its place among the states.
-#[derive(Clone, Copy, Debug)]
-struct Seated {
-    range: SatelliteRange,
-    slot: usize,
-}
 
 /// Rows of one kind, and whose they are.
 struct Rows {
@@ -83,19 +76,11 @@ impl Filter {
     /// What was claimed of the heading because somebody may lie is what the filter itself takes it for from now on.
     fn take_over_claims(&mut self) {
         let Some(covered) = self.court.covered.take() else { return };
-        let own = heading_std(&self.view(), &self.state.covariance);
+        let view = self.view();
+        let own = heading_std(&view, &self.state.covariance);
         let more = covered.heading * covered.heading - own * own;
-        let down = self.view().c_ne.row(2).transpose();
+        let down = view.c_ne.row(2).transpose();
         ATTITUDE.add(&mut self.state.covariance, &(down * down.transpose() * more.max(0.0)));
-    }
-
-    /// Variance of what a linear filter leaves out of the lever arm that a heading error turns, along the line to a satellite, m^2: the mean of half the
-    /// square of the error and its scatter (Jazwinski, Stochastic Processes and Filtering Theory, section 9.3).
-    fn bent_range(&self, antenna: &Antenna, range: &SatelliteRange) -> f64 {
-        let variance = heading_std(&self.view(), &self.state.covariance).powi(2);
-        let along = range.transmitter.line(&antenna.position).dot(&antenna.arm);
-        let turned = variance * (antenna.arm.norm_squared() - along * along).sqrt();
-        0.75 * turned * turned
     }
 
     fn carry_clock(&mut self) {
@@ -109,7 +94,7 @@ impl Filter {
         self.satellites.last = Some(now);
     }
 
-    fn seat(&mut self, told: &SatelliteRanges) -> Vec<Seated> {
+    fn seat<'a>(&mut self, told: &'a SatelliteRanges) -> Vec<Sighted<'a>> {
         let now = self.state.time;
         let mut highest: Vec<_> = told.ranges.iter().collect();
         highest.sort_by(|a, b| b.elevation.total_cmp(&a.elevation));
@@ -125,7 +110,7 @@ impl Filter {
                 covariance.renew_state(REFLECTIONS.key(), slot, 1.0);
                 covariance.renew_state(PHASE_DRIFTS.key(), slot, PHASE_DRIFT * PHASE_DRIFT);
             }
-            seated.push(Seated { range: *range, slot });
+            seated.push(Sighted { range, slot });
         }
         seated
     }
@@ -135,11 +120,11 @@ impl Filter {
     }
 
     /// A clock that is set moves all ranges alike.
-    fn look_for_clock_jump(&mut self, seated: &[Seated]) {
+    fn look_for_clock_jump(&mut self, seated: &[Sighted<'_>]) {
         let (view, antenna) = (self.view(), self.antenna());
-        let off = |seated: &Seated| {
+        let off = |seated: &Sighted<'_>| {
             let code = seated.range.code?.value;
-            Some(code - satellite_range::predicted(&view, &antenna, &seated.range))
+            Some(code - satellite_range::predicted(&view, &antenna, seated.range))
         };
         let mut off: Vec<f64> = seated.iter().filter_map(off).collect();
         off.sort_by(f64::total_cmp);
@@ -152,7 +137,7 @@ impl Filter {
     }
 
     /// Constants of arcs that have begun are what makes the phase fit, and unknown.
-    fn begin_arcs(&mut self, seated: &[Seated]) {
+    fn begin_arcs(&mut self, seated: &[Sighted<'_>]) {
         for one in seated {
             let Some(phase) = one.range.phase else { continue };
             let known = self.satellites.slot_mut(one.slot);
@@ -163,10 +148,10 @@ impl Filter {
         }
     }
 
-    fn begin_arc(&mut self, one: &Seated) {
+    fn begin_arc(&mut self, one: &Sighted<'_>) {
         let (view, antenna) = (self.view(), self.antenna());
         let Some(phase) = one.range.phase else { return };
-        let constant = phase.phase.value - satellite_range::predicted(&view, &antenna, &one.range);
+        let constant = phase.phase.value - satellite_range::predicted(&view, &antenna, one.range);
         self.state.nominal.phase_constants[one.slot] = constant;
         let variance = UNKNOWN_CONSTANT * UNKNOWN_CONSTANT;
         self.state.covariance.renew_state(PHASE_CONSTANTS.key(), one.slot, variance);
@@ -174,15 +159,15 @@ impl Filter {
 
     fn use_phases(
         &mut self,
-        seated: &[Seated],
+        seated: &[Sighted<'_>],
         from: (&SatelliteRanges, Source),
         report: &mut Report,
     ) {
         let (view, antenna) = (self.view(), self.antenna());
-        let row = |one: &Seated| {
-            let sighted = Sighted { range: &one.range, slot: one.slot };
-            let mut row = satellite_range::phase(&view, &antenna, sighted)?;
-            row.r[(0, 0)] += self.bent_range(&antenna, &one.range);
+        let heading_variance = heading_std(&view, &self.state.covariance).powi(2);
+        let row = |one: &Sighted<'_>| {
+            let mut row = satellite_range::phase(&view, &antenna, *one)?;
+            row.r[(0, 0)] += bent_range(heading_variance, &antenna, one.range);
             Some(row)
         };
         let Some(rows) = Rows::of(seated, row) else { return };
@@ -195,17 +180,17 @@ impl Filter {
     /// Of satellites without a phase, which tells it better; one whose phase has just slipped may be a reflection.
     fn use_rates(
         &mut self,
-        seated: &[Seated],
+        seated: &[Sighted<'_>],
         from: (&SatelliteRanges, Source),
         report: &mut Report,
     ) {
         let (view, antenna) = (self.view(), self.antenna());
         let lever = self.antenna_lever();
-        let row = |one: &Seated| {
+        let row = |one: &Sighted<'_>| {
             one.range
                 .phase
                 .is_none()
-                .then(|| satellite_range::rate(&view, &antenna, &one.range, &lever))
+                .then(|| satellite_range::rate(&view, &antenna, one.range, &lever))
                 .flatten()
         };
         if let Some(rows) = Rows::of(seated, row) {
@@ -214,13 +199,14 @@ impl Filter {
     }
 
     /// Returns the satellites that nothing speaks against: one whose code is a reflection's has that phase, too.
-    fn use_codes(
+    fn use_codes<'a>(
         &mut self,
-        seated: Vec<Seated>,
+        seated: Vec<Sighted<'a>>,
         from: (&SatelliteRanges, Source),
         report: &mut Report,
-    ) -> Vec<Seated> {
-        let is_out = |one: &Seated| self.satellites.slot(one.slot).is_some_and(Slot::is_excluded);
+    ) -> Vec<Sighted<'a>> {
+        let is_out =
+            |one: &Sighted<'_>| self.satellites.slot(one.slot).is_some_and(Slot::is_excluded);
         let (out, used): (Vec<_>, Vec<_>) = seated.into_iter().partition(is_out);
         self.hear_excluded(&out, report);
         let now = self.state.time;
@@ -237,16 +223,13 @@ impl Filter {
         good.map(|(_, one)| one).collect()
     }
 
-    fn code_rows(&self, seated: &[Seated]) -> Option<Rows> {
+    fn code_rows(&self, seated: &[Sighted<'_>]) -> Option<Rows> {
         let (view, antenna) = (self.view(), self.antenna());
-        Rows::of(seated, |one| {
-            let sighted = Sighted { range: &one.range, slot: one.slot };
-            satellite_range::code(&view, &antenna, sighted)
-        })
+        Rows::of(seated, |one| satellite_range::code(&view, &antenna, *one))
     }
 
     /// Those that are left out are listened to and not used.
-    fn hear_excluded(&mut self, out: &[Seated], report: &mut Report) {
+    fn hear_excluded(&mut self, out: &[Sighted<'_>], report: &mut Report) {
         let now = self.state.time;
         for one in out {
             let rows = self.code_rows(std::slice::from_ref(one));
@@ -297,7 +280,10 @@ impl Filter {
 
 impl Rows {
     /// Of all that have one; `None` where nobody has.
-    fn of(seated: &[Seated], row: impl Fn(&Seated) -> Option<Innovation>) -> Option<Self> {
+    fn of(
+        seated: &[Sighted<'_>],
+        row: impl Fn(&Sighted<'_>) -> Option<Innovation>,
+    ) -> Option<Self> {
         let mut rows: Option<Rows> = None;
         for (index, one) in seated.iter().enumerate() {
             let Some(own) = row(one) else { continue };
@@ -320,9 +306,17 @@ impl Rows {
     }
 }
 
+/// Variance of what a linear filter leaves out of the lever arm that a heading error of a variance turns, along the line to a satellite, m^2: the mean of
+/// half the square of the error and its scatter (Jazwinski, Stochastic Processes and Filtering Theory, section 9.3).
+fn bent_range(heading_variance: f64, antenna: &Antenna, range: &SatelliteRange) -> f64 {
+    let along = range.transmitter.line(&antenna.position).dot(&antenna.arm);
+    let turned = heading_variance * (antenna.arm.norm_squared() - along * along).sqrt();
+    0.75 * turned * turned
+}
+
 /// The row that lies farthest from what all others let expect of it, if that is a fault: `(S^-1 z)_i / sqrt((S^-1)_ii)`, which is what is left of a row
 /// after an update with all others, in its sigmas (Teunissen, Testing Theory, section 4.3), and by more than `least`.
-fn worst(weighed: &crate::error_state::Weighed, least: f64) -> Option<usize> {
+fn worst(weighed: &Weighed, least: f64) -> Option<usize> {
     let inverse = weighed.covariance().try_inverse()?;
     let drawn = &inverse * weighed.z();
     let left = |row: usize| {

@@ -15,6 +15,7 @@ mod epoch;
 mod kepler;
 mod locks;
 mod pulse;
+mod state;
 mod words;
 
 pub use epoch::Epoch;

@@ -3,7 +3,6 @@
 use nalgebra::Vector3;
 
 use super::signal::{Constellation, SPEED_OF_LIGHT, SatelliteId};
-use crate::frames::Body;
 use crate::time::Time;
 
 /// Rotation rate of the Earth by which signals are carried along, rad/s (IS-GPS-200N, 20.3.3.4.3).
@@ -95,8 +94,6 @@ pub struct SatelliteRange {
 pub struct SatelliteRanges {
     /// When the sample was taken: the receiver's tag less what its clock was ahead.
     pub time: Time,
-    /// Lever arm from the IMU to this receiver's antenna, body axes, m; `None`: that of the ship.
-    pub lever: Option<Body>,
     /// The receiver's clock ahead of GPS time and its drift, m and m/s, where the epoch alone tells them.
     pub clock: Option<(f64, f64)>,
     /// Satellites in their order, each once.

@@ -5,12 +5,10 @@ use insd_base::satellites::SPEED_OF_LIGHT;
 use insd_base::{BroadcastRecord, GpsTime, SatelliteId, SignalCode, SignalObservation, earth};
 use nalgebra::Vector3;
 
+use crate::budget::LOWEST;
 use crate::context::{Context, Delays};
 use crate::sight::Sight;
 use crate::signals::{dispersion, first_band, inflation};
-
-/// Satellites below this elevation are not used, rad: 10 degrees.
-const LOWEST: f64 = 0.1745;
 
 /// One band of a satellite.
 #[derive(Clone, Copy, Debug)]

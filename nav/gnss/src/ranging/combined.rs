@@ -1,15 +1,16 @@
 //! The codes of all bands as one range.
 
 use insd_base::frames::Ecef;
-use insd_base::satellites::{Measured, SPEED_OF_LIGHT};
+use insd_base::satellites::Measured;
 use insd_base::{BroadcastRecord, GpsTime, SignalObservation, earth};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::atmosphere::LookAngles;
-use crate::budget::{BAND_DELAY, IONOSPHERE_RAY, IONOSPHERE_SCALE, orbit_std, untold_std};
+use crate::band_code::BandCode;
+use crate::budget::{BAND_DELAY, IONOSPHERE_RAY, IONOSPHERE_SCALE, orbit_std};
 use crate::context::Context;
 use crate::sight::Sight;
-use crate::signals::{dispersion, first_band, group_delay, inflation};
+use crate::signals::first_band;
 
 /// The codes of all bands as one.
 pub(super) struct Combined {
@@ -34,14 +35,11 @@ pub(super) fn combined_code(
     let mut codes = Vec::with_capacity(best.len());
     let mut bands = Vec::with_capacity(best.len());
     for signal in best {
-        let Some(delay) = group_delay(record, signal.signal) else { continue };
-        let spread = dispersion(satellite, signal.signal)?;
-        let clock = SPEED_OF_LIGHT * (sight.satellite.clock - delay);
-        codes.push(signal.code? + clock - delays.troposphere - spread * delays.ionosphere);
-        let noise = context.noise.code.powi(2) * inflation(direction.elevation, signal.cn0);
-        let further = if signal.signal.band == first { 0.0 } else { BAND_DELAY };
-        let own = untold_std(satellite, signal.signal).hypot(further);
-        bands.push((spread, noise, own * own));
+        let Some(band) = BandCode::new(record, sight, signal) else { continue };
+        codes.push(band.code - delays.troposphere - band.dispersion * delays.ionosphere);
+        let noise = band.noise(direction.elevation, context.noise.code);
+        let further = if band.band == first { 0.0 } else { BAND_DELAY };
+        bands.push((band.dispersion, noise, band.untold.hypot(further).powi(2)));
     }
     let (scale, ray) = (delays.ionosphere * IONOSPHERE_SCALE, delays.ionosphere * IONOSPHERE_RAY);
     let shared = orbit_std(satellite.constellation).hypot(delays.troposphere_std).powi(2);

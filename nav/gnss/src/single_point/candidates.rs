@@ -1,32 +1,12 @@
 //! The satellites of an epoch that have an orbit and a code.
 
-use insd_base::{BroadcastRecord, SatelliteEpoch, SatelliteId, SignalObservation};
+use insd_base::{SatelliteEpoch, SatelliteId, SignalObservation};
 
 use super::witness::{Verdict, Witness};
-use crate::budget::untold_std;
+use crate::band_code::BandCode;
 use crate::context::Context;
 use crate::sight::Sight;
-use crate::signals::{best_of_each_band, dispersion, first_band, group_delay, inflation};
-
-/// One band of a satellite.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Ranging {
-    pub(super) band: u8,
-    /// Code, m, with the satellite's clock and group delay taken out.
-    pub(super) code: f64,
-    /// How much more than on L1 the ionosphere delays it.
-    pub(super) dispersion: f64,
-    /// 1-sigma of what nobody tells of its delay, m.
-    untold: f64,
-    cn0: Option<f64>,
-}
-
-impl Ranging {
-    /// Variance of its own part of the error, m^2; the noise of a good code at the zenith has this 1-sigma, m.
-    pub(super) fn variance(&self, elevation: f64, code_std: f64) -> f64 {
-        code_std * code_std * inflation(elevation, self.cn0) + self.untold * self.untold
-    }
-}
+use crate::signals::{best_of_each_band, first_band};
 
 /// A satellite that may be used.
 #[derive(Clone, Debug)]
@@ -34,7 +14,7 @@ pub(super) struct Candidate {
     pub(super) satellite: SatelliteId,
     pub(super) sight: Sight,
     /// Its bands, the one that positions rest on first.
-    pub(super) rangings: Vec<Ranging>,
+    pub(super) bands: Vec<BandCode>,
 }
 
 /// Candidates of an epoch, and the satellites that are none.
@@ -64,22 +44,10 @@ fn candidate(
     let code = leading.and_then(|signal| signal.code).ok_or(Verdict::NoCode)?;
     let record = context.ephemerides.select(satellite, epoch.tag).map_err(Verdict::NoOrbit)?;
     let sight = Sight::new(record, epoch.tag, code);
-    let rangings: Vec<_> =
-        best.iter().filter_map(|signal| ranging(record, &sight, signal)).collect();
-    match rangings.first() {
-        Some(ranging) if ranging.band == first => Ok(Candidate { satellite, sight, rangings }),
+    let bands: Vec<_> =
+        best.iter().filter_map(|signal| BandCode::new(record, &sight, signal)).collect();
+    match bands.first() {
+        Some(leading) if leading.band == first => Ok(Candidate { satellite, sight, bands }),
         _ => Err(Verdict::NoCode),
     }
-}
-
-fn ranging(record: &BroadcastRecord, sight: &Sight, signal: &SignalObservation) -> Option<Ranging> {
-    use insd_base::satellites::SPEED_OF_LIGHT;
-    let clock = sight.satellite.clock - group_delay(record, signal.signal)?;
-    Some(Ranging {
-        band: signal.signal.band,
-        code: signal.code? + clock * SPEED_OF_LIGHT,
-        dispersion: dispersion(signal.satellite, signal.signal)?,
-        untold: untold_std(signal.satellite, signal.signal),
-        cn0: signal.cn0,
-    })
 }

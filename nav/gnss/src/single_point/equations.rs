@@ -44,7 +44,7 @@ impl Equations {
             .iter()
             .flat_map(|c| {
                 let clock = time_keeper(c.satellite.constellation);
-                c.rangings.iter().skip(1).map(move |ranging| (clock, ranging.band))
+                c.bands.iter().skip(1).map(move |ranging| (clock, ranging.band))
             })
             .collect();
         bands.sort_unstable();
@@ -72,13 +72,13 @@ impl Equations {
         ray: Option<(f64, Delays)>,
         code_std: f64,
     ) -> Rows {
-        let count = candidate.rangings.len();
+        let count = candidate.bands.len();
         let clock = time_keeper(candidate.satellite.constellation);
         let line = candidate.sight.transmitter().line(&self.position);
         let range = candidate.sight.transmitter().range(&self.position);
         let mut rows = DMatrix::zeros(count, self.unknowns());
         let mut observed = DVector::zeros(count);
-        for (row, ranging) in candidate.rangings.iter().enumerate() {
+        for (row, ranging) in candidate.bands.iter().enumerate() {
             rows.fixed_view_mut::<1, 3>(row, 0).copy_from(&-line.transpose());
             if let Some(place) = self.clocks.iter().position(|known| *known == clock) {
                 rows[(row, 3 + place)] = 1.0;
@@ -121,7 +121,7 @@ impl Equations {
 
 /// Covariance of a satellite's codes: noise of each, and what they share.
 fn noise(candidate: &Candidate, ray: Option<(f64, Delays)>, code_std: f64) -> DMatrix<f64> {
-    let count = candidate.rangings.len();
+    let count = candidate.bands.len();
     let Some((elevation, delays)) = ray else {
         return DMatrix::identity(count, count) * 1e4;
     };
@@ -129,8 +129,8 @@ fn noise(candidate: &Candidate, ray: Option<(f64, Delays)>, code_std: f64) -> DM
     let shared = orbit * orbit + delays.troposphere_std * delays.troposphere_std;
     let ionosphere = IONOSPHERE_RAY * delays.ionosphere;
     DMatrix::from_fn(count, count, |i, j| {
-        let (a, b) = (&candidate.rangings[i], &candidate.rangings[j]);
-        let own = if i == j { a.variance(elevation, code_std) } else { 0.0 };
+        let (a, b) = (&candidate.bands[i], &candidate.bands[j]);
+        let own = if i == j { a.noise(elevation, code_std) + a.untold * a.untold } else { 0.0 };
         shared + ionosphere * ionosphere * a.dispersion * b.dispersion + own
     })
 }

@@ -2,25 +2,17 @@
 //!
 //! Positions count from bit 85, which comes first: bit n stands at 85 - n. Strings 1 to 4 end to end.
 
+use insd_base::GpsTime;
 use insd_base::satellites::{GlonassRecord, SatelliteId};
-use insd_base::{GpsTime, Span};
 
 use super::super::bits::{Bits, Field};
-use super::super::kepler::{SECOND, half};
+use super::super::kepler::half;
+use super::super::state::{StateLayout, vector};
 use super::broadcast::WordsRefusal;
 use super::checks::glonass_is_good;
 
 /// Bits of a string.
 pub(super) const SIZE: usize = 85;
-
-/// Metres of a kilometre.
-const KILO: f64 = 1e3;
-
-/// Nanoseconds of a day.
-const DAY: i64 = 86_400 * SECOND;
-
-/// Moscow's time - UTC, ns.
-const MOSCOW: i64 = 10_800 * SECOND;
 
 /// Where a bit of a string stands, by its number in the document.
 const fn bit(string: usize, number: usize) -> usize {
@@ -28,30 +20,17 @@ const fn bit(string: usize, number: usize) -> usize {
 }
 
 const NUMBER: Field = Field::count(1, 4);
-const POSITION: [Field; 3] = [
-    Field::magnitude(bit(1, 35), 27, half(11) * KILO),
-    Field::magnitude(bit(2, 35), 27, half(11) * KILO),
-    Field::magnitude(bit(3, 35), 27, half(11) * KILO),
-];
-const VELOCITY: [Field; 3] = [
-    Field::magnitude(bit(1, 64), 24, half(20) * KILO),
-    Field::magnitude(bit(2, 64), 24, half(20) * KILO),
-    Field::magnitude(bit(3, 64), 24, half(20) * KILO),
-];
-const ACCELERATION: [Field; 3] = [
-    Field::magnitude(bit(1, 40), 5, half(30) * KILO),
-    Field::magnitude(bit(2, 40), 5, half(30) * KILO),
-    Field::magnitude(bit(3, 40), 5, half(30) * KILO),
-];
-/// B_n: its first bit alone says that the satellite is not to be used.
-const HEALTH: Field = Field::count(bit(2, 80), 1);
-/// l_n of string 3: the same.
-const UNHEALTHY: Field = Field::count(bit(3, 65), 1);
-/// t_b: reference time in Moscow's day, s.
-const REFERENCE: Field = Field::unsigned(bit(2, 76), 7, 900.0);
-const GAMMA: Field = Field::magnitude(bit(3, 79), 11, half(40));
-const TAU: Field = Field::magnitude(bit(4, 80), 22, half(30));
-const AGE: Field = Field::count(bit(4, 53), 5);
+const LAYOUT: StateLayout = StateLayout {
+    position: vector([bit(1, 35), bit(2, 35), bit(3, 35)], 27, 11),
+    velocity: vector([bit(1, 64), bit(2, 64), bit(3, 64)], 24, 20),
+    acceleration: vector([bit(1, 40), bit(2, 40), bit(3, 40)], 5, 30),
+    health: Field::count(bit(2, 80), 1),
+    unhealthy: Field::count(bit(3, 65), 1),
+    reference: Field::unsigned(bit(2, 76), 7, 900.0),
+    gamma: Field::magnitude(bit(3, 79), 11, half(40)),
+    tau: Field::magnitude(bit(4, 80), 22, half(30)),
+    age: Field::count(bit(4, 53), 5),
+};
 
 /// Number and bits of a string.
 pub(super) fn string(words: &[u32]) -> Result<(u8, Bits), WordsRefusal> {
@@ -68,34 +47,14 @@ pub(super) fn string(words: &[u32]) -> Result<(u8, Bits), WordsRefusal> {
     }
 }
 
-/// The instant nearest to another at which Moscow has a time of day.
-pub(in crate::gnss) fn nearest_time_of_day(time_of_day: i64, near: GpsTime, leap: i8) -> GpsTime {
-    let moscow = near.as_nanos().saturating_add(MOSCOW - i64::from(leap) * SECOND);
-    let ahead = time_of_day.saturating_sub(moscow.rem_euclid(DAY)).rem_euclid(DAY);
-    near.plus(Span::from_nanos(if ahead > DAY / 2 { ahead - DAY } else { ahead }))
-}
-
 /// The record of strings 1 to 4.
 pub(super) fn record(
     satellite: SatelliteId,
     channel: i8,
     bits: &Bits,
-    (received, leap): (GpsTime, i8),
+    at: (GpsTime, i8),
 ) -> GlonassRecord {
-    let vector = |fields: [Field; 3]| fields.map(|field| field.value(bits));
-    let reference = REFERENCE.value(bits) as i64 * SECOND;
-    GlonassRecord {
-        satellite,
-        channel,
-        reference: nearest_time_of_day(reference, received, leap),
-        position: vector(POSITION),
-        velocity: vector(VELOCITY),
-        acceleration: vector(ACCELERATION),
-        clock_offset: -TAU.value(bits),
-        clock_drift: GAMMA.value(bits),
-        health: (HEALTH.raw(bits) | UNHEALTHY.raw(bits) << 1) as u8,
-        age_days: AGE.value(bits),
-    }
+    LAYOUT.record(satellite, channel, bits, at)
 }
 
 /// The words of the strings that say a record.
@@ -103,20 +62,22 @@ pub(super) fn record(
 pub(super) fn words(record: &GlonassRecord, leap: i8) -> Vec<Vec<u32>> {
     let mut bits = Bits::zeros(4 * SIZE);
     let groups = [
-        (POSITION, record.position),
-        (VELOCITY, record.velocity),
-        (ACCELERATION, record.acceleration),
+        (LAYOUT.position, record.position),
+        (LAYOUT.velocity, record.velocity),
+        (LAYOUT.acceleration, record.acceleration),
     ];
     for (fields, values) in groups {
         fields.iter().zip(values).for_each(|(field, value)| field.put(&mut bits, value));
     }
+    use super::super::kepler::SECOND;
+    use super::super::state::{DAY, MOSCOW};
     let moscow = record.reference.as_nanos() + MOSCOW - i64::from(leap) * SECOND;
-    REFERENCE.put(&mut bits, (moscow.rem_euclid(DAY) / SECOND) as f64);
-    TAU.put(&mut bits, -record.clock_offset);
-    GAMMA.put(&mut bits, record.clock_drift);
-    AGE.put(&mut bits, record.age_days);
-    HEALTH.put_raw(&mut bits, u64::from(record.health));
-    UNHEALTHY.put_raw(&mut bits, u64::from(record.health) >> 1);
+    LAYOUT.reference.put(&mut bits, (moscow.rem_euclid(DAY) / SECOND) as f64);
+    LAYOUT.tau.put(&mut bits, -record.clock_offset);
+    LAYOUT.gamma.put(&mut bits, record.clock_drift);
+    LAYOUT.age.put(&mut bits, record.age_days);
+    LAYOUT.health.put_raw(&mut bits, u64::from(record.health));
+    LAYOUT.unhealthy.put_raw(&mut bits, u64::from(record.health) >> 1);
     let string = |number: usize| {
         let mut own = Bits::default();
         own.append(&bits, number * SIZE, SIZE);

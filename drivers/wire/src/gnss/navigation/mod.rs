@@ -13,7 +13,6 @@ mod leap;
 mod lnav;
 
 pub use assembler::NavigationAssembler;
-pub(super) use glonass::nearest_time_of_day;
 
 pub use broadcast::{Broadcast, WordsRefusal};
 

@@ -7,7 +7,7 @@ use insd_base::satellites::{BroadcastRecord, Constellation, SatelliteEpoch, Sate
 
 use super::super::bits::Bits;
 use super::super::kepler::SECOND;
-use super::super::navigation::nearest_time_of_day;
+use super::super::state::nearest_time_of_day;
 use super::frame::Frame;
 use super::glonass;
 use super::kepler;

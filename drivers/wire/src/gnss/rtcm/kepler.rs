@@ -135,6 +135,30 @@ const BEIDOU: Ephemeris = Ephemeris {
     },
 };
 
+/// Orbit and clock stand alike in both of Galileo's.
+const GALILEO: Layout = Layout {
+    toe: Field::unsigned(294, 14, 60.0),
+    sqrt_a: Field::unsigned(262, 32, half(19)),
+    eccentricity: Field::unsigned(214, 32, half(33)),
+    m0: Field::signed(166, 32, semi(31)),
+    delta_n: Field::signed(150, 16, semi(43)),
+    omega: Field::signed(420, 32, semi(31)),
+    omega0: Field::signed(324, 32, semi(31)),
+    omega_dot: Field::signed(452, 24, semi(43)),
+    i0: Field::signed(372, 32, semi(31)),
+    i_dot: Field::signed(48, 14, semi(43)),
+    latitude: [Field::signed(198, 16, half(29)), Field::signed(246, 16, half(29))],
+    radius: [Field::signed(404, 16, half(5)), Field::signed(134, 16, half(5))],
+    inclination: [Field::signed(308, 16, half(29)), Field::signed(356, 16, half(29))],
+    toc: Field::unsigned(62, 14, 60.0),
+    clock: [
+        Field::signed(103, 31, half(34)),
+        Field::signed(82, 21, half(46)),
+        Field::signed(76, 6, half(59)),
+    ],
+    behind: 0,
+};
+
 /// 1045.
 const GALILEO_FNAV: Ephemeris = Ephemeris {
     number: 1045,
@@ -146,28 +170,7 @@ const GALILEO_FNAV: Ephemeris = Ephemeris {
     accuracy: Field::count(40, 8),
     health: &[(Field::count(488, 1), 3), (Field::count(486, 2), 4)],
     group_delays: [Field::signed(476, 10, half(32)), Field::count(0, 0)],
-    layout: Layout {
-        toe: Field::unsigned(294, 14, 60.0),
-        sqrt_a: Field::unsigned(262, 32, half(19)),
-        eccentricity: Field::unsigned(214, 32, half(33)),
-        m0: Field::signed(166, 32, semi(31)),
-        delta_n: Field::signed(150, 16, semi(43)),
-        omega: Field::signed(420, 32, semi(31)),
-        omega0: Field::signed(324, 32, semi(31)),
-        omega_dot: Field::signed(452, 24, semi(43)),
-        i0: Field::signed(372, 32, semi(31)),
-        i_dot: Field::signed(48, 14, semi(43)),
-        latitude: [Field::signed(198, 16, half(29)), Field::signed(246, 16, half(29))],
-        radius: [Field::signed(404, 16, half(5)), Field::signed(134, 16, half(5))],
-        inclination: [Field::signed(308, 16, half(29)), Field::signed(356, 16, half(29))],
-        toc: Field::unsigned(62, 14, 60.0),
-        clock: [
-            Field::signed(103, 31, half(34)),
-            Field::signed(82, 21, half(46)),
-            Field::signed(76, 6, half(59)),
-        ],
-        behind: 0,
-    },
+    layout: GALILEO,
 };
 
 /// 1046.
@@ -186,28 +189,7 @@ const GALILEO_INAV: Ephemeris = Ephemeris {
         (Field::count(496, 2), 7),
     ],
     group_delays: [Field::signed(476, 10, half(32)), Field::signed(486, 10, half(32))],
-    layout: Layout {
-        toe: Field::unsigned(294, 14, 60.0),
-        sqrt_a: Field::unsigned(262, 32, half(19)),
-        eccentricity: Field::unsigned(214, 32, half(33)),
-        m0: Field::signed(166, 32, semi(31)),
-        delta_n: Field::signed(150, 16, semi(43)),
-        omega: Field::signed(420, 32, semi(31)),
-        omega0: Field::signed(324, 32, semi(31)),
-        omega_dot: Field::signed(452, 24, semi(43)),
-        i0: Field::signed(372, 32, semi(31)),
-        i_dot: Field::signed(48, 14, semi(43)),
-        latitude: [Field::signed(198, 16, half(29)), Field::signed(246, 16, half(29))],
-        radius: [Field::signed(404, 16, half(5)), Field::signed(134, 16, half(5))],
-        inclination: [Field::signed(308, 16, half(29)), Field::signed(356, 16, half(29))],
-        toc: Field::unsigned(62, 14, 60.0),
-        clock: [
-            Field::signed(103, 31, half(34)),
-            Field::signed(82, 21, half(46)),
-            Field::signed(76, 6, half(59)),
-        ],
-        behind: 0,
-    },
+    layout: GALILEO,
 };
 
 /// The record of a message; `None` if its number is that of another one.

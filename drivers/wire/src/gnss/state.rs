@@ -1,0 +1,75 @@
+//! Where a state of GLONASS stands in a message.
+
+use insd_base::satellites::{GlonassRecord, SatelliteId};
+use insd_base::{GpsTime, Span};
+
+use super::bits::{Bits, Field};
+use super::kepler::{SECOND, half};
+
+/// Metres of a kilometre.
+const KILO: f64 = 1e3;
+
+/// Nanoseconds of a day.
+pub(super) const DAY: i64 = 86_400 * SECOND;
+
+/// Moscow's time - UTC, ns.
+pub(super) const MOSCOW: i64 = 10_800 * SECOND;
+
+/// The fields of one message; each number with a sign has it in its first bit.
+pub(super) struct StateLayout {
+    pub(super) position: [Field; 3],
+    pub(super) velocity: [Field; 3],
+    pub(super) acceleration: [Field; 3],
+    /// The first bit of B_n: it alone says that the satellite is not to be used.
+    pub(super) health: Field,
+    /// l_n: the same.
+    pub(super) unhealthy: Field,
+    /// t_b: reference time in Moscow's day, s.
+    pub(super) reference: Field,
+    pub(super) gamma: Field,
+    pub(super) tau: Field,
+    pub(super) age: Field,
+}
+
+/// Coordinates whose first bits stand so, of so many bits each and with this scale in kilometres.
+pub(super) const fn vector(at: [usize; 3], width: usize, scale: i32) -> [Field; 3] {
+    let [x, y, z] = at;
+    [
+        Field::magnitude(x, width, half(scale) * KILO),
+        Field::magnitude(y, width, half(scale) * KILO),
+        Field::magnitude(z, width, half(scale) * KILO),
+    ]
+}
+
+impl StateLayout {
+    /// The record, with the reference time that is nearest to the reception.
+    pub(super) fn record(
+        &self,
+        satellite: SatelliteId,
+        channel: i8,
+        bits: &Bits,
+        (received, leap): (GpsTime, i8),
+    ) -> GlonassRecord {
+        let vector = |fields: [Field; 3]| fields.map(|field| field.value(bits));
+        let reference = self.reference.value(bits) as i64 * SECOND;
+        GlonassRecord {
+            satellite,
+            channel,
+            reference: nearest_time_of_day(reference, received, leap),
+            position: vector(self.position),
+            velocity: vector(self.velocity),
+            acceleration: vector(self.acceleration),
+            clock_offset: -self.tau.value(bits),
+            clock_drift: self.gamma.value(bits),
+            health: (self.health.raw(bits) | self.unhealthy.raw(bits) << 1) as u8,
+            age_days: self.age.value(bits),
+        }
+    }
+}
+
+/// The instant nearest to another at which Moscow has a time of day.
+pub(super) fn nearest_time_of_day(time_of_day: i64, near: GpsTime, leap: i8) -> GpsTime {
+    let moscow = near.as_nanos().saturating_add(MOSCOW - i64::from(leap) * SECOND);
+    let ahead = time_of_day.saturating_sub(moscow.rem_euclid(DAY)).rem_euclid(DAY);
+    near.plus(Span::from_nanos(if ahead > DAY / 2 { ahead - DAY } else { ahead }))
+}
