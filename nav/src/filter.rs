@@ -293,7 +293,7 @@ impl Estimator for Filter {
         self.look_at_slip();
         if self.state.level.is_full() {
             self.settle();
-            self.hold_sea_level();
+            self.keeping_course(Self::hold_sea_level);
         }
     }
 
@@ -306,7 +306,9 @@ impl Estimator for Filter {
             // its own receiver's fix is made of the same ranges
             Message::Gnss(_) if self.satellites.are_fresh(self.state.time) => {}
             Message::Gnss(fix) => self.apply_gnss(fix, received.source, &mut report),
-            Message::Log(log) => self.apply_log(log, received.source, &mut report),
+            Message::Log(log) => {
+                self.keeping_course(|own| own.apply_log(log, received.source, &mut report));
+            }
             Message::Reference(r) => self.apply_reference(r, received.source, &mut report),
             Message::Ranges(ranges) => self.apply_ranges(ranges, received.source, &mut report),
         }

@@ -14,12 +14,18 @@
 //! turned about down ([`crate::aids::berth`]): an error phi_D k of the heading goes together with
 //! dp = phi_D k x d of the position from the berth and dv = phi_D k x v. When d and v are corrected,
 //! so is what goes together with the heading error.
+//!
+//! **Motion under way.** A log tells the velocity in the ship's own axes: it looks the same whichever way attitude, velocity and
+//! current are turned together, an error phi of the attitude goes together with dv = phi x v and dc = phi_D k x c. When v and c
+//! are corrected, so is what goes together with phi (the covariance is then that of the invariant error of Barrau and Bonnabel,
+//! IEEE Trans. Automatic Control 62 (2017), section IV). Left alone, a heading that is off by ten degrees seems to be
+//! measured by each turn of a ship that has nothing but her log.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, Covariance, Errors, GYRO_BIAS, GYRO_DRIFT, POSITION,
-    VELOCITY,
+    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, CURRENT, Covariance, Errors, GYRO_BIAS, GYRO_DRIFT,
+    POSITION, VELOCITY,
 };
 
 /// Turns the covariance of the biases from one estimate of the attitude, C_eb, to another.
@@ -38,6 +44,19 @@ pub fn keep_turn_unknown(p: &mut Covariance, error: &Errors, down: &Vector3<f64>
         let across = down.cross(&error.of(block)) * down.transpose();
         ATTITUDE.add_to(block, p, &across);
     }
+}
+
+/// Keeps a turn of all that moves unknown when a log corrects the velocity, ECEF axes, and the current, north and east, by these, m/s,
+/// which the covariance has absorbed; `down` is the unit vector down, ECEF axes.
+pub fn keep_course_unknown(
+    p: &mut Covariance,
+    velocity: &Vector3<f64>,
+    current: &Vector2<f64>,
+    down: &Vector3<f64>,
+) {
+    ATTITUDE.add_to(VELOCITY, p, &-velocity.cross_matrix());
+    let across = Vector2::new(-current.y, current.x) * down.transpose();
+    ATTITUDE.add_to(CURRENT, p, &across);
 }
 
 #[cfg(test)]
@@ -61,5 +80,23 @@ mod tests {
         };
         let (was, is) = (cross(&before, old.matrix()), cross(&after, new.matrix()));
         assert!((was - is).amax() < 1e-12);
+    }
+
+    #[test]
+    fn a_turn_of_all_that_moves_stays_what_a_log_does_not_see() {
+        let mut p = crate::declaration::no_covariance();
+        let down = Vector3::new(0.6, 0.0, 0.8);
+        let (before, correction) = (Vector3::new(4.0, -2.0, 1.0), Vector3::new(0.5, 1.0, -0.2));
+        // nothing is unknown but a turn by one radian
+        let turned = |velocity: &Vector3<f64>| down.cross(velocity);
+        let mut unknown = Errors::zeros(p.layout());
+        unknown.set(ATTITUDE, &down);
+        unknown.set(VELOCITY, &turned(&before));
+        let unknown = unknown.to_column();
+        *p.matrix_mut() = &unknown * unknown.transpose();
+        keep_course_unknown(&mut p, &correction, &Vector2::zeros(), &down);
+        let after = ATTITUDE.covariance_with(VELOCITY, &p);
+        let expected = down * turned(&(before + correction)).transpose();
+        assert!((after - expected).amax() < 1e-12, "{after} {expected}");
     }
 }

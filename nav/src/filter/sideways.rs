@@ -57,9 +57,18 @@ impl Filter {
         }
         self.settle();
         let at_imu = Vector3::zeros();
-        self.hold_across(LogReference::Bottom, &at_imu);
-        let spacing = since.min(LONGEST);
-        self.hold(LogReference::Bottom, &at_imu, 2, BOUNCE, spacing);
+        self.keeping_course(|own| {
+            own.hold_across(LogReference::Bottom, &at_imu);
+            let spacing = since.min(LONGEST);
+            own.hold(LogReference::Bottom, &at_imu, 2, BOUNCE, spacing);
+        });
+    }
+
+    /// Brings in what does not tell the velocity over the Earth, and so cannot see a turn of all that moves.
+    pub(super) fn keeping_course(&mut self, bring_in: impl FnOnce(&mut Self)) {
+        let before = self.state.course();
+        bring_in(self);
+        self.state.keep_course_unknown(&before);
     }
 
     fn hold_across(&mut self, reference: LogReference, lever: &Vector3<f64>) {

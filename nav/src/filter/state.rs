@@ -1,7 +1,7 @@
 //! The state of the filter: an estimate, the covariance of its errors, and what carries both on.
 
 use insd_base::Time;
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, UnitQuaternion, Vector2, Vector3};
 
 use crate::aids::View;
 use crate::angular_rate::rate_variance;
@@ -14,7 +14,7 @@ use crate::propagation::{self, Passage, Passing, Regime, Stretch};
 use crate::sea_window::LevelWindow;
 use crate::strapdown::{self, LocalGravity, Step};
 use crate::sway::Sway;
-use crate::symmetry::{keep_turn_unknown, turn_biases};
+use crate::symmetry::{keep_course_unknown, keep_turn_unknown, turn_biases};
 
 /// Correction of the attitude after which the knowledge of the biases is turned with it, rad.
 const TURN: f64 = 2e-4;
@@ -171,6 +171,23 @@ impl State {
             self.turned = Vector3::zeros();
         }
         error
+    }
+
+    /// Velocity, ECEF axes, and current, north and east, m/s.
+    pub(super) fn course(&self) -> (Vector3<f64>, Vector2<f64>) {
+        (self.nominal.velocity, self.nominal.current)
+    }
+
+    /// A log has corrected what was [`Self::course`] before.
+    pub(super) fn keep_course_unknown(
+        &mut self,
+        (velocity, current): &(Vector3<f64>, Vector2<f64>),
+    ) {
+        if !self.is_moored() {
+            let down = -self.nominal.position.normalize();
+            let by = (self.nominal.velocity - velocity, self.nominal.current - current);
+            keep_course_unknown(&mut self.covariance, &by.0, &by.1, &down);
+        }
     }
 
     /// Takes back a correction that was made by mistake, and is as unsure of it as it is large.
