@@ -216,7 +216,8 @@ impl Filter {
             self.receiver.trust.used(self.state.time);
         }
         for one in faulty.iter().filter_map(|index| used.get(*index)) {
-            let excluded = self.satellites.slot_mut(one.slot).and_then(Slot::exclude);
+            let slot = self.satellites.slot_mut(one.slot);
+            let excluded = slot.and_then(|slot| slot.exclude(now));
             report.satellites.extend(excluded.map(|satellite| (now, satellite, true)));
         }
         let good = used.into_iter().enumerate().filter(|(index, _)| !faulty.contains(index));
@@ -236,7 +237,7 @@ impl Filter {
             let weighed = rows.and_then(|rows| rows.all.weigh(&self.state.covariance));
             let agrees = weighed.is_some_and(|weighed| weighed.nis() < AGREES * AGREES);
             let Some(slot) = self.satellites.slot_mut(one.slot) else { continue };
-            let readmitted = if agrees { slot.agree() } else { slot.exclude() };
+            let readmitted = if agrees { slot.agree() } else { slot.exclude(now) };
             let is_excluded = !agrees;
             report.satellites.extend(readmitted.map(|satellite| (now, satellite, is_excluded)));
         }

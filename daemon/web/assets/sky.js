@@ -1,0 +1,165 @@
+// The satellites: where they stand, how strong they are, which are used, and why not.
+
+import { byId, fill, make, right, setAttr, setText, show, svg } from "./dom.js";
+import { DASH, bearing, count, duration, fixed, known, words } from "./format.js";
+
+const RAD = Math.PI / 180;
+// radius of the horizon and height of the letters in the picture
+const [HORIZON, LETTERS] = [118, 10];
+// the ends of the bars, dB Hz
+const [WEAK, STRONG] = [15, 55];
+
+const circle = (r) => `M${-r} 0a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0Z`;
+
+// What becomes of a satellite: a shape of its own, words and a tone.
+const FATES = {
+  used: { solid: circle(6), line: circle(6), text: "used", tone: "good" },
+  code_only: { solid: "M0 -6A6 6 0 0 0 0 6Z", line: circle(6), text: "code only", tone: "busy" },
+  left_out: { line: "M-6 -6H6V6H-6ZM-6 -6L6 6M6 -6L-6 6", text: "left out", tone: "bad" },
+  refused: { line: `${circle(5)}M-3.5 3.5L3.5 -3.5`, text: "not usable", tone: "calm" },
+  crowded: { line: "M0 -6L6 5H-6Z", text: "not needed", tone: "calm" },
+  waiting: { line: circle(5), text: "not used yet", tone: "calm" },
+};
+const fateOf = (satellite) => (satellite.fate in FATES ? satellite.fate : "waiting");
+
+const WHY_NOT = {
+  fixes_only: "The receiver sends fixes only: nothing is known of single satellites.",
+  silent: "What the receiver measures of each satellite is not told any more.",
+  no_receiver: "No satellite receiver is heard.",
+};
+
+function mark(parent, fate) {
+  const group = svg(parent, "g", { class: `sat ${fate}` });
+  svg(group, "path", { d: FATES[fate].line, class: "sat-line" });
+  if (FATES[fate].solid) svg(group, "path", { d: FATES[fate].solid, class: "sat-solid" });
+  return group;
+}
+
+function icon(fate) {
+  const holder = make("span", { class: "sat-icon" });
+  mark(svg(holder, "svg", { viewBox: "-8 -8 16 16", "aria-hidden": "true" }), fate);
+  return holder;
+}
+
+// Where a satellite stands in the picture: north is up, the zenith in the middle.
+function spot(satellite) {
+  const { azimuth_deg: azimuth, elevation_deg: elevation } = satellite;
+  if (!known(azimuth) || !known(elevation)) return null;
+  const radius = (HORIZON * (90 - Math.max(0, Math.min(90, elevation)))) / 90;
+  return { x: radius * Math.sin(azimuth * RAD), y: -radius * Math.cos(azimuth * RAD) };
+}
+
+const overlap = (a, b) =>
+  Math.max(0, Math.min(a.right, b.right) - Math.max(a.left, b.left)) *
+  Math.max(0, Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top));
+
+const box = (x, y, width, height) => ({ left: x - width / 2, right: x + width / 2, top: y - height / 2, bottom: y + height / 2 });
+
+// Names stand beside their marks, where they cover least of what is there already.
+function place(spots) {
+  const taken = spots.map(({ at }) => box(at.x, at.y, 13, 13));
+  return spots.map(({ satellite, at }) => {
+    const width = satellite.name.length * LETTERS * 0.62;
+    const [aside, above] = [9 + width / 2, 8 + LETTERS / 2];
+    const around = [[aside, 0], [-aside, 0], [0, above], [0, -above], [aside, above], [-aside, above], [aside, -above], [-aside, -above]];
+    const rated = around.map(([dx, dy], turn) => {
+      const own = box(at.x + dx, at.y + dy, width, LETTERS);
+      const beyond = Math.max(0, Math.hypot(at.x + dx, at.y + dy) + width / 2 - HORIZON - 12);
+      const covered = taken.reduce((sum, other) => sum + overlap(own, other), 0);
+      return { own, x: at.x + dx, y: at.y + dy, cost: covered + 20 * beyond + turn * 0.4 };
+    });
+    const best = rated.reduce((a, b) => (b.cost < a.cost ? b : a));
+    taken.push(best.own);
+    return best;
+  });
+}
+
+function plot(root) {
+  for (const elevation of [0, 30, 60]) {
+    svg(root, "circle", { r: (HORIZON * (90 - elevation)) / 90, class: elevation === 0 ? "dial" : "sky-ring" });
+  }
+  svg(root, "path", { d: `M0 ${-HORIZON}V${HORIZON}M${-HORIZON} 0H${HORIZON}`, class: "sky-ring" });
+  for (const [name, x, y] of [["N", 0, -130], ["E", 133, 5], ["S", 0, 141], ["W", -133, 5]]) {
+    svg(root, "text", { x, y, class: "cardinal" }, name);
+  }
+  for (const elevation of [30, 60]) svg(root, "text", { x: 2, y: (HORIZON * (90 - elevation)) / 90 - 3, class: "sky-degrees" }, `${elevation}°`);
+  const bow = svg(root, "path", { d: `M0 ${-HORIZON} 6 ${-HORIZON - 9} -6 ${-HORIZON - 9}Z`, class: "lubber" });
+  const all = svg(root, "g");
+  let shown = "";
+  return (satellites, heading) => {
+    setAttr(bow, "visibility", known(heading) ? "visible" : "hidden");
+    if (known(heading)) setAttr(bow, "transform", `rotate(${heading.toFixed(1)})`);
+    // those that are used are drawn last, above the others
+    const spots = satellites.map((satellite) => ({ satellite, at: spot(satellite) })).filter(({ at }) => at)
+      .sort((a, b) => Object.keys(FATES).indexOf(fateOf(b.satellite)) - Object.keys(FATES).indexOf(fateOf(a.satellite)));
+    const key = spots.map(({ satellite, at }) => [satellite.name, satellite.fate, at.x.toFixed(1), at.y.toFixed(1)]).join();
+    if (key === shown) return;
+    shown = key;
+    all.replaceChildren();
+    const names = place(spots);
+    spots.forEach(({ satellite, at }, k) => {
+      const fate = fateOf(satellite);
+      const group = mark(all, fate);
+      setAttr(group, "transform", `translate(${at.x.toFixed(1)} ${at.y.toFixed(1)})`);
+      svg(group, "title", {}, `${satellite.name}: ${FATES[fate].text}`);
+      svg(all, "text", { x: names[k].x.toFixed(1), y: (names[k].y + LETTERS * 0.36).toFixed(1), class: `sat-name ${fate}` }, satellite.name);
+    });
+  };
+}
+
+const strengths = (satellite) =>
+  satellite.signals.map((signal) => `${signal.band} ${fixed(signal.cn0_db_hz, 0)}`).join(" · ") || DASH;
+
+// A column: the greatest number, a bar for each band, the mark and the name.
+function column(satellite) {
+  const levels = satellite.signals.map((signal) => signal.cn0_db_hz);
+  const fate = fateOf(satellite);
+  const bars = levels.map((level) => {
+    const bar = make("i");
+    const part = known(level) ? Math.max(0.02, Math.min(1, (level - WEAK) / (STRONG - WEAK))) : 0;
+    bar.style.setProperty("--level", `${(100 * part).toFixed(1)}%`);
+    return bar;
+  });
+  const most = levels.filter(known).length > 0 ? Math.max(...levels.filter(known)) : null;
+  return make("li", { class: `cn0 ${fate}`, title: `${satellite.name}: ${strengths(satellite)} dB Hz, ${FATES[fate].text}` },
+    make("span", { class: "num" }, fixed(most, 0)), make("span", { class: "cn0-bars" }, ...bars), icon(fate), make("span", {}, satellite.name));
+}
+
+function row(satellite) {
+  const fate = FATES[fateOf(satellite)];
+  return [
+    { text: satellite.name, sub: satellite.system },
+    { text: fate.text, cls: `state ${fate.tone}`, sub: known(satellite.left_out_for_s) ? `for ${duration(satellite.left_out_for_s)}` : "" },
+    right(fixed(satellite.elevation_deg, 0)), right(bearing(satellite.azimuth_deg, 0)),
+    { text: strengths(satellite), cls: "num" }, { text: satellite.text ?? DASH, cls: "wrap" },
+  ];
+}
+
+function legend() {
+  const items = Object.entries(FATES).map(([fate, { text }]) => make("li", {}, icon(fate), text));
+  byId("sky-legend").replaceChildren(...items);
+}
+
+const picture = plot(byId("sky-plot"));
+legend();
+let columns = "";
+
+export function sky(data) {
+  const { state, used, satellites = [], refused = [] } = data.sky ?? {};
+  const isTold = state === "raw";
+  for (const id of ["sky-box", "cn0-card", "sky-table-card"]) show(byId(id), isTold && satellites.length > 0);
+  show(byId("no-sky"), !isTold || satellites.length === 0);
+  setText(byId("no-sky"), isTold ? "The receiver hears no satellite." : WHY_NOT[state] ?? "Nothing is known of the satellites.");
+  const tally = isTold ? `${count(used)} of ${satellites.length} used` : "";
+  setText(byId("sky-tally"), tally);
+  setAttr(byId("sky-plot"), "aria-label", `Sky: ${tally || "not known"}`);
+  picture(satellites, data.motion?.heading_deg);
+  const elsewhere = satellites.filter((satellite) => !spot(satellite)).map((satellite) => satellite.name);
+  setText(byId("sky-elsewhere"), elsewhere.length > 0 ? `Not in the picture, as nobody knows where they stand: ${elsewhere.join(", ")}` : "");
+  const key = JSON.stringify(satellites.map(({ name, fate, signals }) => [name, fate, signals]));
+  if (key !== columns) byId("cn0").replaceChildren(...satellites.map(column));
+  columns = key;
+  fill(byId("sky-table"), satellites.map(row));
+  const since = refused.filter((cause) => cause.count > 0).map((cause) => `${words(cause.reason)} ${count(cause.count)}`).join(", ");
+  setText(byId("sky-refused"), since ? `Not usable since the start, one counted in each epoch: ${since}` : "");
+}
