@@ -11,16 +11,18 @@ const [WEAK, STRONG] = [15, 55];
 
 const circle = (r) => `M${-r} 0a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0Z`;
 
-// What becomes of a satellite: a shape of its own, words and a tone.
+// What becomes of a satellite: a shape of its own, words and a tone. Those that are used come last.
 const FATES = {
-  used: { solid: circle(6), line: circle(6), text: "used", tone: "good" },
-  code_only: { solid: "M0 -6A6 6 0 0 0 0 6Z", line: circle(6), text: "code only", tone: "busy" },
-  left_out: { line: "M-6 -6H6V6H-6ZM-6 -6L6 6M6 -6L-6 6", text: "left out", tone: "bad" },
+  left_out: { line: "M-5.5 -5.5H5.5V5.5H-5.5ZM-5.5 -5.5L5.5 5.5M5.5 -5.5L-5.5 5.5", text: "left out", tone: "bad" },
   refused: { line: `${circle(5)}M-3.5 3.5L3.5 -3.5`, text: "not usable", tone: "calm" },
   crowded: { line: "M0 -6L6 5H-6Z", text: "not needed", tone: "calm" },
   waiting: { line: circle(5), text: "not used yet", tone: "calm" },
+  code_only: { solid: "M0 -5.5A5.5 5.5 0 0 0 0 5.5Z", line: circle(5.5), text: "code only", tone: "busy" },
+  used: { solid: circle(5.5), line: circle(5.5), text: "used", tone: "good" },
 };
+const ORDER = Object.keys(FATES);
 const fateOf = (satellite) => (satellite.fate in FATES ? satellite.fate : "waiting");
+const byFate = (satellites) => [...satellites].sort((a, b) => ORDER.indexOf(fateOf(a)) - ORDER.indexOf(fateOf(b)));
 
 const WHY_NOT = {
   fixes_only: "The receiver sends fixes only: nothing is known of single satellites.",
@@ -90,8 +92,7 @@ function plot(root) {
     setAttr(bow, "visibility", known(heading) ? "visible" : "hidden");
     if (known(heading)) setAttr(bow, "transform", `rotate(${heading.toFixed(1)})`);
     // those that are used are drawn last, above the others
-    const spots = satellites.map((satellite) => ({ satellite, at: spot(satellite) })).filter(({ at }) => at)
-      .sort((a, b) => Object.keys(FATES).indexOf(fateOf(b.satellite)) - Object.keys(FATES).indexOf(fateOf(a.satellite)));
+    const spots = byFate(satellites).map((satellite) => ({ satellite, at: spot(satellite) })).filter(({ at }) => at);
     const key = spots.map(({ satellite, at }) => [satellite.name, satellite.fate, at.x.toFixed(1), at.y.toFixed(1)]).join();
     if (key === shown) return;
     shown = key;
@@ -128,7 +129,7 @@ function column(satellite) {
 function row(satellite) {
   const fate = FATES[fateOf(satellite)];
   return [
-    { text: satellite.name, sub: satellite.system },
+    { text: satellite.name, title: satellite.system },
     { text: fate.text, cls: `state ${fate.tone}`, sub: known(satellite.left_out_for_s) ? `for ${duration(satellite.left_out_for_s)}` : "" },
     right(fixed(satellite.elevation_deg, 0)), right(bearing(satellite.azimuth_deg, 0)),
     { text: strengths(satellite), cls: "num" }, { text: satellite.text ?? DASH, cls: "wrap" },
@@ -136,8 +137,10 @@ function row(satellite) {
 }
 
 function legend() {
-  const items = Object.entries(FATES).map(([fate, { text }]) => make("li", {}, icon(fate), text));
-  byId("sky-legend").replaceChildren(...items);
+  const items = Object.entries(FATES).reverse().map(([fate, { text }]) => make("li", {}, icon(fate), text));
+  const bow = make("span", { class: "sat-icon" });
+  svg(svg(bow, "svg", { viewBox: "-8 -8 16 16", "aria-hidden": "true" }), "path", { d: "M0 5 6 -4 -6 -4Z", class: "lubber" });
+  byId("sky-legend").replaceChildren(...items, make("li", {}, bow, "her bow"));
 }
 
 const picture = plot(byId("sky-plot"));
@@ -147,7 +150,7 @@ let columns = "";
 export function sky(data) {
   const { state, used, satellites = [], refused = [] } = data.sky ?? {};
   const isTold = state === "raw";
-  for (const id of ["sky-box", "cn0-card", "sky-table-card"]) show(byId(id), isTold && satellites.length > 0);
+  for (const id of ["sky-box", "signals-card"]) show(byId(id), isTold && satellites.length > 0);
   show(byId("no-sky"), !isTold || satellites.length === 0);
   setText(byId("no-sky"), isTold ? "The receiver hears no satellite." : WHY_NOT[state] ?? "Nothing is known of the satellites.");
   const tally = isTold ? `${count(used)} of ${satellites.length} used` : "";
@@ -155,11 +158,11 @@ export function sky(data) {
   setAttr(byId("sky-plot"), "aria-label", `Sky: ${tally || "not known"}`);
   picture(satellites, data.motion?.heading_deg);
   const elsewhere = satellites.filter((satellite) => !spot(satellite)).map((satellite) => satellite.name);
-  setText(byId("sky-elsewhere"), elsewhere.length > 0 ? `Not in the picture, as nobody knows where they stand: ${elsewhere.join(", ")}` : "");
+  setText(byId("sky-elsewhere"), elsewhere.length > 0 ? `Not in the picture, as no orbit of theirs holds: ${elsewhere.join(", ")}` : "");
   const key = JSON.stringify(satellites.map(({ name, fate, signals }) => [name, fate, signals]));
   if (key !== columns) byId("cn0").replaceChildren(...satellites.map(column));
   columns = key;
-  fill(byId("sky-table"), satellites.map(row));
+  fill(byId("sky-table"), byFate(satellites).map(row));
   const since = refused.filter((cause) => cause.count > 0).map((cause) => `${words(cause.reason)} ${count(cause.count)}`).join(", ");
   setText(byId("sky-refused"), since ? `Not usable since the start, one counted in each epoch: ${since}` : "");
 }

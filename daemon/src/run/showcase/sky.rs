@@ -100,7 +100,7 @@ fn text(own: &SkySatellite) -> Option<String> {
         SatelliteUse::Waiting => Some("the navigator does not use ranges yet".to_owned()),
         SatelliteUse::Refused(why) => Some(why.to_string()),
     };
-    let doubted = "it contradicts the others of its epoch";
+    let doubted = "contradicts the others of its epoch";
     match (told, own.is_outlier && !matches!(own.fate, SatelliteUse::LeftOut { .. })) {
         (Some(told), true) => Some(format!("{told}; {doubted}")),
         (None, true) => Some(doubted.to_owned()),

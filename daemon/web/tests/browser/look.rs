@@ -167,9 +167,9 @@ fn each_satellite_stands_in_the_sky_in_the_bars_and_in_the_table_and_no_name_cov
     browser.until("a sky", || !browser.elements("#sky-plot .sat").is_empty());
     assert_eq!(browser.elements("#sky-table tbody tr").len(), 34);
     assert_eq!(browser.elements("#cn0 .cn0").len(), 34);
-    assert_eq!(browser.elements("#sky-plot .sat-name").len(), 32);
-    assert!(browser.text("#sky-elsewhere").ends_with("E24, S23"));
-    assert_eq!(browser.text("#sky-tally"), "25 of 34 used");
+    assert_eq!(browser.elements("#sky-plot .sat-name").len(), 31);
+    assert!(browser.text("#sky-elsewhere").ends_with("R19, E24, S23"));
+    assert_eq!(browser.text("#sky-tally"), "26 of 34 used");
     let table = browser.text("#sky-table");
     for told in ["left out", "its ranges contradict the others", "below 10 degrees", "code only"] {
         assert!(table.contains(told), "{told} is not in {table}");
@@ -186,7 +186,7 @@ fn each_satellite_stands_in_the_sky_in_the_bars_and_in_the_table_and_no_name_cov
     // who does not see colours sees shapes
     let shapes = "return new Set([...document.querySelectorAll('#sky-legend svg')].map((node) => node.innerHTML
         .replaceAll(/class=\"[^\"]*\"/g, ''))).size";
-    assert_eq!(browser.run(shapes), json!(6));
+    assert_eq!(browser.run(shapes), json!(7));
 }
 
 #[test]
@@ -194,7 +194,7 @@ fn each_satellite_stands_in_the_sky_in_the_bars_and_in_the_table_and_no_name_cov
 fn a_receiver_that_sends_fixes_only_is_said_to() {
     let (live, browser) = looking_at(Scene::Alignment);
     browser.until("words", || browser.text("#no-sky").contains("sends fixes only"));
-    for hidden in ["#sky-box", "#cn0-card", "#sky-table-card"] {
+    for hidden in ["#sky-box", "#signals-card"] {
         let script = format!("return document.querySelector('{hidden}').hidden");
         assert_eq!(browser.run(&script), json!(true), "{hidden}");
     }

@@ -80,7 +80,7 @@ fn satellite(t: f64, k: usize, (name, azimuth, elevation): &Place) -> ShownSatel
         _ => &[("L1", "1C")],
     };
     let (fate, reason, text) = fate(name, *elevation);
-    let is_known = !matches!(reason, Some("no_orbit" | "unhealthy"));
+    let is_known = !matches!(reason, Some("no_orbit" | "stale_orbit" | "unhealthy"));
     let strength = |band: usize| {
         let wobble = (t / 7.0 + (3 * k + band) as f64).sin();
         33.0 + 17.0 * elevation.to_radians().sin().sqrt() - 3.0 * band as f64 + wobble
@@ -113,7 +113,7 @@ fn fate(name: &str, elevation: f64) -> (SatelliteFate, Option<&'static str>, Opt
         "E24" => (Fate::Refused, Some("unhealthy"), Some("not healthy (0x07)")),
         "S23" => (Fate::Refused, Some("no_orbit"), Some("no orbit known")),
         "R19" => {
-            let text = "orbit 38 min from its reference time, at most 15; it contradicts the others of its epoch";
+            let text = "orbit 38 min from its reference time, at most 15";
             (Fate::Refused, Some("stale_orbit"), Some(text))
         }
         "R03" | "C11" => {
