@@ -21,7 +21,9 @@ impl Engine {
             fate: self.fate_of(told, heard),
             is_outlier: heard.is_outlier,
         };
-        Some(Sky { time: told.time, satellites: told.heard.iter().map(one).collect() })
+        let mut satellites: Vec<_> = told.heard.iter().map(one).collect();
+        satellites.sort_by_key(|own| own.satellite);
+        Some(Sky { time: told.time, satellites })
     }
 
     fn fate_of(&self, told: &SatelliteRanges, heard: &HeardSatellite) -> SatelliteUse {

@@ -4,8 +4,10 @@ import { byId, fill, make, right, setAttr, setText, show, svg } from "./dom.js";
 import { DASH, bearing, count, duration, fixed, known, words } from "./format.js";
 
 const RAD = Math.PI / 180;
-// radius of the horizon and height of the letters in the picture
-const [HORIZON, LETTERS] = [118, 10];
+// radius of the horizon in the picture
+const HORIZON = 118;
+// height of the letters and size of the marks: smaller where there are many
+const sizes = (count) => (count > 38 ? [8, 0.72] : [10, 1]);
 // the ends of the bars, dB Hz
 const [WEAK, STRONG] = [15, 55];
 
@@ -57,18 +59,21 @@ const overlap = (a, b) =>
 
 const box = (x, y, width, height) => ({ left: x - width / 2, right: x + width / 2, top: y - height / 2, bottom: y + height / 2 });
 
-// Names stand beside their marks, where they cover least of what is there already.
-function place(spots) {
-  const taken = spots.map(({ at }) => box(at.x, at.y, 13, 13));
+// Names stand beside their marks, where they cover least of what is there already; one that stands farther off has a line to its mark.
+function place(spots, letters, scale) {
+  const taken = spots.map(({ at }) => box(at.x, at.y, 13 * scale, 13 * scale));
   return spots.map(({ satellite, at }) => {
-    const width = satellite.name.length * LETTERS * 0.62;
-    const [aside, above] = [9 + width / 2, 8 + LETTERS / 2];
-    const around = [[aside, 0], [-aside, 0], [0, above], [0, -above], [aside, above], [-aside, above], [aside, -above], [-aside, -above]];
-    const rated = around.map(([dx, dy], turn) => {
-      const own = box(at.x + dx, at.y + dy, width, LETTERS);
+    const width = satellite.name.length * letters * 0.64;
+    const around = [1, 2, 3].flatMap((ring) => {
+      const [aside, above] = [3 + 6 * scale * ring + width / 2, 2 + 6 * scale * ring + letters / 2];
+      return [[aside, 0], [-aside, 0], [0, above], [0, -above], [aside, above], [-aside, above], [aside, -above], [-aside, -above]]
+        .map(([dx, dy], turn) => ({ dx, dy, ring, cost: turn * 0.4 + (ring - 1) * 7 }));
+    });
+    const rated = around.map(({ dx, dy, ring, cost }) => {
+      const own = box(at.x + dx, at.y + dy, width, letters);
       const beyond = Math.max(0, Math.hypot(at.x + dx, at.y + dy) + width / 2 - HORIZON - 12);
       const covered = taken.reduce((sum, other) => sum + overlap(own, other), 0);
-      return { own, x: at.x + dx, y: at.y + dy, cost: covered + 20 * beyond + turn * 0.4 };
+      return { own, x: at.x + dx, y: at.y + dy, ring, cost: cost + covered + 20 * beyond };
     });
     const best = rated.reduce((a, b) => (b.cost < a.cost ? b : a));
     taken.push(best.own);
@@ -97,13 +102,17 @@ function plot(root) {
     if (key === shown) return;
     shown = key;
     all.replaceChildren();
-    const names = place(spots);
+    const [letters, scale] = sizes(spots.length);
+    const names = place(spots, letters, scale);
+    spots.forEach(({ at }, k) => {
+      if (names[k].ring > 1) svg(all, "path", { d: `M${at.x.toFixed(1)} ${at.y.toFixed(1)}L${names[k].x.toFixed(1)} ${names[k].y.toFixed(1)}`, class: "sat-lead" });
+    });
     spots.forEach(({ satellite, at }, k) => {
       const fate = fateOf(satellite);
       const group = mark(all, fate);
-      setAttr(group, "transform", `translate(${at.x.toFixed(1)} ${at.y.toFixed(1)})`);
+      setAttr(group, "transform", `translate(${at.x.toFixed(1)} ${at.y.toFixed(1)}) scale(${scale})`);
       svg(group, "title", {}, `${satellite.name}: ${FATES[fate].text}`);
-      svg(all, "text", { x: names[k].x.toFixed(1), y: (names[k].y + LETTERS * 0.36).toFixed(1), class: `sat-name ${fate}` }, satellite.name);
+      svg(all, "text", { x: names[k].x.toFixed(1), y: (names[k].y + letters * 0.36).toFixed(1), class: `sat-name ${fate}`, "font-size": letters }, satellite.name);
     });
   };
 }
@@ -152,6 +161,7 @@ export function sky(data) {
   const isTold = state === "raw";
   for (const id of ["sky-box", "signals-card"]) show(byId(id), isTold && satellites.length > 0);
   show(byId("no-sky"), !isTold || satellites.length === 0);
+  byId("sky-card").classList.toggle("without", byId("sky-box").hidden);
   setText(byId("no-sky"), isTold ? "The receiver hears no satellite." : WHY_NOT[state] ?? "Nothing is known of the satellites.");
   const tally = isTold ? `${count(used)} of ${satellites.length} used` : "";
   setText(byId("sky-tally"), tally);

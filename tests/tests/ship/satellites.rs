@@ -1,6 +1,6 @@
 //! A ship among cranes: ranges of satellites where there are too few for a fix.
 
-use insd_base::satellites::{SatelliteUse, Sky};
+use insd_base::satellites::{SatelliteUse, Sky, SkySatellite};
 use insd_base::{Event, Message, Received, Rejection, SatelliteId, Solution, Truth, Voyage, earth};
 use insd_config::VoyageCalendar;
 use insd_engine::{Engine, EngineConfig, Output};
@@ -164,7 +164,7 @@ fn skies(voyage: &Voyage, raw: &RawGnss) -> (Vec<Sky>, insd_base::Counts) {
 }
 
 #[test]
-fn the_sky_shows_a_reflected_satellite_as_left_out_and_since_when_and_others_as_used() {
+fn the_sky_shows_a_satellite_that_lies_as_left_out_and_since_when_and_others_as_used() {
     let scenario = insd_lab::scenario::find("27", &[]).unwrap().scenario;
     let (voyage, raw) = (simulate(&scenario, 3), raw_gnss(&scenario, 3).unwrap());
     let (skies, counts) = skies(&voyage, &raw);
@@ -197,6 +197,33 @@ fn the_sky_shows_a_reflected_satellite_as_left_out_and_since_when_and_others_as_
     let passed_over = counts.rejected.get(&("gnss_position", Rejection::RangesInUse));
     figure!("{passed_over:?} fixes passed over, without ranges {:?}", counts.unranged);
     assert!(passed_over.is_some_and(|count| *count > 100), "{counts:?}");
+}
+
+/// Whether a satellite is as weak as the simulator makes what is reflected: by 10 dB.
+fn is_reflected(own: &SkySatellite) -> bool {
+    let direct = own.direction.map(|at| 36.0 + 12.0 * at.elevation.sin());
+    let told = own.signals.first().and_then(|signal| signal.cn0);
+    direct.zip(told).is_some_and(|(direct, told)| told < direct - 5.0)
+}
+
+#[test]
+fn the_sky_shows_reflected_satellites_as_left_out_while_they_are() {
+    let scenario = tight_port();
+    let (voyage, raw) = (simulate(&scenario, 5), raw_gnss(&scenario, 5).unwrap());
+    let (skies, _) = skies(&voyage, &raw);
+    for own in raw.truth.segments.iter().filter(|segment| segment.label == "nlos") {
+        let within = |sky: &&Sky| (own.t0_s + 1.0..own.t1_s).contains(&sky.time.as_seconds());
+        let all = skies.iter().filter(within).flat_map(|sky| &sky.satellites);
+        let reflected: Vec<_> = all.filter(|own| is_reflected(own)).collect();
+        let is_out = |own: &&&SkySatellite| matches!(own.fate, SatelliteUse::LeftOut { .. });
+        let out = reflected.iter().filter(is_out).count();
+        figure!(
+            "from {} s on: {out} of {} seconds of reflections left out",
+            own.t0_s,
+            reflected.len()
+        );
+        assert!(reflected.len() > 20 && out * 10 >= reflected.len() * 9, "{own:?}: {out}");
+    }
 }
 
 #[test]

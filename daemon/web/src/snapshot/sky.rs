@@ -32,7 +32,7 @@ pub struct ShownSky {
     pub valid_at_s: Option<f64>,
     /// How many of them the navigator uses.
     pub used: Option<u32>,
-    /// The satellites of the last epoch, in its order; empty unless `state` is `raw`.
+    /// The satellites of the last epoch, GPS first; empty unless `state` is `raw`.
     pub satellites: Vec<ShownSatellite>,
     /// Satellites that gave no range, by reason: one is counted in each epoch.
     pub refused: Vec<Cause>,

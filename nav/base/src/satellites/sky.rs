@@ -62,6 +62,6 @@ pub struct SkySatellite {
 pub struct Sky {
     /// When the epoch was sampled.
     pub time: Time,
-    /// The satellites, in the order of the epoch.
+    /// The satellites, in order of their names.
     pub satellites: Vec<SkySatellite>,
 }
