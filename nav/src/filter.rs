@@ -305,7 +305,7 @@ impl Estimator for Filter {
             Message::Gnss(fix) if fix.rank > 0 => self.compare(fix, received.source),
             // its own receiver's fix is made of the same ranges
             Message::Gnss(fix) if self.satellites.are_fresh(self.state.time) => {
-                gnss::pass_over(fix, received.source, &mut report);
+                Self::pass_over(fix, received.source, &mut report);
             }
             Message::Gnss(fix) => self.apply_gnss(fix, received.source, &mut report),
             Message::Log(log) => self.apply_log(log, received.source, &mut report),

@@ -1,6 +1,6 @@
 //! Ranges of satellites: each counts for itself, down to the last one.
 
-use insd_base::satellites::{SatelliteRange, SatelliteRanges};
+use insd_base::satellites::{SatelliteRange, SatelliteRanges, SatelliteUse};
 use insd_base::{Rejection, Source};
 use insd_estimation::Innovation;
 
@@ -41,6 +41,12 @@ struct Rows {
 }
 
 impl Filter {
+    /// What becomes of a satellite that has a range.
+    #[must_use]
+    pub fn fate_of(&self, range: &SatelliteRange) -> SatelliteUse {
+        self.satellites.fate_of(range, self.state.time)
+    }
+
     pub(super) fn apply_ranges(
         &mut self,
         told: &SatelliteRanges,

@@ -3,7 +3,6 @@
 use insd_base::Time;
 use insd_base::satellites::{SatelliteId, SatelliteRange, SatelliteUse};
 
-use super::Filter;
 use crate::error_state::SATELLITES;
 
 /// A satellite that is not seen for so long, s, gives its place away.
@@ -80,6 +79,20 @@ impl Satellites {
         Some((place, true))
     }
 
+    /// What becomes of a satellite that has a range.
+    pub(super) fn fate_of(&self, range: &SatelliteRange, now: Time) -> SatelliteUse {
+        if !self.are_fresh(now) {
+            return SatelliteUse::Waiting;
+        }
+        let mut taken = self.slots.iter().flatten();
+        match taken.find(|slot| slot.satellite == range.satellite) {
+            None => SatelliteUse::Crowded,
+            Some(Slot { out: Some((since, _)), .. }) => SatelliteUse::LeftOut { since: *since },
+            Some(_) if range.phase.is_some() => SatelliteUse::Phase,
+            Some(_) => SatelliteUse::CodeOnly,
+        }
+    }
+
     /// The satellite at a place, if that is taken.
     pub(super) fn slot(&self, place: usize) -> Option<&Slot> {
         self.slots.get(place)?.as_ref()
@@ -88,22 +101,5 @@ impl Satellites {
     /// The same, to be changed.
     pub(super) fn slot_mut(&mut self, place: usize) -> Option<&mut Slot> {
         self.slots.get_mut(place)?.as_mut()
-    }
-}
-
-impl Filter {
-    /// What becomes of a satellite that has a range.
-    #[must_use]
-    pub fn fate_of(&self, range: &SatelliteRange) -> SatelliteUse {
-        if !self.satellites.are_fresh(self.state.time) {
-            return SatelliteUse::Waiting;
-        }
-        let mut taken = self.satellites.slots.iter().flatten();
-        match taken.find(|slot| slot.satellite == range.satellite) {
-            None => SatelliteUse::Crowded,
-            Some(Slot { out: Some((since, _)), .. }) => SatelliteUse::LeftOut { since: *since },
-            Some(_) if range.phase.is_some() => SatelliteUse::Phase,
-            Some(_) => SatelliteUse::CodeOnly,
-        }
     }
 }
