@@ -304,7 +304,9 @@ impl Estimator for Filter {
             Message::Imu(_) => {}
             Message::Gnss(fix) if fix.rank > 0 => self.compare(fix, received.source),
             // its own receiver's fix is made of the same ranges
-            Message::Gnss(_) if self.satellites.are_fresh(self.state.time) => {}
+            Message::Gnss(fix) if self.satellites.are_fresh(self.state.time) => {
+                Self::pass_over(fix, received.source, &mut report);
+            }
             Message::Gnss(fix) => self.apply_gnss(fix, received.source, &mut report),
             Message::Log(log) => {
                 self.keeping_course(|own| own.apply_log(log, received.source, &mut report));

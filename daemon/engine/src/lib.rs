@@ -24,6 +24,7 @@ mod relay;
 mod resume;
 mod resumption;
 mod ship;
+mod sky;
 mod stamps;
 mod standings;
 mod surveyor;
@@ -32,8 +33,10 @@ mod twin;
 pub mod vote;
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use insd_alignment::{StoredState, StoredVerdict};
+use insd_base::satellites::SatelliteRanges;
 use insd_base::{
     AidInnovation, AlignmentStatus, Body, Counts, Event, Finding, ImuSample, ImuSpec, Message,
     Mode, ModeReason, Received, Rejection, Solution, Span, StartCondition, Time,
@@ -107,6 +110,8 @@ pub struct Engine {
     /// Heave of the monitoring points, if there are any.
     heave: Option<HeaveFilter>,
     machine: Machine,
+    /// The last epoch of satellites.
+    last_ranges: Option<Arc<SatelliteRanges>>,
     /// When the last sample of the IMU that could be used was received.
     heard: Option<Time>,
     /// The state saved before a crash, while it is on trial.
@@ -153,6 +158,7 @@ impl Engine {
             last: None,
             heave: heave_of(&config.imu, &config.points),
             machine: Machine::default(),
+            last_ranges: None,
             heard: None,
             resumption: None,
             trace: Trace::new(),
@@ -366,6 +372,9 @@ impl Engine {
         if let Err(reason) = self.recent.admit(source, received.message.time()) {
             self.reject(received, source.name(), reason);
             return;
+        }
+        if let Message::Ranges(told) = &received.message {
+            self.hear_satellites(told);
         }
         let Some(received) = &self.as_used(received) else { return };
         let (checked, faults) = checks::checked(received, self.config.vessel);

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use insd_base::satellites::{SatelliteEpoch, SatelliteRanges};
+use insd_base::satellites::SatelliteEpoch;
 use insd_base::{GpsTime, Message, Received, SatelliteId, Source, Time};
 use insd_gnss::{Context, Guess, Ranged, Ranging};
 
@@ -80,11 +80,10 @@ fn by_elevation(ranged: &Ranged) -> Vec<SatelliteId> {
 fn message(epoch: &SatelliteEpoch, ranged: Ranged, start: GpsTime) -> Received {
     let at = |instant: GpsTime| Time::START + instant.since(start);
     let (receipt, time) = (at(epoch.tag), at(ranged.sampled));
-    let told = SatelliteRanges { time, clock: ranged.clock, ranges: ranged.ranges };
     Received {
         receipt: receipt.max(time),
         source: Source::Gnss(0),
-        message: Message::Ranges(Arc::new(told)),
+        message: Message::Ranges(Arc::new(ranged.told(time))),
     }
 }
 

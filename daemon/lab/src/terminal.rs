@@ -46,17 +46,40 @@ impl Drop for Screen {
 /// # Errors
 /// A terminal that fails.
 pub fn quit_was_pressed() -> io::Result<bool> {
-    let mut quit = false;
+    Ok(pressed()?.quit)
+}
+
+/// What was pressed since it was looked last.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Pressed {
+    /// What ends the program: q, escape or Ctrl-C.
+    pub quit: bool,
+    /// Other letters, small ones, in their order.
+    pub letters: String,
+}
+
+/// All that was pressed since it was looked last.
+///
+/// # Errors
+/// A terminal that fails.
+pub fn pressed() -> io::Result<Pressed> {
+    let mut pressed = Pressed::default();
     while event::poll(Duration::ZERO)? {
-        if let Event::Key(key) = event::read()?
-            && key.kind == KeyEventKind::Press
-        {
-            let control_c =
-                key.code == KeyCode::Char('c') && key.modifiers.contains(KeyModifiers::CONTROL);
-            quit |= control_c || matches!(key.code, KeyCode::Char('q' | 'Q') | KeyCode::Esc);
+        let Event::Key(key) = event::read()? else { continue };
+        if key.kind != KeyEventKind::Press {
+            continue;
+        }
+        let with_control = key.modifiers.contains(KeyModifiers::CONTROL);
+        match key.code {
+            KeyCode::Char('c') if with_control => pressed.quit = true,
+            KeyCode::Char('q' | 'Q') | KeyCode::Esc => pressed.quit = true,
+            KeyCode::Char(letter) if !with_control => {
+                pressed.letters.push(letter.to_ascii_lowercase());
+            }
+            _ => {}
         }
     }
-    Ok(quit)
+    Ok(pressed)
 }
 
 /// The ways in which a look is ended from outside: duration, Ctrl-C, SIGTERM, a closed terminal.

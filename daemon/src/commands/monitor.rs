@@ -5,10 +5,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::{Context, bail};
-use insd_lab::terminal::{Farewell, Screen, print, quit_was_pressed};
+use insd_lab::terminal::{Farewell, Screen, pressed, print};
 use insd_web::snapshot::Snapshot;
 
-use crate::monitor::{self, Board, Client, Link};
+use crate::monitor::{self, Board, Client, Link, MonitorView};
 
 /// Time between two pictures.
 const FRAME: Duration = Duration::from_millis(200);
@@ -86,14 +86,17 @@ async fn lines(board: &Board) -> anyhow::Result<()> {
 async fn screen(board: &Board, url: &str) -> anyhow::Result<()> {
     let mut farewell = Farewell::new(None)?;
     let mut screen = Screen::new()?;
+    let mut view = MonitorView::default();
     loop {
-        screen.terminal.draw(|frame| monitor::draw(frame, board, url))?;
+        screen.terminal.draw(|frame| monitor::draw(frame, board, url, view))?;
         tokio::select! {
             () = tokio::time::sleep(FRAME) => {}
             () = farewell.wait() => return Ok(()),
         }
-        if quit_was_pressed()? {
+        let pressed = pressed()?;
+        if pressed.quit {
             return Ok(());
         }
+        view = pressed.letters.chars().fold(view, MonitorView::after);
     }
 }

@@ -8,4 +8,4 @@ mod view;
 pub use board::{Board, Link};
 pub use client::Client;
 pub use text::{line, summary};
-pub use view::draw;
+pub use view::{MonitorView, draw};

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use insd_lab::words;
-use insd_web::snapshot::{ShownAlertState, ShownMotion, Snapshot};
+use insd_web::snapshot::{ShownAlertState, ShownMotion, ShownSky, SkyState, Snapshot};
 use serde::Serialize;
 
 /// What is not known.
@@ -66,6 +66,22 @@ pub(super) fn place(motion: &ShownMotion) -> [String; 2] {
     [told(motion.lat_deg, words::latitude), told(motion.lon_deg, words::longitude)]
 }
 
+/// How many satellites are used, or why nothing is known of them.
+pub(super) fn satellites(sky: &ShownSky) -> String {
+    match (sky.state, sky.used) {
+        (SkyState::Raw, Some(used)) => format!("{used} of {} used", sky.satellites.len()),
+        (state, _) => word_of(state),
+    }
+}
+
+fn word_of(state: SkyState) -> String {
+    match state {
+        SkyState::Unknown => "not known".to_owned(),
+        SkyState::Silent => "no longer told".to_owned(),
+        other => self::state(&other),
+    }
+}
+
 /// One line.
 #[must_use]
 pub fn line(snapshot: &Snapshot) -> String {
@@ -110,6 +126,12 @@ pub fn summary(snapshot: &Snapshot) -> String {
     for sensor in &snapshot.sensors {
         let (kind, rate) = (word(&sensor.kind), fixed(sensor.rate_hz, 1));
         row("sensor", &format!("{}: {}, {kind}, {rate} Hz", sensor.name, state(&sensor.state)));
+    }
+    row("satellites", &satellites(&snapshot.sky));
+    let unused = snapshot.sky.satellites.iter().filter(|own| !own.fate.is_used());
+    for own in unused {
+        let why = own.text.as_deref().unwrap_or(DASH);
+        row("", &format!("{}: {}, {why}", own.name, state(&own.fate)));
     }
     for port in &snapshot.inputs {
         let damage = format!("{} damaged, {} overrun", port.damaged, bytes(port.overrun_bytes));

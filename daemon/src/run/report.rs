@@ -1,5 +1,6 @@
 //! How everything stands, gathered by the engine's thread for whoever looks on.
 
+use insd_base::satellites::Sky;
 use insd_base::{
     AlignmentStatus, Counts, Disturbance, Estimates, Finding, Heave, Mode, Motion, Stamp, Stands,
     Time, UtcTime,
@@ -43,6 +44,8 @@ pub(super) struct Slow {
     pub(super) saver: Option<SaverState>,
     pub(super) disputes: Vec<Dispute>,
     pub(super) estimates: Option<Estimates>,
+    /// The satellites, if a receiver tells what it measures of each.
+    pub(super) sky: Option<Sky>,
     /// How all stand with whom she is navigated by.
     pub(super) standings: Vec<Stands>,
     /// What of the installation is found to be otherwise than configured.

@@ -238,6 +238,7 @@ impl Worker {
             saver: self.saver.as_ref().map(Saver::state),
             disputes: self.pipeline.disputes(),
             estimates: self.pipeline.engine_in_use().estimates(),
+            sky: self.pipeline.engine_in_use().sky(),
             standings: self.pipeline.engine_in_use().standings().collect(),
             findings: self.pipeline.engine_in_use().findings().to_vec(),
             disturbance: with_sea.then(|| self.pipeline.engine_in_use().disturbance()).flatten(),

@@ -40,6 +40,7 @@ function forgotten(data, time) {
     motion: null, alignment: null, estimates: null, disturbance: null,
     engines: data.engines.map(({ name }) => ({ name, mode: "", in_use: false, healthy: false, differs: [] })),
     sensors: data.sensors.map(row), choices: [],
+    sky: { state: "unknown", satellites: [], refused: data.sky?.refused ?? [] },
     inputs: data.inputs.map(row), outputs: data.outputs.map(row),
     buses: data.buses.map((bus) => ({ ...row(bus), port: bus.port })),
     aids: data.aids.map(({ name }) => ({ name, in_use: false, reasons: [] })),

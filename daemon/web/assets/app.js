@@ -8,6 +8,7 @@ import { rose, horizon, turn, qualities, speak } from "./instruments.js";
 import { chart } from "./chart.js";
 import { history, plot, sigmaPlot, spectrum } from "./plots.js";
 import { sensors, ports, measurements, system } from "./tables.js";
+import { sky } from "./sky.js";
 import { alignment, disturbance, modes, modeTone } from "./alignment.js";
 import { alerts, startAlerts } from "./alerts.js";
 import * as bridge from "./bridge.js";
@@ -70,6 +71,7 @@ function drawLive() {
 function drawWhole() {
   show(byId("simulated"), data.program.simulated);
   sensors(data);
+  sky(data);
   ports(data);
   measurements(data);
   system(data);

@@ -35,6 +35,8 @@ pub enum Rejection {
     Spike,
     /// Not usable in the present mode (for example a log before any alignment).
     NotUsable,
+    /// A fix, while the ranges that it is made of are used themselves.
+    RangesInUse,
 }
 
 impl Rejection {
@@ -53,6 +55,7 @@ impl Rejection {
             Rejection::Frozen => "frozen",
             Rejection::Spike => "spike",
             Rejection::NotUsable => "not_usable",
+            Rejection::RangesInUse => "ranges_in_use",
         }
     }
 }
@@ -381,6 +384,8 @@ pub struct Counts {
     pub rejected: BTreeMap<(&'static str, Rejection), u64>,
     /// Standard deviations that were missing, zero or absurd and were replaced by a floor, by aid.
     pub floored: BTreeMap<&'static str, u64>,
+    /// Satellites of epochs that gave no range, by reason.
+    pub unranged: BTreeMap<&'static str, u64>,
     /// IMU samples used.
     pub imu_samples: u64,
     /// Gaps in the IMU data that were bridged.

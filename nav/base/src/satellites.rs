@@ -3,12 +3,18 @@
 mod broadcast;
 mod epoch;
 mod ranges;
+mod refusal;
 mod signal;
+mod sky;
 
 pub use broadcast::{
     BroadcastKind, BroadcastRecord, ClockPolynomial, GlonassRecord, IonosphereModel, KeplerOrbit,
     KeplerRecord,
 };
 pub use epoch::{SatelliteEpoch, SignalObservation};
-pub use ranges::{ArcPhase, Measured, SatelliteRange, SatelliteRanges, Transmitter, time_keeper};
+pub use ranges::{
+    ArcPhase, HeardSatellite, Measured, SatelliteRange, SatelliteRanges, Transmitter, time_keeper,
+};
+pub use refusal::{OrbitRefusal, RangeRefusal};
 pub use signal::{Constellation, SPEED_OF_LIGHT, SatelliteId, SignalCode};
+pub use sky::{LookAngles, SatelliteUse, SignalStrength, Sky, SkySatellite};

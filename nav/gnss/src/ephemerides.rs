@@ -1,50 +1,13 @@
 //! The records that are known, which of them holds at an instant, and why none does.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
+pub use insd_base::satellites::OrbitRefusal;
 use insd_base::satellites::{BroadcastKind, GlonassRecord, KeplerRecord};
 use insd_base::{BroadcastRecord, Constellation, GpsTime, SatelliteId};
-use serde::{Deserialize, Serialize};
 
 /// Records kept of one satellite: a day's of Galileo's two messages, which change every ten minutes.
 const KEPT: usize = 300;
-
-/// Why a satellite has no orbit at an instant, or a record is not taken.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum OrbitRefusal {
-    /// Nothing is known of the satellite.
-    NoRecord,
-    /// The nearest record refers to another time: seconds from the reference time, signed, and the limit.
-    Stale {
-        /// Since the reference time, s.
-        age: f64,
-        /// The most that holds, s.
-        limit: f64,
-    },
-    /// The satellite says that it is not healthy.
-    Unhealthy(u16),
-    /// An element no orbit of this constellation can have.
-    Implausible(&'static str),
-}
-
-impl fmt::Display for OrbitRefusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoRecord => write!(f, "no orbit known"),
-            Self::Stale { age, limit } => {
-                write!(
-                    f,
-                    "orbit {:.0} min from its reference time, at most {:.0}",
-                    age / 60.0,
-                    limit / 60.0
-                )
-            }
-            Self::Unhealthy(health) => write!(f, "not healthy (0x{health:02X})"),
-            Self::Implausible(what) => write!(f, "implausible record: {what}"),
-        }
-    }
-}
 
 /// Records of all satellites.
 #[derive(Clone, Debug, Default, PartialEq)]

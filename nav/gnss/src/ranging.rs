@@ -2,19 +2,22 @@
 //! without a filter.
 
 mod combined;
+mod heard;
 
-use insd_base::satellites::{SPEED_OF_LIGHT, SatelliteRange};
-use insd_base::{GpsTime, SatelliteEpoch, SignalObservation, Span};
+use insd_base::satellites::{
+    HeardSatellite, RangeRefusal, SPEED_OF_LIGHT, SatelliteRange, SatelliteRanges,
+};
+use insd_base::{GpsTime, SatelliteEpoch, Span, Time};
 use nalgebra::Vector3;
 
 use crate::budget::LOWEST;
 use crate::carrier::CarrierTracker;
 use crate::context::Context;
-use crate::sight::Sight;
-use crate::signals::{best_of_each_band, first_band, inflation, range_rate};
+use crate::signals::{first_band, inflation, range_rate};
 use crate::single_point::{NoPosition, SinglePoint};
 use crate::velocity::DopplerVelocity;
 use combined::{Combined, combined_code};
+use heard::Heard;
 
 /// What is made of an epoch.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,10 +28,20 @@ pub struct Ranged {
     pub clock: Option<(f64, f64)>,
     /// What each satellite tells.
     pub ranges: Vec<SatelliteRange>,
+    /// Every satellite of the epoch, and why it tells no range if it does not.
+    pub heard: Vec<HeardSatellite>,
     /// The position that the codes alone make.
     pub point: Result<SinglePoint, NoPosition>,
     /// The velocity that the Doppler shifts alone make.
     pub velocity: Option<DopplerVelocity>,
+}
+
+impl Ranged {
+    /// What of it goes to a filter and to those who look on, sampled at an instant of the ship's time line.
+    #[must_use]
+    pub fn told(self, time: Time) -> SatelliteRanges {
+        SatelliteRanges { time, clock: self.clock, ranges: self.ranges, heard: self.heard }
+    }
 }
 
 /// Where the antenna is and how it turns, by whoever knows it better than an epoch alone.
@@ -71,14 +84,17 @@ impl Ranging {
         if let Some((antenna, (clock, drift))) = antenna.zip(clock) {
             self.known = Some(Known { tag: epoch.tag, antenna, clock, drift });
         }
-        let ranges = antenna.map_or_else(Vec::new, |antenna| {
-            self.tracker.advance(context, epoch, &antenna, guess.turned);
-            let satellites = epoch.signals.chunk_by(|a, b| a.satellite == b.satellite);
-            satellites
-                .filter_map(|signals| self.range(context, epoch.tag, signals, &antenna))
-                .collect()
-        });
-        Ranged { sampled: self.sampled(epoch.tag), clock, ranges, point, velocity }
+        if let Some(antenna) = &antenna {
+            self.tracker.advance(context, epoch, antenna, guess.turned);
+        }
+        let (mut ranges, mut heard) = (Vec::new(), Vec::new());
+        for signals in epoch.signals.chunk_by(|a, b| a.satellite == b.satellite) {
+            let Some(own) = Heard::new(context, epoch.tag, signals) else { continue };
+            let range = self.range(context, epoch.tag, &own, antenna.as_ref());
+            heard.push(own.told(antenna.as_ref(), range.as_ref().err().copied(), found));
+            ranges.extend(range);
+        }
+        Ranged { sampled: self.sampled(epoch.tag), clock, ranges, heard, point, velocity }
     }
 
     /// By the clock as it was told last, carried on by its drift.
@@ -94,22 +110,25 @@ impl Ranging {
         &self,
         context: &Context,
         tag: GpsTime,
-        signals: &[SignalObservation],
-        antenna: &Vector3<f64>,
-    ) -> Option<SatelliteRange> {
-        let best = best_of_each_band(signals);
-        let satellite = best.first()?.satellite;
-        let record = context.ephemerides.select(satellite, tag).ok()?;
-        let sight = Sight::new(record, tag, best.first()?.code?);
+        heard: &Heard<'_>,
+        antenna: Option<&Vector3<f64>>,
+    ) -> Result<SatelliteRange, RangeRefusal> {
+        let (satellite, best) = (heard.satellite, &heard.best);
+        if best.is_empty() {
+            return Err(RangeRefusal::NoCode);
+        }
+        let (record, sight) = heard.orbit.as_ref().map_err(|why| RangeRefusal::NoOrbit(*why))?;
+        let antenna = antenna.ok_or(RangeRefusal::NoPlace)?;
         let direction = sight.direction(antenna);
         if direction.elevation < LOWEST {
-            return None;
+            return Err(RangeRefusal::Low { lowest: LOWEST });
         }
         let first = first_band(satellite.constellation);
         let shift = best.iter().find(|signal| signal.signal.band == first);
         let Combined { code, slow_std, by_ionosphere } =
-            combined_code(context, tag, (record, &sight, &best), (antenna, direction))?;
-        Some(SatelliteRange {
+            combined_code(context, tag, (record, sight, best), (antenna, direction))
+                .ok_or(RangeRefusal::NoDelay)?;
+        Ok(SatelliteRange {
             satellite,
             transmitter: sight.transmitter(),
             elevation: direction.elevation,

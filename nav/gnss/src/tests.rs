@@ -2,11 +2,12 @@ mod sky;
 
 use std::collections::BTreeMap;
 
+use insd_base::satellites::{HeardSatellite, RangeRefusal};
 use insd_base::{SatelliteEpoch, SatelliteId, Span};
 use nalgebra::Vector3;
 
 use crate::carrier::{CarrierDisplacement, CarrierTracker};
-use crate::ephemerides::OrbitRefusal;
+use crate::ephemerides::{Ephemerides, OrbitRefusal};
 use crate::ranging::{Guess, Ranging};
 use crate::single_point::{NoPosition, SinglePoint, Verdict};
 use crate::velocity::DopplerVelocity;
@@ -197,4 +198,48 @@ fn ranges_for_a_filter_are_those_of_the_geometry_and_phases_keep_their_constant(
         }
     }
     assert!(constants.len() > 10);
+}
+
+#[test]
+fn of_each_satellite_that_is_heard_it_is_told_where_it_stands_or_why_it_has_no_range() {
+    let mut context = context();
+    let mut epoch = epoch(&context, 0.0, &berth(), &still());
+    let all = names(&epoch);
+    let [lying, codeless, unknown] = [&all[0], &all[1], &all[2]];
+    lie(&mut epoch, lying, 40.0);
+    for signal in &mut epoch.signals {
+        signal.cn0 = Some(if signal.signal.band == 1 { 47.0 } else { 39.5 });
+        if signal.satellite.to_string() == *codeless {
+            signal.code = None;
+        }
+        if signal.satellite.to_string() == *unknown {
+            signal.satellite.number = 60;
+        }
+    }
+    let ranged = Ranging::default().take(&context, &epoch, Guess::default());
+    assert_eq!(ranged.heard.len(), all.len());
+    for heard in &ranged.heard {
+        let name = heard.satellite.to_string();
+        let has_range = ranged.ranges.iter().any(|range| range.satellite == heard.satellite);
+        assert_eq!(has_range, heard.refused.is_none(), "{name}");
+        assert_eq!(
+            heard.signals.iter().map(|own| own.cn0).collect::<Vec<_>>(),
+            [Some(47.0), Some(39.5)]
+        );
+        assert_eq!(heard.is_outlier, name == *lying, "{name}");
+        let expected = match &name {
+            name if name == codeless => Some(RangeRefusal::NoCode),
+            name if name.ends_with("60") => Some(RangeRefusal::NoOrbit(OrbitRefusal::NoRecord)),
+            _ => None,
+        };
+        assert_eq!(heard.refused, expected, "{name}");
+        assert_eq!(heard.direction.is_none(), name.ends_with("60"), "{name}");
+    }
+    // nothing is known of any orbit: no place, and yet each is told
+    context.ephemerides = Ephemerides::default();
+    let ranged = Ranging::default().take(&context, &epoch, Guess::default());
+    let refused = |heard: &HeardSatellite| heard.refused.map(RangeRefusal::as_str);
+    let reasons: Vec<_> = ranged.heard.iter().filter_map(refused).collect();
+    assert_eq!(reasons.iter().filter(|why| **why == "no_orbit").count(), all.len() - 1);
+    assert!(ranged.ranges.is_empty() && reasons.contains(&"no_code"));
 }

@@ -50,6 +50,16 @@ const MISTAKEN: f64 = 15.0;
 const UNHEARD: f64 = 30.0;
 
 impl Filter {
+    /// Enters that a fix is not used, as the ranges that it is made of are.
+    pub(super) fn pass_over(fix: &GnssFix, source: Source, report: &mut Report) {
+        let outcome = Outcome::Rejected(Rejection::RangesInUse);
+        let unheard = Judged { outcome, log_likelihood: 0.0, innovation: NO_INNOVATION };
+        let told = [(VELOCITY_AID, fix.velocity.is_some()), (POSITION_AID, fix.position.is_some())];
+        for (aid, _) in told.iter().filter(|(_, is_told)| *is_told) {
+            enter(report, fix.time, source, aid, &unheard);
+        }
+    }
+
     pub(super) fn apply_gnss(&mut self, fix: &GnssFix, source: Source, report: &mut Report) {
         if !fix.quality.is_measured() {
             let outcome = Outcome::Rejected(Rejection::NoFix);

@@ -1,6 +1,6 @@
 //! Ranges of satellites: each counts for itself, down to the last one.
 
-use insd_base::satellites::{SatelliteRange, SatelliteRanges};
+use insd_base::satellites::{SatelliteRange, SatelliteRanges, SatelliteUse};
 use insd_base::{Rejection, Source};
 use insd_estimation::Innovation;
 
@@ -41,6 +41,12 @@ struct Rows {
 }
 
 impl Filter {
+    /// What becomes of a satellite that has a range.
+    #[must_use]
+    pub fn fate_of(&self, range: &SatelliteRange) -> SatelliteUse {
+        self.satellites.fate_of(range, self.state.time)
+    }
+
     pub(super) fn apply_ranges(
         &mut self,
         told: &SatelliteRanges,
@@ -216,7 +222,8 @@ impl Filter {
             self.receiver.trust.used(self.state.time);
         }
         for one in faulty.iter().filter_map(|index| used.get(*index)) {
-            let excluded = self.satellites.slot_mut(one.slot).and_then(Slot::exclude);
+            let slot = self.satellites.slot_mut(one.slot);
+            let excluded = slot.and_then(|slot| slot.exclude(now));
             report.satellites.extend(excluded.map(|satellite| (now, satellite, true)));
         }
         let good = used.into_iter().enumerate().filter(|(index, _)| !faulty.contains(index));
@@ -236,7 +243,7 @@ impl Filter {
             let weighed = rows.and_then(|rows| rows.all.weigh(&self.state.covariance));
             let agrees = weighed.is_some_and(|weighed| weighed.nis() < AGREES * AGREES);
             let Some(slot) = self.satellites.slot_mut(one.slot) else { continue };
-            let readmitted = if agrees { slot.agree() } else { slot.exclude() };
+            let readmitted = if agrees { slot.agree() } else { slot.exclude(now) };
             let is_excluded = !agrees;
             report.satellites.extend(readmitted.map(|satellite| (now, satellite, is_excluded)));
         }

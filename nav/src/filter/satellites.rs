@@ -1,7 +1,7 @@
 //! Which satellites have which states.
 
 use insd_base::Time;
-use insd_base::satellites::{SatelliteId, SatelliteRange};
+use insd_base::satellites::{SatelliteId, SatelliteRange, SatelliteUse};
 
 use crate::error_state::SATELLITES;
 
@@ -19,30 +19,31 @@ pub(super) struct Slot {
     seen: Time,
     /// The arc whose constant is estimated.
     pub(super) arc: Option<u32>,
-    /// Codes in a row that agree, of one that is left out; `None` of one that is used.
-    agreeing: Option<u8>,
+    /// Of one that is left out: since when, and its codes in a row that agree.
+    out: Option<(Time, u8)>,
 }
 
 impl Slot {
     /// Whether it is left out.
     pub(super) fn is_excluded(&self) -> bool {
-        self.agreeing.is_some()
+        self.out.is_some()
     }
 
     /// Its code contradicts those of the others: it is left out, and its phase begins anew when it comes back. Returns it if that is new.
-    pub(super) fn exclude(&mut self) -> Option<SatelliteId> {
+    pub(super) fn exclude(&mut self, now: Time) -> Option<SatelliteId> {
         self.arc = None;
-        self.agreeing.replace(0).is_none().then_some(self.satellite)
+        let since = self.out.map_or(now, |(since, _)| since);
+        self.out.replace((since, 0)).is_none().then_some(self.satellite)
     }
 
     /// Its code agrees, while it is left out. Returns it if it is used from now on.
     pub(super) fn agree(&mut self) -> Option<SatelliteId> {
-        let agreeing = self.agreeing.as_mut()?;
+        let (_, agreeing) = self.out.as_mut()?;
         *agreeing += 1;
         if *agreeing < READMITTED {
             return None;
         }
-        self.agreeing = None;
+        self.out = None;
         Some(self.satellite)
     }
 }
@@ -74,8 +75,22 @@ impl Satellites {
         };
         let place = self.slots.iter().position(is_free)?;
         let satellite = range.satellite;
-        self.slots[place] = Some(Slot { satellite, seen: now, arc: None, agreeing: None });
+        self.slots[place] = Some(Slot { satellite, seen: now, arc: None, out: None });
         Some((place, true))
+    }
+
+    /// What becomes of a satellite that has a range.
+    pub(super) fn fate_of(&self, range: &SatelliteRange, now: Time) -> SatelliteUse {
+        if !self.are_fresh(now) {
+            return SatelliteUse::Waiting;
+        }
+        let mut taken = self.slots.iter().flatten();
+        match taken.find(|slot| slot.satellite == range.satellite) {
+            None => SatelliteUse::Crowded,
+            Some(Slot { out: Some((since, _)), .. }) => SatelliteUse::LeftOut { since: *since },
+            Some(_) if range.phase.is_some() => SatelliteUse::Phase,
+            Some(_) => SatelliteUse::CodeOnly,
+        }
     }
 
     /// The satellite at a place, if that is taken.

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use insd::clock::Clock;
-use insd::monitor::{self, Board};
+use insd::monitor::{self, Board, MonitorView};
 use insd_web::snapshot::{ShownMotion, Snapshot};
 use insd_web::{Listen, Publisher, WebConfig, WebHandle};
 use ratatui::Terminal;
@@ -200,7 +200,7 @@ fn measured(text: &str, lost: Option<&str>) -> Shown {
 
 fn drawn(board: &Board) -> String {
     let mut terminal = Terminal::new(TestBackend::new(100, 44)).unwrap();
-    terminal.draw(|frame| monitor::draw(frame, board, "http://ship")).unwrap();
+    terminal.draw(|frame| monitor::draw(frame, board, "http://ship", MonitorView::Ship)).unwrap();
     let buffer = terminal.backend().buffer();
     let row = |y| (0..100).map(move |x| buffer[(x, y)].symbol()).collect::<String>();
     (0..44).map(|y| row(y) + "\n").collect()

@@ -1,8 +1,9 @@
 //! A ship among cranes: ranges of satellites where there are too few for a fix.
 
-use insd_base::{Event, Message, Received, SatelliteId, Solution, Truth, Voyage, earth};
+use insd_base::satellites::{SatelliteUse, Sky, SkySatellite};
+use insd_base::{Event, Message, Received, Rejection, SatelliteId, Solution, Truth, Voyage, earth};
 use insd_config::VoyageCalendar;
-use insd_engine::EngineConfig;
+use insd_engine::{Engine, EngineConfig, Output};
 use insd_gnss::{Context, Noise};
 use insd_lab::ranges;
 use insd_simulator::{RawGnss, Scenario, raw_gnss, simulate};
@@ -145,6 +146,93 @@ fn a_satellite_that_lies_is_named_before_it_moves_the_ship_and_used_again_afterw
             assert!(named.is_some_and(|after| after < 10.0) && again, "{fault:?}: {told:?}");
         }
     }
+}
+
+/// What the engine tells of the sky at each second of a voyage, from the first ranges on.
+fn skies(voyage: &Voyage, raw: &RawGnss) -> (Vec<Sky>, insd_base::Counts) {
+    let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
+    let mut skies: Vec<Sky> = Vec::new();
+    for received in messages(voyage, Some(raw)) {
+        engine.handle(&received);
+        while let Some(output) = engine.poll_output() {
+            if matches!(output, Output::Solution(_)) {
+                skies.extend(engine.sky());
+            }
+        }
+    }
+    (skies, engine.counts().clone())
+}
+
+#[test]
+fn the_sky_shows_a_satellite_that_lies_as_left_out_and_since_when_and_others_as_used() {
+    let scenario = insd_lab::scenario::find("27", &[]).unwrap().scenario;
+    let (voyage, raw) = (simulate(&scenario, 3), raw_gnss(&scenario, 3).unwrap());
+    let (skies, counts) = skies(&voyage, &raw);
+    let faults = raw.truth.satellite_faults.iter().filter(|fault| fault.kind != "stale_mps2");
+    for fault in faults {
+        let shown = |sky: &Sky| {
+            let own = sky.satellites.iter().find(|own| own.satellite == fault.satellite)?;
+            matches!(own.fate, SatelliteUse::LeftOut { .. }).then_some((sky.time, own.fate))
+        };
+        let within = |sky: &&Sky| (fault.t0_s..fault.t1_s).contains(&sky.time.as_seconds());
+        let out: Vec<_> = skies.iter().filter(within).filter_map(shown).collect();
+        let span = fault.t1_s - fault.t0_s;
+        assert!(out.len() as f64 > 0.7 * span, "{fault:?}: {} of {span}", out.len());
+        let SatelliteUse::LeftOut { since } = out[out.len() - 1].1 else { unreachable!() };
+        let after = since.as_seconds() - fault.t0_s;
+        figure!("{fault:?}: left out since {after:.1} s after its begin");
+        assert!((-1.0..10.0).contains(&after), "{fault:?}: {after}");
+    }
+    let last = skies.last().unwrap();
+    let used = last.satellites.iter().filter(|own| own.fate == SatelliteUse::Phase);
+    assert!(used.clone().count() >= 6, "{last:?}");
+    for own in used {
+        assert!(own.direction.is_some_and(|at| at.elevation > 0.17), "{own:?}");
+        assert!(own.signals.iter().all(|signal| signal.cn0.is_some()), "{own:?}");
+    }
+    // before she navigates nobody uses ranges, and says so
+    let is_waiting = |sky: &Sky| sky.satellites.iter().any(|own| own.fate == SatelliteUse::Waiting);
+    assert!(is_waiting(&skies[0]));
+    // fixes give way to what they are made of, and are counted
+    let passed_over = counts.rejected.get(&("gnss_position", Rejection::RangesInUse));
+    figure!("{passed_over:?} fixes passed over, without ranges {:?}", counts.unranged);
+    assert!(passed_over.is_some_and(|count| *count > 100), "{counts:?}");
+}
+
+/// Whether a satellite is as weak as the simulator makes what is reflected: by 10 dB.
+fn is_reflected(own: &SkySatellite) -> bool {
+    let direct = own.direction.map(|at| 36.0 + 12.0 * at.elevation.sin());
+    let told = own.signals.first().and_then(|signal| signal.cn0);
+    direct.zip(told).is_some_and(|(direct, told)| told < direct - 5.0)
+}
+
+#[test]
+fn the_sky_shows_reflected_satellites_as_left_out_while_they_are() {
+    let scenario = tight_port();
+    let (voyage, raw) = (simulate(&scenario, 5), raw_gnss(&scenario, 5).unwrap());
+    let (skies, _) = skies(&voyage, &raw);
+    for own in raw.truth.segments.iter().filter(|segment| segment.label == "nlos") {
+        let within = |sky: &&Sky| (own.t0_s + 1.0..own.t1_s).contains(&sky.time.as_seconds());
+        let all = skies.iter().filter(within).flat_map(|sky| &sky.satellites);
+        let reflected: Vec<_> = all.filter(|own| is_reflected(own)).collect();
+        let is_out = |own: &&&SkySatellite| matches!(own.fate, SatelliteUse::LeftOut { .. });
+        let out = reflected.iter().filter(is_out).count();
+        figure!(
+            "from {} s on: {out} of {} seconds of reflections left out",
+            own.t0_s,
+            reflected.len()
+        );
+        assert!(reflected.len() > 20 && out * 10 >= reflected.len() * 9, "{own:?}: {out}");
+    }
+}
+
+#[test]
+fn a_ship_without_ranges_has_no_sky() {
+    let scenario = tight_port().with_duration(40.0);
+    let voyage = simulate(&scenario, 1);
+    let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
+    messages(&voyage, None).iter().for_each(|received| engine.handle(received));
+    assert_eq!(engine.sky(), None);
 }
 
 #[test]

@@ -48,6 +48,12 @@ impl fmt::Display for Summary<'_> {
                 writeln!(f, "{count} {what}")?;
             }
         }
+        if !self.counts.unranged.is_empty() {
+            let reasons = self.counts.unranged.iter();
+            let told: Vec<String> =
+                reasons.map(|(reason, count)| format!("{count} {reason}")).collect();
+            writeln!(f, "satellites without a range: {}", told.join(", "))?;
+        }
         self.files.iter().try_for_each(|report| write_report(f, report))?;
         self.write_modes(f)?;
         self.write_alignment(f)?;
@@ -196,6 +202,7 @@ mod tests {
         counts.rejected.insert(("gnss_position", Rejection::ChiSquare), 7);
         counts.rejected.insert(("gnss_position", Rejection::DopTest), 3);
         counts.rejected.insert(("log_bottom", Rejection::NotUsable), 1);
+        counts.unranged.extend([("low", 41), ("no_orbit", 2)]);
         let text = Summary {
             solutions: 5,
             left_out: 0,
@@ -214,6 +221,7 @@ mod tests {
         .to_string();
         assert!(text.contains("90        0        10  7 chi_square, 3 dop_test"), "{text}");
         assert!(text.contains("77.0 s  left the berth"), "{text}");
+        assert!(text.contains("satellites without a range: 41 low, 2 no_orbit\n"), "{text}");
         assert!(text.contains("12.0 s  aided") && text.contains("2 messages dropped"), "{text}");
     }
 }

@@ -37,6 +37,7 @@ pub fn reason(reason: Rejection) -> &'static str {
         Rejection::Frozen => "frozen",
         Rejection::Spike => "a spike",
         Rejection::NotUsable => "not usable yet",
+        Rejection::RangesInUse => "ranges are used",
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod lists;
 mod ship;
+mod sky;
 
 #[cfg(test)]
 mod tests;
@@ -20,8 +21,30 @@ use insd_lab::style::{alarm, dim, strong};
 /// Smallest terminal that the picture fits into.
 const LEAST: (u16, u16) = (72, 20);
 
+/// What is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum MonitorView {
+    /// The ship, her sensors and her ports.
+    #[default]
+    Ship,
+    /// The satellites.
+    Satellites,
+}
+
+impl MonitorView {
+    /// What is looked at after a letter was pressed.
+    #[must_use]
+    pub fn after(self, letter: char) -> Self {
+        match (letter, self) {
+            ('s', MonitorView::Ship) => MonitorView::Satellites,
+            ('s', MonitorView::Satellites) => MonitorView::Ship,
+            _ => self,
+        }
+    }
+}
+
 /// Draws what the board knows over the whole frame.
-pub fn draw(frame: &mut Frame<'_>, board: &Board, url: &str) {
+pub fn draw(frame: &mut Frame<'_>, board: &Board, url: &str, view: MonitorView) {
     let area = frame.area();
     let (link, age) = board.link();
     let Some(snapshot) = board.snapshot() else {
@@ -36,37 +59,54 @@ pub fn draw(frame: &mut Frame<'_>, board: &Board, url: &str) {
         frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
         return;
     }
-    let wanted = [
-        2 + ship::ROWS,
-        2 + (snapshot.alerts.len() as u16).clamp(4, 8),
-        3 + snapshot.sensors.len() as u16,
-        3 + (snapshot.inputs.len() + snapshot.outputs.len()) as u16,
-    ];
-    let [ship, middle, sensors, ports] = granted(wanted, area.height - 3);
-    let [title, mode, ship, middle, sensors, ports, journal, keys] = Layout::vertical([
+    let [title, mode, rest, keys] = Layout::vertical([
         Constraint::Length(1),
         Constraint::Length(1),
-        Constraint::Length(ship),
-        Constraint::Length(middle),
-        Constraint::Length(sensors),
-        Constraint::Length(ports),
         Constraint::Fill(1),
         Constraint::Length(1),
     ])
     .areas(area);
     head(frame, title, &snapshot, link);
     banner(frame, mode, &snapshot, link, age.as_secs_f64());
-    ship::ship(frame, ship, &snapshot);
+    let other = match view {
+        MonitorView::Ship => "satellites",
+        MonitorView::Satellites => "ship",
+    };
+    match view {
+        MonitorView::Ship => parts(frame, rest, &snapshot),
+        MonitorView::Satellites => sky::satellites(frame, rest, &snapshot),
+    }
+    let text = format!(" {url}   s: {other}   q or Ctrl-C ends");
+    frame.render_widget(Line::styled(text, dim()), keys);
+}
+
+/// The ship and what she has on board.
+fn parts(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
+    let wanted = [
+        2 + ship::ROWS,
+        2 + (snapshot.alerts.len() as u16).clamp(4, 8),
+        3 + snapshot.sensors.len() as u16,
+        3 + (snapshot.inputs.len() + snapshot.outputs.len()) as u16,
+    ];
+    let [ship, middle, sensors, ports] = granted(wanted, area.height);
+    let [ship, middle, sensors, ports, journal] = Layout::vertical([
+        Constraint::Length(ship),
+        Constraint::Length(middle),
+        Constraint::Length(sensors),
+        Constraint::Length(ports),
+        Constraint::Fill(1),
+    ])
+    .areas(area);
+    ship::ship(frame, ship, snapshot);
     let [left, right] =
         Layout::horizontal([Constraint::Fill(1), Constraint::Fill(1)]).areas(middle);
-    lists::alerts(frame, left, &snapshot);
-    ship::state(frame, right, &snapshot);
-    lists::sensors(frame, sensors, &snapshot);
-    lists::ports(frame, ports, &snapshot);
+    lists::alerts(frame, left, snapshot);
+    ship::state(frame, right, snapshot);
+    lists::sensors(frame, sensors, snapshot);
+    lists::ports(frame, ports, snapshot);
     if journal.height > 2 {
-        lists::events(frame, journal, &snapshot);
+        lists::events(frame, journal, snapshot);
     }
-    frame.render_widget(Line::styled(format!(" {url}   q or Ctrl-C ends"), dim()), keys);
 }
 
 /// Gives each part the rows that it wants as long as there are any, the first ones first. A part of which

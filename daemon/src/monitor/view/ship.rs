@@ -1,12 +1,12 @@
 //! The ship, her alignment and her time.
 
-use insd_web::snapshot::{ShownMotion, Snapshot};
+use insd_web::snapshot::{ShownMotion, SkyState, Snapshot};
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Text};
 use ratatui::widgets::{Paragraph, Row, Table, Wrap};
 
-use super::super::text::{DASH, bytes, fixed, place, span, state as word_of, word};
+use super::super::text::{DASH, bytes, fixed, place, satellites, span, state as word_of, word};
 use insd_lab::style::{dim, strong, titled};
 
 /// Rows of what is told of the ship.
@@ -89,6 +89,9 @@ pub(super) fn state(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
     let time = &snapshot.time;
     let sigma = time.sigma_s.map_or_else(String::new, |sigma| format!(", within {sigma:.1e} s"));
     tell("UTC by", format!("{}{sigma}", word(&time.quality)));
+    if snapshot.sky.state != SkyState::Unknown {
+        tell("Satellites:", satellites(&snapshot.sky));
+    }
     for engine in snapshot.engines.iter().filter(|engine| !engine.differs.is_empty()) {
         tell(&engine.name, format!("differs in {}", engine.differs.join(", ")));
     }

@@ -11,11 +11,12 @@ mod program;
 mod rates;
 mod sensors;
 mod ship;
+mod sky;
 mod spans;
 #[cfg(test)]
 mod tests;
 
-use insd_base::{Event, ModeReason, Span, Time, UtcTime};
+use insd_base::{Event, ModeReason, Rejection, Span, Time, UtcTime};
 use insd_config::{Config, calendar};
 use insd_engine::Output;
 use insd_vessel::{Dispute, Names, Obeyed, Product};
@@ -92,6 +93,8 @@ impl Showcase {
                 let from = from.map(|from| from.as_str().to_owned());
                 self.enter(*time, from, to.as_str(), reason);
             }
+            // what is passed over is counted, and would push all others out of the list
+            Event::Rejected { reason: Rejection::RangesInUse, .. } => {}
             Event::Rejected { time, source, aid, reason } => {
                 let rejected = Rejected {
                     at_s: time.as_seconds(),
@@ -142,6 +145,7 @@ impl Showcase {
         let shown = &mut self.shown;
         shown.sensors = sensors::sensors(&self.config, slow, &self.sensor_rates, now);
         shown.choices = sensors::choices(&self.config, slow);
+        shown.sky = sky::sky(&self.config, slow, now);
         shown.inputs = ports::inputs(&self.config, slow, &self.input_rates, now);
         shown.outputs = ports::outputs(&self.config, slow, &self.output_rates);
         shown.buses = ports::buses(&self.config, slow);

@@ -7,11 +7,14 @@
 use super::freshness::{Freshness, GONE};
 use super::{
     BusState, RecordingState, Sensor, SensorState, ShownAid, ShownAlignment, ShownEngine,
-    ShownInput, ShownMode, ShownMotion, ShownOutput, ShownPortState, Snapshot, TimeInfo,
+    ShownInput, ShownMode, ShownMotion, ShownOutput, ShownPortState, ShownSky, SkyState, Snapshot,
+    TimeInfo,
 };
 
 /// What the alignment says is repeated every 10 s; when it is older than this nobody aligns, s.
 const ALIGNMENT_GONE: f64 = 15.0;
+/// Satellites stand where they stood; but what becomes of them is not known for longer than the navigator takes their ranges as fresh, s.
+const SKY_GONE: f64 = 5.0;
 /// Measurements that a sensor may leave out before its row is called silent.
 const LEFT_OUT: f64 = 3.0;
 
@@ -31,6 +34,7 @@ impl Snapshot {
         shown.sensors.iter_mut().for_each(|sensor| sensor.grow_older(passed, navigator));
         shown.aids.iter_mut().for_each(|aid| aid.grow_older(passed, navigator));
         shown.inputs.iter_mut().for_each(|port| port.grow_older(passed, navigator));
+        shown.sky.grow_older(now, passed, navigator);
         for alert in &mut shown.alerts {
             alert.since_s = alert.since_s.map(|since| since + passed);
         }
@@ -170,6 +174,24 @@ impl ShownAid {
     }
 }
 
+impl ShownSky {
+    fn grow_older(&mut self, now: f64, passed: f64, navigator: Freshness) {
+        let is_old = self.valid_at_s.is_none_or(|at| now - at > SKY_GONE);
+        if navigator == Freshness::Gone {
+            self.state = SkyState::Unknown;
+        } else if is_old && self.state == SkyState::Raw {
+            self.state = SkyState::Silent;
+        }
+        if self.state != SkyState::Raw {
+            (self.valid_at_s, self.used) = (None, None);
+            self.satellites.clear();
+        }
+        for satellite in &mut self.satellites {
+            satellite.left_out_for_s = satellite.left_out_for_s.map(|time| time + passed);
+        }
+    }
+}
+
 impl ShownInput {
     fn grow_older(&mut self, passed: f64, navigator: Freshness) {
         self.age_s = self.age_s.map(|age| age + passed);
@@ -190,8 +212,8 @@ impl ShownOutput {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ShownHeave;
     use super::super::freshness::OLD;
+    use super::super::{ShownHeave, ShownSatellite};
     use super::*;
 
     /// A ship that sails, told at once.
@@ -279,6 +301,25 @@ mod tests {
         assert_eq!((&gone.motion, gone.mode.name.as_str()), (&None, "fault"));
         assert_eq!((gone.time.utc, gone.time.told_ago_s), (None, 1.2));
         assert!(gone.sensors.iter().all(|sensor| sensor.state == SensorState::Unknown));
+    }
+
+    #[test]
+    fn the_sky_is_gone_when_its_ranges_are_fresh_no_more_and_unknown_when_nobody_tells_of_it() {
+        let left_out = ShownSatellite { left_out_for_s: Some(7.0), ..ShownSatellite::default() };
+        let mut snapshot = sailing();
+        snapshot.sky = ShownSky {
+            state: SkyState::Raw,
+            valid_at_s: Some(99.0),
+            used: Some(0),
+            satellites: vec![left_out],
+            ..ShownSky::default()
+        };
+        let sky = snapshot.after(0.5).sky;
+        assert_eq!((sky.state, sky.satellites[0].left_out_for_s), (SkyState::Raw, Some(7.5)));
+        let late = Snapshot { time: TimeInfo { at_s: 104.5, ..TimeInfo::default() }, ..snapshot };
+        let sky = late.after(0.0).sky;
+        assert_eq!((sky.state, sky.used, sky.satellites.len()), (SkyState::Silent, None, 0));
+        assert_eq!(late.after(1.2).sky.state, SkyState::Unknown);
     }
 
     #[test]

@@ -20,6 +20,7 @@ mod ports;
 mod program;
 mod sensors;
 mod ship;
+mod sky;
 
 pub use aids::{Cause, Rejected, Samples, ShownAid};
 pub use alerts::{Alert, ShownAlertState, ShownEvent, ShownPriority, ShownSeverity};
@@ -34,6 +35,7 @@ pub use program::{
 };
 pub use sensors::{Sensor, SensorState, ShownChoice};
 pub use ship::{Found, ShownEstimate, ShownEstimates, ShownHeave, ShownMotion, ShownStands};
+pub use sky::{SatelliteFate, ShownSatellite, ShownSignal, ShownSky, SkyState};
 
 use serde::{Deserialize, Serialize};
 
@@ -77,6 +79,8 @@ pub struct Snapshot {
     pub sensors: Vec<Sensor>,
     /// Which sensor is used for what, and why.
     pub choices: Vec<ShownChoice>,
+    /// The satellites, and what becomes of each.
+    pub sky: ShownSky,
     /// Ports that are listened to, in the order of the configuration.
     pub inputs: Vec<ShownInput>,
     /// Ports that are written to, in the order of the configuration.
@@ -121,6 +125,7 @@ impl Default for Snapshot {
             installation: Vec::new(),
             sensors: Vec::new(),
             choices: Vec::new(),
+            sky: ShownSky::default(),
             inputs: Vec::new(),
             outputs: Vec::new(),
             buses: Vec::new(),

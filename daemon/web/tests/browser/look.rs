@@ -159,3 +159,47 @@ fn what_is_found_of_the_installation_is_read_on_the_page_and_only_then() {
         assert_eq!(browser.run(hidden), json!(!told));
     }
 }
+
+#[test]
+#[ignore = "needs chromium and chromedriver"]
+fn each_satellite_stands_in_the_sky_in_the_bars_and_in_the_table_and_no_name_covers_another() {
+    let (_live, browser) = looking_at(Scene::Underway);
+    browser.until("a sky", || !browser.elements("#sky-plot .sat").is_empty());
+    assert_eq!(browser.elements("#sky-table tbody tr").len(), 34);
+    assert_eq!(browser.elements("#cn0 .cn0").len(), 34);
+    assert_eq!(browser.elements("#sky-plot .sat-name").len(), 31);
+    assert!(browser.text("#sky-elsewhere").ends_with("R19, E24, S23"));
+    assert_eq!(browser.text("#sky-tally"), "26 of 34 used");
+    let table = browser.text("#sky-table");
+    for told in ["left out", "its ranges contradict the others", "below 10 degrees", "code only"] {
+        assert!(table.contains(told), "{told} is not in {table}");
+    }
+    let covering = browser.run(
+        "const names = [...document.querySelectorAll('.sat-name')].map((node) => [node.textContent, node.getBoundingClientRect()]);
+         return names.flatMap(([a, own], k) => names.slice(k + 1).filter(([, other]) => {
+             const wide = Math.min(own.right, other.right) - Math.max(own.left, other.left);
+             const high = Math.min(own.bottom, other.bottom) - Math.max(own.top, other.top);
+             return wide > 3 && high > 5;
+         }).map(([b]) => `${a} ${b}`))",
+    );
+    assert_eq!(covering, json!([]));
+    // who does not see colours sees shapes
+    let shapes = "return new Set([...document.querySelectorAll('#sky-legend svg')].map((node) => node.innerHTML
+        .replaceAll(/class=\"[^\"]*\"/g, ''))).size";
+    assert_eq!(browser.run(shapes), json!(7));
+}
+
+#[test]
+#[ignore = "needs chromium and chromedriver"]
+fn a_receiver_that_sends_fixes_only_is_said_to() {
+    let (live, browser) = looking_at(Scene::Alignment);
+    browser.until("words", || browser.text("#no-sky").contains("sends fixes only"));
+    for hidden in ["#sky-box", "#signals-card"] {
+        let script = format!("return document.querySelector('{hidden}').hidden");
+        assert_eq!(browser.run(&script), json!(true), "{hidden}");
+    }
+    live.be_still(true);
+    browser.until("nothing is known", || {
+        browser.text("#no-sky") == "Nothing is known of the satellites."
+    });
+}

@@ -13,13 +13,14 @@ const LARGEST: usize = 300_000;
 /// Name, scene, size, light, and how far down.
 type Picture = (&'static str, Scene, [u32; 2], &'static str, &'static str);
 
-const PICTURES: [Picture; 9] = [
+const PICTURES: [Picture; 10] = [
     ("underway", Scene::Underway, [1920, 1080], "day", "#ship"),
     ("underway-dusk", Scene::Underway, [1600, 900], "dusk", "#ship"),
     ("underway-night", Scene::Underway, [1600, 900], "night", "#ship"),
     ("bridge", Scene::Underway, [1920, 1080], "day", "#bridge"),
     ("bridge-night", Scene::Fault, [1920, 1080], "night", "#bridge"),
     ("alignment", Scene::Alignment, [1280, 800], "day", "#alignment"),
+    ("satellites", Scene::Underway, [1440, 860], "day", "#satellites"),
     ("fault", Scene::Fault, [1280, 860], "dusk", "#alerts"),
     ("phone", Scene::Underway, [390, 844], "day", "#ship"),
     ("phone-sensors", Scene::Fault, [390, 844], "night", "#sensors"),

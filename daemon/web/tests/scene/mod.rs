@@ -6,6 +6,7 @@
 pub(crate) mod faults;
 mod plumbing;
 mod ship;
+mod sky;
 
 use insd_web::snapshot::{
     Alert, Log, Program, RecordingState, ShownAlertState, ShownEngine, ShownEvent, ShownMode,
@@ -87,6 +88,7 @@ impl Show {
             engines: self.engines(t),
             estimates: Some(ship::estimates(t)),
             installation: ship::installation(self.scene),
+            sky: sky::sky(t, self.scene),
             rejections: plumbing::rejections(t, self.scene),
             aids: plumbing::aids(t, self.scene),
             samples: plumbing::samples(t),

@@ -2,7 +2,9 @@
 
 use nalgebra::Vector3;
 
+use super::refusal::RangeRefusal;
 use super::signal::{Constellation, SPEED_OF_LIGHT, SatelliteId};
+use super::sky::{LookAngles, SignalStrength};
 use crate::time::Time;
 
 /// Rotation rate of the Earth by which signals are carried along, rad/s (IS-GPS-200N, 20.3.3.4.3).
@@ -98,6 +100,23 @@ pub struct SatelliteRanges {
     pub clock: Option<(f64, f64)>,
     /// Satellites in their order, each once.
     pub ranges: Vec<SatelliteRange>,
+    /// All satellites that the receiver heard, with a range or without.
+    pub heard: Vec<HeardSatellite>,
+}
+
+/// A satellite that a receiver hears, for those who look on: nothing is reckoned with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeardSatellite {
+    /// Which.
+    pub satellite: SatelliteId,
+    /// Where it stands, if its orbit and the place of the antenna are known.
+    pub direction: Option<LookAngles>,
+    /// The best signal of each band, in order of the bands.
+    pub signals: Vec<SignalStrength>,
+    /// Why it has no range; `None` where it has one.
+    pub refused: Option<RangeRefusal>,
+    /// Its codes contradict those of all others in the position that the epoch alone makes.
+    pub is_outlier: bool,
 }
 
 /// Whose time a constellation keeps, with which a receiver has one offset.

@@ -29,6 +29,21 @@ pub enum Constellation {
     Sbas,
 }
 
+impl fmt::Display for Constellation {
+    /// What it is called.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Gps => "GPS",
+            Self::Glonass => "GLONASS",
+            Self::Galileo => "Galileo",
+            Self::BeiDou => "BeiDou",
+            Self::Qzss => "QZSS",
+            Self::Navic => "NavIC",
+            Self::Sbas => "SBAS",
+        })
+    }
+}
+
 impl Constellation {
     /// All of them.
     pub const ALL: [Constellation; 7] = [
@@ -153,6 +168,38 @@ impl SignalCode {
     }
 }
 
+impl SignalCode {
+    /// What the constellation calls the band (RINEX 4.02, tables 9 to 15); `None` where it has no such band.
+    #[must_use]
+    pub fn band_name(self, constellation: Constellation) -> Option<&'static str> {
+        use Constellation as C;
+        Some(match (constellation, self.band) {
+            (C::Gps | C::Qzss | C::Sbas | C::Navic, 1) => "L1",
+            (C::Gps | C::Qzss, 2) => "L2",
+            (C::Gps | C::Qzss | C::Sbas | C::Navic, 5) => "L5",
+            (C::Qzss, 6) => "L6",
+            (C::Navic, 9) => "S",
+            (C::Galileo, 1) => "E1",
+            (C::Galileo, 5) => "E5a",
+            (C::Galileo, 6) => "E6",
+            (C::Galileo, 7) => "E5b",
+            (C::Galileo, 8) => "E5",
+            (C::BeiDou, 1) => "B1C",
+            (C::BeiDou, 2) => "B1I",
+            (C::BeiDou, 5) => "B2a",
+            (C::BeiDou, 6) => "B3I",
+            (C::BeiDou, 7) => "B2b",
+            (C::BeiDou, 8) => "B2",
+            (C::Glonass, 1) => "G1",
+            (C::Glonass, 2) => "G2",
+            (C::Glonass, 3) => "G3",
+            (C::Glonass, 4) => "G1a",
+            (C::Glonass, 6) => "G2a",
+            _ => return None,
+        })
+    }
+}
+
 impl fmt::Display for SignalCode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}{}", self.band, char::from(self.attribute))
@@ -176,6 +223,18 @@ mod tests {
         for name in ["", "X01", "G", "G00", "G100", "é1"] {
             let error = name.parse::<SatelliteId>().unwrap_err();
             assert!(error.contains("expected a satellite"), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_band_that_has_a_name_has_a_frequency_and_the_other_way_round() {
+        for constellation in Constellation::ALL {
+            for band in 0..=10 {
+                let signal = SignalCode::new(band, b'C');
+                let is_there = signal.frequency(constellation, Some(0)).is_some();
+                let named = signal.band_name(constellation).is_some();
+                assert_eq!(named, is_there, "{constellation} {band}");
+            }
         }
     }
 

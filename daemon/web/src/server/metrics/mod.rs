@@ -33,7 +33,44 @@ pub(super) fn of_the_page(is_alive: bool, clients: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::snapshot::{Cause, Sensor, SensorState, ShownAid, ShownMotion};
+    use crate::snapshot::{
+        Cause, SatelliteFate, Sensor, SensorState, ShownAid, ShownMotion, ShownSatellite,
+        ShownSignal, ShownSky, SkyState,
+    };
+
+    #[test]
+    fn satellites_are_counted_by_why_they_are_not_used_and_only_while_they_are_told() {
+        let signal =
+            ShownSignal { code: "1C".to_owned(), cn0_db_hz: Some(44.5), ..Default::default() };
+        let low = ShownSatellite {
+            name: "G07".to_owned(),
+            fate: SatelliteFate::Refused,
+            reason: Some("low".to_owned()),
+            signals: vec![signal],
+            ..ShownSatellite::default()
+        };
+        let sky = ShownSky {
+            state: SkyState::Raw,
+            used: Some(9),
+            satellites: vec![low.clone(), low],
+            refused: vec![Cause { reason: "low".to_owned(), count: 42 }],
+            ..ShownSky::default()
+        };
+        let mut snapshot = Snapshot { sky, ..Snapshot::default() };
+        let told = text(&snapshot);
+        let total = "insd_satellites_refused_total{reason=\"low\"} 42";
+        for line in [
+            "insd_satellites_used 9.0",
+            "insd_satellites_unused{reason=\"low\"} 2.0",
+            "insd_satellite_cn0_db_hertz{satellite=\"G07\",signal=\"1C\"} 44.5",
+            total,
+        ] {
+            assert!(told.lines().any(|own| own == line), "{line} is not in\n{told}");
+        }
+        snapshot.sky.state = SkyState::Silent;
+        let told = text(&snapshot);
+        assert!(told.contains(total) && !told.contains("satellites_used"), "{told}");
+    }
 
     #[test]
     fn metrics_have_units_in_their_names_and_leave_out_what_is_unknown() {

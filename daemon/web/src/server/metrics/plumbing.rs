@@ -1,6 +1,8 @@
-//! Sensors, ports, aids and the recording.
+//! Sensors, satellites, ports, aids and the recording.
 
-use crate::snapshot::{Sensor, ShownInput, ShownOutput, ShownPortState, Snapshot};
+use std::collections::BTreeMap;
+
+use crate::snapshot::{Sensor, ShownInput, ShownOutput, ShownPortState, SkyState, Snapshot};
 
 use super::sheet::Sheet;
 use super::ship::word;
@@ -32,6 +34,7 @@ const SENSOR_COUNTS: [Count<Sensor>; 2] = [
 /// Enters all of it.
 pub(super) fn write(sheet: &mut Sheet, snapshot: &Snapshot) {
     sensors(sheet, snapshot);
+    satellites(sheet, snapshot);
     inputs(sheet, snapshot);
     outputs(sheet, snapshot);
     aids(sheet, snapshot);
@@ -62,6 +65,33 @@ fn sensors(sheet: &mut Sheet, snapshot: &Snapshot) {
     for (name, help, of) in SENSOR_COUNTS {
         let counter = sheet.counter(name, help, ["sensor"]);
         snapshot.sensors.iter().for_each(|sensor| counter.set(&[&sensor.name], of(sensor)));
+    }
+}
+
+fn satellites(sheet: &mut Sheet, snapshot: &Snapshot) {
+    let sky = &snapshot.sky;
+    let refused =
+        sheet.counter("satellites_refused", "Satellites of epochs without a range", ["reason"]);
+    sky.refused.iter().for_each(|cause| refused.set(&[&cause.reason], cause.count));
+    if sky.state != SkyState::Raw {
+        return;
+    }
+    sheet.value("satellites_used", "Satellites in use", sky.used.map(f64::from));
+    let unused = sheet.gauge("satellites_unused", "Satellites not in use", ["reason"]);
+    let mut reasons: BTreeMap<&str, f64> = BTreeMap::new();
+    for reason in sky.satellites.iter().filter_map(|own| own.reason.as_deref()) {
+        *reasons.entry(reason).or_default() += 1.0;
+    }
+    reasons.into_iter().for_each(|(reason, count)| unused.set(&[reason], count));
+    let strength = sheet.gauge(
+        "satellite_cn0_db_hertz",
+        "Carrier to noise density of a signal",
+        ["satellite", "signal"],
+    );
+    for own in &sky.satellites {
+        for signal in &own.signals {
+            strength.set(&[&own.name, &signal.code], signal.cn0_db_hz);
+        }
     }
 }
 
