@@ -13,10 +13,16 @@ use insd_intake::event::{BroadcastFault, Happening, Refusal};
 use insd_intake::port::Link;
 use insd_intake::satellites::RawUse;
 use insd_intake::{Intake, Intaken};
+use insd_lab::raw_receivers::RawReceivers;
+use insd_lab::sniff::Sniffed;
+use insd_rinex::{
+    ObservationHeader, ObservationReader, read_navigation, write_navigation, write_observations,
+};
 use insd_simulator::{RawGnss, raw_gnss, simulate};
 use insd_tests::feed::{Calendar, Encoding, FeedConfig, Reception, arrivals, feed};
 use insd_tests::raw_feed;
 use insd_wire::gnss::ubx::RxmRawx;
+use insd_wire::stream::Protocol;
 
 /// Length of the voyage, s.
 const DURATION: f64 = 150.0;
@@ -299,5 +305,82 @@ fn only_the_ranges_of_the_receiver_in_use_count() {
     let sources = taken.ranges().into_iter().filter(|(received, _)| received.receipt > later);
     let sources: Vec<Source> = sources.map(|(received, _)| received.source).collect();
     assert!(sources.len() > 30 && sources.iter().all(|own| *own == Source::Gnss(1)));
-    assert_eq!(IMU, 0);
+}
+
+#[test]
+fn what_a_receiver_measured_is_read_back_from_rinex() {
+    let ship = Ship::usual();
+    let mut receivers = RawReceivers::new(&ship.intake);
+    for arrival in &ship.arrivals {
+        receivers.take(arrival, Some(arrival.stamp.system.to_gps()));
+    }
+    let told: Vec<_> = receivers.told().collect();
+    let [own] = told[..] else { panic!("{} receivers", told.len()) };
+    assert_eq!((own.epochs.len(), own.refused), (ship.raw.antennas[0].len(), 0));
+    assert_eq!((own.interval(), own.leap_seconds), (Some(1.0), Some(18)));
+    let header = ObservationHeader { version: 305, ..ObservationHeader::default() };
+    let text = write_observations(&header, &own.epochs);
+    let back: Vec<_> = ObservationReader::new(&text).unwrap().map(Result::unwrap).collect();
+    assert_eq!(back.len(), own.epochs.len());
+    for (back, own) in back.iter().zip(&own.epochs) {
+        assert_eq!((back.tag, back.signals.len()), (own.tag, own.signals.len()));
+    }
+    let text = write_navigation(&own.records, &[], own.leap_seconds);
+    let records = read_navigation(&text).unwrap().records;
+    assert_eq!(records.len(), own.records.len());
+    assert!(records.len() >= 6, "{} orbits", records.len());
+}
+
+#[test]
+fn sniffing_shows_satellites_and_signals_and_suggests_the_receiver() {
+    for fixes in [true, false] {
+        let ship = Ship::new(fixes, true);
+        let mut sniffed = Sniffed::new(&Protocol::ALL);
+        ship.arrivals.iter().for_each(|arrival| sniffed.take(arrival));
+        let report = sniffed.report(sniffed.last().unwrap());
+        let port = &report.ports[usize::from(GNSS)];
+        let satellites = port.satellites.as_ref().unwrap();
+        let gps = &satellites.constellations[0];
+        assert_eq!((gps.constellation.as_str(), gps.signals.len()), ("Gps", 1));
+        assert!(gps.satellites >= 6 && gps.orbits == gps.satellites, "{gps:?}");
+        assert!(gps.least_dbhz.unwrap() > 10.0 && gps.greatest_dbhz.unwrap() < 60.0, "{gps:?}");
+        assert!(satellites.epochs > 100 && satellites.refused == 0, "{satellites:?}");
+        let suggested = port.suggestions.join("\n");
+        let sensors: toml::Table = suggested.parse().unwrap();
+        let sensor = &sensors["sensor"][0];
+        assert_eq!(sensor["kind"].as_str(), Some("ubx"), "{suggested}");
+        assert_eq!(suggested.contains("no fixes of its own"), !fixes, "{suggested}");
+        let text = insd_lab::sniff::text::port(port);
+        assert!(text.contains("Gps") && text.contains("1C"), "{text}");
+        assert!(report.ports[usize::from(IMU)].satellites.is_none());
+    }
+}
+
+#[test]
+fn measurements_that_are_no_ranges_do_no_harm() {
+    const NONE: [f64; 8] = [0.0, -2e7, 1e9, 1e12, 1e18, 1e300, f64::NAN, f64::INFINITY];
+    let ship = Ship::usual();
+    let sound = ship.taken();
+    for all in [true, false] {
+        let arrivals = ship.changed(|number, mut raw| {
+            let value = NONE.get(number.wrapping_sub(60) / 2).filter(|_| number % 2 == 0);
+            let count = if all { raw.measurements.len() } else { 1 };
+            for own in raw.measurements.iter_mut().take(count) {
+                own.pseudorange = value.copied().or(own.pseudorange);
+                own.carrier_phase = value.copied().or(own.carrier_phase);
+                own.doppler = value.map_or(own.doppler, |value| *value as f32);
+            }
+            vec![raw]
+        });
+        let taken = Taken::of(&ship.intake, &arrivals);
+        let lost = sound.ranges().len() - taken.ranges().len();
+        assert!(lost <= NONE.len(), "{lost} {:?}", taken.refused);
+        for (received, told) in taken.ranges() {
+            assert!(told.time <= received.receipt);
+            let codes = told.ranges.iter().filter_map(|range| range.code);
+            codes.for_each(|code| assert!(code.value.is_finite() && code.variance > 0.0));
+        }
+        let last = taken.ranges().last().unwrap().1.ranges.len();
+        assert_eq!(last, sound.ranges().last().unwrap().1.ranges.len());
+    }
 }

@@ -68,7 +68,7 @@ impl Core {
     ) {
         let now = stamp.monotonic;
         let sets_time = is_dated && self.is_fixless(index, came.ended);
-        if !sets_time && !self.fits(index, came, epoch.tag) {
+        if !sets_time && !self.is_timely(index, came, epoch.tag) {
             self.refuse(index, Refusal::TimeDoubted);
             return;
         }
@@ -106,7 +106,7 @@ impl Core {
         knows_time: bool,
     ) -> bool {
         if !knows_time || !self.is_fixless(index, came.ended) {
-            return self.fits(index, came, sampled);
+            return self.is_timely(index, came, sampled);
         }
         let config = &self.sensors[index].config;
         let latency = Span::from_seconds(config.latency_s);
@@ -114,7 +114,7 @@ impl Core {
     }
 
     /// Whether an instant fits the receipt of its message, as far as the time is known.
-    fn fits(&self, index: usize, came: Came, instant: GpsTime) -> bool {
+    fn is_timely(&self, index: usize, came: Came, instant: GpsTime) -> bool {
         let latency = Span::from_seconds(self.sensors[index].config.latency_s);
         self.utc.fits(instant, came.begun, latency)
     }
