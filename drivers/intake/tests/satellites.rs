@@ -43,7 +43,7 @@ fn followed(protocol: Protocol, bytes: &[u8], about: Option<GpsTime>) -> [usize;
 
 #[test]
 fn recorded_receivers_of_three_formats_become_epochs_and_orbits() {
-    assert_eq!(followed(Protocol::Ubx, UBX, None), [4, 2, 0]);
+    assert_eq!(followed(Protocol::Ubx, UBX, None), [7, 4, 0]);
     assert_eq!(followed(Protocol::Sbf, SBF, None), [1, 0, 0]);
     let about = UtcTime::from_civil((2023, 1, 3), (12, 0, 0), 0).unwrap().to_gps();
     assert_eq!(followed(Protocol::Rtcm, RTCM, Some(about)), [1, 0, 0]);
@@ -73,7 +73,7 @@ fn status(kind: Kind, raw: RawUse, bytes: &[u8], size: usize) -> (SensorStatus, 
     let system = UtcTime::from_civil((2025, 8, 28), (17, 30, 40), 0).unwrap();
     let mut ranges = 0;
     for (number, piece) in bytes.chunks(size).enumerate() {
-        let monotonic = Time::from_seconds(number as f64 * 1e-3 * size as f64);
+        let monotonic = Time::from_seconds(number as f64 * 1e-4 * size as f64);
         let input = Input::Bytes(piece.to_vec());
         intake.handle(&Arrival { stamp: Stamp { monotonic, system }, port: PortId(0), input });
         while let Some(out) = intake.poll_output() {
@@ -88,7 +88,7 @@ fn status(kind: Kind, raw: RawUse, bytes: &[u8], size: usize) -> (SensorStatus, 
 #[test]
 fn an_epoch_without_an_orbit_is_counted_and_one_that_is_not_wanted_is_not() {
     let (own, ranges) = status(Kind::Ubx, RawUse::Tight, UBX, 100);
-    assert_eq!((own.refused.get(&Refusal::NoOrbit), ranges), (Some(&4), 0), "{own:?}");
+    assert_eq!((own.refused.get(&Refusal::NoOrbit), ranges), (Some(&7), 0), "{own:?}");
     let (own, _) = status(Kind::Ubx, RawUse::Off, UBX, 100);
     assert_eq!(own.refused.get(&Refusal::NoOrbit), None, "{own:?}");
 }

@@ -31,6 +31,18 @@ struct Seen {
     has_orbit: bool,
 }
 
+fn name(constellation: Constellation) -> &'static str {
+    match constellation {
+        Constellation::Gps => "GPS",
+        Constellation::Glonass => "GLONASS",
+        Constellation::Galileo => "Galileo",
+        Constellation::BeiDou => "BeiDou",
+        Constellation::Qzss => "QZSS",
+        Constellation::Navic => "NavIC",
+        Constellation::Sbas => "SBAS",
+    }
+}
+
 impl Satellites {
     /// Takes a frame. What it says of times is right as far as the receiver's or the computer's clock is.
     pub(super) fn take(&mut self, protocol: Protocol, stamp: &Stamp, frame: &[u8]) {
@@ -80,7 +92,7 @@ impl Satellites {
             let densities = seen.iter().filter_map(|own| own.densities);
             let densities = densities.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
             ConstellationReport {
-                constellation: format!("{constellation:?}"),
+                constellation: name(constellation).to_owned(),
                 satellites: seen.len(),
                 signals: signals.iter().map(ToString::to_string).collect(),
                 least_dbhz: densities.map(|(least, _)| least),
