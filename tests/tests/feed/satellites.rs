@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use insd_base::satellites::SatelliteRanges;
 use insd_base::{
-    Arrival, GpsTime, Input, Message, PortId, Received, Source, Span, Time, Voyage, earth,
+    Arrival, Event, GpsTime, Input, Message, PortId, Received, Source, Span, Time, Voyage, earth,
 };
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_intake::config::{IntakeConfig, Kind, PortSpec, SensorConfig};
@@ -305,6 +305,55 @@ fn only_the_ranges_of_the_receiver_in_use_count() {
     let sources = taken.ranges().into_iter().filter(|(received, _)| received.receipt > later);
     let sources: Vec<Source> = sources.map(|(received, _)| received.source).collect();
     assert!(sources.len() > 30 && sources.iter().all(|own| *own == Source::Gnss(1)));
+}
+
+#[test]
+fn another_receiver_with_another_clock_takes_over_and_no_satellite_is_left_out() {
+    let ship = Ship::usual();
+    let mut config = ship.intake.clone();
+    config.ports.push(PortSpec { name: "second".to_owned(), link: Link::Stream });
+    let arm = ship.voyage.header.lever_arms.gnss.0;
+    let lever_m = |down: f64| Some([arm.x, arm.y, arm.z + down]);
+    config.sensors[usize::from(GNSS)].lever_m = lever_m(0.0);
+    let second = SensorConfig::new("second", "second", Kind::Ubx);
+    config.sensors.push(SensorConfig { priority: 9, lever_m: lever_m(0.25), ..second });
+    let of_second = ship.changed(|_, mut raw| {
+        raw.measurements.iter_mut().for_each(|own| {
+            own.pseudorange = own.pseudorange.map(|range| range + 200.0);
+        });
+        vec![raw]
+    });
+    let of_second = of_second.into_iter().filter(|own| own.port == PortId(GNSS));
+    let silent = ship.reception.stamp(Time::from_seconds(100.0)).monotonic;
+    let is_heard = |own: &&Arrival| own.port != PortId(GNSS) || own.stamp.monotonic < silent;
+    let mut both: Vec<_> = ship.arrivals.iter().filter(is_heard).cloned().collect();
+    both.extend(of_second.map(|own| Arrival { port: PortId(2), ..own }));
+    both.sort_by_key(|arrival| arrival.stamp.monotonic);
+    let taken = Taken::of(&config, &both);
+    let mut engine = Engine::new(EngineConfig::for_voyage(&ship.voyage.header, 1.0));
+    let (mut excluded, mut accepted) = (Vec::new(), Vec::new());
+    for received in &taken.measured {
+        engine.handle(received);
+        while let Some(output) = engine.poll_output() {
+            match output {
+                Output::Event(Event::SatelliteJudged { time, satellite, is_excluded: true }) => {
+                    excluded.push((time, satellite));
+                }
+                Output::Solution(_) => {
+                    accepted.push(engine.counts().accepted.get("satellite_code").copied());
+                }
+                _ => {}
+            }
+        }
+    }
+    excluded.retain(|(time, _)| *time > silent);
+    assert_eq!(excluded, []);
+    let at_end = accepted.last().copied().flatten().unwrap_or(0);
+    let at_change = accepted[accepted.len() - 50].unwrap_or(0);
+    assert!(at_end > at_change + 30, "{at_change} {at_end}");
+    // its antenna is that of its sensor, though its fixes are not used
+    let configured = engine.estimates().unwrap().gnss_lever_configured.0;
+    assert!((configured.z - arm.z - 0.25).abs() < 1e-9, "{configured}");
 }
 
 #[test]
