@@ -303,8 +303,9 @@ impl Estimator for Filter {
         match &received.message {
             Message::Imu(_) => {}
             Message::Gnss(fix) if fix.rank > 0 => self.compare(fix, received.source),
-            // its own receiver's fix is made of the same ranges
+            // its own receiver's fix is made of the same ranges, and tells no more than whose antenna it is
             Message::Gnss(fix) if self.satellites.are_fresh(self.state.time) => {
+                self.note_antenna(fix);
                 Self::pass_over(fix, received.source, &mut report);
             }
             Message::Gnss(fix) => self.apply_gnss(fix, received.source, &mut report),

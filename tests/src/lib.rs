@@ -11,6 +11,7 @@ struct Architecture;
 pub mod engines;
 pub mod noise_free;
 pub mod pages;
+pub mod raw_feed;
 pub mod recorded;
 pub mod sailing;
 pub mod scores;

@@ -1,10 +1,13 @@
 //! The daemon itself, over pseudo terminals: what it recorded replays to the same bytes, and a sensor
-//! that is unplugged and plugged in again is read again.
+//! that is unplugged and plugged in again is read again. So do the raw messages of a receiver of satellites.
 
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
 
+use std::collections::BTreeMap;
 use std::fs;
+use std::ops::Range;
 use std::path::Path;
+use std::thread::JoinHandle;
 use std::time::Duration;
 
 use insd::clock::Clock;
@@ -14,15 +17,17 @@ use insd_config::Config;
 use insd_drivers::raw::RawReader;
 use insd_drivers::recording::NavWriter;
 use insd_engine::Output;
-use insd_simulator::simulate;
+use insd_simulator::{raw_gnss, simulate};
 use insd_tests::feed::{Encoding, FeedConfig, Sending, feed};
-use insd_tests::scenario;
 use insd_tests::wire::Wire;
+use insd_tests::{raw_feed, scenario, variant};
 use insd_vessel::{Product, Spoken};
 
 /// Seconds of the voyage that are sailed, and when the receiver is unplugged and plugged in again.
 const SAILED: f64 = 25.0;
-const UNPLUGGED: std::ops::Range<f64> = 14.0..17.0;
+const UNPLUGGED: Range<f64> = 14.0..17.0;
+/// Seconds that are sailed with raw satellites: until the heading is known and ranges are used.
+const WITH_RAW: f64 = 60.0;
 
 #[test]
 fn a_run_over_real_lines_replays_to_the_same_bytes() {
@@ -35,15 +40,11 @@ fn a_run_over_real_lines_replays_to_the_same_bytes() {
     let nav = dir.join("nav.csv");
     let options =
         RunOptions { nav: Some(nav.clone()), seconds: Some(SAILED + 3.0), ..RunOptions::default() };
-    let sendings = feed(&voyage, &feeds);
-    let daemon = std::thread::spawn({
-        let (config, text) = (config.clone(), text.clone());
-        move || run(&config, &text, &options, &Log::silent())
-    });
-    send(dir, &sendings);
-    daemon.join().unwrap().unwrap();
+    let daemon = start(&config, &text, options);
+    send(dir, &feed(&voyage, &feeds), SAILED, UNPLUGGED);
+    daemon.join().unwrap();
 
-    let (replayed, sent, states) = replay(dir, &config);
+    let Replayed { nav: replayed, sent, states, .. } = replay(dir, &config);
     let live = fs::read(&nav).unwrap();
     assert!(live.len() > 10_000, "{} bytes of solutions", live.len());
     assert!(live == replayed, "the recording does not replay to the same bytes");
@@ -54,6 +55,40 @@ fn a_run_over_real_lines_replays_to_the_same_bytes() {
     assert!(sent.len() - written.len() < 2_000, "{} bytes never left", sent.len() - written.len());
     let seen = |word: &str| states.iter().any(|state| state.contains(word));
     assert!(seen("lost") && seen("absent") && seen("open"), "{states:?}");
+}
+
+#[test]
+fn a_run_with_raw_satellites_over_real_lines_replays_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let dir = folder.path();
+    let scenario = variant(26, &[("grade = \"mems\"", "grade = \"navigation\"")]);
+    let scenario = scenario.with_duration(WITH_RAW + 5.0);
+    let (voyage, raw) = (simulate(&scenario, 1), raw_gnss(&scenario, 1).unwrap());
+    let feeds = FeedConfig::new(&voyage, &[Encoding::Sbg, Encoding::Ubx]);
+    let text = configuration(dir, &feeds, &voyage);
+    let config = Config::of_text(&text).unwrap();
+    let nav = dir.join("nav.csv");
+    let seconds = Some(WITH_RAW + 3.0);
+    let options = RunOptions { nav: Some(nav.clone()), seconds, ..RunOptions::default() };
+    let start_gps = feeds.sensors[1].calendar.start.to_gps();
+    let mut sendings = feed(&voyage, &feeds);
+    sendings.extend(raw_feed::ubx(&raw, start_gps, 1));
+    sendings.sort_by_key(|sending| sending.at);
+    let daemon = start(&config, &text, options);
+    send(dir, &sendings, WITH_RAW, 0.0..0.0);
+    daemon.join().unwrap();
+
+    let replayed = replay(dir, &config);
+    let live = fs::read(&nav).unwrap();
+    assert!(live.len() > 10_000, "{} bytes of solutions", live.len());
+    assert!(live == replayed.nav, "the recording does not replay to the same bytes");
+    let codes = replayed.accepted.get("satellite_code").copied().unwrap_or(0);
+    assert!(codes > 3, "{codes} epochs of ranges used: {:?}", replayed.accepted);
+}
+
+fn start(config: &Config, text: &str, options: RunOptions) -> JoinHandle<()> {
+    let (config, text) = (config.clone(), text.to_owned());
+    std::thread::spawn(move || run(&config, &text, &options, &Log::silent()).unwrap())
 }
 
 fn configuration(dir: &Path, feeds: &FeedConfig, voyage: &insd_base::Voyage) -> String {
@@ -83,22 +118,23 @@ fn configuration(dir: &Path, feeds: &FeedConfig, voyage: &insd_base::Voyage) -> 
 }
 
 /// Sends in real time; the receiver's line is pulled and put back on the way.
-fn send(dir: &Path, sendings: &[Sending]) {
+fn send(dir: &Path, sendings: &[Sending], sailed: f64, unplugged: Range<f64>) {
     let open = |port: usize| Wire::new(&dir.join(format!("tty{port}"))).unwrap();
-    let mut wires: Vec<Option<Wire>> = (0..3).map(|port| Some(open(port))).collect();
+    let ports = sendings.iter().map(|sending| sending.port + 1).max().unwrap();
+    let mut wires: Vec<Option<Wire>> = (0..ports).map(|port| Some(open(port))).collect();
     // absent lines are looked for again within a second
     std::thread::sleep(Duration::from_millis(1500));
     let clock = Clock::start();
     for sending in sendings {
         let due = sending.at.as_seconds();
-        if due > SAILED {
+        if due > sailed {
             break;
         }
         let wait = due - clock.elapsed().as_secs_f64();
         if wait > 0.0 {
             std::thread::sleep(Duration::from_secs_f64(wait));
         }
-        if sending.port == 1 && UNPLUGGED.contains(&due) {
+        if sending.port == 1 && unplugged.contains(&due) {
             wires[1] = None;
             continue;
         }
@@ -107,8 +143,19 @@ fn send(dir: &Path, sendings: &[Sending]) {
     }
 }
 
-/// The solutions of the recording as `nav.csv`, what the port was sent, and the states of ports in it.
-fn replay(dir: &Path, config: &Config) -> (Vec<u8>, Vec<u8>, Vec<String>) {
+/// What comes of a recording.
+struct Replayed {
+    /// The solutions as `nav.csv`.
+    nav: Vec<u8>,
+    /// What the port was sent.
+    sent: Vec<u8>,
+    /// The states of ports.
+    states: Vec<String>,
+    /// Measurements used, by aid.
+    accepted: BTreeMap<&'static str, u64>,
+}
+
+fn replay(dir: &Path, config: &Config) -> Replayed {
     let mut pipeline = config.pipeline();
     let mut nav = NavWriter::new(Vec::new()).unwrap();
     let (mut sent, mut states) = (Vec::new(), Vec::new());
@@ -125,5 +172,6 @@ fn replay(dir: &Path, config: &Config) -> (Vec<u8>, Vec<u8>, Vec<String>) {
             _ => {}
         });
     }
-    (nav.finish().unwrap(), sent, states)
+    let accepted = pipeline.counts().accepted.clone();
+    Replayed { nav: nav.finish().unwrap(), sent, states, accepted }
 }

@@ -369,7 +369,7 @@ impl Engine {
             self.reject(received, source.name(), Rejection::OutOfRange);
             return;
         }
-        if let Err(reason) = self.recent.admit(source, received.message.time()) {
+        if let Err(reason) = self.recent.admit(source, &received.message) {
             self.reject(received, source.name(), reason);
             return;
         }

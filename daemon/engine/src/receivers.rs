@@ -4,8 +4,8 @@
 //! was not. Fixes of the others go to the judge, who compares them with the navigator; nothing else hears them.
 
 use insd_base::{
-    Ecef, Event, Geodetic, GnssFix, Message, Ned, Parties, Party, Received, ReceiverChange, Source,
-    Standing, Time, earth,
+    Ecef, Event, Geodetic, GnssFix, Message, Ned, Parties, Party, Received, ReceiverChange,
+    Rejection, Source, Standing, Time, earth,
 };
 use insd_nav::judge::Docket;
 use insd_nav::timeline::HISTORY;
@@ -115,6 +115,10 @@ impl Receivers {
 impl Engine {
     /// A message as it is to be used. The fix of a receiver that is not in use is compared, and goes no further.
     pub(crate) fn as_used(&mut self, received: &Received) -> Option<Received> {
+        if self.is_of_liar(received) {
+            self.reject(received, "satellite_code", Rejection::SourceSuspect);
+            return None;
+        }
         let (Message::Gnss(fix), Source::Gnss(number)) = (&received.message, received.source)
         else {
             return Some(received.clone());
@@ -132,6 +136,15 @@ impl Engine {
             self.compare(&marked);
         }
         None
+    }
+
+    /// Whether these are ranges of the receiver of the intake's choice, while another is used for its lies.
+    fn is_of_liar(&self, received: &Received) -> bool {
+        let (Message::Ranges(_), Source::Gnss(number)) = (&received.message, received.source)
+        else {
+            return false;
+        };
+        self.receivers.is_own_choice && self.receivers.in_use != Some(index(number))
     }
 
     /// Uses another receiver if another is better, and tells it where the intake does not.

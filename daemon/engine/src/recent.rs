@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use insd_base::{Rejection, Source, Time};
+use insd_base::{Message, Rejection, Source, Time};
 
 /// Times remembered for each source.
 const REMEMBERED: usize = 64;
@@ -10,13 +10,16 @@ const REMEMBERED: usize = 64;
 /// What came lately.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Recent {
-    times: BTreeMap<Source, VecDeque<Time>>,
+    /// Ranges of a receiver apart from its fixes, which may be of the same instant.
+    times: BTreeMap<(Source, bool), VecDeque<Time>>,
 }
 
 impl Recent {
     /// Lets a message pass unless one of the same source and time came before.
-    pub(crate) fn admit(&mut self, source: Source, time: Time) -> Result<(), Rejection> {
-        let times = self.times.entry(source).or_default();
+    pub(crate) fn admit(&mut self, source: Source, message: &Message) -> Result<(), Rejection> {
+        let time = message.time();
+        let is_ranges = matches!(message, Message::Ranges(_));
+        let times = self.times.entry((source, is_ranges)).or_default();
         if times.contains(&time) {
             return Err(Rejection::Duplicate);
         }

@@ -9,6 +9,7 @@ pub mod demo;
 pub mod evaluation;
 pub mod pty;
 pub mod ranges;
+pub mod raw_receivers;
 pub mod raw_run;
 pub mod report;
 pub mod scenario;

@@ -154,25 +154,26 @@ fn tell_vote(vote: &Vote) {
     }
 }
 
+fn tell_port(at: f64, port: &str, state: &PortState) {
+    match state {
+        PortState::Open { .. } | PortState::Speaking | PortState::Ended => {
+            tracing::info!(at, port, "{state}");
+        }
+        PortState::Absent { .. }
+        | PortState::Lost { .. }
+        | PortState::Silent { .. }
+        | PortState::Overrun { .. } => tracing::warn!(at, port, "{state}"),
+        PortState::Refused { host, .. } => {
+            tracing::warn!(target: SECURITY, at, port, host, "{state}");
+        }
+    }
+}
+
 fn tell_event(names: &Names, event: &IntakeEvent) {
     let at = event.time.as_seconds();
     let name = |sensor: &usize| names.sensor(*sensor).to_owned();
     match &event.what {
-        Happening::Port { port, state } => {
-            let port = names.port(*port);
-            match state {
-                PortState::Open { .. } | PortState::Speaking | PortState::Ended => {
-                    tracing::info!(at, port, "{state}");
-                }
-                PortState::Absent { .. }
-                | PortState::Lost { .. }
-                | PortState::Silent { .. }
-                | PortState::Overrun { .. } => tracing::warn!(at, port, "{state}"),
-                PortState::Refused { host, .. } => {
-                    tracing::warn!(target: SECURITY, at, port, host, "{state}");
-                }
-            }
-        }
+        Happening::Port { port, state } => tell_port(at, names.port(*port), state),
         Happening::Bus { port, event } => {
             tracing::warn!(at, port = names.port(*port), "bus: {event}");
         }
@@ -196,6 +197,16 @@ fn tell_event(names: &Names, event: &IntakeEvent) {
         }
         Happening::DeviceClockStepped { sensor, by } => {
             tracing::warn!(at, sensor = name(sensor), by, "device clock stepped");
+        }
+        Happening::Ranges { sensor, used: true } => {
+            tracing::info!(at, sensor = name(sensor), "ranges of satellites are used");
+        }
+        Happening::Ranges { sensor, .. } => {
+            tracing::warn!(at, sensor = name(sensor), "no ranges of satellites any more");
+        }
+        Happening::Satellite { sensor, satellite, fault } => {
+            let words = words::satellite_fault(*satellite, fault.as_ref());
+            tracing::info!(at, sensor = name(sensor), "satellite {words}");
         }
         Happening::Chosen(chosen) => {
             let source = words::choice(chosen, |sensor| names.sensor(sensor));

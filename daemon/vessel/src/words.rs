@@ -1,10 +1,10 @@
 //! Events and states in words.
 
-use insd_base::{AlertOrder, Event, Mode};
+use insd_base::{AlertOrder, Event, Mode, SatelliteId};
 use insd_engine::vote::VoteEvent;
 use insd_intake::choice::{Chosen, Quantity, Why};
 use insd_intake::clock::{PulseFault, TimeChange, TimeQuality};
-use insd_intake::event::{Happening, IntakeEvent};
+use insd_intake::event::{BroadcastFault, Happening, IntakeEvent};
 use insd_output::alerts::AlertView;
 use insd_wire::nmea::{Acn, AlertCommand, AlertPriority, AlertState};
 
@@ -165,12 +165,35 @@ pub fn border(names: &Names, event: &IntakeEvent) -> (&'static str, String) {
         Happening::DeviceClockStepped { sensor, by } => {
             ("device clock", format!("{}: stepped by {by:.3} s and tied anew", name(*sensor)))
         }
+        Happening::Ranges { sensor, used } => ("satellites", ranges(name(*sensor), *used)),
+        Happening::Satellite { sensor, satellite, fault } => {
+            let words = satellite_fault(*satellite, fault.as_ref());
+            ("satellites", format!("{}: {words}", name(*sensor)))
+        }
         Happening::Chosen(chosen) => ("source", choice(chosen, name)),
         Happening::Time(change) => ("time", time(change)),
         Happening::SystemClockStepped { by } => {
             ("system clock", format!("the computer's clock stepped by {:.3} s", by.as_seconds()))
         }
     }
+}
+
+/// Whether ranges of satellites by a receiver are used.
+fn ranges(name: &str, used: bool) -> String {
+    if used {
+        format!("{name}: the ranges of its satellites are used, not its fixes")
+    } else {
+        format!("{name}: no ranges of its satellites are used any more")
+    }
+}
+
+/// What is wrong with what a satellite broadcasts.
+#[must_use]
+pub fn satellite_fault(satellite: SatelliteId, fault: Option<&BroadcastFault>) -> String {
+    fault.map_or_else(
+        || format!("{satellite}: what it broadcasts is good again"),
+        |fault| format!("{satellite}: {fault}"),
+    )
 }
 
 /// Another source in words.

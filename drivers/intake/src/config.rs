@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::device::DeviceFilter;
 use crate::mounting::Mounting;
 use crate::port::Link;
+use crate::satellites::RawUse;
 use crate::sensor::TimeBase;
 
 /// The format of a sensor.
@@ -36,6 +37,8 @@ pub enum Kind {
     Ubx,
     /// A Septentrio receiver.
     Sbf,
+    /// A receiver that sends its measurements in RTCM 3: MSM4 to MSM7, and orbits.
+    Rtcm,
     /// A log that speaks NMEA 0183: VBW, VHW.
     NmeaLog,
     /// A log that speaks RDI PD0.
@@ -133,6 +136,9 @@ pub struct SensorConfig {
     /// Of a receiver: by how much its fixes are older than the time they carry, s.
     #[serde(default)]
     pub delay_s: f64,
+    /// Of a receiver: what is made of its raw messages, if it sends any.
+    #[serde(default)]
+    pub raw: RawUse,
     /// Samples per second of an IMU.
     #[serde(default = "hundred")]
     pub rate_hz: f64,
@@ -259,7 +265,7 @@ impl Kind {
             | Kind::Kvh
             | Kind::Stim
             | Kind::CanImu => Role::Imu,
-            Kind::NmeaGnss | Kind::Ubx | Kind::Sbf | Kind::N2kGnss => Role::Gnss,
+            Kind::NmeaGnss | Kind::Ubx | Kind::Sbf | Kind::Rtcm | Kind::N2kGnss => Role::Gnss,
             Kind::NmeaLog | Kind::Pd0 | Kind::Pd6 | Kind::Nortek | Kind::N2kLog => Role::Log,
             Kind::Compass | Kind::Psxn | Kind::Pashr | Kind::N2kHeading => Role::Heading,
             Kind::NmeaPosition | Kind::Manual | Kind::N2kPosition => Role::Position,
@@ -278,6 +284,7 @@ impl Kind {
             Kind::Stim => Protocol::Stim,
             Kind::Ubx => Protocol::Ubx,
             Kind::Sbf => Protocol::Sbf,
+            Kind::Rtcm => Protocol::Rtcm,
             Kind::Pd0 => Protocol::Pd0,
             Kind::Pd6 => Protocol::Pd6,
             Kind::NmeaGnss
@@ -394,6 +401,7 @@ impl SensorConfig {
             latency_s: 0.0,
             lever_m: None,
             delay_s: 0.0,
+            raw: RawUse::default(),
             rate_hz: hundred(),
             time: TimeBase::default(),
             mounting: Mounting::default(),
@@ -446,6 +454,9 @@ impl SensorConfig {
         expect(self.lever_m.is_none() || is_receiver, "lever_m", "a GNSS receiver");
         expect(self.delay_s.abs() <= 2.0, "delay_s", "-2 to 2 s");
         expect(self.delay_s == 0.0 || is_receiver, "delay_s", "a GNSS receiver");
+        let has_raw = matches!(self.kind, Kind::Ubx | Kind::Sbf);
+        let expected = "a receiver that sends more than raw data, if it is off: ubx, sbf";
+        expect(self.raw == RawUse::Tight || has_raw, "raw", expected);
         expect((1.0..=10_000.0).contains(&self.rate_hz), "rate_hz", "1 to 10000");
         let mounted = self.mounting.c_bd().is_some();
         expect(mounted, "mounting", "three directions that make a right-handed set, finite angles");

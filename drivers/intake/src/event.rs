@@ -1,7 +1,12 @@
 //! What happened at the border, worth telling the operator.
 
+use std::fmt;
+use std::mem::discriminant;
+
 use insd_base::can::BusEvent;
-use insd_base::{PortId, PortState, Span, Time};
+use insd_base::{PortId, PortState, SatelliteId, Span, Time};
+use insd_gnss::OrbitRefusal;
+use insd_wire::gnss::navigation::WordsRefusal;
 
 use crate::choice::Chosen;
 use crate::clock::TimeChange;
@@ -34,6 +39,12 @@ pub enum Refusal {
     Incomplete,
     /// It is from another device of the bus than the one that is listened to.
     OtherDevice,
+    /// An epoch of satellites that was told already, or is older than the one before.
+    Repeated,
+    /// No satellite of an epoch has an orbit that can be used, or nobody knows yet where the antenna is.
+    NoOrbit,
+    /// What a satellite sent is no part of its message, or no orbit; an event tells which satellite, and why.
+    Broadcast,
 }
 
 impl Refusal {
@@ -52,6 +63,41 @@ impl Refusal {
             Refusal::Frame => "frame",
             Refusal::Incomplete => "incomplete",
             Refusal::OtherDevice => "other_device",
+            Refusal::Repeated => "repeated",
+            Refusal::NoOrbit => "no_orbit",
+            Refusal::Broadcast => "broadcast",
+        }
+    }
+}
+
+/// What is wrong with what a satellite broadcasts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BroadcastFault {
+    /// Its words are refused.
+    Words(WordsRefusal),
+    /// Its record is refused, or holds no more.
+    Orbit(OrbitRefusal),
+}
+
+impl fmt::Display for BroadcastFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            BroadcastFault::Words(refusal) => write!(f, "its words are refused: {refusal}"),
+            BroadcastFault::Orbit(refusal) => write!(f, "{refusal}"),
+        }
+    }
+}
+
+impl BroadcastFault {
+    /// Whether it is of the same kind as another: numbers within it may differ.
+    #[must_use]
+    pub fn is_like(&self, other: &BroadcastFault) -> bool {
+        match (self, other) {
+            (BroadcastFault::Words(_), BroadcastFault::Words(_)) => true,
+            (BroadcastFault::Orbit(own), BroadcastFault::Orbit(other)) => {
+                discriminant(own) == discriminant(other)
+            }
+            _ => false,
         }
     }
 }
@@ -112,6 +158,22 @@ pub enum Happening {
         sensor: usize,
         /// By how much against the computer's clock, s.
         by: f64,
+    },
+    /// Ranges of satellites that a receiver measured are used from now on, or not any more.
+    Ranges {
+        /// Index of the sensor.
+        sensor: usize,
+        /// Used from now on.
+        used: bool,
+    },
+    /// Something is wrong with what a satellite broadcasts, by one receiver, or not any more.
+    Satellite {
+        /// Index of the sensor.
+        sensor: usize,
+        /// Which satellite.
+        satellite: SatelliteId,
+        /// What is wrong; `None`: nothing any more.
+        fault: Option<BroadcastFault>,
     },
     /// Another source is used for a quantity.
     Chosen(Chosen),

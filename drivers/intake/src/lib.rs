@@ -15,6 +15,7 @@ pub mod device;
 pub mod event;
 pub mod mounting;
 pub mod port;
+pub mod satellites;
 pub mod sensor;
 pub mod status;
 

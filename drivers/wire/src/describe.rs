@@ -36,7 +36,8 @@ pub fn describe(protocol: Protocol, frame: &[u8]) -> Described {
         Protocol::Rtcm => {
             let number = rtcm::Frame::open(frame).ok().and_then(|frame| frame.number());
             let name = number.map_or("RTCM".to_owned(), |number| format!("RTCM {number}"));
-            Described { name, read: Reading::Other }
+            let is_read = number.is_some_and(rtcm::is_of_satellites);
+            Described { name, read: if is_read { Reading::Used } else { Reading::Other } }
         }
         Protocol::Sbg => sbg(frame),
         Protocol::StdBin => plain("StdBin", &stdbin::Telegram::read(frame)),
@@ -82,8 +83,8 @@ fn ubx(frame: &[u8]) -> Described {
         Ok(Message::NavTimeGps(_)) => used("NAV-TIMEGPS"),
         Ok(Message::NavTimeLs(_)) => used("NAV-TIMELS"),
         Ok(Message::TimTp(_)) => used("TIM-TP"),
-        Ok(Message::RxmRawx(_)) => described("RXM-RAWX", Reading::Other),
-        Ok(Message::RxmSfrbx(_)) => described("RXM-SFRBX", Reading::Other),
+        Ok(Message::RxmRawx(_)) => used("RXM-RAWX"),
+        Ok(Message::RxmSfrbx(_)) => used("RXM-SFRBX"),
         Ok(Message::Other { class, id }) => {
             described(format!("UBX {class:02X}-{id:02X}"), Reading::Other)
         }
@@ -97,11 +98,7 @@ fn sbf(frame: &[u8]) -> Described {
         Err(_) => "SBF".to_owned(),
     };
     match sbf::Message::read(frame) {
-        Ok(
-            sbf::Message::Other { .. }
-            | sbf::Message::MeasEpoch(_)
-            | sbf::Message::RawNavigation(_),
-        ) => described(name, Reading::Other),
+        Ok(sbf::Message::Other { .. }) => described(name, Reading::Other),
         Ok(_) => described(name, Reading::Used),
         Err(_) => described(name, Reading::Refused),
     }

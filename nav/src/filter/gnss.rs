@@ -85,7 +85,7 @@ impl Filter {
     }
 
     /// Another receiver has another antenna: what was learnt of the last one's lever arm is not its.
-    fn note_antenna(&mut self, fix: &GnssFix) {
+    pub(super) fn note_antenna(&mut self, fix: &GnssFix) {
         if fix.lever.is_some_and(|arm| self.config.hear_antenna(arm)) {
             let variance = self.config.gnss_lever_std().powi(2);
             GNSS_LEVER.renew(&mut self.state.covariance, &Matrix3::from_diagonal_element(variance));

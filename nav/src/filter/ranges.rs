@@ -56,7 +56,7 @@ impl Filter {
         if told.ranges.is_empty() || !self.navigating {
             return;
         }
-        self.begin_with_ranges(told);
+        self.begin_with_ranges(told, source);
         self.carry_clock();
         let seated = self.seat(told);
         self.look_for_clock_jump(&seated);
@@ -67,13 +67,16 @@ impl Filter {
     }
 
     /// The states of satellites join; what judges fixes has nothing to judge.
-    fn begin_with_ranges(&mut self, told: &SatelliteRanges) {
+    fn begin_with_ranges(&mut self, told: &SatelliteRanges, source: Source) {
         self.begin_to_carry(Carried::WithRanges);
-        if self.satellites.last.is_none() {
+        let is_first = self.satellites.last.is_none();
+        if self.satellites.is_of_other(source) {
             let (offset, drift) = told.clock.unwrap_or_default();
             let state = &mut self.state;
             receiver_clock::renew(&mut state.nominal, &mut state.covariance, offset, Some(drift));
             self.satellites.last = Some(self.state.time);
+        }
+        if is_first {
             self.take_over_claims();
             self.be_judged();
         }

@@ -1,7 +1,7 @@
 //! Which satellites have which states.
 
-use insd_base::Time;
 use insd_base::satellites::{SatelliteId, SatelliteRange, SatelliteUse};
+use insd_base::{Source, Time};
 
 use crate::error_state::SATELLITES;
 
@@ -54,12 +54,23 @@ pub(super) struct Satellites {
     slots: Vec<Option<Slot>>,
     /// Time of the newest ranges.
     pub(super) last: Option<Time>,
+    /// Whose they are.
+    source: Option<Source>,
 }
 
 impl Satellites {
     /// Whether ranges are in use.
     pub(super) fn are_fresh(&self, now: Time) -> bool {
         self.last.is_some_and(|last| (now - last).as_seconds() < FRESH)
+    }
+
+    /// Whether ranges are of another receiver than those before, whose clock and arcs are its own; arcs begin anew then.
+    pub(super) fn is_of_other(&mut self, source: Source) -> bool {
+        let is_other = self.source.replace(source) != Some(source);
+        if is_other {
+            self.slots.iter_mut().flatten().for_each(|slot| slot.arc = None);
+        }
+        is_other
     }
 
     /// The place of a satellite, and whether it is new there. `None` where all are taken.

@@ -9,6 +9,7 @@ mod imus;
 mod lines;
 mod passage;
 mod pulses;
+mod satellites;
 mod streams;
 mod wild;
 

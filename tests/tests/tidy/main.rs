@@ -95,7 +95,7 @@ const ARROWS: [(&str, &[&str]); 17] = [
     ("insd-rinex", &["insd-base"]),
     ("insd-output", &["insd-base", "insd-wire", "insd-n2k"]),
     ("insd-alignment", &["insd-base", "insd-estimation", "insd-nav"]),
-    ("insd-intake", &["insd-base", "insd-wire", "insd-n2k"]),
+    ("insd-intake", &["insd-base", "insd-gnss", "insd-wire", "insd-n2k"]),
     ("insd-simulator", &["insd-base", "insd-wire", "insd-n2k", "insd-intake"]),
     ("insd-drivers", &["insd-base", "insd-wire", "insd-n2k", "insd-simulator"]),
     ("insd-engine", &["insd-base", "insd-nav", "insd-alignment"]),

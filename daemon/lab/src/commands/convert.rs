@@ -1,12 +1,15 @@
-//! `insd convert`: a voyage directory out of a raw recording.
+//! `insd convert`: a voyage directory, or files of RINEX, out of a raw recording.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use anyhow::Context as _;
 use insd_base::{Message, Received, Stamped, Time, Voyage, VoyageHeader};
 use insd_config::BadInput;
 use insd_drivers::recording::{Compression, write_voyage};
 use insd_intake::{Intake, Intaken};
+use insd_rinex::{Equipment, ObservationHeader, write_navigation, write_observations};
 
+use crate::raw_receivers::{RawReceiver, RawReceivers};
 use crate::raw_run::RawRun;
 
 /// Options of `insd convert`.
@@ -15,8 +18,11 @@ pub struct ConvertArgs {
     /// Raw recording: one of its files, or its folder
     recording: PathBuf,
     /// Voyage directory to make
+    #[arg(long, value_name = "DIR", required_unless_present = "rinex")]
+    out: Option<PathBuf>,
+    /// Folder for RINEX 3.05: of each receiver that sent raw messages NAME.obs, what it measured, and NAME.nav, what the satellites broadcast
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    rinex: Option<PathBuf>,
     /// Another configuration than the one it was made with
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
@@ -26,23 +32,91 @@ pub struct ConvertArgs {
 }
 
 /// Runs the command. Times in the voyage are those of the ship's time line, whose start in UTC is what was
-/// known at the end; each row has its time of receipt.
+/// known at the end; each row has its time of receipt. Times in RINEX are those of the receiver's own clock.
 ///
 /// # Errors
-/// The recording cannot be read, UTC never became known in it, or the voyage cannot be written.
+/// The recording cannot be read, UTC never became known in it, no receiver sent raw messages and RINEX is wanted, or the files cannot be written.
 pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
     let mut raw = RawRun::open(&args.recording, args.config.as_deref(), args.run)?;
     let mut intake = Intake::new(&raw.config.intake());
+    let mut receivers = args.rinex.is_some().then(|| RawReceivers::new(&raw.config.intake()));
     let mut measured = Vec::new();
     raw.for_each(|arrival| {
         intake.handle(arrival);
+        if let Some(receivers) = &mut receivers {
+            let utc = intake.utc_at(arrival.stamp.monotonic);
+            receivers.take(arrival, Some(utc.unwrap_or(arrival.stamp.system).to_gps()));
+        }
         while let Some(taken) = intake.poll_output() {
-            if let Intaken::Measured(received) = taken {
+            if let Intaken::Measured(received) = taken
+                && args.out.is_some()
+            {
                 measured.push(received);
             }
         }
         Ok(())
     })?;
+    if let Some((receivers, folder)) = receivers.zip(args.rinex.as_deref()) {
+        rinex(&receivers, folder, &args.recording)?;
+    }
+    match &args.out {
+        Some(out) => voyage(args, &raw, &intake, &measured, out),
+        None => Ok(()),
+    }
+}
+
+/// Writes the files of each receiver.
+fn rinex(receivers: &RawReceivers, folder: &Path, recording: &Path) -> anyhow::Result<()> {
+    let told: Vec<&RawReceiver> = receivers.told().collect();
+    if told.is_empty() {
+        let what = "no receiver sent raw messages";
+        return Err(BadInput(format!("{}: {what}", recording.display())).into());
+    }
+    let fault = |path: &Path| format!("{}: cannot be written", path.display());
+    std::fs::create_dir_all(folder).with_context(|| fault(folder))?;
+    for own in told {
+        let name = plain(&own.name);
+        let models: Vec<_> = own.ionosphere.iter().map(|(whose, own)| (*whose, *own)).collect();
+        let texts = [
+            ("obs", write_observations(&header(own), &own.epochs)),
+            ("nav", write_navigation(&own.records, &models, own.leap_seconds)),
+        ];
+        for (extension, text) in texts {
+            let path = folder.join(format!("{name}.{extension}"));
+            std::fs::write(&path, text).with_context(|| fault(&path))?;
+        }
+        let (epochs, records) = (own.epochs.len(), own.records.len());
+        eprintln!("{}: {epochs} epochs, {records} orbits, {} refused", own.name, own.refused);
+    }
+    Ok(())
+}
+
+/// A name that is one of a file.
+fn plain(name: &str) -> String {
+    let good = |c: char| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '-' };
+    name.chars().map(good).collect()
+}
+
+fn header(receiver: &RawReceiver) -> ObservationHeader {
+    ObservationHeader {
+        version: 305,
+        marker: receiver.name.clone(),
+        receiver: Equipment { kind: "UNKNOWN".to_owned(), ..Equipment::default() },
+        antenna: Equipment { kind: "UNKNOWN".to_owned(), ..Equipment::default() },
+        interval: receiver.interval(),
+        leap_seconds: receiver.leap_seconds,
+        strength_unit: Some("DBHZ".to_owned()),
+        ..ObservationHeader::default()
+    }
+}
+
+fn voyage(
+    args: &ConvertArgs,
+    raw: &RawRun,
+    intake: &Intake,
+    measured: &[Received],
+    out: &Path,
+) -> anyhow::Result<()> {
     let Some(start) = intake.utc_at(Time::START) else {
         let what = "UTC never became known: no receiver told the time";
         return Err(BadInput(format!("{}: {what}", args.recording.display())).into());
@@ -64,7 +138,7 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
         reference: Vec::new(),
         truth: Vec::new(),
     };
-    for received in &measured {
+    for received in measured {
         enter(&mut voyage, received);
     }
     sort(&mut voyage);
@@ -75,7 +149,7 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
         voyage.log.len(),
         voyage.reference.len()
     );
-    Ok(write_voyage(&args.out, &voyage, Compression::Zstd)?)
+    Ok(write_voyage(out, &voyage, Compression::Zstd)?)
 }
 
 fn enter(voyage: &mut Voyage, received: &Received) {

@@ -12,6 +12,7 @@ mod plan;
 mod port;
 mod pulses;
 pub mod report;
+mod satellites;
 mod seen;
 mod suggestion;
 mod tally;

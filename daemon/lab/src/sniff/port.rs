@@ -11,6 +11,7 @@ use super::named::{Named, named};
 use super::plan::PortToHear;
 use super::pulses::Pulses;
 use super::report::{PortReport, State};
+use super::satellites::Satellites;
 use super::seen::{Seen, SeenWhat};
 use super::suggestion;
 use super::tally::Tally;
@@ -65,6 +66,7 @@ struct Kinds {
     more: u64,
     talkers: Tally,
     sources: Tally,
+    satellites: Satellites,
 }
 
 /// The last that was told of the port.
@@ -240,6 +242,7 @@ impl Port {
             more: self.kinds.more,
             talkers: self.kinds.talkers.sorted(),
             sources: self.kinds.sources.sorted(),
+            satellites: self.kinds.satellites.report(),
             pulses: self.pulses.as_ref().map(|pulses| pulses.report(now)),
             bus: self.bus.report(timed, seconds.filter(|s| *s >= LEAST)),
             hints: Vec::new(),
@@ -282,6 +285,7 @@ impl Kinds {
         if let Some(source) = named.source {
             self.sources.add(source);
         }
+        self.satellites.take(frame.protocol, stamp, frame.bytes);
         match self.message(frame.protocol, &named) {
             Some(message) => message.add(&named, frame.begun, frame.bytes),
             None => self.more += 1,

@@ -52,6 +52,8 @@ pub struct PortReport {
     pub talkers: Vec<Counted>,
     /// Sources that TAG blocks name.
     pub sources: Vec<Counted>,
+    /// Satellites of a receiver that sends raw messages.
+    pub satellites: Option<SatelliteReport>,
     /// Pulses.
     pub pulses: Option<PulseReport>,
     /// A CAN bus.
@@ -139,6 +141,36 @@ pub struct RefusedMessage {
     pub reason: String,
     /// Its first bytes: as they are if they are text, else in hexadecimal digits.
     pub bytes: String,
+}
+
+/// Satellites of a receiver that sends raw messages.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SatelliteReport {
+    /// Epochs that came.
+    pub epochs: u64,
+    /// What was measured, by constellation.
+    pub constellations: Vec<ConstellationReport>,
+    /// Whether a model of the ionosphere has been broadcast.
+    pub ionosphere: bool,
+    /// Words of satellites and records that are refused.
+    pub refused: u64,
+}
+
+/// Satellites of one constellation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ConstellationReport {
+    /// Its name.
+    pub constellation: String,
+    /// How many satellites were measured.
+    pub satellites: usize,
+    /// Signals that were measured, in the characters of RINEX: `1C`, `5Q`.
+    pub signals: Vec<String>,
+    /// Least carrier to noise density, dB Hz.
+    pub least_dbhz: Option<f64>,
+    /// Greatest.
+    pub greatest_dbhz: Option<f64>,
+    /// Of how many the orbit is known: all pages of their broadcast message have come.
+    pub orbits: usize,
 }
 
 /// Pulses of a port.

@@ -18,6 +18,12 @@ const NEAR: f64 = 0.04;
 /// Talkers of satellite receivers.
 const RECEIVERS: [&str; 7] = ["GP", "GN", "GL", "GA", "GB", "GQ", "BD"];
 
+/// How the numbers of messages of RTCM begin that tell measurements: GPS, GLONASS, Galileo, BeiDou.
+const MEASURED: [&str; 4] = ["RTCM 107", "RTCM 108", "RTCM 109", "RTCM 112"];
+
+/// Messages of RTCM that tell where a base is.
+const BASES: [&str; 2] = ["1005", "1006"];
+
 /// Sentences that are read of a receiver.
 const RECEIVED: [&str; 8] = ["GGA", "GNS", "GLL", "RMC", "VTG", "ZDA", "GST", "GSA"];
 
@@ -115,8 +121,11 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         imu(port, Protocol::Stim, "stim", |name| name != "STIM configuration").map(|sensor| {
             sensor.note("unless the unit sends its configuration, check [sensor.stim]")
         }),
-        plain_sensor(port, Protocol::Ubx, "ubx", "gnss", "NAV-PVT"),
-        plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF "),
+        plain_sensor(port, Protocol::Ubx, "ubx", "gnss", "NAV-PVT")
+            .or_else(|| raw_only(port, Protocol::Ubx, "ubx", "RXM-RAWX")),
+        plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF 4007")
+            .or_else(|| raw_only(port, Protocol::Sbf, "sbf", "SBF 4027"))
+            .or_else(|| plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF ")),
         plain_sensor(port, Protocol::Pd0, "pd0", "log", "").map(|log| mounted(log, port)),
         plain_sensor(port, Protocol::Pd6, "pd6", "log", "PD6 :B").map(|log| mounted(log, port)),
     ];
@@ -125,6 +134,7 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
     match receiver(port) {
         Some(sensor) if !has_receiver => sensors.push(sensor),
         Some(_) => beside(&mut sensors),
+        None if !has_receiver => sensors.extend(measured_by_rtcm(port)),
         None => {}
     }
     sensors.extend(sentences(port, "nmea_log", "log", &["VBW", "VHW"]));
@@ -211,6 +221,29 @@ fn plain_sensor(
     let mut messages = used(port, protocol).filter(|message| message.name.starts_with(start));
     let rate = messages.next()?.rate_hz.map(round);
     Some(Sensor { kind, role, protocol: protocol.name(), rate, ..Sensor::default() })
+}
+
+/// A receiver that tells what it measured, and no fix.
+fn raw_only(
+    port: &PortReport,
+    protocol: Protocol,
+    kind: &'static str,
+    start: &str,
+) -> Option<Sensor> {
+    let sensor = plain_sensor(port, protocol, kind, "gnss", start)?;
+    Some(sensor.note("it tells no fixes of its own: insd makes them of what it measures"))
+}
+
+/// A receiver whose measurements come in RTCM; a stream that tells where its antenna stands is a base's.
+fn measured_by_rtcm(port: &PortReport) -> Option<Sensor> {
+    let is_base = |message: &MessageReport| {
+        message.protocol == Protocol::Rtcm
+            && BASES.iter().any(|number| message.name.ends_with(number))
+    };
+    if port.messages.iter().any(is_base) {
+        return None;
+    }
+    MEASURED.iter().find_map(|start| raw_only(port, Protocol::Rtcm, "rtcm", start))
 }
 
 /// Used sentences of these formatters.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::table::{Align, Table, significant};
 
 use super::bus;
-use super::report::{MessageReport, PortReport, PulseReport, SniffReport, State};
+use super::report::{MessageReport, PortReport, PulseReport, SatelliteReport, SniffReport, State};
 use super::tally::Counted;
 
 /// Columns of the terminal that hints are folded to.
@@ -20,6 +20,14 @@ const NAME: [(&str, Align); 4] = [
 ];
 const TIMES: [(&str, Align); 3] =
     [("Hz", Align::Right), ("jitter ms", Align::Right), ("last s ago", Align::Right)];
+const SKY: [(&str, Align); 6] = [
+    ("", Align::Left),
+    ("satellites of", Align::Left),
+    ("seen", Align::Right),
+    ("signals", Align::Left),
+    ("dB Hz", Align::Left),
+    ("orbits known", Align::Left),
+];
 const READ: [(&str, Align); 1] = [("read", Align::Left)];
 
 /// The whole report with its suggestions at the end.
@@ -53,6 +61,9 @@ pub fn port(port: &PortReport) -> String {
         if !names.is_empty() {
             text.push_str(&folded(&format!("  {what}  "), &counted(names)));
         }
+    }
+    if let Some(satellites) = &port.satellites {
+        text.push_str(&sky(satellites));
     }
     if !port.messages.is_empty() {
         let _ = write!(text, "\n{}", messages(port));
@@ -118,6 +129,28 @@ fn amount(port: &PortReport) -> Option<String> {
         parts.push(format!("{} of no frame", percent(port.stray_share())));
     }
     Some(parts.join(", "))
+}
+
+/// Satellites and their signals.
+fn sky(told: &SatelliteReport) -> String {
+    let mut table = Table::new(&SKY);
+    for own in &told.constellations {
+        let density =
+            |density: Option<f64>| density.map_or("-".to_owned(), |own| format!("{own:.0}"));
+        table.push(vec![
+            String::new(),
+            own.constellation.clone(),
+            own.satellites.to_string(),
+            own.signals.join(" "),
+            format!("{} to {}", density(own.least_dbhz), density(own.greatest_dbhz)),
+            format!("{} of {}", own.orbits, own.satellites),
+        ]);
+    }
+    let mut text = folded("  ", &format!("{} epochs of raw measurements", told.epochs));
+    if !told.constellations.is_empty() {
+        let _ = write!(text, "\n{table}");
+    }
+    text
 }
 
 fn percent(share: f64) -> String {

@@ -262,6 +262,18 @@ impl ShipUtc {
         true
     }
 
+    /// GPS time about now, for what is read with the help of it; `None` as for a part of a time in [`Self::resolve`].
+    pub fn about(&mut self, stamp: &Stamp) -> Option<GpsTime> {
+        self.knows_date(stamp.monotonic).then(|| self.expected(stamp))
+    }
+
+    /// Whether a message of an epoch that is to set nothing fits what is known, as in [`Self::message`].
+    #[must_use]
+    pub fn fits(&self, epoch: GpsTime, begun: Time, latency: Span) -> bool {
+        let late = self.time_of(epoch).map(|known| (begun - latency - known).as_seconds());
+        late.is_none_or(|late| (EARLIEST..LATEST).contains(&late))
+    }
+
     /// A pulse.
     pub fn pulse(&mut self, pulse: Pulse) {
         let expected = inverse(&self.edges, pulse.time);

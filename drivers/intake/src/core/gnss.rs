@@ -74,6 +74,10 @@ impl Core {
         let time = time - Span::from_seconds(sensor.config.delay_s);
         let fix = GnssFix { lever: sensor.config.lever(), ..epoch.fix(time) };
         self.validity(index, now, epoch.is_valid(), 0);
+        self.sensors[index].fixed = Some(now);
+        if let Some(sky) = self.sensors[index].sky.as_mut().filter(|_| epoch.is_valid()) {
+            sky.hear_fix(&fix);
+        }
         if let Some(position) = fix.position.filter(|_| epoch.is_valid()) {
             self.variation.here(position, self.utc.utc_at(time));
         }

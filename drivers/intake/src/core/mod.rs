@@ -3,7 +3,9 @@
 mod gnss;
 mod imu;
 mod reference;
+mod satellites;
 mod sensor;
+mod sky;
 
 use std::collections::VecDeque;
 
@@ -55,6 +57,8 @@ pub(crate) struct Core {
     pub(crate) outputs: VecDeque<Intaken>,
     variation: Variation,
     system: SystemWatch,
+    /// Whose ranges of satellites are used, and when they came last.
+    ranging: Option<(usize, Time)>,
 }
 
 impl Core {
@@ -86,6 +90,7 @@ impl Core {
             outputs: VecDeque::new(),
             variation: Variation::default(),
             system: SystemWatch::default(),
+            ranging: None,
         }
     }
 
@@ -188,6 +193,7 @@ impl Core {
         }
         self.utc.tick(now);
         self.tell_time(now);
+        self.look_at_ranges(now);
         for index in 0..self.choices.len() {
             let chosen = self.choices[index].look(now);
             self.tell_choice(now, chosen);
@@ -211,6 +217,7 @@ impl Core {
         match reading {
             Reading::Imu(sample) => self.imu(index, stamp, came, sample),
             Reading::Gnss(part) => self.gnss(index, stamp, came, part),
+            Reading::Raw(reading) => self.raw(index, stamp, came, reading),
             Reading::Pulse(pulse) => self.pulse_time(index, stamp, pulse),
             Reading::Velocity(velocity) => self.velocity(index, stamp, came, velocity),
             Reading::Heading(heading) => self.heading(index, stamp, came, heading),

@@ -6,6 +6,7 @@ use insd_base::Time;
 use insd_wire::gnss::GnssPart;
 
 use super::QUANTITIES;
+use super::sky::Sky;
 use crate::choice::Quantity;
 use crate::config::{IntakeConfig, Kind, Role, SensorConfig};
 use crate::decode::Decoder;
@@ -30,6 +31,10 @@ pub(crate) struct Sensor {
     pub(super) undated: Vec<(GnssPart, (Time, Time))>,
     /// How often it gives each quantity that is timed by its receipt.
     pub(super) paces: [Pace; QUANTITIES.len()],
+    /// What is made of its raw messages, from the first one on.
+    pub(super) sky: Option<Box<Sky>>,
+    /// When it told a fix of its own last, or that it has none.
+    pub(super) fixed: Option<Time>,
     /// What it says is new, and not read from a file.
     pub(super) live: bool,
     /// Whether an IMU's specific force is gravity, in the mean.
@@ -58,6 +63,8 @@ impl Sensor {
             epochs: EpochBuilder::default(),
             waiting: VecDeque::new(),
             undated: Vec::new(),
+            sky: None,
+            fixed: None,
             paces: [Pace::default(); QUANTITIES.len()],
             live: port.is_none_or(|port| intake.ports[port].link != Link::File),
             gravity: Gravity::default(),

@@ -2,20 +2,46 @@
 
 use insd_wire::gnss::{nmea as sentences, sbf as septentrio, ubx as ublox};
 use insd_wire::nmea::Sentence;
+use insd_wire::stream::Protocol;
 
 use super::Reading;
 use crate::event::Refusal;
+use crate::satellites::{RawReading, RawUse};
 
-pub(super) fn ubx(bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {
+pub(super) fn ubx(bytes: &[u8], raw: RawUse) -> Result<Vec<Reading>, Refusal> {
     let message = ublox::Message::read(bytes).map_err(|_| Refusal::Malformed)?;
     let part = message.part().map(Reading::Gnss);
-    Ok(or_idle(part.into_iter().chain(message.pulse().map(Reading::Pulse)).collect()))
+    let pulse = message.pulse().map(Reading::Pulse);
+    let is_epoch = matches!(message, ublox::Message::RxmRawx(_));
+    let told = raw_reading(raw, is_epoch, || RawReading::of_ubx(&message));
+    Ok(or_idle(part.into_iter().chain(pulse).chain(told).collect()))
 }
 
-pub(super) fn sbf(bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {
+pub(super) fn sbf(bytes: &[u8], raw: RawUse) -> Result<Vec<Reading>, Refusal> {
     let message = septentrio::Message::read(bytes).map_err(|_| Refusal::Malformed)?;
     let part = message.part().map(Reading::Gnss);
-    Ok(or_idle(part.into_iter().chain(message.pulse().map(Reading::Pulse)).collect()))
+    let pulse = message.pulse().map(Reading::Pulse);
+    let is_epoch = matches!(message, septentrio::Message::MeasEpoch(_));
+    let told = raw_reading(raw, is_epoch, || RawReading::of_sbf(&message));
+    Ok(or_idle(part.into_iter().chain(pulse).chain(told).collect()))
+}
+
+/// What a message says of satellites, where that is wanted. An epoch says nothing only where the receiver does not know when it was.
+fn raw_reading(
+    raw: RawUse,
+    is_epoch: bool,
+    reading: impl FnOnce() -> Option<RawReading>,
+) -> Option<Reading> {
+    if raw == RawUse::Off {
+        return None;
+    }
+    let timeless = is_epoch.then_some(Reading::LeftOut(Refusal::NoTime));
+    reading().map(Reading::Raw).or(timeless)
+}
+
+pub(super) fn rtcm(bytes: &[u8]) -> Vec<Reading> {
+    let reading = RawReading::of_frame(Protocol::Rtcm, bytes);
+    or_idle(reading.map(Reading::Raw).into_iter().collect())
 }
 
 pub(super) fn nmea(sentence: &Sentence) -> Vec<Reading> {

@@ -16,6 +16,7 @@ use insd_wire::nmea::{ChecksumPolicy, Frame as NmeaFrame, Pinsd, Position, Sente
 
 use crate::config::{Kind, SensorConfig};
 use crate::event::Refusal;
+use crate::satellites::RawReading;
 use crate::status::ShownPart;
 
 pub use heading::{HeadingReading, North};
@@ -28,6 +29,8 @@ pub enum Reading {
     Imu(ImuReading),
     /// A part of a receiver's epoch.
     Gnss(GnssPart),
+    /// What a raw message of a receiver says.
+    Raw(RawReading),
     /// The time of a pulse.
     Pulse(PulseTime),
     /// A velocity in the ship's axes.
@@ -97,8 +100,9 @@ impl Decoder {
             Kind::Sbg | Kind::Stdbin | Kind::Mip | Kind::Xbus | Kind::Kvh | Kind::Stim => {
                 self.imu.read(self.config.kind, bytes).map(|reading| vec![reading])
             }
-            Kind::Ubx => gnss::ubx(bytes),
-            Kind::Sbf => gnss::sbf(bytes),
+            Kind::Ubx => gnss::ubx(bytes, self.config.raw),
+            Kind::Sbf => gnss::sbf(bytes, self.config.raw),
+            Kind::Rtcm => Ok(gnss::rtcm(bytes)),
             Kind::Pd0 => self.log.pd0(bytes),
             Kind::Pd6 => self.log.pd6(bytes),
             _ => self.read_sentence(bytes),

@@ -29,7 +29,7 @@ use insd_intake::{Intake, Intaken};
 use insd_wire::stream::Protocol;
 
 /// All kinds of sensors.
-const KINDS: [Kind; 17] = [
+const KINDS: [Kind; 18] = [
     Kind::Sbg,
     Kind::Stdbin,
     Kind::Mip,
@@ -47,6 +47,7 @@ const KINDS: [Kind; 17] = [
     Kind::Psxn,
     Kind::Pashr,
     Kind::NmeaPosition,
+    Kind::Rtcm,
 ];
 
 const DIALECTS: [Dialect; 6] = [
@@ -61,8 +62,8 @@ const DIALECTS: [Dialect; 6] = [
 /// The ship's time ends here, s: a century is far beyond any voyage.
 const END: f64 = 3.2e9;
 
-/// What passed, by the kind of message: IMU, GNSS, log, reference.
-pub(crate) type Passed = [usize; 4];
+/// What passed, by the kind of message: IMU, GNSS, log, reference, ranges.
+pub(crate) type Passed = [usize; 5];
 
 /// Lets everything arrive that the bytes say, and looks at what is passed on.
 pub(crate) fn everything(bytes: &[u8]) -> Passed {
@@ -201,7 +202,11 @@ fn is_sane(message: &Message) -> usize {
             finite(&[reference.position_std, reference.heading, reference.heading_std]);
             3
         }
-        Message::Ranges(_) => panic!("no port tells ranges"),
+        Message::Ranges(ranges) => {
+            let codes = ranges.ranges.iter().filter_map(|range| range.code);
+            codes.for_each(|code| finite(&[Some(code.value), Some(code.variance)]));
+            4
+        }
     }
 }
 

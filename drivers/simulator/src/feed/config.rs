@@ -37,7 +37,8 @@ impl Encoding {
             Kind::Compass => Encoding::Ths,
             Kind::Psxn => Encoding::Psxn,
             Kind::Pashr => Encoding::Pashr,
-            Kind::NmeaPosition
+            Kind::Rtcm
+            | Kind::NmeaPosition
             | Kind::Manual
             | Kind::N2kGnss
             | Kind::N2kHeading

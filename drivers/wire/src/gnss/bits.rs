@@ -81,7 +81,6 @@ impl Field {
     }
 
     /// Writes the nearest step to a value; what is out of range is cut off.
-    #[cfg(test)]
     pub(super) fn put(&self, bits: &mut Bits, value: f64) {
         let steps = (value / self.unit).round() as i64;
         let sign =
@@ -91,7 +90,6 @@ impl Field {
     }
 
     /// Writes its bits as they are.
-    #[cfg(test)]
     pub(super) fn put_raw(&self, bits: &mut Bits, mut raw: u64) {
         for (at, length) in self.pieces.into_iter().rev() {
             bits.set(at, length, raw);
@@ -120,7 +118,6 @@ impl Bits {
     }
 
     /// So many bits, all zero.
-    #[cfg(test)]
     pub(super) fn zeros(length: usize) -> Self {
         Bits { bytes: vec![0; length.div_ceil(8)], length }
     }
@@ -168,7 +165,6 @@ impl Bits {
         &self.bytes
     }
 
-    #[cfg(test)]
     fn set(&mut self, at: usize, length: usize, value: u64) {
         for (place, shift) in (at..at + length).zip((0..length).rev()) {
             let mask = 1 << (7 - place % 8);

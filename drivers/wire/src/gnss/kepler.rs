@@ -95,7 +95,6 @@ impl Layout {
     }
 
     /// Writes orbit and clock.
-    #[cfg(test)]
     pub(super) fn put(&self, bits: &mut Bits, orbit: &KeplerOrbit, clock: &ClockPolynomial) {
         let of_week =
             |time: GpsTime| (time.to_week().1 / SECOND - self.behind).rem_euclid(604_800) as f64;

@@ -70,7 +70,6 @@ pub(super) fn gps_data(words: &[u32]) -> Result<Bits, WordsRefusal> {
 }
 
 /// The words of 240 data bits of GPS.
-#[cfg(test)]
 pub(super) fn gps_words(bits: &Bits) -> Vec<u32> {
     let mut before = 0;
     let word = |number: usize| {

@@ -131,9 +131,9 @@ pub(super) fn page_18(bits: &Bits, now: GpsTime) -> Option<(IonosphereModel, Opt
     })
 }
 
-/// The words of subframes 1 to 3 that say a record.
-#[cfg(test)]
-pub(super) fn words(record: &KeplerRecord) -> [Vec<u32>; 3] {
+/// The words of subframes 1 to 3 that say a record of GPS or QZSS, in the form of [`super::super::NavigationWords`].
+#[must_use]
+pub fn words(record: &KeplerRecord) -> [Vec<u32>; 3] {
     let mut bits = Bits::zeros(3 * SIZE);
     let (week, time) = record.transmitted.unwrap_or(record.orbit.reference).to_week();
     LAYOUT.put(&mut bits, &record.orbit, &record.clock);

@@ -15,6 +15,7 @@ mod lnav;
 pub use assembler::NavigationAssembler;
 
 pub use broadcast::{Broadcast, WordsRefusal};
+pub use lnav::words as lnav_words;
 
 #[cfg(test)]
 mod tests;

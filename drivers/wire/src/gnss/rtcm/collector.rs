@@ -12,6 +12,7 @@ use super::frame::Frame;
 use super::glonass;
 use super::kepler;
 use super::msm::Msm;
+use super::signal;
 use super::station::{self, BaseStation};
 use crate::binary::Fault;
 
@@ -30,6 +31,14 @@ pub enum Correction {
     Record(BroadcastRecord),
     /// Where the base is.
     Base(BaseStation),
+}
+
+/// Whether a message of this number tells measurements of satellites, or their orbits, that are read.
+#[must_use]
+pub fn is_of_satellites(number: u16) -> bool {
+    signal::message(number).is_some_and(|(_, variant)| variant >= 4)
+        || number == glonass::NUMBER
+        || kepler::is_read(number)
 }
 
 /// Puts the messages of one base together.

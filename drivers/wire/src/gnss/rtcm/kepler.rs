@@ -192,6 +192,11 @@ const GALILEO_INAV: Ephemeris = Ephemeris {
     layout: GALILEO,
 };
 
+/// Whether a message of this number has a record that is read.
+pub(super) fn is_read(number: u16) -> bool {
+    ALL.iter().any(|own| own.number == number)
+}
+
 /// The record of a message; `None` if its number is that of another one.
 pub(super) fn read(
     number: u16,

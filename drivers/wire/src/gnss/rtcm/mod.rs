@@ -12,7 +12,7 @@ mod msm;
 mod signal;
 mod station;
 
-pub use collector::{Correction, MsmCollector};
+pub use collector::{Correction, MsmCollector, is_of_satellites};
 pub use frame::{Frame, look};
 pub use msm::Msm;
 pub use station::BaseStation;

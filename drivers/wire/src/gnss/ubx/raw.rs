@@ -16,6 +16,9 @@ pub(super) const RAWX: (u8, u8) = (0x02, 0x15);
 /// Class and id of RXM-SFRBX.
 pub(super) const SFRBX: (u8, u8) = (0x02, 0x13);
 
+/// Longest lock that is told, s.
+const LONGEST_LOCK: f64 = 64.5;
+
 /// Seconds of a week.
 const WEEK: f64 = 604_800.0;
 
@@ -102,6 +105,25 @@ impl RawMeasurement {
         writer.put(&[self.doppler_exponent & 15, status, 0]);
     }
 
+    /// As u-blox tells a signal that it has a number of. A lock time that is not known is long, or none after a slip.
+    fn of(observation: &SignalObservation) -> Option<Self> {
+        let SignalObservation { satellite, signal, channel, .. } = *observation;
+        let untold = if observation.slip { 0.0 } else { LONGEST_LOCK };
+        Some(RawMeasurement {
+            pseudorange: observation.code,
+            carrier_phase: observation.phase,
+            doppler: observation.doppler.unwrap_or_default() as f32,
+            signal: Signal::of(satellite, signal, channel)?,
+            lock_time: observation.lock.unwrap_or(untold).clamp(0.0, LONGEST_LOCK),
+            carrier_to_noise: observation.cn0.map_or(0, |density| density.round() as u8),
+            pseudorange_exponent: 5,
+            carrier_phase_std: Some(0.004),
+            doppler_exponent: 5,
+            half_cycle_valid: !observation.half_cycle,
+            half_cycle_subtracted: false,
+        })
+    }
+
     /// The measurement of a signal that is known; that a half cycle was subtracted does no harm.
     fn observation(&self) -> Option<SignalObservation> {
         let (satellite, signal) = self.signal.known()?;
@@ -153,6 +175,20 @@ impl RxmRawx {
             measurement.write(&mut writer);
         }
         framed(RAWX, &writer)
+    }
+
+    /// The message of an epoch. Signals that u-blox has no number of are left out.
+    #[must_use]
+    pub fn of(epoch: &SatelliteEpoch) -> Self {
+        let (week, time_of_week) = epoch.tag.to_week();
+        RxmRawx {
+            time_of_week: time_of_week as f64 * 1e-9,
+            week: u16::try_from(week).unwrap_or_default(),
+            leap_seconds: epoch.leap_seconds.unwrap_or_default(),
+            leap_seconds_valid: epoch.leap_seconds.is_some(),
+            clock_reset: epoch.clock_reset,
+            measurements: epoch.signals.iter().filter_map(RawMeasurement::of).collect(),
+        }
     }
 
     /// What was measured of signals that are known; `None` if the time is no time. Slips are for [`crate::gnss::Locks`].

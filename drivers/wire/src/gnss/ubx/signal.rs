@@ -85,6 +85,24 @@ impl Signal {
         Some((satellite, SignalCode::new(*band, *attribute)))
     }
 
+    /// The numbers of a signal of a satellite, with a channel of GLONASS; `None` of one that u-blox has no number of.
+    #[must_use]
+    pub fn of(satellite: SatelliteId, signal: SignalCode, channel: Option<i8>) -> Option<Self> {
+        let (system, _, offset, _) =
+            SYSTEMS.iter().find(|(.., own)| *own == satellite.constellation)?;
+        let (_, number, ..) = SIGNALS.iter().find(|(own, _, band, attribute)| {
+            (*own, *band, *attribute) == (satellite.constellation, signal.band, signal.attribute)
+        })?;
+        let slot = channel.and_then(|channel| u8::try_from(i16::from(channel) + 7).ok());
+        let own = Signal {
+            system: *system,
+            satellite: satellite.number.checked_add(*offset)?,
+            signal: *number,
+            slot: slot.unwrap_or(0),
+        };
+        (own.known()? == (satellite, signal)).then_some(own)
+    }
+
     /// GLONASS: the frequency channel, -7 to 6.
     #[must_use]
     pub fn channel(&self) -> Option<i8> {
@@ -110,6 +128,23 @@ mod tests {
         assert_eq!(named(5, 2, 5, 0).as_deref(), Some("J02 2L None"));
         assert_eq!(named(6, 24, 2, 3).as_deref(), Some("R24 2C Some(-4)"));
         assert_eq!(named(7, 9, 0, 0).as_deref(), Some("I09 5A None"));
+    }
+
+    #[test]
+    fn a_signal_comes_back_from_its_numbers() {
+        for (satellite, signal, channel) in [
+            ("G07", b"1C", None),
+            ("S37", b"1C", None),
+            ("E11", b"5Q", None),
+            ("C60", b"6I", None),
+            ("R24", b"2C", Some(-4)),
+        ] {
+            let satellite = satellite.parse().unwrap();
+            let code = SignalCode::new(signal[0] - b'0', signal[1]);
+            let own = Signal::of(satellite, code, channel).unwrap();
+            assert_eq!((own.known(), own.channel()), (Some((satellite, code)), channel));
+        }
+        assert_eq!(Signal::of("G07".parse().unwrap(), SignalCode::new(2, b'W'), None), None);
     }
 
     #[test]

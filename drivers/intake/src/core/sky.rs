@@ -1,0 +1,146 @@
+//! What one receiver's raw messages make: orbits that are known, ranges that wait for UTC, a fix where it tells none.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use insd_base::satellites::{IonosphereModel, SatelliteId};
+use insd_base::{
+    Constellation, Ecef, FixQuality, GnssFix, GpsTime, Ned, SatelliteEpoch, Time, earth,
+};
+use insd_gnss::{Context, DopplerVelocity, Guess, OrbitRefusal, Ranged, Ranging, SinglePoint};
+use insd_wire::gnss::navigation::Broadcast;
+use nalgebra::{Matrix3, Vector3};
+
+use crate::event::BroadcastFault;
+use crate::satellites::{EpochOrder, SatelliteFollower};
+
+/// The satellites of one receiver.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sky {
+    pub(super) follower: SatelliteFollower,
+    pub(super) order: EpochOrder,
+    /// When the first epoch came.
+    pub(super) begun: Option<Time>,
+    /// Ranges whose instant on the ship's time line is not known yet.
+    pub(super) waiting: VecDeque<Ranged>,
+    context: Context,
+    ranging: Ranging,
+    /// Where the receiver said last that its antenna is, ECEF, m; until an epoch has told it.
+    antenna: Option<Vector3<f64>>,
+    is_placed: bool,
+    /// What is wrong with what satellites send, until a record of theirs is good.
+    sent: Faults,
+    /// What is wrong with the orbits of satellites that are seen.
+    orbits: Faults,
+}
+
+/// What is wrong with satellites, by satellite.
+#[derive(Clone, Debug, Default)]
+struct Faults(BTreeMap<SatelliteId, BroadcastFault>);
+
+/// A satellite and what is wrong with it, if that is news; `None`: nothing any more.
+pub(super) type FaultNews = (SatelliteId, Option<BroadcastFault>);
+
+impl Faults {
+    fn note(&mut self, satellite: SatelliteId, fault: Option<BroadcastFault>) -> Option<FaultNews> {
+        let before = match fault {
+            Some(fault) => self.0.insert(satellite, fault),
+            None => self.0.remove(&satellite),
+        };
+        let is_same = match (before, fault) {
+            (None, None) => true,
+            (Some(before), Some(now)) => before.is_like(&now),
+            _ => false,
+        };
+        (!is_same).then_some((satellite, fault))
+    }
+}
+
+impl Sky {
+    /// Takes what a satellite has broadcast. Returns whether it is taken, and what is news of it.
+    pub(super) fn broadcast(&mut self, told: Broadcast) -> (bool, Option<FaultNews>) {
+        match told {
+            Broadcast::Record(record) => {
+                let inserted = self.context.ephemerides.insert(record);
+                let fault = inserted.err().map(BroadcastFault::Orbit);
+                (fault.is_none(), self.sent.note(record.satellite(), fault))
+            }
+            Broadcast::Ionosphere(model) => {
+                let whose = match model {
+                    IonosphereModel::Klobuchar { .. } => Constellation::Gps,
+                    IonosphereModel::NeQuickG { .. } => Constellation::Galileo,
+                };
+                self.context.ionosphere.insert(whose, model);
+                (true, None)
+            }
+            Broadcast::LeapSeconds(_) => (true, None),
+        }
+    }
+
+    /// Words of a satellite were refused.
+    pub(super) fn refused(
+        &mut self,
+        satellite: SatelliteId,
+        fault: BroadcastFault,
+    ) -> Option<FaultNews> {
+        self.sent.note(satellite, Some(fault))
+    }
+
+    /// The receiver told a position of its own.
+    pub(super) fn hear_fix(&mut self, fix: &GnssFix) {
+        if !self.is_placed {
+            self.antenna = fix.position.as_ref().map(|place| earth::ecef(place).0);
+        }
+    }
+
+    /// What an epoch tells.
+    pub(super) fn range(&mut self, epoch: &SatelliteEpoch) -> Ranged {
+        let antenna = self.antenna.filter(|_| !self.is_placed);
+        let ranged = self.ranging.take(&self.context, epoch, Guess { antenna, turned: 0.0 });
+        self.is_placed |= ranged.point.is_ok();
+        ranged
+    }
+
+    /// What is news of the orbits of the satellites of an epoch. One that has told none yet is no news.
+    pub(super) fn look_at_orbits(&mut self, epoch: &SatelliteEpoch) -> Vec<FaultNews> {
+        let satellites = epoch.signals.chunk_by(|a, b| a.satellite == b.satellite);
+        let satellites = satellites.filter_map(|signals| Some(signals.first()?.satellite));
+        let mut news = Vec::new();
+        for satellite in satellites {
+            let fault = match self.context.ephemerides.select(satellite, epoch.tag) {
+                Ok(_) => None,
+                Err(OrbitRefusal::NoRecord) => continue,
+                Err(refusal) => Some(BroadcastFault::Orbit(refusal)),
+            };
+            news.extend(self.orbits.note(satellite, fault));
+        }
+        news
+    }
+}
+
+/// When an epoch was sampled, as well as it tells: by its tag where its clock is not known.
+pub(super) fn sampled(ranged: &Ranged, tag: GpsTime) -> GpsTime {
+    if ranged.point.is_ok() { ranged.sampled } else { tag }
+}
+
+/// The fix that the codes and Doppler shifts of an epoch make, at an instant of the ship's time line.
+pub(super) fn fix(point: &SinglePoint, velocity: Option<&DopplerVelocity>, time: Time) -> GnssFix {
+    let place = earth::geodetic(&Ecef(point.position));
+    let c_ne = earth::c_ne(&place);
+    let sigmas = |covariance: &Matrix3<f64>| {
+        let turned = c_ne * covariance * c_ne.transpose();
+        Ned(turned.diagonal().map(|variance| variance.max(0.0).sqrt()))
+    };
+    GnssFix {
+        time,
+        position: Some(place),
+        velocity: velocity.map(|told| Ned(c_ne * told.velocity)),
+        position_std: Some(sigmas(&point.covariance)),
+        velocity_std: velocity.map(|told| sigmas(&told.covariance)),
+        hdop: None,
+        satellites: u16::try_from(point.used().count()).ok(),
+        quality: FixQuality::Autonomous,
+        lever: None,
+        redated: 0.0,
+        rank: 0,
+    }
+}
