@@ -176,9 +176,8 @@ fn what_is_left_out_is_as_if_it_were_not_there() {
     assert!(all != without_raw && without_raw != without_more);
 
     let nav = desk.name("bad.csv");
-    let refused = |more: &[&str]| {
-        told(&[&["replay", &voyage, "--out", &nav, "--without"], more].concat(), 2)
-    };
+    let refused =
+        |more: &[&str]| told(&[&["replay", &voyage, "--out", &nav, "--without"], more].concat(), 2);
     assert!(refused(&["radar"]).contains("learning, camera, raw, log, gnss"));
     assert!(refused(&["raw", "--gnss", "tight"]).contains("--gnss tight"));
     assert!(refused(&["gnss", "--gnss", "loose"]).contains("--without gnss"));

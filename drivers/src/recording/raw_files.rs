@@ -85,9 +85,8 @@ pub fn read_raw(dir: &Path, antenna: usize) -> Result<Option<RawTexts>, Recordin
     let Some(observations) = find_or_gzipped(&folder, &format!("a{antenna}.obs")) else {
         return Ok(None);
     };
-    let navigation = find_or_gzipped(&folder, "nav.rnx").ok_or_else(|| RecordingError::Missing {
-        file: folder.join("nav.rnx"),
-        or_compressed: true,
+    let navigation = find_or_gzipped(&folder, "nav.rnx").ok_or_else(|| {
+        RecordingError::Missing { file: folder.join("nav.rnx"), or_compressed: true }
     })?;
     let text = |path: PathBuf| {
         let mut text = Vec::new();
