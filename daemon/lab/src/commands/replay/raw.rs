@@ -33,7 +33,7 @@ impl RawVoyage {
         table: &RawTable,
         start_utc: &str,
     ) -> anyhow::Result<Self> {
-        let gnss = Without::gnss(args)?;
+        let gnss = Without::gnss(&args.without, args.gnss)?;
         let own = RawVoyage { waiting: VecDeque::new(), gnss, masks: args.masks.clone() };
         if matches!(gnss, Some(GnssUse::Loose | GnssUse::None)) {
             return Ok(own);

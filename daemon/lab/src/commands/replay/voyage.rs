@@ -42,7 +42,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
             }
             engine.handle(&ranges);
         }
-        if raw.replaces(&received) || Without::drops(args, &received) {
+        if raw.replaces(&received) || Without::drops(&args.without, &received) {
             continue;
         }
         if args.outages.iter().any(|outage| outage.drops(&received)) {

@@ -3,7 +3,6 @@
 use insd_base::{Received, Source};
 use insd_config::BadInput;
 
-use super::args::ReplayArgs;
 use crate::ranges::GnssUse;
 
 /// Something that a replay leaves out, to see what it gives.
@@ -22,36 +21,33 @@ pub(super) enum Without {
 }
 
 impl Without {
-    /// Whether this was asked to be left out.
-    fn is_asked(self, args: &ReplayArgs) -> bool {
-        args.without.contains(&self)
-    }
-
     /// What is made of GNSS, after all that the options say of it; `None` if they leave the choice.
     ///
     /// # Errors
     /// One option asks for what another leaves out.
-    pub(super) fn gnss(args: &ReplayArgs) -> Result<Option<GnssUse>, BadInput> {
-        let used = |way: &GnssUse| *way != GnssUse::None;
-        if Without::Gnss.is_asked(args) {
-            return match args.gnss.filter(used) {
+    pub(super) fn gnss(
+        without: &[Without],
+        asked: Option<GnssUse>,
+    ) -> Result<Option<GnssUse>, BadInput> {
+        if without.contains(&Without::Gnss) {
+            return match asked.filter(|way| *way != GnssUse::None) {
                 Some(_) => Err(BadInput("--without gnss leaves nothing for --gnss".to_owned())),
                 None => Ok(Some(GnssUse::None)),
             };
         }
-        if Without::Raw.is_asked(args) {
-            return match args.gnss {
+        if without.contains(&Without::Raw) {
+            return match asked {
                 Some(GnssUse::Tight) => {
                     Err(BadInput("--without raw leaves nothing for --gnss tight".to_owned()))
                 }
                 other => Ok(other.or(Some(GnssUse::Loose))),
             };
         }
-        Ok(args.gnss)
+        Ok(asked)
     }
 
     /// Whether a message is of a sensor that is left out for the whole voyage.
-    pub(super) fn drops(args: &ReplayArgs, received: &Received) -> bool {
-        matches!(received.source, Source::Log(_)) && Without::Log.is_asked(args)
+    pub(super) fn drops(without: &[Without], received: &Received) -> bool {
+        matches!(received.source, Source::Log(_)) && without.contains(&Without::Log)
     }
 }
