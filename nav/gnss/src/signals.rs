@@ -128,7 +128,8 @@ pub fn inflation(elevation: f64, cn0: Option<f64>) -> f64 {
     const GOOD: f64 = 42.0;
     let sin = elevation.sin().max(0.05);
     let low = (1.0 + 1.0 / (sin * sin)) / 2.0;
-    let weak = cn0.map_or(0.0, |cn0| ((GOOD - cn0) / 10.0).max(0.0).min(GOOD / 10.0));
+    let told = cn0.filter(|cn0| cn0.is_finite());
+    let weak = told.map_or(0.0, |cn0| ((GOOD - cn0) / 10.0).clamp(0.0, GOOD / 10.0));
     low * 10_f64.powf(weak)
 }
 

@@ -29,7 +29,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut all: BTreeMap<String, [Vec<Score>; 2]> = BTreeMap::new();
     for seed in 1..=seeds {
         sail(&program, &folder, seed, &mut all)?;
-        eprintln!("seed {seed} of {seeds}");
+        let newest = |(label, scores): (&String, &[Vec<Score>; 2])| {
+            scores[1].last().map_or(String::new(), |score| format!(" {label}: {:.2}", score.moved))
+        };
+        eprintln!("seed {seed} of {seeds}, m:{}", all.iter().map(newest).collect::<String>());
     }
     let rows = all.iter().rev().map(|(label, scores)| row(label, scores));
     let table = HEAD.to_owned() + &rows.collect::<String>();

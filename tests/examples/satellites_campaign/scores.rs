@@ -16,6 +16,16 @@ pub(crate) struct Row {
     stds: [f64; 2],
 }
 
+/// Labels and spans, s.
+pub(crate) type Segments = Vec<(String, [f64; 2])>;
+
+/// Errors north and east, m, of the heading, degrees, and the claimed 1-sigmas of the first two.
+struct Errors {
+    place: [f64; 2],
+    heading: f64,
+    stds: [f64; 2],
+}
+
 /// A track by its times in milliseconds.
 pub(crate) type Track = BTreeMap<i64, Row>;
 
@@ -60,7 +70,7 @@ pub(crate) fn track(path: &Path, is_solution: bool) -> Result<Track, Box<dyn Err
 }
 
 /// Labels and spans, s, of a voyage's `truth.json`.
-pub(crate) fn segments(path: &Path) -> Result<Vec<(String, [f64; 2])>, Box<dyn Error>> {
+pub(crate) fn segments(path: &Path) -> Result<Segments, Box<dyn Error>> {
     let truth: serde_json::Value = serde_json::from_str(&fs::read_to_string(path)?)?;
     let segments = truth["segments"].as_array().ok_or("truth.json: no segments")?;
     let segment = |segment: &serde_json::Value| {
@@ -73,27 +83,25 @@ pub(crate) fn segments(path: &Path) -> Result<Vec<(String, [f64; 2])>, Box<dyn E
 /// The score in a segment; `None` where the solution says nothing in it.
 pub(crate) fn score(solution: &Track, truth: &Track, [from, to]: [f64; 2]) -> Option<Score> {
     let within = (from * 1e3).round() as i64..(to * 1e3).round() as i64;
-    let errors: Vec<([f64; 2], f64, [f64; 2])> = solution
+    let errors: Vec<Errors> = solution
         .range(within)
         .filter_map(|(time, row)| truth.get(time).map(|truth| error(row, truth)))
         .collect();
-    let (first, ..) = *errors.first()?;
-    let mean = |of: &dyn Fn(&([f64; 2], f64, [f64; 2])) -> f64| {
-        errors.iter().map(of).sum::<f64>() / errors.len() as f64
-    };
-    let moved = mean(&|(own, ..)| (own[0] - first[0]).powi(2) + (own[1] - first[1]).powi(2));
-    let nees =
-        mean(&|(own, _, stds)| ((own[0] / stds[0]).powi(2) + (own[1] / stds[1]).powi(2)) / 2.0);
-    let heading = mean(&|(_, heading, _)| heading * heading);
+    let first = errors.first()?.place;
+    let mean =
+        |of: &dyn Fn(&Errors) -> f64| errors.iter().map(of).sum::<f64>() / errors.len() as f64;
+    let square = |pair: [f64; 2]| pair[0] * pair[0] + pair[1] * pair[1];
+    let moved = mean(&|own| square([own.place[0] - first[0], own.place[1] - first[1]]));
+    let nees = mean(&|own| square([own.place[0] / own.stds[0], own.place[1] / own.stds[1]]) / 2.0);
+    let heading = mean(&|own| own.heading * own.heading);
     Some(Score { moved: moved.sqrt(), nees, heading: heading.sqrt() })
 }
 
-/// Errors north and east, m, of the heading, degrees, and the claimed sigmas.
-fn error(row: &Row, truth: &Row) -> ([f64; 2], f64, [f64; 2]) {
+fn error(row: &Row, truth: &Row) -> Errors {
     let latitude = truth.latitude.to_radians();
     let (meridian, normal) = earth::radii(latitude);
     let north = (row.latitude - truth.latitude).to_radians() * meridian;
     let east = (row.longitude - truth.longitude).to_radians() * normal * latitude.cos();
     let heading = (row.heading - truth.heading + 540.0).rem_euclid(360.0) - 180.0;
-    ([north, east], heading, row.stds)
+    Errors { place: [north, east], heading, stds: row.stds }
 }

@@ -26,6 +26,9 @@ const COUNTED_AHEAD: f64 = 1_755_993_600.0;
 /// The acceleration that the IMU's data sheet calls one g, m/s^2.
 const STANDARD_GRAVITY: f64 = 9.806_65;
 
+/// Pairs of north and east, each with its seconds of the voyage.
+pub(crate) type Instants = Vec<(f64, [f64; 2])>;
+
 /// What the receiver told.
 #[derive(Default)]
 pub(crate) struct Heard {
@@ -121,7 +124,7 @@ fn numbers(row: &str) -> Result<Vec<f64>, Box<dyn Error>> {
 }
 
 /// Where the receiver with its corrections was, metres north and east of its first place: seconds of the voyage, and both.
-pub(crate) fn reference(folder: &Path) -> Result<Vec<(f64, [f64; 2])>, Box<dyn Error>> {
+pub(crate) fn reference(folder: &Path) -> Result<Instants, Box<dyn Error>> {
     let mut reader = csv::Reader::from_path(folder.join("reference.csv"))?;
     let head = reader.headers()?.clone();
     let mut rows = Vec::new();

@@ -17,6 +17,8 @@ use std::process::Command;
 
 use insd_tests::pages::filled;
 
+use log::Instants;
+
 const HEAD: &str = "| | fixes, m | ranges, m |\n|---|---|---|\n";
 /// Where satellites are taken away, seconds of the voyage: from where both know their heading until the walk ends.
 const WINDOWS: [[f64; 2]; 4] = [[55.0, 75.0], [70.0, 90.0], [85.0, 105.0], [95.0, 115.0]];
@@ -46,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 struct Walk {
     program: String,
     dir: PathBuf,
-    reference: Vec<(f64, [f64; 2])>,
+    reference: Instants,
 }
 
 impl Walk {
@@ -90,7 +92,7 @@ impl Walk {
     }
 
     /// Errors north and east, m, but for a constant, at the times of the reference.
-    fn replay(&self, options: &[&str]) -> Result<Vec<(f64, [f64; 2])>, Box<dyn Error>> {
+    fn replay(&self, options: &[&str]) -> Result<Instants, Box<dyn Error>> {
         let out = self.dir.join("nav.csv");
         let mut command = Command::new(&self.program);
         command.arg("replay").arg(&self.dir).arg("--out").arg(&out).args(["--rate", "20"]);
@@ -110,7 +112,7 @@ impl Walk {
 }
 
 /// Times and places, degrees, of a solution that knows its heading.
-fn track(path: &Path) -> Result<Vec<(f64, [f64; 2])>, Box<dyn Error>> {
+fn track(path: &Path) -> Result<Instants, Box<dyn Error>> {
     let mut reader = csv::Reader::from_path(path)?;
     let head = reader.headers()?.clone();
     let column = |name: &str| head.iter().position(|own| own == name).ok_or(name.to_owned());
