@@ -177,6 +177,16 @@ alignment-page:
 satellites:
     cargo run --release -p insd-tests --example satellites -- docs/satellites.md
 
+# a walk with a MEMS IMU and a receiver, fixes against ranges, with all satellites and few: a table of docs/satellites.md; INSD_RAW_GNSS as above
+walk:
+    cargo build --release
+    cargo run --release -p insd-tests --example walk -- "${CARGO_TARGET_DIR:-target}/release/insd" docs/satellites.md
+
+# scenario 26 with many seeds, fixes against ranges: a table of docs/satellites.md; ten minutes for 20 seeds
+satellites-campaign seeds="20":
+    cargo build --release
+    cargo run --release -p insd-tests --example satellites_campaign -- "${CARGO_TARGET_DIR:-target}/release/insd" {{seeds}} docs/satellites.md
+
 # ships at their berths in all seas, on all moorings, with all grades: the table of docs/figures.md; ten minutes for 24 seeds
 berth-campaign seeds="24":
     cargo run --release -p insd-tests --example berth_campaign -- {{seeds}} docs/figures.md

@@ -158,6 +158,39 @@ fn a_sensor_can_be_taken_away() {
 }
 
 #[test]
+fn what_is_left_out_is_as_if_it_were_not_there() {
+    let desk = Desk { dir: tempfile::tempdir().unwrap() };
+    let scenario = format!("{SCENARIO_TEXT}[log]\n[raw]\n");
+    fs::write(desk.path("short.toml"), scenario).unwrap();
+    let (name, voyage) = (desk.name("short.toml"), desk.voyage());
+    told(&["simulate", &name, "--seed", "1", "--out", &voyage], 0);
+    let replayed = |out: &str, more: &[&str]| {
+        desk.replay(out, more);
+        fs::read(desk.path(out)).unwrap()
+    };
+    let all = replayed("all.csv", &["--without", "learning,camera"]);
+    assert!(all == replayed("all.csv", &[]));
+    let without_raw = replayed("raw.csv", &["--without", "raw"]);
+    let without_more = replayed("more.csv", &["--without", "log,raw"]);
+    let deaf = replayed("deaf.csv", &["--without", "log,gnss"]);
+    assert!(all != without_raw && without_raw != without_more);
+
+    let nav = desk.name("bad.csv");
+    let refused =
+        |more: &[&str]| told(&[&["replay", &voyage, "--out", &nav, "--without"], more].concat(), 2);
+    assert!(refused(&["radar"]).contains("learning, camera, raw, log, gnss"));
+    assert!(refused(&["raw", "--gnss", "tight"]).contains("--gnss tight"));
+    assert!(refused(&["gnss", "--gnss", "loose"]).contains("--without gnss"));
+
+    for (file, replayed_before) in [("raw", without_raw), ("log.csv", without_more)] {
+        fs::rename(Path::new(&voyage).join(file), desk.path(file)).unwrap();
+        assert!(replayed("less.csv", &[]) == replayed_before, "{file}");
+    }
+    fs::rename(Path::new(&voyage).join("gnss.csv"), desk.path("gnss.csv")).unwrap();
+    assert!(replayed("less.csv", &[]) == deaf);
+}
+
+#[test]
 fn bad_voyages_end_with_status_2_and_a_message_with_the_place() {
     let desk = Desk::with_voyage();
     let header = desk.refused("imu.csv", |text| text.replacen("dvel_x_mps", "x", 1));

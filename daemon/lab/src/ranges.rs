@@ -27,6 +27,14 @@ pub struct SatelliteMask {
     left: usize,
 }
 
+impl SatelliteMask {
+    /// Whether at a time of a voyage fewer satellites are left than a fix takes.
+    #[must_use]
+    pub fn leaves_no_fix(&self, time: Time) -> bool {
+        self.left < 4 && (self.from..self.to).contains(&time.as_seconds())
+    }
+}
+
 impl FromStr for SatelliteMask {
     type Err = String;
 
@@ -90,6 +98,14 @@ fn message(epoch: &SatelliteEpoch, ranged: Ranged, start: GpsTime) -> Received {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn with_fewer_than_four_satellites_there_is_no_fix() {
+        let mask = |left| SatelliteMask { from: 300.0, to: 360.0, left };
+        let at = Time::from_seconds;
+        assert!(mask(3).leaves_no_fix(at(300.0)) && !mask(4).leaves_no_fix(at(300.0)));
+        assert!(!mask(3).leaves_no_fix(at(360.0)) && !mask(3).leaves_no_fix(at(299.9)));
+    }
 
     #[test]
     fn a_mask_is_read_and_one_that_is_none_says_what_was_expected() {

@@ -37,5 +37,6 @@ pub fn shipped() -> &'static [(&'static str, &'static str)] {
         "25-moored-mems-gnss.toml",
         "26-tight-port.toml",
         "27-satellite-faults.toml",
+        "28-spoofer.toml",
     ]
 }

@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use flate2::read::MultiGzDecoder;
+
 use super::error::RecordingError;
 
 /// `NAME.csv` or `NAME.csv.zst` in a directory, the plain one first; `None` if neither is there.
@@ -35,12 +37,28 @@ pub(super) fn compressed_form(path: &Path) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Bytes of a file, decompressed if its name ends in `.zst`.
+/// As [`find`], and then `NAME.gz`: what others recorded comes so.
+pub(super) fn find_or_gzipped(dir: &Path, name: &str) -> Option<PathBuf> {
+    let gzipped = || Some(gzipped_form(&dir.join(name))).filter(|path| path.is_file());
+    find(dir, name).or_else(gzipped)
+}
+
+/// The same path with `.gz` added.
+pub(super) fn gzipped_form(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".gz");
+    PathBuf::from(name)
+}
+
+/// Bytes of a file, decompressed if its name ends in `.zst` or `.gz`.
 pub(super) fn open(path: &Path) -> Result<Box<dyn Read + Send>, RecordingError> {
     let fault = |source: io::Error| RecordingError::Read { file: path.to_owned(), line: 0, source };
     let file = File::open(path).map_err(fault)?;
     if is_compressed(path) {
         Ok(Box::new(zstd::stream::read::Decoder::new(file).map_err(fault)?))
+    } else if path.extension().is_some_and(|extension| extension == "gz") {
+        // a file may be of several pieces, one behind the other
+        Ok(Box::new(MultiGzDecoder::new(file)))
     } else {
         Ok(Box::new(file))
     }

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::error::RecordingError;
 use super::header::FILE_NAME;
-use super::input::{find, open};
-use super::writer::{Compression, guard, remove_both, to_file};
+use super::input::{find_or_gzipped, gzipped_form, open};
+use super::writer::{Compression, guard, remove, remove_both, to_file};
 
 /// The folder of the files of RINEX.
 const FOLDER: &str = "raw";
@@ -44,7 +44,9 @@ pub fn write_raw(
     let folder = dir.join(FOLDER);
     let antennas = (1..=ANTENNAS).map(|number| format!("a{number}.obs"));
     for name in antennas.chain(["base.obs".to_owned(), "nav.rnx".to_owned()]) {
-        remove_both(&folder.join(name))?;
+        let path = folder.join(name);
+        remove_both(&path)?;
+        remove(&gzipped_form(&path))?;
     }
     remove_both(&dir.join(TRUTH))?;
     let Some(raw) = raw else { return Ok(()) };
@@ -73,16 +75,18 @@ pub struct RawTexts {
     pub navigation: (PathBuf, Vec<u8>),
 }
 
-/// Reads the raw GNSS of an antenna, counted from 1, out of the directory of a voyage; `None` where there is none.
+/// Reads the raw GNSS of an antenna, counted from 1, out of the directory of a voyage; `None` where there is none. Each file is plain, or has
+/// `.zst` or `.gz` behind its name.
 ///
 /// # Errors
 /// A file cannot be read, or there are observations of the antenna and no messages.
 pub fn read_raw(dir: &Path, antenna: usize) -> Result<Option<RawTexts>, RecordingError> {
     let folder = dir.join(FOLDER);
-    let Some(observations) = find(&folder, &format!("a{antenna}.obs")) else { return Ok(None) };
-    let navigation = find(&folder, "nav.rnx").ok_or_else(|| RecordingError::Missing {
-        file: folder.join("nav.rnx"),
-        or_compressed: true,
+    let Some(observations) = find_or_gzipped(&folder, &format!("a{antenna}.obs")) else {
+        return Ok(None);
+    };
+    let navigation = find_or_gzipped(&folder, "nav.rnx").ok_or_else(|| {
+        RecordingError::Missing { file: folder.join("nav.rnx"), or_compressed: true }
     })?;
     let text = |path: PathBuf| {
         let mut text = Vec::new();
@@ -96,6 +100,7 @@ pub fn read_raw(dir: &Path, antenna: usize) -> Result<Option<RawTexts>, Recordin
 #[cfg(test)]
 mod tests {
     use super::*;
+    use flate2::write::GzEncoder;
 
     fn files(antennas: usize) -> RawFiles {
         RawFiles {
@@ -105,6 +110,40 @@ mod tests {
             tables: "[raw]\nrate_hz = 1.0\n".to_owned(),
             ..RawFiles::default()
         }
+    }
+
+    fn gzip(path: &Path) {
+        let mut pressed = GzEncoder::new(Vec::new(), flate2::Compression::fast());
+        pressed.write_all(&fs::read(path).unwrap()).unwrap();
+        fs::write(gzipped_form(path), pressed.finish().unwrap()).unwrap();
+        fs::remove_file(path).unwrap();
+    }
+
+    #[test]
+    fn files_are_read_plain_or_compressed_either_way_and_a_broken_one_is_told() {
+        let desk = tempfile::tempdir().unwrap();
+        fs::write(desk.path().join(FILE_NAME), "").unwrap();
+        let read = || {
+            let texts = read_raw(desk.path(), 1)?.unwrap();
+            Ok::<_, RecordingError>([texts.observations.1, texts.navigation.1])
+        };
+        let expected = [b"observations\n".to_vec(), b"navigation\n".to_vec()];
+        write_raw(desk.path(), Some(&files(1)), Compression::Zstd).unwrap();
+        assert_eq!(read().unwrap(), expected);
+        write_raw(desk.path(), Some(&files(1)), Compression::None).unwrap();
+        assert_eq!(read().unwrap(), expected);
+        let folder = desk.path().join(FOLDER);
+        gzip(&folder.join("a1.obs"));
+        gzip(&folder.join("nav.rnx"));
+        assert_eq!(names(desk.path()), ["a1.obs.gz", "nav.rnx.gz"]);
+        assert_eq!(read().unwrap(), expected);
+
+        let path = folder.join("a1.obs.gz");
+        let whole = fs::read(&path).unwrap();
+        fs::write(&path, &whole[..whole.len() - 5]).unwrap();
+        assert!(read().unwrap_err().to_string().contains("a1.obs.gz"));
+        write_raw(desk.path(), None, Compression::None).unwrap();
+        assert!(names(desk.path()).is_empty());
     }
 
     fn names(dir: &Path) -> Vec<String> {

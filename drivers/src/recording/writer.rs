@@ -70,7 +70,8 @@ pub(super) fn remove_both(path: &Path) -> Result<(), RecordingError> {
     remove(&compressed_form(path))
 }
 
-fn remove(path: &Path) -> Result<(), RecordingError> {
+/// Removes a file, if it is there.
+pub(super) fn remove(path: &Path) -> Result<(), RecordingError> {
     match fs::remove_file(path) {
         Err(fault) if fault.kind() != io::ErrorKind::NotFound => guard(path, Err(fault)),
         _ => Ok(()),

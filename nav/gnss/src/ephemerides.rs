@@ -49,7 +49,7 @@ impl Ephemerides {
             known
                 .iter()
                 .filter(|record| slot(record).1 == kind)
-                .min_by_key(|record| time.since(record.reference()).as_nanos().abs())
+                .min_by_key(|record| time.since(record.reference()).as_nanos().unsigned_abs())
                 .ok_or(OrbitRefusal::NoRecord)
                 .and_then(|record| usable(record, time).map(|()| record))
         };

@@ -41,7 +41,7 @@ impl Sight {
         let n = c_ne * self.transmitter().line(antenna);
         LookAngles {
             azimuth: n.y.atan2(n.x).rem_euclid(std::f64::consts::TAU),
-            elevation: (-n.z).asin(),
+            elevation: (-n.z).clamp(-1.0, 1.0).asin(),
         }
     }
 }

@@ -16,7 +16,7 @@ pub fn best_of_each_band(signals: &[SignalObservation]) -> Vec<&SignalObservatio
         place.unwrap_or(PREFERENCE.len())
     };
     let mut best: Vec<&SignalObservation> = Vec::with_capacity(4);
-    for signal in signals.iter().filter(|signal| signal.code.is_some()) {
+    for signal in signals.iter().filter(|signal| told_code(signal).is_some()) {
         match best.iter_mut().find(|known| known.signal.band == signal.signal.band) {
             Some(known) if rank(signal) < rank(known) => *known = signal,
             Some(_) => {}
@@ -25,6 +25,16 @@ pub fn best_of_each_band(signals: &[SignalObservation]) -> Vec<&SignalObservatio
     }
     best.sort_by_key(|signal| signal.signal.band);
     best
+}
+
+/// Its code, m, if it is one: a receiver whose clock is off by seconds has none that is good for anything.
+pub(crate) fn told_code(signal: &SignalObservation) -> Option<f64> {
+    signal.code.filter(|code| code.abs() < 1e9)
+}
+
+/// Its phase, cycles, if it is one: counted from any origin, but not for years.
+pub(crate) fn told_phase(signal: &SignalObservation) -> Option<f64> {
+    signal.phase.filter(|phase| phase.abs() < 1e12)
 }
 
 /// The band that a constellation's position rests on, and whose receiver's delay is the clock's: the upper L band.
@@ -104,8 +114,10 @@ pub(crate) fn range_rate(
     satellite: &SatelliteState,
     elevation: f64,
 ) -> Option<Measured> {
+    // satellites make 5 kHz, and a poor oscillator ten times as much
+    let doppler = shift.doppler.filter(|doppler| doppler.abs() < 1e6)?;
     Some(Measured {
-        value: -shift.wavelength()? * shift.doppler? + SPEED_OF_LIGHT * satellite.clock_drift,
+        value: -shift.wavelength()? * doppler + SPEED_OF_LIGHT * satellite.clock_drift,
         variance: noise.rate.powi(2) * inflation(elevation, shift.cn0),
     })
 }
@@ -116,7 +128,8 @@ pub fn inflation(elevation: f64, cn0: Option<f64>) -> f64 {
     const GOOD: f64 = 42.0;
     let sin = elevation.sin().max(0.05);
     let low = (1.0 + 1.0 / (sin * sin)) / 2.0;
-    let weak = cn0.map_or(0.0, |cn0| ((GOOD - cn0) / 10.0).max(0.0));
+    let told = cn0.filter(|cn0| cn0.is_finite());
+    let weak = told.map_or(0.0, |cn0| ((GOOD - cn0) / 10.0).clamp(0.0, GOOD / 10.0));
     low * 10_f64.powf(weak)
 }
 

@@ -14,7 +14,7 @@ use super::swing::Swing;
 /// Gravity at sea, m/s^2, and by how much of it the mean force may differ: a rough sea, a short window.
 const GRAVITY: f64 = 9.81;
 const OFF: f64 = 0.05;
-/// Root mean square of a ship's rate of turn, all axes, that is beyond any sea, rad/s.
+/// Root mean square of a ship's rate of turn, all axes, that is beyond any sea, rad/s: believed of an IMU whose gravity follows it alone, in a hand on trials.
 const SPIN: f64 = 25.0 * DEG;
 /// No ship lists like this on the mean, rad; one that was found to is upright below half of it.
 const LIST: f64 = 25.0 * DEG;
@@ -86,7 +86,7 @@ impl ImuWatch {
         self.is_tilted = -self.upwards.z < limit.cos() * self.upwards.norm();
         if off > 1.0 {
             self.found = Some(Finding::ImuForce { mean: self.force });
-        } else if spin > 1.0 || self.swing.is_wrong() {
+        } else if self.swing.is_wrong() || spin > 1.0 && !self.swing.holds_gravity() {
             self.found = Some(Finding::ImuRate { mean: self.rate_square.sqrt() });
         } else if self.right > RIGHT {
             self.found = None;

@@ -17,7 +17,13 @@ const BLOCKS: u8 = 2;
 const WIDE: f64 = 1.5 * DEG;
 const FOLLOWS: f64 = 0.1;
 
-/// The block that runs, and how many before it said so.
+/// Gyros that are turned fast and still hold gravity to this, rad, tell how: those that tell degrees for radians do not, nor a hand that
+/// swings them as it walks more than half of it.
+const HELD: f64 = 20.0 * DEG;
+/// How much of a block must have been seen to say so, s.
+const ENOUGH: f64 = 5.0;
+
+/// The block that runs, how many before it said so, and how far gravity was scattered by the gyros of the last one, rad.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Swing {
     turned: UnitQuaternion<f64>,
@@ -26,6 +32,7 @@ pub(super) struct Swing {
     length: f64,
     lasts: f64,
     blocks: u8,
+    scattered: Option<f64>,
 }
 
 impl Swing {
@@ -38,7 +45,8 @@ impl Swing {
         self.lasts += duration;
         if self.lasts >= BLOCK {
             let blocks = if self.disagrees() { self.blocks.saturating_add(1) } else { 0 };
-            *self = Swing { blocks, ..Swing::default() };
+            *self =
+                Swing { blocks, scattered: Some(self.scatter(&self.level)), ..Swing::default() };
         }
     }
 
@@ -47,13 +55,22 @@ impl Swing {
         self.blocks >= BLOCKS
     }
 
+    /// Whether gravity stands where it stood when it is turned back by the gyros, so that they tell how they are turned.
+    pub(super) fn holds_gravity(&self) -> bool {
+        let running = (self.lasts >= ENOUGH).then(|| self.scatter(&self.level));
+        let known = [running, self.scattered].into_iter().flatten().reduce(f64::max);
+        known.is_some_and(|scattered| scattered < HELD)
+    }
+
     fn disagrees(&self) -> bool {
-        let scatter = |sum: &Vector3<f64>| {
-            let coherence = sum.norm() / self.length.max(f64::MIN_POSITIVE);
-            (2.0 * (1.0 - coherence).max(0.0)).sqrt()
-        };
-        let told = scatter(&self.level);
-        told > WIDE && scatter(&self.body) < FOLLOWS * told
+        let told = self.scatter(&self.level);
+        told > WIDE && self.scatter(&self.body) < FOLLOWS * told
+    }
+
+    /// How far directions lie apart whose sum this is, rad.
+    fn scatter(&self, sum: &Vector3<f64>) -> f64 {
+        let coherence = sum.norm() / self.length.max(f64::MIN_POSITIVE);
+        (2.0 * (1.0 - coherence).max(0.0)).sqrt()
     }
 }
 
@@ -62,9 +79,13 @@ mod tests {
     use super::*;
     use insd_base::Time;
 
+    fn is_found(roll: f64, follows: f64, factor: f64) -> bool {
+        sailed(roll, follows, factor).is_wrong()
+    }
+
     /// Two minutes of a ship that rolls by so much about the wave's slope, deg, with gyros that tell it
     /// times a factor; `follows` the share of the slope that she rides as a raft.
-    fn is_found(roll: f64, follows: f64, factor: f64) -> bool {
+    fn sailed(roll: f64, follows: f64, factor: f64) -> Swing {
         let mut swing = Swing::default();
         for k in 0..12_000 {
             let at = f64::from(k) * 0.01;
@@ -87,7 +108,17 @@ mod tests {
                 0.01,
             );
         }
-        swing.is_wrong()
+        swing
+    }
+
+    #[test]
+    fn gyros_that_tell_the_truth_hold_gravity_however_fast_they_are_turned_and_degrees_do_not() {
+        // 46 deg/s at the most
+        assert!(sailed(57.0, 0.0, 1.0).holds_gravity());
+        for roll in [1.0, 5.0, 20.0] {
+            assert!(!sailed(roll, 0.0, 57.3).holds_gravity(), "{roll}");
+        }
+        assert!(!Swing::default().holds_gravity());
     }
 
     #[test]

@@ -120,6 +120,9 @@ pub(crate) struct RawSpoof {
     pub(crate) speed_mps: f64,
     /// Where to, from true north.
     pub(crate) direction_deg: f64,
+    /// By how much all ranges are longer from the first moment on, as the spoofer's clock is not the satellites'.
+    #[serde(default)]
+    pub(crate) clock_m: f64,
 }
 
 /// A receiver on land, of the same kind as those on board.

@@ -18,6 +18,7 @@ pub(super) fn check(raw: &Raw, faults: &mut Faults) {
         span(&key, spoof.t0_s, Some(spoof.t1_s), faults);
         faults.range(format!("{key}.speed_mps"), spoof.speed_mps, 0.0, 100.0);
         faults.range(format!("{key}.direction_deg"), spoof.direction_deg, -360.0, 360.0);
+        faults.range(format!("{key}.clock_m"), spoof.clock_m, -1e5, 1e5);
     }
     if let Some(base) = &raw.base {
         faults.range("raw.base.lat_deg", base.lat_deg, -90.0, 90.0);

@@ -171,11 +171,12 @@ impl<'a> Receiver<'a> {
         });
         let rate = |kind: usize| (paths[2][kind] - paths[0][kind]) / (2.0 * STEP);
         let offset = self.offsets.get(&id.constellation).copied().unwrap_or(0.0);
+        let spoofed = scene.spoof(moment.t).map_or(0.0, |spoof| spoof.clock_m);
         let heard = Heard {
             t: moment.t,
             source,
             elevation: now.elevation,
-            range: [paths[1][0] + clock.bias + offset, rate(0) + clock.drift],
+            range: [paths[1][0] + clock.bias + offset + spoofed, rate(0) + clock.drift],
             ionosphere: [paths[1][1], rate(1)],
             line: self.line,
             effect: effect(&world.faults, id, moment.t),

@@ -138,6 +138,7 @@ impl Scene {
             t1_s: spoof.t1_s,
             speed_mps: spoof.speed_mps,
             direction_deg: spoof.direction_deg,
+            clock_m: spoof.clock_m,
         };
         self.spoofs.iter().map(injected).collect()
     }

@@ -55,6 +55,8 @@ pub struct InjectedSpoof {
     pub speed_mps: f64,
     /// Where to, from true north, degrees.
     pub direction_deg: f64,
+    /// By how much all ranges are longer from its first moment on, m.
+    pub clock_m: f64,
 }
 
 /// A cycle slip; written as a list of its fields.

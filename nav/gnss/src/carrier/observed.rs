@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use crate::budget::LOWEST;
 use crate::context::{Context, Delays};
 use crate::sight::Sight;
-use crate::signals::{dispersion, first_band, inflation};
+use crate::signals::{dispersion, first_band, inflation, told_code, told_phase};
 
 /// One band of a satellite.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ impl Observed {
         (antenna, turns): (&Vector3<f64>, f64),
     ) -> Option<Self> {
         let satellite = signals.first()?.satellite;
-        let code = signals.iter().find_map(|signal| signal.code)?;
+        let code = signals.iter().find_map(told_code)?;
         let record = context.ephemerides.select(satellite, tag).ok()?;
         let sight = Sight::new(record, tag, code);
         let direction = sight.direction(antenna);
@@ -56,7 +56,7 @@ impl Observed {
         let phase = |signal: &SignalObservation| {
             Some(Phase {
                 signal: signal.signal,
-                phase: (signal.phase? - turns) * signal.wavelength()?,
+                phase: (told_phase(signal)? - turns) * signal.wavelength()?,
                 variance: noise * inflation(direction.elevation, signal.cn0),
                 dispersion: dispersion(satellite, signal.signal)?,
                 lock: if signal.slip { Some(0.0) } else { signal.lock },

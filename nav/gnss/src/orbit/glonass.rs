@@ -16,6 +16,8 @@ const RADIUS: f64 = 6_378_136.0;
 const RATE: f64 = 7.292_115e-5;
 /// Longest step of the integration, s.
 const STEP: f64 = 60.0;
+/// Nobody is integrated further, s: a state holds for a quarter of an hour, and a wrong time could be years away.
+const FARTHEST: f64 = 86_400.0;
 
 /// The satellite at an instant.
 pub(super) fn state(record: &GlonassRecord, time: GpsTime) -> SatelliteState {
@@ -24,7 +26,7 @@ pub(super) fn state(record: &GlonassRecord, time: GpsTime) -> SatelliteState {
     let [vx, vy, vz] = record.velocity;
     let pull = Vector3::from(record.acceleration);
     let mut state = Vector6::new(x, y, z, vx, vy, vz);
-    let mut left = elapsed;
+    let mut left = elapsed.clamp(-FARTHEST, FARTHEST);
     while left != 0.0 {
         let step = left.clamp(-STEP, STEP);
         state = runge_kutta(&state, &pull, step);

@@ -6,6 +6,7 @@ use insd_vessel::{Names, Product};
 
 use super::super::alignment::AlignmentArgs;
 use super::super::outage::SensorOutage;
+use super::without::Without;
 use crate::ranges::{GnssUse, SatelliteMask};
 
 /// Tells the journal of a product as the daemon does.
@@ -38,9 +39,13 @@ pub struct ReplayArgs {
     /// What raw GNSS is made of: a fix of each epoch, or ranges; `none` leaves GNSS out [default: tight where raw GNSS is there]
     #[arg(long, value_enum)]
     pub(super) gnss: Option<GnssUse>,
-    /// Leave N satellites of the raw GNSS while FROM <= t_s < TO, those that stand highest; may be repeated
+    /// Leave N satellites of the raw GNSS while FROM <= t_s < TO, those that stand highest, and no fix where N
+    /// is less than four; may be repeated
     #[arg(long = "mask", value_name = "FROM..TO:N")]
     pub(super) masks: Vec<SatelliteMask>,
+    /// Leave out what is named, between commas, to see what it gives; of learning and camera there is nothing yet
+    #[arg(long, value_name = "WHAT", value_enum, value_delimiter = ',')]
+    pub(super) without: Vec<Without>,
     #[command(flatten)]
     pub(super) alignment: AlignmentArgs,
     /// Start warm: the state stored at the last shutdown, believed once the sensors confirm it

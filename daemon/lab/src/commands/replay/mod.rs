@@ -7,6 +7,7 @@ mod recording;
 mod sent;
 mod sink;
 mod voyage;
+mod without;
 
 use insd_config::BadInput;
 
@@ -20,8 +21,11 @@ pub fn run(args: &ReplayArgs, tell: Tell) -> anyhow::Result<()> {
     if args.dir.join("voyage.toml").exists() || !crate::raw_run::is_recording(&args.dir) {
         return voyage::run(args);
     }
-    let only_voyages =
-        [("--outage", !args.outages.is_empty()), ("--save-state", args.save_state.is_some())];
+    let only_voyages = [
+        ("--outage", !args.outages.is_empty()),
+        ("--without", !args.without.is_empty()),
+        ("--save-state", args.save_state.is_some()),
+    ];
     if let Some((option, _)) = only_voyages.iter().find(|(_, given)| *given) {
         let hint = "make a voyage of it with `insd convert` first";
         return Err(BadInput(format!("{option} is for voyage directories: {hint}")).into());

@@ -12,6 +12,7 @@ use insd_rinex::{ObservationReader, expand, is_compact, read_navigation};
 
 use super::args::ReplayArgs;
 use super::raw_table::RawTable;
+use super::without::Without;
 use crate::ranges::{self, GnssUse, SatelliteMask};
 
 /// The messages that raw GNSS makes, in the order in which they are received.
@@ -19,6 +20,7 @@ use crate::ranges::{self, GnssUse, SatelliteMask};
 pub(super) struct RawVoyage {
     waiting: VecDeque<Received>,
     gnss: Option<GnssUse>,
+    masks: Vec<SatelliteMask>,
 }
 
 impl RawVoyage {
@@ -31,8 +33,9 @@ impl RawVoyage {
         table: &RawTable,
         start_utc: &str,
     ) -> anyhow::Result<Self> {
-        let own = RawVoyage { waiting: VecDeque::new(), gnss: args.gnss };
-        if matches!(args.gnss, Some(GnssUse::Loose | GnssUse::None)) {
+        let gnss = Without::gnss(&args.without, args.gnss)?;
+        let own = RawVoyage { waiting: VecDeque::new(), gnss, masks: args.masks.clone() };
+        if matches!(gnss, Some(GnssUse::Loose | GnssUse::None)) {
             return Ok(own);
         }
         let Some(texts) = read_raw(&args.dir, 1)? else {
@@ -55,9 +58,12 @@ impl RawVoyage {
         std::iter::from_fn(move || self.waiting.pop_front_if(|first| first.receipt <= receipt))
     }
 
-    /// Whether a message is not wanted.
+    /// Whether a message is not wanted: a receiver that hears too few satellites has no fix.
     pub(super) fn replaces(&self, received: &Received) -> bool {
-        self.gnss == Some(GnssUse::None) && matches!(received.source, Source::Gnss(_))
+        let time = received.message.time();
+        let is_blind = || self.masks.iter().any(|mask| mask.leaves_no_fix(time));
+        let is_unwanted = self.gnss == Some(GnssUse::None) || is_blind();
+        is_unwanted && matches!(received.source, Source::Gnss(_))
     }
 }
 

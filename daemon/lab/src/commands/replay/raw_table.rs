@@ -30,13 +30,35 @@ impl RawTable {
     /// Reads the table; the defaults where there is none.
     ///
     /// # Errors
-    /// The file is no TOML, or a value of the table is no number.
+    /// The file is no TOML, or a value of the table is no number that an error can have.
     pub(super) fn read(dir: &Path) -> anyhow::Result<Self> {
         let path = dir.join("voyage.toml");
         let text = fs::read_to_string(&path)?;
         let file: File = toml::from_str(&text)
             .map_err(|error| BadInput(format!("{}: {error}", path.display())))?;
-        Ok(file.raw)
+        match file.raw.fault() {
+            Some((key, value)) => {
+                let expected = "expected a number that is not negative";
+                Err(BadInput(format!("{}: raw.{key}: {expected}, found {value}", path.display()))
+                    .into())
+            }
+            None => Ok(file.raw),
+        }
+    }
+
+    /// A value that no error has.
+    fn fault(&self) -> Option<(&'static str, f64)> {
+        let all = [
+            ("code_std_m", self.code_std_m),
+            ("phase_std_m", self.phase_std_m),
+            ("doppler_std_mps", self.doppler_std_mps),
+            ("multipath_code_std_m", self.multipath_code_std_m),
+            ("clock_bias_walk_m_sqrt_s", self.clock_bias_walk_m_sqrt_s),
+            ("clock_drift_walk_mps_sqrt_s", self.clock_drift_walk_mps_sqrt_s),
+        ];
+        let mut told = all.into_iter().filter_map(|(key, value)| Some((key, value?)));
+        let is_none = |value: f64| !value.is_finite() || value < 0.0;
+        told.find(|(_, value)| is_none(*value))
     }
 
     /// Noise of the measurements.
@@ -57,5 +79,19 @@ impl RawTable {
             clock_walk: self.clock_bias_walk_m_sqrt_s.unwrap_or(usual.clock_walk),
             drift_walk: self.clock_drift_walk_mps_sqrt_s.unwrap_or(usual.drift_walk),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_that_none_has_is_refused_with_its_key() {
+        let fault = |text: &str| toml::from_str::<File>(text).unwrap().raw.fault();
+        assert_eq!(fault("[raw]\ncode_std_m = 0.3\nphase_std_m = 0.0\n"), None);
+        assert_eq!(fault("[imu]\nrate_hz = 100.0\n"), None);
+        assert_eq!(fault("[raw]\nphase_std_m = -0.1\n"), Some(("phase_std_m", -0.1)));
+        assert!(fault("[raw]\ndoppler_std_mps = nan\n").is_some());
     }
 }

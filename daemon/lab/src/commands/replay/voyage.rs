@@ -14,6 +14,7 @@ use super::raw::RawVoyage;
 use super::raw_table::RawTable;
 use super::sent::Sent;
 use super::sink::Sink;
+use super::without::Without;
 
 /// Solutions per second where nothing else is asked for.
 const RATE: f64 = 10.0;
@@ -35,9 +36,13 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     for received in &mut reader {
         let received = received?;
         for ranges in raw.until(received.receipt) {
+            if args.outages.iter().any(|outage| outage.drops(&ranges)) {
+                dropped += 1;
+                continue;
+            }
             engine.handle(&ranges);
         }
-        if raw.replaces(&received) {
+        if raw.replaces(&received) || Without::drops(&args.without, &received) {
             continue;
         }
         if args.outages.iter().any(|outage| outage.drops(&received)) {

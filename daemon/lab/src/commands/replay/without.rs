@@ -1,0 +1,53 @@
+//! `--without WHAT,WHAT`: what a voyage has and a replay is not to use.
+
+use insd_base::{Received, Source};
+use insd_config::BadInput;
+
+use crate::ranges::GnssUse;
+
+/// Something that a replay leaves out, to see what it gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Without {
+    /// What was learnt before the voyage; nothing is yet.
+    Learning,
+    /// Pictures and what was made of them; nothing of them is used yet.
+    Camera,
+    /// The folder `raw/`, as if it were not there.
+    Raw,
+    /// The Doppler log, as if `log.csv` were not there.
+    Log,
+    /// Fixes and ranges.
+    Gnss,
+}
+
+impl Without {
+    /// What is made of GNSS, after all that the options say of it; `None` if they leave the choice.
+    ///
+    /// # Errors
+    /// One option asks for what another leaves out.
+    pub(super) fn gnss(
+        without: &[Without],
+        asked: Option<GnssUse>,
+    ) -> Result<Option<GnssUse>, BadInput> {
+        if without.contains(&Without::Gnss) {
+            return match asked.filter(|way| *way != GnssUse::None) {
+                Some(_) => Err(BadInput("--without gnss leaves nothing for --gnss".to_owned())),
+                None => Ok(Some(GnssUse::None)),
+            };
+        }
+        if without.contains(&Without::Raw) {
+            return match asked {
+                Some(GnssUse::Tight) => {
+                    Err(BadInput("--without raw leaves nothing for --gnss tight".to_owned()))
+                }
+                other => Ok(other.or(Some(GnssUse::Loose))),
+            };
+        }
+        Ok(asked)
+    }
+
+    /// Whether a message is of a sensor that is left out for the whole voyage.
+    pub(super) fn drops(without: &[Without], received: &Received) -> bool {
+        matches!(received.source, Source::Log(_)) && without.contains(&Without::Log)
+    }
+}
