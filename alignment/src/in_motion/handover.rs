@@ -19,7 +19,7 @@ use nalgebra::{Matrix1, Matrix2, Matrix3, SMatrix, UnitQuaternion, Vector1, Vect
 
 use super::belief::{CONSIDERED, OwnCovariance, STATES, considered as k, innovation, state as x};
 use super::motion::{across, rotation};
-use super::{ASTRAY, EightState, LEAN};
+use super::{ASTRAY, EightState, GOAL, LEAN};
 
 /// Mean square length of (s, 1-c) that still tells a direction of tilt.
 const SHORTEST: f64 = 1e-6;
@@ -37,8 +37,7 @@ impl EightState {
     pub(super) fn level(&mut self) {
         let a = self.lean();
         self.motion.tilt -= self.motion.turn() * a;
-        self.motion.attitude =
-            UnitQuaternion::new(Vector3::new(a.x, a.y, 0.0)) * self.motion.attitude;
+        self.turn_frame(&UnitQuaternion::new(Vector3::new(a.x, a.y, 0.0)));
         let mut t = OwnCovariance::identity();
         t.fixed_view_mut::<2, 1>(x::TILT, x::SINE).copy_from(&-across(&a));
         t.fixed_view_mut::<2, 1>(x::TILT, x::VERSINE).copy_from(&a);
@@ -72,7 +71,8 @@ impl EightState {
         if self.centred && self.heading.0.abs() > ASTRAY {
             self.turn_by(self.heading.0);
             self.note_heading();
-        } else if !self.centred && self.finished() {
+        } else if !self.centred && self.heading.1 < GOAL {
+            self.found.get_or_insert(self.time);
             self.centre();
         }
     }
@@ -99,10 +99,14 @@ impl EightState {
         self.level();
     }
 
+    fn turn_frame(&mut self, by: &UnitQuaternion<f64>) {
+        self.motion.attitude = by * self.motion.attitude;
+        self.stride.iter_mut().for_each(|own| own.turn(by));
+    }
+
     fn turn_by(&mut self, angle: f64) {
         let (sin, cos) = angle.sin_cos();
-        self.motion.attitude =
-            UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle) * self.motion.attitude;
+        self.turn_frame(&UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle));
         let (old_cos, old_sin) = (1.0 - self.motion.versine, self.motion.sine);
         self.motion.versine = 1.0 - (cos * old_cos + sin * old_sin);
         self.motion.sine = cos * old_sin - sin * old_cos;

@@ -1,7 +1,9 @@
 //! Messages taken one by one: made believable, weighed, gated, absorbed.
 
+use insd_base::satellites::SatelliteRanges;
 use insd_base::{
     ExternalReference, FixQuality, Geodetic, GnssFix, LogReference, LogVelocity, Rejection, Source,
+    earth,
 };
 use insd_estimation::Innovation;
 use insd_nav::antenna::AntennaMotion;
@@ -13,6 +15,7 @@ use nalgebra::{Vector2, Vector3};
 use super::EightState;
 use super::aids::{self, SpeedReading, Split};
 use super::belief::{considered as k, state as x};
+use super::stride::{self, Moved, Stride};
 
 /// Attitude that a levelled ship under way is unsure of from moment to moment, rad: it carries the antenna, and where only
 /// positions tell how she moves nothing else may be taken from it.
@@ -21,6 +24,10 @@ const UNLEVEL: f64 = 0.01;
 const SHARPEST: f64 = 1e-3;
 const GNSS_VELOCITY: &str = "gnss_velocity";
 const GNSS_POSITION: &str = "gnss_position";
+const GNSS_DISPLACEMENT: &str = "gnss_displacement";
+/// A displacement that was used counts for so long, s, and one begins with its epoch if it is no farther away than this, s.
+const STRIDING: f64 = 2.5;
+const SAME: f64 = 0.005;
 
 impl EightState {
     /// A GNSS fix, valid now.
@@ -35,7 +42,7 @@ impl EightState {
         self.note_arm(fix);
         let lever = self.config.gnss_lever();
         let mut passed = Vec::new();
-        if let Some(velocity) = fix.velocity {
+        if let Some(velocity) = fix.velocity.filter(|_| !self.strides()) {
             let std = self.config.floors.gnss_velocity(fix.velocity_std);
             if std.replaced {
                 report.floored.push(GNSS_VELOCITY);
@@ -64,6 +71,35 @@ impl EightState {
             passed.push(used);
         }
         self.consider_restart(fix, &passed, &mut report);
+        report
+    }
+
+    /// Whether phases tell how the antenna moves, better than the velocities that are made of the same signals.
+    pub(super) fn strides(&self) -> bool {
+        self.strode.is_some_and(|last| (self.time - last).as_seconds() < STRIDING)
+    }
+
+    /// Ranges: what their phases tell of the way since the epoch before. The rest is for a navigator; until there is one, the fixes of the
+    /// same receiver tell where she is.
+    pub(super) fn ranges(&mut self, ranges: &SatelliteRanges, source: Source) -> Report {
+        let mut report = Report::default();
+        self.settle();
+        let next = Stride::begin(self.time, self.motion.c_pb());
+        let begun = self.stride.replace(next);
+        let Some((stride, told)) = begun.zip(ranges.displacement) else { return report };
+        if (told.since - stride.since).as_seconds().abs() > SAME {
+            return report;
+        }
+        let c_ne = earth::c_ne(&self.motion.place);
+        let level = c_ne.fixed_rows::<2>(0);
+        let by = level * told.by;
+        let moved = Moved { by, covariance: level * told.covariance * level.transpose() };
+        let lever = self.config.gnss_lever();
+        let scene = self.scene();
+        let innovation = stride::gnss_displacement(&scene, &stride, &moved, &lever, &self.belief);
+        if self.judge((&innovation, 0.0), ranges.time, source, GNSS_DISPLACEMENT, &mut report) {
+            self.strode = Some(self.time);
+        }
         report
     }
 

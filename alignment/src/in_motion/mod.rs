@@ -36,6 +36,7 @@ mod handover;
 pub mod mast;
 mod messages;
 pub mod motion;
+pub mod stride;
 pub mod vertical;
 
 use insd_base::units::{DEG, wrap_two_pi};
@@ -56,6 +57,7 @@ use belief::{Belief, considered as k, state as x};
 use blur::Blur;
 use mast::Mast;
 use motion::{HorizontalMotion, HorizontalStretch, Local};
+use stride::Stride;
 use vertical::VerticalChannel;
 
 /// The filter of eight states.
@@ -77,6 +79,11 @@ pub struct EightState {
     /// Integral of the force, computed frame, m/s: only its changes are used.
     push: Vector3<f64>,
     antenna: AntennaMotion,
+    /// Since the last epoch of ranges, and when one was last used.
+    stride: Option<Stride>,
+    strode: Option<Time>,
+    /// When the heading was first known to [`GOAL`].
+    found: Option<Time>,
     rtk: Option<bool>,
     heard_height: Time,
     mast: Mast,
@@ -92,6 +99,9 @@ pub struct EightState {
 const LEFT: f64 = 2.0;
 /// Heading sigma at which the phase ends, rad.
 pub const GOAL: f64 = 5.0 * DEG;
+/// While phases tell how she moves it goes on to this one, rad, for so long at the most, s.
+const FINE_GOAL: f64 = 1.0 * DEG;
+const PATIENCE: f64 = 60.0;
 /// Sigma of the tilt after levelling, sensor bias aside, rad.
 const LEVEL_STD: f64 = 1.0 * DEG;
 /// Longest stretch between propagations of the covariance, s.
@@ -144,6 +154,9 @@ impl EightState {
             rate_variance: rate_variance(&config.imu),
             push: Vector3::zeros(),
             antenna: AntennaMotion::default(),
+            stride: None,
+            strode: None,
+            found: None,
             rtk: None,
             heard_height: level.time,
             mast: Mast::default(),
@@ -198,10 +211,13 @@ impl EightState {
         (wrap_two_pi(self.assumed_heading() + turn), sigma)
     }
 
-    /// Whether the heading is known well enough for the full filter.
+    /// Whether the heading is known well enough for the full filter. Phases, which tell it within seconds, are to the millimetre what a filter that is
+    /// linear in the heading is not: they finish what they have begun.
     #[must_use]
     pub fn finished(&self) -> bool {
-        self.heading.1 < GOAL
+        let waits = self.found.is_some_and(|at| (self.time - at).as_seconds() < PATIENCE);
+        let goal = if waits && self.strides() { FINE_GOAL } else { GOAL };
+        self.heading.1 < goal
     }
 
     /// Share of what was seen of the heading that may be noise; nothing of a craft that has made way.
@@ -316,6 +332,7 @@ impl Estimator for EightState {
         self.vertical.advance(step.down, increment.duration());
         self.push += step.force;
         self.stretch.add(&step, increment);
+        self.stride.iter_mut().for_each(|own| own.add(&step.force, increment.duration()));
         (self.rate, self.rate_variance) = (increment.end_rate, increment.end_rate_variance);
         self.time = increment.to;
         self.push.z += self.local.gravity * increment.duration();
@@ -327,8 +344,8 @@ impl Estimator for EightState {
 
     fn apply(&mut self, received: &Received) -> Report {
         match &received.message {
-            // ranges are for a navigator; until there is one, fixes of the same receiver tell
-            Message::Imu(_) | Message::Ranges(_) => Report::default(),
+            Message::Imu(_) => Report::default(),
+            Message::Ranges(ranges) => self.ranges(ranges, received.source),
             Message::Gnss(fix) => self.gnss(fix, received.source),
             Message::Log(log) => self.log(log, received.source),
             Message::Reference(reference) => self.reference(reference, received.source),

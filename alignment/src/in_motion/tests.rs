@@ -13,7 +13,8 @@ use nalgebra::Cholesky;
 use super::aids::{SpeedReading, Split};
 use super::belief::{OWN, OwnErrors, STATES};
 use super::*;
-use ship::{Run, Ship, good_imu, mems_imu};
+pub(super) use ship::good_imu;
+use ship::{Run, Ship, mems_imu};
 
 const ALL_HEADINGS: [f64; 8] = [0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0];
 const LATITUDES: [f64; 4] = [0.0, 35.0, -35.0, 70.0];

@@ -13,7 +13,8 @@ pub use broadcast::{
 };
 pub use epoch::{SatelliteEpoch, SignalObservation};
 pub use ranges::{
-    ArcPhase, HeardSatellite, Measured, SatelliteRange, SatelliteRanges, Transmitter, time_keeper,
+    AntennaDisplacement, ArcPhase, HeardSatellite, Measured, SatelliteRange, SatelliteRanges,
+    Transmitter, time_keeper,
 };
 pub use refusal::{OrbitRefusal, RangeRefusal};
 pub use signal::{Constellation, SPEED_OF_LIGHT, SatelliteId, SignalCode};

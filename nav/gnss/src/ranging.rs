@@ -5,13 +5,14 @@ mod combined;
 mod heard;
 
 use insd_base::satellites::{
-    HeardSatellite, RangeRefusal, SPEED_OF_LIGHT, SatelliteRange, SatelliteRanges,
+    AntennaDisplacement, HeardSatellite, RangeRefusal, SPEED_OF_LIGHT, SatelliteRange,
+    SatelliteRanges,
 };
 use insd_base::{GpsTime, SatelliteEpoch, Span, Time};
 use nalgebra::Vector3;
 
 use crate::budget::LOWEST;
-use crate::carrier::CarrierTracker;
+use crate::carrier::{CarrierDisplacement, CarrierTracker};
 use crate::context::Context;
 use crate::signals::{first_band, inflation, range_rate};
 use crate::single_point::{NoPosition, SinglePoint};
@@ -34,13 +35,21 @@ pub struct Ranged {
     pub point: Result<SinglePoint, NoPosition>,
     /// The velocity that the Doppler shifts alone make.
     pub velocity: Option<DopplerVelocity>,
+    /// The displacement since the epoch before that the phases alone make, and how long ago that was sampled.
+    pub moved: Option<(Span, CarrierDisplacement)>,
 }
 
 impl Ranged {
     /// What of it goes to a filter and to those who look on, sampled at an instant of the ship's time line.
     #[must_use]
     pub fn told(self, time: Time) -> SatelliteRanges {
-        SatelliteRanges { time, clock: self.clock, ranges: self.ranges, heard: self.heard }
+        let displacement = self.moved.map(|(lasted, own)| AntennaDisplacement {
+            since: time - lasted,
+            by: own.displacement,
+            covariance: own.covariance,
+        });
+        let Ranged { clock, ranges, heard, .. } = self;
+        SatelliteRanges { time, clock, ranges, displacement, heard }
     }
 }
 
@@ -58,6 +67,8 @@ pub struct Guess {
 pub struct Ranging {
     tracker: CarrierTracker,
     known: Option<Known>,
+    /// When the epoch before was sampled, and where the antenna was.
+    before: Option<(GpsTime, Vector3<f64>)>,
 }
 
 /// What an epoch told of place and clock.
@@ -84,9 +95,12 @@ impl Ranging {
         if let Some((antenna, (clock, drift))) = antenna.zip(clock) {
             self.known = Some(Known { tag: epoch.tag, antenna, clock, drift });
         }
-        if let Some(antenna) = &antenna {
-            self.tracker.advance(context, epoch, antenna, guess.turned);
-        }
+        let sampled = self.sampled(epoch.tag);
+        let moved = antenna.and_then(|at| {
+            let changes = self.tracker.advance(context, epoch, &at, guess.turned);
+            let (before, was) = self.before.replace((sampled, at))?;
+            Some((sampled.since(before), CarrierDisplacement::solve(&changes, &was)?))
+        });
         let (mut ranges, mut heard) = (Vec::new(), Vec::new());
         for signals in epoch.signals.chunk_by(|a, b| a.satellite == b.satellite) {
             let Some(own) = Heard::new(context, epoch.tag, signals) else { continue };
@@ -94,7 +108,7 @@ impl Ranging {
             heard.push(own.told(antenna.as_ref(), range.as_ref().err().copied(), found));
             ranges.extend(range);
         }
-        Ranged { sampled: self.sampled(epoch.tag), clock, ranges, heard, point, velocity }
+        Ranged { sampled, clock, ranges, heard, point, velocity, moved }
     }
 
     /// By the clock as it was told last, carried on by its drift.

@@ -3,6 +3,7 @@
 use insd_base::satellites::{SatelliteRange, SatelliteRanges, SatelliteUse};
 use insd_base::{Rejection, Source};
 use insd_estimation::Innovation;
+use nalgebra::Matrix3;
 
 use super::Filter;
 use super::ahead::heading_std;
@@ -14,6 +15,7 @@ use crate::declaration::Carried;
 use crate::error_state::{
     ATTITUDE, PHASE_CONSTANTS, PHASE_DRIFT, PHASE_DRIFTS, RANGE_ERRORS, REFLECTIONS, Weighed,
 };
+use crate::judge::Aid;
 use crate::receiver_clock;
 use crate::report::{Outcome, Report};
 
@@ -23,6 +25,8 @@ const PHASE_AID: &str = "satellite_phase";
 
 /// A row is at fault beyond so many sigmas of what all others let expect of it: by chance once in 150 000.
 const FAULT: f64 = 4.5;
+/// So long nearly all satellites may contradict the filter, s, before it begins anew from what fixes make of the ship.
+const STRIFE: f64 = 5.0;
 /// One that was at fault agrees within so many sigmas.
 const AGREES: f64 = 3.0;
 /// No slip is smaller, m.
@@ -56,11 +60,24 @@ impl Filter {
         if told.ranges.is_empty() || !self.navigating {
             return;
         }
+        if self.withholds(Aid::GnssPosition) && self.companion.is_none() {
+            let outcome = Outcome::Rejected(Rejection::SourceSuspect);
+            let judged = Judged { outcome, log_likelihood: 0.0, innovation: NO_INNOVATION };
+            enter(report, told.time, source, CODE_AID, &judged);
+            return;
+        }
+        self.be_accompanied();
         self.begin_with_ranges(told, source);
         self.carry_clock();
         let seated = self.seat(told);
         self.look_for_clock_jump(&seated);
         let seated = self.use_codes(seated, (told, source), report);
+        if let Some(lasts) = self.satellites.strife(self.state.time) {
+            if lasts > STRIFE {
+                self.go_on_without_ranges(report);
+            }
+            return;
+        }
         self.begin_arcs(&seated);
         self.use_phases(&seated, (told, source), report);
         self.use_rates(&seated, (told, source), report);
@@ -173,10 +190,10 @@ impl Filter {
         report: &mut Report,
     ) {
         let (view, antenna) = (self.view(), self.antenna());
-        let heading_variance = heading_std(&view, &self.state.covariance).powi(2);
+        let attitude = ATTITUDE.covariance(&self.state.covariance);
         let row = |one: &Sighted<'_>| {
             let mut row = satellite_range::phase(&view, &antenna, *one)?;
-            row.r[(0, 0)] += bent_range(heading_variance, &antenna, one.range);
+            row.r[(0, 0)] += bent_range(&attitude, &antenna, one.range);
             Some(row)
         };
         let Some(rows) = Rows::of(seated, row) else { return };
@@ -261,7 +278,12 @@ impl Filter {
         report: &mut Report,
     ) -> (Vec<usize>, Vec<usize>) {
         let mut left_out = Vec::new();
+        let all = rows.of.len();
         let weighed = loop {
+            // the last quarter is not believed against all others
+            if all > 4 && 4 * left_out.len() >= 3 * all {
+                break None;
+            }
             let Some(weighed) = rows.all.weigh(&self.state.covariance) else { break None };
             match worst(&weighed, least) {
                 Some(row) if rows.of.len() > 1 => left_out.push(rows.remove(row)),
@@ -316,12 +338,14 @@ impl Rows {
     }
 }
 
-/// Variance of what a linear filter leaves out of the lever arm that a heading error of a variance turns, along the line to a satellite, m^2: the mean of
-/// half the square of the error and its scatter (Jazwinski, Stochastic Processes and Filtering Theory, section 9.3).
-fn bent_range(heading_variance: f64, antenna: &Antenna, range: &SatelliteRange) -> f64 {
-    let along = range.transmitter.line(&antenna.position).dot(&antenna.arm);
-    let turned = heading_variance * (antenna.arm.norm_squared() - along * along).sqrt();
-    0.75 * turned * turned
+/// Variance of what a linear filter leaves out of the lever arm a that an attitude error phi of a covariance turns, along the line e to a satellite, m^2:
+/// e . (phi x (phi x a)) / 2 = phi^T B phi / 2, its mean and its scatter (Jazwinski, Stochastic Processes and Filtering Theory, section 9.3).
+fn bent_range(attitude: &Matrix3<f64>, antenna: &Antenna, range: &SatelliteRange) -> f64 {
+    let (line, arm) = (range.transmitter.line(&antenna.position), antenna.arm);
+    let both = line * arm.transpose();
+    let b = (both + both.transpose()) * 0.5 - Matrix3::from_diagonal_element(line.dot(&arm));
+    let spread = b * attitude;
+    (0.5 * spread.trace()).powi(2) + 0.5 * (spread * spread).trace()
 }
 
 /// The row that lies farthest from what all others let expect of it, if that is a fault: `(S^-1 z)_i / sqrt((S^-1)_ii)`, which is what is left of a row

@@ -84,7 +84,7 @@ impl Ship {
     }
 }
 
-pub(super) fn good_imu() -> ImuSpec {
+pub(in crate::in_motion) fn good_imu() -> ImuSpec {
     imu(0.01, 0.003, 0.003, 50.0, 10.0, 0.006, 1e-5)
 }
 

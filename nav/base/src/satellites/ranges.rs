@@ -1,6 +1,6 @@
 //! The ranges of one epoch, ready for a filter: what is known beforehand is taken out.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::refusal::RangeRefusal;
 use super::signal::{Constellation, SPEED_OF_LIGHT, SatelliteId};
@@ -91,6 +91,17 @@ pub struct SatelliteRange {
     pub multipath_std: f64,
 }
 
+/// How far an antenna has moved, by the phases of its satellites alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AntennaDisplacement {
+    /// Since this epoch.
+    pub since: Time,
+    /// ECEF axes, m.
+    pub by: Vector3<f64>,
+    /// Its covariance, m^2.
+    pub covariance: Matrix3<f64>,
+}
+
 /// The ranges that one receiver took together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SatelliteRanges {
@@ -100,6 +111,8 @@ pub struct SatelliteRanges {
     pub clock: Option<(f64, f64)>,
     /// Satellites in their order, each once.
     pub ranges: Vec<SatelliteRange>,
+    /// How far the antenna has moved since the epoch before, where enough satellites were tracked through both.
+    pub displacement: Option<AntennaDisplacement>,
     /// All satellites that the receiver heard, with a range or without.
     pub heard: Vec<HeardSatellite>,
 }
