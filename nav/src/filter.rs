@@ -1,5 +1,7 @@
 //! The error-state Kalman filter around the strapdown: blocks 23-32 of JP3375720B2.
 
+use std::sync::Arc;
+
 use insd_base::{
     Body, Ecef, Message, MotionCovariance, Ned, Received, Rejection, Solution, Time, earth,
 };
@@ -34,6 +36,7 @@ use state::State;
 pub mod ahead;
 mod bent;
 pub mod checkpoint;
+mod companion;
 mod conduct;
 mod court;
 mod entry;
@@ -77,6 +80,8 @@ pub struct Filter {
     installation: Installation,
     court: Court,
     satellites: Satellites,
+    /// While there are ranges, the same ship without them.
+    companion: Option<Arc<Filter>>,
     navigating: bool,
 }
 
@@ -95,6 +100,7 @@ impl Filter {
             installation: Installation::default(),
             court: Court::new(initial.time),
             satellites: Satellites::default(),
+            companion: None,
             navigating: false,
         }
     }
@@ -283,6 +289,9 @@ impl Filter {
 
 impl Estimator for Filter {
     fn advance(&mut self, increment: &Increment) {
+        if let Some(companion) = self.companion_mut() {
+            companion.advance(increment);
+        }
         let step = self.state.advance(increment);
         self.court.note(&step, increment);
         if self.state.is_due() {
@@ -299,6 +308,9 @@ impl Estimator for Filter {
 
     fn apply(&mut self, received: &Received) -> Report {
         self.settle();
+        if let Some(report) = self.accompany(received) {
+            return report;
+        }
         let mut report = Report::default();
         match &received.message {
             Message::Imu(_) => {}

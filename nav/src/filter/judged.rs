@@ -15,6 +15,7 @@ use crate::error_state::{
 };
 use crate::judge::{Aid, Alternative, Docket, Judge};
 use crate::propagation::{Passage, Stretch};
+use crate::report::Report;
 use crate::separate_bias::SeparateBias;
 use crate::solution_sigma::{difference, solution_sigma};
 
@@ -41,8 +42,11 @@ pub enum ImuState {
 }
 
 impl Filter {
-    /// Has a judge from now on, if the filter navigates and nothing holds the ship.
+    /// Has a judge from now on, if the filter navigates and nothing holds the ship, or a companion who has one.
     pub(super) fn be_judged(&mut self) {
+        if self.state.is_moored() {
+            self.companion = None;
+        }
         let is_free = self.navigating && !self.state.is_moored() && self.satellites.last.is_none();
         let docket = self.docket();
         self.config = self.config.with_docket(docket);
@@ -153,6 +157,9 @@ impl Filter {
 
     /// Whether what somebody says with an aid is not to be used now.
     pub(super) fn withholds(&self, aid: Aid) -> bool {
+        if let Some(companion) = &self.companion {
+            return companion.withholds(aid);
+        }
         let Some(judge) = &self.court.judge else {
             let leapt = aid == Aid::GnssPosition && self.court.leap.is_suspected();
             return leapt || self.config.docket.leaves_out(aid);
@@ -162,11 +169,17 @@ impl Filter {
 
     /// The heading was found with a reference that nothing bears out yet, or is borne out now.
     pub fn doubt_heading(&mut self, is_doubted: bool) {
+        if let Some(companion) = self.companion_mut() {
+            companion.doubt_heading(is_doubted);
+        }
         self.court.heading_doubted = is_doubted;
     }
 
     /// The IMU is of no use.
     pub fn condemn_imu(&mut self) {
+        if let Some(companion) = self.companion_mut() {
+            companion.condemn_imu();
+        }
         let now = self.state.time;
         if let Some(judge) = &mut self.court.judge {
             Arc::make_mut(judge).condemn_imu(now);
@@ -209,6 +222,9 @@ impl Filter {
     /// What is to be done about an IMU that was found wrong.
     #[must_use]
     pub fn imu_state(&self) -> ImuState {
+        if let Some(companion) = &self.companion {
+            return companion.imu_state();
+        }
         let Some(judge) = &self.court.judge else { return ImuState::Believed };
         let docket = judge.docket();
         // what two say that lie alike is no reason to find a heading anew
@@ -262,6 +278,7 @@ impl Filter {
 
     /// Somebody is seen to lie by what he says alone: the estimate becomes that of who has not believed him.
     pub fn disbelieve(&mut self, whom: Party) {
+        self.go_on_without_ranges(&mut Report::default());
         let now = self.state.time;
         self.settle();
         if let Some(verdict) = self.judge_now().and_then(|judge| judge.disbelieve(whom, now)) {
@@ -337,12 +354,18 @@ impl Filter {
     /// How much likelier what was said since an instant is if the gyros have told so much too much since then, rad/s,
     /// body axes, as a logarithm; `None` without a judge.
     pub fn odds_of_gyros(&mut self, since: Time, excess: &Vector3<f64>) -> Option<f64> {
+        if let Some(companion) = self.companion_mut() {
+            return companion.odds_of_gyros(since, excess);
+        }
         let now = self.state.time;
         Some(self.judge_now()?.odds_of_gyros(now, since, excess))
     }
 
     /// What is made of all that is said.
     pub(super) fn judgement(&self) -> Judgement {
+        if let Some(companion) = &self.companion {
+            return companion.judgement();
+        }
         let alone = || self.config.docket.judgement();
         self.court.judge.as_ref().map_or_else(alone, |judge| judge.judgement())
     }
@@ -350,12 +373,16 @@ impl Filter {
     /// How far everybody is believed.
     #[must_use]
     pub fn docket(&self) -> Docket {
+        if let Some(companion) = &self.companion {
+            return companion.docket();
+        }
         self.court.judge.as_ref().map_or(self.config.docket, |judge| *judge.docket())
     }
 
     /// The judge, if there is one.
     #[must_use]
     pub fn judge(&self) -> Option<&Judge> {
-        self.court.judge.as_deref()
+        let companion = self.companion.as_deref();
+        companion.map_or(self.court.judge.as_deref(), Filter::judge)
     }
 }

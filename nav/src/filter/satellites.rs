@@ -9,6 +9,8 @@ use crate::error_state::SATELLITES;
 const FORGOTTEN: f64 = 120.0;
 /// One that is left out is used again after so many codes that agree.
 const READMITTED: u8 = 5;
+/// Of fewer satellites nobody is in the majority.
+const FEW: usize = 5;
 /// Ranges of less than so long ago are fresh, s.
 const FRESH: f64 = 5.0;
 
@@ -56,6 +58,8 @@ pub(super) struct Satellites {
     pub(super) last: Option<Time>,
     /// Whose they are.
     source: Option<Source>,
+    /// Since when the filter and nearly all of them contradict each other.
+    strife: Option<Time>,
 }
 
 impl Satellites {
@@ -71,6 +75,23 @@ impl Satellites {
             self.slots.iter_mut().flatten().for_each(|slot| slot.arc = None);
         }
         is_other
+    }
+
+    /// Those that are left out.
+    pub(super) fn left_out(&self) -> impl Iterator<Item = SatelliteId> + '_ {
+        let out = self.slots.iter().flatten().filter(|slot| slot.is_excluded());
+        out.map(|slot| slot.satellite)
+    }
+
+    /// For how long nearly all that are heard now have contradicted the filter, s: one of them is wrong, and it is not known who.
+    pub(super) fn strife(&mut self, now: Time) -> Option<f64> {
+        let heard = self.slots.iter().flatten().filter(|slot| slot.seen == now);
+        let (all, out) =
+            heard.fold((0, 0), |(all, out), slot| (all + 1, out + usize::from(slot.is_excluded())));
+        let is_strife = all >= FEW && 4 * out >= 3 * all;
+        let since = is_strife.then(|| self.strife.unwrap_or(now));
+        self.strife = since;
+        since.map(|since| (now - since).as_seconds())
     }
 
     /// The place of a satellite, and whether it is new there. `None` where all are taken.

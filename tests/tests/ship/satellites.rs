@@ -1,7 +1,9 @@
 //! A ship among cranes: ranges of satellites where there are too few for a fix.
 
 use insd_base::satellites::{SatelliteUse, Sky, SkySatellite};
-use insd_base::{Event, Message, Received, Rejection, SatelliteId, Solution, Truth, Voyage, earth};
+use insd_base::{
+    Event, Message, Party, Received, Rejection, SatelliteId, Solution, Truth, Voyage, earth,
+};
 use insd_config::VoyageCalendar;
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_gnss::{Context, Noise};
@@ -246,4 +248,30 @@ fn the_same_ranges_give_the_same_bits_and_nobody_is_moved_by_ranges_without_a_na
     let without: Vec<_> =
         all.iter().filter(|m| !matches!(m.message, Message::Ranges(_))).cloned().collect();
     assert_eq!(sail_messages(&config, &without, 7).solutions.len(), sail().len());
+}
+
+#[test]
+fn a_ship_with_a_log_is_not_pulled_away_by_satellites_that_all_lie_alike() {
+    let scenario = insd_lab::scenario::find("28", &[]).unwrap().scenario;
+    for seed in [1, 2] {
+        let (voyage, raw) = (simulate(&scenario, seed), raw_gnss(&scenario, seed).unwrap());
+        let config = EngineConfig::for_voyage(&voyage.header, 1.0);
+        let log = sail_messages(&config, &messages(&voyage, Some(&raw)), 100);
+        let left_out = |solution: &&Solution| {
+            solution.judgement.excluded.iter().any(|party| party == Party::Gnss)
+        };
+        let named = log.solutions.iter().find(left_out).unwrap().time.as_seconds();
+        assert!((600.0..630.0).contains(&named), "{seed}: {named}");
+        let errors = errors(&log.solutions, &voyage.truth);
+        let sigmas = errors.iter().map(|(_, off, sigma)| off.norm() / sigma.norm());
+        let (worst, off) = (
+            sigmas.fold(0.0, f64::max),
+            errors.iter().map(|(_, off, _)| off.norm()).fold(0.0, f64::max),
+        );
+        figure!(
+            "spoofer, seed {seed}: named after {:.0} s, {off:.0} m and {worst:.1} sigmas off at the worst",
+            named - 600.0
+        );
+        assert!(worst < 5.0 && off < 40.0, "{seed}: {worst} {off}");
+    }
 }

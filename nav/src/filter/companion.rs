@@ -1,0 +1,89 @@
+//! A second filter beside one that has ranges, which has none: the same ship by fixes and everybody else, before a judge.
+//!
+//! A receiver that is led astray has consistent ranges: nothing among its satellites contradicts them, and they are so many and so exact that no log
+//! holds against them in one filter. What fixes are worth is judged by all who can tell (docs/integrity.md). So the filter without ranges sails along
+//! and its judge sits for both. When he leaves somebody out, and the two filters are farther apart than both claim, the one with ranges has been misled and is given up for the other: a receiver that is
+//! left out for reflections has satellites that are not, and a filter that goes by those stays with its companion. While they are apart, or the judge doubts somebody,
+//! what is claimed covers it.
+
+use std::sync::Arc;
+
+use insd_base::{Message, Received, SolutionSigma};
+
+use super::Filter;
+use super::satellites::Satellites;
+use crate::declaration::Carried;
+use crate::error_state::POSITION;
+use crate::report::Report;
+use crate::solution_sigma::difference;
+use crate::timeline::Estimator;
+
+/// Filters that are apart by more than so many sigmas are not of one ship: where the receiver is left out, of whose satellites some may yet be honest, and
+/// where somebody else is, who counts for little beside ranges.
+const PARTED_BY_GNSS: f64 = 3.0;
+const PARTED: f64 = 4.5;
+/// Beyond so many what is claimed covers both.
+const APART: f64 = 2.0;
+
+impl Filter {
+    /// Is accompanied from now on, as it is now.
+    pub(super) fn be_accompanied(&mut self) {
+        if self.companion.is_some() || self.state.is_moored() {
+            return;
+        }
+        let mut companion = self.clone();
+        companion.end_to_carry(Carried::WithRanges);
+        companion.satellites = Satellites::default();
+        if companion.court.judge.is_none() {
+            companion.be_judged();
+        }
+        self.companion = Some(Arc::new(companion));
+    }
+
+    /// The filter that has no ranges.
+    pub(super) fn companion_mut(&mut self) -> Option<&mut Filter> {
+        self.companion.as_mut().map(Arc::make_mut)
+    }
+
+    /// Lets the companion hear what is no range. Gives what he makes of it if he goes on alone.
+    pub(super) fn accompany(&mut self, received: &Received) -> Option<Report> {
+        if matches!(received.message, Message::Ranges(_)) {
+            return None;
+        }
+        let mut report = self.companion_mut()?.apply(received);
+        let companion = self.companion.as_deref()?;
+        let sigmas = self.apart_from(companion);
+        let somebody_lies = companion.judgement().excluded.iter().next().is_some();
+        let parted = if companion.docket().leaves_out_gnss() { PARTED_BY_GNSS } else { PARTED };
+        if somebody_lies && sigmas > parted {
+            self.go_on_without_ranges(&mut report);
+            return Some(report);
+        }
+        let difference = (sigmas > APART).then(|| self.difference_to(companion));
+        let both = [difference, companion.court.covered].into_iter().flatten();
+        self.court.covered = both.reduce(|a, b| a.greatest(&b));
+        None
+    }
+
+    /// The companion goes on in its place; who was left out among the satellites is not any more.
+    pub(super) fn go_on_without_ranges(&mut self, report: &mut Report) {
+        if let Some(companion) = self.companion.take() {
+            let now = self.state.time;
+            report.satellites.extend(self.satellites.left_out().map(|own| (now, own, false)));
+            *self = Arc::unwrap_or_clone(companion);
+        }
+    }
+
+    /// How far apart the two are on the level, in what they claim together.
+    fn apart_from(&self, companion: &Filter) -> f64 {
+        let (view, other) = (self.view(), companion.view());
+        let apart = (view.c_ne * (other.nominal.position - view.nominal.position)).xy();
+        let level = view.c_ne.fixed_rows::<2>(0).into_owned();
+        let variance = |own: &Filter| POSITION.covariance_in(&own.state.covariance, &level).trace();
+        apart.norm() / (variance(self) + variance(companion)).sqrt()
+    }
+
+    fn difference_to(&self, companion: &Filter) -> SolutionSigma {
+        difference(&self.view(), &self.state.nominal.error_to(&companion.state.nominal))
+    }
+}
