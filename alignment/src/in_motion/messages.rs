@@ -87,7 +87,9 @@ impl EightState {
         let next = Stride::begin(self.time, self.motion.c_pb());
         let begun = self.stride.replace(next);
         let Some((stride, told)) = begun.zip(ranges.displacement) else { return report };
-        if (told.since - stride.since).as_seconds().abs() > SAME {
+        let is_other = (told.since - stride.since).as_seconds().abs() > SAME;
+        // how an antenna swings of which nobody knows the place goes with the forces, and is no noise
+        if is_other || self.config.is_gnss_lever_unknown() {
             return report;
         }
         let c_ne = earth::c_ne(&self.motion.place);

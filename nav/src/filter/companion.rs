@@ -3,14 +3,17 @@
 //! A receiver that is led astray has consistent ranges: nothing among its satellites contradicts them, and they are so many and so exact that no log
 //! holds against them in one filter. What fixes are worth is judged by all who can tell (docs/integrity.md). So the filter without ranges sails along
 //! and its judge sits for both. When he leaves somebody out, and the two filters are farther apart than both claim, the one with ranges has been misled and is given up for the other: a receiver that is
-//! left out for reflections has satellites that are not, and a filter that goes by those stays with its companion. While they are apart, or the judge doubts somebody,
+//! left out for reflections has satellites that are not, and a filter that goes by those stays with its companion. So it is where the companion has found that
+//! the antenna is elsewhere than configured. While they are apart, or the judge doubts somebody,
 //! what is claimed covers it.
 
 use std::sync::Arc;
 
+use insd_base::units::wrap_pi;
 use insd_base::{Message, Received, SolutionSigma};
 
 use super::Filter;
+use super::ahead::heading_std;
 use super::satellites::Satellites;
 use crate::declaration::Carried;
 use crate::error_state::POSITION;
@@ -53,13 +56,15 @@ impl Filter {
         let mut report = self.companion_mut()?.apply(received);
         let companion = self.companion.as_deref()?;
         let sigmas = self.apart_from(companion);
+        let turned = self.turned_from(companion);
+        let has_found_antenna = companion.has_mended_antenna() && !self.has_mended_antenna();
         let somebody_lies = companion.judgement().excluded.iter().next().is_some();
         let parted = if companion.docket().leaves_out_gnss() { PARTED_BY_GNSS } else { PARTED };
-        if somebody_lies && sigmas > parted {
+        if has_found_antenna || somebody_lies && sigmas > parted {
             self.go_on_without_ranges(&mut report);
             return Some(report);
         }
-        let difference = (sigmas > APART).then(|| self.difference_to(companion));
+        let difference = (sigmas.max(turned) > APART).then(|| self.difference_to(companion));
         let both = [difference, companion.court.covered].into_iter().flatten();
         self.court.covered = both.reduce(|a, b| a.greatest(&b));
         None
@@ -83,7 +88,17 @@ impl Filter {
         apart.norm() / (variance(self) + variance(companion)).sqrt()
     }
 
+    /// The same of the headings.
+    fn turned_from(&self, companion: &Filter) -> f64 {
+        let apart = self.view().attitude().heading - companion.view().attitude().heading;
+        wrap_pi(apart).abs() / own_heading_std(self).hypot(own_heading_std(companion))
+    }
+
     fn difference_to(&self, companion: &Filter) -> SolutionSigma {
         difference(&self.view(), &self.state.nominal.error_to(&companion.state.nominal))
     }
+}
+
+fn own_heading_std(filter: &Filter) -> f64 {
+    heading_std(&filter.view(), &filter.state.covariance)
 }

@@ -60,8 +60,8 @@ impl Filter {
         if told.ranges.is_empty() || !self.navigating {
             return;
         }
-        if self.withholds(Aid::GnssPosition) && self.companion.is_none() {
-            let outcome = Outcome::Rejected(Rejection::SourceSuspect);
+        if let Some(reason) = self.why_no_ranges() {
+            let outcome = Outcome::Rejected(reason);
             let judged = Judged { outcome, log_likelihood: 0.0, innovation: NO_INNOVATION };
             enter(report, told.time, source, CODE_AID, &judged);
             return;
@@ -81,6 +81,15 @@ impl Filter {
         self.begin_arcs(&seated);
         self.use_phases(&seated, (told, source), report);
         self.use_rates(&seated, (told, source), report);
+    }
+
+    /// Ranges are not for a ship whose receiver is left out, nor, good to millimetres as they are, for an antenna of which nobody knows the place.
+    fn why_no_ranges(&self) -> Option<Rejection> {
+        if self.companion.is_none() && self.withholds(Aid::GnssPosition) {
+            Some(Rejection::SourceSuspect)
+        } else {
+            self.config.is_gnss_lever_unknown().then_some(Rejection::NotUsable)
+        }
     }
 
     /// The states of satellites join; what judges fixes has nothing to judge.
