@@ -110,9 +110,10 @@ impl Taken {
         Taken { measured, happened, refused, intake }
     }
 
+    /// Epochs with ranges; those before any orbit is known tell which satellites are heard.
     fn ranges(&self) -> Vec<(&Received, &SatelliteRanges)> {
         let ranges = self.measured.iter().filter_map(|received| match &received.message {
-            Message::Ranges(ranges) => Some((received, ranges.as_ref())),
+            Message::Ranges(told) if !told.ranges.is_empty() => Some((received, told.as_ref())),
             _ => None,
         });
         ranges.collect()
@@ -140,6 +141,11 @@ fn raw_messages_become_ranges_at_their_instant_on_the_ships_time_line() {
         assert!(told.ranges.len() >= 5, "{} satellites", told.ranges.len());
     }
     assert!(clocks.len() >= ranges.len());
+    let heard = taken.measured.iter().find_map(|received| match &received.message {
+        Message::Ranges(told) => Some(told),
+        _ => None,
+    });
+    assert!(heard.is_some_and(|told| told.ranges.is_empty() && told.heard.len() >= 5));
     let receipts: Vec<Time> = taken.measured.iter().map(|received| received.receipt).collect();
     assert!(receipts.is_sorted());
     let begun = |own: &(Time, Happening)| matches!(own.1, Happening::Ranges { used: true, .. });
