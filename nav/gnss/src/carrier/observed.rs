@@ -57,7 +57,8 @@ impl Observed {
             Some(Phase {
                 signal: signal.signal,
                 phase: (told_phase(signal)? - turns) * signal.wavelength()?,
-                variance: noise * inflation(direction.elevation, signal.cn0),
+                // what phases are off by from epoch to epoch is of orbits and the air: weak ones are hardly worse
+                variance: noise * inflation(direction.elevation, None),
                 dispersion: dispersion(satellite, signal.signal)?,
                 lock: if signal.slip { Some(0.0) } else { signal.lock },
             })
