@@ -13,7 +13,6 @@ use insd_base::units::wrap_pi;
 use insd_base::{Message, Received, SolutionSigma};
 
 use super::Filter;
-use super::ahead::heading_std;
 use super::satellites::Satellites;
 use crate::declaration::Carried;
 use crate::error_state::POSITION;
@@ -91,14 +90,10 @@ impl Filter {
     /// The same of the headings.
     fn turned_from(&self, companion: &Filter) -> f64 {
         let apart = self.view().attitude().heading - companion.view().attitude().heading;
-        wrap_pi(apart).abs() / own_heading_std(self).hypot(own_heading_std(companion))
+        wrap_pi(apart).abs() / self.own_heading_std().hypot(companion.own_heading_std())
     }
 
     fn difference_to(&self, companion: &Filter) -> SolutionSigma {
         difference(&self.view(), &self.state.nominal.error_to(&companion.state.nominal))
     }
-}
-
-fn own_heading_std(filter: &Filter) -> f64 {
-    heading_std(&filter.view(), &filter.state.covariance)
 }

@@ -219,6 +219,11 @@ impl Filter {
         WORSE.powi(self.docket().worse().into())
     }
 
+    /// 1-sigma of the heading by the covariance alone, whatever else is claimed, rad.
+    pub(super) fn own_heading_std(&self) -> f64 {
+        heading_std(&self.view(), &self.state.covariance)
+    }
+
     /// What is to be done about an IMU that was found wrong.
     #[must_use]
     pub fn imu_state(&self) -> ImuState {
@@ -229,8 +234,7 @@ impl Filter {
         let docket = judge.docket();
         // what two say that lie alike is no reason to find a heading anew
         let is_vague = judge.finds_a_lie_likely() && !docket.may_be_two(self.state.time);
-        let own = || heading_std(&self.view(), &self.state.covariance);
-        let std = || if is_vague { self.heading_std() } else { own() };
+        let std = || if is_vague { self.heading_std() } else { self.own_heading_std() };
         let is_heading_lost = || self.is_settled() && std() > LOST_HEADING;
         let is_doubted = docket.imu_doubted_since().is_some_and(|at| at >= self.court.since);
         if docket.is_imu_condemned() || docket.wrong_imu_for() > PATIENCE {

@@ -6,10 +6,9 @@ use insd_estimation::Innovation;
 use nalgebra::Matrix3;
 
 use super::Filter;
-use super::ahead::heading_std;
 use super::entry::{Judged, NO_INNOVATION, enter};
 use super::gnss::SLACK;
-use super::satellites::Slot;
+use super::satellites::{Slot, are_most};
 use crate::aids::satellite_range::{self, Antenna, Sighted};
 use crate::declaration::Carried;
 use crate::error_state::{
@@ -111,10 +110,9 @@ impl Filter {
     /// What was claimed of the heading because somebody may lie is what the filter itself takes it for from now on.
     fn take_over_claims(&mut self) {
         let Some(covered) = self.court.covered.take() else { return };
-        let view = self.view();
-        let own = heading_std(&view, &self.state.covariance);
+        let own = self.own_heading_std();
         let more = covered.heading * covered.heading - own * own;
-        let down = view.c_ne.row(2).transpose();
+        let down = self.view().c_ne.row(2).transpose();
         ATTITUDE.add(&mut self.state.covariance, &(down * down.transpose() * more.max(0.0)));
     }
 
@@ -289,8 +287,7 @@ impl Filter {
         let mut left_out = Vec::new();
         let all = rows.of.len();
         let weighed = loop {
-            // the last quarter is not believed against all others
-            if all > 4 && 4 * left_out.len() >= 3 * all {
+            if are_most(left_out.len(), all) {
                 break None;
             }
             let Some(weighed) = rows.all.weigh(&self.state.covariance) else { break None };

@@ -88,7 +88,7 @@ impl Satellites {
         let heard = self.slots.iter().flatten().filter(|slot| slot.seen == now);
         let (all, out) =
             heard.fold((0, 0), |(all, out), slot| (all + 1, out + usize::from(slot.is_excluded())));
-        let is_strife = all >= FEW && 4 * out >= 3 * all;
+        let is_strife = are_most(out, all);
         let since = is_strife.then(|| self.strife.unwrap_or(now));
         self.strife = since;
         since.map(|since| (now - since).as_seconds())
@@ -134,4 +134,9 @@ impl Satellites {
     pub(super) fn slot_mut(&mut self, place: usize) -> Option<&mut Slot> {
         self.slots.get_mut(place)?.as_mut()
     }
+}
+
+/// Whether so many out of all satellites are nearly all: what the rest says is not believed against them.
+pub(super) fn are_most(some: usize, all: usize) -> bool {
+    all >= FEW && 4 * some >= 3 * all
 }
