@@ -320,7 +320,10 @@ impl Estimator for Filter {
                 self.note_antenna(fix);
                 Self::pass_over(fix, received.source, &mut report);
             }
-            Message::Gnss(fix) => self.apply_gnss(fix, received.source, &mut report),
+            Message::Gnss(fix) => {
+                self.satellites.replaced_by_fix();
+                self.apply_gnss(fix, received.source, &mut report);
+            }
             Message::Log(log) => {
                 self.keeping_course(|own| own.apply_log(log, received.source, &mut report));
             }

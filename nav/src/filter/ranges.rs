@@ -12,7 +12,8 @@ use super::satellites::{Slot, are_most};
 use crate::aids::satellite_range::{self, Antenna, Sighted};
 use crate::declaration::Carried;
 use crate::error_state::{
-    ATTITUDE, PHASE_CONSTANTS, PHASE_DRIFT, PHASE_DRIFTS, RANGE_ERRORS, REFLECTIONS, Weighed,
+    ATTITUDE, PHASE_CONSTANTS, PHASE_DRIFT, PHASE_DRIFTS, POSITION, RANGE_ERRORS, REFLECTIONS,
+    Weighed,
 };
 use crate::judge::Aid;
 use crate::receiver_clock;
@@ -34,6 +35,8 @@ const SLIP: f64 = 0.03;
 const JUMP: f64 = 300.0;
 /// How stiff masts are taken to be where phases tell, 1-sigma, m.
 const SLACK_PHASE: f64 = 0.01;
+/// A place of which the ranges of enough satellites tell all, 1-sigma, m.
+const UNKNOWN_PLACE: f64 = 30.0;
 /// A constant of which nothing is known, m.
 const UNKNOWN_CONSTANT: f64 = 100.0;
 
@@ -101,9 +104,20 @@ impl Filter {
             receiver_clock::renew(&mut state.nominal, &mut state.covariance, offset, Some(drift));
             self.satellites.last = Some(self.state.time);
         }
+        if told.clock.is_some() && self.satellites.place() {
+            self.forget_fixed_place();
+        }
         if is_first {
             self.take_over_claims();
             self.be_judged();
+        }
+    }
+
+    /// Fixes have the slow errors of the same orbits and the same air: a place that they told would be counted twice.
+    fn forget_fixed_place(&mut self) {
+        if self.receiver.rtk != Some(true) {
+            let unknown = Matrix3::from_diagonal_element(UNKNOWN_PLACE * UNKNOWN_PLACE);
+            POSITION.renew(&mut self.state.covariance, &unknown);
         }
     }
 

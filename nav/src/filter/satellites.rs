@@ -60,6 +60,8 @@ pub(super) struct Satellites {
     source: Option<Source>,
     /// Since when the filter and nearly all of them contradict each other.
     strife: Option<Time>,
+    /// Whether the place is known by ranges, and not by fixes.
+    places: bool,
 }
 
 impl Satellites {
@@ -75,6 +77,16 @@ impl Satellites {
             self.slots.iter_mut().flatten().for_each(|slot| slot.arc = None);
         }
         is_other
+    }
+
+    /// The place is known by them from now on; returns whether it was known by fixes before.
+    pub(super) fn place(&mut self) -> bool {
+        !std::mem::replace(&mut self.places, true)
+    }
+
+    /// A fix has told the place.
+    pub(super) fn replaced_by_fix(&mut self) {
+        self.places = false;
     }
 
     /// Those that are left out.

@@ -1,8 +1,9 @@
 //! A ship among cranes: ranges of satellites where there are too few for a fix.
 
-use insd_base::satellites::{SatelliteUse, Sky, SkySatellite};
+use insd_base::satellites::{SatelliteRanges, SatelliteUse, Sky, SkySatellite, time_keeper};
 use insd_base::{
-    Event, Message, Party, Received, Rejection, SatelliteId, Solution, Truth, Voyage, earth,
+    Event, Geodetic, Message, Party, Received, Rejection, SatelliteId, Solution, Time, Truth,
+    Voyage, earth,
 };
 use insd_config::VoyageCalendar;
 use insd_engine::{Engine, EngineConfig, Output};
@@ -10,7 +11,7 @@ use insd_gnss::{Context, Noise};
 use insd_lab::ranges;
 use insd_simulator::{RawGnss, Scenario, raw_gnss, simulate};
 use insd_tests::sailing::sail_messages;
-use nalgebra::Vector2;
+use nalgebra::{SMatrix, Vector2};
 
 use crate::figure;
 
@@ -74,6 +75,36 @@ fn segment(errors: &[(f64, Vector2<f64>, Vector2<f64>)], from: f64, to: f64) -> 
     let nees =
         within.iter().map(|(_, error, sigma)| error.component_div(sigma).norm_squared() / 2.0);
     ((moved / count).sqrt(), nees.sum::<f64>() / count)
+}
+
+/// What the slow errors of all ranges of an epoch leave open of the place, north and east, 1-sigma, m, by least squares with a clock for each system.
+fn left_open(ranges: &SatelliteRanges, at: &Geodetic) -> Vector2<f64> {
+    let antenna = earth::ecef(at).0;
+    let mut normal = SMatrix::<f64, 7, 7>::identity() * 1e-9;
+    for range in &ranges.ranges {
+        let mut row = SMatrix::<f64, 1, 7>::zeros();
+        let line = earth::c_ne(at) * range.transmitter.line(&antenna);
+        row.fixed_columns_mut::<3>(0).copy_from(&-line.transpose());
+        row[3 + time_keeper(range.satellite.constellation) as usize % 4] = 1.0;
+        normal += row.transpose() * row / range.slow_std.powi(2);
+    }
+    normal.try_inverse().unwrap().diagonal().xy().map(f64::sqrt)
+}
+
+#[test]
+fn what_fixes_and_ranges_say_of_the_same_orbits_is_counted_once() {
+    let scenario = tight_port();
+    let (voyage, raw) = (simulate(&scenario, 1), raw_gnss(&scenario, 1).unwrap());
+    let config = EngineConfig::for_voyage(&voyage.header, 1.0);
+    let mut messages = messages(&voyage, Some(&raw));
+    messages.retain(|received| received.receipt < Time::from_seconds(130.0));
+    let ranges = messages.iter().rev().find_map(|received| match &received.message {
+        Message::Ranges(ranges) => Some(ranges.clone()),
+        _ => None,
+    });
+    let last = sail_messages(&config, &messages, 100).solutions.pop().unwrap();
+    let (open, claimed) = (left_open(&ranges.unwrap(), &last.position), last.sigma.position.0);
+    assert!(claimed.x > 0.85 * open.x && claimed.y > 0.85 * open.y, "{claimed} of {open}");
 }
 
 #[test]
