@@ -12,7 +12,6 @@ use nalgebra::{DMatrix, DVector};
 use statrs::function::erf::erf;
 
 use reduction::Reduced;
-pub use search::STEPS;
 
 /// A vector of integers, and how far it lies from the measured one.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +29,7 @@ pub enum IntegerRefusal {
     Malformed,
     /// The covariance is not positive definite.
     NotDefinite,
-    /// The measured numbers are so poor that the search took more than [`STEPS`] steps.
+    /// The measured numbers are so poor that the search did not end.
     TooMany,
 }
 
@@ -71,7 +70,7 @@ impl IntegerSearch {
         Ok(Self { reduced, whole, rest })
     }
 
-    /// The nearest vectors, nearest first; fewer where the search ends before.
+    /// The nearest vectors, nearest first.
     ///
     /// # Errors
     /// [`IntegerRefusal::TooMany`] where the search does not end.

@@ -27,7 +27,7 @@ pub use orbit::SatelliteState;
 pub use ranging::{Guess, Ranged, Ranging};
 pub use rtk::{
     BaseEpoch, DifferencedRows, DoubleDifferences, PairAmbiguity, RoverPrior, RtkFix, RtkRefusal,
-    RtkSettings, RtkSolution, SignalPair,
+    RtkSettings, RtkSolution, RtkTracker, RtkWithdrawal, SignalPair,
 };
 pub use sight::Sight;
 pub use signals::{Noise, best_of_each_band, dispersion, first_band, group_delay, inflation};

@@ -1,88 +1,103 @@
-//! Rovers against bases of real sets: one table.
-#![allow(clippy::unwrap_used)]
+//! Rovers against bases of real receivers: the table of docs/rtk.md.
+//!
+//! ```text
+//! INSD_RAW_GNSS=... cargo run --release -p insd-gnss --example rtk
+//! ```
+
+#![allow(clippy::unwrap_used)] // a file that is missing ends it
 
 #[path = "../../tests/sets/mod.rs"]
 mod sets;
 
-use insd_base::{Ecef, earth};
-use insd_gnss::{BaseEpoch, RtkSettings, RtkSolution};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use insd_gnss::{BaseEpoch, RtkRefusal, RtkSettings, RtkTracker};
 use nalgebra::Vector3;
+use sets::{PAIRS, Pair, horizontal, vertical};
+
+const HEAD: &str = "| set, constellations, bands | epochs | fixed | wrong | of parts | horizontal RMS, mm | vertical | withdrawn | not fixed because |\n\
+    |---|---|---|---|---|---|---|---|---|";
 
 fn main() {
-    let folder = sets::folder().unwrap();
-    let settings = RtkSettings::default();
-    let verbose = std::env::args().nth(1);
-    for pair in &sets::PAIRS {
-        let context = pair.context(&folder);
-        let (mut fixed, mut wrong, mut n, mut h2, mut v2, mut doubts, mut floats) =
-            (0, 0, 0, 0.0, 0.0, 0.0, 0.0);
-        let mut attempts = [0; 12];
-        let mut reasons = std::collections::BTreeMap::<String, usize>::new();
-        for moment in pair.moments(&folder) {
-            n += 1;
-            let base = BaseEpoch { epoch: &moment.base, position: Vector3::from(pair.base_at) };
-            let told = RtkSolution::single_epoch(&context, &settings, &moment.rover, &base, None);
-            let truth = moment.truth.unwrap();
-            let told = match told {
-                Ok(told) => told,
-                Err(why) => {
-                    *reasons.entry(format!("{why}")).or_default() += 1;
-                    continue;
-                }
-            };
-            let off = enu(&truth, &(told.position() - truth));
-            floats += enu(&truth, &(told.float - truth)).xy().norm_squared();
-            match &told.fixed {
-                Ok(fix) => {
-                    fixed += 1;
-                    attempts[fix.attempts] += 1;
-                    doubts += fix.doubt;
-                    if off.norm() > 0.1 {
-                        wrong += 1
-                    } else {
-                        h2 += off.xy().norm_squared();
-                        v2 += off.z * off.z;
-                    }
-                    if verbose.as_deref().is_some_and(|v| pair.label.contains(v)) {
-                        println!(
-                            "{:?} off {:.3} {:.3} {:.3} ratio {:.2} success {:.4} doubt {:.1e} level {:.2} n {} of {} att {}",
-                            told.tag,
-                            off.x,
-                            off.y,
-                            off.z,
-                            fix.ratio,
-                            fix.success,
-                            fix.doubt,
-                            fix.level,
-                            fix.integers.len(),
-                            told.phases,
-                            fix.attempts
-                        );
-                    }
-                }
-                Err(why) => {
-                    let text = format!("{why:?}");
-                    if verbose.as_deref().is_some_and(|v| pair.label.contains(v)) {
-                        println!("{:?} {why} of {}", told.tag, told.phases);
-                    }
-                    *reasons.entry(text.split(' ').next().unwrap().to_owned()).or_default() += 1;
-                }
-            }
-        }
-        let good = f64::from(fixed - wrong).max(1.0);
-        println!(
-            "{}: {n} epochs, {fixed} fixed, {wrong} wrong, H {:.2} mm V {:.2} mm, doubt {:.1e}, float H {:.2} m, attempts {:?} {reasons:?}",
-            pair.label,
-            (h2 / good).sqrt() * 1e3,
-            (v2 / good).sqrt() * 1e3,
-            doubts,
-            (floats / n as f64).sqrt(),
-            attempts
-        );
+    let Some(folder) = sets::folder() else { return };
+    println!("{HEAD}");
+    for pair in &PAIRS {
+        let single = RtkTracker::single_epoch(RtkSettings::default());
+        println!("{}", Judged::of(pair, &folder, single).row(pair, "single"));
+        let continuous = RtkTracker::continuous(RtkSettings::default());
+        println!("{}", Judged::of(pair, &folder, continuous).row(pair, "continuous"));
     }
 }
 
-fn enu(at: &Vector3<f64>, off: &Vector3<f64>) -> Vector3<f64> {
-    let ned = earth::c_ne(&earth::geodetic(&Ecef(*at))) * off;
-    Vector3::new(ned.y, ned.x, -ned.z)
+/// What was found of a set.
+#[derive(Default)]
+struct Judged {
+    epochs: usize,
+    fixed: usize,
+    wrong: usize,
+    of_parts: usize,
+    withdrawn: usize,
+    horizontal: f64,
+    vertical: f64,
+    refused: BTreeMap<&'static str, usize>,
+}
+
+impl Judged {
+    fn of(pair: &Pair, folder: &Path, mut tracker: RtkTracker) -> Self {
+        let context = pair.context(folder);
+        let mut judged = Self::default();
+        for moment in pair.moments(folder) {
+            judged.epochs += 1;
+            let base = BaseEpoch { epoch: &moment.base, position: Vector3::from(pair.base_at) };
+            let told = tracker.take(&context, &moment.rover, &base, None);
+            let fix = match told.and_then(|told| told.fixed) {
+                Ok(fix) => fix,
+                Err(why) => {
+                    *judged.refused.entry(reason(&why)).or_default() += 1;
+                    continue;
+                }
+            };
+            let off = fix.position - moment.truth.unwrap();
+            judged.fixed += 1;
+            judged.of_parts += usize::from(fix.attempts > 1);
+            if off.norm() > 0.1 {
+                judged.wrong += 1;
+            } else {
+                judged.horizontal += horizontal(&fix.position, &off).powi(2);
+                judged.vertical += vertical(&fix.position, &off).powi(2);
+            }
+        }
+        judged.withdrawn = tracker.withdrawals();
+        judged
+    }
+
+    fn row(&self, pair: &Pair, epochs: &str) -> String {
+        let right = (self.fixed - self.wrong).max(1) as f64;
+        let rms = |squares: f64| (squares / right).sqrt() * 1e3;
+        let refused: Vec<_> =
+            self.refused.iter().map(|(why, count)| format!("{why} {count}")).collect();
+        format!(
+            "| {}, {epochs} | {} | {} | {} | {} | {:.1} | {:.1} | {} | {} |",
+            pair.label,
+            self.epochs,
+            self.fixed,
+            self.wrong,
+            self.of_parts,
+            rms(self.horizontal),
+            rms(self.vertical),
+            self.withdrawn,
+            refused.join(", "),
+        )
+    }
+}
+
+fn reason(why: &RtkRefusal) -> &'static str {
+    match why {
+        RtkRefusal::Ratio { .. } => "others as near",
+        RtkRefusal::Residuals { .. } => "residuals",
+        RtkRefusal::TooFewPhases { .. } => "few phases",
+        RtkRefusal::Prior { .. } => "prior",
+        _ => "no differences",
+    }
 }

@@ -6,7 +6,7 @@ use super::IntegerRefusal;
 use super::reduction::Reduced;
 
 /// The most steps of a search: some ten milliseconds, where a sound one has some hundred.
-pub const STEPS: usize = 200_000;
+pub(super) const STEPS: usize = 200_000;
 
 /// One level of the search.
 struct Level {

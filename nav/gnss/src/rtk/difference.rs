@@ -28,7 +28,6 @@ pub(super) struct Difference {
     pub(super) pair: SignalPair,
     /// The satellite as the rover saw it.
     pub(super) sight: Sight,
-    pub(super) elevation: f64,
     pub(super) code: f64,
     pub(super) phase: Option<f64>,
     pub(super) wavelength: f64,
@@ -39,8 +38,8 @@ pub(super) struct Difference {
     pub(super) shared: f64,
     /// Variance of the ionosphere on L1, m^2.
     pub(super) ionosphere: f64,
-    /// How long both have tracked it without a break, s; 0 where one says that it has lost it.
-    pub(super) lock: Option<f64>,
+    /// How long rover and base have tracked it without a break, s, by their own word.
+    pub(super) locks: [Option<f64>; 2],
     /// A phase is there, but may be wrong by half a cycle.
     pub(super) is_half: bool,
 }
@@ -117,16 +116,15 @@ impl Scene<'_> {
         let clocks = SPEED_OF_LIGHT * (rover.sight.satellite.clock - base.sight.satellite.clock)
             + at_base
             - (rover.delays.troposphere - base.delays.troposphere);
-        let bent = dispersion * (rover.delays.ionosphere - base.delays.ionosphere);
+        let model = f64::from(u8::from(self.settings.ionosphere_model));
+        let bent = model * dispersion * (rover.delays.ionosphere - base.delays.ionosphere);
         let is_half = own.half_cycle || other.half_cycle;
         let phases = told_phase(own).zip(told_phase(other)).filter(|_| !is_half);
-        let lock = |signal: &SignalObservation| if signal.slip { Some(0.0) } else { signal.lock };
         let variance = |of: &dyn Fn(Option<f64>) -> f64| of(own.cn0) + of(other.cn0);
         let (shared, ionosphere) = self.slow(elevation);
         Some(Difference {
             pair,
             sight: rover.sight,
-            elevation,
             code: told_code(own)? - told_code(other)? + clocks - bent,
             phase: phases.map(|(own, other)| (own - other) * wavelength + clocks + bent),
             wavelength,
@@ -135,10 +133,7 @@ impl Scene<'_> {
             phase_variance: variance(&|cn0| self.settings.phase_variance(elevation, cn0)),
             shared,
             ionosphere,
-            lock: match (lock(own), lock(other)) {
-                (Some(one), Some(two)) => Some(one.min(two)),
-                (one, two) => one.or(two),
-            },
+            locks: [own.lock, other.lock],
             is_half,
         })
     }

@@ -15,6 +15,13 @@ pub struct PairAmbiguity {
     pub reference: SatelliteId,
 }
 
+impl PairAmbiguity {
+    /// The reference as it is tracked.
+    pub(super) fn reference(&self) -> SignalPair {
+        SignalPair { satellite: self.reference, ..self.pair }
+    }
+}
+
 /// What a row is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -38,6 +45,8 @@ pub struct DoubleDifferences {
     rows: Vec<Row>,
     codes: usize,
     ambiguities: Vec<PairAmbiguity>,
+    /// Whole cycles of each ambiguity by its codes, cycles: near enough that nothing is lost by taking them off.
+    whole: DVector<f64>,
 }
 
 /// Double differences around a position, linear in what it and the ambiguities are off by:
@@ -82,9 +91,21 @@ impl DoubleDifferences {
                 ambiguities.push(PairAmbiguity { pair: single.pair, reference });
             }
         }
+        let whole = phases.iter().map(|row: &Row| {
+            let (own, other) = (&singles[row.of], &singles[row.less]);
+            let apart = |one: &Difference| one.phase.map_or(0.0, |phase| phase - one.code);
+            ((apart(own) - apart(other)) / own.wavelength).round()
+        });
+        let whole = DVector::from_iterator(phases.len(), whole);
         let count = codes.len();
         codes.extend(phases);
-        Self { singles, rows: codes, codes: count, ambiguities }
+        Self { singles, rows: codes, codes: count, ambiguities, whole }
+    }
+
+    /// Whole cycles of each ambiguity as the codes have them, to some cycles: where to begin.
+    #[must_use]
+    pub fn whole_cycles(&self) -> &DVector<f64> {
+        &self.whole
     }
 
     /// Which ambiguities there are.
@@ -140,6 +161,16 @@ impl DoubleDifferences {
         DVector::from_fn(self.codes, |place, _| {
             let row = &self.rows[place];
             f64::from(u8::from(row.of == single)) - f64::from(u8::from(row.less == single))
+        })
+    }
+
+    /// Rows of phase that a single difference is in, with their signs.
+    pub(super) fn phases_with(&self, single: usize) -> DVector<f64> {
+        DVector::from_fn(self.rows.len(), |place, _| {
+            let row = &self.rows[place];
+            let is_phase = row.kind != Kind::Code;
+            f64::from(u8::from(is_phase && row.of == single))
+                - f64::from(u8::from(is_phase && row.less == single))
         })
     }
 

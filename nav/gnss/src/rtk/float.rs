@@ -16,6 +16,8 @@ pub(super) struct Float {
     pub(super) covariance: DMatrix<f64>,
     /// Sum of the weighed squares of the residuals, and degrees of freedom.
     pub(super) misfit: (f64, usize),
+    /// What is known beforehand of the noise: a sum of squares and of how many measurements.
+    pub(super) known: (f64, f64),
 }
 
 impl Float {
@@ -46,7 +48,7 @@ impl Float {
         prior: Option<&RoverPrior>,
     ) -> Option<(Self, f64)> {
         let count = differences.ambiguities().len();
-        let rows = differences.rows(near, &DVector::zeros(count));
+        let rows = differences.rows(near, differences.whole_cycles());
         let mut design = DMatrix::zeros(rows.residuals.len(), 3 + count);
         design.columns_mut(0, 3).copy_from(&rows.directions);
         for (row, ambiguity) in rows.ambiguities.iter().enumerate() {
@@ -75,9 +77,10 @@ impl Float {
         let misfit = (squares - solved.dot(&right)).max(0.0);
         let float = Self {
             position: near + step,
-            ambiguities: solved.rows(3, count).clone_owned(),
+            ambiguities: differences.whole_cycles() + solved.rows(3, count),
             covariance,
             misfit: (misfit, freedom.checked_sub(3 + count)?),
+            known: (0.0, 0.0),
         };
         Some((float, step.norm()))
     }

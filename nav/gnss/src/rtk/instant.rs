@@ -3,7 +3,7 @@
 use insd_base::SatelliteEpoch;
 use nalgebra::Vector3;
 
-use super::codes::screen;
+use super::codes::{CodeLevel, screen};
 use super::difference::{BaseEpoch, differences};
 use super::double::DoubleDifferences;
 use super::float::Float;
@@ -13,6 +13,9 @@ use super::resolve::resolve;
 use super::settings::RtkSettings;
 use crate::context::Context;
 use crate::single_point::SinglePoint;
+
+/// How far from the middle of the Earth an antenna may be, m.
+const ON_EARTH: std::ops::Range<f64> = 6.3e6..6.5e6;
 
 impl DoubleDifferences {
     /// The double differences of a rover near a place, ECEF, m, and a base. Codes that contradict the others have next to no weight, and all weigh as their
@@ -26,6 +29,17 @@ impl DoubleDifferences {
         (rover, near): (&SatelliteEpoch, &Vector3<f64>),
         base: &BaseEpoch<'_>,
     ) -> Result<Self, RtkRefusal> {
+        Self::with_level(context, settings, (rover, near), base, &mut CodeLevel::default())
+    }
+
+    /// The same with what is known of the noise of codes.
+    pub(super) fn with_level(
+        context: &Context,
+        settings: &RtkSettings,
+        (rover, near): (&SatelliteEpoch, &Vector3<f64>),
+        base: &BaseEpoch<'_>,
+        level: &mut CodeLevel,
+    ) -> Result<Self, RtkRefusal> {
         let age = age(rover, base);
         if age.is_nan() || age.abs() > settings.oldest {
             return Err(RtkRefusal::Age { age, limit: settings.oldest });
@@ -34,7 +48,7 @@ impl DoubleDifferences {
         if own.codes() < 4 {
             return Err(RtkRefusal::TooFew { codes: own.codes() });
         }
-        screen(&mut own, near);
+        *level = screen(&mut own, near, *level);
         Ok(own)
     }
 
@@ -58,9 +72,22 @@ impl RtkSolution {
         base: &BaseEpoch<'_>,
         prior: Option<&RoverPrior>,
     ) -> Result<Self, RtkRefusal> {
+        Self::of_epoch(context, settings, (rover, base), prior, &mut CodeLevel::default())
+    }
+
+    /// The same with what is known of the noise of codes.
+    pub(super) fn of_epoch(
+        context: &Context,
+        settings: &RtkSettings,
+        (rover, base): (&SatelliteEpoch, &BaseEpoch<'_>),
+        prior: Option<&RoverPrior>,
+        level: &mut CodeLevel,
+    ) -> Result<Self, RtkRefusal> {
         let near = begin(context, rover, base, prior)?;
-        let own = DoubleDifferences::of_epochs(context, settings, (rover, &near), base)?;
+        let known = level.worth();
+        let own = DoubleDifferences::with_level(context, settings, (rover, &near), base, level)?;
         let float = Float::solve(&own, &near, prior).ok_or(RtkRefusal::Geometry)?;
+        let float = Float { known, ..float };
         Ok(Self {
             tag: rover.tag,
             age: age(rover, base),
@@ -69,29 +96,47 @@ impl RtkSolution {
             phases: own.ambiguities().len(),
             half_cycles: own.half_cycles(),
             fixed: resolve(&own, &float, settings, prior),
+            withdrawn: None,
         })
     }
 }
 
-/// A place to begin at.
+/// A place to begin at, and a base that is where it says.
 pub(super) fn begin(
     context: &Context,
     rover: &SatelliteEpoch,
     base: &BaseEpoch<'_>,
     prior: Option<&RoverPrior>,
 ) -> Result<Vector3<f64>, RtkRefusal> {
-    const ON_EARTH: std::ops::Range<f64> = 6.3e6..6.5e6;
+    check_base(context, base)?;
+    match prior.filter(|prior| ON_EARTH.contains(&prior.position.norm())) {
+        Some(prior) => Ok(prior.position),
+        None => {
+            let point = SinglePoint::solve(context, rover, None).map_err(RtkRefusal::Rover)?;
+            Ok(point.position)
+        }
+    }
+}
+
+/// The base's coordinates against its own codes, which know it to metres: a base that is taken for another, or for the rover, is found.
+fn check_base(context: &Context, base: &BaseEpoch<'_>) -> Result<(), RtkRefusal> {
+    const SIGMAS: f64 = 6.0;
+    // what errors of orbits and air share among satellites for an hour
+    const SLOW: f64 = 10.0;
     if !ON_EARTH.contains(&base.position.norm()) {
-        return Err(RtkRefusal::BasePlace);
+        return Err(RtkRefusal::BasePlace { off: base.position.norm(), limit: SLOW });
     }
-    if let Some(prior) = prior.filter(|prior| ON_EARTH.contains(&prior.position.norm())) {
-        return Ok(prior.position);
+    let point = SinglePoint::solve(context, base.epoch, Some(base.position));
+    let point = point.map_err(RtkRefusal::Base)?;
+    let off = (point.position - base.position).norm();
+    let limit = SLOW + SIGMAS * point.covariance.trace().max(0.0).sqrt();
+    if off > limit {
+        return Err(RtkRefusal::BasePlace { off, limit });
     }
-    let point = SinglePoint::solve(context, rover, None).map_err(RtkRefusal::Rover)?;
-    Ok(point.position)
+    Ok(())
 }
 
 /// By how much the base's epoch is older, s.
-fn age(rover: &SatelliteEpoch, base: &BaseEpoch<'_>) -> f64 {
+pub(super) fn age(rover: &SatelliteEpoch, base: &BaseEpoch<'_>) -> f64 {
     rover.tag.since(base.epoch.tag).as_seconds()
 }

@@ -26,6 +26,17 @@ pub struct RtkSolution {
     pub half_cycles: usize,
     /// The antenna with integer ambiguities, or why they are not believed.
     pub fixed: Result<RtkFix, RtkRefusal>,
+    /// An earlier fix that this epoch contradicts, if one is: positions since then were wrong.
+    pub withdrawn: Option<RtkWithdrawal>,
+}
+
+/// Integers that were believed and are no longer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RtkWithdrawal {
+    /// When they were believed first.
+    pub since: GpsTime,
+    /// Epochs that were fixed with them.
+    pub epochs: usize,
 }
 
 impl RtkSolution {
@@ -75,8 +86,15 @@ pub enum RtkRefusal {
         /// The most that is taken, s.
         limit: f64,
     },
-    /// The base's coordinates are no place on Earth.
-    BasePlace,
+    /// The base's coordinates are not where its codes have it.
+    BasePlace {
+        /// Off, m.
+        off: f64,
+        /// The most that is taken, m.
+        limit: f64,
+    },
+    /// The base's codes give no place to hold against its coordinates.
+    Base(NoPosition),
     /// The rover's codes give no place to begin at.
     Rover(NoPosition),
     /// Too few satellites are heard by both.
@@ -120,7 +138,10 @@ impl fmt::Display for RtkRefusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Age { age, limit } => write!(f, "base data {age:.1} s old, at most {limit:.0}"),
-            Self::BasePlace => write!(f, "the base's coordinates are not on Earth"),
+            Self::BasePlace { off, limit } => {
+                write!(f, "base {off:.0} m from its coordinates by its codes, at most {limit:.0}")
+            }
+            Self::Base(_) => write!(f, "the base's codes give no place"),
             Self::Rover(_) => write!(f, "the codes give no place to begin at"),
             Self::TooFew { codes } => write!(f, "too few satellites in common ({codes} codes)"),
             Self::Geometry => write!(f, "satellites in common determine no position"),

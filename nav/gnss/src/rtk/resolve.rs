@@ -1,6 +1,8 @@
 //! From real ambiguities to integers that are believed.
 
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::double::DoubleDifferences;
 use super::float::Float;
@@ -10,15 +12,16 @@ use super::settings::RtkSettings;
 use crate::integers::{IntegerRefusal, IntegerSearch, IntegerVector};
 
 /// How many measurements the assumed noise is worth against what is seen of it.
-const WORTH: f64 = 10.0;
+const WORTH: f64 = 3.0;
 /// Candidates that are weighed against each other.
-const CANDIDATES: usize = 6;
+const CANDIDATES: usize = 20;
 /// Fewest differences of phase: three make a position, and one has to check it.
 const FEWEST: usize = 4;
 /// The most that residuals may be above their assumed variance.
 const LEVEL: f64 = 6.0;
 
-/// Searches integers for the whole, then without the satellites of poorest phases, one more each time, until a part passes.
+/// Searches integers for the whole, then without the satellites of poorest phases, one more each time, until a part passes. Each attempt has its share of
+/// the risk.
 pub(super) fn resolve(
     differences: &DoubleDifferences,
     float: &Float,
@@ -27,8 +30,8 @@ pub(super) fn resolve(
 ) -> Result<RtkFix, RtkRefusal> {
     let mut kept: Vec<usize> = (0..float.ambiguities.len()).collect();
     let mut refusal = None;
-    let allowed = settings.risk / settings.attempts.max(1) as f64;
     for attempt in 1..=settings.attempts.max(1) {
+        let allowed = settings.share(attempt);
         if kept.len() < FEWEST {
             break;
         }
@@ -42,6 +45,26 @@ pub(super) fn resolve(
         kept.retain(|place| satellite(differences, *place) != poorest);
     }
     Err(refusal.unwrap_or(RtkRefusal::TooFewPhases { phases: float.ambiguities.len() }))
+}
+
+/// What is known beforehand and what integers make of it must not contradict each other.
+fn agree(
+    position: &Vector3<f64>,
+    covariance: &DMatrix<f64>,
+    prior: Option<&RoverPrior>,
+) -> Result<(), RtkRefusal> {
+    // chi-square of three, once in ten thousand
+    const FAR: f64 = 21.1;
+    let Some((expected, of_prior)) = prior.and_then(|p| Some((p.position, p.covariance?))) else {
+        return Ok(());
+    };
+    let off = position - expected;
+    let both: Matrix3<f64> = of_prior + covariance.fixed_view::<3, 3>(0, 0);
+    let distance = both.cholesky().map_or(0.0, |factor| off.dot(&factor.solve(&off)));
+    if distance > FAR {
+        return Err(RtkRefusal::Prior { off: off.norm(), sigmas: distance.sqrt() });
+    }
+    Ok(())
 }
 
 fn satellite(differences: &DoubleDifferences, ambiguity: usize) -> insd_base::SatelliteId {
@@ -99,7 +122,7 @@ impl Attempt<'_> {
         let (position, after) = self.conditioned(&measured, &covariance, best)?;
         let (runner_up, _) = self.conditioned(&measured, &covariance, second)?;
         let integers = self.kept.iter().zip(&best.integers);
-        let _ = prior;
+        agree(&position, &after, prior)?;
         Ok(RtkFix {
             position,
             covariance: after.fixed_view::<3, 3>(0, 0) * level.max(1.0),
@@ -125,11 +148,21 @@ impl Attempt<'_> {
     /// check it, and much more where little is.
     fn doubt(&self, found: &[IntegerVector]) -> f64 {
         let (misfit, freedom) = self.float.misfit;
-        let power = (WORTH + (freedom + self.kept.len()) as f64) / 2.0;
-        let total = |vector: &IntegerVector| WORTH + misfit + vector.distance;
+        let (chi_square, count) = self.shared(&found[0]);
+        let power = (WORTH + count + (freedom + self.kept.len()) as f64) / 2.0;
+        let total = |vector: &IntegerVector| WORTH + chi_square + misfit + vector.distance;
         let best = total(&found[0]);
         let others: f64 = found[1..].iter().map(|other| (best / total(other)).powf(power)).sum();
         others / (1.0 + others)
+    }
+
+    /// What is known of the noise by earlier codes, unless these integers leave more than that noise: then it does not hold for phases.
+    fn shared(&self, best: &IntegerVector) -> (f64, f64) {
+        let (chi_square, count) = self.float.known;
+        let level = (WORTH + chi_square) / (WORTH + count);
+        let law = ChiSquared::new(self.kept.len() as f64);
+        let is_alike = law.is_ok_and(|law| law.sf(best.distance / level) > 1e-3);
+        if is_alike { (chi_square, count) } else { (0.0, 0.0) }
     }
 
     /// Position and covariance of all, if these are the integers.

@@ -11,6 +11,8 @@ pub struct RtkSettings {
     pub phase: f64,
     /// C/N0 below which phases are worse than their elevation says, dB Hz: that of a signal that comes through leaves or round a corner.
     pub weak: f64,
+    /// Whether the broadcast model of the ionosphere is taken out of the differences.
+    pub ionosphere_model: bool,
     /// 1-sigma of what the ionosphere adds on L1 at the zenith for each metre between the antennas.
     pub ionosphere: f64,
     /// The same of the troposphere.
@@ -33,11 +35,12 @@ impl Default for RtkSettings {
             code: 0.3,
             phase: 0.003,
             weak: 34.0,
-            ionosphere: 1e-6,
+            ionosphere_model: false,
+            ionosphere: 3e-7,
             troposphere: 3e-7,
             lowest: 10_f64.to_radians(),
             oldest: 30.0,
-            risk: 1e-3,
+            risk: 3e-3,
             success: 0.99,
             attempts: 10,
         }
@@ -45,6 +48,14 @@ impl Default for RtkSettings {
 }
 
 impl RtkSettings {
+    /// The risk of one attempt: half of it for the whole, and the other half shared among parts.
+    pub(super) fn share(&self, attempt: usize) -> f64 {
+        if attempt == 1 || self.attempts < 2 {
+            return self.risk / 2.0;
+        }
+        self.risk / (2 * (self.attempts - 1)) as f64
+    }
+
     /// Variance of one receiver's code, m^2.
     pub(super) fn code_variance(&self, elevation: f64, cn0: Option<f64>) -> f64 {
         2.0 * self.code.powi(2) * inflation(elevation, cn0)

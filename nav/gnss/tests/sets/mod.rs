@@ -197,3 +197,13 @@ fn contents(path: &Path) -> Vec<u8> {
     }
     std::fs::read(path).unwrap()
 }
+
+/// The horizontal part of what lies off a place, m.
+pub(crate) fn horizontal(at: &Vector3<f64>, off: &Vector3<f64>) -> f64 {
+    (earth::c_ne(&earth::geodetic(&insd_base::Ecef(*at))) * off).xy().norm()
+}
+
+/// The vertical part, m, down.
+pub(crate) fn vertical(at: &Vector3<f64>, off: &Vector3<f64>) -> f64 {
+    (earth::c_ne(&earth::geodetic(&insd_base::Ecef(*at))) * off).z
+}

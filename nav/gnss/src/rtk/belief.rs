@@ -1,0 +1,110 @@
+//! Integers that are believed, and whether later epochs bear them out.
+
+use std::collections::BTreeMap;
+
+use insd_base::GpsTime;
+use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use super::arcs::Arcs;
+use super::double::{DoubleDifferences, PairAmbiguity};
+use super::float::Float;
+use super::outcome::{RtkFix, RtkWithdrawal};
+use super::pairing::{Group, SignalPair};
+
+/// What is believed is contradicted when chance makes it as unlikely once in so many epochs.
+const CONTRADICTED: f64 = 1e-7;
+
+/// Believed integers of signals, each up to a number that all of its group share.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Belief {
+    integers: BTreeMap<SignalPair, i64>,
+    since: Option<GpsTime>,
+    epochs: usize,
+}
+
+impl Belief {
+    /// Forgets signals whose arcs have ended or begun anew.
+    pub(super) fn keep(&mut self, arcs: &Arcs) {
+        self.integers.retain(|pair, _| arcs.state_of(*pair).is_some() && !arcs.is_new(*pair));
+        if self.integers.is_empty() {
+            *self = Self::default();
+        }
+    }
+
+    /// What is believed of an ambiguity.
+    fn of(&self, ambiguity: &PairAmbiguity) -> Option<i64> {
+        Some(self.integers.get(&ambiguity.pair)? - self.integers.get(&ambiguity.reference())?)
+    }
+
+    /// Whether real ambiguities have come to contradict what is believed.
+    fn is_contradicted(&self, differences: &DoubleDifferences, float: &Float, level: f64) -> bool {
+        let believed: Vec<(usize, i64)> = differences
+            .ambiguities()
+            .iter()
+            .enumerate()
+            .filter_map(|(place, ambiguity)| Some((place, self.of(ambiguity)?)))
+            .collect();
+        if believed.is_empty() {
+            return false;
+        }
+        let count = believed.len();
+        let off =
+            DVector::from_fn(count, |i, _| float.ambiguities[believed[i].0] - believed[i].1 as f64);
+        let covariance = DMatrix::from_fn(count, count, |i, j| {
+            float.covariance[(3 + believed[i].0, 3 + believed[j].0)]
+        });
+        let Some(factor) = covariance.cholesky() else { return false };
+        let distance = off.dot(&factor.solve(&off)) / level.max(1.0);
+        ChiSquared::new(count as f64).is_ok_and(|law| law.sf(distance) < CONTRADICTED)
+    }
+
+    /// Takes what an epoch has come to. Gives back what is withdrawn, if it contradicts what was believed.
+    pub(super) fn take(
+        &mut self,
+        tag: GpsTime,
+        (differences, float): (&DoubleDifferences, &Float),
+        fix: Option<&RtkFix>,
+    ) -> Option<RtkWithdrawal> {
+        let level = float.misfit.0 / float.misfit.1.max(1) as f64;
+        let is_wrong = match fix {
+            Some(fix) => self.offsets(fix).is_none(),
+            None => self.is_contradicted(differences, float, level),
+        };
+        let withdrawn = self.since.filter(|_| is_wrong);
+        let withdrawn = withdrawn.map(|since| RtkWithdrawal { since, epochs: self.epochs });
+        if is_wrong {
+            *self = Self::default();
+        }
+        if let Some(fix) = fix {
+            self.believe(tag, fix);
+        }
+        withdrawn
+    }
+
+    /// By what the integers of each group are counted from another origin than before; `None` where they are not the same integers.
+    fn offsets(&self, fix: &RtkFix) -> Option<BTreeMap<Group, i64>> {
+        let mut offsets = BTreeMap::new();
+        for (ambiguity, integer) in &fix.integers {
+            for (pair, integer) in [(ambiguity.pair, *integer), (ambiguity.reference(), 0)] {
+                let Some(believed) = self.integers.get(&pair) else { continue };
+                let offset = believed - integer;
+                if *offsets.entry(pair.group()).or_insert(offset) != offset {
+                    return None;
+                }
+            }
+        }
+        Some(offsets)
+    }
+
+    fn believe(&mut self, tag: GpsTime, fix: &RtkFix) {
+        let offsets = self.offsets(fix).unwrap_or_default();
+        self.since.get_or_insert(tag);
+        self.epochs += 1;
+        for (ambiguity, integer) in &fix.integers {
+            let offset = offsets.get(&ambiguity.pair.group()).copied().unwrap_or(0);
+            self.integers.insert(ambiguity.reference(), offset);
+            self.integers.insert(ambiguity.pair, offset + integer);
+        }
+    }
+}

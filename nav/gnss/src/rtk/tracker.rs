@@ -1,0 +1,87 @@
+//! A rover that is followed from epoch to epoch.
+
+use insd_base::SatelliteEpoch;
+
+use super::arcs::Arcs;
+use super::belief::Belief;
+use super::codes::CodeLevel;
+use super::difference::BaseEpoch;
+use super::double::DoubleDifferences;
+use super::float::Float;
+use super::instant::{age, begin};
+use super::outcome::{RtkRefusal, RtkSolution};
+use super::prior::RoverPrior;
+use super::resolve::resolve;
+use super::settings::RtkSettings;
+use crate::context::Context;
+
+/// Follows a rover: by ambiguities that are carried on, or epoch by epoch with nothing but the noise of codes remembered.
+#[derive(Clone, Debug)]
+pub struct RtkTracker {
+    settings: RtkSettings,
+    level: CodeLevel,
+    arcs: Option<Arcs>,
+    belief: Belief,
+    withdrawals: usize,
+}
+
+impl RtkTracker {
+    /// Ambiguities are carried on as long as both receivers track.
+    #[must_use]
+    pub fn continuous(settings: RtkSettings) -> Self {
+        Self { arcs: Some(Arcs::default()), ..Self::single_epoch(settings) }
+    }
+
+    /// Each epoch stands for itself.
+    #[must_use]
+    pub fn single_epoch(settings: RtkSettings) -> Self {
+        let (level, belief) = (CodeLevel::default(), Belief::default());
+        Self { settings, level, arcs: None, belief, withdrawals: 0 }
+    }
+
+    /// How often a fix had to be withdrawn.
+    #[must_use]
+    pub fn withdrawals(&self) -> usize {
+        self.withdrawals
+    }
+
+    /// Takes an epoch, with what is known of the rover's place beforehand: with a covariance it counts as a measurement.
+    ///
+    /// # Errors
+    /// Why there is not even a position with real ambiguities.
+    pub fn take(
+        &mut self,
+        context: &Context,
+        rover: &SatelliteEpoch,
+        base: &BaseEpoch<'_>,
+        prior: Option<&RoverPrior>,
+    ) -> Result<RtkSolution, RtkRefusal> {
+        let Some(arcs) = &mut self.arcs else {
+            let level = &mut self.level;
+            return RtkSolution::of_epoch(context, &self.settings, (rover, base), prior, level);
+        };
+        arcs.hear(rover, base.epoch);
+        let near = begin(context, rover, base, prior)?;
+        let known = self.level.worth();
+        let level = &mut self.level;
+        let mut own =
+            DoubleDifferences::with_level(context, &self.settings, (rover, &near), base, level)?;
+        arcs.advance(rover.tag, &mut own);
+        let float = Float::carried(arcs, &own, &near, prior).ok_or(RtkRefusal::Geometry)?;
+        let float = Float { known, ..float };
+        self.belief.keep(arcs);
+        let fixed = resolve(&own, &float, &self.settings, prior);
+        let withdrawn = self.belief.take(rover.tag, (&own, &float), fixed.as_ref().ok());
+        self.withdrawals += usize::from(withdrawn.is_some());
+        Ok(RtkSolution {
+            tag: rover.tag,
+            age: age(rover, base),
+            float: float.position,
+            float_covariance: float.position_covariance(),
+            phases: own.ambiguities().len(),
+            half_cycles: own.half_cycles(),
+            fixed,
+            withdrawn,
+        })
+    }
+}
