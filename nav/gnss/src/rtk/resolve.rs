@@ -50,7 +50,7 @@ pub(super) fn resolve(
 /// What is known beforehand and what integers make of it must not contradict each other.
 fn agree(
     position: &Vector3<f64>,
-    covariance: &DMatrix<f64>,
+    covariance: &Matrix3<f64>,
     prior: Option<&RoverPrior>,
 ) -> Result<(), RtkRefusal> {
     // chi-square of three, once in ten thousand
@@ -59,7 +59,7 @@ fn agree(
         return Ok(());
     };
     let off = position - expected;
-    let both: Matrix3<f64> = of_prior + covariance.fixed_view::<3, 3>(0, 0);
+    let both: Matrix3<f64> = of_prior + covariance;
     let distance = both.cholesky().map_or(0.0, |factor| off.dot(&factor.solve(&off)));
     if distance > FAR {
         return Err(RtkRefusal::Prior { off: off.norm(), sigmas: distance.sqrt() });
@@ -114,18 +114,16 @@ impl Attempt<'_> {
         if doubt > allowed {
             return Err(RtkRefusal::Ratio { doubt, allowed });
         }
-        let freedom = self.float.misfit.1 + self.kept.len();
-        let level = (self.float.misfit.0 + best.distance) / freedom as f64;
+        let Fixed { position, covariance, level } = self.fixed(best)?;
         if level > LEVEL {
             return Err(RtkRefusal::Residuals { level, limit: LEVEL });
         }
-        let (position, after) = self.conditioned(&measured, &covariance, best)?;
-        let (runner_up, _) = self.conditioned(&measured, &covariance, second)?;
+        let runner_up = self.fixed(second)?.position;
         let integers = self.kept.iter().zip(&best.integers);
-        agree(&position, &after, prior)?;
+        agree(&position, &covariance, prior)?;
         Ok(RtkFix {
             position,
-            covariance: after.fixed_view::<3, 3>(0, 0) * level.max(1.0),
+            covariance: covariance * level.max(1.0),
             runner_up,
             doubt,
             ratio: second.distance / best.distance.max(1e-9),
@@ -165,22 +163,35 @@ impl Attempt<'_> {
         if is_alike { (chi_square, count) } else { (0.0, 0.0) }
     }
 
-    /// Position and covariance of all, if these are the integers.
-    fn conditioned(
-        &self,
-        measured: &DVector<f64>,
-        covariance: &DMatrix<f64>,
-        vector: &IntegerVector,
-    ) -> Result<(Vector3<f64>, DMatrix<f64>), RtkRefusal> {
-        let size = self.float.covariance.nrows();
-        let gain = DMatrix::from_fn(size, self.kept.len(), |i, j| {
-            self.float.covariance[(i, 3 + self.kept[j])]
-        });
-        let factor = covariance.clone().cholesky().ok_or(RtkRefusal::Geometry)?;
-        let off = DVector::from_fn(measured.len(), |i, _| measured[i] - vector.integers[i] as f64);
-        let step = &gain * factor.solve(&off);
-        let position = self.float.position - Vector3::new(step[0], step[1], step[2]);
-        let after = &self.float.covariance - &gain * factor.solve(&gain.transpose());
-        Ok((position, after))
+    /// The position by the phases of this epoch alone, if these are the integers: what is not fixed has no part in it.
+    fn fixed(&self, vector: &IntegerVector) -> Result<Fixed, RtkRefusal> {
+        let mut ambiguities = self.float.ambiguities.clone();
+        for (place, integer) in self.kept.iter().zip(&vector.integers) {
+            ambiguities[*place] = *integer as f64;
+        }
+        let rows = self.differences.rows(&self.float.position, &ambiguities);
+        let count = self.kept.len();
+        let place = |own: usize| self.differences.codes() + self.kept[own];
+        let directions = DMatrix::from_fn(count, 3, |i, j| rows.directions[(place(i), j)]);
+        let residuals = DVector::from_fn(count, |i, _| rows.residuals[place(i)]);
+        let noise = DMatrix::from_fn(count, count, |i, j| rows.covariance[(place(i), place(j))]);
+        let factor = noise.cholesky().ok_or(RtkRefusal::Geometry)?;
+        let weighed = factor.solve(&directions);
+        let normal: Matrix3<f64> =
+            (directions.transpose() * &weighed).fixed_view::<3, 3>(0, 0).into();
+        let covariance = normal.try_inverse().ok_or(RtkRefusal::Geometry)?;
+        let pulled = weighed.transpose() * &residuals;
+        let step = covariance * pulled.fixed_rows::<3>(0);
+        let left = &residuals - &directions * step;
+        let level = left.dot(&factor.solve(&left)) / (count - 3) as f64;
+        Ok(Fixed { position: self.float.position + step, covariance, level })
     }
+}
+
+/// A position by phases whose integers are known.
+struct Fixed {
+    position: Vector3<f64>,
+    covariance: Matrix3<f64>,
+    /// Variance of the residuals over that assumed.
+    level: f64,
 }
