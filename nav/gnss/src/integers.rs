@@ -76,7 +76,8 @@ impl IntegerSearch {
     /// [`IntegerRefusal::TooMany`] where the search does not end.
     pub fn nearest(&self, count: usize) -> Result<Vec<IntegerVector>, IntegerRefusal> {
         let measured = self.reduced.forth(&self.rest);
-        let found = search::nearest(&self.reduced, &measured, count)?;
+        let found =
+            search::nearest(&self.reduced, &measured, count).ok_or(IntegerRefusal::TooMany)?;
         let vector = |(integers, distance): (Vec<i64>, f64)| {
             let back = self.reduced.back(&integers).ok_or(IntegerRefusal::Malformed)?;
             let sum = |(own, whole): (&i64, &i64)| own.saturating_add(*whole);

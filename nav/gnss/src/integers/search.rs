@@ -2,7 +2,6 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::IntegerRefusal;
 use super::reduction::Reduced;
 
 /// The most steps of a search: some ten milliseconds, where a sound one has some hundred.
@@ -38,12 +37,12 @@ impl Level {
     }
 }
 
-/// The nearest vectors of the reduced lattice, nearest first.
+/// The nearest vectors of the reduced lattice, nearest first; `None` where the search does not end.
 pub(super) fn nearest(
     reduced: &Reduced,
     measured: &DVector<f64>,
     count: usize,
-) -> Result<Vec<(Vec<i64>, f64)>, IntegerRefusal> {
+) -> Option<Vec<(Vec<i64>, f64)>> {
     let last = measured.len() - 1;
     let mut found: Vec<(Vec<i64>, f64)> = Vec::with_capacity(count + 1);
     let mut levels: Vec<Level> = measured.iter().map(|x| Level::at(*x, 0.0)).collect();
@@ -68,13 +67,13 @@ pub(super) fn nearest(
             found.insert(place, (integers, distance));
             found.truncate(count);
         } else if k == last {
-            return Ok(found);
+            return Some(found);
         } else {
             k += 1;
         }
         levels[k].next();
     }
-    Err(IntegerRefusal::TooMany)
+    None
 }
 
 fn furthest(found: &[(Vec<i64>, f64)]) -> f64 {

@@ -15,8 +15,8 @@ const LONGEST: f64 = 60.0;
 const BEGIN: f64 = 30.0;
 /// 1-sigma of an ambiguity's wandering by reflections, m per root of a second.
 const WANDER: f64 = 3e-4;
-/// How long errors of codes last, s: they are counted anew only as far as they are new.
-const CODES_LAST: f64 = 30.0;
+/// How long errors of codes and phases last, s: reflections. They are counted anew only as far as they are new.
+const ERRORS_LAST: f64 = 10.0;
 
 /// A signal that is tracked.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +36,8 @@ pub(super) struct Arcs {
     /// What receivers said that they have lost since the last epoch that was used: the base's, by whom.
     lost: BTreeSet<(bool, SatelliteId, SignalCode)>,
     base: Option<GpsTime>,
+    /// What the variance of a signal that goes on has to be multiplied by, so that errors that last are not averaged as if they did not.
+    repeated: f64,
 }
 
 impl Arcs {
@@ -52,23 +54,21 @@ impl Arcs {
         }
     }
 
-    /// Goes on to an epoch: arcs that are not tracked on end, new ones begin, and the codes of those that go on weigh only as far as they are new.
-    pub(super) fn advance(&mut self, tag: GpsTime, differences: &mut DoubleDifferences) {
+    /// Goes on to an epoch: arcs that are not tracked on end, and new ones begin.
+    pub(super) fn advance(&mut self, tag: GpsTime, differences: &DoubleDifferences) {
         let elapsed = self.tag.map_or(f64::INFINITY, |before| tag.since(before).as_seconds());
         if !(elapsed > 0.0 && elapsed < LONGEST) {
             self.arcs.clear();
         }
         self.tag = Some(tag);
+        let last = (-elapsed / ERRORS_LAST).exp();
+        self.repeated = (1.0 + last) / (1.0 - last);
         let before = std::mem::take(&mut self.arcs);
         let (state, covariance) = (self.state.clone(), self.covariance.clone());
         let mut sources = Vec::new();
-        for single in differences.singles.iter_mut().filter(|single| single.phase.is_some()) {
+        for single in differences.singles.iter().filter(|single| single.phase.is_some()) {
             let place = before.iter().position(|arc| arc.pair == single.pair);
             let place = place.filter(|place| self.goes_on(&before[*place], single, elapsed));
-            if place.is_some() {
-                let last = (-elapsed / CODES_LAST).exp();
-                single.code_variance *= (1.0 + last) / (1.0 - last);
-            }
             let arc = Arc { pair: single.pair, locks: single.locks, is_new: place.is_none() };
             self.arcs.push(arc);
             sources.push((place, single.wavelength, begin(single)));
@@ -105,6 +105,18 @@ impl Arcs {
             (_, None) => true,
         };
         !is_lost && arc.locks.iter().zip(&single.locks).all(kept)
+    }
+
+    /// The differences as they weigh for ambiguities that are carried on: of signals that go on only as far as their errors are new ones.
+    pub(super) fn weighed(&self, differences: &DoubleDifferences) -> DoubleDifferences {
+        let mut weighed = differences.clone();
+        for single in &mut weighed.singles {
+            if self.arcs.iter().any(|arc| arc.pair == single.pair && !arc.is_new) {
+                single.code_variance *= self.repeated;
+                single.phase_variance *= self.repeated;
+            }
+        }
+        weighed
     }
 
     /// The position as it is known beforehand: not at all, or to a covariance.

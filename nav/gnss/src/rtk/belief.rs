@@ -59,6 +59,11 @@ impl Belief {
         ChiSquared::new(count as f64).is_ok_and(|law| law.sf(distance) < CONTRADICTED)
     }
 
+    /// Whether integers do not contradict what is believed.
+    pub(super) fn allows(&self, fix: &RtkFix) -> bool {
+        self.offsets(fix).is_some()
+    }
+
     /// Takes what an epoch has come to. Gives back what is withdrawn, if it contradicts what was believed.
     pub(super) fn take(
         &mut self,

@@ -30,6 +30,8 @@ impl Float {
             arcs.restart(&differences.singles[slipped]);
             step = Step::new(arcs, differences, &doubled, near)?;
         }
+        let chi_square = step.chi_square;
+        step = Step::new(arcs, &arcs.weighed(differences), &doubled, near)?;
         let freedom = step.freedom(arcs, differences, known.is_some());
         step.update(arcs);
         let position = arcs.state.fixed_rows::<3>(0).clone_owned();
@@ -43,7 +45,7 @@ impl Float {
             position,
             ambiguities,
             covariance,
-            misfit: (step.chi_square, freedom),
+            misfit: (chi_square, freedom),
             known: (0.0, 0.0),
         })
     }

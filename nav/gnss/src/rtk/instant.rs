@@ -40,10 +40,7 @@ impl DoubleDifferences {
         base: &BaseEpoch<'_>,
         level: &mut CodeLevel,
     ) -> Result<Self, RtkRefusal> {
-        let age = age(rover, base);
-        if age.is_nan() || age.abs() > settings.oldest {
-            return Err(RtkRefusal::Age { age, limit: settings.oldest });
-        }
+        check_age(settings, rover, base)?;
         let mut own = Self::new(differences(context, settings, (rover, near), base));
         if own.codes() < 4 {
             return Err(RtkRefusal::TooFew { codes: own.codes() });
@@ -83,7 +80,7 @@ impl RtkSolution {
         prior: Option<&RoverPrior>,
         level: &mut CodeLevel,
     ) -> Result<Self, RtkRefusal> {
-        let near = begin(context, rover, base, prior)?;
+        let near = begin(context, settings, (rover, base), prior)?;
         let known = level.worth();
         let own = DoubleDifferences::with_level(context, settings, (rover, &near), base, level)?;
         let float = Float::solve(&own, &near, prior).ok_or(RtkRefusal::Geometry)?;
@@ -104,10 +101,11 @@ impl RtkSolution {
 /// A place to begin at, and a base that is where it says.
 pub(super) fn begin(
     context: &Context,
-    rover: &SatelliteEpoch,
-    base: &BaseEpoch<'_>,
+    settings: &RtkSettings,
+    (rover, base): (&SatelliteEpoch, &BaseEpoch<'_>),
     prior: Option<&RoverPrior>,
 ) -> Result<Vector3<f64>, RtkRefusal> {
+    check_age(settings, rover, base)?;
     check_base(context, base)?;
     match prior.filter(|prior| ON_EARTH.contains(&prior.position.norm())) {
         Some(prior) => Ok(prior.position),
@@ -116,6 +114,18 @@ pub(super) fn begin(
             Ok(point.position)
         }
     }
+}
+
+fn check_age(
+    settings: &RtkSettings,
+    rover: &SatelliteEpoch,
+    base: &BaseEpoch<'_>,
+) -> Result<(), RtkRefusal> {
+    let age = age(rover, base);
+    if age.abs() <= settings.oldest {
+        return Ok(());
+    }
+    Err(RtkRefusal::Age { age, limit: settings.oldest })
 }
 
 /// The base's coordinates against its own codes, which know it to metres: a base that is taken for another, or for the rover, is found.

@@ -1,5 +1,7 @@
 //! From real ambiguities to integers that are believed.
 
+use std::collections::BTreeSet;
+
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -15,10 +17,12 @@ use crate::integers::{IntegerRefusal, IntegerSearch, IntegerVector};
 const WORTH: f64 = 3.0;
 /// Candidates that are weighed against each other.
 const CANDIDATES: usize = 20;
-/// Fewest differences of phase: three make a position, and one has to check it.
+/// Fewest satellites beside the references: three make a position, and one has to check it.
 const FEWEST: usize = 4;
+/// Fewest of a part: which one is at fault has to show.
+const FEWEST_OF_PART: usize = 5;
 /// The most that residuals may be above their assumed variance.
-const LEVEL: f64 = 6.0;
+const LEVEL: f64 = 4.0;
 
 /// Searches integers for the whole, then without the satellites of poorest phases, one more each time, until a part passes. Each attempt has its share of
 /// the risk.
@@ -32,7 +36,8 @@ pub(super) fn resolve(
     let mut refusal = None;
     for attempt in 1..=settings.attempts.max(1) {
         let allowed = settings.share(attempt);
-        if kept.len() < FEWEST {
+        let fewest = if attempt == 1 { FEWEST } else { FEWEST_OF_PART };
+        if satellites(differences, &kept) < fewest {
             break;
         }
         let tried = Attempt { differences, float, kept: &kept, is_whole: attempt == 1 };
@@ -65,6 +70,11 @@ fn agree(
         return Err(RtkRefusal::Prior { off: off.norm(), sigmas: distance.sqrt() });
     }
     Ok(())
+}
+
+fn satellites(differences: &DoubleDifferences, kept: &[usize]) -> usize {
+    let all: BTreeSet<_> = kept.iter().map(|place| satellite(differences, *place)).collect();
+    all.len()
 }
 
 fn satellite(differences: &DoubleDifferences, ambiguity: usize) -> insd_base::SatelliteId {

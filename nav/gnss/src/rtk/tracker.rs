@@ -61,16 +61,25 @@ impl RtkTracker {
             return RtkSolution::of_epoch(context, &self.settings, (rover, base), prior, level);
         };
         arcs.hear(rover, base.epoch);
-        let near = begin(context, rover, base, prior)?;
+        let near = begin(context, &self.settings, (rover, base), prior)?;
         let known = self.level.worth();
         let level = &mut self.level;
-        let mut own =
+        let own =
             DoubleDifferences::with_level(context, &self.settings, (rover, &near), base, level)?;
-        arcs.advance(rover.tag, &mut own);
+        arcs.advance(rover.tag, &own);
         let float = Float::carried(arcs, &own, &near, prior).ok_or(RtkRefusal::Geometry)?;
         let float = Float { known, ..float };
         self.belief.keep(arcs);
-        let fixed = resolve(&own, &float, &self.settings, prior);
+        // two ways share the risk: what is carried on, and this epoch alone, whose reflections are others
+        let half = RtkSettings { risk: self.settings.risk / 2.0, ..self.settings };
+        let mut fixed = resolve(&own, &float, &half, prior);
+        if fixed.is_err()
+            && let Some(alone) = Float::solve(&own, &near, prior)
+            && let Ok(fix) = resolve(&own, &Float { known, ..alone }, &half, prior)
+            && self.belief.allows(&fix)
+        {
+            fixed = Ok(fix);
+        }
         let withdrawn = self.belief.take(rover.tag, (&own, &float), fixed.as_ref().ok());
         self.withdrawals += usize::from(withdrawn.is_some());
         Ok(RtkSolution {

@@ -15,16 +15,16 @@ use nalgebra::Vector3;
 #[derive(Clone, Copy)]
 pub(crate) struct Pair {
     pub(crate) label: &'static str,
-    rover: &'static str,
-    base: &'static str,
-    navigation: &'static [&'static str],
+    pub(crate) rover: &'static str,
+    pub(crate) base: &'static str,
+    pub(crate) navigation: &'static [&'static str],
     /// ECEF, m.
     pub(crate) base_at: [f64; 3],
     /// ECEF, m; `None`: `reference.csv` beside the rover's observations.
-    rover_at: Option<[f64; 3]>,
-    constellations: &'static str,
+    pub(crate) rover_at: Option<[f64; 3]>,
+    pub(crate) constellations: &'static str,
     /// Bands that are used, all if none is named; of BeiDou's B1I the band is 2.
-    bands: &'static [u8],
+    pub(crate) bands: &'static [u8],
 }
 
 pub(crate) const MOVING: Pair = Pair {
