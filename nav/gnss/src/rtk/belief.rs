@@ -15,12 +15,17 @@ use super::pairing::{Group, SignalPair};
 /// What is believed is contradicted when chance makes it as unlikely once in so many epochs.
 const CONTRADICTED: f64 = 1e-7;
 
+/// What is believed may bear others where the doubt of it was less.
+const SURE: f64 = 1e-8;
+
 /// Believed integers of signals, each up to a number that all of its group share.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Belief {
     integers: BTreeMap<SignalPair, i64>,
     since: Option<GpsTime>,
     epochs: usize,
+    /// The least doubt of a fix that rested on data alone.
+    doubt: f64,
 }
 
 impl Belief {
@@ -37,14 +42,21 @@ impl Belief {
         Some(self.integers.get(&ambiguity.pair)? - self.integers.get(&ambiguity.reference())?)
     }
 
+    /// What is believed of the ambiguities of an epoch, by their place.
+    fn among(&self, differences: &DoubleDifferences) -> Vec<(usize, i64)> {
+        let all = differences.ambiguities().iter().enumerate();
+        all.filter_map(|(place, ambiguity)| Some((place, self.of(ambiguity)?))).collect()
+    }
+
+    /// Believed integers that are so sure that others may rest on them, and their doubt.
+    pub(super) fn sure(&self, differences: &DoubleDifferences) -> Option<(Vec<(usize, i64)>, f64)> {
+        let among = self.among(differences);
+        (self.epochs > 0 && self.doubt <= SURE && !among.is_empty()).then_some((among, self.doubt))
+    }
+
     /// Whether real ambiguities have come to contradict what is believed.
     fn is_contradicted(&self, differences: &DoubleDifferences, float: &Float, level: f64) -> bool {
-        let believed: Vec<(usize, i64)> = differences
-            .ambiguities()
-            .iter()
-            .enumerate()
-            .filter_map(|(place, ambiguity)| Some((place, self.of(ambiguity)?)))
-            .collect();
+        let believed = self.among(differences);
         if believed.is_empty() {
             return false;
         }
@@ -104,6 +116,7 @@ impl Belief {
 
     fn believe(&mut self, tag: GpsTime, fix: &RtkFix) {
         let offsets = self.offsets(fix).unwrap_or_default();
+        self.doubt = if self.epochs == 0 { fix.doubt } else { self.doubt.min(fix.doubt) };
         self.since.get_or_insert(tag);
         self.epochs += 1;
         for (ambiguity, integer) in &fix.integers {

@@ -2,6 +2,8 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
 use super::double::DoubleDifferences;
 use super::prior::RoverPrior;
 
@@ -83,6 +85,36 @@ impl Float {
             known: (0.0, 0.0),
         };
         Some((float, step.norm()))
+    }
+
+    /// The same if some ambiguities are these integers. `None` where they contradict it: chance makes that once in a thousand.
+    pub(super) fn held(&self, integers: &[(usize, i64)]) -> Option<Self> {
+        // cycles^2: sure, and still a covariance
+        const SURE: f64 = 1e-8;
+        let count = integers.len();
+        let size = self.covariance.nrows();
+        let place = |own: usize| 3 + integers[own].0;
+        let with = DMatrix::from_fn(size, count, |i, j| self.covariance[(i, place(j))]);
+        let own = DMatrix::from_fn(count, count, |i, j| {
+            with[(place(i), j)] + if i == j { SURE } else { 0.0 }
+        });
+        let factor = own.cholesky()?;
+        let off =
+            DVector::from_fn(count, |i, _| integers[i].1 as f64 - self.ambiguities[integers[i].0]);
+        let pulled = factor.solve(&off);
+        let distance = off.dot(&pulled);
+        if ChiSquared::new(count as f64).is_ok_and(|law| law.sf(distance) < 1e-3) {
+            return None;
+        }
+        let step = &with * pulled;
+        let covariance = &self.covariance - &with * factor.solve(&with.transpose());
+        Some(Self {
+            position: self.position + step.fixed_rows::<3>(0),
+            ambiguities: &self.ambiguities + step.rows(3, size - 3),
+            covariance: (&covariance + covariance.transpose()) * 0.5,
+            misfit: (self.misfit.0 + distance, self.misfit.1 + count),
+            known: self.known,
+        })
     }
 
     /// Of the position alone.

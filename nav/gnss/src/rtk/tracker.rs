@@ -9,7 +9,7 @@ use super::difference::BaseEpoch;
 use super::double::DoubleDifferences;
 use super::float::Float;
 use super::instant::{age, begin};
-use super::outcome::{RtkRefusal, RtkSolution};
+use super::outcome::{RtkFix, RtkRefusal, RtkSolution};
 use super::prior::RoverPrior;
 use super::resolve::resolve;
 use super::settings::RtkSettings;
@@ -70,7 +70,7 @@ impl RtkTracker {
         let float = Float::carried(arcs, &own, &near, prior).ok_or(RtkRefusal::Geometry)?;
         let float = Float { known, ..float };
         self.belief.keep(arcs);
-        // two ways share the risk: what is carried on, and this epoch alone, whose reflections are others
+        // ways share the risk: what is carried on, and this epoch alone, whose reflections are others
         let half = RtkSettings { risk: self.settings.risk / 2.0, ..self.settings };
         let mut fixed = resolve(&own, &float, &half, prior);
         if fixed.is_err()
@@ -79,6 +79,14 @@ impl RtkTracker {
             && self.belief.allows(&fix)
         {
             fixed = Ok(fix);
+        }
+        // integers that have been sure bear those of satellites that are new
+        if fixed.is_err()
+            && let Some((sure, doubt)) = self.belief.sure(&own)
+            && let Some(held) = float.held(&sure)
+            && let Ok(fix) = resolve(&own, &held, &half, prior)
+        {
+            fixed = Ok(RtkFix { doubt: fix.doubt + doubt, ..fix });
         }
         let withdrawn = self.belief.take(rover.tag, (&own, &float), fixed.as_ref().ok());
         self.withdrawals += usize::from(withdrawn.is_some());
