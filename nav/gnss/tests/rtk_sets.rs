@@ -71,3 +71,13 @@ fn six_satellites_on_one_frequency_are_fixed_where_they_are_sure_and_never_wrong
         assert!(fixed >= least, "{fixed}");
     }
 }
+
+#[test]
+fn one_frequency_is_enough_where_ambiguities_are_carried_on() {
+    let on_first = |pair: Pair| Pair { bands: &[1], ..pair };
+    for (pair, least) in [(on_first(MOVING), 355), (on_first(GEONET), 114)] {
+        let Some((fixed, wrong, _)) = judged(&pair, continuous()) else { return };
+        assert_eq!(wrong, 0, "{}", pair.label);
+        assert!(fixed >= least, "{}: {fixed}", pair.label);
+    }
+}

@@ -126,3 +126,57 @@ impl Belief {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use insd_base::{SignalCode, Span};
+    use nalgebra::{Matrix3, Vector3};
+
+    use super::*;
+
+    fn fix(reference: &str, integers: &[(&str, i64)]) -> RtkFix {
+        let signal = SignalCode::new(1, b'C');
+        let integer = |(satellite, integer): &(&str, i64)| {
+            let satellite = satellite.parse().unwrap();
+            let pair = SignalPair { satellite, rover: signal, base: signal };
+            (PairAmbiguity { pair, reference: reference.parse().unwrap() }, *integer)
+        };
+        RtkFix {
+            position: Vector3::zeros(),
+            covariance: Matrix3::identity(),
+            runner_up: Vector3::zeros(),
+            doubt: 1e-9,
+            ratio: 10.0,
+            success: 1.0,
+            integers: integers.iter().map(integer).collect(),
+            attempts: 1,
+            level: 1.0,
+        }
+    }
+
+    #[test]
+    fn other_integers_withdraw_what_was_believed_and_another_reference_does_not() {
+        let nothing = DoubleDifferences::new(Vec::new());
+        let float = Float {
+            position: Vector3::zeros(),
+            ambiguities: DVector::zeros(0),
+            covariance: DMatrix::zeros(3, 3),
+            misfit: (0.0, 0),
+            known: (0.0, 0.0),
+        };
+        let start = GpsTime::from_week(2300, 0);
+        let mut belief = Belief::default();
+        let mut take = |second: f64, fix: &RtkFix| {
+            let tag = start.plus(Span::from_seconds(second));
+            belief.take(tag, (&nothing, &float), Some(fix))
+        };
+        assert_eq!(take(0.0, &fix("G01", &[("G02", 5), ("G03", -7)])), None);
+        // the same against G02, and a satellite more
+        assert_eq!(take(1.0, &fix("G02", &[("G01", -5), ("G03", -12), ("G04", 2)])), None);
+        assert_eq!(take(2.0, &fix("G04", &[("G03", -14)])), None);
+        let withdrawn = take(3.0, &fix("G01", &[("G02", 5), ("G03", -8)])).unwrap();
+        assert_eq!(withdrawn, RtkWithdrawal { since: start, epochs: 3 });
+        // what has taken its place is believed
+        assert_eq!(take(4.0, &fix("G01", &[("G02", 5), ("G03", -8)])), None);
+    }
+}

@@ -16,6 +16,22 @@ use super::settings::RtkSettings;
 use crate::context::Context;
 
 /// Follows a rover: by ambiguities that are carried on, or epoch by epoch with nothing but the noise of codes remembered.
+///
+/// ```
+/// use insd_gnss::{BaseEpoch, Context, RtkRefusal, RtkSettings, RtkTracker};
+/// # use insd_base::{GpsTime, SatelliteEpoch};
+/// # use nalgebra::Vector3;
+/// # let context = Context::default();
+/// # let tag = GpsTime::from_week(2300, 0);
+/// # let of_rover = SatelliteEpoch { tag, signals: Vec::new(), leap_seconds: None, clock_reset: false };
+/// # let of_base = of_rover.clone();
+/// let mut tracker = RtkTracker::continuous(RtkSettings::default());
+/// let base = BaseEpoch { epoch: &of_base, position: Vector3::new(3.2e6, 5.2e5, 5.4e6) };
+/// match tracker.take(&context, &of_rover, &base, None) {
+///     Ok(told) => println!("{} {:?}", told.position(), told.fixed.map(|fix| fix.doubt)),
+///     Err(why) => println!("{why}"),
+/// }
+/// ```
 #[derive(Clone, Debug)]
 pub struct RtkTracker {
     settings: RtkSettings,
@@ -45,7 +61,8 @@ impl RtkTracker {
         self.withdrawals
     }
 
-    /// Takes an epoch, with what is known of the rover's place beforehand: with a covariance it counts as a measurement.
+    /// Takes an epoch, with the newest of the base, and what is known of the rover's place beforehand: with a covariance it counts as a measurement, whose
+    /// error should not be that of earlier epochs. All epochs of the rover should come: what is said of lost signals in one that does not is missed.
     ///
     /// # Errors
     /// Why there is not even a position with real ambiguities.
