@@ -110,10 +110,31 @@ pub(super) fn begin(
     match prior.filter(|prior| ON_EARTH.contains(&prior.position.norm())) {
         Some(prior) => Ok(prior.position),
         None => {
-            let point = SinglePoint::solve(context, rover, None).map_err(RtkRefusal::Rover)?;
-            Ok(point.position)
+            let point = SinglePoint::solve(context, rover, None).map(|point| point.position);
+            let by_base =
+                |why| coarse(context, settings, (rover, base)).ok_or(RtkRefusal::Rover(why));
+            point.or_else(by_base)
         }
     }
+}
+
+/// A place by codes against the base, beginning there: they agree where codes alone contradict one another, as what is wrong with both is gone.
+fn coarse(
+    context: &Context,
+    settings: &RtkSettings,
+    (rover, base): (&SatelliteEpoch, &BaseEpoch<'_>),
+) -> Option<Vector3<f64>> {
+    let mut place = base.position;
+    // from the second on the air above the rover is its own
+    for _ in 0..2 {
+        let mut own = DoubleDifferences::new(differences(context, settings, (rover, &place), base));
+        if own.codes() < 4 {
+            return None;
+        }
+        screen(&mut own, &place, CodeLevel::default());
+        place = Float::solve(&own, &place, None)?.position;
+    }
+    ON_EARTH.contains(&place.norm()).then_some(place)
 }
 
 fn check_age(
@@ -136,8 +157,10 @@ fn check_base(context: &Context, base: &BaseEpoch<'_>) -> Result<(), RtkRefusal>
     if !ON_EARTH.contains(&base.position.norm()) {
         return Err(RtkRefusal::BasePlace { off: base.position.norm(), limit: SLOW });
     }
-    let point = SinglePoint::solve(context, base.epoch, Some(base.position));
-    let point = point.map_err(RtkRefusal::Base)?;
+    // codes that make no position say nothing against it
+    let Ok(point) = SinglePoint::solve(context, base.epoch, Some(base.position)) else {
+        return Ok(());
+    };
     let off = (point.position - base.position).norm();
     let limit = SLOW + SIGMAS * point.covariance.trace().max(0.0).sqrt();
     if off > limit {

@@ -93,8 +93,6 @@ pub enum RtkRefusal {
         /// The most that is taken, m.
         limit: f64,
     },
-    /// The base's codes give no place to hold against its coordinates.
-    Base(NoPosition),
     /// The rover's codes give no place to begin at.
     Rover(NoPosition),
     /// Too few satellites are heard by both.
@@ -141,7 +139,6 @@ impl fmt::Display for RtkRefusal {
             Self::BasePlace { off, limit } => {
                 write!(f, "base {off:.0} m from its coordinates by its codes, at most {limit:.0}")
             }
-            Self::Base(_) => write!(f, "the base's codes give no place"),
             Self::Rover(_) => write!(f, "the codes give no place to begin at"),
             Self::TooFew { codes } => write!(f, "too few satellites in common ({codes} codes)"),
             Self::Geometry => write!(f, "satellites in common determine no position"),
