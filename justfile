@@ -177,6 +177,10 @@ alignment-page:
 satellites:
     cargo run --release -p insd-tests --example satellites -- docs/satellites.md
 
+# rovers against bases of real receivers, fixed and wrong: the table of docs/rtk.md; INSD_RAW_GNSS as above
+rtk:
+    cargo run --release -p insd-gnss --example rtk
+
 # a walk with a MEMS IMU and a receiver, fixes against ranges, with all satellites and few: a table of docs/satellites.md; INSD_RAW_GNSS as above
 walk:
     cargo build --release

@@ -9,9 +9,11 @@ mod budget;
 mod carrier;
 mod context;
 mod ephemerides;
+mod integers;
 mod least_squares;
 pub mod orbit;
 mod ranging;
+mod rtk;
 mod sight;
 mod signals;
 mod single_point;
@@ -20,8 +22,13 @@ mod velocity;
 pub use carrier::{CarrierDisplacement, CarrierTracker, PhaseChange};
 pub use context::{Context, Delays};
 pub use ephemerides::{Ephemerides, OrbitRefusal};
+pub use integers::{IntegerRefusal, IntegerSearch, IntegerVector};
 pub use orbit::SatelliteState;
 pub use ranging::{Guess, Ranged, Ranging};
+pub use rtk::{
+    BaseEpoch, DifferencedRows, DoubleDifferences, PairAmbiguity, RoverPrior, RtkFix, RtkRefusal,
+    RtkSettings, RtkSolution, RtkTracker, RtkWithdrawal, SignalPair,
+};
 pub use sight::Sight;
 pub use signals::{Noise, best_of_each_band, dispersion, first_band, group_delay, inflation};
 pub use single_point::{NoPosition, SinglePoint, Verdict, Witness};

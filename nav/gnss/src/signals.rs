@@ -6,7 +6,7 @@ use insd_base::{BroadcastRecord, Constellation, SatelliteId, SignalCode, SignalO
 use crate::orbit::SatelliteState;
 
 /// Ways of tracking, best first: civil codes and pilots before combined ones before what is got without knowing the code.
-const PREFERENCE: &[u8] = b"CQLIXSPWYBDZAMNE";
+pub(crate) const PREFERENCE: &[u8] = b"CQLIXSPWYBDZAMNE";
 
 /// Of the signals of one satellite the best of each band that has a code, in order of the bands.
 #[must_use]

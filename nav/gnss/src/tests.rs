@@ -1,3 +1,4 @@
+mod rtk;
 mod sky;
 
 use std::collections::BTreeMap;

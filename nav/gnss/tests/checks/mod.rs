@@ -9,7 +9,10 @@ mod sky;
 
 use insd_base::satellites::{Measured, SatelliteRange};
 use insd_base::{GpsTime, SatelliteEpoch, Span};
-use insd_gnss::{CarrierDisplacement, CarrierTracker, Context, Guess, Ranged, Ranging};
+use insd_gnss::{
+    BaseEpoch, CarrierDisplacement, CarrierTracker, Context, Guess, Ranged, Ranging, RtkSettings,
+    RtkTracker,
+};
 use nalgebra::Vector3;
 
 /// Reads orders out of bytes; of what is not there every number is zero.
@@ -60,6 +63,8 @@ pub(crate) fn everything(bytes: &[u8]) -> usize {
     let mut orders = Orders(bytes);
     let context = sky::context(&mut orders);
     let (mut ranging, mut tracker) = (Ranging::default(), CarrierTracker::default());
+    let settings = RtkSettings::default();
+    let mut rtk = [RtkTracker::continuous(settings), RtkTracker::continuous(settings)];
     let mut counted = 0;
     for second in 0..orders.byte() % 8 {
         let epoch = sky::epoch(&context, f64::from(second), &mut orders);
@@ -68,6 +73,7 @@ pub(crate) fn everything(bytes: &[u8]) -> usize {
         check(&ranged);
         counted += ranged.ranges.len();
         check_carrier(&mut tracker, &context, &epoch, guess);
+        check_rtk(&mut rtk, &context, (&epoch, f64::from(second)));
     }
     counted
 }
@@ -80,6 +86,22 @@ fn guess(orders: &mut Orders<'_>) -> Guess {
         _ => Some(sky::berth()),
     };
     Guess { antenna, turned: f64::from(orders.byte()) * 0.01 }
+}
+
+/// A damaged rover against a sound base, and the other way round.
+fn check_rtk(
+    trackers: &mut [RtkTracker; 2],
+    context: &Context,
+    (damaged, second): (&SatelliteEpoch, f64),
+) {
+    let sound = sky::epoch(context, second, &mut Orders(&[]));
+    let [forth, back] = trackers;
+    for (tracker, rover, base) in [(forth, damaged, &sound), (back, &sound, damaged)] {
+        let base = BaseEpoch { epoch: base, position: sky::berth() };
+        let Ok(told) = tracker.take(context, rover, &base, None) else { continue };
+        assert!(is_finite(&told.float) && is_finite(&told.position()), "{told:?}");
+        assert!(told.covariance().iter().all(|value| value.is_finite()), "{told:?}");
+    }
 }
 
 fn check_carrier(
