@@ -8,12 +8,16 @@
 #![allow(missing_docs)] // the macros generate public items without any
 
 use std::hint::black_box;
+use std::sync::Arc;
 
 use gungraun::{library_benchmark, library_benchmark_group, main};
+use insd_base::satellites::{
+    ArcPhase, Constellation, Measured, SatelliteId, SatelliteRange, SatelliteRanges, Transmitter,
+};
 use insd_base::units::{DEG_PER_HOUR, DEG_PER_SQRT_HOUR, MICRO_G, MPS_PER_SQRT_HOUR};
 use insd_base::{
     Body, FixQuality, Geodetic, GnssFix, ImuSample, ImuSpec, LeverArms, Message, Ned, Received,
-    Source, Time, Triad,
+    Source, Time, Triad, earth,
 };
 use insd_nav::error_state::{ATTITUDE, Covariance, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
@@ -27,6 +31,8 @@ use nalgebra::{Matrix3, Vector3};
 
 /// Samples in the benchmarks of many steps: one second.
 const STEPS: usize = 100;
+/// Satellites in an epoch of ranges, of which the navigator takes twenty-four.
+const SATELLITES_SEEN: usize = 30;
 /// Samples before, in which the filter leaves its initial state.
 const WARM_UP: usize = 6000;
 
@@ -101,6 +107,54 @@ fn fix(seconds: f64) -> Received {
         rank: 0,
     });
     Received { receipt: time, source: Source::Gnss(0), message }
+}
+
+/// So many satellites of two systems, evenly over the sky from 12 degrees up, with code and phase.
+fn ranges(seconds: f64, count: usize) -> Received {
+    let time = Time::from_seconds(seconds);
+    let (antenna, c_en) = (earth::ecef(&place()).0, earth::c_ne(&place()).transpose());
+    let range = |index: usize| {
+        let azimuth = index as f64 * 2.4;
+        let elevation = (12.0 + 75.0 * index as f64 / count as f64).to_radians();
+        let (across, up) = elevation.sin_cos();
+        let line = Vector3::new(up * azimuth.cos(), up * azimuth.sin(), -across);
+        let position = antenna + c_en * line * 2.2e7;
+        let transmitter = Transmitter { position, velocity: Vector3::zeros() };
+        let value = transmitter.range(&antenna);
+        let constellation = [Constellation::Gps, Constellation::Galileo][index % 2];
+        SatelliteRange {
+            satellite: SatelliteId { constellation, number: index as u8 + 1 },
+            transmitter,
+            elevation,
+            code: Some(Measured { value, variance: 0.1 }),
+            rate: None,
+            phase: Some(ArcPhase { phase: Measured { value, variance: 1e-5 }, arc: 1 }),
+            slow_std: 1.0,
+            by_ionosphere: 3.0,
+            multipath_std: 0.5,
+        }
+    };
+    let told = SatelliteRanges {
+        time,
+        clock: Some((0.0, 0.0)),
+        ranges: (0..count).map(range).collect(),
+        displacement: None,
+        heard: Vec::new(),
+    };
+    let message = Message::Ranges(Arc::new(told));
+    Received { receipt: time, source: Source::Gnss(0), message }
+}
+
+/// The same that goes by ranges: after an epoch of thirty satellites in each second the next is due.
+fn among_satellites() -> (Filter, Vec<Increment>) {
+    let (mut filter, ahead) = under_way(0.1);
+    for increment in &ahead {
+        filter.advance(increment);
+    }
+    for seconds in [60.0, 61.0] {
+        filter.apply(&ranges(seconds, SATELLITES_SEEN));
+    }
+    (filter, ahead)
 }
 
 /// A filter that has run for a minute with a fix every second, and the second that follows.
@@ -178,9 +232,16 @@ fn gnss_update(mut run: Run) -> (Run, Report) {
     (run, report)
 }
 
+#[library_benchmark]
+#[bench::thirty_satellites(Box::new(among_satellites()))]
+fn range_update(mut run: Run) -> (Run, Report) {
+    let report = run.0.apply(black_box(&ranges(61.0, SATELLITES_SEEN)));
+    (run, report)
+}
+
 library_benchmark_group!(
     name = steps,
-    benchmarks = [strapdown, covariance_propagation, hundred_steps, gnss_update]
+    benchmarks = [strapdown, covariance_propagation, hundred_steps, gnss_update, range_update]
 );
 
 main!(library_benchmark_groups = steps);
