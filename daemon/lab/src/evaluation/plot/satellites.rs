@@ -141,7 +141,7 @@ pub(super) fn residuals(rows: &[InnovationRow], axis: TimeAxis) -> Option<Panel>
     ];
     let of = |aid: &str, accepted: bool| -> Vec<(f64, f64)> {
         let own = rows.iter().filter(|row| row.accepted == accepted);
-        let own = own.filter(|row| accepted && row.aid == aid || !accepted);
+        let own = own.filter(|row| !accepted || row.aid == aid);
         own.filter_map(|row| {
             let lane = names.iter().position(|name| *name == row.component)?;
             let sigmas = (row.innovation / row.sigma).clamp(-INNOVATION_LIMIT, INNOVATION_LIMIT);
