@@ -126,6 +126,40 @@ fn a_voyage_is_simulated_replayed_and_scored() {
 }
 
 #[test]
+fn satellites_are_scored_where_there_are_any_and_the_report_is_as_it_was_where_not() {
+    let desk = Desk { dir: tempfile::tempdir().unwrap() };
+    fs::write(desk.path("short.toml"), format!("{SCENARIO_TEXT}[raw]\n")).unwrap();
+    told(&["simulate", &desk.name("short.toml"), "--seed", "1", "--out", &desk.voyage()], 0);
+    let (innovations, sky) = (desk.name("innovations.csv"), desk.name("sky.csv"));
+    let truth = format!("{}/truth.csv", desk.voyage());
+    let scored = |out: &str, more: &[&str]| {
+        let told = ["--innovations", &innovations, "--sky", &sky];
+        desk.replay(out, &[&told[..], more].concat());
+        let (nav, picture) = (desk.name(out), desk.name("all.svg"));
+        let drawn = ["--plot", &picture, "--innovations", &innovations, "--sky", &sky];
+        let json = printed(&[&["evaluate", &nav, &truth, "--json"], &drawn[..]].concat());
+        let report: serde_json::Value = serde_json::from_str(&json).unwrap();
+        let table = printed(&["evaluate", &nav, &truth]);
+        (report, table, fs::read_to_string(picture).unwrap())
+    };
+    let (report, table, picture) = scored("tight.csv", &["--mask", "180..200:3"]);
+    let rows = report["satellites"].as_array().unwrap();
+    assert_eq!(rows[0]["satellites"], 3, "{rows:?}");
+    assert!(rows.len() > 1 && rows[0]["count"].as_u64().unwrap() > 150, "{rows:?}");
+    assert!(table.contains("horizontal position by satellites in use"), "{table}");
+    assert!(picture.contains("sky: tracks") && picture.contains("innovations of satellites"));
+    let seen = fs::read_to_string(&sky).unwrap();
+    assert!(seen.contains(",used,") && seen.contains(",waiting,waiting"), "{seen}");
+
+    let (report, table, picture) = scored("loose.csv", &["--gnss", "loose"]);
+    assert!(report.get("satellites").is_none() && !table.contains("satellites"), "{table}");
+    assert!(!picture.contains("sky: tracks") && fs::read_to_string(&sky).unwrap().is_empty());
+    let nav = fs::read_to_string(desk.path("loose.csv")).unwrap();
+    assert!(nav.lines().next().unwrap().ends_with(",excluded,satellites"));
+    assert!(nav.lines().skip(1).all(|row| row.ends_with(',')));
+}
+
+#[test]
 fn two_replays_give_the_same_bytes() {
     let desk = Desk::with_voyage();
     desk.replay("a.csv", &[]);

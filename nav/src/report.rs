@@ -1,6 +1,6 @@
 //! What the filter did with a measurement.
 
-use insd_base::{Rejection, SatelliteId, Source, Time};
+use insd_base::{Rejection, SatelliteId, SatelliteInnovation, Source, Time};
 
 /// Whether a quantity was used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,4 +40,6 @@ pub struct Report {
     pub position_reset: bool,
     /// Satellites that are left out from an instant on (`true`), or used again.
     pub satellites: Vec<(Time, SatelliteId, bool)>,
+    /// What each satellite told beside what was expected.
+    pub ranges: Vec<SatelliteInnovation>,
 }

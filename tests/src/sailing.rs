@@ -88,6 +88,7 @@ impl Logbook {
         match output {
             Output::Solution(solution) => self.solutions.push(solution),
             Output::Innovation(innovation) => self.innovations.push(innovation),
+            Output::Satellite(_) => {}
             Output::Alignment(status) => self.alignment.push(status),
             Output::Event(event) => self.events.push(event),
         }

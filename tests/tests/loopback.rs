@@ -13,6 +13,7 @@ use std::time::Duration;
 use insd::clock::Clock;
 use insd::logging::Log;
 use insd::run::{RunOptions, run};
+use insd_base::Event;
 use insd_config::Config;
 use insd_drivers::raw::RawReader;
 use insd_drivers::recording::NavWriter;
@@ -82,6 +83,10 @@ fn a_run_with_raw_satellites_over_real_lines_replays_to_the_same_bytes() {
     let live = fs::read(&nav).unwrap();
     assert!(live.len() > 10_000, "{} bytes of solutions", live.len());
     assert!(live == replayed.nav, "the recording does not replay to the same bytes");
+    let rows = String::from_utf8(live).unwrap();
+    let counts = rows.lines().skip(1).filter_map(|row| row.rsplit_once(',')?.1.parse().ok());
+    let counts: Vec<u32> = counts.collect();
+    assert!(counts.len() > 10 && counts.iter().all(|count| *count > 4), "{counts:?}");
     let codes = replayed.accepted.get("satellite_code").copied().unwrap_or(0);
     assert!(codes > 3, "{codes} epochs of ranges used: {:?}", replayed.accepted);
 }
@@ -166,6 +171,12 @@ fn replay(dir: &Path, config: &Config) -> Replayed {
         }
         pipeline.handle(&arrival, |product| match product {
             Product::Engine(Output::Solution(solution)) => nav.write(&solution).unwrap(),
+            Product::Engine(Output::Satellite(told)) => nav.hear_satellite(&told),
+            Product::Engine(Output::Event(Event::SatelliteJudged {
+                satellite,
+                is_excluded,
+                ..
+            })) => nav.leave_out(satellite, is_excluded),
             Product::Spoken(Spoken::Messages(_, messages)) => {
                 sent.extend(messages.iter().flat_map(|message| message.content.to_bytes()));
             }

@@ -38,6 +38,7 @@ impl Engine {
                 }
             }
         }
+        self.outputs.extend(report.ranges.iter().copied().map(Output::Satellite));
         for (time, satellite, is_excluded) in report.satellites.iter().copied() {
             self.tell(Event::SatelliteJudged { time, satellite, is_excluded });
         }

@@ -39,7 +39,8 @@ use insd_alignment::{StoredState, StoredVerdict};
 use insd_base::satellites::SatelliteRanges;
 use insd_base::{
     AidInnovation, AlignmentStatus, Body, Counts, Event, Finding, ImuSample, ImuSpec, Message,
-    Mode, ModeReason, Received, Rejection, Solution, Span, StartCondition, Time,
+    Mode, ModeReason, Received, Rejection, SatelliteInnovation, Solution, Span, StartCondition,
+    Time,
 };
 use insd_nav::{
     Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Report, Timeline,
@@ -68,6 +69,8 @@ pub enum Output {
     Solution(Solution),
     /// An innovation of a measurement.
     Innovation(AidInnovation),
+    /// An innovation of one satellite.
+    Satellite(SatelliteInnovation),
     /// What the alignment knows of itself: when its phase changes and every ten seconds until the ship
     /// is aligned.
     Alignment(AlignmentStatus),

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use insd_base::Time;
 use insd_base::satellites::{HeardSatellite, SatelliteRanges, SatelliteUse, Sky, SkySatellite};
 use insd_nav::Navigator;
 
@@ -24,6 +25,12 @@ impl Engine {
         let mut satellites: Vec<_> = told.heard.iter().map(one).collect();
         satellites.sort_by_key(|own| own.satellite);
         Some(Sky { time: told.time, satellites })
+    }
+
+    /// When the last epoch that ranges were made of was sampled: that of [`Engine::sky`].
+    #[must_use]
+    pub fn sky_time(&self) -> Option<Time> {
+        self.last_ranges.as_deref().map(|told| told.time)
     }
 
     fn fate_of(&self, told: &SatelliteRanges, heard: &HeardSatellite) -> SatelliteUse {

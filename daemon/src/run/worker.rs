@@ -5,7 +5,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 
 use anyhow::Context;
-use insd_base::{Arrival, Input, Order, Span, Stamp, StorageFaults, Time};
+use insd_base::{Arrival, Event, Input, Order, Span, Stamp, StorageFaults, Time};
 use insd_config::{Config, OutputFile, stored};
 use insd_drivers::ports::Receiver;
 use insd_drivers::raw::Recorder;
@@ -314,11 +314,20 @@ impl Worker {
                     written = nav.write(&solution);
                 }
             }
+            Product::Engine(Output::Satellite(told)) => {
+                nav.iter_mut().for_each(|nav| nav.hear_satellite(&told));
+            }
             Product::Spoken(Spoken::Messages(port, messages)) => outputs.send(port, &messages),
             Product::Spoken(Spoken::Epochs(epochs)) => buses.send(&epochs, clock.now().monotonic),
             product => {
-                if let Product::Order(own) = &product {
-                    obeyed(own);
+                match &product {
+                    Product::Order(own) => obeyed(own),
+                    Product::Engine(Output::Event(Event::SatelliteJudged {
+                        satellite,
+                        is_excluded,
+                        ..
+                    })) => nav.iter_mut().for_each(|nav| nav.leave_out(*satellite, *is_excluded)),
+                    _ => {}
                 }
                 journal.tell(Note::Product(product));
             }

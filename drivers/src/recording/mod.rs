@@ -22,6 +22,7 @@ mod input;
 mod lines;
 mod nav;
 mod nav_row;
+mod nav_satellites;
 mod number;
 mod raw_files;
 mod reader;

@@ -1,14 +1,14 @@
 //! `nav.csv`: the answer of a replay.
 
-use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::io::{self, Write};
 use std::path::Path;
 
-use insd_base::{Ned, SatelliteId, Solution};
+use insd_base::{Ned, SatelliteId, SatelliteInnovation, Solution};
 
 use super::error::RecordingError;
 use super::nav_row::NavRow;
+use super::nav_satellites::NavSatellites;
 use super::number::{Zeros, push_fixed, push_time};
 use super::reader::{Rows, read_all};
 use super::rows::NAV;
@@ -27,7 +27,7 @@ pub struct NavWriter<W: Write> {
     target: W,
     row: Vec<u8>,
     left_out: u64,
-    satellites: BTreeSet<SatelliteId>,
+    satellites: NavSatellites,
 }
 
 impl<W: Write> NavWriter<W> {
@@ -37,7 +37,7 @@ impl<W: Write> NavWriter<W> {
     /// The target cannot be written.
     pub fn new(mut target: W) -> io::Result<Self> {
         writeln!(target, "{}", NAV.join(","))?;
-        let (row, satellites) = (Vec::with_capacity(256), BTreeSet::new());
+        let (row, satellites) = (Vec::with_capacity(256), NavSatellites::default());
         Ok(NavWriter { target, row, left_out: 0, satellites })
     }
 
@@ -62,11 +62,12 @@ impl<W: Write> NavWriter<W> {
 
     /// A satellite is left out of the solutions from now on, or used again: the rows name it.
     pub fn leave_out(&mut self, satellite: SatelliteId, is_excluded: bool) {
-        if is_excluded {
-            self.satellites.insert(satellite);
-        } else {
-            self.satellites.remove(&satellite);
-        }
+        self.satellites.leave_out(satellite, is_excluded);
+    }
+
+    /// Takes note of what a satellite told: the rows say of how many the ranges are in use.
+    pub fn hear_satellite(&mut self, told: &SatelliteInnovation) {
+        self.satellites.hear(told);
     }
 
     /// Solutions that were left out because they were not finite.
@@ -120,8 +121,8 @@ fn push_state(row: &mut Vec<u8>, solution: &Solution) {
     push(row, if heading >= 360.0 - 0.5e-6 { 0.0 } else { heading }, ANGLE_PLACES);
 }
 
-/// Protection levels, whether they may be relied on, and who is left out.
-fn push_judgement(row: &mut Vec<u8>, solution: &Solution, satellites: &BTreeSet<SatelliteId>) {
+/// Protection levels, whether they may be relied on, who is left out, and of how many satellites the ranges are in use.
+fn push_judgement(row: &mut Vec<u8>, solution: &Solution, satellites: &NavSatellites) {
     let levels = solution.protection();
     push_sigma(row, levels.horizontal, METRE_PLACES);
     push_sigma(row, levels.vertical, METRE_PLACES);
@@ -129,12 +130,16 @@ fn push_judgement(row: &mut Vec<u8>, solution: &Solution, satellites: &BTreeSet<
     row.extend_from_slice(solution.availability().as_str().as_bytes());
     row.push(b',');
     let parties = solution.judgement.excluded.iter().map(|party| party.as_str().to_owned());
-    let all = parties.chain(satellites.iter().map(SatelliteId::to_string));
+    let all = parties.chain(satellites.excluded().map(SatelliteId::to_string));
     for (at, name) in all.enumerate() {
         if at > 0 {
             row.push(b' ');
         }
         row.extend_from_slice(name.as_bytes());
+    }
+    row.push(b',');
+    if let Some(used) = satellites.used(solution.time) {
+        row.extend_from_slice(used.to_string().as_bytes());
     }
 }
 
@@ -214,13 +219,13 @@ mod tests {
             lines.next().unwrap(),
             "t_s,lat_deg,lon_deg,height_m,vn_mps,ve_mps,vd_mps,roll_deg,pitch_deg,heading_deg,\
              std_n_m,std_e_m,std_d_m,std_vn_mps,std_ve_mps,std_vd_mps,std_roll_deg,std_pitch_deg,\
-             std_heading_deg,mode,hpl_m,vpl_m,integrity,excluded"
+             std_heading_deg,mode,hpl_m,vpl_m,integrity,excluded,satellites"
         );
         assert_eq!(
             lines.next().unwrap(),
             "12.3,-35.1234567890,180.0000000000,-3.25000,1.00000,-2.50000,0.00001,-0.572958,\
              1.145916,0.000000,1000000.00000,0.00001,1000000.00000,0.010000,0.010000,0.020000,\
-             0.000573,0.000573,0.000001,dead_reckoning,1000000.00000,1000000.00000,unavailable,"
+             0.000573,0.000573,0.000001,dead_reckoning,1000000.00000,1000000.00000,unavailable,,"
         );
     }
 
@@ -234,9 +239,9 @@ mod tests {
             let text = text(&[Solution { judgement, sigma, ..solution() }]);
             text.lines().nth(1).unwrap().split(',').skip(20).collect::<Vec<_>>().join(",")
         };
-        assert_eq!(row(Integrity::Consistent), "7.77817,5.20000,available,gnss log");
-        assert!(row(Integrity::Unproven).ends_with(",unavailable,gnss log"));
-        assert!(row(Integrity::Contradiction).ends_with(",fault,gnss log"));
+        assert_eq!(row(Integrity::Consistent), "7.77817,5.20000,available,gnss log,");
+        assert!(row(Integrity::Unproven).ends_with(",unavailable,gnss log,"));
+        assert!(row(Integrity::Contradiction).ends_with(",fault,gnss log,"));
     }
 
     #[test]
@@ -267,7 +272,7 @@ mod tests {
         text(&[Solution { judgement, ..solution() }, solution()])
     }
 
-    const FURTHER: [&str; 4] = ["hpl_m", "vpl_m", "integrity", "excluded"];
+    const FURTHER: [&str; 5] = ["hpl_m", "vpl_m", "integrity", "excluded", "satellites"];
 
     fn read(text: &str) -> Result<Rows<NavRow>, RecordingError> {
         let dir = tempfile::tempdir().unwrap();
@@ -285,6 +290,7 @@ mod tests {
         assert_eq!(row.integrity, Some(Availability::Fault));
         assert_eq!(row.excluded, ["gnss", "imu"]);
         assert!(all.rows[1].excluded.is_empty());
+        assert_eq!(row.satellites, None);
     }
 
     #[test]
@@ -297,7 +303,7 @@ mod tests {
         assert!(!FURTHER.iter().any(|column| old.has(column)));
         let row = &old.rows[0];
         assert_eq!((row.horizontal_level, row.vertical_level, row.integrity), (None, None, None));
-        let empty = doubted().replace("1000000.00000,1000000.00000,fault,gnss imu", ",,,");
+        let empty = doubted().replace("1000000.00000,1000000.00000,fault,gnss imu,", ",,,,");
         let row = &read(&empty).unwrap().rows[0];
         assert_eq!((row.horizontal_level, row.vertical_level, row.integrity), (None, None, None));
     }
@@ -308,6 +314,8 @@ mod tests {
             (",fault,", ",maybe,", ":2:integrity: unknown word \"maybe\""),
             ("gnss imu", "gnss;imu", ":2:excluded: unknown word \"gnss;imu\""),
             ("1000000.00000,1000000.00000,fault", "-1,2,fault", ":2:hpl_m: -1 is out of range"),
+            ("gnss imu,", "gnss imu,-1", ":2:satellites: -1 is out of range"),
+            ("gnss imu,", "gnss imu,2.5", ":2:satellites: expected a number, found \"2.5\""),
             ("1000000.00000,fault", "x,fault", ":2:vpl_m: expected a number, found \"x\""),
         ] {
             let fault = read(&doubted().replacen(good, bad, 1)).unwrap_err().to_string();

@@ -12,6 +12,10 @@ const HORIZONTAL: usize = 20;
 const VERTICAL: usize = 21;
 const INTEGRITY: usize = 22;
 const EXCLUDED: usize = 23;
+const SATELLITES: usize = 24;
+
+/// More satellites than there are.
+const MOST: f64 = 1000.0;
 
 /// A row of `nav.csv`. What it does not say is `None`.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,12 +30,14 @@ pub struct NavRow {
     pub integrity: Option<Availability>,
     /// Whoever is left out: `gnss`, `log`, or words of another program (`G07`, `a2`).
     pub excluded: Vec<String>,
+    /// Of how many satellites the ranges are in use.
+    pub satellites: Option<u32>,
 }
 
 impl Row for NavRow {
     const COLUMNS: &'static [&'static str] = NAV;
     const OPTIONAL: &'static [&'static [&'static str]] =
-        &[&["hpl_m"], &["vpl_m"], &["integrity"], &["excluded"]];
+        &[&["hpl_m"], &["vpl_m"], &["integrity"], &["excluded"], &["satellites"]];
 
     fn parse(fields: &Fields<'_>) -> Result<Self, BadRow> {
         let level = |column| fields.within(column, 0.0..=f64::MAX);
@@ -41,6 +47,7 @@ impl Row for NavRow {
             vertical_level: level(VERTICAL)?,
             integrity: integrity(fields)?,
             excluded: excluded(fields)?,
+            satellites: satellites(fields)?,
         })
     }
 
@@ -61,6 +68,14 @@ fn integrity(fields: &Fields<'_>) -> Result<Option<Availability>, BadRow> {
     }
     let known = std::str::from_utf8(word).ok().and_then(Availability::from_word);
     known.map(Some).ok_or_else(|| fields.bad(INTEGRITY, RowFault::UnknownWord))
+}
+
+fn satellites(fields: &Fields<'_>) -> Result<Option<u32>, BadRow> {
+    let count = fields.within(SATELLITES, 0.0..=MOST)?;
+    if count.is_some_and(|count| count.fract() != 0.0) {
+        return Err(fields.bad(SATELLITES, RowFault::NotANumber));
+    }
+    Ok(count.map(|count| count as u32))
 }
 
 /// Words of letters, digits and underscores, between spaces.

@@ -247,7 +247,8 @@ pub(super) const NAV: &[&str] = state_columns!(
     "hpl_m",
     "vpl_m",
     "integrity",
-    "excluded"
+    "excluded",
+    "satellites"
 );
 
 /// A solution from the columns of [`NAV`] up to the mode.

@@ -375,6 +375,23 @@ pub struct AidInnovation {
     pub accepted: bool,
 }
 
+/// The innovation of a satellite's code, phase or range rate, with the sigma that was expected before any satellite of the epoch was judged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SatelliteInnovation {
+    /// When the sample was taken.
+    pub time: Time,
+    /// What of it: `satellite_code`, `satellite_phase` or `satellite_rate`.
+    pub aid: &'static str,
+    /// Which satellite.
+    pub satellite: SatelliteId,
+    /// Measured minus predicted, m or m/s.
+    pub innovation: f64,
+    /// Expected 1-sigma, m or m/s.
+    pub sigma: f64,
+    /// Whether it was used.
+    pub accepted: bool,
+}
+
 /// Counters of everything that was used, floored, rejected or bridged.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Counts {

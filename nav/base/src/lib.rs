@@ -43,7 +43,10 @@ pub use alignment::{
 pub use attitude::Attitude;
 pub use can::{BusEvent, CanFrame, CanId};
 pub use estimates::{Disturbance, Estimate, Estimates, SeaQuantity};
-pub use events::{AidInnovation, Counts, Event, ModeReason, Rejection, ResumeDoubt, StoredDoubt};
+pub use events::{
+    AidInnovation, Counts, Event, ModeReason, Rejection, ResumeDoubt, SatelliteInnovation,
+    StoredDoubt,
+};
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
 pub use heave::{DelayedHeave, Heave, HeaveQuality};

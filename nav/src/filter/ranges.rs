@@ -1,7 +1,7 @@
 //! Ranges of satellites: each counts for itself, down to the last one.
 
 use insd_base::satellites::{SatelliteRange, SatelliteRanges, SatelliteUse};
-use insd_base::{Rejection, Source};
+use insd_base::{Rejection, SatelliteId, SatelliteInnovation, Source, Time};
 use insd_estimation::Innovation;
 use nalgebra::Matrix3;
 
@@ -40,10 +40,11 @@ const UNKNOWN_PLACE: f64 = 30.0;
 /// A constant of which nothing is known, m.
 const UNKNOWN_CONSTANT: f64 = 100.0;
 
-/// Rows of one kind, and whose they are.
+/// Rows of one kind, and whose they are: among those seated, and by name.
 struct Rows {
     all: Innovation,
     of: Vec<usize>,
+    names: Vec<SatelliteId>,
 }
 
 impl Filter {
@@ -255,7 +256,7 @@ impl Filter {
         let is_out =
             |one: &Sighted<'_>| self.satellites.slot(one.slot).is_some_and(Slot::is_excluded);
         let (out, used): (Vec<_>, Vec<_>) = seated.into_iter().partition(is_out);
-        self.hear_excluded(&out, report);
+        self.hear_excluded(&out, from.0.time, report);
         let now = self.state.time;
         let Some(rows) = self.code_rows(&used) else { return used };
         let (accepted, faulty) = self.absorb_rows(rows, 0.0, (CODE_AID, from), report);
@@ -277,12 +278,15 @@ impl Filter {
     }
 
     /// Those that are left out are listened to and not used.
-    fn hear_excluded(&mut self, out: &[Sighted<'_>], report: &mut Report) {
+    fn hear_excluded(&mut self, out: &[Sighted<'_>], sampled: Time, report: &mut Report) {
         let now = self.state.time;
         for one in out {
             let rows = self.code_rows(std::slice::from_ref(one));
-            let weighed = rows.and_then(|rows| rows.all.weigh(&self.state.covariance));
-            let agrees = weighed.is_some_and(|weighed| weighed.nis() < AGREES * AGREES);
+            let told = rows.and_then(|rows| Some((rows.all.weigh(&self.state.covariance)?, rows)));
+            let agrees = told.as_ref().is_some_and(|(own, _)| own.nis() < AGREES * AGREES);
+            report
+                .ranges
+                .extend(told.iter().flat_map(|(own, rows)| rows.told(own, CODE_AID, sampled)));
             let Some(slot) = self.satellites.slot_mut(one.slot) else { continue };
             let readmitted = if agrees { slot.agree() } else { slot.exclude(now) };
             let is_excluded = !agrees;
@@ -299,12 +303,16 @@ impl Filter {
         report: &mut Report,
     ) -> (Vec<usize>, Vec<usize>) {
         let mut left_out = Vec::new();
+        let mut innovations = Vec::new();
         let all = rows.of.len();
         let weighed = loop {
             if are_most(left_out.len(), all) {
                 break None;
             }
             let Some(weighed) = rows.all.weigh(&self.state.covariance) else { break None };
+            if left_out.is_empty() {
+                innovations.extend(rows.told(&weighed, aid, told.time));
+            }
             match worst(&weighed, least) {
                 Some(row) if rows.of.len() > 1 => left_out.push(rows.remove(row)),
                 Some(_) => {
@@ -325,7 +333,10 @@ impl Filter {
         };
         let judged = Judged { outcome, log_likelihood: 0.0, innovation: NO_INNOVATION };
         enter(report, told.time, source, aid, &judged);
-        let used = if weighed.is_some() { rows.of } else { Vec::new() };
+        let (used, names) =
+            if weighed.is_some() { (rows.of, rows.names) } else { Default::default() };
+        innovations.iter_mut().for_each(|own| own.accepted = names.contains(&own.satellite));
+        report.ranges.append(&mut innovations);
         (used, left_out)
     }
 }
@@ -343,8 +354,12 @@ impl Rows {
                 Some(rows) => {
                     rows.all = rows.all.beside(&own);
                     rows.of.push(index);
+                    rows.names.push(one.range.satellite);
                 }
-                None => rows = Some(Rows { all: own, of: vec![index] }),
+                None => {
+                    let names = vec![one.range.satellite];
+                    rows = Some(Rows { all: own, of: vec![index], names });
+                }
             }
         }
         rows
@@ -354,7 +369,23 @@ impl Rows {
     fn remove(&mut self, row: usize) -> usize {
         let kept: Vec<usize> = (0..self.of.len()).filter(|index| *index != row).collect();
         self.all = self.all.select(&kept);
+        self.names.remove(row);
         self.of.remove(row)
+    }
+
+    /// What each tells beside what was expected, for those who look on; none of them is used so far.
+    fn told(&self, weighed: &Weighed, aid: &'static str, time: Time) -> Vec<SatelliteInnovation> {
+        let (z, sigmas) = (weighed.z(), weighed.sigma());
+        let rows = self.names.iter().zip(z.iter().zip(&sigmas));
+        rows.map(|(satellite, (innovation, sigma))| SatelliteInnovation {
+            time,
+            aid,
+            satellite: *satellite,
+            innovation: *innovation,
+            sigma: *sigma,
+            accepted: false,
+        })
+        .collect()
     }
 }
 

@@ -156,7 +156,7 @@ fn navigate(scenario: &Scenario, voyage: &Voyage, seed: u64, args: &CampaignArgs
                 Output::Solution(solution) => solutions.push(solution),
                 Output::Alignment(status) => statuses.push(status),
                 Output::Event(event) => fate = StoredFate::of(&event).or(fate),
-                Output::Innovation(_) => {}
+                Output::Innovation(_) | Output::Satellite(_) => {}
             }
         }
     }

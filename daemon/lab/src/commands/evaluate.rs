@@ -7,7 +7,9 @@ use insd_config::BadInput;
 use insd_drivers::recording::{read_nav_rows, read_truth_rows};
 
 use crate::evaluation::plot::Picture;
-use crate::evaluation::{ErrorReport, Evidence, drifts, errors, outages, read_rows};
+use crate::evaluation::{
+    ErrorReport, Evidence, WithSatellites, drifts, errors, outages, read_rows,
+};
 
 /// Options of `insd evaluate`.
 ///
@@ -33,12 +35,15 @@ pub struct EvaluateArgs {
     /// Print JSON instead of a table
     #[arg(long)]
     json: bool,
-    /// Draw track, errors with claimed 3-sigma bands and innovations
+    /// Draw track, errors with claimed 3-sigma bands, innovations, and of satellites sky, innovations and what their number does
     #[arg(long, value_name = "FILE.png|.svg", value_parser = super::picture)]
     plot: Option<PathBuf>,
     /// Innovations written by `insd replay --innovations`, for the plot
     #[arg(long, value_name = "FILE.csv", requires = "plot")]
     innovations: Option<PathBuf>,
+    /// Sky written by `insd replay --sky`, for the plot
+    #[arg(long, value_name = "FILE.csv", requires = "plot")]
+    sky: Option<PathBuf>,
 }
 
 /// Runs the command.
@@ -61,6 +66,7 @@ pub fn run(args: &EvaluateArgs) -> anyhow::Result<()> {
         truth: args.truth.display().to_string(),
         skipped_nav_rows: nav.report.faulty(),
         skipped_truth_rows: truth.report.faulty(),
+        satellites: WithSatellites::all(&nav.rows, &found),
         ..ErrorReport::new(&found, drifts, Evidence::new(&nav, &found, from))
     };
     if args.json {
@@ -70,13 +76,15 @@ pub fn run(args: &EvaluateArgs) -> anyhow::Result<()> {
     }
     let Some(file) = &args.plot else { return Ok(()) };
     let innovations = args.innovations.as_deref().map(read_rows).transpose()?;
+    let sky = args.sky.as_deref().map(read_rows).transpose()?;
     let name = args.nav.file_name().unwrap_or(args.nav.as_os_str()).to_string_lossy();
     Picture {
         title: &format!("{name}: errors with claimed ±3σ bands"),
-        nav: &solutions,
+        nav: &nav.rows,
         truth: &truth.rows,
         errors: &found,
         innovations: innovations.as_deref().unwrap_or_default(),
+        sky: sky.as_deref().unwrap_or_default(),
     }
     .draw(file)
 }

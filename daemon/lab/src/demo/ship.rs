@@ -120,7 +120,7 @@ impl DemoShip {
     fn take(&mut self, output: Output) {
         match output {
             Output::Event(event) => self.note(&event),
-            Output::Innovation(_) | Output::Alignment(_) => {}
+            Output::Innovation(_) | Output::Satellite(_) | Output::Alignment(_) => {}
             Output::Solution(solution) => {
                 self.track(&solution);
                 if self.board.solution.is_none_or(|last| last.mode != solution.mode) {

@@ -6,6 +6,7 @@
 mod aligned;
 mod alignment;
 mod alignment_log;
+mod by_satellites;
 mod campaign;
 mod component;
 mod drift;
@@ -19,12 +20,14 @@ mod promises;
 mod report;
 mod rows;
 mod series;
+mod sky;
 mod statistics;
 mod stored;
 
 pub use aligned::{AlignedEstimates, Times, WorstHeading, WorstRun, worst_heading};
 pub use alignment::{RunAlignment, alignment};
 pub use alignment_log::AlignmentRow;
+pub use by_satellites::{WithSatellites, by_satellites};
 pub use campaign::{CampaignReport, ComponentEstimates, OutageEstimates, Run, Yardstick};
 pub use component::Component;
 pub use drift::{Drift, Outage, drifts, outages};
@@ -36,6 +39,7 @@ pub use interval::MeanOfRuns;
 pub use promises::PromiseEstimates;
 pub use report::ErrorReport;
 pub use rows::{RowWriter, read_rows};
+pub use sky::SkyRow;
 pub use statistics::{Summary, mean, quantile, summarise, summarise_horizontal};
 pub use stored::{StoredEstimates, StoredFate};
 

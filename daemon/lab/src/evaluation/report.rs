@@ -5,6 +5,7 @@ use std::fmt;
 
 use serde::Serialize;
 
+use super::by_satellites::WithSatellites;
 use super::component::Component;
 use super::drift::Drift;
 use super::errors::{EpochsLeftOut, VoyageErrors};
@@ -39,6 +40,9 @@ pub struct ErrorReport {
     pub components: BTreeMap<&'static str, Option<Summary>>,
     /// Errors in each stretch without GNSS.
     pub outages: Vec<Drift>,
+    /// The horizontal position by the number of satellites in use; no key where ranges never were.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub satellites: Vec<WithSatellites>,
     /// What the solution said of how far it may be relied on, against truth.
     pub evidence: Evidence,
 }
@@ -59,7 +63,7 @@ pub(super) fn row_order() -> Vec<&'static str> {
 }
 
 impl ErrorReport {
-    /// The report on a comparison. File names and skipped rows are filled in by the caller.
+    /// The report on a comparison. File names, skipped rows and satellites are filled in by the caller.
     #[must_use]
     pub fn new(errors: &VoyageErrors, outages: Vec<Drift>, evidence: Evidence) -> Self {
         let seconds = |epoch: Option<&super::EpochError>| {
@@ -76,6 +80,7 @@ impl ErrorReport {
             skipped_truth_rows: 0,
             components: summaries(errors),
             outages,
+            satellites: Vec::new(),
             evidence,
         }
     }
@@ -158,6 +163,10 @@ impl fmt::Display for ErrorReport {
         if !self.outages.is_empty() {
             writeln!(f, "\nwithout GNSS")?;
             write!(f, "{}", outage_table(&self.outages))?;
+        }
+        if !self.satellites.is_empty() {
+            writeln!(f, "\nhorizontal position by satellites in use")?;
+            write!(f, "{}", WithSatellites::table(&self.satellites))?;
         }
         write!(f, "\n{}", self.evidence)?;
         let notes = self.notes();

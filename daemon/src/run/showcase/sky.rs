@@ -70,7 +70,7 @@ fn satellite(own: &SkySatellite, now: Time) -> ShownSatellite {
         signals: own.signals.iter().map(signal).collect(),
         fate: fate(own.fate),
         left_out_for_s: left_out,
-        reason: reason(own.fate).map(str::to_owned),
+        reason: own.fate.reason().map(str::to_owned),
         text: text(own),
     }
 }
@@ -83,16 +83,6 @@ fn fate(fate: SatelliteUse) -> SatelliteFate {
         SatelliteUse::Crowded => SatelliteFate::Crowded,
         SatelliteUse::Waiting => SatelliteFate::Waiting,
         SatelliteUse::Refused(_) => SatelliteFate::Refused,
-    }
-}
-
-fn reason(fate: SatelliteUse) -> Option<&'static str> {
-    match fate {
-        SatelliteUse::Phase | SatelliteUse::CodeOnly => None,
-        SatelliteUse::LeftOut { .. } => Some("contradicts"),
-        SatelliteUse::Crowded => Some("crowded"),
-        SatelliteUse::Waiting => Some("waiting"),
-        SatelliteUse::Refused(why) => Some(why.as_str()),
     }
 }
 

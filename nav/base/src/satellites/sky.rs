@@ -42,6 +42,33 @@ pub enum SatelliteUse {
     Refused(RangeRefusal),
 }
 
+impl SatelliteUse {
+    /// Its word: `used`, `code_only`, `left_out`, `crowded`, `waiting`, `refused`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            SatelliteUse::Phase => "used",
+            SatelliteUse::CodeOnly => "code_only",
+            SatelliteUse::LeftOut { .. } => "left_out",
+            SatelliteUse::Crowded => "crowded",
+            SatelliteUse::Waiting => "waiting",
+            SatelliteUse::Refused(_) => "refused",
+        }
+    }
+
+    /// Why it is not used, in a word; `None` where it is.
+    #[must_use]
+    pub fn reason(self) -> Option<&'static str> {
+        match self {
+            SatelliteUse::Phase | SatelliteUse::CodeOnly => None,
+            SatelliteUse::LeftOut { .. } => Some("contradicts"),
+            SatelliteUse::Crowded => Some("crowded"),
+            SatelliteUse::Waiting => Some("waiting"),
+            SatelliteUse::Refused(why) => Some(why.as_str()),
+        }
+    }
+}
+
 /// A satellite of the sky.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SkySatellite {

@@ -54,9 +54,12 @@ pub struct ReplayArgs {
     /// Store the state at the end for the next start, if the ship is aligned and lies at her berth
     #[arg(long, value_name = "FILE")]
     pub(super) save_state: Option<PathBuf>,
-    /// Also write the innovations of all aids
+    /// Also write the innovations of all aids and satellites
     #[arg(long, value_name = "FILE.csv")]
     pub(super) innovations: Option<PathBuf>,
+    /// Also write where each satellite of raw GNSS stood, and what became of it
+    #[arg(long, value_name = "FILE.csv")]
+    pub(super) sky: Option<PathBuf>,
     /// Also write what the alignment says of itself: phase, sigmas, forecast, sea
     #[arg(long, value_name = "FILE.csv")]
     pub(super) alignment_log: Option<PathBuf>,

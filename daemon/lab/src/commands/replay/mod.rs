@@ -6,6 +6,7 @@ mod raw_table;
 mod recording;
 mod sent;
 mod sink;
+mod sky_log;
 mod voyage;
 mod without;
 

@@ -33,7 +33,8 @@ pub(super) fn run(args: &ReplayArgs, tell: Tell) -> anyhow::Result<()> {
                 };
             }
         });
-        written.context("cannot write what comes of it")
+        written.context("cannot write what comes of it")?;
+        sink.look(pipeline.engine_in_use()).context("cannot write the sky")
     })?;
     eprint!("{}", sink.summary(pipeline.counts(), 0, Vec::new()));
     sent.map_or(Ok(()), Sent::finish)?;

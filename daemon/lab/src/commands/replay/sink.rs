@@ -3,14 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use insd_base::{
-    AidInnovation, AlignmentStatus, Counts, Event, Finding, Mode, SatelliteId, Stands, Time,
-};
+use insd_base::{AlignmentStatus, Counts, Event, Finding, Mode, SatelliteId, Stands, Time};
 use insd_config::OutputFile;
 use insd_drivers::recording::{FileReport, NavWriter};
-use insd_engine::Output;
+use insd_engine::{Engine, Output};
 
 use super::args::ReplayArgs;
+use super::sky_log::SkyLog;
 use crate::commands::summary::Summary;
 use crate::evaluation::{AlignmentRow, InnovationRow, RowWriter};
 
@@ -19,6 +18,7 @@ pub(super) struct Sink {
     nav: NavWriter<OutputFile>,
     innovations: Option<RowWriter<InnovationRow, OutputFile>>,
     alignment_log: Option<RowWriter<AlignmentRow, OutputFile>>,
+    sky: Option<SkyLog>,
     alignment: Vec<AlignmentStatus>,
     modes: Vec<(Time, Mode)>,
     departures: Vec<Time>,
@@ -28,6 +28,8 @@ pub(super) struct Sink {
     satellites: Vec<(Time, SatelliteId, bool)>,
     stored: Option<Event>,
     solutions: u64,
+    /// Time of the newest solution.
+    solved: Option<Time>,
 }
 
 impl Sink {
@@ -38,6 +40,7 @@ impl Sink {
             nav: open_nav(&args.out)?,
             innovations: args.innovations.as_ref().map(innovations).transpose()?,
             alignment_log: args.alignment_log.as_ref().map(log).transpose()?,
+            sky: args.sky.as_deref().map(SkyLog::create).transpose()?,
             alignment: Vec::new(),
             modes: Vec::new(),
             departures: Vec::new(),
@@ -47,6 +50,7 @@ impl Sink {
             satellites: Vec::new(),
             stored: None,
             solutions: 0,
+            solved: None,
         })
     }
 
@@ -54,12 +58,14 @@ impl Sink {
         match output {
             Output::Solution(solution) => {
                 self.solutions += 1;
+                self.solved = Some(solution.time);
                 self.nav.write(solution)
             }
-            Output::Innovation(innovation) => match &mut self.innovations {
-                Some(file) => file.write(&row(innovation)),
-                None => Ok(()),
-            },
+            Output::Innovation(innovation) => self.write(|| innovation.into()),
+            Output::Satellite(told) => {
+                self.nav.hear_satellite(told);
+                self.write(|| told.into())
+            }
             Output::Alignment(status) => {
                 self.alignment.push(*status);
                 match &mut self.alignment_log {
@@ -71,6 +77,21 @@ impl Sink {
                 self.note(event);
                 Ok(())
             }
+        }
+    }
+
+    fn write(&mut self, row: impl FnOnce() -> InnovationRow) -> std::io::Result<()> {
+        match &mut self.innovations {
+            Some(file) => file.write(&row()),
+            None => Ok(()),
+        }
+    }
+
+    /// Looks at the sky, if it is to be written, after each message that the engine has taken.
+    pub(super) fn look(&mut self, engine: &Engine) -> std::io::Result<()> {
+        match &mut self.sky {
+            Some(sky) => sky.look(engine, self.solved),
+            None => Ok(()),
         }
     }
 
@@ -123,6 +144,7 @@ impl Sink {
         if let Some(file) = self.alignment_log {
             file.finish()?.finish()?;
         }
+        self.sky.map_or(Ok(()), SkyLog::finish)?;
         match self.innovations {
             Some(file) => file.finish()?.finish(),
             None => Ok(()),
@@ -132,15 +154,4 @@ impl Sink {
 
 fn open_nav(path: &Path) -> anyhow::Result<NavWriter<OutputFile>> {
     NavWriter::new(OutputFile::create(path)?).context("cannot write the solution")
-}
-
-fn row(innovation: &AidInnovation) -> InnovationRow {
-    InnovationRow {
-        t_s: innovation.time.as_seconds(),
-        aid: innovation.aid.to_owned(),
-        component: innovation.component,
-        innovation: innovation.innovation,
-        sigma: innovation.sigma,
-        accepted: innovation.accepted,
-    }
 }

@@ -41,6 +41,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
                 continue;
             }
             engine.handle(&ranges);
+            sink.look(&engine).context("cannot write the sky")?;
         }
         if raw.replaces(&received) || Without::drops(&args.without, &received) {
             continue;
@@ -54,6 +55,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
             ports.iter_mut().for_each(|ports| ports.outputs.note(&output));
             sink.take(&output).context("cannot write the solution")?;
         }
+        sink.look(&engine).context("cannot write the sky")?;
         ports.iter_mut().try_for_each(|ports| ports.speak(&engine, &received))?;
     }
     ports.map_or(Ok(()), |ports| ports.sent.finish())?;

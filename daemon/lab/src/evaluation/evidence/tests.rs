@@ -17,6 +17,7 @@ fn row(seconds: f64, off: f64, level: f64) -> NavRow {
         vertical_level: Some(4.0),
         integrity: Some(Availability::Available),
         excluded: Vec::new(),
+        satellites: None,
     }
 }
 

@@ -1,22 +1,29 @@
-//! The picture of `insd evaluate --plot`: track, errors within their claimed bands, innovations.
+//! The picture of `insd evaluate --plot`: track, errors within their claimed bands, innovations, satellites.
 
 mod decimate;
 mod panel;
+mod satellites;
 mod track;
 
 use std::path::Path;
 
 use anyhow::{Context, bail};
 use insd_base::{Solution, Truth};
+use insd_drivers::recording::NavRow;
 use kuva::render::figure::Figure;
 
+use super::by_satellites::{WithSatellites, by_satellites};
 use super::component::Component;
 use super::errors::VoyageErrors;
 use super::innovation::InnovationRow;
+use super::sky::SkyRow;
 use panel::{Panel, TimeAxis};
 
 const CELL_WIDTH: f64 = 800.0;
 const CELL_HEIGHT: f64 = 260.0;
+/// Rows of cells for the sky, and for the lanes of satellites.
+const SKY_ROWS: usize = 2;
+const LANE_ROWS: usize = 3;
 /// Pixels for one unit of the figure.
 const PNG_SCALE: f32 = 1.5;
 
@@ -25,14 +32,16 @@ const PNG_SCALE: f32 = 1.5;
 pub struct Picture<'a> {
     /// Title above all panels.
     pub title: &'a str,
-    /// Solutions.
-    pub nav: &'a [Solution],
+    /// Solutions, and how many satellites they rest on.
+    pub nav: &'a [NavRow],
     /// Truth.
     pub truth: &'a [Truth],
     /// Their differences.
     pub errors: &'a VoyageErrors,
     /// Innovations; none for no panel.
     pub innovations: &'a [InnovationRow],
+    /// The sky; none for no panel.
+    pub sky: &'a [SkyRow],
 }
 
 impl Picture<'_> {
@@ -61,11 +70,42 @@ impl Picture<'_> {
     fn track(&self) -> Panel {
         let epochs = &self.errors.epochs;
         let span = epochs.first().map(|e| e.time)..=epochs.last().map(|e| e.time);
-        let nav = self.nav.iter().filter(|row| span.contains(&Some(row.time)));
+        let nav = self.nav.iter().map(|row| &row.solution);
+        let nav = nav.filter(|row: &&Solution| span.contains(&Some(row.time)));
         let truth = self.truth.iter().filter(|row| span.contains(&Some(row.time)));
         let nav: Vec<_> = nav.map(|row| row.position).collect();
         let truth: Vec<_> = truth.map(|row| row.position).collect();
         track::panel(&nav, &truth)
+    }
+
+    /// Sky and number of satellites beside each other, what each told below; nothing where there are none.
+    fn push_satellites(
+        &self,
+        structure: &mut Vec<Vec<usize>>,
+        panels: &mut Vec<Panel>,
+        axis: TimeAxis,
+    ) {
+        let epochs = by_satellites(self.nav, self.errors);
+        let figures = WithSatellites::all(self.nav, self.errors);
+        let sky = satellites::sky(self.sky, axis);
+        let by_number = satellites::by_number(&epochs, &figures);
+        match (sky, by_number) {
+            (Some(sky), Some(by_number)) => {
+                let first = next_cell(structure);
+                structure.extend([cells(first, SKY_ROWS, &[0]), cells(first, SKY_ROWS, &[1])]);
+                panels.extend([sky, by_number]);
+            }
+            (sky, by_number) => {
+                for panel in [sky, by_number].into_iter().flatten() {
+                    push(structure, SKY_ROWS, &[0, 1]);
+                    panels.push(panel);
+                }
+            }
+        }
+        if let Some(panel) = satellites::residuals(self.innovations, axis) {
+            push(structure, LANE_ROWS, &[0, 1]);
+            panels.push(panel);
+        }
     }
 
     /// The track on the left over two rows, the two errors that matter most beside it, the others
@@ -88,10 +128,10 @@ impl Picture<'_> {
         panels.extend(errors);
         let mut structure = pairs_beside_track(panels.len());
         if let Some(panel) = panel::innovations(self.innovations, axis) {
-            let first = next_cell(&structure);
-            structure.push(vec![first, first + 1]);
+            push(&mut structure, 1, &[0, 1]);
             panels.push(panel);
         }
+        self.push_satellites(&mut structure, &mut panels, axis);
         let rows = next_cell(&structure) / 2;
         let (plots, layouts): (Vec<_>, Vec<_>) =
             panels.into_iter().map(|Panel { plots, layout }| (plots, layout)).unzip();
@@ -105,6 +145,16 @@ impl Picture<'_> {
             .with_spacing(14.0)
             .render()
     }
+}
+
+/// Adds a panel of so many rows below all others, in these columns.
+fn push(structure: &mut Vec<Vec<usize>>, rows: usize, columns: &[usize]) {
+    let first = next_cell(structure);
+    structure.push(cells(first, rows, columns));
+}
+
+fn cells(first: usize, rows: usize, columns: &[usize]) -> Vec<usize> {
+    (0..rows).flat_map(|row| columns.iter().map(move |column| first + 2 * row + column)).collect()
 }
 
 /// Cells of a grid of two columns: panel 0 on the left of the first two rows, panels 1 and 2 on
@@ -146,34 +196,97 @@ mod tests {
         }
     }
 
-    #[test]
-    fn pictures_are_drawn_with_and_without_attitude_and_innovations() {
-        let dir = tempfile::tempdir().unwrap();
+    /// A ship that goes north, with so many satellites, or with fixes alone.
+    fn sailed(satellites: Option<u32>) -> (Vec<NavRow>, Vec<Truth>) {
         let point = |t: i32| Geodetic::from_degrees(1.0 + f64::from(t) * 1e-4, 2.0, 3.0);
-        let nav: Vec<_> = (0..50).map(|t| solution(f64::from(t), point(t))).collect();
-        let mut rows: Vec<_> = (0..50).map(|t| truth(f64::from(t), point(t))).collect();
-        let row = |t: i32| InnovationRow {
+        let row = |t: i32| NavRow {
+            solution: solution(f64::from(t), point(t)),
+            horizontal_level: None,
+            vertical_level: None,
+            integrity: None,
+            excluded: Vec::new(),
+            satellites,
+        };
+        ((0..50).map(row).collect(), (0..50).map(|t| truth(f64::from(t), point(t))).collect())
+    }
+
+    fn innovation(t: i32, aid: &str, component: &str) -> InnovationRow {
+        InnovationRow {
             t_s: f64::from(t),
-            aid: "gnss_position".to_owned(),
-            component: 0,
+            aid: aid.to_owned(),
+            component: component.to_owned(),
             innovation: 0.5,
             sigma: 1.0,
             accepted: t % 10 > 0,
-        };
-        let innovations: Vec<_> = (0..50).map(row).collect();
+        }
+    }
+
+    fn seen(t: i32) -> SkyRow {
+        SkyRow {
+            t_s: f64::from(t),
+            satellite: "G07".to_owned(),
+            azimuth_deg: Some(f64::from(t)),
+            elevation_deg: Some(30.0),
+            cn0_dbhz: None,
+            state: "used".to_owned(),
+            reason: None,
+        }
+    }
+
+    #[test]
+    fn pictures_are_drawn_with_and_without_attitude_and_innovations() {
+        let dir = tempfile::tempdir().unwrap();
+        let (nav, mut rows) = sailed(None);
+        let solutions: Vec<_> = nav.iter().map(|row| row.solution).collect();
+        let innovations: Vec<_> = (0..50).map(|t| innovation(t, "gnss_position", "0")).collect();
         for (name, shown) in [("a.png", &innovations[..]), ("b.svg", &[]), ("c.svg", &innovations)]
         {
-            let found = errors(&nav, &rows, None);
+            let found = errors(&solutions, &rows, None);
             let picture = Picture {
                 title: "test",
                 nav: &nav,
                 truth: &rows,
                 errors: &found,
                 innovations: shown,
+                sky: &[],
             };
             picture.draw(&dir.path().join(name)).unwrap();
             assert!(picture.draw(&dir.path().join("a.gif")).is_err());
             rows.iter_mut().for_each(|row| row.attitude = None);
         }
+    }
+
+    #[test]
+    fn satellites_are_drawn_where_there_are_any_and_the_picture_is_as_it_was_where_not() {
+        let dir = tempfile::tempdir().unwrap();
+        let sky: Vec<_> = (0..50).map(seen).collect();
+        let told: Vec<_> = (0..50).map(|t| innovation(t, "satellite_code", "G07")).collect();
+        let drawn = |satellites, innovations: &[InnovationRow], sky: &[SkyRow]| {
+            let (nav, truth) = sailed(satellites);
+            let solutions: Vec<_> = nav.iter().map(|row| row.solution).collect();
+            let found = errors(&solutions, &truth, None);
+            let picture = Picture {
+                title: "test",
+                nav: &nav,
+                truth: &truth,
+                errors: &found,
+                innovations,
+                sky,
+            };
+            picture.draw(&dir.path().join("a.svg")).unwrap();
+            std::fs::read_to_string(dir.path().join("a.svg")).unwrap()
+        };
+        let titles = ["satellites in use", "sky: tracks", "innovations of satellites"];
+        let all = drawn(Some(7), &told, &sky);
+        assert!(titles.iter().all(|title| all.contains(title)), "{all}");
+        for (at, one) in [drawn(Some(7), &[], &[]), drawn(None, &[], &sky), drawn(None, &told, &[])]
+            .iter()
+            .enumerate()
+        {
+            let there: Vec<_> = titles.iter().map(|title| one.contains(title)).collect();
+            assert_eq!(there, [at == 0, at == 1, at == 2]);
+        }
+        let none = drawn(None, &[], &[]);
+        assert!(!titles.iter().any(|title| none.contains(title)), "{none}");
     }
 }

@@ -16,10 +16,10 @@ use crate::table::significant;
 pub(super) const SOLUTION: &str = "#1f5fa8";
 pub(super) const TRUTH: &str = "#4d4d4d";
 const BAND: &str = "#8fb4dc";
-const REJECTED: &str = "#c62828";
+pub(super) const REJECTED: &str = "#c62828";
 const AIDS: [&str; 6] = ["#1f5fa8", "#2e7d32", "#ef8a17", "#6a4c93", "#00838f", "#8d6e63"];
 /// Innovations beyond so many sigmas are drawn at the border.
-const INNOVATION_LIMIT: f64 = 6.0;
+pub(super) const INNOVATION_LIMIT: f64 = 6.0;
 const POINTS_PER_AID: usize = 3000;
 
 /// One cell of the figure.
@@ -50,11 +50,16 @@ impl TimeAxis {
         TimeAxis { unit, seconds, from, to: (last / seconds).max(from + 1e-3) }
     }
 
-    fn of(&self, seconds: f64) -> f64 {
+    /// Whether an instant is on it.
+    pub(super) fn holds(&self, seconds: f64) -> bool {
+        (self.from..=self.to).contains(&self.of(seconds))
+    }
+
+    pub(super) fn of(&self, seconds: f64) -> f64 {
         seconds / self.seconds
     }
 
-    fn layout(&self, plots: &[Plot], title: &str, limits: (f64, f64)) -> Layout {
+    pub(super) fn layout(&self, plots: &[Plot], title: &str, limits: (f64, f64)) -> Layout {
         styled(Layout::auto_from_plots(plots))
             .with_title(title)
             .with_x_label(format!("time, {}", self.unit))
@@ -155,15 +160,13 @@ fn curves(points: &[(f64, f64, f64)], low: f64, high: f64) -> Vec<Plot> {
     vec![band.into(), line.into()]
 }
 
-/// Innovations over their predicted sigma, by aid, with rejected ones in red.
+/// Innovations over their predicted sigma, by aid, with rejected ones in red. Satellites have a panel of their own.
 pub(super) fn innovations(rows: &[InnovationRow], axis: TimeAxis) -> Option<Panel> {
     let mut by_aid: BTreeMap<&str, Vec<(f64, f64)>> = BTreeMap::new();
     let mut rejected = Vec::new();
-    for row in rows.iter().filter(|row| row.sigma > 0.0 && row.innovation.is_finite()) {
+    let of_ship = rows.iter().filter(|row| !row.is_of_satellite() && axis.holds(row.t_s));
+    for row in of_ship.filter(|row| row.sigma > 0.0 && row.innovation.is_finite()) {
         let time = axis.of(row.t_s);
-        if !(axis.from..=axis.to).contains(&time) {
-            continue;
-        }
         let ratio = (row.innovation / row.sigma).clamp(-INNOVATION_LIMIT, INNOVATION_LIMIT);
         if row.accepted {
             by_aid.entry(&row.aid).or_default().push((time, ratio));

@@ -124,7 +124,7 @@ impl Collected {
             Output::Innovation(innovation) => {
                 self.aids.innovation(now, innovation);
             }
-            Output::Alignment(_) => {}
+            Output::Satellite(_) | Output::Alignment(_) => {}
             Output::Event(event) => self.event(now, event),
         }
     }
