@@ -19,6 +19,7 @@ mod promises;
 mod report;
 mod rows;
 mod series;
+mod stanford;
 mod statistics;
 mod stored;
 
@@ -36,6 +37,9 @@ pub use interval::MeanOfRuns;
 pub use promises::PromiseEstimates;
 pub use report::ErrorReport;
 pub use rows::{RowWriter, read_rows};
+pub use stanford::{
+    AlertLimit, IntegrityReport, LevelsOfAxis, StanfordClass, StanfordPoint, Tally,
+};
 pub use statistics::{Summary, mean, quantile, summarise, summarise_horizontal};
 pub use stored::{StoredEstimates, StoredFate};
 

@@ -1,7 +1,9 @@
-//! The picture of `insd evaluate --plot`: track, errors within their claimed bands, innovations.
+//! Pictures: of `insd evaluate --plot` track, errors within their claimed bands, innovations; of `insd integrity --plot`
+//! the Stanford chart.
 
 mod decimate;
 mod panel;
+mod stanford;
 mod track;
 
 use std::path::Path;
@@ -9,11 +11,14 @@ use std::path::Path;
 use anyhow::{Context, bail};
 use insd_base::{Solution, Truth};
 use kuva::render::figure::Figure;
+use kuva::render::render::Scene;
 
 use super::component::Component;
 use super::errors::VoyageErrors;
 use super::innovation::InnovationRow;
+use super::statistics::quantile;
 use panel::{Panel, TimeAxis};
+pub use stanford::StanfordChart;
 
 const CELL_WIDTH: f64 = 800.0;
 const CELL_HEIGHT: f64 = 260.0;
@@ -44,17 +49,7 @@ impl Picture<'_> {
         if self.errors.epochs.is_empty() {
             bail!("nothing to draw: solution and truth have no common time");
         }
-        let extension = file.extension().and_then(|e| e.to_str()).unwrap_or("");
-        let scene = self.scene();
-        let bytes = match extension.to_ascii_lowercase().as_str() {
-            "png" => kuva::backend::png::PngBackend::new()
-                .with_scale(PNG_SCALE)
-                .render_scene(&scene)
-                .map_err(|fault| anyhow::anyhow!("cannot draw: {fault}"))?,
-            "svg" => kuva::backend::svg::SvgBackend.render_scene(&scene).into_bytes(),
-            _ => bail!("{}: expected a file ending in .png or .svg", file.display()),
-        };
-        std::fs::write(file, bytes).with_context(|| file.display().to_string())
+        write(&self.scene(), file)
     }
 
     /// The track in the time of the errors.
@@ -70,7 +65,7 @@ impl Picture<'_> {
 
     /// The track on the left over two rows, the two errors that matter most beside it, the others
     /// below in pairs, innovations over the whole width.
-    fn scene(&self) -> kuva::render::render::Scene {
+    fn scene(&self) -> Scene {
         let axis = TimeAxis::covering(&self.errors.epochs);
         let mut panels = vec![self.track(), panel::horizontal(self.errors, axis)];
         let after_track = [
@@ -105,6 +100,20 @@ impl Picture<'_> {
             .with_spacing(14.0)
             .render()
     }
+}
+
+/// Writes a scene to a `.png` or `.svg` file.
+fn write(scene: &Scene, file: &Path) -> anyhow::Result<()> {
+    let extension = file.extension().and_then(|e| e.to_str()).unwrap_or("");
+    let bytes = match extension.to_ascii_lowercase().as_str() {
+        "png" => kuva::backend::png::PngBackend::new()
+            .with_scale(PNG_SCALE)
+            .render_scene(scene)
+            .map_err(|fault| anyhow::anyhow!("cannot draw: {fault}"))?,
+        "svg" => kuva::backend::svg::SvgBackend.render_scene(scene).into_bytes(),
+        _ => bail!("{}: expected a file ending in .png or .svg", file.display()),
+    };
+    std::fs::write(file, bytes).with_context(|| file.display().to_string())
 }
 
 /// Cells of a grid of two columns: panel 0 on the left of the first two rows, panels 1 and 2 on

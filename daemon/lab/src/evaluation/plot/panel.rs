@@ -40,7 +40,11 @@ pub(super) struct TimeAxis {
 impl TimeAxis {
     pub(super) fn covering(epochs: &[EpochError]) -> Self {
         let at = |epoch: Option<&EpochError>| epoch.map_or(0.0, |epoch| epoch.time.as_seconds());
-        let (first, last) = (at(epochs.first()), at(epochs.last()));
+        Self::between(at(epochs.first()), at(epochs.last()))
+    }
+
+    /// From one instant to another, s.
+    pub(super) fn between(first: f64, last: f64) -> Self {
         let (unit, seconds) = match last - first {
             length if length > 5.0 * 3600.0 => ("h", 3600.0),
             length if length > 600.0 => ("min", 60.0),
@@ -50,11 +54,11 @@ impl TimeAxis {
         TimeAxis { unit, seconds, from, to: (last / seconds).max(from + 1e-3) }
     }
 
-    fn of(&self, seconds: f64) -> f64 {
+    pub(super) fn of(&self, seconds: f64) -> f64 {
         seconds / self.seconds
     }
 
-    fn layout(&self, plots: &[Plot], title: &str, limits: (f64, f64)) -> Layout {
+    pub(super) fn layout(&self, plots: &[Plot], title: &str, limits: (f64, f64)) -> Layout {
         styled(Layout::auto_from_plots(plots))
             .with_title(title)
             .with_x_label(format!("time, {}", self.unit))
