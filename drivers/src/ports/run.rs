@@ -10,6 +10,7 @@ use tokio::time::sleep;
 
 use super::clock::Clock;
 use super::config::{Destination, OutputConfig, PortConfig, Serial, Transport};
+use super::ntrip::Ntrip;
 use super::outbox::{Keeping, Outbox, Outlet};
 use super::outgoing::{Outgoing, OutputStatus};
 use super::probe::Judge;
@@ -298,7 +299,7 @@ async fn attempt(
         (Link::Input(Transport::TcpClient(config), _), _) => {
             tcp::call(config, teller, outbox).await
         }
-        (Link::Input(Transport::Ntrip(config), _), _) => ntrip::call(config, teller, outbox).await,
+        (Link::Input(Transport::Ntrip(config), _), _) => call_caster(config, teller, outbox).await,
         (Link::Input(Transport::TcpServer(config), _), _) => {
             tcp::serve(config, teller, outlet).await
         }
@@ -337,6 +338,21 @@ impl PortConfig {
             Transport::Ntrip(ntrip) => (ntrip.gga_s > 0.0).then_some(Keeping::Newest),
             _ => self.write.then_some(Keeping::All),
         }
+    }
+}
+
+async fn call_caster(config: &Ntrip, teller: &mut Teller, outbox: Option<&Outbox>) -> Outcome {
+    let stream = match ntrip::password(config) {
+        Ok(password) => tcp::dial(&config.address).await.map(|stream| (stream, password)),
+        Err(why) => Err(why),
+    };
+    let ended = match stream {
+        Ok((stream, password)) => ntrip::converse(stream, config, &password, teller, outbox).await,
+        Err(why) => Err(why),
+    };
+    match ended {
+        Ok(reason) => Outcome::Lost(reason),
+        Err(why) => Outcome::Absent(format!("ntrip {}/{}: {why}", config.address, config.mount)),
     }
 }
 

@@ -63,7 +63,7 @@ const DIALECTS: [Dialect; 6] = [
 /// The ship's time ends here, s: a century is far beyond any voyage.
 const END: f64 = 3.2e9;
 
-/// What passed, by the kind of message: IMU, GNSS, log, reference, ranges.
+/// What passed, by the kind of message: IMU, GNSS, log, reference, ranges, bases.
 pub(crate) type Passed = [usize; 6];
 
 /// Lets everything arrive that the bytes say, and looks at what is passed on.

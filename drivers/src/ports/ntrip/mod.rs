@@ -15,50 +15,31 @@ use std::time::Duration;
 
 use insd_base::Span;
 use tokio::io::{AsyncRead, AsyncWrite, AsyncWriteExt};
-use tokio::net::TcpStream;
 use tokio::time::timeout;
 
 use self::answer::Answer;
 use self::chunks::Chunks;
 pub use self::config::Ntrip;
+pub(super) use self::secret::password;
 use self::watch::Watch;
 use super::outbox::Outbox;
-use super::run::Outcome;
 use super::stream::{read, talk};
-use super::tcp::{CALLING, keep_alive};
 use super::teller::Teller;
 
 /// Longest table of a caster, bytes.
 const TABLE: usize = 256 * 1024;
 
-/// Calls, asks, listens and talks until the stream is lost.
-pub(super) async fn call(config: &Ntrip, teller: &mut Teller, outbox: Option<&Outbox>) -> Outcome {
-    let name = format!("ntrip {}/{}", config.address, config.mount);
-    let password = match secret::password(config) {
-        Ok(password) => password,
-        Err(why) => return Outcome::Absent(format!("{name}: {why}")),
-    };
-    let called = match timeout(CALLING, TcpStream::connect(&config.address)).await {
-        Ok(called) => called.map_err(|error| error.to_string()),
-        Err(_) => Err("no answer".to_owned()),
-    };
-    match called {
-        Ok(stream) => {
-            keep_alive(&stream);
-            converse(stream, config, &password, teller, outbox).await
-        }
-        Err(why) => Outcome::Absent(format!("{name}: {why}")),
-    }
-}
-
-/// Asks for the stream and listens to it.
-async fn converse<S: AsyncRead + AsyncWrite + Unpin>(
+/// Asks for the stream, listens and talks until it is lost; gives why. `password`: what [`password`] has given.
+///
+/// # Errors
+/// Why there is no stream.
+pub(super) async fn converse<S: AsyncRead + AsyncWrite + Unpin>(
     mut stream: S,
     config: &Ntrip,
     password: &str,
     teller: &mut Teller,
     outbox: Option<&Outbox>,
-) -> Outcome {
+) -> Result<String, String> {
     let name = format!("ntrip {}/{}", config.address, config.mount);
     let limit = Duration::from_secs_f64(config.timeout_s);
     let asked = match timeout(limit, ask(&mut stream, config, password)).await {
@@ -70,14 +51,13 @@ async fn converse<S: AsyncRead + AsyncWrite + Unpin>(
         Ok(Answer::Table { rest }) => {
             let mut table = rest;
             let _ = timeout(limit, read_table(&mut stream, &mut table)).await;
-            let why = answer::of_table(&table, &config.mount);
-            return Outcome::Absent(format!("{name}: {why}"));
+            return Err(answer::of_table(&table, &config.mount));
         }
-        Ok(Answer::Refused(why)) | Err(why) => return Outcome::Absent(format!("{name}: {why}")),
+        Ok(Answer::Refused(why)) | Err(why) => return Err(why),
     };
     teller.open(format!("{name} ({version})"));
     let (reader, writer) = tokio::io::split(stream);
-    Outcome::Lost(tokio::select! {
+    Ok(tokio::select! {
         reason = follow(reader, (is_chunked, rest), config, teller) => reason,
         reason = talk(writer, outbox, None) => reason,
     })

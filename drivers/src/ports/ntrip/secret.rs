@@ -18,7 +18,7 @@ const OTHERS: u32 = 0o077;
 ///
 /// # Errors
 /// In words, without a byte of it: it is not there, others may read it, or it is none.
-pub(super) fn password(config: &Ntrip) -> Result<String, String> {
+pub(in super::super) fn password(config: &Ntrip) -> Result<String, String> {
     let Some(path) = path(config)? else { return Ok(String::new()) };
     read(&path).map_err(|fault| format!("password: {}: {fault}", path.display()))
 }
