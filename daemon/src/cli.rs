@@ -7,7 +7,9 @@ use std::sync::Arc;
 use clap::{CommandFactory, Parser, Subcommand};
 use insd_config::BadInput;
 use insd_drivers::recording::RecordingError;
-use insd_lab::commands::{campaign, convert, evaluate, feed, limit, replay, report, simulate};
+use insd_lab::commands::{
+    campaign, convert, evaluate, feed, integrity, limit, replay, report, simulate,
+};
 use insd_lab::demo;
 
 use crate::clock::HostClock;
@@ -16,6 +18,8 @@ use crate::logging::Log;
 
 /// Exit status when the input is to blame.
 const BAD_INPUT: u8 = 2;
+/// Exit status of a solution that misled beyond the alert limit.
+const HAZARDOUS: u8 = 3;
 /// Exit status of all other failures.
 const FAILURE: u8 = 1;
 
@@ -45,6 +49,8 @@ enum Command {
     Convert(convert::ConvertArgs),
     /// Compare a solution with truth
     Evaluate(evaluate::EvaluateArgs),
+    /// Compare errors with the protection levels that were told: Stanford chart and counts
+    Integrity(integrity::IntegrityArgs),
     /// Run a scenario with many seeds and score errors and claims
     Campaign(campaign::CampaignArgs),
     /// How well the optimal filter could do in a scenario
@@ -88,6 +94,7 @@ impl Cli {
             Command::Replay(args) => replay::run(&args, crate::run::tell),
             Command::Report(args) => report::run(&args),
             Command::Evaluate(args) => evaluate::run(&args),
+            Command::Integrity(args) => integrity::run(&args),
             Command::Campaign(args) => campaign::run(&args),
             Command::Limit(args) => limit::run(&args),
             Command::CheckConfig(args) => check_config::run(&args),
@@ -110,9 +117,12 @@ pub fn is_enough(fault: &anyhow::Error) -> bool {
     })
 }
 
-/// 2 for bad input, 1 for everything else.
+/// 2 for bad input, 3 for a solution that was hazardous, 1 for everything else.
 #[must_use]
 pub fn exit_code(fault: &anyhow::Error) -> ExitCode {
+    if fault.is::<integrity::Hazardous>() {
+        return ExitCode::from(HAZARDOUS);
+    }
     let is_bad_input = fault.chain().any(|cause| {
         cause.is::<BadInput>()
             || cause.is::<csv::Error>()

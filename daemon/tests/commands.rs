@@ -270,6 +270,40 @@ fn files_that_cannot_be_compared_are_refused() {
 }
 
 #[test]
+fn errors_are_held_against_the_levels_that_were_told() {
+    let desk = Desk::with_voyage();
+    desk.replay("nav.csv", &[]);
+    let (nav, truth) = (desk.name("nav.csv"), format!("{}/truth.csv", desk.voyage()));
+    let picture = desk.name("stanford.png");
+    let table = printed(&["integrity", &nav, &truth, "--alert-limit", "100", "--plot", &picture]);
+    assert!(table.contains("horizontal at 100 m") && table.contains("vertical at"), "{table}");
+    assert!(fs::metadata(picture).unwrap().len() > 10_000);
+    let port = printed(&["integrity", &nav, &truth, "--alert-limit", "port", "--json"]);
+    let port: serde_json::Value = serde_json::from_str(&port).unwrap();
+    assert_eq!(port["horizontal"]["limit_m"], 2.5);
+    assert_eq!(port["alert_limit"]["accuracy_m"], 1.0);
+    assert!(told(&["integrity", &nav, &truth, "--alert-limit", "x"], 2).contains("docking"));
+
+    // a level of a millimetre misleads, and ends with a status of its own
+    let rows = fs::read_to_string(&nav).unwrap();
+    let mut lines = rows.lines();
+    let header = lines.next().unwrap();
+    let at = header.split(',').position(|name| name == "hpl_m").unwrap();
+    let boast = |line: &str| {
+        let mut fields: Vec<&str> = line.split(',').collect();
+        (fields[at], fields[at + 2]) = ("0.00100", "available");
+        fields.join(",") + "\n"
+    };
+    let boasts: String = lines.map(boast).collect();
+    fs::write(&nav, format!("{header}\n{boasts}")).unwrap();
+    let tight = ["integrity", &nav, &truth, "--alert-limit", "0.01"];
+    assert!(told(&tight, 3).contains("hazardous epochs"));
+    let without: String = rows.replace("hpl_m", "hpl");
+    fs::write(&nav, without).unwrap();
+    assert!(told(&["integrity", &nav, &truth], 2).contains("no column hpl_m"));
+}
+
+#[test]
 fn an_integrity_that_cannot_be_read_ends_with_status_2_and_its_place() {
     let desk = Desk::with_voyage();
     desk.replay("nav.csv", &[]);

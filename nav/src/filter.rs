@@ -313,7 +313,7 @@ impl Estimator for Filter {
         }
         let mut report = Report::default();
         match &received.message {
-            Message::Imu(_) => {}
+            Message::Imu(_) | Message::Base(_) => {}
             Message::Gnss(fix) if fix.rank > 0 => self.compare(fix, received.source),
             // its own receiver's fix is made of the same ranges, and tells no more than whose antenna it is
             Message::Gnss(fix) if self.satellites.are_fresh(self.state.time) => {

@@ -167,5 +167,6 @@ fn rank(source: Source) -> u8 {
         Source::Gnss(_) => 1,
         Source::Log(_) => 2,
         Source::Reference(_) => 3,
+        Source::Base(_) => 4,
     }
 }

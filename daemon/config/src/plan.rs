@@ -91,10 +91,12 @@ impl Config {
     pub fn output_plan(&self) -> OutputPlan {
         let ports =
             self.outputs.iter().map(|output| output.port(self.point(output.point.as_deref())));
+        // behind the outputs, in the order of the ports
+        let casters = self.ports.iter().filter_map(PortSection::told_position);
         let numbered = self.ports.iter().zip((0..).map(PortId));
         let obeyed = numbered.filter(|(port, _)| port.alerts).map(|(_, number)| number);
         OutputPlan {
-            ports: ports.collect(),
+            ports: ports.chain(casters).collect(),
             points: self.levers(),
             groups: (!self.nodes.is_empty()).then(|| Rate::from_hertz(GROUPS_RATE)),
             obeyed: obeyed.collect(),

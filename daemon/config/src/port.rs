@@ -1,7 +1,8 @@
 //! Ports that are listened to.
 
 use insd_drivers::can::CanFilter;
-use insd_drivers::ports::{Hosts, Transport};
+use insd_drivers::ports::{Hosts, Ntrip, Transport};
+use insd_output::{MessageKind, OutputPortConfig, Rate};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -38,6 +39,15 @@ fn three() -> f64 {
 }
 
 impl PortSection {
+    /// What a caster that wants to know where the ship is is told, and how often.
+    #[must_use]
+    pub fn told_position(&self) -> Option<OutputPortConfig> {
+        let Transport::Ntrip(Ntrip { gga_s, .. }) = &self.transport else { return None };
+        let kind = MessageKind::named("GGA").filter(|_| *gga_s > 0.0)?;
+        let messages = vec![(kind, Rate::from_hertz(1.0 / gga_s))];
+        Some(OutputPortConfig { messages, ..OutputPortConfig::default() })
+    }
+
     /// The hosts whose commands are obeyed, if it is a network port that is listened to for commands.
     pub(crate) fn commanders(&self) -> Option<Hosts> {
         let is_asked = self.alerts && self.transport.is_network();

@@ -36,7 +36,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use insd_alignment::{StoredState, StoredVerdict};
-use insd_base::satellites::SatelliteRanges;
+use insd_base::satellites::{BaseEpoch, SatelliteRanges};
 use insd_base::{
     AidInnovation, AlignmentStatus, Body, Counts, Event, Finding, ImuSample, ImuSpec, Message,
     Mode, ModeReason, Received, Rejection, SatelliteInnovation, Solution, Span, StartCondition,
@@ -115,6 +115,7 @@ pub struct Engine {
     machine: Machine,
     /// The last epoch of satellites.
     last_ranges: Option<Arc<SatelliteRanges>>,
+    last_base: Option<Arc<BaseEpoch>>,
     /// When the last sample of the IMU that could be used was received.
     heard: Option<Time>,
     /// The state saved before a crash, while it is on trial.
@@ -162,6 +163,7 @@ impl Engine {
             heave: heave_of(&config.imu, &config.points),
             machine: Machine::default(),
             last_ranges: None,
+            last_base: None,
             heard: None,
             resumption: None,
             trace: Trace::new(),
@@ -188,6 +190,10 @@ impl Engine {
 
     /// Takes one message, in order of receipt.
     pub fn handle(&mut self, received: &Received) {
+        if let Message::Base(told) = &received.message {
+            self.hear_base(told);
+            return;
+        }
         if let Some(step) = self.stamps.may_have_stepped(received) {
             self.bear_twin(received, step);
         }

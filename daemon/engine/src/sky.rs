@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use insd_base::Time;
-use insd_base::satellites::{HeardSatellite, SatelliteRanges, SatelliteUse, Sky, SkySatellite};
+use insd_base::satellites::{
+    BaseEpoch, HeardSatellite, SatelliteRanges, SatelliteUse, Sky, SkySatellite,
+};
 use insd_nav::Navigator;
 
 use crate::Engine;
@@ -41,6 +43,17 @@ impl Engine {
         let navigator = self.ship().filter(|ship| ship.has_one_heading()).and_then(Ship::likeliest);
         let filter = navigator.map(Navigator::filter);
         filter.zip(range).map_or(SatelliteUse::Waiting, |(filter, range)| filter.fate_of(range))
+    }
+
+    /// What a base measured last, in differences to which the ranges of the ship can be held; not used yet.
+    #[must_use]
+    pub fn base(&self) -> Option<&BaseEpoch> {
+        self.last_base.as_deref()
+    }
+
+    /// Takes note of what a base measured. Nothing else hears of it: it is not on board.
+    pub(crate) fn hear_base(&mut self, told: &Arc<BaseEpoch>) {
+        self.last_base = Some(Arc::clone(told));
     }
 
     /// Takes note of an epoch, and counts the satellites that it has no ranges of.

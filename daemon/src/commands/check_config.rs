@@ -117,6 +117,7 @@ fn input(transport: &Transport) -> String {
             None => format!("UDP {}", own.bind),
         },
         Transport::TcpClient(own) => format!("TCP, calls {}", own.address),
+        Transport::Ntrip(own) => format!("NTRIP, calls {}/{}", own.address, own.mount),
         Transport::TcpServer(own) => format!("TCP, called at {}", own.bind),
         Transport::File(own) | Transport::Pipe(own) => own.path.display().to_string(),
         Transport::Pps(own) => format!("pulses of {}", own.device.display()),

@@ -75,6 +75,7 @@ fn is_heard(transport: &Transport) -> bool {
         Transport::Serial(_)
             | Transport::Udp(_)
             | Transport::TcpClient(_)
+            | Transport::Ntrip(_)
             | Transport::Pps(_)
             | Transport::Socketcan(_)
             | Transport::GatewayTcp(_)

@@ -3,8 +3,8 @@
 use insd_base::{Arrival, PortId};
 use insd_config::{Config, PortSection};
 use insd_drivers::can::{self, CanConfig};
-use insd_drivers::ports::{self, PortConfig, PortHandle, Surroundings};
-use insd_output::Port;
+use insd_drivers::ports::{self, Outgoing, PortConfig, PortHandle, Surroundings};
+use insd_output::{Port, PortMessage};
 use tokio::runtime::Handle;
 
 use super::bus::{self, Buses, NodeOfPort};
@@ -91,6 +91,25 @@ impl Connections {
             self.inputs.push(Input { section: section.clone(), config: port, handle });
         }
         self.outputs.open(config, made, &self.surroundings);
+    }
+
+    /// Hands the messages of an epoch over, never waiting: to the output of this index, or to a caster behind them.
+    pub(super) fn send(&mut self, port: usize, messages: &[PortMessage]) {
+        let Some(caster) = port.checked_sub(self.outputs.count()) else {
+            return self.outputs.send(port, messages);
+        };
+        let mut casters =
+            self.inputs.iter().filter(|input| input.section.told_position().is_some());
+        let Some(caster) = casters.nth(caster) else { return };
+        for PortMessage { slot, content, valid, period, .. } in messages {
+            let bytes = content.to_bytes();
+            // a sentence without a position tells a caster nothing
+            if bytes.split(|byte| *byte == b',').nth(2).is_some_and(|latitude| !latitude.is_empty())
+            {
+                let (slot, valid, period) = (*slot, *valid, *period);
+                caster.handle.offer(Outgoing { slot, bytes, valid, period });
+            }
+        }
     }
 
     /// How often it was tried to open each port that is listened to.

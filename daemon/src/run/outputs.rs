@@ -95,6 +95,11 @@ impl Outputs {
         all
     }
 
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.ports.len()
+    }
+
     /// Hands the messages of an epoch over to the port of this index; never waits.
     pub(super) fn send(&mut self, port: usize, messages: &[PortMessage]) {
         match self.ports.get_mut(port).map(|output| &mut output.link) {

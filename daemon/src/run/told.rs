@@ -208,6 +208,9 @@ fn tell_event(names: &Names, event: &IntakeEvent) {
             let words = words::satellite_fault(*satellite, fault.as_ref());
             tracing::info!(at, sensor = name(sensor), "satellite {words}");
         }
+        Happening::Base { sensor, news } => {
+            tracing::info!(at, sensor = name(sensor), "base: {news}");
+        }
         Happening::Chosen(chosen) => {
             let source = words::choice(chosen, |sensor| names.sensor(sensor));
             if chosen.to.is_some() {

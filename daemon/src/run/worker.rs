@@ -305,7 +305,7 @@ impl Worker {
         if let Some(recorder) = &mut self.recorder {
             recorder.record(arrival);
         }
-        let Connections { outputs, buses, .. } = &mut self.connections;
+        let connections = &mut self.connections;
         let (nav, journal, clock) = (&mut self.nav, &self.journal, &self.clock);
         let mut written = Ok(());
         self.pipeline.handle(arrival, |product| match product {
@@ -317,8 +317,10 @@ impl Worker {
             Product::Engine(Output::Satellite(told)) => {
                 nav.iter_mut().for_each(|nav| nav.hear_satellite(&told));
             }
-            Product::Spoken(Spoken::Messages(port, messages)) => outputs.send(port, &messages),
-            Product::Spoken(Spoken::Epochs(epochs)) => buses.send(&epochs, clock.now().monotonic),
+            Product::Spoken(Spoken::Messages(port, messages)) => connections.send(port, &messages),
+            Product::Spoken(Spoken::Epochs(epochs)) => {
+                connections.buses.send(&epochs, clock.now().monotonic);
+            }
             product => {
                 match &product {
                     Product::Order(own) => obeyed(own),

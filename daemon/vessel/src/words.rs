@@ -170,6 +170,7 @@ pub fn border(names: &Names, event: &IntakeEvent) -> (&'static str, String) {
             let words = satellite_fault(*satellite, fault.as_ref());
             ("satellites", format!("{}: {words}", name(*sensor)))
         }
+        Happening::Base { sensor, news } => ("base", format!("{}: {news}", name(*sensor))),
         Happening::Chosen(chosen) => ("source", choice(chosen, name)),
         Happening::Time(change) => ("time", time(change)),
         Happening::SystemClockStepped { by } => {

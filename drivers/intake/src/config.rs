@@ -9,6 +9,7 @@ use insd_wire::stream::Protocol;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::base::BaseSettings;
 use crate::device::DeviceFilter;
 use crate::mounting::Mounting;
 use crate::port::Link;
@@ -39,6 +40,8 @@ pub enum Kind {
     Sbf,
     /// A receiver that sends its measurements in RTCM 3: MSM4 to MSM7, and orbits.
     Rtcm,
+    /// A base station that sends corrections in RTCM 3: MSM4 to MSM7, and 1005 or 1006. It is not on board.
+    RtcmBase,
     /// A log that speaks NMEA 0183: VBW, VHW.
     NmeaLog,
     /// A log that speaks RDI PD0.
@@ -82,6 +85,8 @@ pub enum Role {
     Heading,
     /// Position.
     Position,
+    /// The other end of differences of satellites.
+    Base,
 }
 
 /// What a KVH unit was told to send.
@@ -139,6 +144,9 @@ pub struct SensorConfig {
     /// Of a receiver: what is made of its raw messages, if it sends any.
     #[serde(default)]
     pub raw: RawUse,
+    /// Of a base: what is known of it beside what it says.
+    #[serde(default)]
+    pub base: BaseSettings,
     /// Samples per second of an IMU.
     #[serde(default = "hundred")]
     pub rate_hz: f64,
@@ -269,6 +277,7 @@ impl Kind {
             Kind::NmeaLog | Kind::Pd0 | Kind::Pd6 | Kind::Nortek | Kind::N2kLog => Role::Log,
             Kind::Compass | Kind::Psxn | Kind::Pashr | Kind::N2kHeading => Role::Heading,
             Kind::NmeaPosition | Kind::Manual | Kind::N2kPosition => Role::Position,
+            Kind::RtcmBase => Role::Base,
         }
     }
 
@@ -284,7 +293,7 @@ impl Kind {
             Kind::Stim => Protocol::Stim,
             Kind::Ubx => Protocol::Ubx,
             Kind::Sbf => Protocol::Sbf,
-            Kind::Rtcm => Protocol::Rtcm,
+            Kind::Rtcm | Kind::RtcmBase => Protocol::Rtcm,
             Kind::Pd0 => Protocol::Pd0,
             Kind::Pd6 => Protocol::Pd6,
             Kind::NmeaGnss
@@ -402,6 +411,7 @@ impl SensorConfig {
             lever_m: None,
             delay_s: 0.0,
             raw: RawUse::default(),
+            base: BaseSettings::default(),
             rate_hz: hundred(),
             time: TimeBase::default(),
             mounting: Mounting::default(),
@@ -457,6 +467,9 @@ impl SensorConfig {
         let has_raw = matches!(self.kind, Kind::Ubx | Kind::Sbf);
         let expected = "a receiver that sends more than raw data, if it is off: ubx, sbf";
         expect(self.raw == RawUse::Tight || has_raw, "raw", expected);
+        expect(self.base.fault().is_none(), "base", self.base.fault().unwrap_or_default());
+        let is_base = self.kind == Kind::RtcmBase || self.base == BaseSettings::default();
+        expect(is_base, "base", "a base station, for only that has one");
         expect((1.0..=10_000.0).contains(&self.rate_hz), "rate_hz", "1 to 10000");
         let mounted = self.mounting.c_bd().is_some();
         expect(mounted, "mounting", "three directions that make a right-handed set, finite angles");

@@ -8,6 +8,7 @@ use insd_base::{PortId, PortState, SatelliteId, Span, Time};
 use insd_gnss::OrbitRefusal;
 use insd_wire::gnss::navigation::WordsRefusal;
 
+use crate::base::BaseNews;
 use crate::choice::Chosen;
 use crate::clock::TimeChange;
 use crate::device::Device;
@@ -45,6 +46,8 @@ pub enum Refusal {
     NoOrbit,
     /// What a satellite sent is no part of its message, or no orbit; an event tells which satellite, and why.
     Broadcast,
+    /// Where a base says that it is is no place on Earth.
+    BasePlace,
 }
 
 impl Refusal {
@@ -66,6 +69,7 @@ impl Refusal {
             Refusal::Repeated => "repeated",
             Refusal::NoOrbit => "no_orbit",
             Refusal::Broadcast => "broadcast",
+            Refusal::BasePlace => "base_place",
         }
     }
 }
@@ -174,6 +178,13 @@ pub enum Happening {
         satellite: SatelliteId,
         /// What is wrong; `None`: nothing any more.
         fault: Option<BroadcastFault>,
+    },
+    /// Something about a base.
+    Base {
+        /// Index of the sensor.
+        sensor: usize,
+        /// What is news of it.
+        news: BaseNews,
     },
     /// Another source is used for a quantity.
     Chosen(Chosen),

@@ -6,6 +6,7 @@
 //!
 //! Pure: no I/O, no clock, no thread, no log.
 
+pub mod base;
 pub mod can;
 pub mod choice;
 pub mod clock;

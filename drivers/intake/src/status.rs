@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use insd_base::{PortState, Time, UtcTime};
 use insd_n2k::Name;
 
+use crate::base::BaseStatus;
 use crate::can::BusCounts;
 use crate::choice::{Quantity, Why};
 use crate::clock::TimeQuality;
@@ -89,6 +90,8 @@ pub struct SensorStatus {
     pub lost: u64,
     /// Which device of a bus it is.
     pub device: Option<Device>,
+    /// Of a base station: what is known of it.
+    pub base: Option<BaseStatus>,
     /// What it tells and the navigator has no use for.
     pub shown: Shown,
 }

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::hosts::Hosts;
 
+use super::ntrip::Ntrip;
 use crate::can::{CanFilter, Candump, GatewayTcp, GatewayUdp, Slcan, Socketcan};
 
 /// A port that is listened to.
@@ -46,6 +47,8 @@ pub enum Transport {
     Udp(Udp),
     /// A TCP server that is called.
     TcpClient(TcpClient),
+    /// A mount point of an NTRIP caster, which is called: corrections of a base.
+    Ntrip(Ntrip),
     /// A TCP server that others call. The bytes of all clients arrive at this one port, each read as
     /// one arrival: two clients that speak at once mix their messages.
     TcpServer(TcpServer),
@@ -295,6 +298,7 @@ impl Transport {
             self,
             Transport::Udp(_)
                 | Transport::TcpClient(_)
+                | Transport::Ntrip(_)
                 | Transport::TcpServer(_)
                 | Transport::GatewayTcp(_)
                 | Transport::GatewayUdp(_)

@@ -10,6 +10,7 @@
 //! | nothing comes | `Silent` once, then `Speaking` | the group of a silent multicast is joined again |
 //! | more than the consumer takes | `Overrun`, once a second at most | the oldest bytes of that port go, see [`Queue`] |
 //! | a wrong baud rate | `Absent`, with the rates | if rates to probe are given, listens on at each |
+//! | a caster refuses, answers something else, or sends no corrections | `Absent` or `Lost` with a word for it | called again after pauses that grow up to a minute |
 //!
 //! A CAN port does the same in its own way, see [`crate::can`].
 //!
@@ -45,6 +46,7 @@ mod found;
 mod histogram;
 mod hosts;
 mod low_latency;
+mod ntrip;
 mod outbox;
 mod outgoing;
 mod pace;
@@ -70,6 +72,7 @@ pub use config::{
 };
 pub use found::{FoundKind, FoundPort, list};
 pub use hosts::{Hosts, Network, NoNetwork};
+pub use ntrip::Ntrip;
 pub use outgoing::{AgeStatus, Outgoing, OutputStatus, SlotStatus};
 pub use probe::{Judge, Judgement};
 pub use queue::{FRAME, Queue, Receiver, WAITING_LIMIT, queue};

@@ -4,23 +4,27 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
-use insd_base::{PortId, Span};
+use insd_base::{PortId, Span, Stamp};
 use tokio::task::AbortHandle;
 use tokio::time::sleep;
 
 use super::clock::Clock;
 use super::config::{Destination, OutputConfig, PortConfig, Serial, Transport};
+use super::ntrip::Ntrip;
 use super::outbox::{Keeping, Outbox, Outlet};
 use super::outgoing::{Outgoing, OutputStatus};
 use super::probe::Judge;
 use super::queue::Queue;
 use super::teller::{Shown, Teller};
-use super::{file, pps, pty, serial, tcp, udp};
+use super::{file, ntrip, pps, pty, serial, tcp, udp};
 use crate::can::{self, CanConfig};
 
 /// First and longest pause before a port is opened again; each is twice the one before.
 pub(crate) const FIRST_PAUSE: Duration = Duration::from_millis(200);
 pub(crate) const LONGEST_PAUSE: Duration = Duration::from_secs(5);
+
+/// Longest pause before a caster is called again.
+const CASTER_PAUSE: Duration = Duration::from_secs(60);
 
 /// A port that was open for so long starts with the first pause again; one that comes and goes more
 /// quickly is waited for longer and longer.
@@ -106,8 +110,8 @@ pub fn spawn(port: PortId, config: PortConfig, surroundings: Surroundings) -> Po
     let Surroundings { clock, queue, judge } = surroundings;
     let patience = Some(Span::from_seconds(config.patience_s));
     let outlet = config
-        .write
-        .then(|| Outlet::new(Keeping::All, limit_of_input(&config.transport), Arc::clone(&clock)));
+        .keeping()
+        .map(|keeping| Outlet::new(keeping, limit_of_input(&config.transport), Arc::clone(&clock)));
     let teller =
         Teller::new(port, clock, queue, patience).commanded_by(config.commands_from.clone());
     let attempts = Arc::<AtomicU64>::default();
@@ -149,6 +153,13 @@ impl PortHandle {
     /// A port that a task of its own listens to.
     pub(crate) fn of_task(task: AbortHandle, attempts: Arc<AtomicU64>) -> Self {
         PortHandle { work: Work::Task(task), outlet: None, attempts }
+    }
+
+    /// Hands over what grows old: where the ship is, for a caster. Gives whether the port takes it.
+    pub fn offer(&self, message: Outgoing) -> bool {
+        let Some(outlet) = &self.outlet else { return false };
+        outlet.send(message);
+        true
     }
 
     /// Puts a whole message behind what is still to be written, and never waits: a command, for example.
@@ -227,6 +238,15 @@ impl Work {
 }
 
 impl Link {
+    /// Whether others call the same server, and in vain at the same time.
+    fn is_shared(&self) -> bool {
+        matches!(self, Link::Input(Transport::Ntrip(_), _))
+    }
+
+    fn pause(&self) -> Pause {
+        if self.is_shared() { Pause::up_to(CASTER_PAUSE) } else { Pause::default() }
+    }
+
     fn has_clients(&self) -> bool {
         matches!(
             self,
@@ -236,7 +256,7 @@ impl Link {
 }
 
 async fn run(link: Link, mut teller: Teller, written: Written, attempts: Arc<AtomicU64>) {
-    let mut pause = Pause::default();
+    let mut pause = link.pause();
     let mut last_baud = None;
     loop {
         attempts.fetch_add(1, Ordering::Relaxed);
@@ -245,7 +265,9 @@ async fn run(link: Link, mut teller: Teller, written: Written, attempts: Arc<Ato
         if !tell(outcome, &mut teller) {
             return;
         }
-        sleep(pause.after(teller.open_for())).await;
+        let wait = pause.after(teller.open_for());
+        // whoever serves many is not called by all of them at once
+        sleep(if link.is_shared() { spread(wait, teller.now()) } else { wait }).await;
     }
 }
 
@@ -277,6 +299,7 @@ async fn attempt(
         (Link::Input(Transport::TcpClient(config), _), _) => {
             tcp::call(config, teller, outbox).await
         }
+        (Link::Input(Transport::Ntrip(config), _), _) => call_caster(config, teller, outbox).await,
         (Link::Input(Transport::TcpServer(config), _), _) => {
             tcp::serve(config, teller, outlet).await
         }
@@ -299,6 +322,37 @@ async fn attempt(
         }
         // pulses have a thread of their own, CAN a task of another kind, and an output an outbox
         (Link::Input(..) | Link::Output(_), _) => Outcome::Ended,
+    }
+}
+
+/// A pause that is longer or shorter by up to a quarter: by the nanoseconds of the clock, which are of no other use.
+fn spread(pause: Duration, now: Stamp) -> Duration {
+    let part = now.system.as_nanos().rem_euclid(1_000_003) as f64 / 1_000_003.0;
+    pause.mul_f64(0.75 + 0.5 * part)
+}
+
+impl PortConfig {
+    /// What may wait to be written to it; `None` if it is never written to.
+    fn keeping(&self) -> Option<Keeping> {
+        match &self.transport {
+            Transport::Ntrip(ntrip) => (ntrip.gga_s > 0.0).then_some(Keeping::Newest),
+            _ => self.write.then_some(Keeping::All),
+        }
+    }
+}
+
+async fn call_caster(config: &Ntrip, teller: &mut Teller, outbox: Option<&Outbox>) -> Outcome {
+    let stream = match ntrip::password(config) {
+        Ok(password) => tcp::dial(&config.address).await.map(|stream| (stream, password)),
+        Err(why) => Err(why),
+    };
+    let ended = match stream {
+        Ok((stream, password)) => ntrip::converse(stream, config, &password, teller, outbox).await,
+        Err(why) => Err(why),
+    };
+    match ended {
+        Ok(reason) => Outcome::Lost(reason),
+        Err(why) => Outcome::Absent(format!("ntrip {}/{}: {why}", config.address, config.mount)),
     }
 }
 
@@ -347,6 +401,8 @@ impl Pause {
 
 #[cfg(test)]
 mod tests {
+    use insd_base::{Time, UtcTime};
+
     use super::*;
 
     #[test]
@@ -356,5 +412,15 @@ mod tests {
         let millis: Vec<u128> = (0..7).map(|_| pause.after(brief).as_millis()).collect();
         assert_eq!(millis, [200, 400, 800, 1600, 3200, 5000, 5000]);
         assert_eq!(pause.after(LASTING), FIRST_PAUSE);
+    }
+
+    #[test]
+    fn pauses_of_those_who_call_one_caster_differ() {
+        let at = |nanos| Stamp { monotonic: Time::START, system: UtcTime::from_nanos(nanos) };
+        let waits = (0..1000).map(|own| spread(CASTER_PAUSE, at(own * 7_919_333)).as_secs_f64());
+        let waits: Vec<f64> = waits.collect();
+        assert!(waits.iter().all(|wait| (45.0..=75.0).contains(wait)));
+        let mean = waits.iter().sum::<f64>() / 1000.0;
+        assert!((58.0..62.0).contains(&mean), "{mean}");
     }
 }

@@ -35,6 +35,19 @@ const COUNTING: Duration = Duration::from_secs(1);
 /// Reads of all clients that may wait for the port's own task.
 const READS: usize = 16;
 
+/// A connection that is looked after.
+///
+/// # Errors
+/// Why there is none.
+pub(super) async fn dial(address: &str) -> Result<TcpStream, String> {
+    let stream = match timeout(CALLING, TcpStream::connect(address)).await {
+        Ok(called) => called.map_err(|error| error.to_string())?,
+        Err(_) => return Err("no answer".to_owned()),
+    };
+    keep_alive(&stream);
+    Ok(stream)
+}
+
 /// Calls, listens and talks until the connection is lost.
 pub(super) async fn call(
     config: &TcpClient,

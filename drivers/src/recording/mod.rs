@@ -37,7 +37,7 @@ pub use header::read_header;
 pub use lines::MAX_LINE;
 pub use nav::{NavWriter, read_nav, read_nav_rows};
 pub use nav_row::NavRow;
-pub use raw_files::{RawFiles, RawTexts, read_raw, write_raw};
+pub use raw_files::{RawFiles, RawTexts, read_raw, read_raw_base, write_raw};
 pub use reader::{Rows, VoyageReader, read_truth, read_truth_rows};
 pub use report::{BadRow, FileReport, RowFault};
 pub use writer::{Compression, write_voyage};

@@ -88,13 +88,22 @@ pub fn read_raw(dir: &Path, antenna: usize) -> Result<Option<RawTexts>, Recordin
     let navigation = find_or_gzipped(&folder, "nav.rnx").ok_or_else(|| {
         RecordingError::Missing { file: folder.join("nav.rnx"), or_compressed: true }
     })?;
-    let text = |path: PathBuf| {
-        let mut text = Vec::new();
-        let read = open(&path)?.read_to_end(&mut text);
-        let fault = |source| RecordingError::Read { file: path.clone(), line: 0, source };
-        read.map_err(fault).map(|_| (path.clone(), text))
-    };
-    Ok(Some(RawTexts { observations: text(observations)?, navigation: text(navigation)? }))
+    Ok(Some(RawTexts { observations: text(&observations)?, navigation: text(&navigation)? }))
+}
+
+/// Reads the observations of the base station, `raw/base.obs`, with the path; `None` where there are none. It may be compressed as the others.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn read_raw_base(dir: &Path) -> Result<Option<(PathBuf, Vec<u8>)>, RecordingError> {
+    find_or_gzipped(&dir.join(FOLDER), "base.obs").map(|path| text(&path)).transpose()
+}
+
+fn text(path: &Path) -> Result<(PathBuf, Vec<u8>), RecordingError> {
+    let mut text = Vec::new();
+    let read = open(path)?.read_to_end(&mut text);
+    let fault = |source| RecordingError::Read { file: path.to_owned(), line: 0, source };
+    read.map_err(fault).map(|_| (path.to_owned(), text))
 }
 
 #[cfg(test)]

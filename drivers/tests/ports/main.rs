@@ -10,6 +10,7 @@ mod files;
 mod host;
 mod network;
 mod node;
+mod ntrip;
 mod output;
 mod pace;
 mod serial;

@@ -61,8 +61,8 @@ pub use motion::{Current, Motion, MotionCovariance};
 pub use party::{Fault, Integrity, Judgement, Parties, Party, ReceiverChange, Standing, Stands};
 pub use protection::{Availability, Protection};
 pub use satellites::{
-    BroadcastRecord, Constellation, IonosphereModel, SatelliteEpoch, SatelliteId, SignalCode,
-    SignalObservation,
+    BaseEpoch, BroadcastRecord, Constellation, IonosphereModel, SatelliteEpoch, SatelliteId,
+    SignalCode, SignalObservation,
 };
 pub use sea_fit::{Residual, SeaFit, SeenResidual};
 pub use sensor::{ImuSpec, LeverArms, Triad};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::frames::{Body, Geodetic, Ned};
 use crate::gnss::GnssFix;
-use crate::satellites::SatelliteRanges;
+use crate::satellites::{BaseEpoch, SatelliteRanges};
 use crate::time::Time;
 
 /// Increments of one IMU sampling interval, ending at `time`.
@@ -85,10 +85,12 @@ pub enum Source {
     Log(u8),
     /// External reference.
     Reference(u8),
+    /// Base station, which is not on board.
+    Base(u8),
 }
 
 impl Source {
-    /// Short name for tables and events: `imu`, `gnss`, `log`, `reference`.
+    /// Short name for tables and events: `imu`, `gnss`, `log`, `reference`, `base`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -96,6 +98,7 @@ impl Source {
             Source::Gnss(_) => "gnss",
             Source::Log(_) => "log",
             Source::Reference(_) => "reference",
+            Source::Base(_) => "base",
         }
     }
 }
@@ -113,6 +116,8 @@ pub enum Message {
     Reference(ExternalReference),
     /// Ranges of satellites; they are many, and shared by whoever keeps them.
     Ranges(Arc<SatelliteRanges>),
+    /// What a base measured: never ranges of the ship.
+    Base(Arc<BaseEpoch>),
 }
 
 impl Message {
@@ -125,6 +130,7 @@ impl Message {
             Message::Log(m) => m.time,
             Message::Reference(m) => m.time,
             Message::Ranges(m) => m.time,
+            Message::Base(m) => m.time,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Satellites of navigation, what a receiver measures of each signal, and what they broadcast of themselves.
 
+mod base;
 mod broadcast;
 mod epoch;
 mod ranges;
@@ -7,6 +8,7 @@ mod refusal;
 mod signal;
 mod sky;
 
+pub use base::BaseEpoch;
 pub use broadcast::{
     BroadcastKind, BroadcastRecord, ClockPolynomial, GlonassRecord, IonosphereModel, KeplerOrbit,
     KeplerRecord,

@@ -168,6 +168,7 @@ fn kind(source: Source) -> usize {
         Source::Gnss(_) => 1,
         Source::Log(_) => 2,
         Source::Reference(_) => 3,
+        Source::Base(_) => 4,
     }
 }
 

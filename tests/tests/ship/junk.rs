@@ -88,6 +88,10 @@ fn restamp(received: &mut Received, off: f64) {
         Message::Gnss(m) => m.time = m.time + span,
         Message::Log(m) => m.time = m.time + span,
         Message::Reference(m) => m.time = m.time + span,
+        Message::Base(m) => {
+            let base = Arc::make_mut(m);
+            base.time = base.time + span;
+        }
         Message::Ranges(m) => {
             let ranges = Arc::make_mut(m);
             ranges.time = ranges.time + span;
@@ -123,6 +127,7 @@ fn spoil(received: &mut Received, field: u8, value: f64) {
             _ => m.position = Some(Geodetic { latitude: value, longitude: 0.0, height: value }),
         },
         Message::Ranges(m) => Arc::make_mut(m).ranges.clear(),
+        Message::Base(m) => Arc::make_mut(m).epoch.signals.clear(),
     }
 }
 

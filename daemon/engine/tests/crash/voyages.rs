@@ -160,6 +160,7 @@ fn shifted(received: &Received, by: Span) -> Received {
         Message::Log(m) => &mut m.time,
         Message::Reference(m) => &mut m.time,
         Message::Ranges(m) => &mut Arc::make_mut(m).time,
+        Message::Base(m) => &mut Arc::make_mut(m).time,
     };
     *time = *time + by;
     moved

@@ -5,6 +5,7 @@ pub mod campaign;
 pub mod convert;
 pub mod evaluate;
 pub mod feed;
+pub mod integrity;
 pub mod limit;
 mod outage;
 mod raw_gnss;

@@ -21,6 +21,7 @@ mod report;
 mod rows;
 mod series;
 mod sky;
+mod stanford;
 mod statistics;
 mod stored;
 
@@ -40,6 +41,9 @@ pub use promises::PromiseEstimates;
 pub use report::ErrorReport;
 pub use rows::{RowWriter, read_rows};
 pub use sky::SkyRow;
+pub use stanford::{
+    AlertLimit, IntegrityReport, LevelsOfAxis, StanfordClass, StanfordPoint, Tally,
+};
 pub use statistics::{Summary, mean, quantile, summarise, summarise_horizontal};
 pub use stored::{StoredEstimates, StoredFate};
 

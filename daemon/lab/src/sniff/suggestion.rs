@@ -241,7 +241,8 @@ fn measured_by_rtcm(port: &PortReport) -> Option<Sensor> {
             && BASES.iter().any(|number| message.name.ends_with(number))
     };
     if port.messages.iter().any(is_base) {
-        return None;
+        let base = |start: &&str| plain_sensor(port, Protocol::Rtcm, "rtcm_base", "base", start);
+        return MEASURED.iter().find_map(base);
     }
     MEASURED.iter().find_map(|start| raw_only(port, Protocol::Rtcm, "rtcm", start))
 }

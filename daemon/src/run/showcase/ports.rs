@@ -152,6 +152,7 @@ fn transport(transport: &Transport) -> &'static str {
         Transport::Serial(_) => "serial",
         Transport::Udp(_) => "udp",
         Transport::TcpClient(_) => "tcp-client",
+        Transport::Ntrip(_) => "ntrip",
         Transport::TcpServer(_) => "tcp-server",
         Transport::File(_) => "file",
         Transport::Pipe(_) => "pipe",

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use insd_base::Time;
+use insd_base::{Ecef, Time, earth};
 use insd_config::Config;
+use insd_intake::base::BaseStatus;
 use insd_intake::status::{ChoiceStatus, SensorStatus};
-use insd_web::snapshot::{Cause, Sensor, SensorState, ShownChoice};
+use insd_web::snapshot::{Cause, Sensor, SensorState, ShownBase, ShownChoice};
 
 use super::super::report::Slow;
 use super::meaning::meaning;
@@ -37,6 +38,7 @@ pub(super) fn sensors(config: &Config, slow: &Slow, rates: &Rates, now: Time) ->
                 Some(name) => format!("{} {name}", device.address),
                 None => device.address.to_string(),
             }),
+            base: status.base.as_ref().map(|base| shown_base(base, now)),
             fix: None,
             satellites: None,
         }
@@ -80,6 +82,20 @@ fn quantity(choice: &ChoiceStatus) -> String {
 
 fn why(choice: &ChoiceStatus) -> Option<String> {
     choice.why.map(|why| why.as_str().to_owned())
+}
+
+fn shown_base(base: &BaseStatus, now: Time) -> ShownBase {
+    let place = base.position.map(|place| earth::geodetic(&Ecef(place)));
+    ShownBase {
+        station: base.station,
+        lat_deg: place.map(|place| place.latitude.to_degrees()),
+        lon_deg: place.map(|place| place.longitude.to_degrees()),
+        height_m: place.map(|place| place.height),
+        distance_m: base.distance,
+        age_s: age(now, base.newest),
+        satellites: u32::from(base.satellites),
+        epochs: base.epochs,
+    }
 }
 
 /// The format, by its word in the configuration.

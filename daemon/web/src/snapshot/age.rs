@@ -149,6 +149,9 @@ impl ShownMode {
 impl Sensor {
     fn grow_older(&mut self, passed: f64, navigator: Freshness) {
         self.age_s = self.age_s.map(|age| age + passed);
+        if let Some(base) = &mut self.base {
+            base.age_s = base.age_s.map(|age| age + passed);
+        }
         let patience = self.rate_hz.filter(|rate| *rate > 0.0).map_or(0.0, |rate| LEFT_OUT / rate);
         let is_late = self.age_s.is_some_and(|age| age > patience.max(GONE));
         if navigator == Freshness::Gone {

@@ -33,7 +33,7 @@ pub use program::{
     Log, Program, RecordingState, Saving, ShownEngine, ShownMode, ShownRecording, ShownTransition,
     TimeInfo,
 };
-pub use sensors::{Sensor, SensorState, ShownChoice};
+pub use sensors::{Sensor, SensorState, ShownBase, ShownChoice};
 pub use ship::{Found, ShownEstimate, ShownEstimates, ShownHeave, ShownMotion, ShownStands};
 pub use sky::{SatelliteFate, ShownSatellite, ShownSignal, ShownSky, SkyState};
 

@@ -59,10 +59,34 @@ pub struct Sensor {
     pub refused: Vec<Cause>,
     /// Which device of a bus it is: address and NAME.
     pub device: Option<String>,
+    /// Of a base station: what is known of it.
+    pub base: Option<ShownBase>,
     /// Of a satellite receiver: how its last fix was made, in words.
     pub fix: Option<String>,
     /// Of a satellite receiver: satellites in use.
     pub satellites: Option<u32>,
+}
+
+/// What is known of a base station.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ShownBase {
+    /// Its number.
+    pub station: Option<u16>,
+    /// Latitude of its antenna, deg; null, as the next two, while it is not known.
+    pub lat_deg: Option<f64>,
+    /// Longitude, deg.
+    pub lon_deg: Option<f64>,
+    /// Height above the ellipsoid, m.
+    pub height_m: Option<f64>,
+    /// How far it is from the ship, m.
+    pub distance_m: Option<f64>,
+    /// How old its newest epoch is, s.
+    pub age_s: Option<f64>,
+    /// Satellites of that epoch.
+    pub satellites: u32,
+    /// Epochs so far.
+    pub epochs: u64,
 }
 
 /// The source of a quantity.

@@ -79,6 +79,7 @@ impl Core {
             sky.hear_fix(&fix);
         }
         if let Some(position) = fix.position.filter(|_| epoch.is_valid()) {
+            self.here = Some(position);
             self.variation.here(position, self.utc.utc_at(time));
         }
         if role == Role::Position {

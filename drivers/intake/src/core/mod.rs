@@ -1,5 +1,6 @@
 //! From frames to messages for the navigator: what all sensors share.
 
+mod base;
 mod gnss;
 mod imu;
 mod reference;
@@ -10,7 +11,7 @@ mod sky;
 use std::collections::VecDeque;
 
 use insd_base::can::{BusEvent, CanFrame};
-use insd_base::{Message, PortId, Received, Source, Span, Stamp, Time};
+use insd_base::{Geodetic, Message, PortId, Received, Source, Span, Stamp, Time};
 use insd_n2k::Name;
 
 use crate::Intaken;
@@ -57,13 +58,15 @@ pub(crate) struct Core {
     pub(crate) outputs: VecDeque<Intaken>,
     variation: Variation,
     system: SystemWatch,
+    /// Where the ship was by the last position of a receiver.
+    here: Option<Geodetic>,
     /// Whose ranges of satellites are used, and when they came last.
     ranging: Option<(usize, Time)>,
 }
 
 impl Core {
     pub(crate) fn new(config: &IntakeConfig) -> Self {
-        let mut numbers = [0_u8; 5];
+        let mut numbers = [0_u8; 6];
         let sensors = config.sensors.iter().map(|sensor| {
             let number = &mut numbers[sensor.kind.role() as usize];
             let own = Sensor::new(sensor, config, *number);
@@ -90,6 +93,7 @@ impl Core {
             outputs: VecDeque::new(),
             variation: Variation::default(),
             system: SystemWatch::default(),
+            here: None,
             ranging: None,
         }
     }
@@ -218,6 +222,7 @@ impl Core {
             Reading::Imu(sample) => self.imu(index, stamp, came, sample),
             Reading::Gnss(part) => self.gnss(index, stamp, came, part),
             Reading::Raw(reading) => self.raw(index, stamp, came, reading),
+            Reading::Base(frame) => self.base(index, stamp, frame),
             Reading::Pulse(pulse) => self.pulse_time(index, stamp, pulse),
             Reading::Velocity(velocity) => self.velocity(index, stamp, came, velocity),
             Reading::Heading(heading) => self.heading(index, stamp, came, heading),

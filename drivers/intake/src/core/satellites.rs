@@ -176,6 +176,7 @@ impl Core {
             ..sky::fix(point, ranged.velocity.as_ref(), time)
         };
         if let Some(position) = fix.position {
+            self.here = Some(position);
             self.variation.here(position, self.utc.utc_at(time));
         }
         let source = Source::Gnss(self.sensors[index].number);

@@ -7,6 +7,7 @@ use insd_wire::gnss::GnssPart;
 
 use super::QUANTITIES;
 use super::sky::Sky;
+use crate::base::Base;
 use crate::choice::Quantity;
 use crate::config::{IntakeConfig, Kind, Role, SensorConfig};
 use crate::decode::Decoder;
@@ -33,6 +34,8 @@ pub(crate) struct Sensor {
     pub(super) paces: [Pace; QUANTITIES.len()],
     /// What is made of its raw messages, from the first one on.
     pub(super) sky: Option<Box<Sky>>,
+    /// What is made of a base's messages.
+    pub(super) base: Option<Box<Base>>,
     /// When it told a fix of its own last, or that it has none.
     pub(super) fixed: Option<Time>,
     /// What it says is new, and not read from a file.
@@ -64,6 +67,7 @@ impl Sensor {
             waiting: VecDeque::new(),
             undated: Vec::new(),
             sky: None,
+            base: (config.kind.role() == Role::Base).then(|| Box::new(Base::new(config.base))),
             fixed: None,
             paces: [Pace::default(); QUANTITIES.len()],
             live: port.is_none_or(|port| intake.ports[port].link != Link::File),
@@ -77,6 +81,7 @@ impl Sensor {
             Role::Imu => &[Quantity::Inertial],
             Role::Gnss if self.config.heading => &[Quantity::Gnss, Quantity::Heading],
             Role::Gnss => &[Quantity::Gnss],
+            Role::Base => &[],
             Role::Log => &[Quantity::BottomVelocity, Quantity::WaterVelocity],
             Role::Heading => &[Quantity::Heading],
             Role::Position if self.config.kind == Kind::Manual => {

@@ -31,6 +31,8 @@ pub enum Reading {
     Gnss(GnssPart),
     /// What a raw message of a receiver says.
     Raw(RawReading),
+    /// A frame of a base.
+    Base(Vec<u8>),
     /// The time of a pulse.
     Pulse(PulseTime),
     /// A velocity in the ship's axes.
@@ -103,6 +105,7 @@ impl Decoder {
             Kind::Ubx => gnss::ubx(bytes, self.config.raw),
             Kind::Sbf => gnss::sbf(bytes, self.config.raw),
             Kind::Rtcm => Ok(gnss::rtcm(bytes)),
+            Kind::RtcmBase => Ok(vec![Reading::Base(bytes.to_vec())]),
             Kind::Pd0 => self.log.pd0(bytes),
             Kind::Pd6 => self.log.pd6(bytes),
             _ => self.read_sentence(bytes),

@@ -29,7 +29,7 @@ use insd_intake::{Intake, Intaken};
 use insd_wire::stream::Protocol;
 
 /// All kinds of sensors.
-const KINDS: [Kind; 18] = [
+const KINDS: [Kind; 19] = [
     Kind::Sbg,
     Kind::Stdbin,
     Kind::Mip,
@@ -48,6 +48,7 @@ const KINDS: [Kind; 18] = [
     Kind::Pashr,
     Kind::NmeaPosition,
     Kind::Rtcm,
+    Kind::RtcmBase,
 ];
 
 const DIALECTS: [Dialect; 6] = [
@@ -62,8 +63,8 @@ const DIALECTS: [Dialect; 6] = [
 /// The ship's time ends here, s: a century is far beyond any voyage.
 const END: f64 = 3.2e9;
 
-/// What passed, by the kind of message: IMU, GNSS, log, reference, ranges.
-pub(crate) type Passed = [usize; 5];
+/// What passed, by the kind of message: IMU, GNSS, log, reference, ranges, bases.
+pub(crate) type Passed = [usize; 6];
 
 /// Lets everything arrive that the bytes say, and looks at what is passed on.
 pub(crate) fn everything(bytes: &[u8]) -> Passed {
@@ -201,6 +202,11 @@ fn is_sane(message: &Message) -> usize {
             finite(&[place.map(|own| own.latitude), place.map(|own| own.longitude)]);
             finite(&[reference.position_std, reference.heading, reference.heading_std]);
             3
+        }
+        Message::Base(base) => {
+            let codes = base.epoch.signals.iter().map(|signal| signal.code);
+            codes.for_each(|code| finite(&[code]));
+            5
         }
         Message::Ranges(ranges) => {
             let codes = ranges.ranges.iter().filter_map(|range| range.code);

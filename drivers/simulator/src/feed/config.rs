@@ -38,6 +38,7 @@ impl Encoding {
             Kind::Psxn => Encoding::Psxn,
             Kind::Pashr => Encoding::Pashr,
             Kind::Rtcm
+            | Kind::RtcmBase
             | Kind::NmeaPosition
             | Kind::Manual
             | Kind::N2kGnss

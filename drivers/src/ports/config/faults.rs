@@ -19,6 +19,7 @@ impl PortConfig {
             Transport::Serial(serial) => faults.extend(serial.faults()),
             Transport::TcpServer(server) => faults.extend(server.faults()),
             Transport::Udp(udp) => faults.extend(udp.faults()),
+            Transport::Ntrip(ntrip) => faults.extend(ntrip.faults()),
             _ => {}
         }
         faults.extend(self.hosts_fault());

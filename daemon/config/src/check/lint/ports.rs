@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use insd_drivers::ports::Transport;
-use insd_intake::config::Role;
+use insd_intake::config::{Kind, Role};
 
 use super::found::Found;
 use crate::Config;
@@ -42,7 +42,26 @@ pub(super) fn look(config: &Config, found: &mut Found) {
             );
         }
     }
+    casters(config, found);
     samples(config, found);
+}
+
+/// Who measures at the other end of a caster is a base, and not on board.
+fn casters(config: &Config, found: &mut Found) {
+    let is_caster = |name: &str| {
+        let own = config.ports.iter().find(|port| port.name == name);
+        own.is_some_and(|port| matches!(port.transport, Transport::Ntrip(_)))
+    };
+    for sensor in config.sensors.iter().filter(|own| own.kind == Kind::Rtcm) {
+        if is_caster(&sensor.port) {
+            found.error(
+                "caster-on-board",
+                ConfigPlace::of("sensor", &sensor.name).key("kind"),
+                "corrections of a caster would be taken for a receiver of the ship",
+                "kind = \"rtcm_base\"",
+            );
+        }
+    }
 }
 
 /// Whether the name can be that of a device of this system.

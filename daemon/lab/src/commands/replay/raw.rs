@@ -2,11 +2,12 @@
 
 use std::collections::VecDeque;
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::Context as _;
-use insd_base::{GpsTime, Received, Source, Time};
+use insd_base::{BaseEpoch, Ecef, GpsTime, Message, Received, SatelliteEpoch, Source, Time, earth};
 use insd_config::{BadInput, VoyageCalendar};
-use insd_drivers::recording::{RawTexts, read_raw};
+use insd_drivers::recording::{RawTexts, read_raw, read_raw_base};
 use insd_gnss::{Context, Noise};
 use insd_rinex::{ObservationReader, expand, is_compact, read_navigation};
 
@@ -50,7 +51,12 @@ impl RawVoyage {
         };
         let calendar = VoyageCalendar::new(start_utc).context("start_utc")?;
         let start = calendar.utc(Time::START).to_gps();
-        Ok(RawVoyage { waiting: messages(&texts, table.noise(), start, &args.masks)?, ..own })
+        let mut waiting = messages(&texts, table.noise(), start, &args.masks)?;
+        if let Some((path, text)) = read_raw_base(&args.dir)? {
+            waiting.extend(base(&path, &text, table, start)?);
+            waiting.make_contiguous().sort_by_key(|received| received.receipt);
+        }
+        Ok(RawVoyage { waiting, ..own })
     }
 
     /// What is received up to an instant.
@@ -75,10 +81,39 @@ fn messages(
 ) -> anyhow::Result<VecDeque<Received>> {
     let context = Context { noise, ..context(&texts.navigation)? };
     let (path, text) = &texts.observations;
-    let plain = if is_compact(text) { expand(text)?.text.into_bytes() } else { text.clone() };
+    let plain = plain(text)?;
     let fault = |error| BadInput(format!("{}: {error}", path.display()));
     let reader = ObservationReader::new(&plain).map_err(fault)?;
     Ok(ranges::messages(&context, reader.flatten(), start, masks))
+}
+
+/// What the base measured, at the place that the voyage or else its own file says.
+fn base(
+    path: &Path,
+    text: &[u8],
+    table: &RawTable,
+    start: GpsTime,
+) -> anyhow::Result<Vec<Received>> {
+    let plain = plain(text)?;
+    let fault = |error| BadInput(format!("{}: {error}", path.display()));
+    let reader = ObservationReader::new(&plain).map_err(fault)?;
+    let by_file = reader.header().position.filter(|place| *place != [0.0; 3]);
+    let by_file = by_file.map(|place| Ecef(place.into()));
+    let position = table.base().map(|place| earth::ecef(&place)).or(by_file);
+    if position.is_none() {
+        eprintln!("{}: nobody says where the base is", path.display());
+    }
+    let told = |epoch: SatelliteEpoch| {
+        let time = Time::START + epoch.tag.since(start);
+        let told = BaseEpoch { time, station: None, position, is_moving: false, epoch };
+        let message = Message::Base(Arc::new(told));
+        Received { receipt: time, source: Source::Base(0), message }
+    };
+    Ok(reader.flatten().map(told).collect())
+}
+
+fn plain(text: &[u8]) -> anyhow::Result<Vec<u8>> {
+    Ok(if is_compact(text) { expand(text)?.text.into_bytes() } else { text.to_vec() })
 }
 
 fn context((path, text): &(impl AsRef<Path>, Vec<u8>)) -> anyhow::Result<Context> {

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use insd_base::Geodetic;
 use insd_config::BadInput;
 use insd_gnss::Noise;
 use insd_nav::config::RangeModel;
@@ -13,6 +14,15 @@ use serde::Deserialize;
 struct File {
     #[serde(default)]
     raw: RawTable,
+    base: Option<BaseTable>,
+}
+
+/// Where the base is: the table `[base]`.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+struct BaseTable {
+    lat_deg: f64,
+    lon_deg: f64,
+    height_m: f64,
 }
 
 /// The errors of a receiver; one that is not stated is that of a good receiver.
@@ -24,6 +34,14 @@ pub(super) struct RawTable {
     multipath_code_std_m: Option<f64>,
     clock_bias_walk_m_sqrt_s: Option<f64>,
     clock_drift_walk_mps_sqrt_s: Option<f64>,
+    #[serde(skip)]
+    base: Option<Geodetic>,
+}
+
+impl BaseTable {
+    fn place(self) -> Geodetic {
+        Geodetic::from_degrees(self.lat_deg, self.lon_deg, self.height_m)
+    }
 }
 
 impl RawTable {
@@ -42,7 +60,7 @@ impl RawTable {
                 Err(BadInput(format!("{}: raw.{key}: {expected}, found {value}", path.display()))
                     .into())
             }
-            None => Ok(file.raw),
+            None => Ok(RawTable { base: file.base.map(BaseTable::place), ..file.raw }),
         }
     }
 
@@ -59,6 +77,11 @@ impl RawTable {
         let mut told = all.into_iter().filter_map(|(key, value)| Some((key, value?)));
         let is_none = |value: f64| !value.is_finite() || value < 0.0;
         told.find(|(_, value)| is_none(*value))
+    }
+
+    /// Where the base is, if the voyage says so.
+    pub(super) fn base(&self) -> Option<Geodetic> {
+        self.base
     }
 
     /// Noise of the measurements.

@@ -20,7 +20,8 @@ use serde::Serialize;
 use super::component::Component;
 use super::errors::{EpochError, VoyageErrors};
 pub use pieces::Pieces;
-use pieces::{Step, steps};
+pub(super) use pieces::Step;
+use pieces::steps;
 pub use told::{Exclusion, FaultsTold, Share};
 
 /// Alert limits of the horizontal error, m: a harbour, the ocean.
@@ -87,13 +88,13 @@ pub struct Evidence {
 }
 
 /// An epoch with truth beside the row that held then.
-#[derive(Clone, Copy)]
-struct Judged<'a> {
-    step: Step,
-    row: &'a NavRow,
-    epoch: &'a EpochError,
-    /// m.
-    level: Option<f64>,
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Judged<'a> {
+    pub(super) step: Step,
+    pub(super) row: &'a NavRow,
+    pub(super) epoch: &'a EpochError,
+    /// Horizontal, m.
+    pub(super) level: Option<f64>,
 }
 
 impl Evidence {
@@ -102,9 +103,7 @@ impl Evidence {
     pub fn new(nav: &Rows<NavRow>, errors: &VoyageErrors, from: Option<Time>) -> Self {
         let time = |row: &NavRow| row.solution.time;
         let is_late = |row: &&NavRow| from.is_none_or(|from| time(row) >= from);
-        let mut rows: Vec<&NavRow> = nav.rows.iter().collect();
-        rows.sort_by_key(|row| time(row));
-        rows.dedup_by_key(|row| time(row));
+        let rows = in_order(nav);
         let told_rows: Vec<&NavRow> = rows.iter().copied().filter(is_late).collect();
         let times: Vec<Time> = told_rows.iter().map(|row| time(row)).collect();
         let told_steps: Vec<(Step, &NavRow)> = steps(&times).into_iter().zip(told_rows).collect();
@@ -179,8 +178,16 @@ impl Use {
     }
 }
 
+/// The rows of a file in order of time, one for each instant.
+pub(super) fn in_order(nav: &Rows<NavRow>) -> Vec<&NavRow> {
+    let mut rows: Vec<&NavRow> = nav.rows.iter().collect();
+    rows.sort_by_key(|row| row.solution.time);
+    rows.dedup_by_key(|row| row.solution.time);
+    rows
+}
+
 /// Whether a row is told as a solution that may be used.
-fn is_told(row: &NavRow) -> bool {
+pub(super) fn is_told(row: &NavRow) -> bool {
     let is_none = matches!(row.solution.mode, Mode::Fault | Mode::Standby | Mode::CoarseAlignment);
     !is_none && row.integrity != Some(Availability::Fault)
 }
@@ -209,7 +216,11 @@ fn tell(rows: &[(Step, &NavRow)]) -> FaultsTold {
 }
 
 /// Each epoch with the last row before it. Rows are in order of time; between an epoch and its row there is no gap.
-fn judge<'a>(rows: &[&'a NavRow], errors: &'a VoyageErrors, has_levels: bool) -> Vec<Judged<'a>> {
+pub(super) fn judge<'a>(
+    rows: &[&'a NavRow],
+    errors: &'a VoyageErrors,
+    has_levels: bool,
+) -> Vec<Judged<'a>> {
     let times: Vec<Time> = errors.epochs.iter().map(|epoch| epoch.time).collect();
     let judged = |(epoch, step): (&'a EpochError, Step)| {
         let after = rows.partition_point(|row| row.solution.time <= epoch.time);
@@ -222,7 +233,7 @@ fn judge<'a>(rows: &[&'a NavRow], errors: &'a VoyageErrors, has_levels: bool) ->
 }
 
 /// How long something held.
-fn measure(steps: impl Iterator<Item = (Step, bool)>) -> Pieces {
+pub(super) fn measure(steps: impl Iterator<Item = (Step, bool)>) -> Pieces {
     let mut pieces = Pieces::default();
     for (step, holds) in steps {
         pieces.enter(step.time, step.held, holds);

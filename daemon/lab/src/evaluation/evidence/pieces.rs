@@ -66,12 +66,12 @@ impl Pieces {
 
 /// An instant of a series, and how long what is said of it holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Step {
-    pub(super) time: Time,
+pub(in crate::evaluation) struct Step {
+    pub(in crate::evaluation) time: Time,
     /// Until the next instant; before a gap and at the end the median interval.
-    pub(super) held: Span,
+    pub(in crate::evaluation) held: Span,
     /// Whether a gap follows.
-    pub(super) is_cut: bool,
+    pub(in crate::evaluation) is_cut: bool,
 }
 
 /// The steps of instants in order of time.

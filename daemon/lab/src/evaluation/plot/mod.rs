@@ -1,8 +1,10 @@
-//! The picture of `insd evaluate --plot`: track, errors within their claimed bands, innovations, satellites.
+//! Pictures: of `insd evaluate --plot` track, errors within their claimed bands, innovations, satellites; of `insd integrity
+//! --plot` the Stanford chart.
 
 mod decimate;
 mod panel;
 mod satellites;
+mod stanford;
 mod track;
 
 use std::path::Path;
@@ -11,13 +13,16 @@ use anyhow::{Context, bail};
 use insd_base::{Solution, Truth};
 use insd_drivers::recording::NavRow;
 use kuva::render::figure::Figure;
+use kuva::render::render::Scene;
 
 use super::by_satellites::{WithSatellites, by_satellites};
 use super::component::Component;
 use super::errors::VoyageErrors;
 use super::innovation::InnovationRow;
 use super::sky::SkyRow;
+use super::statistics::quantile;
 use panel::{Panel, TimeAxis};
+pub use stanford::StanfordChart;
 
 const CELL_WIDTH: f64 = 800.0;
 const CELL_HEIGHT: f64 = 260.0;
@@ -53,17 +58,7 @@ impl Picture<'_> {
         if self.errors.epochs.is_empty() {
             bail!("nothing to draw: solution and truth have no common time");
         }
-        let extension = file.extension().and_then(|e| e.to_str()).unwrap_or("");
-        let scene = self.scene();
-        let bytes = match extension.to_ascii_lowercase().as_str() {
-            "png" => kuva::backend::png::PngBackend::new()
-                .with_scale(PNG_SCALE)
-                .render_scene(&scene)
-                .map_err(|fault| anyhow::anyhow!("cannot draw: {fault}"))?,
-            "svg" => kuva::backend::svg::SvgBackend.render_scene(&scene).into_bytes(),
-            _ => bail!("{}: expected a file ending in .png or .svg", file.display()),
-        };
-        std::fs::write(file, bytes).with_context(|| file.display().to_string())
+        write(&self.scene(), file)
     }
 
     /// The track in the time of the errors.
@@ -110,7 +105,7 @@ impl Picture<'_> {
 
     /// The track on the left over two rows, the two errors that matter most beside it, the others
     /// below in pairs, innovations over the whole width.
-    fn scene(&self) -> kuva::render::render::Scene {
+    fn scene(&self) -> Scene {
         let axis = TimeAxis::covering(&self.errors.epochs);
         let mut panels = vec![self.track(), panel::horizontal(self.errors, axis)];
         let after_track = [
@@ -155,6 +150,20 @@ fn push(structure: &mut Vec<Vec<usize>>, rows: usize, columns: &[usize]) {
 
 fn cells(first: usize, rows: usize, columns: &[usize]) -> Vec<usize> {
     (0..rows).flat_map(|row| columns.iter().map(move |column| first + 2 * row + column)).collect()
+}
+
+/// Writes a scene to a `.png` or `.svg` file.
+fn write(scene: &Scene, file: &Path) -> anyhow::Result<()> {
+    let extension = file.extension().and_then(|e| e.to_str()).unwrap_or("");
+    let bytes = match extension.to_ascii_lowercase().as_str() {
+        "png" => kuva::backend::png::PngBackend::new()
+            .with_scale(PNG_SCALE)
+            .render_scene(scene)
+            .map_err(|fault| anyhow::anyhow!("cannot draw: {fault}"))?,
+        "svg" => kuva::backend::svg::SvgBackend.render_scene(scene).into_bytes(),
+        _ => bail!("{}: expected a file ending in .png or .svg", file.display()),
+    };
+    std::fs::write(file, bytes).with_context(|| file.display().to_string())
 }
 
 /// Cells of a grid of two columns: panel 0 on the left of the first two rows, panels 1 and 2 on

@@ -40,7 +40,11 @@ pub(super) struct TimeAxis {
 impl TimeAxis {
     pub(super) fn covering(epochs: &[EpochError]) -> Self {
         let at = |epoch: Option<&EpochError>| epoch.map_or(0.0, |epoch| epoch.time.as_seconds());
-        let (first, last) = (at(epochs.first()), at(epochs.last()));
+        Self::between(at(epochs.first()), at(epochs.last()))
+    }
+
+    /// From one instant to another, s.
+    pub(super) fn between(first: f64, last: f64) -> Self {
         let (unit, seconds) = match last - first {
             length if length > 5.0 * 3600.0 => ("h", 3600.0),
             length if length > 600.0 => ("min", 60.0),
