@@ -19,6 +19,7 @@ use nalgebra::{Matrix1, Matrix2, Matrix3, SMatrix, UnitQuaternion, Vector1, Vect
 
 use super::belief::{CONSIDERED, OwnCovariance, STATES, considered as k, innovation, state as x};
 use super::motion::{across, rotation};
+use super::polish::Polish;
 use super::{ASTRAY, EightState, GOAL, LEAN};
 
 /// Mean square length of (s, 1-c) that still tells a direction of tilt.
@@ -72,8 +73,11 @@ impl EightState {
             self.turn_by(self.heading.0);
             self.note_heading();
         } else if !self.centred && self.heading.1 < GOAL {
-            self.found.get_or_insert(self.time);
             self.centre();
+            self.polish.get_or_insert(Polish::begin(self.time, self.heading.1));
+        }
+        if let Some(polish) = &mut self.polish {
+            polish.hear(self.time, self.heading.1);
         }
     }
 

@@ -36,6 +36,7 @@ mod handover;
 pub mod mast;
 mod messages;
 pub mod motion;
+mod polish;
 pub mod stride;
 pub mod vertical;
 
@@ -57,6 +58,7 @@ use belief::{Belief, considered as k, state as x};
 use blur::Blur;
 use mast::Mast;
 use motion::{HorizontalMotion, HorizontalStretch, Local};
+use polish::Polish;
 use stride::Stride;
 use vertical::VerticalChannel;
 
@@ -82,8 +84,8 @@ pub struct EightState {
     /// Since the last epoch of ranges, and when one was last used.
     stride: Option<Stride>,
     strode: Option<Time>,
-    /// When the heading was first known to [`GOAL`].
-    found: Option<Time>,
+    /// Since the heading was first known to [`GOAL`].
+    polish: Option<Polish>,
     rtk: Option<bool>,
     heard_height: Time,
     mast: Mast,
@@ -99,9 +101,8 @@ pub struct EightState {
 const LEFT: f64 = 2.0;
 /// Heading sigma at which the phase ends, rad.
 pub const GOAL: f64 = 5.0 * DEG;
-/// While phases tell how she moves it goes on to this one, rad, for so long at the most, s.
+/// While phases tell how she moves it goes on to this one, rad.
 const FINE_GOAL: f64 = 1.0 * DEG;
-const PATIENCE: f64 = 60.0;
 /// Sigma of the tilt after levelling, sensor bias aside, rad.
 const LEVEL_STD: f64 = 1.0 * DEG;
 /// Longest stretch between propagations of the covariance, s.
@@ -156,7 +157,7 @@ impl EightState {
             antenna: AntennaMotion::default(),
             stride: None,
             strode: None,
-            found: None,
+            polish: None,
             rtk: None,
             heard_height: level.time,
             mast: Mast::default(),
@@ -212,10 +213,10 @@ impl EightState {
     }
 
     /// Whether the heading is known well enough for the full filter. Phases, which tell it within seconds, are to the millimetre what a filter that is
-    /// linear in the heading is not: they finish what they have begun.
+    /// linear in the heading is not: they finish what they have begun, as long as it gets on.
     #[must_use]
     pub fn finished(&self) -> bool {
-        let waits = self.found.is_some_and(|at| (self.time - at).as_seconds() < PATIENCE);
+        let waits = self.polish.is_some_and(|polish| polish.goes_on(self.time));
         let goal = if waits && self.strides() { FINE_GOAL } else { GOAL };
         self.heading.1 < goal
     }

@@ -37,6 +37,8 @@ const JUMP: f64 = 300.0;
 const SLACK_PHASE: f64 = 0.01;
 /// A place of which the ranges of enough satellites tell all, 1-sigma, m.
 const UNKNOWN_PLACE: f64 = 30.0;
+/// Codes of epochs that are closer than this, s, are no news: a receiver's loop smooths them, and what reflects is the same.
+const CODE_TIME: f64 = 1.0;
 /// A constant of which nothing is known, m.
 const UNKNOWN_CONSTANT: f64 = 100.0;
 
@@ -137,6 +139,7 @@ impl Filter {
         let state = &mut self.state;
         let model = &self.config.ranges;
         let elapsed = elapsed.max(0.0);
+        self.satellites.apart = elapsed;
         receiver_clock::carry(&mut state.nominal, &mut state.covariance, model, elapsed);
         receiver_clock::carry_constants(&mut state.nominal, &mut state.covariance, elapsed);
         self.satellites.last = Some(now);
@@ -274,7 +277,12 @@ impl Filter {
 
     fn code_rows(&self, seated: &[Sighted<'_>]) -> Option<Rows> {
         let (view, antenna) = (self.view(), self.antenna());
-        Rows::of(seated, |one| satellite_range::code(&view, &antenna, *one))
+        let alike = (CODE_TIME / self.satellites.apart).max(1.0);
+        Rows::of(seated, |one| {
+            let mut row = satellite_range::code(&view, &antenna, *one)?;
+            row.r *= alike;
+            Some(row)
+        })
     }
 
     /// Those that are left out are listened to and not used.

@@ -56,6 +56,8 @@ pub(super) struct Satellites {
     slots: Vec<Option<Slot>>,
     /// Time of the newest ranges.
     pub(super) last: Option<Time>,
+    /// Between the last two epochs, s.
+    pub(super) apart: f64,
     /// Whose they are.
     source: Option<Source>,
     /// Since when the filter and nearly all of them contradict each other.

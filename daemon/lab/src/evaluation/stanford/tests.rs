@@ -21,6 +21,7 @@ fn report(rows: &[(f64, f64, f64, f64)], columns: Vec<&'static str>) -> Integrit
             vertical_level: Some(*vertical),
             integrity: None,
             excluded: Vec::new(),
+            satellites: None,
         }
     };
     judged(rows.iter().enumerate().map(row).collect(), columns)
@@ -85,6 +86,7 @@ fn a_row_that_says_it_is_not_to_be_used_misleads_nobody() {
         vertical_level: None,
         integrity: Some(Availability::Fault),
         excluded: Vec::new(),
+        satellites: None,
     };
     told = judged(vec![row], vec!["hpl_m", "integrity"]);
     assert_eq!(told.hazardous(), 0);
