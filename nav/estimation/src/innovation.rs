@@ -53,13 +53,21 @@ impl Innovation {
     /// Two of one instant together.
     #[must_use]
     pub fn beside(&self, other: &Innovation) -> Self {
-        let (own, all) = (self.rows(), self.rows() + other.rows());
-        let (mut z, mut r) = (DVector::zeros(all), DMatrix::zeros(all, all));
-        for (at, one) in [(0, self), (own, other)] {
+        Innovation::stacked([self, other].into_iter())
+    }
+
+    /// All of one instant together, in this order; their noises have nothing in common.
+    #[must_use]
+    pub fn stacked<'a>(all: impl Iterator<Item = &'a Innovation> + Clone) -> Self {
+        let rows = all.clone().map(Innovation::rows).sum();
+        let (mut z, mut r) = (DVector::zeros(rows), DMatrix::zeros(rows, rows));
+        let mut at = 0;
+        for one in all.clone() {
             z.rows_mut(at, one.rows()).copy_from(&one.z);
             r.view_mut((at, at), (one.rows(), one.rows())).copy_from(&one.r);
+            at += one.rows();
         }
-        Innovation { z, h: self.h.above(&other.h), r }
+        Innovation { z, h: Jacobian::stacked(all.map(|one| &one.h)), r }
     }
 
     /// Computes S = H P H^T + R and factors it; `None` if S is not positive definite or a value is

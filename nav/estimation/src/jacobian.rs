@@ -89,23 +89,24 @@ impl Jacobian {
         Jacobian { rows: rows.len(), blocks: self.blocks.clone(), values }
     }
 
-    /// Its rows, and those of another below.
-    #[must_use]
-    pub fn above(&self, other: &Jacobian) -> Self {
-        let mut both = Jacobian::none(self.rows + other.rows);
-        for (own, first) in [(self, 0), (other, self.rows)] {
+    /// The rows of all, below each other in this order.
+    pub(crate) fn stacked<'a>(all: impl Iterator<Item = &'a Jacobian> + Clone) -> Self {
+        let mut stack = Jacobian::none(all.clone().map(Jacobian::rows).sum());
+        let mut first = 0;
+        for own in all {
             let mut from = 0;
             for (key, width) in &own.blocks {
-                let at = both.make(*key, *width);
+                let at = stack.make(*key, *width);
                 for column in 0..*width {
-                    let to = at + column * both.rows + first;
+                    let to = at + column * stack.rows + first;
                     let values = &own.values[from..from + own.rows];
-                    both.values[to..to + own.rows].copy_from_slice(values);
+                    stack.values[to..to + own.rows].copy_from_slice(values);
                     from += own.rows;
                 }
             }
+            first += own.rows;
         }
-        both
+        stack
     }
 
     /// What it makes of errors: H x.
@@ -187,12 +188,12 @@ mod tests {
     }
 
     #[test]
-    fn rows_of_two_stand_below_each_other() {
+    fn rows_of_all_stand_below_each_other() {
         let one = Jacobian::none(1).with(A, &Matrix1x2::new(1.0, 2.0));
         let other = Jacobian::none(2).with(B, &Vector2::new(3.0, 4.0));
         let layout = Layout::of_blocks([(A.key(), 2), (B.key(), 1)]);
         let expected =
             DMatrix::from_row_slice(3, 3, &[1.0, 2.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 4.0]);
-        assert_eq!(one.above(&other).to_matrix(&layout), expected);
+        assert_eq!(Jacobian::stacked([&one, &other].into_iter()).to_matrix(&layout), expected);
     }
 }

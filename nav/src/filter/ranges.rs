@@ -355,22 +355,10 @@ impl Rows {
         seated: &[Sighted<'_>],
         row: impl Fn(&Sighted<'_>) -> Option<Innovation>,
     ) -> Option<Self> {
-        let mut rows: Option<Rows> = None;
-        for (index, one) in seated.iter().enumerate() {
-            let Some(own) = row(one) else { continue };
-            match &mut rows {
-                Some(rows) => {
-                    rows.all = rows.all.beside(&own);
-                    rows.of.push(index);
-                    rows.names.push(one.range.satellite);
-                }
-                None => {
-                    let names = vec![one.range.satellite];
-                    rows = Some(Rows { all: own, of: vec![index], names });
-                }
-            }
-        }
-        rows
+        let own = |(index, one)| Some((index, row(one)?));
+        let (of, own): (Vec<_>, Vec<_>) = seated.iter().enumerate().filter_map(own).unzip();
+        let names = of.iter().map(|index| seated[*index].range.satellite).collect();
+        (!of.is_empty()).then(|| Rows { all: Innovation::stacked(own.iter()), of, names })
     }
 
     /// Takes a row out; returns whose it was.
