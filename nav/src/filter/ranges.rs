@@ -277,7 +277,8 @@ impl Filter {
 
     fn code_rows(&self, seated: &[Sighted<'_>]) -> Option<Rows> {
         let (view, antenna) = (self.view(), self.antenna());
-        let alike = (CODE_TIME / self.satellites.apart).max(1.0);
+        let apart = self.satellites.apart;
+        let alike = if apart > 0.0 { (CODE_TIME / apart).max(1.0) } else { 1.0 };
         Rows::of(seated, |one| {
             let mut row = satellite_range::code(&view, &antenna, *one)?;
             row.r *= alike;

@@ -56,7 +56,7 @@ pub(super) struct Satellites {
     slots: Vec<Option<Slot>>,
     /// Time of the newest ranges.
     pub(super) last: Option<Time>,
-    /// Between the last two epochs, s.
+    /// Between the last two epochs, s; zero for the first of a receiver.
     pub(super) apart: f64,
     /// Whose they are.
     source: Option<Source>,

@@ -102,9 +102,16 @@ fn what_fixes_and_ranges_say_of_the_same_orbits_is_counted_once() {
         Message::Ranges(ranges) => Some(ranges.clone()),
         _ => None,
     });
-    let last = sail_messages(&config, &messages, 100).solutions.pop().unwrap();
+    let solutions = sail_messages(&config, &messages, 100).solutions;
+    let last = solutions.last().unwrap();
     let (open, claimed) = (left_open(&ranges.unwrap(), &last.position), last.sigma.position.0);
     assert!(claimed.x > 0.85 * open.x && claimed.y > 0.85 * open.y, "{claimed} of {open}");
+    let known = solutions.iter().filter(|solution| solution.time > Time::from_seconds(15.0));
+    let widest = known.map(|solution| solution.sigma.position.0.xy().max()).fold(0.0, f64::max);
+    assert!(
+        widest < 5.0,
+        "what the first ranges tell takes the place of what is forgotten: {widest}"
+    );
 }
 
 #[test]
