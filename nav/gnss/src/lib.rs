@@ -26,7 +26,7 @@ pub use integers::{IntegerRefusal, IntegerSearch, IntegerVector};
 pub use orbit::SatelliteState;
 pub use ranging::{Guess, Ranged, Ranging};
 pub use rtk::{
-    BaseEpoch, DifferencedRows, DoubleDifferences, PairAmbiguity, RoverPrior, RtkFix, RtkRefusal,
+    DifferencedRows, DoubleDifferences, PairAmbiguity, PlacedEpoch, RoverPrior, RtkFix, RtkRefusal,
     RtkSettings, RtkSolution, RtkTracker, RtkWithdrawal, SignalPair,
 };
 pub use sight::Sight;

@@ -18,7 +18,7 @@ mod resolve;
 mod settings;
 mod tracker;
 
-pub use difference::BaseEpoch;
+pub use difference::PlacedEpoch;
 pub use double::{DifferencedRows, DoubleDifferences, PairAmbiguity};
 pub use outcome::{RtkFix, RtkRefusal, RtkSolution, RtkWithdrawal};
 pub use pairing::SignalPair;

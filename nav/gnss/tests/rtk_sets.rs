@@ -4,7 +4,7 @@
 
 mod sets;
 
-use insd_gnss::{BaseEpoch, RtkSettings, RtkTracker};
+use insd_gnss::{PlacedEpoch, RtkSettings, RtkTracker};
 use nalgebra::Vector3;
 use sets::{GEONET, MOVING, NEAR, Pair, WETTZELL, horizontal};
 
@@ -22,7 +22,7 @@ fn judged(pair: &Pair, mut tracker: RtkTracker) -> Option<(usize, usize, f64)> {
     let context = pair.context(&folder);
     let (mut fixed, mut wrong, mut squares) = (0, 0, 0.0);
     for moment in pair.moments(&folder) {
-        let base = BaseEpoch { epoch: &moment.base, position: Vector3::from(pair.base_at) };
+        let base = PlacedEpoch { epoch: &moment.base, position: Vector3::from(pair.base_at) };
         let Ok(told) = tracker.take(&context, &moment.rover, &base, None) else { continue };
         let Ok(fix) = &told.fixed else { continue };
         let off = fix.position - moment.truth.unwrap();

@@ -14,7 +14,7 @@ mod damage;
 use std::collections::BTreeMap;
 
 use damage::Damage;
-use insd_gnss::{BaseEpoch, Context, RtkFix, RtkRefusal, RtkSettings, RtkTracker};
+use insd_gnss::{Context, PlacedEpoch, RtkFix, RtkRefusal, RtkSettings, RtkTracker};
 use nalgebra::Vector3;
 use sets::{Moment, PAIRS, Pair, horizontal, vertical};
 
@@ -77,7 +77,7 @@ impl Set<'_> {
         let position = Vector3::from(self.pair.base_at);
         for moment in &self.moments {
             judged.epochs += 1;
-            let base = BaseEpoch { epoch: &moment.base, position };
+            let base = PlacedEpoch { epoch: &moment.base, position };
             let damaged = damage.as_mut().map(|damage| damage.done_to(&moment.rover));
             let rover = damaged.as_ref().unwrap_or(&moment.rover);
             let told = tracker.take(&self.context, rover, &base, None);

@@ -14,7 +14,7 @@ use crate::signals::{dispersion, told_code, told_phase};
 
 /// An epoch of the base, and where its antenna was then; of a base that moves, wherever that was.
 #[derive(Clone, Copy, Debug)]
-pub struct BaseEpoch<'a> {
+pub struct PlacedEpoch<'a> {
     /// What it measured.
     pub epoch: &'a SatelliteEpoch,
     /// Its antenna, ECEF, m.
@@ -57,7 +57,7 @@ pub(super) fn differences(
     context: &Context,
     settings: &RtkSettings,
     (rover, near): (&SatelliteEpoch, &Vector3<f64>),
-    base: &BaseEpoch<'_>,
+    base: &PlacedEpoch<'_>,
 ) -> Vec<Difference> {
     let geodetic = |at: &Vector3<f64>| earth::geodetic(&Ecef(*at));
     let scene = Scene {

@@ -4,7 +4,7 @@ use insd_base::SatelliteEpoch;
 use nalgebra::Vector3;
 
 use super::codes::{CodeLevel, screen};
-use super::difference::{BaseEpoch, differences};
+use super::difference::{PlacedEpoch, differences};
 use super::double::DoubleDifferences;
 use super::float::Float;
 use super::outcome::{RtkRefusal, RtkSolution};
@@ -27,7 +27,7 @@ impl DoubleDifferences {
         context: &Context,
         settings: &RtkSettings,
         (rover, near): (&SatelliteEpoch, &Vector3<f64>),
-        base: &BaseEpoch<'_>,
+        base: &PlacedEpoch<'_>,
     ) -> Result<Self, RtkRefusal> {
         Self::with_level(context, settings, (rover, near), base, &mut CodeLevel::default())
     }
@@ -37,7 +37,7 @@ impl DoubleDifferences {
         context: &Context,
         settings: &RtkSettings,
         (rover, near): (&SatelliteEpoch, &Vector3<f64>),
-        base: &BaseEpoch<'_>,
+        base: &PlacedEpoch<'_>,
         level: &mut CodeLevel,
     ) -> Result<Self, RtkRefusal> {
         check_age(settings, rover, base)?;
@@ -66,7 +66,7 @@ impl RtkSolution {
         context: &Context,
         settings: &RtkSettings,
         rover: &SatelliteEpoch,
-        base: &BaseEpoch<'_>,
+        base: &PlacedEpoch<'_>,
         prior: Option<&RoverPrior>,
     ) -> Result<Self, RtkRefusal> {
         Self::of_epoch(context, settings, (rover, base), prior, &mut CodeLevel::default())
@@ -76,7 +76,7 @@ impl RtkSolution {
     pub(super) fn of_epoch(
         context: &Context,
         settings: &RtkSettings,
-        (rover, base): (&SatelliteEpoch, &BaseEpoch<'_>),
+        (rover, base): (&SatelliteEpoch, &PlacedEpoch<'_>),
         prior: Option<&RoverPrior>,
         level: &mut CodeLevel,
     ) -> Result<Self, RtkRefusal> {
@@ -102,7 +102,7 @@ impl RtkSolution {
 pub(super) fn begin(
     context: &Context,
     settings: &RtkSettings,
-    (rover, base): (&SatelliteEpoch, &BaseEpoch<'_>),
+    (rover, base): (&SatelliteEpoch, &PlacedEpoch<'_>),
     prior: Option<&RoverPrior>,
 ) -> Result<Vector3<f64>, RtkRefusal> {
     check_age(settings, rover, base)?;
@@ -122,7 +122,7 @@ pub(super) fn begin(
 fn coarse(
     context: &Context,
     settings: &RtkSettings,
-    (rover, base): (&SatelliteEpoch, &BaseEpoch<'_>),
+    (rover, base): (&SatelliteEpoch, &PlacedEpoch<'_>),
 ) -> Option<Vector3<f64>> {
     let mut place = base.position;
     // from the second on the air above the rover is its own
@@ -140,7 +140,7 @@ fn coarse(
 fn check_age(
     settings: &RtkSettings,
     rover: &SatelliteEpoch,
-    base: &BaseEpoch<'_>,
+    base: &PlacedEpoch<'_>,
 ) -> Result<(), RtkRefusal> {
     let age = age(rover, base);
     if age.abs() <= settings.oldest {
@@ -150,7 +150,7 @@ fn check_age(
 }
 
 /// The base's coordinates against its own codes, which know it to metres: a base that is taken for another, or for the rover, is found.
-fn check_base(context: &Context, base: &BaseEpoch<'_>) -> Result<(), RtkRefusal> {
+fn check_base(context: &Context, base: &PlacedEpoch<'_>) -> Result<(), RtkRefusal> {
     const SIGMAS: f64 = 6.0;
     // what errors of orbits and air share among satellites for an hour
     const SLOW: f64 = 10.0;
@@ -170,6 +170,6 @@ fn check_base(context: &Context, base: &BaseEpoch<'_>) -> Result<(), RtkRefusal>
 }
 
 /// By how much the base's epoch is older, s.
-pub(super) fn age(rover: &SatelliteEpoch, base: &BaseEpoch<'_>) -> f64 {
+pub(super) fn age(rover: &SatelliteEpoch, base: &PlacedEpoch<'_>) -> f64 {
     rover.tag.since(base.epoch.tag).as_seconds()
 }

@@ -5,7 +5,7 @@ use insd_base::SatelliteEpoch;
 use super::arcs::Arcs;
 use super::belief::Belief;
 use super::codes::CodeLevel;
-use super::difference::BaseEpoch;
+use super::difference::PlacedEpoch;
 use super::double::DoubleDifferences;
 use super::float::Float;
 use super::instant::{age, begin};
@@ -18,7 +18,7 @@ use crate::context::Context;
 /// Follows a rover: by ambiguities that are carried on, or epoch by epoch with nothing but the noise of codes remembered.
 ///
 /// ```
-/// use insd_gnss::{BaseEpoch, Context, RtkRefusal, RtkSettings, RtkTracker};
+/// use insd_gnss::{PlacedEpoch, Context, RtkRefusal, RtkSettings, RtkTracker};
 /// # use insd_base::{GpsTime, SatelliteEpoch};
 /// # use nalgebra::Vector3;
 /// # let context = Context::default();
@@ -26,7 +26,7 @@ use crate::context::Context;
 /// # let of_rover = SatelliteEpoch { tag, signals: Vec::new(), leap_seconds: None, clock_reset: false };
 /// # let of_base = of_rover.clone();
 /// let mut tracker = RtkTracker::continuous(RtkSettings::default());
-/// let base = BaseEpoch { epoch: &of_base, position: Vector3::new(3.2e6, 5.2e5, 5.4e6) };
+/// let base = PlacedEpoch { epoch: &of_base, position: Vector3::new(3.2e6, 5.2e5, 5.4e6) };
 /// match tracker.take(&context, &of_rover, &base, None) {
 ///     Ok(told) => println!("{} {:?}", told.position(), told.fixed.map(|fix| fix.doubt)),
 ///     Err(why) => println!("{why}"),
@@ -70,7 +70,7 @@ impl RtkTracker {
         &mut self,
         context: &Context,
         rover: &SatelliteEpoch,
-        base: &BaseEpoch<'_>,
+        base: &PlacedEpoch<'_>,
         prior: Option<&RoverPrior>,
     ) -> Result<RtkSolution, RtkRefusal> {
         let Some(arcs) = &mut self.arcs else {

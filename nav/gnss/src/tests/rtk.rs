@@ -5,7 +5,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::sky::{berth, context, epoch, start};
 use crate::context::Context;
-use crate::rtk::{BaseEpoch, RoverPrior, RtkFix, RtkRefusal, RtkSettings, RtkSolution, RtkTracker};
+use crate::rtk::{
+    PlacedEpoch, RoverPrior, RtkFix, RtkRefusal, RtkSettings, RtkSolution, RtkTracker,
+};
 
 /// Noise that is always the same (SplitMix64; Steele, Lea and Flood 2014).
 struct Noise(u64);
@@ -51,7 +53,7 @@ fn solved(
     rover: &SatelliteEpoch,
     base: &SatelliteEpoch,
 ) -> Result<RtkSolution, RtkRefusal> {
-    let base = BaseEpoch { epoch: base, position: berth() };
+    let base = PlacedEpoch { epoch: base, position: berth() };
     RtkSolution::single_epoch(context, &RtkSettings::default(), rover, &base, None)
 }
 
@@ -94,7 +96,7 @@ fn ambiguities_that_are_carried_on_hold_through_a_slip_that_nobody_tells() {
         for signal in rover.signals.iter_mut().filter(|signal| signal.satellite == which) {
             signal.phase = signal.phase.map(|phase| phase + slipped);
         }
-        let base = BaseEpoch { epoch: &base, position: berth() };
+        let base = PlacedEpoch { epoch: &base, position: berth() };
         let told = tracker.take(&context, &rover, &base, None).unwrap();
         assert!(is_right(&told.fixed.unwrap()), "{second}");
     }
@@ -179,7 +181,7 @@ fn a_base_that_is_late_is_used_and_told_and_one_that_is_too_late_refused() {
 fn a_base_that_is_taken_for_the_rover_is_found_by_its_codes() {
     let context = context();
     let (rover, base) = pair(&context, 0.0);
-    let swapped = BaseEpoch { epoch: &rover, position: berth() };
+    let swapped = PlacedEpoch { epoch: &rover, position: berth() };
     let told = RtkSolution::single_epoch(&context, &RtkSettings::default(), &base, &swapped, None);
     assert!(matches!(told, Err(RtkRefusal::BasePlace { off, .. }) if off > 500.0), "{told:?}");
 }
@@ -189,7 +191,7 @@ fn a_base_coordinate_that_is_a_metre_off_contradicts_a_prior_that_knows_better()
     let context = context();
     let (rover, base) = pair(&context, 0.0);
     let wrong = Vector3::new(0.8, -0.6, 0.0);
-    let base = BaseEpoch { epoch: &base, position: berth() + wrong };
+    let base = PlacedEpoch { epoch: &base, position: berth() + wrong };
     let settings = RtkSettings::default();
     // against the base it is right, and nothing else is known
     let told = RtkSolution::single_epoch(&context, &settings, &rover, &base, None).unwrap();
@@ -213,7 +215,7 @@ fn a_prior_fixes_what_codes_alone_cannot() {
     let alone = solved(&context, &rover, &base).unwrap();
     let position = rover_at() + Vector3::new(0.05, 0.02, -0.04);
     let prior = RoverPrior { position, covariance: Some(Matrix3::identity() * 0.05_f64.powi(2)) };
-    let base = BaseEpoch { epoch: &base, position: berth() };
+    let base = PlacedEpoch { epoch: &base, position: berth() };
     let settings = RtkSettings::default();
     let told = RtkSolution::single_epoch(&context, &settings, &rover, &base, Some(&prior)).unwrap();
     let fix = told.fixed.unwrap();
@@ -231,7 +233,7 @@ fn a_base_that_moves_is_followed_where_it_tells_where_it_is() {
         let at = berth() + Vector3::new(3.0, 1.0, -2.0) * after;
         let (rover, base) =
             (noisy(&context, after, &rover_at(), 2), noisy(&context, after, &at, 5));
-        let base = BaseEpoch { epoch: &base, position: at };
+        let base = PlacedEpoch { epoch: &base, position: at };
         let told = tracker.take(&context, &rover, &base, None).unwrap();
         assert!(is_right(&told.fixed.unwrap()), "{second}");
     }

@@ -10,7 +10,7 @@ mod sky;
 use insd_base::satellites::{Measured, SatelliteRange};
 use insd_base::{GpsTime, SatelliteEpoch, Span};
 use insd_gnss::{
-    BaseEpoch, CarrierDisplacement, CarrierTracker, Context, Guess, Ranged, Ranging, RtkSettings,
+    CarrierDisplacement, CarrierTracker, Context, Guess, PlacedEpoch, Ranged, Ranging, RtkSettings,
     RtkTracker,
 };
 use nalgebra::Vector3;
@@ -97,7 +97,7 @@ fn check_rtk(
     let sound = sky::epoch(context, second, &mut Orders(&[]));
     let [forth, back] = trackers;
     for (tracker, rover, base) in [(forth, damaged, &sound), (back, &sound, damaged)] {
-        let base = BaseEpoch { epoch: base, position: sky::berth() };
+        let base = PlacedEpoch { epoch: base, position: sky::berth() };
         let Ok(told) = tracker.take(context, rover, &base, None) else { continue };
         assert!(is_finite(&told.float) && is_finite(&told.position()), "{told:?}");
         assert!(told.covariance().iter().all(|value| value.is_finite()), "{told:?}");
