@@ -18,6 +18,8 @@ use insd_base::{Forecast, ImuSpec, Lack, Limiting, Span, Time, earth};
 use insd_nav::Navigator;
 use insd_nav::berth::BerthSample;
 
+use crate::progress::Progress;
+
 /// No forecast goes further, s.
 const HORIZON: f64 = 7200.0;
 /// Length of a step as share of the time gone, and its bounds, s.
@@ -43,7 +45,7 @@ pub fn at_the_berth(navigator: &Navigator, imu: &ImuSpec, target: f64) -> Foreca
     let latitude = ahead.view().geodetic.latitude;
     let mut gone = 0.0;
     let mut sigma = ahead.heading_std();
-    let mut before = (gone, sigma);
+    let mut progress = Progress::begin((PATIENCE, IMPROVEMENT), gone, sigma);
     while sigma >= target {
         let step = (STEP_SHARE * gone).clamp(STEPS.0, STEPS.1);
         ahead.advance(step);
@@ -57,13 +59,9 @@ pub fn at_the_berth(navigator: &Navigator, imu: &ImuSpec, target: f64) -> Foreca
             gone -= step * ((target - sigma) / (last - sigma).max(f64::MIN_POSITIVE)).min(1.0);
             break;
         }
-        let stalls = gone - before.0 >= PATIENCE && sigma > before.1 * (1.0 - IMPROVEMENT);
-        if stalls || gone > HORIZON {
+        if progress.stalls(gone, sigma) || gone > HORIZON {
             let limiting = limiting(imu, latitude, sigma, gone);
             return Forecast::Unreachable { best: sigma, limiting };
-        }
-        if gone - before.0 >= PATIENCE {
-            before = (gone, sigma);
         }
     }
     let at = filter.time() + Span::from_seconds(gone);

@@ -13,6 +13,7 @@ pub mod forecast;
 pub mod in_motion;
 pub mod levelling;
 pub mod mixture;
+mod progress;
 pub mod stored;
 pub mod trial;
 

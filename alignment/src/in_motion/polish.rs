@@ -2,34 +2,32 @@
 
 use insd_base::Time;
 
+use crate::progress::Progress;
+
 /// Longest, s.
 const PATIENCE: f64 = 60.0;
 /// Who does not better the heading by a fifth in so long, s, does not better it: the filter knows more of the sensors.
 const STALL: f64 = 10.0;
-const BETTER: f64 = 0.8;
+const BETTER: f64 = 0.2;
 
 /// A heading that is being made finer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Polish {
     begun: Time,
-    /// The time and the 1-sigma, rad, that the next are compared with.
-    before: (Time, f64),
+    progress: Progress,
     has_stalled: bool,
 }
 
 impl Polish {
     /// Begins with a 1-sigma, rad.
     pub(super) fn begin(now: Time, sigma: f64) -> Self {
-        Polish { begun: now, before: (now, sigma), has_stalled: false }
+        let progress = Progress::begin((STALL, BETTER), 0.0, sigma);
+        Polish { begun: now, progress, has_stalled: false }
     }
 
     /// Hears of the heading's 1-sigma, rad.
     pub(super) fn hear(&mut self, now: Time, sigma: f64) {
-        let (then, before) = self.before;
-        if (now - then).as_seconds() >= STALL {
-            self.has_stalled |= sigma > before * BETTER;
-            self.before = (now, sigma);
-        }
+        self.has_stalled |= self.progress.stalls((now - self.begun).as_seconds(), sigma);
     }
 
     /// Whether it is worth while.
