@@ -6,6 +6,8 @@
 
 #![allow(clippy::unwrap_used)] // a file that is missing ends it
 
+#[path = "../../src/tests/random.rs"]
+mod random;
 #[path = "../../tests/sets/mod.rs"]
 mod sets;
 

@@ -7,7 +7,7 @@ use super::codes::{CodeLevel, screen};
 use super::difference::{PlacedEpoch, differences};
 use super::double::DoubleDifferences;
 use super::float::Float;
-use super::outcome::{RtkRefusal, RtkSolution};
+use super::outcome::{RtkFix, RtkRefusal, RtkSolution};
 use super::prior::RoverPrior;
 use super::resolve::resolve;
 use super::settings::RtkSettings;
@@ -85,16 +85,27 @@ impl RtkSolution {
         let own = DoubleDifferences::with_level(context, settings, (rover, &near), base, level)?;
         let float = Float::solve(&own, &near, prior).ok_or(RtkRefusal::Geometry)?;
         let float = Float { known, ..float };
-        Ok(Self {
+        let fixed = resolve(&own, &float, settings, prior);
+        Ok(Self::told((rover, base), &own, &float, fixed))
+    }
+
+    /// All that is known of an epoch once its integers have been looked for.
+    pub(super) fn told(
+        (rover, base): (&SatelliteEpoch, &PlacedEpoch<'_>),
+        own: &DoubleDifferences,
+        float: &Float,
+        fixed: Result<RtkFix, RtkRefusal>,
+    ) -> Self {
+        Self {
             tag: rover.tag,
             age: age(rover, base),
             float: float.position,
             float_covariance: float.position_covariance(),
             phases: own.ambiguities().len(),
             half_cycles: own.half_cycles(),
-            fixed: resolve(&own, &float, settings, prior),
+            fixed,
             withdrawn: None,
-        })
+        }
     }
 }
 
@@ -170,6 +181,6 @@ fn check_base(context: &Context, base: &PlacedEpoch<'_>) -> Result<(), RtkRefusa
 }
 
 /// By how much the base's epoch is older, s.
-pub(super) fn age(rover: &SatelliteEpoch, base: &PlacedEpoch<'_>) -> f64 {
+fn age(rover: &SatelliteEpoch, base: &PlacedEpoch<'_>) -> f64 {
     rover.tag.since(base.epoch.tag).as_seconds()
 }

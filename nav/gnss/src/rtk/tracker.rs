@@ -8,7 +8,7 @@ use super::codes::CodeLevel;
 use super::difference::PlacedEpoch;
 use super::double::DoubleDifferences;
 use super::float::Float;
-use super::instant::{age, begin};
+use super::instant::begin;
 use super::outcome::{RtkFix, RtkRefusal, RtkSolution};
 use super::prior::RoverPrior;
 use super::resolve::resolve;
@@ -107,15 +107,7 @@ impl RtkTracker {
         }
         let withdrawn = self.belief.take(rover.tag, (&own, &float), fixed.as_ref().ok());
         self.withdrawals += usize::from(withdrawn.is_some());
-        Ok(RtkSolution {
-            tag: rover.tag,
-            age: age(rover, base),
-            float: float.position,
-            float_covariance: float.position_covariance(),
-            phases: own.ambiguities().len(),
-            half_cycles: own.half_cycles(),
-            fixed,
-            withdrawn,
-        })
+        let told = RtkSolution::told((rover, base), &own, &float, fixed);
+        Ok(RtkSolution { withdrawn, ..told })
     }
 }

@@ -3,28 +3,12 @@
 use insd_base::{SatelliteEpoch, SatelliteId, Span};
 use nalgebra::{Matrix3, Vector3};
 
+use super::random::Random;
 use super::sky::{berth, context, epoch, start};
 use crate::context::Context;
 use crate::rtk::{
     PlacedEpoch, RoverPrior, RtkFix, RtkRefusal, RtkSettings, RtkSolution, RtkTracker,
 };
-
-/// Noise that is always the same (SplitMix64; Steele, Lea and Flood 2014).
-struct Noise(u64);
-
-impl Noise {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let word = (self.0 ^ self.0 >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let word = (word ^ word >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((word ^ word >> 31) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Of mean nought and variance one.
-    fn gauss(&mut self) -> f64 {
-        (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
-    }
-}
 
 fn rover_at() -> Vector3<f64> {
     berth() + Vector3::new(300.0, -450.0, 120.0)
@@ -33,7 +17,7 @@ fn rover_at() -> Vector3<f64> {
 /// An epoch with the noise of a receiver for surveying, its phases counted from elsewhere.
 fn noisy(context: &Context, after: f64, at: &Vector3<f64>, seed: u64) -> SatelliteEpoch {
     let mut epoch = epoch(context, after, at, &Vector3::zeros());
-    let mut noise = Noise(seed.wrapping_mul(1000).wrapping_add(after as u64));
+    let mut noise = Random(seed.wrapping_mul(1000).wrapping_add(after as u64));
     for signal in &mut epoch.signals {
         let wavelength = signal.wavelength().unwrap();
         let counted = f64::from(signal.satellite.number % 7) * seed as f64;
