@@ -63,6 +63,7 @@ mod sideways;
 mod slow;
 mod state;
 mod states;
+mod unrest;
 mod velocity_epoch;
 
 /// An estimate and its covariance, what is known of who tells about them, and who judges that.

@@ -18,6 +18,10 @@
 //! greater by far, and with it the innovations are about what they should be. A receiver that lies or a
 //! gyro that fails is not explained by where the antenna sits.
 
+mod finding;
+
+pub use finding::ConstantsFinding;
+
 use insd_base::attitude::skew;
 use insd_estimation::Layout;
 use nalgebra::{Cholesky, Const, DMatrix, Matrix3, RowVector3, SMatrix, SVector, Vector3};
@@ -102,6 +106,8 @@ pub struct SeparateBias {
     strain: f64,
     /// Which share of the horizontal position did not come from the receiver, once that is known.
     surveyed: Option<f64>,
+    /// Whether what spoke against the constants was put down to somebody else, and is forgotten.
+    is_excused: bool,
 }
 
 /// How a hypothesis fits.
@@ -127,15 +133,6 @@ impl Fit {
     }
 }
 
-/// What the constants are found to be off by.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ConstantsFinding {
-    /// True minus configured.
-    pub value: Constants,
-    /// Its covariance.
-    pub covariance: ConstantsCovariance,
-}
-
 impl SeparateBias {
     /// The filter's position has come from the receiver by way of the configured constants, its
     /// velocity has not.
@@ -152,6 +149,7 @@ impl SeparateBias {
             heard: 0.0,
             strain: 0.0,
             surveyed: Some(0.0),
+            is_excused: false,
         };
         bias.place(view, &Vector3::repeat(1.0));
         bias
@@ -203,6 +201,7 @@ impl SeparateBias {
     pub fn excuse(&mut self, view: &View) {
         let before = std::mem::replace(self, SeparateBias::new(view));
         self.information = before.information;
+        self.is_excused = true;
         (self.heard, self.misfit, self.strain) = (before.heard, before.heard, 1.0);
     }
 
@@ -334,6 +333,22 @@ impl SeparateBias {
         if self.is_confirmed() { 0.0 } else { all.fold(0.0, f64::max) }
     }
 
+    /// The likeliest hypothesis, be it believed or not: how much better it fits than the configuration, as a logarithm, and the error of the estimate
+    /// that it means; `None` where the configuration is confirmed.
+    #[must_use]
+    pub fn likeliest(&self) -> Option<(f64, Errors)> {
+        let fits = HYPOTHESES.iter().filter_map(|prior| self.fit(prior));
+        let best = fits.max_by(|a, b| a.score.total_cmp(&b.score))?;
+        let error = || self.response.total(best.finding().value.as_slice());
+        (!self.is_confirmed()).then(|| (best.score, error()))
+    }
+
+    /// Whether what once spoke against the configuration has been put down to somebody else, so that its silence tells nothing.
+    #[must_use]
+    pub fn is_excused(&self) -> bool {
+        self.is_excused
+    }
+
     /// How much better a hypothesis fits than the configuration. With S the prior sigmas and A = I + S Lambda S the logarithm of
     /// the ratio of likelihoods is (S eta)^T A^-1 (S eta) / 2 - ln(det A) / 2.
     fn fit(&self, prior: &Constants) -> Option<Fit> {
@@ -385,40 +400,6 @@ impl SeparateBias {
             &DMatrix::from_column_slice(CONSTANTS, CONSTANTS, unsure.as_slice()),
         );
         self.response.total(value.as_slice())
-    }
-}
-
-impl ConstantsFinding {
-    /// Whether lever arm or delay of GNSS are off by much.
-    #[must_use]
-    pub fn is_of_antenna(&self) -> bool {
-        (0..LOG_AT).any(|i| self.value[i].abs() > LEAST[i])
-    }
-
-    /// Whether the delay of GNSS is off by much.
-    #[must_use]
-    pub fn is_of_delay(&self) -> bool {
-        self.value[DELAY_AT].abs() > LEAST[DELAY_AT]
-    }
-
-    /// What the lever arm of the antenna is found to be off by, m.
-    #[must_use]
-    pub fn gnss_lever(&self) -> Vector3<f64> {
-        self.value.fixed_rows::<3>(0).into_owned()
-    }
-
-    /// 1-sigma of the same.
-    #[must_use]
-    pub fn gnss_lever_std(&self) -> Vector3<f64> {
-        self.covariance.diagonal().fixed_rows::<3>(0).map(|variance| variance.max(0.0).sqrt())
-    }
-
-    /// What the lever arm of the log is found to be off by, m, with 1-sigma, if it is by much.
-    #[must_use]
-    pub fn log_lever(&self) -> Option<(Vector3<f64>, Vector3<f64>)> {
-        let value = self.value.fixed_rows::<3>(LOG_AT).into_owned();
-        let variance = self.covariance.diagonal().fixed_rows::<3>(LOG_AT).into_owned();
-        (value.amax() > LEAST[LOG_AT]).then(|| (value, variance.map(|v| v.max(0.0).sqrt())))
     }
 }
 
@@ -481,6 +462,16 @@ mod tests {
         }
         assert_eq!(lying.finding(), None);
         assert!(lying.strain().unwrap() > 20.0, "but the strain shows");
+    }
+
+    #[test]
+    fn noise_that_is_stated_too_large_hides_a_wrong_lever_arm_from_a_finding_and_not_from_the_claims()
+     {
+        let bias = rolling(&Vector3::new(0.0, 6.0, 0.0), 1.0);
+        assert_eq!(bias.finding(), None);
+        let is_likely = |bias: &SeparateBias| bias.likeliest().is_some_and(|(odds, _)| odds > 5.0);
+        assert!(is_likely(&bias));
+        assert!(!is_likely(&rolling(&Vector3::zeros(), 1.0)));
     }
 
     #[test]

@@ -253,6 +253,8 @@ impl Filter {
         if self.court.judge.as_ref().is_none_or(|judge| !judge.is_look_due(now)) {
             return;
         }
+        let (view, _) = self.dated_view();
+        self.doubt_installation(&view);
         let mistake = self.installation.bias.as_ref().map_or(0.0, SeparateBias::odds);
         let Some(judge) = self.judge_now() else { return };
         if let Some(verdict) = judge.look(now, excused, mistake) {
@@ -343,7 +345,8 @@ impl Filter {
             difference(&view, &other.error).scaled(chance.sqrt())
         };
         let chances = judge.map(Judge::chances).unwrap_or_default();
-        let hedge = chances.iter().map(share).reduce(|a, b| a.hypot(&b));
+        let doubt = self.installation.doubt.map(|(_, off)| off);
+        let hedge = chances.iter().map(share).chain(doubt).reduce(|a, b| a.hypot(&b));
         let mut all = claims.iter().map(of).chain(hedge).reduce(|a, b| a.greatest(&b));
         let unproven = self.docket().unproven_std(self.state.time);
         if unproven > 0.0 {

@@ -3,12 +3,14 @@
 use nalgebra::Vector3;
 
 use super::Filter;
+use crate::aids::View;
 use crate::config::is_on_board;
 use crate::dating::Dating;
 use crate::error_state::{
     ATTITUDE, BERTH_OFFSET, Errors, GNSS_LEVER, GNSS_VELOCITY_DELAY, POSITION,
 };
 use crate::separate_bias::{ConstantsFinding, DELAY, SeparateBias};
+use crate::solution_sigma::difference;
 
 /// A correction of the attitude, rad, that is more than linear: whoever found it found it by a wrong lever arm.
 const FAR: f64 = 0.03;
@@ -25,6 +27,12 @@ const GROWN: f64 = 1.5;
 /// No log sits higher above an IMU, m, which sits at the keel at best; by so many sigmas.
 const HIGHEST_LOG: f64 = -15.0;
 const SURELY: f64 = 3.0;
+/// So many installations have a constant wrong by metres.
+const MISTAKEN: f64 = 0.01;
+/// What is less likely than this is of no account.
+const CHANCE: f64 = 1e-3;
+/// What is likelier than this is a doubt until the configuration is confirmed, or mended: what a sensor that lies meanwhile makes of it is no answer.
+const LIKELY: f64 = 0.5;
 
 impl Filter {
     /// Mean square of the latest innovations of GNSS, of which one is expected, each counted as a fault at
@@ -107,6 +115,22 @@ impl Filter {
         self.config.lever_arms.log.0.z + off.z + SURELY * sigma.z < HIGHEST_LOG
     }
 
+    /// What a constant that is likely to be wrong, and not surely enough to be mended, would make of the solution: claims are to cover it.
+    pub(super) fn doubt_installation(&mut self, view: &View) {
+        let Some(bias) = self.installation.bias.as_ref().filter(|bias| !bias.is_confirmed()) else {
+            self.installation.doubt = None;
+            return;
+        };
+        let Some((score, error)) = bias.likeliest() else { return };
+        let odds = MISTAKEN * score.exp();
+        let chance = odds / (1.0 + odds);
+        let stands = |(known, _): &(f64, _)| *known > chance.max(LIKELY);
+        if !self.installation.doubt.as_ref().is_some_and(stands) {
+            let off = difference(view, &error).scaled(chance.sqrt());
+            self.installation.doubt = (chance > CHANCE).then_some((chance, off));
+        }
+    }
+
     /// Where the innovations show that the antenna sits elsewhere than configured, or that its epochs come
     /// later: takes the estimate to be what it would have been with that.
     pub(super) fn mend_installation(&mut self) {
@@ -135,6 +159,7 @@ impl Filter {
         }
         self.suspect_berth(&(finding.gnss_lever() * bias.surveyed()));
         self.installation.bias = Some(SeparateBias::new(&self.view()));
+        self.installation.doubt = None;
         self.receiver.trust.clear();
         self.restart_judge();
     }

@@ -221,11 +221,17 @@ impl Filter {
             row.r[(0, 0)] += bent_range(&attitude, &antenna, one.range);
             Some(row)
         };
-        let Some(rows) = Rows::of(seated, row) else { return };
+        let Some(mut rows) = Rows::of(seated, row) else { return };
+        self.satellites.unrest.spread(&mut rows.all, self.state.time);
         let (_, slipped) = self.absorb_rows(rows, SLIP, (PHASE_AID, from), report);
         for one in slipped.iter().filter_map(|index| seated.get(*index)) {
             self.begin_arc(one);
         }
+    }
+
+    /// Phases of which none contradicts the others may still contradict the filter, all of them.
+    fn heard_together(&mut self, phases: &Innovation, weighed: Weighed) -> Weighed {
+        self.satellites.unrest.hear((phases, weighed), &self.state.covariance)
     }
 
     /// Of satellites without a phase, which tells it better; one whose phase has just slipped may be a reflection.
@@ -328,6 +334,7 @@ impl Filter {
                     left_out.append(&mut rows.of);
                     break None;
                 }
+                None if aid == PHASE_AID => break Some(self.heard_together(&rows.all, weighed)),
                 None => break Some(weighed),
             }
         };

@@ -3,6 +3,7 @@
 use insd_base::satellites::{SatelliteId, SatelliteRange, SatelliteUse};
 use insd_base::{Source, Time};
 
+use super::unrest::Unrest;
 use crate::error_state::SATELLITES;
 
 /// A satellite that is not seen for so long, s, gives its place away.
@@ -64,6 +65,8 @@ pub(super) struct Satellites {
     strife: Option<Time>,
     /// Whether the place is known by ranges, and not by fixes.
     places: bool,
+    /// What phases scatter beyond what is expected of them.
+    pub(super) unrest: Unrest,
 }
 
 impl Satellites {
