@@ -5,6 +5,7 @@
 
 mod bus;
 mod clocks;
+mod converted;
 mod imus;
 mod lines;
 mod passage;
