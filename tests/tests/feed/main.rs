@@ -6,6 +6,7 @@
 mod bus;
 mod clocks;
 mod converted;
+mod formats;
 mod imus;
 mod lines;
 mod passage;
