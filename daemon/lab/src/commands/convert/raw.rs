@@ -68,7 +68,7 @@ fn navigation(antennas: &[&RawReceiver]) -> String {
     let mut known = Ephemerides::default();
     let all = antennas.iter().flat_map(|own| &own.records).copied();
     let records: Vec<BroadcastRecord> =
-        all.filter(|record| known.insert(*record) == Ok(true)).collect();
+        all.filter(|record| matches!(known.insert(*record), Ok(true))).collect();
     let mut models = BTreeMap::new();
     let mut leap_seconds = None;
     for own in antennas.iter().rev() {
