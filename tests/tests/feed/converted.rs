@@ -79,7 +79,11 @@ fn raw_messages_of_a_recording_become_files_of_its_voyage_which_sails_by_satelli
 
 #[test]
 fn a_voyage_has_no_raw_gnss_where_none_was_sent_or_the_ship_did_not_read_it() {
-    let off = |config: String| config.replace("raw = \"tight\"", "raw = \"off\"");
+    // the receiver's table is the last
+    let off = |config: String| {
+        let (before, after) = config.rsplit_once("raw = \"tight\"").unwrap();
+        format!("{before}raw = \"off\"{after}")
+    };
     for (desk, _) in [converted(false, |config| config), converted(true, off)] {
         let voyage = desk.path().join("voyage");
         assert_eq!(read_raw(&voyage, 1).unwrap(), None);
