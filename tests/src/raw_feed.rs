@@ -1,9 +1,14 @@
-//! Raw GNSS of a voyage as the bytes of a u-blox receiver.
+//! Raw GNSS of a voyage as the bytes of a u-blox or Septentrio receiver.
 
-use insd_base::satellites::{BroadcastRecord, KeplerRecord, SatelliteEpoch, SignalCode};
-use insd_base::{Constellation, GpsTime, Input, Span, Time};
+use std::collections::BTreeMap;
+
+use insd_base::satellites::{
+    BroadcastRecord, KeplerRecord, SPEED_OF_LIGHT, SatelliteEpoch, SignalCode,
+};
+use insd_base::{Constellation, GpsTime, Input, SatelliteId, SignalObservation, Span, Time};
 use insd_simulator::RawGnss;
 use insd_wire::gnss::navigation::lnav_words;
+use insd_wire::gnss::sbf::{MeasChannel, MeasEpoch, RawNavigation, RawNavigationKind, Stamp};
 use insd_wire::gnss::ubx::{RxmRawx, RxmSfrbx, Signal};
 
 use crate::feed::Sending;
@@ -46,7 +51,7 @@ fn subframes(raw: &RawGnss, epoch: &SatelliteEpoch) -> Vec<Vec<u8>> {
 }
 
 /// The record of a satellite whose reference time is nearest.
-fn record(raw: &RawGnss, satellite: insd_base::SatelliteId, time: GpsTime) -> Option<KeplerRecord> {
+fn record(raw: &RawGnss, satellite: SatelliteId, time: GpsTime) -> Option<KeplerRecord> {
     let of_it = raw.broadcast.iter().filter_map(|record| match record {
         BroadcastRecord::Kepler(record) if record.satellite == satellite => Some(*record),
         _ => None,
@@ -62,6 +67,82 @@ pub fn subframe(record: &KeplerRecord, number: usize) -> Option<Vec<u8>> {
     let signal = Signal::of(record.satellite, SignalCode::new(1, b'C'), None);
     let words = lnav_words(record).into_iter().nth(number).filter(|_| is_lnav)?;
     Some(RxmSfrbx { signal: signal?, channel: 1, version: 2, words }.write())
+}
+
+/// The same in SBF: MeasEpoch with GPS and QZSS on L1, GPSRawCA and QZSRawL1CA.
+#[must_use]
+pub fn sbf(raw: &RawGnss, start: GpsTime, port: usize) -> Vec<Sending> {
+    let mut all = Vec::new();
+    let mut whole = BTreeMap::new();
+    for epoch in &raw.antennas[0] {
+        let seconds = epoch.tag.since(start).as_seconds();
+        let mut send = |late: f64, bytes: Vec<u8>| {
+            let at = Time::from_seconds((seconds + late).max(0.0));
+            all.push(Sending { at, port, input: Input::Bytes(bytes) });
+        };
+        let stamp = Stamp::of(epoch.tag);
+        let of_l1 = epoch.signals.iter().filter(|own| own.signal == SignalCode::new(1, b'C'));
+        let channels = of_l1.filter_map(|own| channel(own, &mut whole)).collect();
+        send(LATE, MeasEpoch { stamp, flags: 0, clock_jumps: Some(0), channels }.write());
+        for (kind, satellite, words) in numbered_words(raw, epoch) {
+            let block = RawNavigation {
+                kind,
+                stamp,
+                satellite,
+                passed: true,
+                mended: 0,
+                source: if kind == RawNavigationKind::Gps { 0 } else { 6 },
+                frequency: 0,
+                receiver_channel: 1,
+                words,
+            };
+            send(LATE + 0.02, block.write());
+        }
+    }
+    all
+}
+
+/// What SBF calls a satellite, with the number of its signal on L1.
+fn numbers(satellite: SatelliteId) -> Option<(RawNavigationKind, u8, u8)> {
+    match satellite.constellation {
+        Constellation::Gps => Some((RawNavigationKind::Gps, satellite.number, 0)),
+        Constellation::Qzss => Some((RawNavigationKind::Qzss, satellite.number + 180, 6)),
+        _ => None,
+    }
+}
+
+/// A signal in full. `whole`: the cycles by which phases are moved, so that they begin at their code, as a receiver's do.
+fn channel(own: &SignalObservation, whole: &mut BTreeMap<SatelliteId, f64>) -> Option<MeasChannel> {
+    let (_, satellite, kind) = numbers(own.satellite)?;
+    let millimetres = (own.code? * 1e3).round() as u64;
+    let waves = own.signal.frequency(own.satellite.constellation, None)? / SPEED_OF_LIGHT;
+    let beyond = own.phase? - millimetres as f64 * 1e-3 * waves;
+    let whole = *whole.entry(own.satellite).or_insert_with(|| beyond.round());
+    let steps = ((beyond - whole) * 1e3).round() as i64;
+    Some(MeasChannel {
+        receiver_channel: satellite,
+        kind,
+        satellite,
+        misc: (millimetres >> 32) as u8,
+        code: millimetres as u32,
+        doppler: (own.doppler? * 1e4).round() as i32,
+        carrier_low: steps.rem_euclid(1 << 16) as u16,
+        carrier_high: i8::try_from(steps.div_euclid(1 << 16)).ok()?,
+        density: ((own.cn0? - 10.0) * 4.0).round() as u8,
+        lock_time: own.lock.map_or(u16::MAX, |lock| lock.min(65534.0) as u16),
+        ..MeasChannel::default()
+    })
+}
+
+/// The subframes that end in the second of an epoch, with what SBF calls their blocks and satellites.
+fn numbered_words(raw: &RawGnss, epoch: &SatelliteEpoch) -> Vec<(RawNavigationKind, u8, Vec<u32>)> {
+    let frames = subframes(raw, epoch);
+    let read = frames.iter().filter_map(|frame| RxmSfrbx::read(frame).ok());
+    let told = read.filter_map(|frame| {
+        let (kind, number, _) = numbers(frame.signal.known()?.0)?;
+        Some((kind, number, frame.words))
+    });
+    told.collect()
 }
 
 /// An instant of GPS time on the time line of a voyage that starts at another.

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use insd_base::satellites::{BroadcastRecord, Constellation, IonosphereModel};
-use insd_base::{Arrival, GpsTime, Input, PortState, SatelliteEpoch, Sent};
+use insd_base::{Arrival, Body, GpsTime, Input, PortState, SatelliteEpoch, Sent};
 use insd_gnss::Ephemerides;
 use insd_intake::config::{IntakeConfig, Role};
 use insd_intake::port::PortIntake;
-use insd_intake::satellites::{EpochOrder, RawReading, SatelliteFollower, SatelliteNews};
+use insd_intake::satellites::{EpochOrder, RawReading, RawUse, SatelliteFollower, SatelliteNews};
 use insd_wire::gnss::navigation::Broadcast;
 use insd_wire::stream::Protocol;
 
@@ -22,6 +22,12 @@ pub struct RawReceivers {
 pub struct RawReceiver {
     /// Its name.
     pub name: String,
+    /// Which of several is used: lower is better.
+    pub priority: u8,
+    /// Its antenna from the IMU, forward, starboard, down, m, where it is not the ship's one.
+    pub lever: Option<Body>,
+    /// Whether the ship makes anything of its raw messages.
+    pub is_used: bool,
     /// What it measured, in order.
     pub epochs: Vec<SatelliteEpoch>,
     /// What satellites told of their orbits, in the order in which it came.
@@ -48,6 +54,9 @@ impl RawReceivers {
         let receivers = config.sensors.iter().filter(|sensor| sensor.kind.role() == Role::Gnss);
         let receivers = receivers.map(|sensor| RawReceiver {
             name: sensor.name.clone(),
+            priority: sensor.priority,
+            lever: sensor.lever(),
+            is_used: sensor.raw != RawUse::Off,
             port: config
                 .ports
                 .iter()

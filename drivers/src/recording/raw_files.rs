@@ -25,14 +25,14 @@ pub struct RawFiles {
     pub base: Option<String>,
     /// What the satellites broadcast, RINEX.
     pub navigation: String,
-    /// What was done to it, JSON.
-    pub truth: String,
+    /// What was done to it, JSON, where somebody knows.
+    pub truth: Option<String>,
     /// The tables `[raw]` and `[base]` of `voyage.toml`.
     pub tables: String,
 }
 
 /// Puts raw GNSS into the directory of a voyage that [`super::write_voyage`] has written: `raw/a1.obs` and so on, `raw/base.obs`, `raw/nav.rnx`,
-/// `truth.json`, and its tables behind those of `voyage.toml`. Those of an older voyage are removed, also where there is none.
+/// `truth.json` where there is one, and its tables behind those of `voyage.toml`. Those of an older voyage are removed, also where there is none.
 ///
 /// # Errors
 /// A file cannot be written or removed.
@@ -60,7 +60,7 @@ pub fn write_raw(
         guard(&path, to_file(&path, compression, |target| target.write_all(text.as_bytes())))?;
     }
     let truth = dir.join(TRUTH);
-    guard(&truth, fs::write(&truth, &raw.truth))?;
+    raw.truth.iter().try_for_each(|text| guard(&truth, fs::write(&truth, text)))?;
     let header = dir.join(FILE_NAME);
     let file = OpenOptions::new().append(true).open(&header);
     guard(&header, file.and_then(|mut file| write!(file, "\n{}", raw.tables)))
@@ -115,7 +115,7 @@ mod tests {
         RawFiles {
             antennas: vec!["observations\n".to_owned(); antennas],
             navigation: "navigation\n".to_owned(),
-            truth: "{}".to_owned(),
+            truth: Some("{}".to_owned()),
             tables: "[raw]\nrate_hz = 1.0\n".to_owned(),
             ..RawFiles::default()
         }

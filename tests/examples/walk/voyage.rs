@@ -105,7 +105,7 @@ fn raw(heard: &Heard) -> RawFiles {
         antennas: vec![write_observations(&header, &heard.epochs)],
         base: None,
         navigation: write_navigation(&heard.records, &heard.ionosphere, Some(LEAP_SECONDS)),
-        truth: "{}".to_owned(),
+        truth: Some("{}".to_owned()),
         tables: format!(
             "[raw]\nrate_hz = 4.0\ncode_std_m = {code}\nphase_std_m = {phase}\ndoppler_std_mps = {rate}\nmultipath_code_std_m = {multipath}\n\
              clock_bias_walk_m_sqrt_s = {clock}\nclock_drift_walk_mps_sqrt_s = {drift}\n"

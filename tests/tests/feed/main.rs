@@ -5,6 +5,8 @@
 
 mod bus;
 mod clocks;
+mod converted;
+mod formats;
 mod imus;
 mod lines;
 mod passage;

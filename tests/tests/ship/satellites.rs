@@ -313,3 +313,47 @@ fn a_ship_with_a_log_is_not_pulled_away_by_satellites_that_all_lie_alike() {
         assert!(worst < 5.0 && off < 40.0, "{seed}: {worst} {off}");
     }
 }
+
+#[test]
+fn the_ranges_of_a_receiver_found_to_lie_are_refused_and_do_not_move_the_ship() {
+    const SPOOFER: &str = "[[gnss.spoofing]]\nwhen = { at_s = [599.5] }\nduration_s = 700.0\nspeed_mps = 0.5\ndirection_deg = 10.0\n";
+    let spoofed = insd_tests::variant(28, &[]).with_duration(900.0);
+    let honest = insd_tests::variant(28, &[(SPOOFER, "")]).with_duration(900.0);
+    let (voyage, raw) = (simulate(&spoofed, 1), raw_gnss(&spoofed, 1).unwrap());
+    let mut all = messages(&voyage, Some(&raw));
+    // a second receiver on board, that nobody leads astray
+    all.extend(simulate(&honest, 1).received().into_iter().filter_map(|own| {
+        let Message::Gnss(fix) = own.message else { return None };
+        let message = Message::Gnss(insd_base::GnssFix { rank: 1, ..fix });
+        Some(Received { source: insd_base::Source::Gnss(1), message, ..own })
+    }));
+    all.sort_by_key(|received| received.receipt);
+    let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
+    let used = |engine: &Engine| {
+        ["satellite_code", "satellite_phase", "satellite_rate"]
+            .map(|aid| engine.counts().accepted.get(aid).copied().unwrap_or(0))
+    };
+    let (mut left, mut solutions) = (None, Vec::new());
+    for received in &all {
+        engine.handle(received);
+        while let Some(output) = engine.poll_output() {
+            match output {
+                Output::Event(Event::ReceiverUsed { time, .. }) if time.as_seconds() > 600.0 => {
+                    left.get_or_insert((time, used(&engine)));
+                }
+                Output::Solution(solution) => solutions.push(solution),
+                _ => {}
+            }
+        }
+    }
+    let (time, before) = left.unwrap();
+    let refused = engine.counts().rejected.get(&("satellite_code", Rejection::SourceSuspect));
+    let off = errors(&solutions, &voyage.truth);
+    let worst = off.iter().filter(|(t, ..)| *t > 600.0).map(|(_, off, _)| off.norm());
+    let worst = worst.fold(0.0, f64::max);
+    figure!("left at {time:?}, {refused:?} epochs refused, {worst:.1} m off at the worst");
+    assert!(time < Time::from_seconds(660.0), "{time:?}");
+    assert!(refused.is_some_and(|count| *count > 200), "{:?}", engine.counts().rejected);
+    assert_eq!(used(&engine), before);
+    assert!(worst < 15.0, "{worst}");
+}

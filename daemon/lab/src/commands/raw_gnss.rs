@@ -54,7 +54,7 @@ pub(super) fn files(raw: &RawGnss) -> anyhow::Result<RawFiles> {
         antennas: (1..).zip(&raw.antennas).map(antenna).collect(),
         base: raw.base.as_ref().map(base),
         navigation: write_navigation(&raw.broadcast, &ionosphere, Some(LEAP_SECONDS)),
-        truth: serde_json::to_string(&raw.truth)?,
+        truth: Some(serde_json::to_string(&raw.truth)?),
         tables: toml::to_string(&tables)?,
     })
 }

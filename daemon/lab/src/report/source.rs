@@ -12,6 +12,8 @@ use insd_vessel::Names;
 use super::bounded::Bounded;
 use super::gathered::{FAULTS, Faults, VoyageReport};
 use crate::raw_run::RawRun;
+use crate::raw_table::RawTable;
+use crate::raw_voyage::RawVoyage;
 
 /// Solutions per second of a voyage.
 const RATE: f64 = 10.0;
@@ -76,13 +78,16 @@ impl VoyageReport {
         Ok(report)
     }
 
-    /// Runs a voyage directory. It has no ports, so a report of it has less to say.
+    /// Runs a voyage directory, by ranges where it has raw GNSS, as a replay does. It has no ports, so a report of it has less to say.
     ///
     /// # Errors
     /// It cannot be read, or it is empty.
     pub fn of_voyage(path: &Path) -> anyhow::Result<Self> {
         let mut reader = VoyageReader::open(path)?;
-        let config = EngineConfig::for_voyage(reader.header(), RATE);
+        let mut config = EngineConfig::for_voyage(reader.header(), RATE);
+        let table = RawTable::read(path)?;
+        config.models.ranges = table.model();
+        let mut raw = RawVoyage::open(path, None, &[], &table, &reader.header().start_utc)?;
         let calendar = VoyageCalendar::new(&reader.header().start_utc);
         let mut engine = Engine::new(config.clone());
         let mut report: Option<VoyageReport> = None;
@@ -92,6 +97,7 @@ impl VoyageReport {
             let now = received.receipt;
             let fresh = || VoyageReport::new(name_of(path), &config, now);
             let own = report.get_or_insert_with(fresh);
+            raw.until(now).for_each(|ranges| engine.handle(&ranges));
             engine.handle(&received);
             while let Some(output) = engine.poll_output() {
                 own.collected.engine(now, &output);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use insd_base::{AidInnovation, Counts, Time};
+use insd_base::{AidInnovation, Counts, SatelliteInnovation, Time};
 use insd_web::snapshot::{Cause, Samples, ShownAid};
 
 use super::spans::age;
@@ -10,10 +10,21 @@ use super::spans::age;
 /// An aid that was used so long ago is still in use, s.
 const IN_USE: f64 = 15.0;
 
+/// Why a single satellite is not used, as the sky has it.
+const CONTRADICTS: &str = "contradicts";
+
 /// What was said of each aid last.
 #[derive(Debug, Default)]
 pub(super) struct Aids {
     last: BTreeMap<&'static str, Last>,
+    satellites: BTreeMap<&'static str, Told>,
+}
+
+/// How often what single satellites told was used, and was not.
+#[derive(Clone, Copy, Debug, Default)]
+struct Told {
+    used: u64,
+    refused: u64,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -37,6 +48,15 @@ impl Aids {
         }
     }
 
+    /// What one satellite told: each counts, where the engine counts epochs.
+    pub(super) fn note_satellite(&mut self, told: &SatelliteInnovation) {
+        let SatelliteInnovation { time, aid, innovation, sigma, accepted, .. } = *told;
+        let counts = self.satellites.entry(aid).or_default();
+        counts.used += u64::from(accepted);
+        counts.refused += u64::from(!accepted);
+        self.note(&AidInnovation { time, aid, component: 0, innovation, sigma, accepted });
+    }
+
     pub(super) fn aids(&self, counts: &Counts, now: Time) -> Vec<ShownAid> {
         let mut aids: BTreeMap<&str, ShownAid> = BTreeMap::new();
         for (name, count) in &counts.accepted {
@@ -46,6 +66,15 @@ impl Aids {
             let aid = entry(&mut aids, name);
             aid.rejected += count;
             aid.reasons.push(Cause { reason: reason.as_str().to_owned(), count: *count });
+        }
+        for (name, told) in &self.satellites {
+            let aid = entry(&mut aids, name);
+            aid.accepted = told.used;
+            aid.rejected += told.refused;
+            if told.refused > 0 {
+                let reason = CONTRADICTS.to_owned();
+                aid.reasons.push(Cause { reason, count: told.refused });
+            }
         }
         for (name, count) in &counts.floored {
             entry(&mut aids, name).floored = *count;
@@ -71,5 +100,37 @@ pub(super) fn samples(counts: &Counts) -> Samples {
         duplicates: counts.imu_duplicates,
         out_of_order: counts.imu_out_of_order,
         out_of_range: counts.imu_out_of_range,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use insd_base::Rejection;
+
+    #[test]
+    fn each_satellite_that_is_used_or_refused_counts_among_the_aids_and_tells_that_it_is_in_use() {
+        let mut own = Aids::default();
+        let told = |name: &str, innovation, accepted| SatelliteInnovation {
+            time: Time::from_seconds(10.0),
+            aid: "satellite_code",
+            satellite: name.parse().unwrap(),
+            innovation,
+            sigma: 2.0,
+            accepted,
+        };
+        let all = [told("G07", 1.0, true), told("G08", -3.0, true), told("E11", 30.0, false)];
+        all.iter().for_each(|told| own.note_satellite(told));
+        let mut counts = Counts::default();
+        counts.accepted.insert("satellite_code", 1);
+        counts.rejected.insert(("satellite_code", Rejection::SourceSuspect), 4);
+        let shown = own.aids(&counts, Time::from_seconds(11.0));
+        let [shown] = &shown[..] else { panic!("{shown:?}") };
+        assert_eq!((shown.accepted, shown.rejected), (2, 5));
+        let reasons = shown.reasons.iter().map(|own| (own.reason.as_str(), own.count));
+        assert_eq!(reasons.collect::<Vec<_>>(), [("source_suspect", 4), ("contradicts", 1)]);
+        assert!(shown.in_use && shown.age_s == Some(1.0), "{shown:?}");
+        assert_eq!(shown.last_normalised_innovation, Some(15.0));
+        assert!(Aids::default().aids(&Counts::default(), Time::START).is_empty());
     }
 }

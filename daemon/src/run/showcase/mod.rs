@@ -198,6 +198,7 @@ impl Audience for Showcase {
         match product {
             Product::Engine(Output::Event(event)) => self.hear_event(event),
             Product::Engine(Output::Innovation(innovation)) => self.aids.note(innovation),
+            Product::Engine(Output::Satellite(told)) => self.aids.note_satellite(told),
             Product::Order(Obeyed::Configured(_)) => {
                 self.shown.program.configuration_read_at_s = Some(self.now.as_seconds());
             }

@@ -12,7 +12,7 @@ pub struct ShownAid {
     pub in_use: bool,
     /// How long ago one was used, s; `None` if never.
     pub age_s: Option<f64>,
-    /// Measurements used.
+    /// Measurements used; of satellites each one.
     pub accepted: u64,
     /// Measurements not used.
     pub rejected: u64,
@@ -28,7 +28,7 @@ pub struct ShownAid {
 #[derive(Clone, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Cause {
-    /// Why: `chi_square`, `dop_test`, `malformed`, `not_chosen`, ...
+    /// Why: `chi_square`, `dop_test`, `malformed`, `not_chosen`, `contradicts` (a satellite), ...
     pub reason: String,
     /// How often since the start.
     pub count: u64,

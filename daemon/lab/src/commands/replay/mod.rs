@@ -1,8 +1,6 @@
 //! `insd replay`: a recorded voyage through the same engine as the daemon, without a clock.
 
 mod args;
-mod raw;
-mod raw_table;
 mod recording;
 mod sent;
 mod sink;

@@ -10,11 +10,11 @@ use insd_engine::{Engine, EngineConfig};
 use insd_vessel::Outputs;
 
 use super::args::ReplayArgs;
-use super::raw::RawVoyage;
-use super::raw_table::RawTable;
 use super::sent::Sent;
 use super::sink::Sink;
 use super::without::Without;
+use crate::raw_table::RawTable;
+use crate::raw_voyage::RawVoyage;
 
 /// Solutions per second where nothing else is asked for.
 const RATE: f64 = 10.0;
@@ -32,7 +32,9 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     let mut engine = Engine::new(config);
     let mut sink = Sink::create(args)?;
     let mut dropped = 0_u64;
-    let mut raw = RawVoyage::open(args, &table, &reader.header().start_utc)?;
+    let gnss = Without::gnss(&args.without, args.gnss)?;
+    let start_utc = &reader.header().start_utc;
+    let mut raw = RawVoyage::open(&args.dir, gnss, &args.masks, &table, start_utc)?;
     for received in &mut reader {
         let received = received?;
         for ranges in raw.until(received.receipt) {

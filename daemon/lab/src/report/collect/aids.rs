@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use insd_base::{AidInnovation, Time};
+use insd_base::{AidInnovation, SatelliteInnovation, Time};
 
 use super::lane::Lane;
 use crate::report::statistics::Statistics;
@@ -72,6 +72,16 @@ impl Aids {
         if innovation.accepted {
             count(&mut aid.used);
             aid.lane.mark(now, USED);
+        }
+    }
+
+    /// Takes what a satellite told at this moment: of one component, and refused without an event of its own.
+    pub(crate) fn satellite(&mut self, now: Time, told: &SatelliteInnovation) {
+        let SatelliteInnovation { time, aid, innovation, sigma, accepted, .. } = *told;
+        let component = 0;
+        self.innovation(now, &AidInnovation { time, aid, component, innovation, sigma, accepted });
+        if !accepted {
+            self.rejected(now, aid);
         }
     }
 

@@ -8,6 +8,7 @@ pub(crate) mod lane;
 pub(crate) mod modes;
 pub(crate) mod motion;
 pub(crate) mod said;
+pub(crate) mod satellites;
 pub(crate) mod trust;
 
 use insd_base::{Arrival, Event, Input, Span, Time};
@@ -22,6 +23,7 @@ use self::journal::Journal;
 use self::modes::Modes;
 use self::motion::Motion;
 use self::said::Said;
+use self::satellites::Satellites;
 use self::trust::Trust;
 use super::statistics::Statistics;
 use super::times::Times;
@@ -37,6 +39,7 @@ pub(crate) struct Collected {
     pub(crate) modes: Modes,
     pub(crate) trust: Trust,
     pub(crate) aids: Aids,
+    pub(crate) satellites: Satellites,
     pub(crate) alerts: Alerts,
     pub(crate) border: Border,
     pub(crate) said: Said,
@@ -57,6 +60,7 @@ impl Collected {
             modes: Modes::new(start),
             trust: Trust::new(),
             aids: Aids::new(start),
+            satellites: Satellites::default(),
             alerts: Alerts::new(start),
             border: Border::new(start),
             said: Said::default(),
@@ -124,7 +128,11 @@ impl Collected {
             Output::Innovation(innovation) => {
                 self.aids.innovation(now, innovation);
             }
-            Output::Satellite(_) | Output::Alignment(_) => {}
+            Output::Satellite(told) => {
+                self.aids.satellite(now, told);
+                self.satellites.take(told);
+            }
+            Output::Alignment(_) => {}
             Output::Event(event) => self.event(now, event),
         }
     }
@@ -150,5 +158,6 @@ impl Collected {
         let end = self.times.end();
         self.alerts.finish(end);
         self.border.finish(end);
+        self.satellites.finish();
     }
 }

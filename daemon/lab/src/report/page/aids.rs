@@ -35,7 +35,7 @@ pub(super) fn aids(report: &VoyageReport) -> String {
         "<p class=\"note\">An innovation is what was measured minus what was expected. If the claims are \
          true, their ratio to the expected sigma has mean 0 and root mean square 1, and 95.4 % are within \
          2σ. Components are north, east and down of positions and velocities, and in the order of the \
-         log's axes.</p>\n",
+         log's axes; satellites have one, and are counted each, where the table above counts epochs.</p>\n",
     );
     html
 }

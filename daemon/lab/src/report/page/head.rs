@@ -110,7 +110,7 @@ fn trust_rows(report: &VoyageReport) -> Rows {
     let used: u64 = counts.accepted.values().sum();
     let alerts = &collected.alerts;
     let raised = || format!("{}, {} active at the end", alerts.raised(), alerts.active());
-    vec![
+    let mut rows = vec![
         ("Heading, 1σ, mean", sigma(&motion.heading_sigma, 3, "°")),
         ("Roll, 1σ, mean", sigma(&motion.roll_sigma, 3, "°")),
         ("Horizontal position, 1σ, mean", sigma(&motion.horizontal_sigma, 1, "m")),
@@ -124,7 +124,18 @@ fn trust_rows(report: &VoyageReport) -> Rows {
         ("Measurements used", count(used)),
         ("Measurements rejected", count(counts.rejected_total())),
         ("Alerts raised", known(alerts.watched.then(raised))),
-    ]
+    ];
+    rows.extend(satellites(report).map(|words| ("Satellites in use", words)));
+    rows
+}
+
+/// Of how many satellites ranges were used in an epoch; `None` without raw GNSS.
+fn satellites(report: &VoyageReport) -> Option<String> {
+    let in_use = &report.collected.satellites.in_use;
+    let (least, greatest) = in_use.extremes()?;
+    let mean = number(in_use.mean(), 1);
+    let epochs = count(in_use.count());
+    Some(format!("{mean} in the mean, {least} to {greatest}, in {epochs} epochs"))
 }
 
 fn gaps(gaps: &crate::report::statistics::Statistics) -> String {

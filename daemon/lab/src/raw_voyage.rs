@@ -11,37 +11,36 @@ use insd_drivers::recording::{RawTexts, read_raw, read_raw_base};
 use insd_gnss::{Context, Noise};
 use insd_rinex::{ObservationReader, expand, is_compact, read_navigation};
 
-use super::args::ReplayArgs;
-use super::raw_table::RawTable;
-use super::without::Without;
 use crate::ranges::{self, GnssUse, SatelliteMask};
+use crate::raw_table::RawTable;
 
 /// The messages that raw GNSS makes, in the order in which they are received.
 #[derive(Debug, Default)]
-pub(super) struct RawVoyage {
+pub(crate) struct RawVoyage {
     waiting: VecDeque<Received>,
     gnss: Option<GnssUse>,
     masks: Vec<SatelliteMask>,
 }
 
 impl RawVoyage {
-    /// Reads the raw GNSS of the first antenna, if it is there and wanted.
+    /// Reads the raw GNSS of the first antenna of a voyage, if it is there and wanted: where `gnss` leaves the choice it is.
     ///
     /// # Errors
     /// A file that is there cannot be read, or it is missing where it was asked for.
-    pub(super) fn open(
-        args: &ReplayArgs,
+    pub(crate) fn open(
+        dir: &Path,
+        gnss: Option<GnssUse>,
+        masks: &[SatelliteMask],
         table: &RawTable,
         start_utc: &str,
     ) -> anyhow::Result<Self> {
-        let gnss = Without::gnss(&args.without, args.gnss)?;
-        let own = RawVoyage { waiting: VecDeque::new(), gnss, masks: args.masks.clone() };
+        let own = RawVoyage { waiting: VecDeque::new(), gnss, masks: masks.to_vec() };
         if matches!(gnss, Some(GnssUse::Loose | GnssUse::None)) {
             return Ok(own);
         }
-        let Some(texts) = read_raw(&args.dir, 1)? else {
-            if args.gnss.is_some() || !args.masks.is_empty() {
-                let dir = args.dir.join("raw").display().to_string();
+        let Some(texts) = read_raw(dir, 1)? else {
+            if gnss.is_some() || !masks.is_empty() {
+                let dir = dir.join("raw").display().to_string();
                 return Err(BadInput(format!(
                     "{dir}: no a1.obs, which --gnss tight and --mask need"
                 ))
@@ -51,8 +50,8 @@ impl RawVoyage {
         };
         let calendar = VoyageCalendar::new(start_utc).context("start_utc")?;
         let start = calendar.utc(Time::START).to_gps();
-        let mut waiting = messages(&texts, table.noise(), start, &args.masks)?;
-        if let Some((path, text)) = read_raw_base(&args.dir)? {
+        let mut waiting = messages(&texts, table.noise(), start, masks)?;
+        if let Some((path, text)) = read_raw_base(dir)? {
             waiting.extend(base(&path, &text, table, start)?);
             waiting.make_contiguous().sort_by_key(|received| received.receipt);
         }
@@ -60,12 +59,12 @@ impl RawVoyage {
     }
 
     /// What is received up to an instant.
-    pub(super) fn until(&mut self, receipt: Time) -> impl Iterator<Item = Received> + '_ {
+    pub(crate) fn until(&mut self, receipt: Time) -> impl Iterator<Item = Received> + '_ {
         std::iter::from_fn(move || self.waiting.pop_front_if(|first| first.receipt <= receipt))
     }
 
     /// Whether a message is not wanted: a receiver that hears too few satellites has no fix.
-    pub(super) fn replaces(&self, received: &Received) -> bool {
+    pub(crate) fn replaces(&self, received: &Received) -> bool {
         let time = received.message.time();
         let is_blind = || self.masks.iter().any(|mask| mask.leaves_no_fix(time));
         let is_unwanted = self.gnss == Some(GnssUse::None) || is_blind();

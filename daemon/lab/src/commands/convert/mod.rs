@@ -1,11 +1,13 @@
 //! `insd convert`: a voyage directory, or files of RINEX, out of a raw recording.
 
+mod raw;
+
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use insd_base::{Message, Received, Stamped, Time, Voyage, VoyageHeader};
 use insd_config::BadInput;
-use insd_drivers::recording::{Compression, write_voyage};
+use insd_drivers::recording::{Compression, write_raw, write_voyage};
 use insd_intake::{Intake, Intaken};
 use insd_rinex::{Equipment, ObservationHeader, write_navigation, write_observations};
 
@@ -16,19 +18,19 @@ use crate::raw_run::RawRun;
 #[derive(Clone, Debug, clap::Args)]
 pub struct ConvertArgs {
     /// Raw recording: one of its files, or its folder
-    recording: PathBuf,
-    /// Voyage directory to make
+    pub recording: PathBuf,
+    /// Voyage directory to make, with `raw/` if a receiver sent raw messages
     #[arg(long, value_name = "DIR", required_unless_present = "rinex")]
-    out: Option<PathBuf>,
+    pub out: Option<PathBuf>,
     /// Folder for RINEX 3.05: of each receiver that sent raw messages NAME.obs, what it measured, and NAME.nav, what the satellites broadcast
     #[arg(long, value_name = "DIR")]
-    rinex: Option<PathBuf>,
+    pub rinex: Option<PathBuf>,
     /// Another configuration than the one it was made with
     #[arg(long, value_name = "FILE")]
-    config: Option<PathBuf>,
+    pub config: Option<PathBuf>,
     /// Of a recording that spans restarts of the program: which run, from 1
     #[arg(long, value_name = "N", default_value_t = 1)]
-    run: u32,
+    pub run: u32,
 }
 
 /// Runs the command. Times in the voyage are those of the ship's time line, whose start in UTC is what was
@@ -39,14 +41,12 @@ pub struct ConvertArgs {
 pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
     let mut raw = RawRun::open(&args.recording, args.config.as_deref(), args.run)?;
     let mut intake = Intake::new(&raw.config.intake());
-    let mut receivers = args.rinex.is_some().then(|| RawReceivers::new(&raw.config.intake()));
+    let mut receivers = RawReceivers::new(&raw.config.intake());
     let mut measured = Vec::new();
     raw.for_each(|arrival| {
         intake.handle(arrival);
-        if let Some(receivers) = &mut receivers {
-            let utc = intake.utc_at(arrival.stamp.monotonic);
-            receivers.take(arrival, Some(utc.unwrap_or(arrival.stamp.system).to_gps()));
-        }
+        let utc = intake.utc_at(arrival.stamp.monotonic);
+        receivers.take(arrival, Some(utc.unwrap_or(arrival.stamp.system).to_gps()));
         while let Some(taken) = intake.poll_output() {
             if let Intaken::Measured(received) = taken
                 && args.out.is_some()
@@ -56,11 +56,14 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
         }
         Ok(())
     })?;
-    if let Some((receivers, folder)) = receivers.zip(args.rinex.as_deref()) {
+    if let Some(folder) = &args.rinex {
         rinex(&receivers, folder, &args.recording)?;
     }
     match &args.out {
-        Some(out) => voyage(args, &raw, &intake, &measured, out),
+        Some(out) => {
+            let antennas = raw::antennas(receivers.told());
+            voyage(args, &raw, &intake, &measured, out, &antennas)
+        }
         None => Ok(()),
     }
 }
@@ -116,19 +119,24 @@ fn voyage(
     intake: &Intake,
     measured: &[Received],
     out: &Path,
+    antennas: &[&RawReceiver],
 ) -> anyhow::Result<()> {
     let Some(start) = intake.utc_at(Time::START) else {
         let what = "UTC never became known: no receiver told the time";
         return Err(BadInput(format!("{}: {what}", args.recording.display())).into());
     };
     let engine = raw.config.engine();
+    let files = raw::files(antennas, engine.lever_arms.gnss, measured)?;
+    let mut lever_arms = engine.lever_arms;
+    // that of the first antenna, where there is raw GNSS
+    lever_arms.gnss = antennas.first().and_then(|own| own.lever).unwrap_or(lever_arms.gnss);
     let mut voyage = Voyage {
         header: VoyageHeader {
             start_utc: jiff::Timestamp::from_nanosecond(start.as_nanos().into())?.to_string(),
             start: engine.start,
             initial: engine.initial,
             imu: engine.imu,
-            lever_arms: engine.lever_arms,
+            lever_arms,
             vessel: engine.vessel,
             time_std: engine.time_std,
         },
@@ -149,7 +157,13 @@ fn voyage(
         voyage.log.len(),
         voyage.reference.len()
     );
-    Ok(write_voyage(out, &voyage, Compression::Zstd)?)
+    for (own, number) in antennas.iter().zip(1..) {
+        let (epochs, orbits) = (own.epochs.len(), own.records.len());
+        eprintln!("raw/a{number}.obs: {}, {epochs} epochs, {orbits} orbits", own.name);
+    }
+    write_voyage(out, &voyage, Compression::Zstd)?;
+    let files = Some(&files).filter(|_| !antennas.is_empty());
+    Ok(write_raw(out, files, Compression::Zstd)?)
 }
 
 fn enter(voyage: &mut Voyage, received: &Received) {

@@ -27,7 +27,7 @@ struct BaseTable {
 
 /// The errors of a receiver; one that is not stated is that of a good receiver.
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
-pub(super) struct RawTable {
+pub(crate) struct RawTable {
     code_std_m: Option<f64>,
     phase_std_m: Option<f64>,
     doppler_std_mps: Option<f64>,
@@ -49,7 +49,7 @@ impl RawTable {
     ///
     /// # Errors
     /// The file is no TOML, or a value of the table is no number that an error can have.
-    pub(super) fn read(dir: &Path) -> anyhow::Result<Self> {
+    pub(crate) fn read(dir: &Path) -> anyhow::Result<Self> {
         let path = dir.join("voyage.toml");
         let text = fs::read_to_string(&path)?;
         let file: File = toml::from_str(&text)
@@ -80,12 +80,12 @@ impl RawTable {
     }
 
     /// Where the base is, if the voyage says so.
-    pub(super) fn base(&self) -> Option<Geodetic> {
+    pub(crate) fn base(&self) -> Option<Geodetic> {
         self.base
     }
 
     /// Noise of the measurements.
-    pub(super) fn noise(&self) -> Noise {
+    pub(crate) fn noise(&self) -> Noise {
         let usual = Noise::default();
         Noise {
             code: self.code_std_m.unwrap_or(usual.code),
@@ -96,7 +96,7 @@ impl RawTable {
     }
 
     /// The receiver's clock.
-    pub(super) fn model(&self) -> RangeModel {
+    pub(crate) fn model(&self) -> RangeModel {
         let usual = RangeModel::default();
         RangeModel {
             clock_walk: self.clock_bias_walk_m_sqrt_s.unwrap_or(usual.clock_walk),
