@@ -45,7 +45,7 @@ fn messages(voyage: &Voyage, raw: Option<&RawGnss>) -> Vec<Received> {
         let calendar = VoyageCalendar::new(&voyage.header.start_utc).unwrap();
         let start = calendar.utc(insd_base::Time::START).to_gps();
         let epochs = raw.antennas[0].iter().cloned();
-        all.extend(ranges::messages(&context(raw), epochs, start, &[]));
+        all.extend(ranges::messages(&context(raw), epochs, start, &[], &[]));
         all.sort_by_key(|received| received.receipt);
     }
     all
