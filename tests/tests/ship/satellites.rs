@@ -20,7 +20,7 @@ fn tight_port() -> Scenario {
     insd_lab::scenario::find("26", &[]).unwrap().scenario
 }
 
-fn context(raw: &RawGnss) -> Context {
+pub(crate) fn context(raw: &RawGnss) -> Context {
     let spec = &raw.spec;
     let mut context = Context {
         noise: Noise {
@@ -52,7 +52,10 @@ fn messages(voyage: &Voyage, raw: Option<&RawGnss>) -> Vec<Received> {
 }
 
 /// Horizontal errors against truth, north and east, m, with the claimed sigmas.
-fn errors(solutions: &[Solution], truth: &[Truth]) -> Vec<(f64, Vector2<f64>, Vector2<f64>)> {
+pub(crate) fn errors(
+    solutions: &[Solution],
+    truth: &[Truth],
+) -> Vec<(f64, Vector2<f64>, Vector2<f64>)> {
     let mut errors = Vec::new();
     for solution in solutions {
         let Ok(place) = truth.binary_search_by_key(&solution.time, |truth| truth.time) else {
