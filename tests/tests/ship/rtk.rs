@@ -80,9 +80,11 @@ fn a_base_brings_centimetres_and_one_that_says_it_has_moved_is_not_followed() {
     figure!("worst {held:.3} m with the base, {after:.3} m after it moved; {:?}", log.counts.rtk);
     assert!(held < 0.08 && after < 0.15, "{held} {after}");
     assert_eq!(turns(&log), [RtkTurn::Contradicted]);
+    // another place is another base, whose integers are new
     let is_told = |event: &Event| {
-        let why = SourceReason::NoRtk(RtkSilence::Contradicted);
-        matches!(event, Event::SourceChanged { from: Some(SolutionSource::Rtk), why: own, .. } if *own == why)
+        let why = SourceReason::NoRtk(RtkSilence::Settling);
+        let from_rtk = Some(SolutionSource::Rtk);
+        matches!(event, Event::SourceChanged { from, why: own, .. } if *own == why && *from == from_rtk)
     };
     assert!(log.events.iter().any(is_told), "{:?}", log.events);
 }
