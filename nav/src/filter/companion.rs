@@ -13,7 +13,7 @@ use insd_base::units::wrap_pi;
 use insd_base::{Message, Received, SolutionSigma};
 
 use super::Filter;
-use super::rtk::RtkStanding;
+use super::rtk_standing::RtkStanding;
 use super::satellites::Satellites;
 use crate::declaration::Carried;
 use crate::error_state::POSITION;

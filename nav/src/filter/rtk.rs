@@ -13,6 +13,8 @@ use nalgebra::{Matrix1, Matrix3, Vector3};
 use super::Filter;
 use super::entry::{Judged, NO_INNOVATION, detail, enter};
 use super::ranges::UNKNOWN_PLACE;
+use super::rtk_standing::RtkStanding;
+use super::sources::RTK_AID;
 use crate::aids::gnss_position::{self, PositionFix};
 use crate::error_state::{
     GNSS_POSITION_ERROR, IONOSPHERE, Innovation, POSITION, RANGE_ERRORS, REFLECTIONS, SATELLITES,
@@ -22,8 +24,6 @@ use crate::judge::Aid;
 use crate::receiver_clock;
 use crate::report::{Outcome, Report};
 
-pub(super) const RTK_AID: &str = "rtk_position";
-
 /// Phases are no better than this, 1-sigma, m.
 const WHITE: f64 = 0.003;
 /// Reflections of phases, 1-sigma, m, level and down, and what the air between the antennas adds, of their distance.
@@ -32,49 +32,13 @@ const AIR: f64 = 5e-7;
 /// What coordinates of a base are off by, 1-sigma, m, level and down, and what air and orbits do for hours, of the distance.
 const BASE: [f64; 2] = [0.01, 0.02];
 const BASELINE: f64 = 1e-6;
-/// So many in a row that contradict the ship are no outliers.
-const CONTRADICTIONS: u8 = 3;
-/// So many in a row that agree are believed again,
-const AGREEING: u8 = 10;
-/// and none agrees that is farther off on the level, m.
+/// While RTK is not believed none agrees that is farther off on the level, m.
 const NEAR: f64 = 0.15;
 /// A place that was misled tells so much about mean sea level, 1-sigma, m; and about what systems differ by.
 const UNKNOWN_LEVEL: f64 = 30.0;
 const UNKNOWN_OFFSET: f64 = 100.0;
 /// 1-sigma of the share by which the ionosphere differs from its model.
 const UNKNOWN_IONOSPHERE: f64 = 0.5;
-
-/// How far places against a base are believed.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct RtkStanding {
-    /// When one was used last.
-    used: Option<Time>,
-    /// 1-sigma of what the base's coordinates are off by, level and down, m, once a place has been used.
-    base_std: Option<[f64; 2]>,
-    /// In a row that contradict the ship, or agree while that is not believed.
-    refuted: u8,
-    agreeing: u8,
-    is_contradicted: bool,
-    /// Why the last epoch gave none.
-    silence: Option<RtkSilence>,
-}
-
-impl RtkStanding {
-    /// Takes note of whether a place agrees; tells whether it may be used, and what is new of how far RTK is believed.
-    fn hear(&mut self, agrees: bool) -> (bool, Option<RtkTurn>) {
-        self.refuted = if agrees { 0 } else { self.refuted.saturating_add(1) };
-        self.agreeing = if agrees { self.agreeing.saturating_add(1) } else { 0 };
-        let turn = if self.is_contradicted {
-            (self.agreeing >= AGREEING).then_some(RtkTurn::Agrees)
-        } else {
-            (self.refuted >= CONTRADICTIONS).then_some(RtkTurn::Contradicted)
-        };
-        if turn.is_some() {
-            self.is_contradicted = !self.is_contradicted;
-        }
-        (agrees && !self.is_contradicted, turn)
-    }
-}
 
 impl Filter {
     /// Why the last epoch against a base gave no place that was used.
@@ -201,32 +165,5 @@ impl Filter {
         let mut all = sigma;
         all.position.0 = sigma.position.0.zip_map(&Vector3::new(level, level, down), f64::hypot);
         all
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn heard(standing: &mut RtkStanding, agrees: bool, times: u8) -> Vec<(bool, Option<RtkTurn>)> {
-        (0..times).map(|_| standing.hear(agrees)).collect()
-    }
-
-    #[test]
-    fn an_outlier_is_not_used_and_changes_nothing() {
-        let mut standing = RtkStanding::default();
-        assert_eq!(heard(&mut standing, false, 2), [(false, None); 2]);
-        assert_eq!(standing.hear(true), (true, None));
-    }
-
-    #[test]
-    fn who_contradicts_three_times_is_believed_again_after_ten_that_agree() {
-        let mut standing = RtkStanding::default();
-        let turns = heard(&mut standing, false, 3);
-        assert_eq!(turns[2], (false, Some(RtkTurn::Contradicted)));
-        assert_eq!(heard(&mut standing, true, 9), [(false, None); 9]);
-        assert_eq!(standing.hear(false), (false, None));
-        let again = heard(&mut standing, true, 10);
-        assert_eq!(again[9], (true, Some(RtkTurn::Agrees)));
     }
 }

@@ -2,10 +2,9 @@
 
 use insd_base::{FixQuality, Message, SolutionSource, Time};
 
-use super::Filter;
-use super::rtk::RTK_AID;
 use crate::report::{Outcome, Report};
 
+pub(super) const RTK_AID: &str = "rtk_position";
 /// A place by integers counts for so long, s: RTK lapses for an epoch or two.
 const FIXED: f64 = 2.5;
 /// Others for so long, s.
@@ -45,7 +44,8 @@ impl Sources {
         }
     }
 
-    fn best(&self, now: Time) -> SolutionSource {
+    /// The best one that was used of late.
+    pub(super) fn best(&self, now: Time) -> SolutionSource {
         let is_used = |(last, kind): &(&Option<Time>, SolutionSource)| {
             let lasts = if *kind == SolutionSource::Rtk { FIXED } else { FRESH };
             last.is_some_and(|last| (now - last).as_seconds() < lasts)
@@ -60,12 +60,5 @@ fn by_quality(quality: FixQuality) -> SolutionSource {
         FixQuality::RtkFixed => SolutionSource::Rtk,
         FixQuality::RtkFloat => SolutionSource::Float,
         _ => SolutionSource::Code,
-    }
-}
-
-impl Filter {
-    /// The best source in use; `None` before the ship navigates.
-    pub(super) fn source(&self) -> Option<SolutionSource> {
-        self.navigating.then(|| self.sources.best(self.state.time))
     }
 }
