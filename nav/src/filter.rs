@@ -30,7 +30,9 @@ use entry::detail;
 use heard::Heard;
 use installation::Installation;
 use receiver::Receiver;
+use rtk_standing::RtkStanding;
 use satellites::Satellites;
+use sources::Sources;
 use state::State;
 
 pub mod ahead;
@@ -58,9 +60,12 @@ mod others;
 mod ranges;
 mod receiver;
 mod receivers;
+mod rtk;
+mod rtk_standing;
 mod satellites;
 mod sideways;
 mod slow;
+mod sources;
 mod state;
 mod states;
 mod unrest;
@@ -81,6 +86,10 @@ pub struct Filter {
     installation: Installation,
     court: Court,
     satellites: Satellites,
+    /// How far places against a base are believed.
+    rtk: RtkStanding,
+    /// What was used when.
+    sources: Sources,
     /// While there are ranges, the same ship without them.
     companion: Option<Arc<Filter>>,
     navigating: bool,
@@ -101,6 +110,8 @@ impl Filter {
             installation: Installation::default(),
             court: Court::new(initial.time),
             satellites: Satellites::default(),
+            rtk: RtkStanding::default(),
+            sources: Sources::default(),
             companion: None,
             navigating: false,
         }
@@ -315,6 +326,7 @@ impl Estimator for Filter {
         let mut report = Report::default();
         match &received.message {
             Message::Imu(_) | Message::Base(_) => {}
+            Message::Rtk(told) => self.apply_rtk(told, received.source, &mut report),
             Message::Gnss(fix) if fix.rank > 0 => self.compare(fix, received.source),
             // its own receiver's fix is made of the same ranges, and tells no more than whose antenna it is
             Message::Gnss(fix) if self.satellites.are_fresh(self.state.time) => {
@@ -331,6 +343,7 @@ impl Estimator for Filter {
             Message::Reference(r) => self.apply_reference(r, received.source, &mut report),
             Message::Ranges(ranges) => self.apply_ranges(ranges, received.source, &mut report),
         }
+        self.sources.note(self.state.time, &report, &received.message);
         self.heed();
         report
     }
@@ -338,6 +351,7 @@ impl Estimator for Filter {
     fn solution(&self) -> Solution {
         let (view, acceleration) = self.dated_view();
         let sigma = solution_sigma(&view, &acceleration, &self.dating(), &self.state.covariance);
+        let sigma = self.with_base_error(sigma);
         let sigma = self.court.covered.map_or(sigma, |covered| sigma.greatest(&covered));
         let v_n = view.v_n();
         let turn_of_n = view.c_nb().transpose() * earth::transport_rate(&view.geodetic, &v_n);
@@ -350,6 +364,7 @@ impl Estimator for Filter {
             sigma,
             mode: self.mode(),
             judgement: self.judgement(),
+            source: self.source(),
         }
     }
 

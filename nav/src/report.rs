@@ -1,6 +1,6 @@
 //! What the filter did with a measurement.
 
-use insd_base::{Rejection, SatelliteId, SatelliteInnovation, Source, Time};
+use insd_base::{Rejection, RtkSilence, RtkTurn, SatelliteId, SatelliteInnovation, Source, Time};
 
 /// Whether a quantity was used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,4 +42,8 @@ pub struct Report {
     pub satellites: Vec<(Time, SatelliteId, bool)>,
     /// What each satellite told beside what was expected.
     pub ranges: Vec<SatelliteInnovation>,
+    /// RTK is believed otherwise from now on.
+    pub rtk: Vec<(Time, RtkTurn)>,
+    /// What an epoch against a base came to: a place that is used, or why there is none.
+    pub against_base: Option<Result<(), RtkSilence>>,
 }

@@ -467,7 +467,7 @@ mod tests {
     #[test]
     fn noise_that_is_stated_too_large_hides_a_wrong_lever_arm_from_a_finding_and_not_from_the_claims()
      {
-        let bias = rolling(&Vector3::new(0.0, 6.0, 0.0), 1.0);
+        let bias = rolling(&Vector3::new(0.0, 12.0, 0.0), 1.0);
         assert_eq!(bias.finding(), None);
         let is_likely = |bias: &SeparateBias| bias.likeliest().is_some_and(|(odds, _)| odds > 5.0);
         assert!(is_likely(&bias));

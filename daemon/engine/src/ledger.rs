@@ -42,6 +42,7 @@ impl Engine {
         for (time, satellite, is_excluded) in report.satellites.iter().copied() {
             self.tell(Event::SatelliteJudged { time, satellite, is_excluded });
         }
+        self.note_rtk(report);
         if report.position_reset {
             let time = report.aids.first().map_or(Time::START, |aid| aid.time);
             self.tell(Event::PositionReset { time });

@@ -25,6 +25,7 @@ mod resume;
 mod resumption;
 mod ship;
 mod sky;
+mod source;
 mod stamps;
 mod standings;
 mod surveyor;
@@ -39,8 +40,8 @@ use insd_alignment::{StoredState, StoredVerdict};
 use insd_base::satellites::{BaseEpoch, SatelliteRanges};
 use insd_base::{
     AidInnovation, AlignmentStatus, Body, Counts, Event, Finding, ImuSample, ImuSpec, Message,
-    Mode, ModeReason, Received, Rejection, SatelliteInnovation, Solution, Span, StartCondition,
-    Time,
+    Mode, ModeReason, Received, Rejection, RtkSilence, SatelliteInnovation, Solution,
+    SolutionSource, Span, StartCondition, Time,
 };
 use insd_nav::{
     Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Report, Timeline,
@@ -116,6 +117,9 @@ pub struct Engine {
     /// The last epoch of satellites.
     last_ranges: Option<Arc<SatelliteRanges>>,
     last_base: Option<Arc<BaseEpoch>>,
+    /// The source that was told last, and why there is no RTK.
+    source: Option<SolutionSource>,
+    no_rtk: Option<RtkSilence>,
     /// When the last sample of the IMU that could be used was received.
     heard: Option<Time>,
     /// The state saved before a crash, while it is on trial.
@@ -164,6 +168,8 @@ impl Engine {
             machine: Machine::default(),
             last_ranges: None,
             last_base: None,
+            source: None,
+            no_rtk: None,
             heard: None,
             resumption: None,
             trace: Trace::new(),
@@ -423,6 +429,7 @@ impl Engine {
         self.surveyor.see(&solution);
         let judged = self.judged(solution);
         self.enter(judged.time, judged.mode, self.facts(), None);
+        self.tell_source(&judged);
         if self.shunned.is_none() {
             self.outputs.push_back(Output::Solution(judged));
         }

@@ -116,7 +116,9 @@ impl Engine {
     /// A message as it is to be used. The fix of a receiver that is not in use is compared, and goes no further.
     pub(crate) fn as_used(&mut self, received: &Received) -> Option<Received> {
         if self.is_of_liar(received) {
-            self.reject(received, "satellite_code", Rejection::SourceSuspect);
+            let is_rtk = matches!(received.message, Message::Rtk(_));
+            let aid = if is_rtk { "rtk_position" } else { "satellite_code" };
+            self.reject(received, aid, Rejection::SourceSuspect);
             return None;
         }
         let (Message::Gnss(fix), Source::Gnss(number)) = (&received.message, received.source)
@@ -140,7 +142,8 @@ impl Engine {
 
     /// Whether these are ranges of the receiver of the intake's choice, while another is used for its lies.
     fn is_of_liar(&self, received: &Received) -> bool {
-        let (Message::Ranges(_), Source::Gnss(number)) = (&received.message, received.source)
+        let (Message::Ranges(_) | Message::Rtk(_), Source::Gnss(number)) =
+            (&received.message, received.source)
         else {
             return false;
         };

@@ -45,13 +45,13 @@ impl Engine {
         filter.zip(range).map_or(SatelliteUse::Waiting, |(filter, range)| filter.fate_of(range))
     }
 
-    /// What a base measured last, in differences to which the ranges of the ship can be held; not used yet.
+    /// What a base measured last, in differences to which the ranges of the ship are held.
     #[must_use]
     pub fn base(&self) -> Option<&BaseEpoch> {
         self.last_base.as_deref()
     }
 
-    /// Takes note of what a base measured. Nothing else hears of it: it is not on board.
+    /// Takes note of what a base measured. What it comes to with the epochs on board is another message ([`insd_base::Message::Rtk`]).
     pub(crate) fn hear_base(&mut self, told: &Arc<BaseEpoch>) {
         self.last_base = Some(Arc::clone(told));
     }

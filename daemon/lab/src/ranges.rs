@@ -5,8 +5,8 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use insd_base::satellites::SatelliteEpoch;
-use insd_base::{GpsTime, Message, Received, SatelliteId, Source, Time};
-use insd_gnss::{Context, Guess, Ranged, Ranging};
+use insd_base::{GpsTime, Message, Received, RtkEpoch, SatelliteId, Source, Time};
+use insd_gnss::{Context, Guess, Ranged, Ranging, RtkLink};
 
 /// What is made of GNSS.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -52,15 +52,19 @@ impl FromStr for SatelliteMask {
     }
 }
 
-/// The ranges of each epoch of a receiver, in the order in which they are received, for a voyage that starts at an instant of GPS time.
+/// The ranges of each epoch of a receiver and the epochs of a base, with what they come to against each other, in the order in which they are received, for a
+/// voyage that starts at an instant of GPS time.
 #[must_use]
 pub fn messages(
     context: &Context,
     epochs: impl Iterator<Item = SatelliteEpoch>,
     start: GpsTime,
     masks: &[SatelliteMask],
+    base: &[Received],
 ) -> VecDeque<Received> {
     let mut ranging = Ranging::default();
+    let mut link = RtkLink::default();
+    let mut base = base.iter().peekable();
     let mut highest: Vec<SatelliteId> = Vec::new();
     let mut messages = VecDeque::new();
     for mut epoch in epochs {
@@ -74,9 +78,23 @@ pub fn messages(
         if mask.is_none() {
             highest = by_elevation(&ranged);
         }
-        messages.push_back(message(&epoch, ranged, start));
+        let told = message(&epoch, ranged, start);
+        while let Some(next) = base.next_if(|next| next.receipt <= told.receipt) {
+            let Message::Base(of_base) = &next.message else { continue };
+            messages.push_back(next.clone());
+            messages.extend(link.hear_base(context, of_base).map(|rtk| against(next.receipt, rtk)));
+        }
+        let (receipt, time) = (told.receipt, told.message.time());
+        messages.push_back(told);
+        let rtk = link.hear_rover(context, &epoch, time);
+        messages.extend(rtk.into_iter().map(|rtk| against(receipt, rtk)));
     }
+    messages.extend(base.cloned());
     messages
+}
+
+fn against(receipt: Time, told: RtkEpoch) -> Received {
+    Received { receipt, source: Source::Gnss(0), message: Message::Rtk(told) }
 }
 
 fn by_elevation(ranged: &Ranged) -> Vec<SatelliteId> {

@@ -50,11 +50,10 @@ impl RawVoyage {
         };
         let calendar = VoyageCalendar::new(start_utc).context("start_utc")?;
         let start = calendar.utc(Time::START).to_gps();
-        let mut waiting = messages(&texts, table.noise(), start, masks)?;
-        if let Some((path, text)) = read_raw_base(dir)? {
-            waiting.extend(base(&path, &text, table, start)?);
-            waiting.make_contiguous().sort_by_key(|received| received.receipt);
-        }
+        let told = read_raw_base(dir)?;
+        let told = told.map(|(path, text)| base(&path, &text, table, start)).transpose()?;
+        let of_base = told.unwrap_or_default();
+        let waiting = messages(&texts, table.noise(), (start, masks), &of_base)?;
         Ok(RawVoyage { waiting, ..own })
     }
 
@@ -75,15 +74,15 @@ impl RawVoyage {
 fn messages(
     texts: &RawTexts,
     noise: Noise,
-    start: GpsTime,
-    masks: &[SatelliteMask],
+    (start, masks): (GpsTime, &[SatelliteMask]),
+    of_base: &[Received],
 ) -> anyhow::Result<VecDeque<Received>> {
     let context = Context { noise, ..context(&texts.navigation)? };
     let (path, text) = &texts.observations;
     let plain = plain(text)?;
     let fault = |error| BadInput(format!("{}: {error}", path.display()));
     let reader = ObservationReader::new(&plain).map_err(fault)?;
-    Ok(ranges::messages(&context, reader.flatten(), start, masks))
+    Ok(ranges::messages(&context, reader.flatten(), start, masks, of_base))
 }
 
 /// What the base measured, at the place that the voyage or else its own file says.

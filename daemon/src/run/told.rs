@@ -114,7 +114,9 @@ fn tell_engine(event: &Event) {
             let (at, from, to) = (time.as_seconds(), change.from.as_str(), change.to.as_str());
             tracing::warn!(at, from, to, "{change}");
         }
-        Event::PositionReset { .. } | Event::StoredStateDropped { .. } => {
+        Event::PositionReset { .. }
+        | Event::RtkJudged { .. }
+        | Event::StoredStateDropped { .. } => {
             let (what, text) = words::engine(event);
             tracing::warn!("{what}: {}", text.unwrap_or_default());
         }

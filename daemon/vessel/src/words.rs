@@ -70,6 +70,10 @@ pub fn engine(event: &Event) -> (&'static str, Option<String>) {
         Event::SatelliteJudged { satellite, .. } => {
             ("satellite", Some(format!("{satellite} is used again")))
         }
+        Event::RtkJudged { turn, .. } => ("RTK", Some(turn.to_string())),
+        Event::SourceChanged { to, why, .. } => {
+            ("source", Some(format!("best source {}: {why}", to.as_str())))
+        }
         Event::PositionReset { .. } => {
             let words = "the position was set anew from a source that was kept out for too long";
             ("position reset", Some(words.to_owned()))

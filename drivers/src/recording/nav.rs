@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::io::{self, Write};
 use std::path::Path;
 
-use insd_base::{Ned, SatelliteId, SatelliteInnovation, Solution};
+use insd_base::{Ned, SatelliteId, SatelliteInnovation, Solution, SolutionSource};
 
 use super::error::RecordingError;
 use super::nav_row::NavRow;
@@ -141,6 +141,8 @@ fn push_judgement(row: &mut Vec<u8>, solution: &Solution, satellites: &NavSatell
     if let Some(used) = satellites.used(solution.time) {
         row.extend_from_slice(used.to_string().as_bytes());
     }
+    row.push(b',');
+    row.extend_from_slice(solution.source.map_or("", SolutionSource::as_str).as_bytes());
 }
 
 fn push_sigmas(row: &mut Vec<u8>, solution: &Solution) {
@@ -200,6 +202,7 @@ mod tests {
             },
             mode: Mode::DeadReckoning,
             judgement: insd_base::Judgement::default(),
+            source: Some(SolutionSource::DeadReckoning),
         }
     }
 
@@ -219,13 +222,13 @@ mod tests {
             lines.next().unwrap(),
             "t_s,lat_deg,lon_deg,height_m,vn_mps,ve_mps,vd_mps,roll_deg,pitch_deg,heading_deg,\
              std_n_m,std_e_m,std_d_m,std_vn_mps,std_ve_mps,std_vd_mps,std_roll_deg,std_pitch_deg,\
-             std_heading_deg,mode,hpl_m,vpl_m,integrity,excluded,satellites"
+             std_heading_deg,mode,hpl_m,vpl_m,integrity,excluded,satellites,source"
         );
         assert_eq!(
             lines.next().unwrap(),
             "12.3,-35.1234567890,180.0000000000,-3.25000,1.00000,-2.50000,0.00001,-0.572958,\
              1.145916,0.000000,1000000.00000,0.00001,1000000.00000,0.010000,0.010000,0.020000,\
-             0.000573,0.000573,0.000001,dead_reckoning,1000000.00000,1000000.00000,unavailable,,"
+             0.000573,0.000573,0.000001,dead_reckoning,1000000.00000,1000000.00000,unavailable,,,dr"
         );
     }
 
@@ -239,9 +242,9 @@ mod tests {
             let text = text(&[Solution { judgement, sigma, ..solution() }]);
             text.lines().nth(1).unwrap().split(',').skip(20).collect::<Vec<_>>().join(",")
         };
-        assert_eq!(row(Integrity::Consistent), "7.77817,5.20000,available,gnss log,");
-        assert!(row(Integrity::Unproven).ends_with(",unavailable,gnss log,"));
-        assert!(row(Integrity::Contradiction).ends_with(",fault,gnss log,"));
+        assert_eq!(row(Integrity::Consistent), "7.77817,5.20000,available,gnss log,,dr");
+        assert!(row(Integrity::Unproven).ends_with(",unavailable,gnss log,,dr"));
+        assert!(row(Integrity::Contradiction).ends_with(",fault,gnss log,,dr"));
     }
 
     #[test]
@@ -272,7 +275,7 @@ mod tests {
         text(&[Solution { judgement, ..solution() }, solution()])
     }
 
-    const FURTHER: [&str; 5] = ["hpl_m", "vpl_m", "integrity", "excluded", "satellites"];
+    const FURTHER: [&str; 6] = ["hpl_m", "vpl_m", "integrity", "excluded", "satellites", "source"];
 
     fn read(text: &str) -> Result<Rows<NavRow>, RecordingError> {
         let dir = tempfile::tempdir().unwrap();

@@ -1,6 +1,6 @@
 //! A row of `nav.csv`: a solution, and what it says of how far it may be relied on.
 
-use insd_base::{Availability, Solution, Time};
+use insd_base::{Availability, Solution, SolutionSource, Time};
 
 use super::fields::Fields;
 use super::report::{BadRow, RowFault};
@@ -13,6 +13,7 @@ const VERTICAL: usize = 21;
 const INTEGRITY: usize = 22;
 const EXCLUDED: usize = 23;
 const SATELLITES: usize = 24;
+const SOURCE: usize = 25;
 
 /// More satellites than there are.
 const MOST: f64 = 1000.0;
@@ -37,12 +38,12 @@ pub struct NavRow {
 impl Row for NavRow {
     const COLUMNS: &'static [&'static str] = NAV;
     const OPTIONAL: &'static [&'static [&'static str]] =
-        &[&["hpl_m"], &["vpl_m"], &["integrity"], &["excluded"], &["satellites"]];
+        &[&["hpl_m"], &["vpl_m"], &["integrity"], &["excluded"], &["satellites"], &["source"]];
 
     fn parse(fields: &Fields<'_>) -> Result<Self, BadRow> {
         let level = |column| fields.within(column, 0.0..=f64::MAX);
         Ok(NavRow {
-            solution: solution(fields)?,
+            solution: Solution { source: source(fields)?, ..solution(fields)? },
             horizontal_level: level(HORIZONTAL)?,
             vertical_level: level(VERTICAL)?,
             integrity: integrity(fields)?,
@@ -68,6 +69,15 @@ fn integrity(fields: &Fields<'_>) -> Result<Option<Availability>, BadRow> {
     }
     let known = std::str::from_utf8(word).ok().and_then(Availability::from_word);
     known.map(Some).ok_or_else(|| fields.bad(INTEGRITY, RowFault::UnknownWord))
+}
+
+fn source(fields: &Fields<'_>) -> Result<Option<SolutionSource>, BadRow> {
+    let word = fields.raw(SOURCE);
+    if word.is_empty() {
+        return Ok(None);
+    }
+    let known = std::str::from_utf8(word).ok().and_then(SolutionSource::from_word);
+    known.map(Some).ok_or_else(|| fields.bad(SOURCE, RowFault::UnknownWord))
 }
 
 fn satellites(fields: &Fields<'_>) -> Result<Option<u32>, BadRow> {

@@ -248,7 +248,8 @@ pub(super) const NAV: &[&str] = state_columns!(
     "vpl_m",
     "integrity",
     "excluded",
-    "satellites"
+    "satellites",
+    "source"
 );
 
 /// A solution from the columns of [`NAV`] up to the mode.
@@ -271,6 +272,7 @@ pub(super) fn solution(fields: &Fields<'_>) -> Result<Solution, BadRow> {
         },
         mode: mode.ok_or_else(|| fields.bad(19, RowFault::UnknownWord))?,
         judgement: insd_base::Judgement::default(),
+        source: None,
     })
 }
 

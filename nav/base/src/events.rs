@@ -6,8 +6,8 @@ use std::fmt;
 use crate::installation::Finding;
 use crate::messages::Source;
 use crate::party::{ReceiverChange, Stands};
-use crate::satellites::SatelliteId;
-use crate::solution::Mode;
+use crate::satellites::{RtkSilence, RtkTurn, SatelliteId};
+use crate::solution::{Mode, SolutionSource};
 use crate::time::Time;
 
 /// Why a message or a part of it was not used.
@@ -344,6 +344,24 @@ pub enum Event {
         /// Whether it is left out from now on.
         is_excluded: bool,
     },
+    /// RTK is believed otherwise than before.
+    RtkJudged {
+        /// When.
+        time: Time,
+        /// How.
+        turn: RtkTurn,
+    },
+    /// The best source of the solution is another one.
+    SourceChanged {
+        /// When.
+        time: Time,
+        /// Before; `None` for the first.
+        from: Option<SolutionSource>,
+        /// From now on.
+        to: SolutionSource,
+        /// Why.
+        why: SourceReason,
+    },
     /// Another receiver is used from now on.
     ReceiverUsed {
         /// When.
@@ -356,6 +374,27 @@ pub enum Event {
         /// When.
         time: Time,
     },
+}
+
+/// Why the best source of the solution is another one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SourceReason {
+    /// A better one has come.
+    Better,
+    /// The better one is not heard any more, or is not used.
+    Unheard,
+    /// There is no RTK.
+    NoRtk(RtkSilence),
+}
+
+impl fmt::Display for SourceReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Better => f.write_str("it has come"),
+            Self::Unheard => f.write_str("nothing better is heard or used"),
+            Self::NoRtk(why) => why.fmt(f),
+        }
+    }
 }
 
 /// One component of an innovation: measured minus predicted, with the sigma that was expected.
@@ -403,6 +442,9 @@ pub struct Counts {
     pub floored: BTreeMap<&'static str, u64>,
     /// Satellites of epochs that gave no range, by reason.
     pub unranged: BTreeMap<&'static str, u64>,
+    /// Epochs against a base: `fixed`, or why none of their integers are believed; and how often RTK was `withdrawn`, contradicted (`refuted`), and
+    /// agreed again (`agrees`).
+    pub rtk: BTreeMap<&'static str, u64>,
     /// IMU samples used.
     pub imu_samples: u64,
     /// Gaps in the IMU data that were bridged.

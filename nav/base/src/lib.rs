@@ -45,7 +45,7 @@ pub use can::{BusEvent, CanFrame, CanId};
 pub use estimates::{Disturbance, Estimate, Estimates, SeaQuantity};
 pub use events::{
     AidInnovation, Counts, Event, ModeReason, Rejection, ResumeDoubt, SatelliteInnovation,
-    StoredDoubt,
+    SourceReason, StoredDoubt,
 };
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
@@ -61,12 +61,12 @@ pub use motion::{Current, Motion, MotionCovariance};
 pub use party::{Fault, Integrity, Judgement, Parties, Party, ReceiverChange, Standing, Stands};
 pub use protection::{Availability, Protection};
 pub use satellites::{
-    BaseEpoch, BroadcastRecord, Constellation, IonosphereModel, SatelliteEpoch, SatelliteId,
-    SignalCode, SignalObservation,
+    BaseEpoch, BroadcastRecord, Constellation, IonosphereModel, RtkEpoch, RtkPlace, RtkSilence,
+    RtkTurn, SatelliteEpoch, SatelliteId, SignalCode, SignalObservation,
 };
 pub use sea_fit::{Residual, SeaFit, SeenResidual};
 pub use sensor::{ImuSpec, LeverArms, Triad};
-pub use solution::{Mode, Solution, SolutionSigma};
+pub use solution::{Mode, Solution, SolutionSigma, SolutionSource};
 pub use time::{Span, Time};
 pub use utc::{GpsTime, UtcTime};
 pub use utm::Utm;

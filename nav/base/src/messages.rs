@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::frames::{Body, Geodetic, Ned};
 use crate::gnss::GnssFix;
-use crate::satellites::{BaseEpoch, SatelliteRanges};
+use crate::satellites::{BaseEpoch, RtkEpoch, SatelliteRanges};
 use crate::time::Time;
 
 /// Increments of one IMU sampling interval, ending at `time`.
@@ -118,6 +118,8 @@ pub enum Message {
     Ranges(Arc<SatelliteRanges>),
     /// What a base measured: never ranges of the ship.
     Base(Arc<BaseEpoch>),
+    /// What an epoch of ranges came to against a base.
+    Rtk(RtkEpoch),
 }
 
 impl Message {
@@ -131,6 +133,7 @@ impl Message {
             Message::Reference(m) => m.time,
             Message::Ranges(m) => m.time,
             Message::Base(m) => m.time,
+            Message::Rtk(m) => m.time,
         }
     }
 }

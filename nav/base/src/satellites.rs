@@ -5,6 +5,7 @@ mod broadcast;
 mod epoch;
 mod ranges;
 mod refusal;
+mod rtk;
 mod signal;
 mod sky;
 
@@ -19,5 +20,6 @@ pub use ranges::{
     Transmitter, time_keeper,
 };
 pub use refusal::{OrbitRefusal, RangeRefusal};
+pub use rtk::{RtkEpoch, RtkPlace, RtkSilence, RtkTurn};
 pub use signal::{Constellation, SPEED_OF_LIGHT, SatelliteId, SignalCode};
 pub use sky::{LookAngles, SatelliteUse, SignalStrength, Sky, SkySatellite};

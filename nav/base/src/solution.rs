@@ -69,6 +69,46 @@ impl Mode {
     }
 }
 
+/// The best source that a solution lives by, as in the column `source` of `nav.csv`, the best one first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum SolutionSource {
+    /// Carrier phases whose integers are believed.
+    Rtk,
+    /// Carrier phases against a base without integers.
+    Float,
+    /// Carrier phases with constants that are estimated.
+    Carrier,
+    /// Codes: ranges of satellites, or the fixes of a receiver.
+    Code,
+    /// Doppler shifts, or the velocity of a receiver.
+    Doppler,
+    /// No satellites.
+    DeadReckoning,
+}
+
+impl SolutionSource {
+    /// Its word, as in `nav.csv`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Rtk => "rtk",
+            Self::Float => "float",
+            Self::Carrier => "carrier",
+            Self::Code => "code",
+            Self::Doppler => "doppler",
+            Self::DeadReckoning => "dr",
+        }
+    }
+
+    /// The source of a word of `nav.csv`.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        let all =
+            [Self::Rtk, Self::Float, Self::Carrier, Self::Code, Self::Doppler, Self::DeadReckoning];
+        all.into_iter().find(|source| source.as_str() == word)
+    }
+}
+
 /// 1-sigma of each component of a [`Solution`], SI and radians.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct SolutionSigma {
@@ -163,6 +203,8 @@ pub struct Solution {
     pub mode: Mode,
     /// What is made of the sensors' words.
     pub judgement: Judgement,
+    /// The best source in use; `None` before the ship navigates.
+    pub source: Option<SolutionSource>,
 }
 
 impl Solution {

@@ -26,8 +26,8 @@ pub use integers::{IntegerRefusal, IntegerSearch, IntegerVector};
 pub use orbit::SatelliteState;
 pub use ranging::{Guess, Ranged, Ranging};
 pub use rtk::{
-    DifferencedRows, DoubleDifferences, PairAmbiguity, PlacedEpoch, RoverPrior, RtkFix, RtkRefusal,
-    RtkSettings, RtkSolution, RtkTracker, RtkWithdrawal, SignalPair,
+    DifferencedRows, DoubleDifferences, PairAmbiguity, PlacedEpoch, RoverPrior, RtkFix, RtkLink,
+    RtkRefusal, RtkSettings, RtkSolution, RtkTracker, RtkWithdrawal, SignalPair,
 };
 pub use sight::Sight;
 pub use signals::{Noise, best_of_each_band, dispersion, first_band, group_delay, inflation};

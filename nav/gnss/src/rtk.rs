@@ -11,6 +11,7 @@ mod difference;
 mod double;
 mod float;
 mod instant;
+mod link;
 mod outcome;
 mod pairing;
 mod prior;
@@ -20,6 +21,7 @@ mod tracker;
 
 pub use difference::PlacedEpoch;
 pub use double::{DifferencedRows, DoubleDifferences, PairAmbiguity};
+pub use link::RtkLink;
 pub use outcome::{RtkFix, RtkRefusal, RtkSolution, RtkWithdrawal};
 pub use pairing::SignalPair;
 pub use prior::RoverPrior;

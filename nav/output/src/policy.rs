@@ -5,7 +5,7 @@
 //! letter always follows from the solution's own sigma and mode, never from that of a GNSS fix.
 
 use insd_base::units::DEG;
-use insd_base::{FixQuality, Integrity, Mode, Solution};
+use insd_base::{FixQuality, Integrity, Mode, Solution, SolutionSource};
 use insd_wire::nmea::{HeadingMode, PositionMode};
 
 /// Horizontal 1-sigma (root sum square of north and east), m, below which a quality is claimed.
@@ -109,6 +109,10 @@ impl Policy {
             Some(_) if is_doubted(solution) => FixQuality::Estimated,
             Some(_) if self.estimated_without_gnss && !uses_gnss(solution.mode) => {
                 FixQuality::Estimated
+            }
+            // however well she knows her place, no integers are fixed
+            Some(FixQuality::RtkFixed) if solution.source == Some(SolutionSource::Carrier) => {
+                FixQuality::RtkFloat
             }
             Some(quality) => quality,
         }

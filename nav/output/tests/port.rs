@@ -44,6 +44,7 @@ fn solution() -> Solution {
         },
         mode: Mode::Aided,
         judgement: insd_base::Judgement::default(),
+        source: None,
     }
 }
 
@@ -253,6 +254,7 @@ proptest! {
             },
             mode,
             judgement: insd_base::Judgement::default(),
+            source: None,
         };
         let manner = Manner { simulated, ..Manner::default() };
         let config = OutputPortConfig { manner, geoid_separation: Some(sn), ..bridge() };

@@ -13,6 +13,7 @@ use insd_base::units::wrap_pi;
 use insd_base::{Message, Received, SolutionSigma};
 
 use super::Filter;
+use super::rtk_standing::RtkStanding;
 use super::satellites::Satellites;
 use crate::declaration::Carried;
 use crate::error_state::POSITION;
@@ -36,6 +37,7 @@ impl Filter {
         let mut companion = self.clone();
         companion.end_to_carry(Carried::WithRanges);
         companion.satellites = Satellites::default();
+        companion.rtk = RtkStanding::default();
         if companion.court.judge.is_none() {
             companion.be_judged();
         }
@@ -49,7 +51,7 @@ impl Filter {
 
     /// Lets the companion hear what is no range. Gives what he makes of it if he goes on alone.
     pub(super) fn accompany(&mut self, received: &Received) -> Option<Report> {
-        if matches!(received.message, Message::Ranges(_)) {
+        if matches!(received.message, Message::Ranges(_) | Message::Rtk(_)) {
             return None;
         }
         let mut report = self.companion_mut()?.apply(received);

@@ -1,6 +1,6 @@
 //! Which aids carry the solution.
 
-use insd_base::{Mode, Time};
+use insd_base::{Mode, SolutionSource, Time};
 
 use super::Filter;
 
@@ -21,6 +21,11 @@ impl Filter {
     pub(super) fn is_carried_by_imu(&self) -> bool {
         let is_fresh = |last: Time| (self.state.time - last).as_seconds() < RELATIVE_TIMEOUT;
         !self.gnss_is_fresh() && !self.heard.motion.is_some_and(is_fresh)
+    }
+
+    /// The best source in use; `None` before the ship navigates.
+    pub(super) fn source(&self) -> Option<SolutionSource> {
+        self.navigating.then(|| self.sources.best(self.state.time))
     }
 
     /// Which aids carry the solution.

@@ -36,7 +36,7 @@ const JUMP: f64 = 300.0;
 /// How stiff masts are taken to be where phases tell, 1-sigma, m.
 const SLACK_PHASE: f64 = 0.01;
 /// A place of which the ranges of enough satellites tell all, 1-sigma, m.
-const UNKNOWN_PLACE: f64 = 30.0;
+pub(super) const UNKNOWN_PLACE: f64 = 30.0;
 /// Codes of epochs that are closer than this, s, are no news: a receiver's loop smooths them, and what reflects is the same.
 const CODE_TIME: f64 = 1.0;
 /// A constant of which nothing is known, m.

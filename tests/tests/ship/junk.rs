@@ -88,6 +88,7 @@ fn restamp(received: &mut Received, off: f64) {
         Message::Gnss(m) => m.time = m.time + span,
         Message::Log(m) => m.time = m.time + span,
         Message::Reference(m) => m.time = m.time + span,
+        Message::Rtk(m) => m.time = m.time + span,
         Message::Base(m) => {
             let base = Arc::make_mut(m);
             base.time = base.time + span;
@@ -128,6 +129,9 @@ fn spoil(received: &mut Received, field: u8, value: f64) {
         },
         Message::Ranges(m) => Arc::make_mut(m).ranges.clear(),
         Message::Base(m) => Arc::make_mut(m).epoch.signals.clear(),
+        Message::Rtk(m) => {
+            m.place.iter_mut().for_each(|place| place.antenna[axis] = value);
+        }
     }
 }
 

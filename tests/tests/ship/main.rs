@@ -12,6 +12,7 @@ mod identity;
 mod junk;
 mod outputs;
 mod places;
+mod rtk;
 mod satellites;
 mod starts;
 mod stored;

@@ -20,7 +20,7 @@ fn tight_port() -> Scenario {
     insd_lab::scenario::find("26", &[]).unwrap().scenario
 }
 
-fn context(raw: &RawGnss) -> Context {
+pub(crate) fn context(raw: &RawGnss) -> Context {
     let spec = &raw.spec;
     let mut context = Context {
         noise: Noise {
@@ -45,14 +45,17 @@ fn messages(voyage: &Voyage, raw: Option<&RawGnss>) -> Vec<Received> {
         let calendar = VoyageCalendar::new(&voyage.header.start_utc).unwrap();
         let start = calendar.utc(insd_base::Time::START).to_gps();
         let epochs = raw.antennas[0].iter().cloned();
-        all.extend(ranges::messages(&context(raw), epochs, start, &[]));
+        all.extend(ranges::messages(&context(raw), epochs, start, &[], &[]));
         all.sort_by_key(|received| received.receipt);
     }
     all
 }
 
 /// Horizontal errors against truth, north and east, m, with the claimed sigmas.
-fn errors(solutions: &[Solution], truth: &[Truth]) -> Vec<(f64, Vector2<f64>, Vector2<f64>)> {
+pub(crate) fn errors(
+    solutions: &[Solution],
+    truth: &[Truth],
+) -> Vec<(f64, Vector2<f64>, Vector2<f64>)> {
     let mut errors = Vec::new();
     for solution in solutions {
         let Ok(place) = truth.binary_search_by_key(&solution.time, |truth| truth.time) else {

@@ -206,7 +206,7 @@ impl Surveyor {
                     self.probation.hear(told, (own.attitude.heading, own.sigma.heading));
                 }
             }
-            Message::Imu(_) | Message::Ranges(_) | Message::Base(_) => {}
+            Message::Imu(_) | Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {}
         }
     }
 

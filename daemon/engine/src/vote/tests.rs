@@ -28,6 +28,7 @@ fn truth(seconds: f64) -> Motion {
             },
             mode: Mode::Aided,
             judgement: insd_base::Judgement::default(),
+            source: None,
         },
         acceleration: None,
         covariance: None,

@@ -161,6 +161,7 @@ fn shifted(received: &Received, by: Span) -> Received {
         Message::Reference(m) => &mut m.time,
         Message::Ranges(m) => &mut Arc::make_mut(m).time,
         Message::Base(m) => &mut Arc::make_mut(m).time,
+        Message::Rtk(m) => &mut m.time,
     };
     *time = *time + by;
     moved

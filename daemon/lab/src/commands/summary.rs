@@ -54,6 +54,11 @@ impl fmt::Display for Summary<'_> {
                 reasons.map(|(reason, count)| format!("{count} {reason}")).collect();
             writeln!(f, "satellites without a range: {}", told.join(", "))?;
         }
+        if !self.counts.rtk.is_empty() {
+            let told: Vec<String> =
+                self.counts.rtk.iter().map(|(word, count)| format!("{count} {word}")).collect();
+            writeln!(f, "epochs against the base: {}", told.join(", "))?;
+        }
         self.files.iter().try_for_each(|report| write_report(f, report))?;
         self.write_modes(f)?;
         self.write_alignment(f)?;

@@ -66,6 +66,8 @@ pub fn event(event: &Event) -> String {
             format!("✗ {satellite} is left out")
         }
         Event::SatelliteJudged { satellite, .. } => format!("{satellite} is used again"),
+        Event::RtkJudged { turn, .. } => turn.to_string(),
+        Event::SourceChanged { to, .. } => format!("Best source {}", to.as_str()),
         Event::PositionReset { .. } => "Position set anew".to_owned(),
         Event::StoredStateUsed { .. } => "Stored heading confirmed".to_owned(),
         Event::StoredStateDropped { reason, .. } => {

@@ -69,6 +69,7 @@ pub(crate) mod testing {
             },
             mode: Mode::Aided,
             judgement: insd_base::Judgement::default(),
+            source: None,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use insd_base::{Message, SatelliteEpoch, Source, Stamp};
+use insd_base::{BaseEpoch, Message, SatelliteEpoch, Source, Stamp, Time};
 
 use super::Core;
 use crate::base::BaseTold;
@@ -50,6 +50,20 @@ impl Core {
         if let Some(news) = news {
             self.tell(now, Happening::Base { sensor: index, news });
         }
-        self.pass(index, now, Source::Base(number), Message::Base(Arc::new(offered)));
+        let offered = Arc::new(offered);
+        self.pass(index, now, Source::Base(number), Message::Base(Arc::clone(&offered)));
+        if number == 0 {
+            self.hold_against(now, &offered);
+        }
+    }
+
+    /// Receivers on board are held against an epoch of the first base.
+    fn hold_against(&mut self, now: Time, told: &Arc<BaseEpoch>) {
+        for index in 0..self.sensors.len() {
+            let own = &mut self.sensors[index];
+            let source = Source::Gnss(own.number);
+            let Some(come) = own.sky.as_mut().and_then(|sky| sky.hear_base(told)) else { continue };
+            self.pass(index, now, source, Message::Rtk(come));
+        }
     }
 }

@@ -93,7 +93,7 @@ impl Core {
         if ranged.ranges.is_empty() {
             self.refuse(index, Refusal::NoOrbit);
         }
-        self.range(index, now, ranged);
+        self.range(index, now, ranged, epoch);
     }
 
     /// Whether the time of an epoch fits what is known. It sets the ship's time if it is all that the receiver tells of it.
@@ -125,29 +125,36 @@ impl Core {
     }
 
     /// Ranges wait until it is known when they were.
-    fn range(&mut self, index: usize, now: Time, ranged: Ranged) {
+    fn range(&mut self, index: usize, now: Time, ranged: Ranged, epoch: &SatelliteEpoch) {
         let Some(sky) = &mut self.sensors[index].sky else { return };
-        sky.waiting.push_back(ranged);
+        let kept = sky.kept(epoch);
+        sky.waiting.push_back((ranged, kept));
         if sky.waiting.len() > WAITING {
             sky.waiting.pop_front();
             self.refuse(index, Refusal::NoTime);
         }
-        while let Some(ranged) = self.next_ranged(index) {
+        while let Some((ranged, kept)) = self.next_ranged(index) {
             let Some(time) = self.utc.time_of(ranged.sampled) else {
                 if let Some(sky) = &mut self.sensors[index].sky {
-                    sky.waiting.push_front(ranged);
+                    sky.waiting.push_front((ranged, kept));
                 }
                 break;
             };
-            self.ranged(index, now, time, ranged);
+            self.ranged(index, now, time, (ranged, kept));
         }
     }
 
-    fn next_ranged(&mut self, index: usize) -> Option<Ranged> {
+    fn next_ranged(&mut self, index: usize) -> Option<(Ranged, Option<SatelliteEpoch>)> {
         self.sensors[index].sky.as_mut()?.waiting.pop_front()
     }
 
-    fn ranged(&mut self, index: usize, now: Time, time: Time, ranged: Ranged) {
+    fn ranged(
+        &mut self,
+        index: usize,
+        now: Time,
+        time: Time,
+        (ranged, kept): (Ranged, Option<SatelliteEpoch>),
+    ) {
         if self.is_fixless(index, now) {
             self.point(index, now, time, &ranged);
         }
@@ -162,6 +169,9 @@ impl Core {
         let told = ranged.told(time);
         let source = Source::Gnss(self.sensors[index].number);
         self.pass(index, now, source, Message::Ranges(Arc::new(told)));
+        let sky = self.sensors[index].sky.as_mut().zip(kept);
+        let told = sky.map(|(sky, epoch)| sky.against_base(&epoch, time)).unwrap_or_default();
+        told.into_iter().for_each(|told| self.pass(index, now, source, Message::Rtk(told)));
     }
 
     /// The fix of a receiver that tells none.

@@ -1,12 +1,16 @@
 //! What one receiver's raw messages make: orbits that are known, ranges that wait for UTC, a fix where it tells none.
 
 use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
 
 use insd_base::satellites::{IonosphereModel, SatelliteId};
+use insd_base::{BaseEpoch, RtkEpoch};
 use insd_base::{
     Constellation, Ecef, FixQuality, GnssFix, GpsTime, Ned, SatelliteEpoch, Time, earth,
 };
-use insd_gnss::{Context, DopplerVelocity, Guess, OrbitRefusal, Ranged, Ranging, SinglePoint};
+use insd_gnss::{
+    Context, DopplerVelocity, Guess, OrbitRefusal, Ranged, Ranging, RtkLink, SinglePoint,
+};
 use insd_wire::gnss::navigation::Broadcast;
 use nalgebra::{Matrix3, Vector3};
 
@@ -20,10 +24,12 @@ pub(crate) struct Sky {
     pub(super) order: EpochOrder,
     /// When the first epoch came.
     pub(super) begun: Option<Time>,
-    /// Ranges whose instant on the ship's time line is not known yet.
-    pub(super) waiting: VecDeque<Ranged>,
+    /// Ranges whose instant on the ship's time line is not known yet, where there is a base with the epoch that they are of.
+    pub(super) waiting: VecDeque<(Ranged, Option<SatelliteEpoch>)>,
     context: Context,
     ranging: Ranging,
+    /// What its epochs come to against a base, once one is heard.
+    link: Option<Box<RtkLink>>,
     /// Where the receiver said last that its antenna is, ECEF, m; until an epoch has told it.
     antenna: Option<Vector3<f64>>,
     is_placed: bool,
@@ -98,6 +104,22 @@ impl Sky {
         let ranged = self.ranging.take(&self.context, epoch, Guess { antenna, turned: 0.0 });
         self.is_placed |= ranged.point.is_ok();
         ranged
+    }
+
+    /// An epoch of a base; gives what an epoch that has waited for it comes to.
+    pub(super) fn hear_base(&mut self, told: &Arc<BaseEpoch>) -> Option<RtkEpoch> {
+        self.link.get_or_insert_default().hear_base(&self.context, told)
+    }
+
+    /// What it takes to hold an epoch against a base, where there is one.
+    pub(super) fn kept(&self, epoch: &SatelliteEpoch) -> Option<SatelliteEpoch> {
+        self.link.as_ref().map(|_| epoch.clone())
+    }
+
+    /// What an epoch, or the one before, comes to against a base.
+    pub(super) fn against_base(&mut self, epoch: &SatelliteEpoch, time: Time) -> Vec<RtkEpoch> {
+        let Some(link) = &mut self.link else { return Vec::new() };
+        link.hear_rover(&self.context, epoch, time)
     }
 
     /// What is news of the orbits of the satellites of an epoch. One that has told none yet is no news.

@@ -208,6 +208,11 @@ fn is_sane(message: &Message) -> usize {
             codes.for_each(|code| finite(&[code]));
             5
         }
+        Message::Rtk(told) => {
+            let place = told.place.map(|place| place.antenna);
+            place.iter().for_each(|place| finite(&[Some(place.norm())]));
+            6
+        }
         Message::Ranges(ranges) => {
             let codes = ranges.ranges.iter().filter_map(|range| range.code);
             codes.for_each(|code| finite(&[Some(code.value), Some(code.variance)]));
