@@ -380,6 +380,7 @@ impl Estimator for EightState {
             },
             mode: Mode::InMotionAlignment,
             judgement: self.config.docket.judgement(),
+            hidden: insd_base::Protection::default(),
         }
     }
 

@@ -200,6 +200,7 @@ mod tests {
             },
             mode: Mode::DeadReckoning,
             judgement: insd_base::Judgement::default(),
+            hidden: insd_base::Protection::default(),
         }
     }
 

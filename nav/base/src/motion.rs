@@ -157,6 +157,7 @@ mod tests {
                 sigma: SolutionSigma { heading: 0.01, ..SolutionSigma::default() },
                 mode: Mode::Aided,
                 judgement: crate::Judgement::default(),
+                hidden: crate::Protection::default(),
             },
             acceleration: Some(Ned::new(-3.0, 0.0, 0.0)),
             covariance: None,

@@ -5,6 +5,7 @@ use nalgebra::{SVector, Vector3};
 use crate::attitude::Attitude;
 use crate::frames::{Body, Geodetic, Ned};
 use crate::party::Judgement;
+use crate::protection::Protection;
 use crate::time::Time;
 
 /// What the system is doing, as in the last column of `nav.csv`.
@@ -163,6 +164,8 @@ pub struct Solution {
     pub mode: Mode,
     /// What is made of the sensors' words.
     pub judgement: Judgement,
+    /// What faults that may be there, and that nobody has found, add to the protection levels, m.
+    pub hidden: Protection,
 }
 
 impl Solution {

@@ -24,6 +24,7 @@ fn solution(mode: Mode) -> Solution {
         rate: Body::default(),
         mode,
         judgement: insd_base::Judgement::default(),
+        hidden: insd_base::Protection::default(),
     }
 }
 

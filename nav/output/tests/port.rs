@@ -44,6 +44,7 @@ fn solution() -> Solution {
         },
         mode: Mode::Aided,
         judgement: insd_base::Judgement::default(),
+        hidden: insd_base::Protection::default(),
     }
 }
 
@@ -253,6 +254,7 @@ proptest! {
             },
             mode,
             judgement: insd_base::Judgement::default(),
+            hidden: insd_base::Protection::default(),
         };
         let manner = Manner { simulated, ..Manner::default() };
         let config = OutputPortConfig { manner, geoid_separation: Some(sn), ..bridge() };

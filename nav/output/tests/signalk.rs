@@ -33,6 +33,7 @@ fn solution(side: f64) -> Solution {
         },
         mode: Mode::Aided,
         judgement: insd_base::Judgement::default(),
+        hidden: insd_base::Protection::default(),
     }
 }
 

@@ -36,6 +36,7 @@ impl Estimator for Scribe {
             sigma: SolutionSigma::default(),
             mode: Mode::Inertial,
             judgement: insd_base::Judgement::default(),
+            hidden: insd_base::Protection::default(),
         }
     }
 

@@ -28,6 +28,7 @@ fn truth(seconds: f64) -> Motion {
             },
             mode: Mode::Aided,
             judgement: insd_base::Judgement::default(),
+            hidden: insd_base::Protection::default(),
         },
         acceleration: None,
         covariance: None,

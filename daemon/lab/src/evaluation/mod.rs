@@ -69,6 +69,7 @@ pub(crate) mod testing {
             },
             mode: Mode::Aided,
             judgement: insd_base::Judgement::default(),
+            hidden: insd_base::Protection::default(),
         }
     }
 

@@ -30,6 +30,7 @@ fn report(now: f64, heard: f64) -> Report {
         sigma: SolutionSigma::default(),
         mode: Mode::Aided,
         judgement: insd_base::Judgement::default(),
+        hidden: insd_base::Protection::default(),
     };
     let motion = Motion { solution, acceleration: None, covariance: None, current: None };
     Report {

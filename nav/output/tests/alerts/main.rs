@@ -39,5 +39,6 @@ fn solution(time: Time) -> Solution {
         },
         mode: Mode::Aided,
         judgement: insd_base::Judgement::default(),
+        hidden: insd_base::Protection::default(),
     }
 }

@@ -28,6 +28,7 @@ pub(crate) fn solution() -> Solution {
         },
         mode: Mode::Aided,
         judgement: insd_base::Judgement::default(),
+        hidden: insd_base::Protection::default(),
     }
 }
 

@@ -27,6 +27,7 @@ pub(crate) fn solution() -> Solution {
         },
         mode: Mode::Aided,
         judgement: Judgement { integrity: Integrity::Consistent, ..Judgement::default() },
+        hidden: insd_base::Protection::default(),
     }
 }
 

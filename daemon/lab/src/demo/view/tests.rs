@@ -28,6 +28,7 @@ fn solution(mode: Mode) -> Solution {
         },
         mode,
         judgement: insd_base::Judgement::default(),
+        hidden: insd_base::Protection::default(),
     }
 }
 
