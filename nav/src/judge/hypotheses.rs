@@ -64,7 +64,9 @@ impl Judge {
             let unsure = unsure((now - onset.since).as_seconds(), WORST);
             for (group, of) in ALL.iter().enumerate() {
                 let rate = rate(of.fault, model) / 3600.0;
-                let sized = (rate > 0.0).then(|| onset.sized(group, unsure)).flatten();
+                // who is not there does nothing
+                let is_there = rate > 0.0 && !onset.is_blind_to(group);
+                let sized = is_there.then(|| onset.sized(group, unsure)).flatten();
                 let Some(sized) = sized else { continue };
                 let [place, way] = onset.places(of, [POSITION, VELOCITY]);
                 open.push(Open {
@@ -74,16 +76,23 @@ impl Judge {
                 });
             }
         }
-        open.extend(self.shapeless(model));
+        open.extend(self.shapeless(now, model));
         weighed(open)
     }
 
-    /// Of those who do not believe one sensor, whatever it does.
-    fn shapeless<'a>(&'a self, model: &'a RiskModel) -> impl Iterator<Item = Open> + 'a {
-        self.dissenters.iter().map(|own| {
-            let rate = rate(Charge::shapeless(own.whom, 0.0).fault, model);
+    /// Of those who do not believe one sensor, whatever it does: since they have found likelier what is said than who believes all. What
+    /// a sensor has done for so short a time is no long-lived disbelief of it, so that one that has not shown yet counts with the
+    /// chance of now, and not with that of the exposure.
+    fn shapeless<'a>(
+        &'a self,
+        now: Time,
+        model: &'a RiskModel,
+    ) -> impl Iterator<Item = Open> + 'a {
+        self.dissenters.iter().filter(|own| own.success.gain > 0.0).map(move |own| {
+            let rate = rate(Charge::shapeless(own.whom, 0.0).fault, model) / 3600.0;
+            let age = (now - own.success.since).as_seconds().max(1.0);
             Open {
-                odds: model.chance(rate).ln() + own.success.gain,
+                odds: (rate * age).ln() + own.success.gain,
                 lasts: 1.0,
                 separation: Separation {
                     cause: ALL.len() + own.whom as usize,

@@ -136,6 +136,11 @@ impl Onset {
         value.dot(&self.evidence[group]) - 0.5 * value.dot(&(self.information[group] * value))
     }
 
+    /// Whether nothing that was heard since could have told of a fault of a group.
+    pub(super) fn is_blind_to(&self, group: usize) -> bool {
+        self.information[group] == Matrix3::zeros()
+    }
+
     /// What a unit of each component of a group has done to blocks of three states, a column for each component.
     pub(super) fn places(&self, group: &FaultGroup, blocks: [Block<3>; 2]) -> [Matrix3<f64>; 2] {
         let width = group.rows.len();
