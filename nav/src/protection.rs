@@ -170,7 +170,8 @@ mod tests {
     #[test]
     fn an_error_that_is_as_unsure_as_stated_is_beyond_its_level_no_more_often_than_the_risk() {
         // two components of one metre, uniform angle: beyond L with exp(-L^2 / 2)
-        let level = level(&mut vec![Hypothesis { cause: 0, chance: 1.0, apart: 0.0, std: 1.0 }], 1e-3);
+        let level =
+            level(&mut vec![Hypothesis { cause: 0, chance: 1.0, apart: 0.0, std: 1.0 }], 1e-3);
         assert!(((-0.5 * level * level).exp() - 1e-3).abs() < 1e-6, "{level}");
     }
 

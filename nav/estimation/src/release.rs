@@ -144,9 +144,8 @@ mod tests {
     #[test]
     fn nothing_is_released_that_is_not_there_or_was_not_held() {
         let (_, slow, p, _) = sailed([1.0, 1.0]);
-        let release = |key, state, free| {
-            Release::new(&p, key, &[(state, slow[0])], [1.0, free]).is_some()
-        };
+        let release =
+            |key, state, free| Release::new(&p, key, &[(state, slow[0])], [1.0, free]).is_some();
         assert!(release(SLOW.key(), 0, 2.0));
         assert!(!release(SLOW.key(), 0, 0.5) && !release(SLOW.key(), 2, 2.0));
         assert!(!release(Block::<2>::new(7).key(), 0, 2.0));

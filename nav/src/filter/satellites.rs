@@ -132,9 +132,8 @@ impl Satellites {
     pub(super) fn used(&self, now: Time) -> impl Iterator<Item = (usize, f64, SatelliteId)> + '_ {
         let all = self.slots.iter().enumerate();
         let all = all.filter_map(|(place, slot)| Some((place, slot.as_ref()?)));
-        let is_used = move |slot: &Slot| {
-            !slot.is_excluded() && (now - slot.seen).as_seconds() < FRESH
-        };
+        let is_used =
+            move |slot: &Slot| !slot.is_excluded() && (now - slot.seen).as_seconds() < FRESH;
         let used = all.filter(move |(_, slot)| is_used(slot));
         used.map(|(place, slot)| (place, slot.slow_std, slot.satellite))
     }

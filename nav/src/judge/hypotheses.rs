@@ -32,7 +32,9 @@ pub struct Separation {
 /// How often somebody begins to do this, 1/h: of all that he may do each is as likely.
 fn rate(fault: Fault, model: &RiskModel) -> f64 {
     let (rate, ways) = match (fault.party(), fault) {
-        (Party::Gnss, Fault::Jump | Fault::Height | Fault::GnssNoise) => (model.receiver_fails, 3.0),
+        (Party::Gnss, Fault::Jump | Fault::Height | Fault::GnssNoise) => {
+            (model.receiver_fails, 3.0)
+        }
         (Party::Gnss, _) => (model.receiver_deceived, 5.0),
         (Party::Log, _) => (model.log_fails, 4.0),
         (Party::Heading, _) => (model.heading_fails, 3.0),
@@ -83,11 +85,7 @@ impl Judge {
     /// Of those who do not believe one sensor, whatever it does: since they have found likelier what is said than who believes all. What
     /// a sensor has done for so short a time is no long-lived disbelief of it, so that one that has not shown yet counts with the
     /// chance of now, and not with that of the exposure.
-    fn shapeless<'a>(
-        &'a self,
-        now: Time,
-        model: &'a RiskModel,
-    ) -> impl Iterator<Item = Open> + 'a {
+    fn shapeless<'a>(&'a self, now: Time, model: &'a RiskModel) -> impl Iterator<Item = Open> + 'a {
         self.dissenters.iter().filter(|own| own.success.gain > 0.0).map(move |own| {
             let rate = rate(Charge::shapeless(own.whom, 0.0).fault, model) / 3600.0;
             let age = (now - own.success.since).as_seconds().max(1.0);
@@ -135,7 +133,12 @@ impl Place {
     }
 
     /// By a fault of a size that is not known better than its covariance, of which a unit does so much to place and velocity.
-    fn moved(&self, place: &Matrix3<f64>, way: &Matrix3<f64>, sized: &super::onset::Sized) -> Separation {
+    fn moved(
+        &self,
+        place: &Matrix3<f64>,
+        way: &Matrix3<f64>,
+        sized: &super::onset::Sized,
+    ) -> Separation {
         let size = sized.covariance();
         Separation {
             cause: 0,
