@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 use crate::disturbance::{PrefilterConfig, WhiteningConfig};
 use crate::floors::Floors;
 use crate::judge::Docket;
+use crate::protection::RiskModel;
 
 /// Gyros with a larger turn-on bias than this, rad/s, are coarse: they do not find north on their own, and are no judges
 /// of a receiver.
@@ -136,6 +137,8 @@ pub struct Models {
     pub whitening: WhiteningConfig,
     /// The receiver of ranges.
     pub ranges: RangeModel,
+    /// The risk of protection levels.
+    pub risk: RiskModel,
 }
 
 /// The receiver that ranges of satellites come from.
@@ -226,6 +229,8 @@ pub struct NavConfig {
     pub whitening: WhiteningConfig,
     /// The receiver of ranges.
     pub ranges: RangeModel,
+    /// The risk of protection levels.
+    pub risk: RiskModel,
     /// Longest interval between propagations of the covariance, s.
     pub covariance_interval: f64,
     /// How far everybody is believed at the begin.
@@ -258,6 +263,7 @@ impl NavConfig {
             prefilter: models.prefilter,
             whitening: models.whitening,
             ranges: models.ranges,
+            risk: models.risk,
             covariance_interval: 0.1,
             docket: Docket::default(),
         }

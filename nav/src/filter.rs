@@ -19,7 +19,7 @@ use crate::nominal::Nominal;
 use crate::propagation::Regime;
 use crate::report::{Outcome, Report};
 use crate::separate_bias::SeparateBias;
-use crate::solution_sigma::{solution_covariance, solution_sigma};
+use crate::solution_sigma::solution_covariance;
 use crate::strapdown;
 use crate::timeline::Estimator;
 use conduct::Conduct;
@@ -57,6 +57,7 @@ mod mode;
 mod moored;
 mod motion;
 mod others;
+mod protected;
 mod ranges;
 mod receiver;
 mod receivers;
@@ -350,9 +351,6 @@ impl Estimator for Filter {
 
     fn solution(&self) -> Solution {
         let (view, acceleration) = self.dated_view();
-        let sigma = solution_sigma(&view, &acceleration, &self.dating(), &self.state.covariance);
-        let sigma = self.with_base_error(sigma);
-        let sigma = self.court.covered.map_or(sigma, |covered| sigma.greatest(&covered));
         let v_n = view.v_n();
         let turn_of_n = view.c_nb().transpose() * earth::transport_rate(&view.geodetic, &v_n);
         Solution {
@@ -361,10 +359,11 @@ impl Estimator for Filter {
             velocity: Ned(v_n),
             attitude: view.attitude(),
             rate: Body(view.rate - turn_of_n),
-            sigma,
+            sigma: self.claimed_sigma(&view, &acceleration),
             mode: self.mode(),
             judgement: self.judgement(),
             source: self.source(),
+            hidden: self.court.hidden.at(self.state.time),
         }
     }
 

@@ -32,6 +32,7 @@ pub mod nominal;
 pub mod own_word;
 pub mod pace;
 pub mod propagation;
+pub mod protection;
 mod receiver_clock;
 pub mod report;
 pub mod sea_state;

@@ -381,6 +381,7 @@ impl Estimator for EightState {
             mode: Mode::InMotionAlignment,
             judgement: self.config.docket.judgement(),
             source: None,
+            hidden: insd_base::Protection::default(),
         }
     }
 

@@ -1,12 +1,13 @@
 //! How a port speaks of quality, in the units of a configuration file.
 
+use insd_base::Requirement;
 use insd_base::units::DEG;
 use insd_output::Policy;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Limits of a port that differ from the usual ones, all of them 1-sigma; see [`Policy`].
-#[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PolicySection {
     /// Position: RTK fixed (4, R), m.
@@ -35,6 +36,9 @@ pub struct PolicySection {
     pub course_deg: Option<f64>,
     /// Speed below which there is no course, m/s.
     pub least_speed_mps: Option<f64>,
+    /// Whose alert limit the protection level is held against, by name: `ocean`, `harbour`, `coastal`, `port`, `docking`, `circ1575-a` to
+    /// `circ1575-d`. `alert_limit_m` goes before it.
+    pub requirement: Option<String>,
     /// Horizontal alert limit that the protection level in PINSD,PRO is held against, m.
     pub alert_limit_m: Option<f64>,
 }
@@ -70,7 +74,9 @@ impl PolicySection {
         policy.estimated_without_gnss = gnss.unwrap_or(policy.estimated_without_gnss);
         let valid = self.estimated_is_valid;
         policy.estimated_is_valid = valid.unwrap_or(policy.estimated_is_valid);
-        policy.alert_limit = self.alert_limit_m.or(policy.alert_limit);
+        let named = self.requirement.as_deref().and_then(Requirement::by_name);
+        let required = named.map(|own| own.alert_limit);
+        policy.alert_limit = self.alert_limit_m.or(required).or(policy.alert_limit);
         policy
     }
 
@@ -96,6 +102,12 @@ impl PolicySection {
             .filter(|(_, value, most)| value.is_some_and(|value| !(0.0..=*most).contains(&value)));
         let mut faults: Vec<String> =
             wrong.map(|(key, _, most)| format!("policy: {key}: expected 0 to {most}")).collect();
+        if let Some(name) = &self.requirement
+            && Requirement::by_name(name).is_none()
+        {
+            let names = Requirement::names();
+            faults.push(format!("policy: requirement: expected one of {names}, not {name}"));
+        }
         let position = self.policy(Policy::default()).position;
         let order = [
             position.rtk_fixed,

@@ -74,6 +74,7 @@ impl Relay {
             mode: Mode::Standby,
             judgement: insd_base::Judgement::default(),
             source: None,
+            hidden: insd_base::Protection::default(),
         };
         let motion = Motion { solution, acceleration: None, covariance: None, current: None };
         Some(motion.at(self.latest.max(fix.time)))

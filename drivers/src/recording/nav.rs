@@ -203,6 +203,7 @@ mod tests {
             mode: Mode::DeadReckoning,
             judgement: insd_base::Judgement::default(),
             source: Some(SolutionSource::DeadReckoning),
+            hidden: insd_base::Protection::default(),
         }
     }
 

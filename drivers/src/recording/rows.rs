@@ -273,6 +273,7 @@ pub(super) fn solution(fields: &Fields<'_>) -> Result<Solution, BadRow> {
         mode: mode.ok_or_else(|| fields.bad(19, RowFault::UnknownWord))?,
         judgement: insd_base::Judgement::default(),
         source: None,
+        hidden: insd_base::Protection::default(),
     })
 }
 

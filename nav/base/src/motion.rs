@@ -158,6 +158,7 @@ mod tests {
                 mode: Mode::Aided,
                 judgement: crate::Judgement::default(),
                 source: None,
+                hidden: crate::Protection::default(),
             },
             acceleration: Some(Ned::new(-3.0, 0.0, 0.0)),
             covariance: None,

@@ -1,7 +1,7 @@
 //! How far wrong a position may be, and whether it may be relied on.
 
 use crate::party::Integrity;
-use crate::solution::Solution;
+use crate::solution::{Solution, SolutionSigma};
 
 /// Sigmas that are a protection level, for a risk of 1e-5 in three hours of errors that last five minutes: 2.8e-7
 /// each. The horizontal one is of the sum of both components, which is no less than that along any direction.
@@ -11,12 +11,30 @@ const VERTICAL: f64 = 5.2;
 const ALERT_LIMIT: f64 = 25.0;
 
 /// Errors of a position are below these, but for the risk.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Protection {
     /// The horizontal error, m.
     pub horizontal: f64,
     /// The error of the height, m.
     pub vertical: f64,
+}
+
+impl Protection {
+    /// Where nobody lies: by 1-sigma of each component.
+    #[must_use]
+    pub fn of(sigma: &SolutionSigma) -> Self {
+        let sigma = &sigma.position.0;
+        Protection { horizontal: HORIZONTAL * sigma.xy().norm(), vertical: VERTICAL * sigma.z }
+    }
+
+    /// Both added.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        Protection {
+            horizontal: self.horizontal + other.horizontal,
+            vertical: self.vertical + other.vertical,
+        }
+    }
 }
 
 /// Whether a position may be relied on, as in the column `integrity` of `nav.csv`.
@@ -53,11 +71,10 @@ impl Availability {
 }
 
 impl Solution {
-    /// How far wrong the position may be, by what it claims of itself.
+    /// How far wrong the position may be, by what it claims of itself and what may be wrong that nobody has found.
     #[must_use]
     pub fn protection(&self) -> Protection {
-        let sigma = &self.sigma.position.0;
-        Protection { horizontal: HORIZONTAL * sigma.xy().norm(), vertical: VERTICAL * sigma.z }
+        Protection::of(&self.sigma).plus(&self.hidden)
     }
 
     /// Whether the position may be relied on. Where nobody compares the sensors its own claim decides.

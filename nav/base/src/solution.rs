@@ -5,6 +5,7 @@ use nalgebra::{SVector, Vector3};
 use crate::attitude::Attitude;
 use crate::frames::{Body, Geodetic, Ned};
 use crate::party::Judgement;
+use crate::protection::Protection;
 use crate::time::Time;
 
 /// What the system is doing, as in the last column of `nav.csv`.
@@ -205,6 +206,8 @@ pub struct Solution {
     pub judgement: Judgement,
     /// The best source in use; `None` before the ship navigates.
     pub source: Option<SolutionSource>,
+    /// What faults that may be there, and that nobody has found, add to the protection levels, m.
+    pub hidden: Protection,
 }
 
 impl Solution {

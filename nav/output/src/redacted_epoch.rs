@@ -3,7 +3,7 @@
 use insd_base::geoid::undulation;
 use insd_base::{
     AlignmentStatus, Attitude, Body, DelayedHeave, FixQuality, Geodetic, Heave, HeaveQuality,
-    Judgement, Mode, Ned, Solution, SolutionSigma, Span, Time, UtcTime,
+    Judgement, Mode, Ned, Protection, Solution, SolutionSigma, Span, Time, UtcTime,
 };
 use insd_n2k::pgn::{Sid, TimeSource};
 use insd_wire::nmea::{AlertEntry, CivilTime, HeadingMode, PositionMode};
@@ -281,6 +281,12 @@ impl<'a> RedactedEpoch<'a> {
     pub(crate) fn position_sigma(&self) -> Option<Ned> {
         self.position()?;
         self.told.solution.map(|solution| solution.sigma.position)
+    }
+
+    /// What faults that nobody has found add to the protection levels of the position, m.
+    pub(crate) fn hidden(&self) -> Option<Protection> {
+        self.position()?;
+        self.told.solution.map(|solution| solution.hidden)
     }
 
     /// 1-sigma of everything, of whatever quality it is.

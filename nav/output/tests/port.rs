@@ -45,6 +45,7 @@ fn solution() -> Solution {
         mode: Mode::Aided,
         judgement: insd_base::Judgement::default(),
         source: None,
+        hidden: insd_base::Protection::default(),
     }
 }
 
@@ -255,6 +256,7 @@ proptest! {
             mode,
             judgement: insd_base::Judgement::default(),
             source: None,
+            hidden: insd_base::Protection::default(),
         };
         let manner = Manner { simulated, ..Manner::default() };
         let config = OutputPortConfig { manner, geoid_separation: Some(sn), ..bridge() };

@@ -34,6 +34,7 @@ fn solution(side: f64) -> Solution {
         mode: Mode::Aided,
         judgement: insd_base::Judgement::default(),
         source: None,
+        hidden: insd_base::Protection::default(),
     }
 }
 

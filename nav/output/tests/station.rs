@@ -34,6 +34,7 @@ fn turning(time: Time) -> Situation {
             mode: Mode::Aided,
             judgement: insd_base::Judgement::default(),
             source: None,
+            hidden: insd_base::Protection::default(),
         },
         acceleration: Some(Ned::new(-3.49 * sin, 3.49 * cos, 0.0)),
         covariance: Some(insd_base::MotionCovariance::zeros()),

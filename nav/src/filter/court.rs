@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use insd_base::{SolutionSigma, Time};
 
+use super::protected::Hidden;
 use crate::error_state::Errors;
 use crate::increments::Increment;
 use crate::judge::Judge;
@@ -27,6 +28,8 @@ pub(super) struct Court {
     pub(super) owed: Errors,
     /// Sigmas that cover all that may be, while somebody may lie.
     pub(super) covered: Option<SolutionSigma>,
+    /// What faults that nobody has found add to the protection levels.
+    pub(super) hidden: Hidden,
 }
 
 impl Court {
@@ -40,6 +43,7 @@ impl Court {
             unjudged: Stretch::new(),
             owed: Errors::none(),
             covered: None,
+            hidden: Hidden::default(),
         }
     }
 

@@ -270,6 +270,7 @@ impl Filter {
             self.restart_judge();
         }
         self.court.covered = self.cover();
+        self.protect();
     }
 
     /// A compass that drifts and coarse gyros that do are alike, and what was known of their biases came from it: it is known no better than

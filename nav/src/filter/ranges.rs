@@ -86,6 +86,7 @@ impl Filter {
         self.begin_arcs(&seated);
         self.use_phases(&seated, (told, source), report);
         self.use_rates(&seated, (told, source), report);
+        self.protect_at_epochs();
     }
 
     /// Ranges are not for a ship whose receiver is left out, nor, good to millimetres as they are, for an antenna of which nobody knows the place.

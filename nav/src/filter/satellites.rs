@@ -19,6 +19,8 @@ const FRESH: f64 = 5.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slot {
     satellite: SatelliteId,
+    /// 1-sigma of its slow error, m.
+    slow_std: f64,
     seen: Time,
     /// The arc whose constant is estimated.
     pub(super) arc: Option<u32>,
@@ -116,16 +118,27 @@ impl Satellites {
         self.slots.resize(SATELLITES, None);
         let own = |slot: &Option<Slot>| slot.is_some_and(|slot| slot.satellite == range.satellite);
         if let Some(place) = self.slots.iter().position(own) {
-            self.slots[place].iter_mut().for_each(|slot| slot.seen = now);
+            let seen = |slot: &mut Slot| (slot.seen, slot.slow_std) = (now, range.slow_std);
+            self.slots[place].iter_mut().for_each(seen);
             return Some((place, false));
         }
         let is_free = |slot: &Option<Slot>| {
             slot.is_none_or(|slot| (now - slot.seen).as_seconds() > FORGOTTEN)
         };
         let place = self.slots.iter().position(is_free)?;
-        let satellite = range.satellite;
-        self.slots[place] = Some(Slot { satellite, seen: now, arc: None, out: None });
+        let SatelliteRange { satellite, slow_std, .. } = *range;
+        self.slots[place] = Some(Slot { satellite, slow_std, seen: now, arc: None, out: None });
         Some((place, true))
+    }
+
+    /// Those that are used now: place, 1-sigma of the slow error, m, and name.
+    pub(super) fn used(&self, now: Time) -> impl Iterator<Item = (usize, f64, SatelliteId)> + '_ {
+        let all = self.slots.iter().enumerate();
+        let all = all.filter_map(|(place, slot)| Some((place, slot.as_ref()?)));
+        let is_used =
+            move |slot: &Slot| !slot.is_excluded() && (now - slot.seen).as_seconds() < FRESH;
+        let used = all.filter(move |(_, slot)| is_used(slot));
+        used.map(|(place, slot)| (place, slot.slow_std, slot.satellite))
     }
 
     /// What becomes of a satellite that has a range.

@@ -37,7 +37,7 @@ const PLAIN: f64 = 0.9;
 const QUICK: f64 = 60.0;
 /// What no model knows adds up: after so long, s, evidence is worth half, and in the end so many times less.
 const LONG: f64 = 60.0;
-const WORST: f64 = 4.0;
+pub(super) const WORST: f64 = 4.0;
 /// The same of a compass: its slow error is a state of its own, and only the gyros stand between its words.
 const WORST_OF_HEADING: f64 = 1.5;
 /// The same where a receiver contradicts itself, its position its velocity: no model of the ship stands between them.
@@ -398,7 +398,7 @@ fn most_evident(all: &[Charge]) -> Option<&Charge> {
 }
 
 /// How many times as uncertain as stated innovations are that have added up for so long, s, as variances.
-fn unsure(age: f64, worst: f64) -> f64 {
+pub(super) fn unsure(age: f64, worst: f64) -> f64 {
     (1.0 + age / LONG).min(worst)
 }
 

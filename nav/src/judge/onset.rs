@@ -15,7 +15,7 @@ use insd_base::{Party, Time};
 use nalgebra::{Cholesky, Matrix3, Vector3};
 
 use super::rows::{self, ALL, Direct, FaultGroup, GROUPS};
-use crate::error_state::{Covariance, Effects, Errors, Weighed};
+use crate::error_state::{Block, Covariance, Effects, Errors, Weighed};
 
 /// What may have begun at an instant.
 #[derive(Clone, Debug)]
@@ -47,6 +47,11 @@ pub(super) struct Sized {
 const ATHWART: f64 = 4.0;
 
 impl Sized {
+    /// How well its components are known; those that a group has not are of no account.
+    pub(super) fn covariance(&self) -> Matrix3<f64> {
+        self.covariance
+    }
+
     /// Gyros that began to tilt her at another moment than an onset there is for: what that does to her velocity is what a turn does,
     /// and the turn that is found is no better known than that.
     pub(super) fn untimed(mut self) -> Self {
@@ -129,6 +134,24 @@ impl Onset {
     /// The logarithm of the ratio of likelihoods of a fault of a group that has such a size, with it over without.
     pub(super) fn odds(&self, group: usize, value: &Vector3<f64>) -> f64 {
         value.dot(&self.evidence[group]) - 0.5 * value.dot(&(self.information[group] * value))
+    }
+
+    /// Whether nothing that was heard since could have told of a fault of a group.
+    pub(super) fn is_blind_to(&self, group: usize) -> bool {
+        self.information[group] == Matrix3::zeros()
+    }
+
+    /// What a unit of each component of a group has done to blocks of three states, a column for each component.
+    pub(super) fn places(&self, group: &FaultGroup, blocks: [Block<3>; 2]) -> [Matrix3<f64>; 2] {
+        let width = group.rows.len();
+        blocks.map(|block| {
+            let mut of = Matrix3::zeros();
+            if let Some(start) = self.effects.layout().start(block.key()) {
+                let rows = self.effects.matrix().view((group.rows.start, start), (width, 3));
+                of.columns_mut(0, width).copy_from(&rows.transpose());
+            }
+            of
+        })
     }
 
     /// What such a fault has done to the errors; the covariance of theirs is as much wider as its size is not known.

@@ -37,6 +37,7 @@ impl Estimator for Scribe {
             mode: Mode::Inertial,
             judgement: insd_base::Judgement::default(),
             source: None,
+            hidden: insd_base::Protection::default(),
         }
     }
 

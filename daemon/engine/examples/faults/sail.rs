@@ -11,7 +11,7 @@ pub(crate) struct Row {
     pub(crate) time: f64,
     /// Horizontal error, m.
     pub(crate) off: f64,
-    /// What it is claimed to be below, m.
+    /// Its protection level, m.
     pub(crate) level: f64,
     /// Error of the heading, and its claimed 1-sigma, rad.
     pub(crate) heading: (f64, f64),
@@ -24,9 +24,6 @@ pub(crate) struct Row {
     /// Distance run, m.
     pub(crate) run: f64,
 }
-
-/// Sigmas that are the level where no protection level is told.
-const LEVEL: f64 = 5.0;
 
 /// Sails a voyage; `honest` is the same without lies.
 pub(crate) fn sail(voyage: &Voyage, honest: &Voyage) -> Vec<Row> {
@@ -100,7 +97,7 @@ fn row(solution: &insd_base::Solution, truth: &Truth) -> Row {
     Row {
         time: solution.time.as_seconds(),
         off,
-        level: LEVEL * solution.sigma.position.0.xy().norm(),
+        level: solution.protection().horizontal,
         heading: (heading, solution.sigma.heading),
         told: !matches!(solution.mode, Mode::Fault | Mode::Standby | Mode::CoarseAlignment)
             && solution.judgement.integrity != Integrity::Contradiction,

@@ -195,6 +195,7 @@ mod tests {
             sigma: SolutionSigma::default(),
             mode,
             judgement,
+            hidden: insd_base::Protection::default(),
         }
     }
 

@@ -29,6 +29,7 @@ fn truth(seconds: f64) -> Motion {
             mode: Mode::Aided,
             judgement: insd_base::Judgement::default(),
             source: None,
+            hidden: insd_base::Protection::default(),
         },
         acceleration: None,
         covariance: None,

@@ -70,6 +70,7 @@ pub(crate) mod testing {
             mode: Mode::Aided,
             judgement: insd_base::Judgement::default(),
             source: None,
+            hidden: insd_base::Protection::default(),
         }
     }
 

@@ -31,6 +31,7 @@ fn report(now: f64, heard: f64) -> Report {
         mode: Mode::Aided,
         judgement: insd_base::Judgement::default(),
         source: None,
+        hidden: insd_base::Protection::default(),
     };
     let motion = Motion { solution, acceleration: None, covariance: None, current: None };
     Report {

@@ -91,8 +91,9 @@ fn alignment(said: &RedactedEpoch<'_>, _: Talker) -> Option<Content> {
 
 fn protection(said: &RedactedEpoch<'_>) -> Line {
     let axes = axes(said);
-    let horizontal = axes.map(|(major, _)| major * rayleigh(EXPONENT));
-    let vertical = said.position_sigma().map(|sigma| sigma.0.z * VERTICAL);
+    let hidden = said.hidden().unwrap_or_default();
+    let horizontal = axes.map(|(major, _)| major * rayleigh(EXPONENT) + hidden.horizontal);
+    let vertical = said.position_sigma().map(|sigma| sigma.0.z * VERTICAL + hidden.vertical);
     let alert_limit = said.alert_limit();
     Pinsd::Protection(PinsdProtection {
         time: utc(said),

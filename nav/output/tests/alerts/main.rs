@@ -40,5 +40,6 @@ fn solution(time: Time) -> Solution {
         mode: Mode::Aided,
         judgement: insd_base::Judgement::default(),
         source: None,
+        hidden: insd_base::Protection::default(),
     }
 }

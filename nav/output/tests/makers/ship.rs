@@ -89,6 +89,7 @@ pub(crate) fn leaned(side: f64) -> OutputEpoch {
         mode: Mode::Aided,
         judgement: Judgement { integrity: Integrity::Consistent, ..Judgement::default() },
         source: None,
+        hidden: insd_base::Protection::default(),
     };
     let heave = Heave {
         time: now(),

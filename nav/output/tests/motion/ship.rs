@@ -29,6 +29,7 @@ pub(crate) fn solution() -> Solution {
         mode: Mode::Aided,
         judgement: insd_base::Judgement::default(),
         source: None,
+        hidden: insd_base::Protection::default(),
     }
 }
 

@@ -28,6 +28,7 @@ pub(crate) fn solution() -> Solution {
         mode: Mode::Aided,
         judgement: Judgement { integrity: Integrity::Consistent, ..Judgement::default() },
         source: None,
+        hidden: insd_base::Protection::default(),
     }
 }
 

@@ -29,6 +29,7 @@ fn solution(mode: Mode) -> Solution {
         mode,
         judgement: insd_base::Judgement::default(),
         source: None,
+        hidden: insd_base::Protection::default(),
     }
 }
 

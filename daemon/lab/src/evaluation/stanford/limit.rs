@@ -2,21 +2,9 @@
 
 use std::str::FromStr;
 
+use insd_base::Requirement;
 use serde::Serialize;
 
-/// Requirements that have a name: the name, who asks, the alert limit, the accuracy (95 %), both horizontal, m.
-/// IMO A.1046(27) and MSC.1/Circ.1575 name an accuracy and no alert limit: it is taken for one.
-const NAMED: [(&str, &str, f64, f64); 9] = [
-    ("ocean", "IMO A.1046(27), ocean", 100.0, 100.0),
-    ("harbour", "IMO A.1046(27), harbour entrances", 10.0, 10.0),
-    ("coastal", "IMO A.915(22), coast, approaches and inland waterways", 25.0, 10.0),
-    ("port", "IMO A.915(22), port", 2.5, 1.0),
-    ("docking", "IMO A.915(22), automatic docking", 0.25, 0.1),
-    ("circ1575-a", "MSC.1/Circ.1575, level A", 100.0, 100.0),
-    ("circ1575-b", "MSC.1/Circ.1575, level B", 10.0, 10.0),
-    ("circ1575-c", "MSC.1/Circ.1575, level C", 1.0, 1.0),
-    ("circ1575-d", "MSC.1/Circ.1575, level D", 0.1, 0.1),
-];
 /// Alert limits that make sense, m.
 const RANGE: std::ops::RangeInclusive<f64> = 0.001..=100_000.0;
 
@@ -31,29 +19,19 @@ pub struct AlertLimit {
     pub accuracy_m: Option<f64>,
 }
 
-impl AlertLimit {
-    /// The names that are known, with their limits, for people.
-    #[must_use]
-    pub fn names() -> String {
-        let names = NAMED.map(|(name, _, limit, _)| format!("{name} ({limit} m)"));
-        names.join(", ")
-    }
-}
-
 impl FromStr for AlertLimit {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let named = NAMED.iter().find(|(name, ..)| *name == text);
-        if let Some((_, requirement, limit_m, accuracy_m)) = named {
-            let (requirement, accuracy_m) = (Some(*requirement), Some(*accuracy_m));
-            return Ok(AlertLimit { limit_m: *limit_m, requirement, accuracy_m });
+        if let Some(own) = Requirement::by_name(text) {
+            let (requirement, accuracy_m) = (Some(own.authority), Some(own.accuracy));
+            return Ok(AlertLimit { limit_m: own.alert_limit, requirement, accuracy_m });
         }
         match text.parse::<f64>() {
             Ok(limit_m) if RANGE.contains(&limit_m) => {
                 Ok(AlertLimit { limit_m, requirement: None, accuracy_m: None })
             }
-            _ => Err(format!("expected a number of metres, or one of {}", AlertLimit::names())),
+            _ => Err(format!("expected a number of metres, or one of {}", Requirement::names())),
         }
     }
 }

@@ -1,0 +1,168 @@
+//! What faults that nobody has found add to the protection levels, once a second: the filter as it would be without each.
+
+use insd_base::satellites::{Constellation, time_keeper};
+use insd_base::{Protection, SolutionSigma, Time};
+use insd_estimation::Release;
+use nalgebra::{Matrix3, Vector3};
+
+use super::Filter;
+use crate::aids::View;
+use crate::error_state::{POSITION, RANGE_ERRORS, SATELLITES, VELOCITY};
+use crate::judge::Separation;
+use crate::protection::{Hypothesis, RiskModel, level};
+use crate::solution_sigma::solution_sigma;
+
+/// How wrong a satellite may be, 1-sigma, m: its clock or orbit, or a signal that came by way of a reflection.
+const WRONG_RANGE: f64 = 50.0;
+/// Causes of the judge are below this.
+const BY_SATELLITE: usize = 1000;
+/// Levels are worked out so far ahead, s: until then the next ones are.
+const AHEAD: f64 = 1.0;
+
+/// What is hidden, as of an instant.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Hidden {
+    as_of: Option<Time>,
+    /// What it adds to the levels until [`AHEAD`], m.
+    adds: Protection,
+    /// How fast that grows from then on, m/s.
+    grows: Protection,
+}
+
+impl Hidden {
+    fn is_due(&self, now: Time) -> bool {
+        self.as_of.is_none_or(|as_of| (now - as_of).as_seconds() > 0.95 * AHEAD)
+    }
+
+    /// What it adds to the levels at an instant, m.
+    pub(super) fn at(&self, now: Time) -> Protection {
+        let age = self.as_of.map_or(0.0, |as_of| (now - as_of).as_seconds() - AHEAD).max(0.0);
+        let Hidden { adds, grows, .. } = self;
+        Protection {
+            horizontal: adds.horizontal + age * grows.horizontal,
+            vertical: adds.vertical + age * grows.vertical,
+        }
+    }
+}
+
+impl Filter {
+    /// Works out anew what faults that nobody has found add to the levels.
+    pub(super) fn protect(&mut self) {
+        let model = self.config.risk;
+        let separations = match &self.companion {
+            Some(companion) => self.separations_beside(companion, &model),
+            None => {
+                let judge = self.court.judge.as_deref();
+                judge.map_or_else(Vec::new, |judge| judge.separations(self.state.time, &model))
+            }
+        };
+        let (view, acceleration) = self.dated_view();
+        let claimed = self.claimed_sigma(&view, &acceleration);
+        let free = Protection::of(&claimed);
+        let [first, second] = [AHEAD, 2.0 * AHEAD].map(|ahead| {
+            let own = levels((&claimed, &view.c_ne), &separations, &model, ahead);
+            Protection {
+                horizontal: (own.horizontal - free.horizontal).max(0.0),
+                vertical: (own.vertical - free.vertical).max(0.0),
+            }
+        });
+        let grows = Protection {
+            horizontal: (second.horizontal - first.horizontal).max(0.0) / AHEAD,
+            vertical: (second.vertical - first.vertical).max(0.0) / AHEAD,
+        };
+        self.court.hidden = Hidden { as_of: Some(self.state.time), adds: first, grows };
+    }
+
+    /// The same after an epoch of ranges, no more often than levels are worked out ahead.
+    pub(super) fn protect_at_epochs(&mut self) {
+        if self.court.hidden.is_due(self.state.time) {
+            self.protect();
+        }
+    }
+
+    /// 1-sigma that the filter claims of its solution.
+    pub(super) fn claimed_sigma(&self, view: &View, acceleration: &Vector3<f64>) -> SolutionSigma {
+        let own = solution_sigma(view, acceleration, &self.dating(), &self.state.covariance);
+        let own = self.with_base_error(own);
+        self.court.covered.map_or(own, |covered| own.greatest(&covered))
+    }
+
+    /// Where ranges are in use: what the companion's judge has of everybody, whose estimate is apart from this one; and each satellite, and all of a
+    /// constellation.
+    fn separations_beside(&self, companion: &Filter, model: &RiskModel) -> Vec<Separation> {
+        let now = self.state.time;
+        let own = &self.state.nominal;
+        let apart = companion.state.nominal.position - own.position;
+        let growth = companion.state.nominal.velocity - own.velocity;
+        let mut all = companion
+            .court
+            .judge
+            .as_deref()
+            .map_or_else(Vec::new, |judge| judge.separations(now, model));
+        for one in &mut all {
+            one.apart += apart;
+            one.growth += growth;
+        }
+        let used: Vec<_> = self.satellites.used(now).collect();
+        for (at, slow, satellite) in &used {
+            all.extend(self.without(&[*at], *slow, model.chance(model.satellite_fails)));
+            let keeper = time_keeper(satellite.constellation);
+            let of_one: Vec<usize> = used
+                .iter()
+                .filter(|(_, _, other)| time_keeper(other.constellation) == keeper)
+                .map(|(at, ..)| *at)
+                .collect();
+            // once for each constellation: at the first of its satellites
+            if keeper != Constellation::Gps && of_one.first() == Some(at) {
+                all.extend(self.without(&of_one, *slow, model.chance(model.constellation_fails)));
+            }
+        }
+        all
+    }
+
+    /// The filter in which the codes of some satellites, by their places, may be wrong by [`WRONG_RANGE`].
+    fn without(&self, places: &[usize], slow: f64, chance: f64) -> Option<Separation> {
+        let errors = &self.state.nominal.range_errors;
+        let of: Vec<_> = places.iter().map(|at| (*at, errors[*at])).collect();
+        let p = &self.state.covariance;
+        let free = WRONG_RANGE / slow.max(1e-3);
+        let release = Release::new(p, RANGE_ERRORS.key(), &of, [1.0, free])?;
+        let more: Matrix3<f64> = release.more(POSITION);
+        Some(Separation {
+            cause: BY_SATELLITE + SATELLITES * (places.len() - 1) + places.first()?,
+            chance: (chance * release.log_factor.exp()).min(1.0),
+            apart: release.apart(POSITION),
+            growth: release.apart(VELOCITY),
+            covariance: POSITION.covariance(p) + more,
+            spreading: VELOCITY.covariance(p) + release.more(VELOCITY),
+        })
+    }
+}
+
+/// The levels at so many seconds from now, of what is claimed where nobody lies, and of all that may be.
+fn levels(
+    (claimed, c_ne): (&SolutionSigma, &Matrix3<f64>),
+    separations: &[Separation],
+    model: &RiskModel,
+    ahead: f64,
+) -> Protection {
+    let claimed = &claimed.position.0;
+    let chance = model.renewals();
+    let free = |std| Hypothesis { cause: usize::MAX, chance, apart: 0.0, std };
+    let mut horizontal = vec![free(claimed.xy().norm())];
+    let mut vertical = vec![free(claimed.z)];
+    for own in separations {
+        let apart = c_ne * (own.apart + own.growth * ahead);
+        let wide = own.covariance + own.spreading * (ahead * ahead);
+        let variance = (c_ne * wide * c_ne.transpose()).diagonal().map(|own| own.max(0.0));
+        let Separation { cause, chance, .. } = *own;
+        let std = (variance.x + variance.y).sqrt();
+        horizontal.push(Hypothesis { cause, chance, apart: apart.xy().norm(), std });
+        let std = variance.z.sqrt();
+        vertical.push(Hypothesis { cause, chance, apart: apart.z.abs(), std });
+    }
+    Protection {
+        horizontal: level(&mut horizontal, model.risk),
+        vertical: level(&mut vertical, model.risk),
+    }
+}

@@ -1,0 +1,152 @@
+//! Everything that somebody may be doing without being found to, with what that makes of the place: for protection levels.
+//!
+//! Verdicts ask what is likeliest; a level asks how far wrong she may be with a risk. So nothing is left out here for being small or unlikely, and how often
+//! anybody lies is what a [`RiskModel`] says, not what the judge supposes, who would rather suspect somebody too often.
+
+use insd_base::{Fault, Party, Time};
+use nalgebra::{Matrix3, Vector3};
+
+use super::Judge;
+use super::charge::{Charge, WORST, unsure};
+use super::rows::ALL;
+use crate::error_state::{Covariance, Errors, POSITION, VELOCITY};
+use crate::protection::RiskModel;
+
+/// Something that may be so, and what it makes of the place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Separation {
+    /// What it is: the same fault that began at other instants is one cause.
+    pub cause: usize,
+    /// Chance that it is so within the exposure, by what is said.
+    pub chance: f64,
+    /// What the navigator's estimate lacks to what that would be, ECEF, m; and how fast that grows, m/s.
+    pub apart: Vector3<f64>,
+    /// Its growth, m/s.
+    pub growth: Vector3<f64>,
+    /// Covariance of the error of that estimate, ECEF, m^2.
+    pub covariance: Matrix3<f64>,
+    /// Of the error of its velocity, (m/s)^2.
+    pub spreading: Matrix3<f64>,
+}
+
+/// How often somebody begins to do this, 1/h: of all that he may do each is as likely.
+fn rate(fault: Fault, model: &RiskModel) -> f64 {
+    let (rate, ways) = match (fault.party(), fault) {
+        (Party::Gnss, Fault::Jump | Fault::Height | Fault::GnssNoise) => {
+            (model.receiver_fails, 3.0)
+        }
+        (Party::Gnss, _) => (model.receiver_deceived, 5.0),
+        (Party::Log, _) => (model.log_fails, 4.0),
+        (Party::Heading, _) => (model.heading_fails, 3.0),
+        (Party::Imu, _) => (model.imu_fails, 3.0),
+        (Party::Reference, _) => (model.receiver_fails, 3.0),
+        // no estimate takes anything of a receiver that is only compared
+        (Party::Gnss2 | Party::Gnss3, _) => (0.0, 1.0),
+    };
+    rate / ways
+}
+
+/// One that is not weighed yet: its chance against nobody lying is as its logarithm says.
+struct Open {
+    odds: f64,
+    /// How many times likelier it is within the exposure than now.
+    lasts: f64,
+    separation: Separation,
+}
+
+impl Judge {
+    /// All that may be so but for nobody lying, as of the last look.
+    #[must_use]
+    pub fn separations(&self, now: Time, model: &RiskModel) -> Vec<Separation> {
+        let mut open = Vec::with_capacity(self.onsets.len() * ALL.len());
+        let base = Place::of(&self.shadow.apart, &self.shadow.covariance);
+        for (i, onset) in self.onsets.iter().enumerate() {
+            let next = self.onsets.get(i + 1).map_or(now, |next| next.since);
+            let lasts = (next - onset.since).as_seconds().max(1.0);
+            let unsure = unsure((now - onset.since).as_seconds(), WORST);
+            for (group, of) in ALL.iter().enumerate() {
+                let rate = rate(of.fault, model) / 3600.0;
+                // who is not there does nothing
+                let is_there = rate > 0.0 && !onset.is_blind_to(group);
+                let sized = is_there.then(|| onset.sized(group, unsure)).flatten();
+                let Some(sized) = sized else { continue };
+                let [place, way] = onset.places(of, [POSITION, VELOCITY]);
+                open.push(Open {
+                    odds: (rate * lasts).ln() + sized.log_factor,
+                    lasts: model.exposure / lasts,
+                    separation: Separation { cause: group, ..base.moved(&place, &way, &sized) },
+                });
+            }
+        }
+        open.extend(self.shapeless(now, model));
+        weighed(open)
+    }
+
+    /// Of those who do not believe one sensor, whatever it does: since they have found likelier what is said than who believes all. What
+    /// a sensor has done for so short a time is no long-lived disbelief of it, so that one that has not shown yet counts with the
+    /// chance of now, and not with that of the exposure.
+    fn shapeless<'a>(&'a self, now: Time, model: &'a RiskModel) -> impl Iterator<Item = Open> + 'a {
+        self.dissenters.iter().filter(|own| own.success.gain > 0.0).map(move |own| {
+            let rate = rate(Charge::shapeless(own.whom, 0.0).fault, model) / 3600.0;
+            let age = (now - own.success.since).as_seconds().max(1.0);
+            Open {
+                odds: (rate * age).ln() + own.success.gain,
+                lasts: 1.0,
+                separation: Separation {
+                    cause: ALL.len() + own.whom as usize,
+                    ..Place::of(&own.shadow.apart, &own.shadow.covariance).separation()
+                },
+            }
+        })
+    }
+}
+
+/// Chances by odds against nobody lying, and all others.
+fn weighed(open: Vec<Open>) -> Vec<Separation> {
+    let most = open.iter().fold(0.0, |most: f64, own| most.max(own.odds));
+    let total = (-most).exp() + open.iter().map(|own| (own.odds - most).exp()).sum::<f64>();
+    let chance = |own: &Open| ((own.odds - most).exp() / total * own.lasts.max(1.0)).min(1.0);
+    open.iter().map(|own| Separation { chance: chance(own), ..own.separation }).collect()
+}
+
+/// Place and velocity of an estimate against the navigator's.
+struct Place {
+    apart: Vector3<f64>,
+    growth: Vector3<f64>,
+    covariance: Matrix3<f64>,
+    spreading: Matrix3<f64>,
+}
+
+impl Place {
+    fn of(apart: &Errors, p: &Covariance) -> Self {
+        Place {
+            apart: apart.of(POSITION),
+            growth: apart.of(VELOCITY),
+            covariance: POSITION.covariance(p),
+            spreading: VELOCITY.covariance(p),
+        }
+    }
+
+    fn separation(&self) -> Separation {
+        let Place { apart, growth, covariance, spreading } = *self;
+        Separation { cause: 0, chance: 0.0, apart, growth, covariance, spreading }
+    }
+
+    /// By a fault of a size that is not known better than its covariance, of which a unit does so much to place and velocity.
+    fn moved(
+        &self,
+        place: &Matrix3<f64>,
+        way: &Matrix3<f64>,
+        sized: &super::onset::Sized,
+    ) -> Separation {
+        let size = sized.covariance();
+        Separation {
+            cause: 0,
+            chance: 0.0,
+            apart: self.apart + place * sized.value,
+            growth: self.growth + way * sized.value,
+            covariance: self.covariance + place * size * place.transpose(),
+            spreading: self.spreading + way * size * way.transpose(),
+        }
+    }
+}
