@@ -8,8 +8,8 @@
 //! which holds for a component (2Q(x) <= exp(-x^2/2)) as for the distance of two with the sigma of both together, which is no less than that along the major
 //! axis. Chances are those of the whole exposure: of nobody lying, so many independent errors as it holds; of a fault, that it begins within it.
 //! What all together is less likely than [`NEGLIGIBLE`] of the risk is left out and its chance taken off the risk.
-//! R. Grover Brown, "Solution separation" as in Blanch et al., IEEE Trans. Aerospace and Electronic Systems 51 (2015), eq. (24), with the data's
-//! odds in place of a test and its missed detections.
+//! In the manner of solution separation (Blanch and others, IEEE Trans. Aerospace and Electronic Systems 51 (2015)), with the data's odds in place of a test
+//! and its missed detections.
 
 pub mod recursion;
 
@@ -58,8 +58,8 @@ pub struct RiskModel {
     pub imu_fails: f64,
 }
 
-/// IMO A.915(22), appendix 2, for the risk and its time. Satellites: what GPS commits itself to (GPS SPS PS, 5th ed., table 3.5-1), and constellations other than
-/// GPS (EU-U.S. Working Group C, ARAIM milestone 3 report). Receivers: failed positions of a constellation (Sensors 19 (2019) 4847, table 3). Interference where none is
+/// IMO A.915(22), appendix 2, for the risk and its time. Satellites and constellations: of the order that
+/// integrity monitoring in aviation assumes of them. Receivers: failed positions of a constellation (Sensors 19 (2019) 4847, table 3). Interference where none is
 /// expected, logs, compasses: assumed. Three axes of 50 000 h each for a triad.
 impl Default for RiskModel {
     fn default() -> Self {

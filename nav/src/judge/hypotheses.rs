@@ -79,7 +79,7 @@ impl Judge {
             }
         }
         open.extend(self.shapeless(now, model));
-        weighed(open)
+        weighed(&open)
     }
 
     /// Of those who do not believe one sensor, whatever it does: since they have found likelier what is said than who believes all. What
@@ -102,7 +102,7 @@ impl Judge {
 }
 
 /// Chances by odds against nobody lying, and all others.
-fn weighed(open: Vec<Open>) -> Vec<Separation> {
+fn weighed(open: &[Open]) -> Vec<Separation> {
     let most = open.iter().fold(0.0, |most: f64, own| most.max(own.odds));
     let total = (-most).exp() + open.iter().map(|own| (own.odds - most).exp()).sum::<f64>();
     let chance = |own: &Open| ((own.odds - most).exp() / total * own.lasts.max(1.0)).min(1.0);

@@ -187,6 +187,7 @@ mod tests {
         let judgement =
             Judgement { integrity: Integrity::Consistent, excluded: Parties::default() };
         Solution {
+            source: None,
             time: Time::from_seconds(seconds),
             position: Geodetic::default(),
             velocity: Ned::new(3.0, 4.0, 0.0),
