@@ -84,7 +84,7 @@ fn a_run_with_raw_satellites_over_real_lines_replays_to_the_same_bytes() {
     assert!(live.len() > 10_000, "{} bytes of solutions", live.len());
     assert!(live == replayed.nav, "the recording does not replay to the same bytes");
     let rows = String::from_utf8(live).unwrap();
-    let counts = rows.lines().skip(1).filter_map(|row| row.rsplit_once(',')?.1.parse().ok());
+    let counts = rows.lines().skip(1).filter_map(|row| row.rsplit(',').nth(1)?.parse().ok());
     let counts: Vec<u32> = counts.collect();
     assert!(counts.len() > 10 && counts.iter().all(|count| *count > 4), "{counts:?}");
     let codes = replayed.accepted.get("satellite_code").copied().unwrap_or(0);
