@@ -46,6 +46,7 @@ mod estimates;
 mod found_lever;
 mod gnss;
 mod heard;
+mod hidden;
 mod installation;
 mod joined;
 pub mod judged;

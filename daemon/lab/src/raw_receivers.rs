@@ -8,6 +8,7 @@ use insd_gnss::Ephemerides;
 use insd_intake::config::{IntakeConfig, Role};
 use insd_intake::port::PortIntake;
 use insd_intake::satellites::{EpochOrder, RawReading, RawUse, SatelliteFollower, SatelliteNews};
+use insd_rinex::{Equipment, ObservationHeader};
 use insd_wire::gnss::navigation::Broadcast;
 use insd_wire::stream::Protocol;
 
@@ -96,6 +97,22 @@ impl RawReceivers {
 }
 
 impl RawReceiver {
+    /// The header of a RINEX file of what it measured.
+    #[must_use]
+    pub fn header(&self) -> ObservationHeader {
+        let unknown = || Equipment { kind: "UNKNOWN".to_owned(), ..Equipment::default() };
+        ObservationHeader {
+            version: 305,
+            marker: self.name.clone(),
+            receiver: unknown(),
+            antenna: unknown(),
+            interval: self.interval(),
+            leap_seconds: self.leap_seconds,
+            strength_unit: Some("DBHZ".to_owned()),
+            ..ObservationHeader::default()
+        }
+    }
+
     fn hear(&mut self, protocol: Protocol, frame: &[u8], now: Option<GpsTime>) {
         let Some(mut reading) = RawReading::of_frame(protocol, frame) else { return };
         if let (RawReading::Measured { epoch, .. }, Some(now)) = (&mut reading, now) {

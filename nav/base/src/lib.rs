@@ -60,7 +60,7 @@ pub use messages::{
 };
 pub use motion::{Current, Motion, MotionCovariance};
 pub use party::{Fault, Integrity, Judgement, Parties, Party, ReceiverChange, Standing, Stands};
-pub use protection::{Availability, Protection};
+pub use protection::Availability;
 pub use requirement::Requirement;
 pub use satellites::{
     BaseEpoch, BroadcastRecord, Constellation, IonosphereModel, RtkEpoch, RtkPlace, RtkSilence,
@@ -68,7 +68,7 @@ pub use satellites::{
 };
 pub use sea_fit::{Residual, SeaFit, SeenResidual};
 pub use sensor::{ImuSpec, LeverArms, Triad};
-pub use solution::{Mode, Solution, SolutionSigma, SolutionSource};
+pub use solution::{Mode, Protection, Solution, SolutionSigma, SolutionSource};
 pub use time::{Span, Time};
 pub use utc::{GpsTime, UtcTime};
 pub use utm::Utm;

@@ -1,7 +1,7 @@
 //! How far wrong a position may be, and whether it may be relied on.
 
 use crate::party::Integrity;
-use crate::solution::{Solution, SolutionSigma};
+use crate::solution::{Protection, Solution, SolutionSigma};
 
 /// Sigmas that are a protection level, for a risk of 1e-5 in three hours of errors that last five minutes: 2.8e-7
 /// each. The horizontal one is of the sum of both components, which is no less than that along any direction.
@@ -9,15 +9,6 @@ const HORIZONTAL: f64 = 5.5;
 const VERTICAL: f64 = 5.2;
 /// Horizontal alert limit of general navigation, m (IMO A.915(22), appendix 2).
 const ALERT_LIMIT: f64 = 25.0;
-
-/// Errors of a position are below these, but for the risk.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Protection {
-    /// The horizontal error, m.
-    pub horizontal: f64,
-    /// The error of the height, m.
-    pub vertical: f64,
-}
 
 impl Protection {
     /// Where nobody lies: by 1-sigma of each component.

@@ -5,7 +5,6 @@ use nalgebra::{SVector, Vector3};
 use crate::attitude::Attitude;
 use crate::frames::{Body, Geodetic, Ned};
 use crate::party::Judgement;
-use crate::protection::Protection;
 use crate::time::Time;
 
 /// What the system is doing, as in the last column of `nav.csv`.
@@ -183,6 +182,15 @@ impl SolutionSigma {
             heading: self.heading * by,
         }
     }
+}
+
+/// Errors of a position are below these, but for the risk.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Protection {
+    /// The horizontal error, m.
+    pub horizontal: f64,
+    /// The error of the height, m.
+    pub vertical: f64,
 }
 
 /// Where the ship is, how she moves and lies, at the IMU, and how sure that is.

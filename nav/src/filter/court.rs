@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use insd_base::{SolutionSigma, Time};
 
-use super::protected::Hidden;
+use super::hidden::Hidden;
 use crate::error_state::Errors;
 use crate::increments::Increment;
 use crate::judge::Judge;

@@ -1,11 +1,12 @@
 //! What faults that nobody has found add to the protection levels, once a second: the filter as it would be without each.
 
 use insd_base::satellites::{Constellation, time_keeper};
-use insd_base::{Protection, SolutionSigma, Time};
+use insd_base::{Protection, SolutionSigma};
 use insd_estimation::Release;
 use nalgebra::{Matrix3, Vector3};
 
 use super::Filter;
+use super::hidden::{AHEAD, Hidden};
 use crate::aids::View;
 use crate::error_state::{POSITION, RANGE_ERRORS, SATELLITES, VELOCITY};
 use crate::judge::Separation;
@@ -16,35 +17,6 @@ use crate::solution_sigma::solution_sigma;
 const WRONG_RANGE: f64 = 50.0;
 /// Causes of the judge are below this.
 const BY_SATELLITE: usize = 1000;
-/// Levels are worked out so far ahead, s: until then the next ones are.
-const AHEAD: f64 = 1.0;
-
-/// What is hidden, as of an instant.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Hidden {
-    as_of: Option<Time>,
-    /// What it adds to the levels until [`AHEAD`], m.
-    adds: Protection,
-    /// How fast that grows from then on, m/s.
-    grows: Protection,
-}
-
-impl Hidden {
-    fn is_due(&self, now: Time) -> bool {
-        self.as_of.is_none_or(|as_of| (now - as_of).as_seconds() > 0.95 * AHEAD)
-    }
-
-    /// What it adds to the levels at an instant, m.
-    pub(super) fn at(&self, now: Time) -> Protection {
-        let age = self.as_of.map_or(0.0, |as_of| (now - as_of).as_seconds() - AHEAD).max(0.0);
-        let Hidden { adds, grows, .. } = self;
-        Protection {
-            horizontal: adds.horizontal + age * grows.horizontal,
-            vertical: adds.vertical + age * grows.vertical,
-        }
-    }
-}
-
 impl Filter {
     /// Works out anew what faults that nobody has found add to the levels.
     pub(super) fn protect(&mut self) {
@@ -70,7 +42,7 @@ impl Filter {
             horizontal: (second.horizontal - first.horizontal).max(0.0) / AHEAD,
             vertical: (second.vertical - first.vertical).max(0.0) / AHEAD,
         };
-        self.court.hidden = Hidden { as_of: Some(self.state.time), adds: first, grows };
+        self.court.hidden = Hidden::new(self.state.time, first, grows);
     }
 
     /// The same after an epoch of ranges, no more often than levels are worked out ahead.

@@ -9,7 +9,7 @@ use insd_base::{Message, Received, Stamped, Time, Voyage, VoyageHeader};
 use insd_config::BadInput;
 use insd_drivers::recording::{Compression, write_raw, write_voyage};
 use insd_intake::{Intake, Intaken};
-use insd_rinex::{Equipment, ObservationHeader, write_navigation, write_observations};
+use insd_rinex::{write_navigation, write_observations};
 
 use crate::raw_receivers::{RawReceiver, RawReceivers};
 use crate::raw_run::RawRun;
@@ -81,7 +81,7 @@ fn rinex(receivers: &RawReceivers, folder: &Path, recording: &Path) -> anyhow::R
         let name = plain(&own.name);
         let models: Vec<_> = own.ionosphere.iter().map(|(whose, own)| (*whose, *own)).collect();
         let texts = [
-            ("obs", write_observations(&header(own), &own.epochs)),
+            ("obs", write_observations(&own.header(), &own.epochs)),
             ("nav", write_navigation(&own.records, &models, own.leap_seconds)),
         ];
         for (extension, text) in texts {
@@ -98,19 +98,6 @@ fn rinex(receivers: &RawReceivers, folder: &Path, recording: &Path) -> anyhow::R
 fn plain(name: &str) -> String {
     let good = |c: char| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '-' };
     name.chars().map(good).collect()
-}
-
-fn header(receiver: &RawReceiver) -> ObservationHeader {
-    ObservationHeader {
-        version: 305,
-        marker: receiver.name.clone(),
-        receiver: Equipment { kind: "UNKNOWN".to_owned(), ..Equipment::default() },
-        antenna: Equipment { kind: "UNKNOWN".to_owned(), ..Equipment::default() },
-        interval: receiver.interval(),
-        leap_seconds: receiver.leap_seconds,
-        strength_unit: Some("DBHZ".to_owned()),
-        ..ObservationHeader::default()
-    }
 }
 
 fn voyage(

@@ -9,7 +9,6 @@ use insd_gnss::Ephemerides;
 use insd_rinex::{ObservationHeader, write_navigation, write_observations};
 use serde::Serialize;
 
-use super::header;
 use crate::raw_receivers::RawReceiver;
 
 /// Antennas that a voyage directory holds.
@@ -53,7 +52,7 @@ pub(super) fn files(
         antennas_m: antennas.iter().map(arm).collect(),
         common_clock: [],
     };
-    let observations = |own: &&RawReceiver| write_observations(&header(own), &own.epochs);
+    let observations = |own: &&RawReceiver| write_observations(&own.header(), &own.epochs);
     Ok(RawFiles {
         antennas: antennas.iter().map(observations).collect(),
         base: base(measured),
