@@ -17,11 +17,11 @@ pub const SATELLITES: usize = 24;
 /// 1-sigma of a receiver's clock before anything is known of it, m and m/s: a millisecond.
 const CLOCK_UNKNOWN: f64 = 3e5;
 /// 1-sigma of the offset between two systems in a receiver, m.
-const OFFSET_UNKNOWN: f64 = 100.0;
+pub(crate) const OFFSET_UNKNOWN: f64 = 100.0;
 /// Its random walk, m per root of a second.
 const OFFSET_WALK: f64 = 1e-3;
 /// By what share the ionosphere is other than its model, 1-sigma (IS-GPS-200N, 20.3.3.5.2.5: the model takes half of it away), and for how long, s.
-const IONOSPHERE_UNKNOWN: f64 = 0.5;
+pub(crate) const IONOSPHERE_UNKNOWN: f64 = 0.5;
 const IONOSPHERE_TIME: f64 = 7200.0;
 /// How long orbits, clocks and the ionosphere go on to be wrong by the same, s.
 const RANGE_ERROR_TIME: f64 = 3600.0;
@@ -33,7 +33,7 @@ pub const PHASE_DRIFT: f64 = 5e-4;
 const PHASE_WALK: f64 = 5e-4;
 
 /// 1-sigma of the mean height before anything is known of it, m.
-const SEA_LEVEL_UNKNOWN: f64 = 30.0;
+pub(crate) const SEA_LEVEL_UNKNOWN: f64 = 30.0;
 
 /// One row for each block of error states, in the order in which they stand when all are carried.
 macro_rules! declare {

@@ -106,8 +106,6 @@ pub struct SeparateBias {
     strain: f64,
     /// Which share of the horizontal position did not come from the receiver, once that is known.
     surveyed: Option<f64>,
-    /// Whether what spoke against the constants was put down to somebody else, and is forgotten.
-    is_excused: bool,
 }
 
 /// How a hypothesis fits.
@@ -149,7 +147,6 @@ impl SeparateBias {
             heard: 0.0,
             strain: 0.0,
             surveyed: Some(0.0),
-            is_excused: false,
         };
         bias.place(view, &Vector3::repeat(1.0));
         bias
@@ -201,7 +198,6 @@ impl SeparateBias {
     pub fn excuse(&mut self, view: &View) {
         let before = std::mem::replace(self, SeparateBias::new(view));
         self.information = before.information;
-        self.is_excused = true;
         (self.heard, self.misfit, self.strain) = (before.heard, before.heard, 1.0);
     }
 
@@ -329,24 +325,19 @@ impl SeparateBias {
     /// confirmed.
     #[must_use]
     pub fn odds(&self) -> f64 {
-        let all = HYPOTHESES.iter().filter_map(|prior| Some(self.fit(prior)?.score));
-        if self.is_confirmed() { 0.0 } else { all.fold(0.0, f64::max) }
+        self.likeliest().map_or(0.0, |(score, _)| score.max(0.0))
     }
 
     /// The likeliest hypothesis, be it believed or not: how much better it fits than the configuration, as a logarithm, and the error of the estimate
     /// that it means; `None` where the configuration is confirmed.
     #[must_use]
     pub fn likeliest(&self) -> Option<(f64, Errors)> {
+        if self.is_confirmed() {
+            return None;
+        }
         let fits = HYPOTHESES.iter().filter_map(|prior| self.fit(prior));
         let best = fits.max_by(|a, b| a.score.total_cmp(&b.score))?;
-        let error = || self.response.total(best.finding().value.as_slice());
-        (!self.is_confirmed()).then(|| (best.score, error()))
-    }
-
-    /// Whether what once spoke against the configuration has been put down to somebody else, so that its silence tells nothing.
-    #[must_use]
-    pub fn is_excused(&self) -> bool {
-        self.is_excused
+        Some((best.score, self.response.total(best.finding().value.as_slice())))
     }
 
     /// How much better a hypothesis fits than the configuration. With S the prior sigmas and A = I + S Lambda S the logarithm of

@@ -102,14 +102,11 @@ impl RawReceiver {
     pub fn header(&self) -> ObservationHeader {
         let unknown = || Equipment { kind: "UNKNOWN".to_owned(), ..Equipment::default() };
         ObservationHeader {
-            version: 305,
-            marker: self.name.clone(),
             receiver: unknown(),
             antenna: unknown(),
             interval: self.interval(),
             leap_seconds: self.leap_seconds,
-            strength_unit: Some("DBHZ".to_owned()),
-            ..ObservationHeader::default()
+            ..ObservationHeader::of_marker(&self.name)
         }
     }
 

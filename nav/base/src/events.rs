@@ -431,6 +431,15 @@ pub struct SatelliteInnovation {
     pub accepted: bool,
 }
 
+impl SatelliteInnovation {
+    /// As that of an aid, whichever satellite it is of.
+    #[must_use]
+    pub fn of_aid(&self) -> AidInnovation {
+        let SatelliteInnovation { time, aid, innovation, sigma, accepted, .. } = *self;
+        AidInnovation { time, aid, component: 0, innovation, sigma, accepted }
+    }
+}
+
 /// Counters of everything that was used, floored, rejected or bridged.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Counts {

@@ -5,6 +5,14 @@ use insd_base::{Source, Time};
 use crate::error_state::Weighed;
 use crate::report::{AidReport, Outcome, Report};
 
+/// Aids by which the source of a solution is told.
+pub(super) const POSITION_AID: &str = "gnss_position";
+pub(super) const VELOCITY_AID: &str = "gnss_velocity";
+pub(super) const CODE_AID: &str = "satellite_code";
+pub(super) const RATE_AID: &str = "satellite_rate";
+pub(super) const PHASE_AID: &str = "satellite_phase";
+pub(super) const RTK_AID: &str = "rtk_position";
+
 /// What the gates said of an innovation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judged {

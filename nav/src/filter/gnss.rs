@@ -3,7 +3,7 @@
 use insd_base::{FixQuality, GnssFix, Rejection, Source, earth};
 use nalgebra::{Matrix3, Vector3};
 
-use super::entry::{Judged, NO_INNOVATION, enter};
+use super::entry::{Judged, NO_INNOVATION, POSITION_AID, VELOCITY_AID, enter};
 use super::found_lever::FoundLever;
 use super::{Filter, imu_position};
 use crate::aids::View;
@@ -24,8 +24,6 @@ use crate::solution_sigma::axes_turn;
 use crate::strapdown::earth_relative_rate;
 use crate::trust::FAULT;
 
-const POSITION_AID: &str = "gnss_position";
-const VELOCITY_AID: &str = "gnss_velocity";
 /// A log or reference used within this time vouches for the filter's velocity, s.
 const VOUCHED: f64 = 5.0;
 /// A receiver that is off on the mean is refused for at least this long, s.

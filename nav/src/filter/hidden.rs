@@ -15,8 +15,19 @@ pub(super) struct Hidden {
     grows: Protection,
 }
 
+/// By how much levels are beyond others, m.
+pub(super) fn beyond(levels: &Protection, others: &Protection) -> Protection {
+    Protection {
+        horizontal: (levels.horizontal - others.horizontal).max(0.0),
+        vertical: (levels.vertical - others.vertical).max(0.0),
+    }
+}
+
 impl Hidden {
-    pub(super) fn new(now: Time, adds: Protection, grows: Protection) -> Self {
+    /// As of now, by what it adds so far ahead, and twice as far.
+    pub(super) fn new(now: Time, [adds, later]: [Protection; 2]) -> Self {
+        let Protection { horizontal, vertical } = beyond(&later, &adds);
+        let grows = Protection { horizontal: horizontal / AHEAD, vertical: vertical / AHEAD };
         Hidden { as_of: Some(now), adds, grows }
     }
 

@@ -16,7 +16,6 @@ use crate::error_state::{
 use crate::judge::{Aid, Alternative, Docket, Judge};
 use crate::propagation::{Passage, Stretch};
 use crate::report::Report;
-use crate::separate_bias::SeparateBias;
 use crate::solution_sigma::{difference, solution_sigma};
 
 /// A receiver that is refused for so long while nothing speaks against it is right, and the filter wrong, s.
@@ -253,9 +252,7 @@ impl Filter {
         if self.court.judge.as_ref().is_none_or(|judge| !judge.is_look_due(now)) {
             return;
         }
-        let (view, _) = self.dated_view();
-        self.doubt_installation(&view);
-        let mistake = self.installation.bias.as_ref().map_or(0.0, SeparateBias::odds);
+        let mistake = self.doubt_installation();
         let Some(judge) = self.judge_now() else { return };
         if let Some(verdict) = judge.look(now, excused, mistake) {
             if let Some(mended) = &verdict.mended {

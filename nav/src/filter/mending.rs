@@ -3,7 +3,6 @@
 use nalgebra::Vector3;
 
 use super::Filter;
-use crate::aids::View;
 use crate::config::is_on_board;
 use crate::dating::Dating;
 use crate::error_state::{
@@ -115,20 +114,22 @@ impl Filter {
         self.config.lever_arms.log.0.z + off.z + SURELY * sigma.z < HIGHEST_LOG
     }
 
-    /// What a constant that is likely to be wrong, and not surely enough to be mended, would make of the solution: claims are to cover it.
-    pub(super) fn doubt_installation(&mut self, view: &View) {
-        let Some(bias) = self.installation.bias.as_ref().filter(|bias| !bias.is_confirmed()) else {
+    /// What a constant that is likely to be wrong, and not surely enough to be mended, would make of the solution: claims are to cover it. Returns how much
+    /// likelier that is than the configuration, as a logarithm; zero if it is not.
+    pub(super) fn doubt_installation(&mut self) -> f64 {
+        let likeliest = self.installation.bias.as_ref().and_then(SeparateBias::likeliest);
+        let Some((score, error)) = likeliest else {
             self.installation.doubt = None;
-            return;
+            return 0.0;
         };
-        let Some((score, error)) = bias.likeliest() else { return };
         let odds = MISTAKEN * score.exp();
         let chance = odds / (1.0 + odds);
         let stands = |(known, _): &(f64, _)| *known > chance.max(LIKELY);
         if !self.installation.doubt.as_ref().is_some_and(stands) {
-            let off = difference(view, &error).scaled(chance.sqrt());
+            let off = difference(&self.dated_view().0, &error).scaled(chance.sqrt());
             self.installation.doubt = (chance > CHANCE).then_some((chance, off));
         }
+        score.max(0.0)
     }
 
     /// Where the innovations show that the antenna sits elsewhere than configured, or that its epochs come

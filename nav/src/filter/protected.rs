@@ -1,12 +1,12 @@
 //! What faults that nobody has found add to the protection levels, once a second: the filter as it would be without each.
 
 use insd_base::satellites::{Constellation, time_keeper};
-use insd_base::{Protection, SolutionSigma};
+use insd_base::{Protection, SolutionSigma, Time};
 use insd_estimation::Release;
 use nalgebra::{Matrix3, Vector3};
 
 use super::Filter;
-use super::hidden::{AHEAD, Hidden};
+use super::hidden::{AHEAD, Hidden, beyond};
 use crate::aids::View;
 use crate::error_state::{POSITION, RANGE_ERRORS, SATELLITES, VELOCITY};
 use crate::judge::Separation;
@@ -17,32 +17,22 @@ use crate::solution_sigma::solution_sigma;
 const WRONG_RANGE: f64 = 50.0;
 /// Causes of the judge are below this.
 const BY_SATELLITE: usize = 1000;
+
 impl Filter {
     /// Works out anew what faults that nobody has found add to the levels.
     pub(super) fn protect(&mut self) {
         let model = self.config.risk;
         let separations = match &self.companion {
             Some(companion) => self.separations_beside(companion, &model),
-            None => {
-                let judge = self.court.judge.as_deref();
-                judge.map_or_else(Vec::new, |judge| judge.separations(self.state.time, &model))
-            }
+            None => self.judged_separations(self.state.time, &model),
         };
         let (view, acceleration) = self.dated_view();
         let claimed = self.claimed_sigma(&view, &acceleration);
         let free = Protection::of(&claimed);
-        let [first, second] = [AHEAD, 2.0 * AHEAD].map(|ahead| {
-            let own = levels((&claimed, &view.c_ne), &separations, &model, ahead);
-            Protection {
-                horizontal: (own.horizontal - free.horizontal).max(0.0),
-                vertical: (own.vertical - free.vertical).max(0.0),
-            }
+        let adds = [AHEAD, 2.0 * AHEAD].map(|ahead| {
+            beyond(&levels((&claimed, &view.c_ne), &separations, &model, ahead), &free)
         });
-        let grows = Protection {
-            horizontal: (second.horizontal - first.horizontal).max(0.0) / AHEAD,
-            vertical: (second.vertical - first.vertical).max(0.0) / AHEAD,
-        };
-        self.court.hidden = Hidden::new(self.state.time, first, grows);
+        self.court.hidden = Hidden::new(self.state.time, adds);
     }
 
     /// The same after an epoch of ranges, no more often than levels are worked out ahead.
@@ -59,6 +49,12 @@ impl Filter {
         self.court.covered.map_or(own, |covered| own.greatest(&covered))
     }
 
+    /// What the judge has of everybody.
+    fn judged_separations(&self, now: Time, model: &RiskModel) -> Vec<Separation> {
+        let judge = self.court.judge.as_deref();
+        judge.map_or_else(Vec::new, |judge| judge.separations(now, model))
+    }
+
     /// Where ranges are in use: what the companion's judge has of everybody, whose estimate is apart from this one; and each satellite, and all of a
     /// constellation.
     fn separations_beside(&self, companion: &Filter, model: &RiskModel) -> Vec<Separation> {
@@ -66,11 +62,7 @@ impl Filter {
         let own = &self.state.nominal;
         let apart = companion.state.nominal.position - own.position;
         let growth = companion.state.nominal.velocity - own.velocity;
-        let mut all = companion
-            .court
-            .judge
-            .as_deref()
-            .map_or_else(Vec::new, |judge| judge.separations(now, model));
+        let mut all = companion.judged_separations(now, model);
         for one in &mut all {
             one.apart += apart;
             one.growth += growth;

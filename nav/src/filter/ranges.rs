@@ -6,7 +6,7 @@ use insd_estimation::Innovation;
 use nalgebra::Matrix3;
 
 use super::Filter;
-use super::entry::{Judged, NO_INNOVATION, enter};
+use super::entry::{CODE_AID, Judged, NO_INNOVATION, PHASE_AID, RATE_AID, enter};
 use super::gnss::SLACK;
 use super::satellites::{Slot, are_most};
 use crate::aids::satellite_range::{self, Antenna, Sighted};
@@ -18,10 +18,6 @@ use crate::error_state::{
 use crate::judge::Aid;
 use crate::receiver_clock;
 use crate::report::{Outcome, Report};
-
-const CODE_AID: &str = "satellite_code";
-const RATE_AID: &str = "satellite_rate";
-const PHASE_AID: &str = "satellite_phase";
 
 /// A row is at fault beyond so many sigmas of what all others let expect of it: by chance once in 150 000.
 const FAULT: f64 = 4.5;
@@ -154,17 +150,23 @@ impl Filter {
         for range in highest {
             let Some((slot, is_new)) = self.satellites.seat(range, now) else { continue };
             if is_new {
-                self.state.nominal.range_errors[slot] = 0.0;
-                self.state.nominal.reflections[slot] = 0.0;
+                self.forget_code_errors(slot);
                 self.state.nominal.phase_drifts[slot] = 0.0;
                 let covariance = &mut self.state.covariance;
-                covariance.renew_state(RANGE_ERRORS.key(), slot, 1.0);
-                covariance.renew_state(REFLECTIONS.key(), slot, 1.0);
                 covariance.renew_state(PHASE_DRIFTS.key(), slot, PHASE_DRIFT * PHASE_DRIFT);
             }
             seated.push(Sighted { range, slot });
         }
         seated
+    }
+
+    /// Nothing is known any more of what a satellite's code is off by.
+    pub(super) fn forget_code_errors(&mut self, slot: usize) {
+        self.state.nominal.range_errors[slot] = 0.0;
+        self.state.nominal.reflections[slot] = 0.0;
+        let covariance = &mut self.state.covariance;
+        covariance.renew_state(RANGE_ERRORS.key(), slot, 1.0);
+        covariance.renew_state(REFLECTIONS.key(), slot, 1.0);
     }
 
     fn antenna(&self) -> Antenna {
@@ -228,11 +230,6 @@ impl Filter {
         for one in slipped.iter().filter_map(|index| seated.get(*index)) {
             self.begin_arc(one);
         }
-    }
-
-    /// Phases of which none contradicts the others may still contradict the filter, all of them.
-    fn heard_together(&mut self, phases: &Innovation, weighed: Weighed) -> Weighed {
-        self.satellites.unrest.hear((phases, weighed), &self.state.covariance)
     }
 
     /// Of satellites without a phase, which tells it better; one whose phase has just slipped may be a reflection.
@@ -335,7 +332,10 @@ impl Filter {
                     left_out.append(&mut rows.of);
                     break None;
                 }
-                None if aid == PHASE_AID => break Some(self.heard_together(&rows.all, weighed)),
+                None if aid == PHASE_AID => {
+                    let unrest = &mut self.satellites.unrest;
+                    break Some(unrest.hear((&rows.all, weighed), &self.state.covariance));
+                }
                 None => break Some(weighed),
             }
         };

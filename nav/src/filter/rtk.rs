@@ -11,14 +11,13 @@ use insd_base::{Ecef, Rejection, SolutionSigma, Source, Time, earth};
 use nalgebra::{Matrix1, Matrix3, Vector3};
 
 use super::Filter;
-use super::entry::{Judged, NO_INNOVATION, detail, enter};
+use super::entry::{Judged, NO_INNOVATION, RTK_AID, detail, enter};
 use super::ranges::UNKNOWN_PLACE;
 use super::rtk_standing::RtkStanding;
-use super::sources::RTK_AID;
 use crate::aids::gnss_position::{self, PositionFix};
 use crate::error_state::{
-    GNSS_POSITION_ERROR, IONOSPHERE, Innovation, POSITION, RANGE_ERRORS, REFLECTIONS, SATELLITES,
-    SEA_LEVEL, SYSTEM_OFFSETS,
+    GNSS_POSITION_ERROR, IONOSPHERE, IONOSPHERE_UNKNOWN, Innovation, OFFSET_UNKNOWN, POSITION,
+    SATELLITES, SEA_LEVEL, SEA_LEVEL_UNKNOWN, SYSTEM_OFFSETS,
 };
 use crate::judge::Aid;
 use crate::receiver_clock;
@@ -34,11 +33,6 @@ const BASE: [f64; 2] = [0.01, 0.02];
 const BASELINE: f64 = 1e-6;
 /// While RTK is not believed none agrees that is farther off on the level, m.
 const NEAR: f64 = 0.15;
-/// A place that was misled tells so much about mean sea level, 1-sigma, m; and about what systems differ by.
-const UNKNOWN_LEVEL: f64 = 30.0;
-const UNKNOWN_OFFSET: f64 = 100.0;
-/// 1-sigma of the share by which the ionosphere differs from its model.
-const UNKNOWN_IONOSPHERE: f64 = 0.5;
 
 impl Filter {
     /// Why the last epoch against a base gave no place that was used.
@@ -139,19 +133,17 @@ impl Filter {
         let state = &mut self.state;
         POSITION.renew(&mut state.covariance, &unknown(UNKNOWN_PLACE));
         GNSS_POSITION_ERROR.renew(&mut state.covariance, &unknown(1.0));
-        SYSTEM_OFFSETS.renew(&mut state.covariance, &unknown(UNKNOWN_OFFSET));
-        SEA_LEVEL.renew(&mut state.covariance, &Matrix1::new(UNKNOWN_LEVEL * UNKNOWN_LEVEL));
-        let ionosphere = UNKNOWN_IONOSPHERE * UNKNOWN_IONOSPHERE;
+        SYSTEM_OFFSETS.renew(&mut state.covariance, &unknown(OFFSET_UNKNOWN));
+        SEA_LEVEL
+            .renew(&mut state.covariance, &Matrix1::new(SEA_LEVEL_UNKNOWN * SEA_LEVEL_UNKNOWN));
+        let ionosphere = IONOSPHERE_UNKNOWN * IONOSPHERE_UNKNOWN;
         IONOSPHERE.renew(&mut state.covariance, &Matrix1::new(ionosphere));
         state.nominal.gnss_position_error = Vector3::zeros();
         state.nominal.ionosphere = 0.0;
         let clock = state.nominal.receiver_clock.x;
         receiver_clock::renew(&mut state.nominal, &mut state.covariance, clock, None);
         for slot in 0..SATELLITES {
-            state.nominal.range_errors[slot] = 0.0;
-            state.nominal.reflections[slot] = 0.0;
-            state.covariance.renew_state(RANGE_ERRORS.key(), slot, 1.0);
-            state.covariance.renew_state(REFLECTIONS.key(), slot, 1.0);
+            self.forget_code_errors(slot);
             // constants are those of the place: all begin anew
             self.satellites.slot_mut(slot).iter_mut().for_each(|slot| slot.arc = None);
         }

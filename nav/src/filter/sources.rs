@@ -2,9 +2,9 @@
 
 use insd_base::{FixQuality, Message, SolutionSource, Time};
 
+use super::entry::{CODE_AID, PHASE_AID, POSITION_AID, RATE_AID, RTK_AID, VELOCITY_AID};
 use crate::report::{Outcome, Report};
 
-pub(super) const RTK_AID: &str = "rtk_position";
 /// A place by integers counts for so long, s: RTK lapses for an epoch or two.
 const FIXED: f64 = 2.5;
 /// Others for so long, s.
@@ -32,10 +32,10 @@ impl Sources {
         };
         let source = |aid: &str| match aid {
             RTK_AID => Some(SolutionSource::Rtk),
-            "satellite_phase" => Some(SolutionSource::Carrier),
-            "satellite_code" => Some(SolutionSource::Code),
-            "satellite_rate" | "gnss_velocity" => Some(SolutionSource::Doppler),
-            "gnss_position" => Some(of_fix),
+            PHASE_AID => Some(SolutionSource::Carrier),
+            CODE_AID => Some(SolutionSource::Code),
+            RATE_AID | VELOCITY_AID => Some(SolutionSource::Doppler),
+            POSITION_AID => Some(of_fix),
             _ => None,
         };
         for source in used.filter_map(|aid| source(aid.aid)) {

@@ -93,11 +93,8 @@ fn fix(ranged: &Ranged) -> Option<Stamped<GnssFix>> {
 
 fn raw(heard: &Heard) -> RawFiles {
     let header = ObservationHeader {
-        version: 305,
-        marker: "walk".to_owned(),
         leap_seconds: Some(LEAP_SECONDS),
-        strength_unit: Some("DBHZ".to_owned()),
-        ..ObservationHeader::default()
+        ..ObservationHeader::of_marker("walk")
     };
     let Noise { code, phase, rate, multipath } = NOISE;
     let [clock, drift] = CLOCK_WALKS;

@@ -62,15 +62,12 @@ pub(super) fn files(raw: &RawGnss) -> anyhow::Result<RawFiles> {
 fn header(marker: &str, rate: f64, position: Option<[f64; 3]>) -> ObservationHeader {
     let simulated = |kind: &str| Equipment { kind: kind.to_owned(), ..Equipment::default() };
     ObservationHeader {
-        version: 305,
-        marker: marker.to_owned(),
         receiver: simulated("SIMULATED"),
         antenna: simulated("NONE"),
         position,
         interval: Some(1.0 / rate),
         leap_seconds: Some(LEAP_SECONDS),
-        strength_unit: Some("DBHZ".to_owned()),
-        ..ObservationHeader::default()
+        ..ObservationHeader::of_marker(marker)
     }
 }
 

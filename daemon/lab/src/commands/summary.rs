@@ -48,16 +48,15 @@ impl fmt::Display for Summary<'_> {
                 writeln!(f, "{count} {what}")?;
             }
         }
-        if !self.counts.unranged.is_empty() {
-            let reasons = self.counts.unranged.iter();
-            let told: Vec<String> =
-                reasons.map(|(reason, count)| format!("{count} {reason}")).collect();
-            writeln!(f, "satellites without a range: {}", told.join(", "))?;
-        }
-        if !self.counts.rtk.is_empty() {
-            let told: Vec<String> =
-                self.counts.rtk.iter().map(|(word, count)| format!("{count} {word}")).collect();
-            writeln!(f, "epochs against the base: {}", told.join(", "))?;
+        for (counts, what) in [
+            (&self.counts.unranged, "satellites without a range"),
+            (&self.counts.rtk, "epochs against the base"),
+        ] {
+            if !counts.is_empty() {
+                let told: Vec<String> =
+                    counts.iter().map(|(word, count)| format!("{count} {word}")).collect();
+                writeln!(f, "{what}: {}", told.join(", "))?;
+            }
         }
         self.files.iter().try_for_each(|report| write_report(f, report))?;
         self.write_modes(f)?;

@@ -50,11 +50,10 @@ impl Aids {
 
     /// What one satellite told: each counts, where the engine counts epochs.
     pub(super) fn note_satellite(&mut self, told: &SatelliteInnovation) {
-        let SatelliteInnovation { time, aid, innovation, sigma, accepted, .. } = *told;
-        let counts = self.satellites.entry(aid).or_default();
-        counts.used += u64::from(accepted);
-        counts.refused += u64::from(!accepted);
-        self.note(&AidInnovation { time, aid, component: 0, innovation, sigma, accepted });
+        let counts = self.satellites.entry(told.aid).or_default();
+        counts.used += u64::from(told.accepted);
+        counts.refused += u64::from(!told.accepted);
+        self.note(&told.of_aid());
     }
 
     pub(super) fn aids(&self, counts: &Counts, now: Time) -> Vec<ShownAid> {

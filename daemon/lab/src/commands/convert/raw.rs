@@ -89,11 +89,8 @@ fn base(measured: &[Received]) -> Option<String> {
     }
     let position = told.iter().rev().find_map(|told| told.position);
     let header = ObservationHeader {
-        version: 305,
-        marker: "base".to_owned(),
         position: position.map(|place| place.0.into()),
-        strength_unit: Some("DBHZ".to_owned()),
-        ..ObservationHeader::default()
+        ..ObservationHeader::of_marker("base")
     };
     let epochs: Vec<_> = told.iter().map(|told| told.epoch.clone()).collect();
     Some(write_observations(&header, &epochs))

@@ -77,11 +77,9 @@ impl Aids {
 
     /// Takes what a satellite told at this moment: of one component, and refused without an event of its own.
     pub(crate) fn satellite(&mut self, now: Time, told: &SatelliteInnovation) {
-        let SatelliteInnovation { time, aid, innovation, sigma, accepted, .. } = *told;
-        let component = 0;
-        self.innovation(now, &AidInnovation { time, aid, component, innovation, sigma, accepted });
-        if !accepted {
-            self.rejected(now, aid);
+        self.innovation(now, &told.of_aid());
+        if !told.accepted {
+            self.rejected(now, told.aid);
         }
     }
 

@@ -52,6 +52,19 @@ pub struct ObservationHeader {
     pub signals: Vec<(Constellation, Vec<SignalCode>)>,
 }
 
+impl ObservationHeader {
+    /// Of a file of RINEX 3.05 of a marker, with strengths in dB Hz.
+    #[must_use]
+    pub fn of_marker(marker: &str) -> Self {
+        ObservationHeader {
+            version: 305,
+            marker: marker.to_owned(),
+            strength_unit: Some("DBHZ".to_owned()),
+            ..ObservationHeader::default()
+        }
+    }
+}
+
 /// Types as they stand, of which layouts are made when all lines are there.
 #[derive(Clone, Debug, Default)]
 struct Listed {
