@@ -43,10 +43,13 @@ impl Row for NavRow {
     fn parse(fields: &Fields<'_>) -> Result<Self, BadRow> {
         let level = |column| fields.within(column, 0.0..=f64::MAX);
         Ok(NavRow {
-            solution: Solution { source: source(fields)?, ..solution(fields)? },
+            solution: Solution {
+                source: of_word(fields, SOURCE, SolutionSource::from_word)?,
+                ..solution(fields)?
+            },
             horizontal_level: level(HORIZONTAL)?,
             vertical_level: level(VERTICAL)?,
-            integrity: integrity(fields)?,
+            integrity: of_word(fields, INTEGRITY, Availability::from_word)?,
             excluded: excluded(fields)?,
             satellites: satellites(fields)?,
         })
@@ -62,22 +65,18 @@ impl Row for NavRow {
     }
 }
 
-fn integrity(fields: &Fields<'_>) -> Result<Option<Availability>, BadRow> {
-    let word = fields.raw(INTEGRITY);
+/// What a word of a column stands for; `None` where the column is empty or not there.
+fn of_word<T>(
+    fields: &Fields<'_>,
+    column: usize,
+    read: fn(&str) -> Option<T>,
+) -> Result<Option<T>, BadRow> {
+    let word = fields.raw(column);
     if word.is_empty() {
         return Ok(None);
     }
-    let known = std::str::from_utf8(word).ok().and_then(Availability::from_word);
-    known.map(Some).ok_or_else(|| fields.bad(INTEGRITY, RowFault::UnknownWord))
-}
-
-fn source(fields: &Fields<'_>) -> Result<Option<SolutionSource>, BadRow> {
-    let word = fields.raw(SOURCE);
-    if word.is_empty() {
-        return Ok(None);
-    }
-    let known = std::str::from_utf8(word).ok().and_then(SolutionSource::from_word);
-    known.map(Some).ok_or_else(|| fields.bad(SOURCE, RowFault::UnknownWord))
+    let known = std::str::from_utf8(word).ok().and_then(read);
+    known.map(Some).ok_or_else(|| fields.bad(column, RowFault::UnknownWord))
 }
 
 fn satellites(fields: &Fields<'_>) -> Result<Option<u32>, BadRow> {
