@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use insd_base::satellites::SatelliteEpoch;
 use insd_base::{GpsTime, Message, Received, RtkEpoch, SatelliteId, Source, Time};
-use insd_gnss::{Context, Guess, Ranged, Ranging, RtkLink};
+use insd_gnss::{Context, Guess, Ranged, Ranging, RtkLink, Turns};
 
 /// What is made of GNSS.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -52,45 +52,103 @@ impl FromStr for SatelliteMask {
     }
 }
 
-/// The ranges of each epoch of a receiver and the epochs of a base, with what they come to against each other, in the order in which they are received, for a
-/// voyage that starts at an instant of GPS time.
-#[must_use]
-pub fn messages(
-    context: &Context,
-    epochs: impl Iterator<Item = SatelliteEpoch>,
-    start: GpsTime,
-    masks: &[SatelliteMask],
-    base: &[Received],
-) -> VecDeque<Received> {
-    let mut ranging = Ranging::default();
-    let mut link = RtkLink::default();
-    let mut base = base.iter().peekable();
-    let mut highest: Vec<SatelliteId> = Vec::new();
-    let mut messages = VecDeque::new();
-    for mut epoch in epochs {
-        let seconds = epoch.tag.since(start).as_seconds();
-        let mask = masks.iter().find(|mask| (mask.from..mask.to).contains(&seconds));
+/// What a receiver and a base measure on a voyage, and what each epoch comes to when its time has come.
+#[derive(Debug)]
+pub struct Epochs {
+    /// Start of the voyage.
+    pub start: GpsTime,
+    /// What is known of orbits, the air and the receiver.
+    pub context: Context,
+    /// Of the receiver, in their order.
+    pub rover: VecDeque<SatelliteEpoch>,
+    /// Of the base, in their order.
+    pub base: VecDeque<Received>,
+    /// Which satellites are taken away.
+    pub masks: Vec<SatelliteMask>,
+}
+
+/// The ranges of each epoch of a receiver and the epochs of a base, with what they come to against each other, in the order in which they are received.
+#[derive(Debug)]
+pub struct RangeMaker {
+    epochs: Epochs,
+    ranging: Ranging,
+    link: RtkLink,
+    highest: Vec<SatelliteId>,
+    turns: Turns,
+    /// As they were at the epoch before.
+    turns_before: Turns,
+    ready: VecDeque<Received>,
+}
+
+impl RangeMaker {
+    /// Of these epochs.
+    #[must_use]
+    pub fn new(epochs: Epochs) -> Self {
+        RangeMaker {
+            epochs,
+            ranging: Ranging::default(),
+            link: RtkLink::default(),
+            highest: Vec::new(),
+            turns: Turns::default(),
+            turns_before: Turns::default(),
+            ready: VecDeque::new(),
+        }
+    }
+
+    /// How the ship turns matters to phases.
+    pub fn hear(&mut self, received: &Received) {
+        if let Message::Imu(sample) = &received.message {
+            self.turns.hear(sample);
+        }
+    }
+
+    /// The next message that is received up to an instant.
+    pub fn next_until(&mut self, receipt: Time) -> Option<Received> {
+        let start = self.epochs.start;
+        while let Some(epoch) =
+            self.epochs.rover.pop_front_if(|epoch| Time::START + epoch.tag.since(start) <= receipt)
+        {
+            self.take(epoch);
+        }
+        let is_of_base = self.epochs.base.front().is_some_and(|next| next.receipt <= receipt);
+        if self.ready.is_empty() && is_of_base {
+            self.take_base();
+        }
+        self.ready.pop_front_if(|first| first.receipt <= receipt)
+    }
+
+    fn take(&mut self, mut epoch: SatelliteEpoch) {
+        let seconds = epoch.tag.since(self.epochs.start).as_seconds();
+        let mask = self.epochs.masks.iter().find(|mask| (mask.from..mask.to).contains(&seconds));
+        let is_masked = mask.is_some();
         if let Some(mask) = mask {
-            let left = &highest[..highest.len().min(mask.left)];
+            let left = &self.highest[..self.highest.len().min(mask.left)];
             epoch.signals.retain(|signal| left.contains(&signal.satellite));
         }
-        let ranged = ranging.take(context, &epoch, Guess::default());
-        if mask.is_none() {
-            highest = by_elevation(&ranged);
+        let turned = self.turns.since(std::mem::replace(&mut self.turns_before, self.turns));
+        let guess = Guess { turned, ..Guess::default() };
+        let ranged = self.ranging.take(&self.epochs.context, &epoch, guess);
+        if !is_masked {
+            self.highest = by_elevation(&ranged);
         }
-        let told = message(&epoch, ranged, start);
-        while let Some(next) = base.next_if(|next| next.receipt <= told.receipt) {
-            let Message::Base(of_base) = &next.message else { continue };
-            messages.push_back(next.clone());
-            messages.extend(link.hear_base(context, of_base).map(|rtk| against(next.receipt, rtk)));
-        }
+        let told = message(&epoch, ranged, self.epochs.start);
         let (receipt, time) = (told.receipt, told.message.time());
-        messages.push_back(told);
-        let rtk = link.hear_rover(context, &epoch, time);
-        messages.extend(rtk.into_iter().map(|rtk| against(receipt, rtk)));
+        while self.epochs.base.front().is_some_and(|next| next.receipt <= receipt) {
+            self.take_base();
+        }
+        self.ready.push_back(told);
+        let rtk = self.link.hear_rover(&self.epochs.context, &epoch, time);
+        self.ready.extend(rtk.into_iter().map(|rtk| against(receipt, rtk)));
     }
-    messages.extend(base.cloned());
-    messages
+
+    fn take_base(&mut self) {
+        let Some(next) = self.epochs.base.pop_front() else { return };
+        let Message::Base(of_base) = &next.message else { return };
+        let rtk = self.link.hear_base(&self.epochs.context, of_base);
+        let receipt = next.receipt;
+        self.ready.push_back(next);
+        self.ready.extend(rtk.map(|rtk| against(receipt, rtk)));
+    }
 }
 
 fn against(receipt: Time, told: RtkEpoch) -> Received {

@@ -8,16 +8,16 @@ use anyhow::Context as _;
 use insd_base::{BaseEpoch, Ecef, GpsTime, Message, Received, SatelliteEpoch, Source, Time, earth};
 use insd_config::{BadInput, VoyageCalendar};
 use insd_drivers::recording::{RawTexts, read_raw, read_raw_base};
-use insd_gnss::{Context, Noise};
+use insd_gnss::Context;
 use insd_rinex::{ObservationReader, expand, is_compact, read_navigation};
 
-use crate::ranges::{self, GnssUse, SatelliteMask};
+use crate::ranges::{Epochs, GnssUse, RangeMaker, SatelliteMask};
 use crate::raw_table::RawTable;
 
 /// The messages that raw GNSS makes, in the order in which they are received.
 #[derive(Debug, Default)]
 pub(crate) struct RawVoyage {
-    waiting: VecDeque<Received>,
+    maker: Option<RangeMaker>,
     gnss: Option<GnssUse>,
     masks: Vec<SatelliteMask>,
 }
@@ -34,7 +34,7 @@ impl RawVoyage {
         table: &RawTable,
         start_utc: &str,
     ) -> anyhow::Result<Self> {
-        let own = RawVoyage { waiting: VecDeque::new(), gnss, masks: masks.to_vec() };
+        let own = RawVoyage { maker: None, gnss, masks: masks.to_vec() };
         if matches!(gnss, Some(GnssUse::Loose | GnssUse::None)) {
             return Ok(own);
         }
@@ -52,14 +52,24 @@ impl RawVoyage {
         let start = calendar.utc(Time::START).to_gps();
         let told = read_raw_base(dir)?;
         let told = told.map(|(path, text)| base(&path, &text, table, start)).transpose()?;
-        let of_base = told.unwrap_or_default();
-        let waiting = messages(&texts, table.noise(), (start, masks), &of_base)?;
-        Ok(RawVoyage { waiting, ..own })
+        let epochs = Epochs {
+            start,
+            context: Context { noise: table.noise(), ..context(&texts.navigation)? },
+            rover: observed(&texts)?,
+            base: told.unwrap_or_default(),
+            masks: masks.to_vec(),
+        };
+        Ok(RawVoyage { maker: Some(RangeMaker::new(epochs)), ..own })
     }
 
     /// What is received up to an instant.
     pub(crate) fn until(&mut self, receipt: Time) -> impl Iterator<Item = Received> + '_ {
-        std::iter::from_fn(move || self.waiting.pop_front_if(|first| first.receipt <= receipt))
+        std::iter::from_fn(move || self.maker.as_mut()?.next_until(receipt))
+    }
+
+    /// What else is received: ranges take account of how the ship turns.
+    pub(crate) fn hear(&mut self, received: &Received) {
+        self.maker.iter_mut().for_each(|maker| maker.hear(received));
     }
 
     /// Whether a message is not wanted: a receiver that hears too few satellites has no fix.
@@ -71,18 +81,11 @@ impl RawVoyage {
     }
 }
 
-fn messages(
-    texts: &RawTexts,
-    noise: Noise,
-    (start, masks): (GpsTime, &[SatelliteMask]),
-    of_base: &[Received],
-) -> anyhow::Result<VecDeque<Received>> {
-    let context = Context { noise, ..context(&texts.navigation)? };
+fn observed(texts: &RawTexts) -> anyhow::Result<VecDeque<SatelliteEpoch>> {
     let (path, text) = &texts.observations;
     let plain = plain(text)?;
     let fault = |error| BadInput(format!("{}: {error}", path.display()));
-    let reader = ObservationReader::new(&plain).map_err(fault)?;
-    Ok(ranges::messages(&context, reader.flatten(), start, masks, of_base))
+    Ok(ObservationReader::new(&plain).map_err(fault)?.flatten().collect())
 }
 
 /// What the base measured, at the place that the voyage or else its own file says.
@@ -91,7 +94,7 @@ fn base(
     text: &[u8],
     table: &RawTable,
     start: GpsTime,
-) -> anyhow::Result<Vec<Received>> {
+) -> anyhow::Result<VecDeque<Received>> {
     let plain = plain(text)?;
     let fault = |error| BadInput(format!("{}: {error}", path.display()));
     let reader = ObservationReader::new(&plain).map_err(fault)?;

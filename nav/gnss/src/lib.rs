@@ -24,7 +24,7 @@ pub use context::{Context, Delays};
 pub use ephemerides::{Ephemerides, OrbitRefusal};
 pub use integers::{IntegerRefusal, IntegerSearch, IntegerVector};
 pub use orbit::SatelliteState;
-pub use ranging::{Guess, Ranged, Ranging};
+pub use ranging::{Guess, Ranged, Ranging, Turns};
 pub use rtk::{
     DifferencedRows, DoubleDifferences, PairAmbiguity, PlacedEpoch, RoverPrior, RtkFix, RtkLink,
     RtkRefusal, RtkSettings, RtkSolution, RtkTracker, RtkWithdrawal, SignalPair,

@@ -98,6 +98,7 @@ impl VoyageReport {
             let fresh = || VoyageReport::new(name_of(path), &config, now);
             let own = report.get_or_insert_with(fresh);
             raw.until(now).for_each(|ranges| engine.handle(&ranges));
+            raw.hear(&received);
             engine.handle(&received);
             while let Some(output) = engine.poll_output() {
                 own.collected.engine(now, &output);

@@ -42,6 +42,7 @@ impl Core {
         let number = self.sensors[index].number;
         for sample in ready {
             if used {
+                self.turns.hear(&sample);
                 self.pass(index, now, Source::Imu(number), Message::Imu(sample));
             } else {
                 self.refuse(index, Refusal::NotChosen);

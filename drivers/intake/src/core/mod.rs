@@ -12,6 +12,7 @@ use std::collections::VecDeque;
 
 use insd_base::can::{BusEvent, CanFrame};
 use insd_base::{Geodetic, Message, PortId, Received, Source, Span, Stamp, Time};
+use insd_gnss::Turns;
 use insd_n2k::Name;
 
 use crate::Intaken;
@@ -60,6 +61,8 @@ pub(crate) struct Core {
     system: SystemWatch,
     /// Where the ship was by the last position of a receiver.
     here: Option<Geodetic>,
+    /// How the ship turns, by the IMU in use.
+    turns: Turns,
     /// Whose ranges of satellites are used, and when they came last.
     ranging: Option<(usize, Time)>,
 }
@@ -94,6 +97,7 @@ impl Core {
             variation: Variation::default(),
             system: SystemWatch::default(),
             here: None,
+            turns: Turns::default(),
             ranging: None,
         }
     }

@@ -10,6 +10,7 @@ use insd_base::{
 };
 use insd_gnss::{
     Context, DopplerVelocity, Guess, OrbitRefusal, Ranged, Ranging, RtkLink, SinglePoint,
+    Turns,
 };
 use insd_wire::gnss::navigation::Broadcast;
 use nalgebra::{Matrix3, Vector3};
@@ -28,6 +29,8 @@ pub(crate) struct Sky {
     pub(super) waiting: VecDeque<(Ranged, Option<SatelliteEpoch>)>,
     context: Context,
     ranging: Ranging,
+    /// How the ship had turned when the newest epoch came.
+    turns: Option<Turns>,
     /// What its epochs come to against a base, once one is heard.
     link: Option<Box<RtkLink>>,
     /// Where the receiver said last that its antenna is, ECEF, m; until an epoch has told it.
@@ -99,9 +102,10 @@ impl Sky {
     }
 
     /// What an epoch tells.
-    pub(super) fn range(&mut self, epoch: &SatelliteEpoch) -> Ranged {
+    pub(super) fn range(&mut self, epoch: &SatelliteEpoch, turns: Turns) -> Ranged {
         let antenna = self.antenna.filter(|_| !self.is_placed);
-        let ranged = self.ranging.take(&self.context, epoch, Guess { antenna, turned: 0.0 });
+        let turned = turns.since(self.turns.replace(turns).unwrap_or(turns));
+        let ranged = self.ranging.take(&self.context, epoch, Guess { antenna, turned });
         self.is_placed |= ranged.point.is_ok();
         ranged
     }

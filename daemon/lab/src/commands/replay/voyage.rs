@@ -45,6 +45,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
             engine.handle(&ranges);
             sink.look(&engine).context("cannot write the sky")?;
         }
+        raw.hear(&received);
         if raw.replaces(&received) || Without::drops(&args.without, &received) {
             continue;
         }
