@@ -3,6 +3,7 @@
 mod displacement;
 mod ionosphere;
 mod observed;
+mod scatter;
 mod tracker;
 
 pub use displacement::CarrierDisplacement;

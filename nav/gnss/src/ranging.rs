@@ -119,7 +119,9 @@ impl Ranging {
         let moved = antenna.and_then(|at| {
             let changes = self.tracker.advance(context, epoch, &at, guess.turned);
             let (before, was) = self.before.replace((sampled, at))?;
-            Some((sampled.since(before), CarrierDisplacement::solve(&changes, &was)?))
+            let mut moved = CarrierDisplacement::solve(&changes, &was)?;
+            moved.covariance *= self.tracker.scatter();
+            Some((sampled.since(before), moved))
         });
         let (mut ranges, mut heard) = (Vec::new(), Vec::new());
         for signals in epoch.signals.chunk_by(|a, b| a.satellite == b.satellite) {

@@ -1,3 +1,4 @@
+mod phases;
 mod random;
 mod rtk;
 mod sky;

@@ -9,8 +9,7 @@ use insd_base::{
     Constellation, Ecef, FixQuality, GnssFix, GpsTime, Ned, SatelliteEpoch, Time, earth,
 };
 use insd_gnss::{
-    Context, DopplerVelocity, Guess, OrbitRefusal, Ranged, Ranging, RtkLink, SinglePoint,
-    Turns,
+    Context, DopplerVelocity, Guess, OrbitRefusal, Ranged, Ranging, RtkLink, SinglePoint, Turns,
 };
 use insd_wire::gnss::navigation::Broadcast;
 use nalgebra::{Matrix3, Vector3};

@@ -22,6 +22,8 @@ pub struct CarrierDisplacement {
     pub used: Vec<SatelliteId>,
     /// Satellites whose phase slipped without a word.
     pub slipped: Vec<SatelliteId>,
+    /// What each of them leaves, by the 1-sigma of its change.
+    pub residuals: Vec<f64>,
 }
 
 impl CarrierDisplacement {
@@ -40,6 +42,7 @@ impl CarrierDisplacement {
                     clock: solved.unknowns[3],
                     used: changes.iter().map(|change| change.satellite).collect(),
                     slipped,
+                    residuals: residuals(&solved, &observations),
                 });
             };
             if changes.len() < 6 {
@@ -48,6 +51,11 @@ impl CarrierDisplacement {
             slipped.push(changes.remove(worst).satellite);
         }
     }
+}
+
+fn residuals(solved: &Solved, observations: &[Observation]) -> Vec<f64> {
+    let left = |own: &Observation| own.observed - own.row.transpose().dot(&solved.unknowns);
+    observations.iter().map(|own| left(own) / own.variance.sqrt()).collect()
 }
 
 /// The displacement, and what the last step solved.

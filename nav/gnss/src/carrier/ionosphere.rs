@@ -32,13 +32,14 @@ impl IonosphereTrack {
         self.state.y
     }
 
-    /// Goes on by some seconds with what two bands have, m; returns the change of the delay since, and its 1-sigma. `None` where the delay leaps
+    /// Goes on by some seconds with what two bands have, m, and the variance of it; `repeated`: by how much it counts more as errors are those of the epochs
+    /// before. Returns the change of the delay since, and its 1-sigma. `None` where the delay leaps
     /// as only a slip on one of the bands makes it.
     pub(super) fn advance(
         &mut self,
         elapsed: f64,
-        delay: f64,
-        variance: f64,
+        (delay, variance): (f64, f64),
+        repeated: f64,
     ) -> Option<(f64, f64)> {
         let before = self.state.x;
         let f = Matrix2::new(1.0, elapsed, 0.0, 1.0);
@@ -51,7 +52,7 @@ impl IonosphereTrack {
         if innovation.abs() > SLIP.max(5.0 * expected.sqrt()) {
             return None;
         }
-        let gain = self.covariance.column(0) / expected;
+        let gain = self.covariance.column(0) / (expected + (repeated - 1.0) * variance);
         self.state += gain * innovation;
         self.covariance -= gain * self.covariance.row(0);
         Some((self.state.x - before, self.covariance[(1, 1)].max(0.0).sqrt() * elapsed))
@@ -70,7 +71,7 @@ mod tests {
         let mut scatter: f64 = 0.0;
         for k in 1..=300 {
             let (change, _) =
-                track.advance(1.0, 3.0 + 6e-4 * f64::from(k) + noise(k), 5e-5).unwrap();
+                track.advance(1.0, (3.0 + 6e-4 * f64::from(k) + noise(k), 5e-5), 1.0).unwrap();
             sum += change;
             if k > 100 {
                 scatter = scatter.max((change - 6e-4).abs());

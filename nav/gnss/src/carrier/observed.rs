@@ -32,6 +32,8 @@ pub(super) struct Observed {
     pub(super) elevation: f64,
     pub(super) delays: Delays,
     pub(super) phases: Vec<Phase>,
+    /// By how much the variance of its phases is to be multiplied where all epochs are used as if their errors were independent.
+    pub(super) repeated: f64,
 }
 
 impl Observed {
@@ -39,7 +41,7 @@ impl Observed {
     /// each adds a cycle to every phase (Wu et al., "Effects of antenna orientation on GPS carrier phase", 1993).
     pub(super) fn new(
         context: &Context,
-        tag: GpsTime,
+        (tag, repeated): (GpsTime, f64),
         signals: &[SignalObservation],
         (antenna, turns): (&Vector3<f64>, f64),
     ) -> Option<Self> {
@@ -78,6 +80,7 @@ impl Observed {
             elevation: direction.elevation,
             delays,
             phases,
+            repeated,
         })
     }
 

@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 use super::ionosphere::IonosphereTrack;
 use super::observed::{Observed, Phase};
+use super::scatter::{Scatter, Tracked};
 use crate::context::Context;
 use crate::sight::Sight;
 
@@ -54,6 +55,8 @@ pub struct CarrierTracker {
     arcs: u32,
     /// Turns of the antenna so far, clockwise as seen from above.
     turns: f64,
+    /// What phases scatter by.
+    scatter: Scatter,
 }
 
 impl CarrierTracker {
@@ -71,16 +74,17 @@ impl CarrierTracker {
         let elapsed = self.tag.map(|before| epoch.tag.since(before).as_seconds());
         let elapsed =
             elapsed.filter(|elapsed| *elapsed > 0.0 && *elapsed < LONGEST && !epoch.clock_reset);
+        let repeated = self.scatter.repeated(elapsed);
         let before = std::mem::take(&mut self.seen);
         let mut changes = Vec::new();
         for signals in epoch.signals.chunk_by(|a, b| a.satellite == b.satellite) {
-            let Some(now) = Observed::new(context, epoch.tag, signals, (antenna, self.turns))
-            else {
+            let antenna = (antenna, self.turns);
+            let Some(now) = Observed::new(context, (epoch.tag, repeated), signals, antenna) else {
                 continue;
             };
             let kept = elapsed.zip(before.get(&now.satellite)).zip(self.tag);
             let change = kept.and_then(|((elapsed, (earlier, arc)), tag)| {
-                change((tag, earlier, arc), &now, elapsed, antenna)
+                change((tag, earlier, arc), &now, elapsed, antenna.0)
             });
             let arc = match change {
                 Some((change, arc)) => {
@@ -92,14 +96,34 @@ impl CarrierTracker {
             self.seen.insert(now.satellite, (now, arc));
         }
         self.tag = Some(epoch.tag);
+        self.scatter.hear(epoch.tag, antenna, self.tracked());
         changes
     }
 
-    /// The phase of a satellite in the newest epoch.
+    /// By how much more than they are taken for phases scatter: the ratio of variances, at least one, over the newest half minute.
+    #[must_use]
+    pub fn scatter(&self) -> f64 {
+        self.scatter.ratio()
+    }
+
+    fn tracked(&self) -> Vec<Tracked> {
+        let seen = self.seen.iter().filter(|(_, (observed, _))| !observed.phases.is_empty());
+        let tracked = |(satellite, (observed, arc)): (&SatelliteId, &(Observed, Arc))| Tracked {
+            satellite: *satellite,
+            record: observed.record,
+            sight: observed.sight,
+            phase: arc.phase,
+        };
+        seen.map(tracked).collect()
+    }
+
+    /// The phase of a satellite in the newest epoch, as noisy as phases have been found to be: reflections that last from epoch to epoch count as often.
     #[must_use]
     pub fn phase(&self, satellite: SatelliteId) -> Option<ArcPhase> {
         let (observed, arc) = self.seen.get(&satellite)?;
-        (!observed.phases.is_empty()).then_some(arc.phase)
+        let mut told = arc.phase;
+        told.phase.variance *= observed.repeated;
+        (!observed.phases.is_empty()).then_some(told)
     }
 
     fn begin(&mut self, now: &Observed) -> Arc {
@@ -163,7 +187,7 @@ fn tracked(
     let same = before.zip(two_bands(now)).filter(|(known, (bands, ..))| known.bands == *bands);
     if let Some((mut known, (_, delay, variance))) =
         same.filter(|(known, _)| known.bands.iter().all(is_kept))
-        && let Some(change) = known.track.advance(elapsed, delay, variance)
+        && let Some(change) = known.track.advance(elapsed, (delay, variance), now.repeated)
     {
         return (Some(known), Some(change));
     }
