@@ -79,6 +79,6 @@ mod tests {
         }
         assert!((sum - 0.18).abs() < 0.006, "{sum}");
         assert!(scatter < 0.001, "{scatter}");
-        assert_eq!(track.advance(1.0, 3.18 + 0.085, 5e-5), None);
+        assert_eq!(track.advance(1.0, (3.18 + 0.085, 5e-5), 1.0), None);
     }
 }
