@@ -13,6 +13,8 @@
 
 pub mod recursion;
 
+use insd_base::{Protection, SolutionSigma};
+
 /// Share of the risk that what is unlikely may take without being looked at.
 const NEGLIGIBLE: f64 = 0.01;
 /// Halvings of what a level is between.
@@ -85,6 +87,16 @@ impl RiskModel {
         (self.exposure / self.renewed).max(1.0)
     }
 
+    /// By how much levels where nobody lies are beyond [`Protection::of`], which is of the default risk and exposure, m: negative for a greater risk.
+    /// An error is beyond so many sigmas `k` with `exp(-k^2/2)` at the most, and the exposure holds so many errors.
+    #[must_use]
+    pub fn beyond_usual(&self, sigma: &SolutionSigma) -> Protection {
+        let sigmas = |own: &RiskModel| (2.0 * (own.renewals() / own.risk).ln().max(0.0)).sqrt();
+        let more = sigmas(self) - sigmas(&RiskModel::default());
+        let sigma = &sigma.position.0;
+        Protection { horizontal: more * sigma.xy().norm(), vertical: more * sigma.z }
+    }
+
     /// Chance that something begins within the exposure, of a rate, 1/h.
     #[must_use]
     pub fn chance(&self, rate: f64) -> f64 {
@@ -150,6 +162,26 @@ mod tests {
         let renewals = RiskModel::default().renewals();
         let level = of(&[(renewals, 0.0, 2.0)]);
         assert!((level - 11.0).abs() < 0.02, "{level}");
+    }
+
+    #[test]
+    fn another_risk_widens_or_narrows_a_level_as_far_as_errors_of_nobody_lying_ask() {
+        let sigma = SolutionSigma {
+            position: insd_base::Ned::new(1.5, 2.0, 3.0),
+            ..SolutionSigma::default()
+        };
+        let usual = RiskModel::default();
+        assert_eq!(usual.beyond_usual(&sigma), Protection::default());
+        for (risk, exposure) in [(1e-7, 10_800.0), (1e-3, 10_800.0), (1e-5, 900.0)] {
+            let own = RiskModel { risk, exposure, ..usual };
+            let told = Protection::of(&sigma).plus(&own.beyond_usual(&sigma));
+            let free = |std| Hypothesis { cause: 0, chance: own.renewals(), apart: 0.0, std };
+            let [horizontal, vertical] =
+                [2.5, 3.0].map(|std| level(&mut vec![free(std)], own.risk));
+            // to the digits of 5.5; that of the height is of a narrower tail
+            assert!((told.horizontal / horizontal - 1.0).abs() < 2e-3, "{told:?} {horizontal}");
+            assert!((0.92..1.0).contains(&(told.vertical / vertical)), "{told:?} {vertical}");
+        }
     }
 
     #[test]

@@ -8,6 +8,7 @@
 #[doc = include_str!("../../ARCHITECTURE.md")]
 struct Architecture;
 
+pub mod caster;
 pub mod engines;
 pub mod noise_free;
 pub mod pages;
@@ -37,4 +38,11 @@ pub fn variant(number: usize, replacements: &[(&str, &str)]) -> Scenario {
         text = text.replace(old, new);
     }
     Scenario::from_toml(&text).unwrap_or_else(|fault| panic!("{file}: {fault}"))
+}
+
+/// The shipped port of raw satellites on two bands, with a base 4 km away; further pieces of its text replaced.
+#[must_use]
+pub fn port_with_base(replacements: &[(&str, &str)]) -> Scenario {
+    let base = "common_clock = [1]\nfrequencies = 2\n[raw.base]\nlat_deg = 35.03\nlon_deg = 135.85\nheight_m = 60.0\n";
+    variant(26, &[&[("common_clock = [1]\n", base)], replacements].concat())
 }

@@ -1,13 +1,14 @@
-//! Raw GNSS of a voyage as the bytes of a u-blox or Septentrio receiver.
+//! Raw GNSS of a voyage as the bytes of a u-blox or Septentrio receiver, and of a base.
 
 use std::collections::BTreeMap;
 
 use insd_base::satellites::{
     BroadcastRecord, KeplerRecord, SPEED_OF_LIGHT, SatelliteEpoch, SignalCode,
 };
-use insd_base::{Constellation, GpsTime, Input, SatelliteId, SignalObservation, Span, Time};
+use insd_base::{Constellation, GpsTime, Input, SatelliteId, SignalObservation, Span, Time, earth};
 use insd_simulator::RawGnss;
 use insd_wire::gnss::navigation::lnav_words;
+use insd_wire::gnss::rtcm::{BaseStation, MsmWriter, write_record};
 use insd_wire::gnss::sbf::{MeasChannel, MeasEpoch, RawNavigation, RawNavigationKind, Stamp};
 use insd_wire::gnss::ubx::{RxmRawx, RxmSfrbx, Signal};
 
@@ -15,6 +16,8 @@ use crate::feed::Sending;
 
 /// Time from an epoch to the last byte of its message, s.
 const LATE: f64 = 0.06;
+/// The same of the base's, which have come over a network, s.
+const BASE_LATE: f64 = 0.3;
 /// Each satellite sends a subframe so often, s: thrice as often as in the sky, so that a voyage may be short.
 const SUBFRAME: i64 = 2;
 
@@ -67,6 +70,27 @@ pub fn subframe(record: &KeplerRecord, number: usize) -> Option<Vec<u8>> {
     let signal = Signal::of(record.satellite, SignalCode::new(1, b'C'), None);
     let words = lnav_words(record).into_iter().nth(number).filter(|_| is_lnav)?;
     Some(RxmSfrbx { signal: signal?, channel: 1, version: 2, words }.write())
+}
+
+/// What the base says, by its number: where it is and its orbits every five seconds, and MSM7 of each epoch.
+#[must_use]
+pub fn rtcm(raw: &RawGnss, start: GpsTime, port: usize) -> Vec<Sending> {
+    let Some(base) = &raw.base else { return Vec::new() };
+    let place =
+        BaseStation { station: 7, position: earth::ecef(&base.position).0.into(), height: None };
+    let mut writer = MsmWriter::new(place.station);
+    let mut all = Vec::new();
+    for (number, epoch) in base.epochs.iter().enumerate() {
+        let mut frames = if number % 5 == 0 { vec![place.write()] } else { Vec::new() };
+        let satellites = epoch.signals.chunk_by(|a, b| a.satellite == b.satellite);
+        let of_time = satellites.filter(|_| number % 5 == 0);
+        let records = of_time.filter_map(|own| record(raw, own[0].satellite, epoch.tag));
+        frames.extend(records.filter_map(|own| write_record(&BroadcastRecord::Kepler(own))));
+        frames.extend(writer.write(epoch));
+        let at = Time::from_seconds((epoch.tag.since(start).as_seconds() + BASE_LATE).max(0.0));
+        all.push(Sending { at, port, input: Input::Bytes(frames.concat()) });
+    }
+    all
 }
 
 /// The same in SBF: MeasEpoch with GPS and QZSS on L1, GPSRawCA and QZSRawL1CA.

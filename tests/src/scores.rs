@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use insd_base::{Solution, Time, Truth};
+use insd_base::{Geodetic, Solution, Time, Truth, earth};
 use insd_lab::evaluation::{self, Component, EpochError, Summary};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -74,4 +74,15 @@ pub fn dishonest(passages: &[Scores], components: &[Component]) -> Vec<String> {
         .filter(|(_, nees)| !range.contains(nees))
         .map(|(name, nees)| format!("{name}: NEES {nees:.2}, not within {range:.2?}"))
         .collect()
+}
+
+/// How far a place is horizontally from where the IMU truly was at an instant, m; `None` if that is not within the truth.
+#[must_use]
+pub fn horizontal_error(truth: &[Truth], time: Time, place: &Geodetic) -> Option<f64> {
+    let after = truth.partition_point(|truth| truth.time < time);
+    let [a, b] = truth.get(after.checked_sub(1)?..=after)? else { return None };
+    let share = (time - a.time).as_seconds() / (b.time - a.time).as_seconds();
+    let [a, b] = [a, b].map(|truth| earth::ecef(&truth.position).0);
+    let apart = earth::ecef(place).0 - (a + (b - a) * share);
+    Some((earth::c_ne(place) * apart).xy().norm())
 }

@@ -3,15 +3,14 @@
 use insd_drivers::can::CanConfig;
 
 use crate::file::Config;
-use crate::{models, spares};
+use crate::spares;
 
 /// Names, ranges and references: each fault with its place and what was expected.
 pub(super) fn of(config: &Config) -> Vec<String> {
     let mut faults = Vec::new();
     ship(config, &mut faults);
     faults.extend(config.imu.faults("[imu]"));
-    let Config { alignment, model, gate, floor, .. } = config;
-    faults.extend(models::faults(alignment, model, gate, floor));
+    faults.extend(config.assumed().faults());
     spares::of(config, &mut faults);
     ports(config, &mut faults);
     for fault in config.intake().faults() {

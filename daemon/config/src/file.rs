@@ -8,7 +8,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::imu::ImuModel;
-use crate::models::{AlignmentSection, FloorSection, GateSection, ModelSection};
+use crate::models::{
+    AlignmentSection, FloorSection, GateSection, ModelSection, ProtectionSection, Sections,
+};
 use crate::node::NodeSection;
 use crate::output::{OutputSection, PointSection};
 use crate::port::PortSection;
@@ -39,6 +41,9 @@ pub struct Config {
     /// The least sigmas that are believed.
     #[serde(default)]
     pub floor: FloorSection,
+    /// The risk of protection levels, and how often faults begin.
+    #[serde(default)]
+    pub protection: ProtectionSection,
     /// Ports that are listened to.
     #[serde(default, rename = "port")]
     pub ports: Vec<PortSection>,
@@ -73,6 +78,12 @@ pub struct Config {
 }
 
 impl Config {
+    /// What the navigator is to assume.
+    pub(crate) fn assumed(&self) -> Sections<'_> {
+        let Config { alignment, model, gate, floor, protection, .. } = self;
+        Sections { alignment, model, gate, floor, protection }
+    }
+
     /// The monitoring points: the IMU, then those that have a name.
     #[must_use]
     pub fn levers(&self) -> Vec<Body> {

@@ -39,7 +39,7 @@ pub use file::Config;
 pub use imu::ImuModel;
 pub use lan::LanSection;
 pub use log_filter::filter;
-pub use models::{AlignmentSection, FloorSection, GateSection, ModelSection};
+pub use models::{AlignmentSection, FloorSection, GateSection, ModelSection, ProtectionSection};
 pub use node::{NodeMemory, NodeSection};
 pub use output::{OutputSection, Overfull, PointSection};
 pub use output_file::OutputFile;

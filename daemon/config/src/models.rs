@@ -112,6 +112,32 @@ pub struct GateSection {
     pub judged_reset_time_s: Option<f64>,
 }
 
+/// Which risk protection levels are of, and how often faults begin that nobody has found; see `docs/protection.md`.
+#[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ProtectionSection {
+    /// Probability that an error is beyond its level within the exposure.
+    pub risk: Option<f64>,
+    /// Exposure, h.
+    pub exposure_h: Option<f64>,
+    /// Errors of a position that nobody falsifies are others after so long, s.
+    pub renewed_s: Option<f64>,
+    /// A receiver's position fails by itself, 1/h.
+    pub receiver_fails_per_h: Option<f64>,
+    /// A receiver is led astray, 1/h.
+    pub receiver_deceived_per_h: Option<f64>,
+    /// A satellite is wrong, 1/h each.
+    pub satellite_fails_per_h: Option<f64>,
+    /// All satellites of one constellation other than GPS are wrong, 1/h.
+    pub constellation_fails_per_h: Option<f64>,
+    /// A log is wrong, 1/h.
+    pub log_fails_per_h: Option<f64>,
+    /// A compass is wrong, 1/h.
+    pub heading_fails_per_h: Option<f64>,
+    /// A triad of the IMU fails, 1/h.
+    pub imu_fails_per_h: Option<f64>,
+}
+
 /// The least sigma that is believed of each source; smaller ones are raised to it, and counted.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -197,53 +223,51 @@ impl AlignmentSection {
 /// A key with its value, if it is given, and its least and greatest.
 type Range = (&'static str, Option<f64>, f64, f64);
 
-/// The models with what the sections say.
-#[must_use]
-pub(super) fn models(
-    alignment: &AlignmentSection,
-    model: &ModelSection,
-    gate: &GateSection,
-    floor: &FloorSection,
-) -> Models {
-    let mut models = Models::default();
-    alignment.lay_over(&mut models);
-    model.keys(&mut models).into_iter().for_each(ModelKey::lay_over);
-    gate.keys(&mut models).into_iter().for_each(ModelKey::lay_over);
-    floor.keys(&mut models).into_iter().for_each(ModelKey::lay_over);
-    models
+/// The sections that say what the navigator assumes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sections<'a> {
+    pub(super) alignment: &'a AlignmentSection,
+    pub(super) model: &'a ModelSection,
+    pub(super) gate: &'a GateSection,
+    pub(super) floor: &'a FloorSection,
+    pub(super) protection: &'a ProtectionSection,
 }
 
-/// What of the sections is out of its range, in words.
-#[must_use]
-pub(super) fn faults(
-    alignment: &AlignmentSection,
-    model: &ModelSection,
-    gate: &GateSection,
-    floor: &FloorSection,
-) -> Vec<String> {
-    let all = ranges(alignment, model, gate, floor);
-    let wrong = all.into_iter().filter(|(_, value, least, most)| {
-        value.is_some_and(|value| !(*least..=*most).contains(&value))
-    });
-    let told = |(key, _, least, most): Range| {
-        let (section, key) = key.split_once('.').unwrap_or(("", key));
-        format!("[{section}]: {key}: expected {least} to {most}")
-    };
-    wrong.map(told).collect()
-}
+impl Sections<'_> {
+    /// The models with what the sections say.
+    #[must_use]
+    pub(super) fn models(&self) -> Models {
+        let mut models = Models::default();
+        self.alignment.lay_over(&mut models);
+        self.model.keys(&mut models).into_iter().for_each(ModelKey::lay_over);
+        self.gate.keys(&mut models).into_iter().for_each(ModelKey::lay_over);
+        self.floor.keys(&mut models).into_iter().for_each(ModelKey::lay_over);
+        self.protection.keys(&mut models).into_iter().for_each(ModelKey::lay_over);
+        models
+    }
 
-fn ranges(
-    alignment: &AlignmentSection,
-    model: &ModelSection,
-    gate: &GateSection,
-    floor: &FloorSection,
-) -> Vec<Range> {
-    let mut usual = Models::default();
-    let mut all = alignment.ranges().to_vec();
-    all.extend(model.keys(&mut usual).iter().map(ModelKey::range));
-    all.extend(gate.keys(&mut usual).iter().map(ModelKey::range));
-    all.extend(floor.keys(&mut usual).iter().map(ModelKey::range));
-    all
+    /// What of the sections is out of its range, in words.
+    #[must_use]
+    pub(super) fn faults(&self) -> Vec<String> {
+        let wrong = self.ranges().into_iter().filter(|(_, value, least, most)| {
+            value.is_some_and(|value| !(*least..=*most).contains(&value))
+        });
+        let told = |(key, _, least, most): Range| {
+            let (section, key) = key.split_once('.').unwrap_or(("", key));
+            format!("[{section}]: {key}: expected {least} to {most}")
+        };
+        wrong.map(told).collect()
+    }
+
+    fn ranges(&self) -> Vec<Range> {
+        let mut usual = Models::default();
+        let mut all = self.alignment.ranges().to_vec();
+        all.extend(self.model.keys(&mut usual).iter().map(ModelKey::range));
+        all.extend(self.gate.keys(&mut usual).iter().map(ModelKey::range));
+        all.extend(self.floor.keys(&mut usual).iter().map(ModelKey::range));
+        all.extend(self.protection.keys(&mut usual).iter().map(ModelKey::range));
+        all
+    }
 }
 
 /// A key of a section: its name, what is given, its range, its unit in SI, and what it sets.
@@ -341,6 +365,32 @@ impl FloorSection {
     }
 }
 
+impl ProtectionSection {
+    /// The risk is no greater than 10 to minus this, as sentences tell it: 1 to 9.
+    #[must_use]
+    pub fn exponent(&self) -> u8 {
+        let risk = self.risk.unwrap_or(Models::default().risk.risk);
+        // to the digits of what was written
+        (-risk.log10() + 1e-9).floor().clamp(1.0, 9.0) as u8
+    }
+
+    fn keys<'a>(&self, models: &'a mut Models) -> Vec<ModelKey<'a>> {
+        let own = &mut models.risk;
+        keys! { "protection", self:
+            risk [1e-9, 0.1] => own.risk;
+            exposure_h [0.01, 1000.0] => own.exposure, 3600.0;
+            renewed_s [1.0, 1e5] => own.renewed;
+            receiver_fails_per_h [0.0, 1.0] => own.receiver_fails;
+            receiver_deceived_per_h [0.0, 1.0] => own.receiver_deceived;
+            satellite_fails_per_h [0.0, 1.0] => own.satellite_fails;
+            constellation_fails_per_h [0.0, 1.0] => own.constellation_fails;
+            log_fails_per_h [0.0, 1.0] => own.log_fails;
+            heading_fails_per_h [0.0, 1.0] => own.heading_fails;
+            imu_fails_per_h [0.0, 1.0] => own.imu_fails;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -378,9 +428,7 @@ mod tests {
 
     /// How many keys the sections have that are given a value.
     fn said_keys(config: &Config) -> usize {
-        let Config { alignment, model, gate, floor, .. } = config;
-        let given =
-            ranges(alignment, model, gate, floor).iter().filter(|range| range.1.is_some()).count();
+        let given = config.assumed().ranges().into_iter().filter(|range| range.1.is_some()).count();
         // two of the alignment are words, and two ranges of the model share a key
         2 + given - 1
     }
@@ -394,11 +442,15 @@ mod tests {
             .replace("prefilter_window_s = 300.0", "prefilter_window_s = 120.0")
             .replace("probability = 0.9999", "probability = 0.99")
             .replace("log_scale_std = 0.005", "log_scale_std = 0.02")
-            .replace("reference_heading_deg = 0.01", "reference_heading_deg = 0.5");
+            .replace("reference_heading_deg = 0.01", "reference_heading_deg = 0.5")
+            .replace("risk = 1e-5", "risk = 1e-7")
+            .replace("exposure_h = 3.0", "exposure_h = 0.25")
+            .replace("satellite_fails_per_h = 1e-5", "satellite_fails_per_h = 2e-5");
         let engine = Config::of_text(&text).unwrap().engine();
         assert_eq!(engine.alignment.moored, Method::Moorings);
         assert_eq!(engine.alignment.in_motion, InMotion::Bank);
-        let Models { log, gate, floors, prefilter, .. } = engine.models;
+        let Models { log, gate, floors, prefilter, risk, .. } = engine.models;
+        assert_eq!((risk.risk, risk.exposure, risk.satellite_fails), (1e-7, 900.0, 2e-5));
         assert_eq!(prefilter.order, ModelOrder::Chosen { max: 3 });
         assert_eq!(prefilter.window, Span::from_seconds(120.0));
         assert_eq!((gate.probability, log.scale_std), (0.99, 0.02));
@@ -410,12 +462,16 @@ mod tests {
         let text = said()
             .replace("accuracy_deg = 0.1", "accuracy_deg = 0.0")
             .replace("probability = 0.9999", "probability = 1.0")
-            .replace("mean_heave_std_m = [0.02, 0.3]", "mean_heave_std_m = [0.02, 99.0]");
+            .replace("mean_heave_std_m = [0.02, 0.3]", "mean_heave_std_m = [0.02, 99.0]")
+            .replace("risk = 1e-5", "risk = 0.0")
+            .replace("exposure_h = 3.0", "exposure_h = 0.0");
         let message = Config::of_text(&text).unwrap_err();
         for part in [
             "[alignment]: accuracy_deg: expected 0.001 to 10",
             "[gate]: probability: expected 0.9 to 0.9999999",
             "[model]: mean_heave_std_m: expected 0.001 to 10",
+            "[protection]: risk: expected 0.000000001 to 0.1",
+            "[protection]: exposure_h: expected 0.01 to 1000",
         ] {
             assert!(message.contains(part), "{part} is not in: {message}");
         }

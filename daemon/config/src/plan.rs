@@ -10,7 +10,7 @@ use insd_vessel::{OutputPlan, Pipeline, Plan};
 
 use crate::file::Config;
 use crate::filters;
-use crate::models;
+use crate::output::OutputSection;
 use crate::port::PortSection;
 use crate::ship::Start;
 
@@ -70,7 +70,7 @@ impl Config {
             start,
             initial: place.map(|(lat, lon)| Geodetic::from_degrees(lat, lon, ship.height_m)),
             output_rate: ship.rate_hz,
-            models: models::models(&self.alignment, &self.model, &self.gate, &self.floor),
+            models: self.assumed().models(),
             alignment: self.alignment.config(),
             stored: None,
             vessel: ship.kind.into(),
@@ -89,8 +89,13 @@ impl Config {
     /// What is said at the ports, and who may command there.
     #[must_use]
     pub fn output_plan(&self) -> OutputPlan {
-        let ports =
-            self.outputs.iter().map(|output| output.port(self.point(output.point.as_deref())));
+        let exponent = self.protection.exponent();
+        let port = |output: &OutputSection| {
+            let mut own = output.port(self.point(output.point.as_deref()));
+            own.manner.policy.risk_exponent = exponent;
+            own
+        };
+        let ports = self.outputs.iter().map(port);
         // behind the outputs, in the order of the ports
         let casters = self.ports.iter().filter_map(PortSection::told_position);
         let numbered = self.ports.iter().zip((0..).map(PortId));

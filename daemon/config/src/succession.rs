@@ -36,6 +36,7 @@ impl Config {
         keep("model", self.model == before.model);
         keep("gate", self.gate == before.gate);
         keep("floor", self.floor == before.floor);
+        keep("protection", self.protection == before.protection);
         keep("spare", self.spares == before.spares);
         keep("node", self.nodes == before.nodes);
         keep("recording", self.recording == before.recording);
@@ -46,6 +47,7 @@ impl Config {
         self.imu.clone_from(&before.imu);
         (self.alignment, self.model) = (before.alignment, before.model);
         (self.gate, self.floor) = (before.gate, before.floor);
+        self.protection = before.protection;
         self.spares.clone_from(&before.spares);
         self.nodes.clone_from(&before.nodes);
         self.recording.clone_from(&before.recording);
@@ -94,9 +96,9 @@ mod tests {
     #[test]
     fn so_does_what_the_navigator_assumes() {
         let sections = "[alignment]\nmoored = \"white_noise\"\n[model]\ncurrent_std_mps = 1.0\n\
-                        [gate]\nprobability = 0.99\n[floor]\nlog_mps = 0.01\n[imu]";
+                        [gate]\nprobability = 0.99\n[floor]\nlog_mps = 0.01\n[protection]\nrisk = 1e-6\n[imu]";
         let (config, change) = change("[imu]", sections);
-        assert_eq!(change.waiting, ["alignment", "model", "gate", "floor"]);
+        assert_eq!(change.waiting, ["alignment", "model", "gate", "floor", "protection"]);
         assert_eq!(config, Config::of_text(SHIPPED).unwrap());
     }
 }

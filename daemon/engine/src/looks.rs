@@ -91,12 +91,14 @@ impl Engine {
         all.into_iter().filter(move |it| is_compared || it.standing != Standing::Trusted)
     }
 
-    /// A solution with all that is found of the sensors.
+    /// A solution with all that is found of the sensors, and levels of the risk that is asked for.
     pub(crate) fn judged(&self, solution: Solution) -> Solution {
         let Judgement { integrity, excluded } = solution.judgement;
         let excluded = excluded.and(self.receivers.named(self.surveyor.excluded()));
         let judged = Solution { judgement: Judgement { integrity, excluded }, ..solution };
-        self.surveyor.claim(judged, self.reach())
+        let claimed = self.surveyor.claim(judged, self.reach());
+        let more = self.config.models.risk.beyond_usual(&claimed.sigma);
+        Solution { hidden: claimed.hidden.plus(&more), ..claimed }
     }
 
     /// How far the antenna may be from the IMU, m.

@@ -88,7 +88,7 @@ fn observed(texts: &RawTexts) -> anyhow::Result<VecDeque<SatelliteEpoch>> {
     Ok(ObservationReader::new(&plain).map_err(fault)?.flatten().collect())
 }
 
-/// What the base measured, at the place that the voyage or else its own file says.
+/// What the base measured, at the place that the voyage or else its own file says; of one that moves, where it was at each epoch.
 fn base(
     path: &Path,
     text: &[u8],
@@ -97,20 +97,25 @@ fn base(
 ) -> anyhow::Result<VecDeque<Received>> {
     let plain = plain(text)?;
     let fault = |error| BadInput(format!("{}: {error}", path.display()));
-    let reader = ObservationReader::new(&plain).map_err(fault)?;
-    let by_file = reader.header().position.filter(|place| *place != [0.0; 3]);
-    let by_file = by_file.map(|place| Ecef(place.into()));
-    let position = table.base().map(|place| earth::ecef(&place)).or(by_file);
-    if position.is_none() {
+    let mut reader = ObservationReader::new(&plain).map_err(fault)?;
+    let surveyed = table.base().map(|place| earth::ecef(&place));
+    let mut all = Vec::new();
+    while let Some(read) = reader.next() {
+        let Ok(epoch) = read else { continue };
+        let header = reader.header();
+        let is_moving = header.is_moving;
+        let by_file = header.position.map(|place| Ecef(place.into()));
+        // what was surveyed is the place of one that stands
+        let position = surveyed.filter(|_| !is_moving).or(by_file);
+        let time = Time::START + epoch.tag.since(start);
+        let told = BaseEpoch { time, station: None, position, is_moving, epoch };
+        let message = Message::Base(Arc::new(told));
+        all.push((position, Received { receipt: time, source: Source::Base(0), message }));
+    }
+    if all.iter().any(|(position, _)| position.is_none()) {
         eprintln!("{}: nobody says where the base is", path.display());
     }
-    let told = |epoch: SatelliteEpoch| {
-        let time = Time::START + epoch.tag.since(start);
-        let told = BaseEpoch { time, station: None, position, is_moving: false, epoch };
-        let message = Message::Base(Arc::new(told));
-        Received { receipt: time, source: Source::Base(0), message }
-    };
-    Ok(reader.flatten().map(told).collect())
+    Ok(all.into_iter().map(|(_, received)| received).collect())
 }
 
 fn plain(text: &[u8]) -> anyhow::Result<Vec<u8>> {

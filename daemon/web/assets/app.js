@@ -4,7 +4,7 @@ import { byId, binder, keep, recall, setAttr, setClass, setText, show } from "./
 import { clock } from "./format.js";
 import { after } from "./age.js";
 import { follow, load } from "./stream.js";
-import { rose, horizon, turn, qualities, speak } from "./instruments.js";
+import { rose, horizon, turn, qualities, source, speak } from "./instruments.js";
 import { chart } from "./chart.js";
 import { history, plot, sigmaPlot, spectrum } from "./plots.js";
 import { sensors, ports, measurements, system } from "./tables.js";
@@ -14,7 +14,7 @@ import { alerts, startAlerts } from "./alerts.js";
 import * as bridge from "./bridge.js";
 
 const bind = binder(document);
-const instruments = [rose(byId("rose")), rose(byId("b-rose")), horizon(byId("horizon")), turn(byId("turn")), turn(byId("b-turn")), qualities];
+const instruments = [rose(byId("rose")), rose(byId("b-rose")), horizon(byId("horizon")), turn(byId("turn")), turn(byId("b-turn")), qualities, source];
 const sheet = chart(byId("chart"));
 const past = history();
 const plots = [

@@ -1,7 +1,7 @@
 // The instruments: heading rose, horizon, rate of turn.
 
-import { svg, setAttr, setText, setClass, byId } from "./dom.js";
-import { bearing, fixed, signed, known, sigma, words, DASH } from "./format.js";
+import { svg, setAttr, setText, setClass, show, byId } from "./dom.js";
+import { bearing, duration, fixed, signed, known, sigma, words, DASH } from "./format.js";
 
 const RAD = Math.PI / 180;
 const point = (radius, degrees) => [radius * Math.sin(degrees * RAD), -radius * Math.cos(degrees * RAD)];
@@ -65,6 +65,14 @@ export function qualities(motion) {
   for (const [name, quality] of Object.entries({ heading, position, velocity, level })) {
     document.body.classList.toggle(`${name}-not-valid`, bad(quality) || !motion || motion.freshness !== "fresh");
   }
+}
+
+// What the position lives by, since when and why.
+export function source(motion) {
+  const own = motion?.source;
+  show(byId("source"), own);
+  const since = known(own?.since_s) ? ` for ${duration(own.since_s)}` : "";
+  setText(byId("source-why"), `${since}${own?.reason ? `: ${own.reason}` : ""}`);
 }
 
 // Pixels of a degree of pitch.

@@ -347,6 +347,12 @@ async fn call_caster(config: &Ntrip, teller: &mut Teller, outbox: Option<&Outbox
         Err(why) => Err(why),
     };
     let ended = match stream {
+        Ok((stream, password)) if config.tls => {
+            match ntrip::secure(stream, config, teller.now().system).await {
+                Ok(stream) => ntrip::converse(stream, config, &password, teller, outbox).await,
+                Err(why) => Err(why),
+            }
+        }
         Ok((stream, password)) => ntrip::converse(stream, config, &password, teller, outbox).await,
         Err(why) => Err(why),
     };

@@ -11,6 +11,7 @@ mod host;
 mod network;
 mod node;
 mod ntrip;
+mod ntrip_tls;
 mod output;
 mod pace;
 mod serial;

@@ -11,11 +11,11 @@ use tokio::net::{TcpListener, TcpStream};
 use crate::host::Host;
 
 /// 1005 of a published example (RTCM 10403, 4.2).
-const FRAME: [u8; 25] = [
+pub(crate) const FRAME: [u8; 25] = [
     0xD3, 0x00, 0x13, 0x3E, 0xD7, 0xD3, 0x02, 0x02, 0x98, 0x0E, 0xDE, 0xEF, 0x34, 0xB4, 0xBD, 0x62,
     0xAC, 0x09, 0x41, 0x98, 0x6F, 0x33, 0x36, 0x0B, 0x98,
 ];
-const FIRST: &[u8] = b"ICY 200 OK\r\n\r\n";
+pub(crate) const FIRST: &[u8] = b"ICY 200 OK\r\n\r\n";
 const SECOND: &[u8] = b"HTTP/1.1 200 OK\r\nNtrip-Version: Ntrip/2.0\r\nContent-Type: gnss/data\r\n\
                         Transfer-Encoding: chunked\r\n\r\n";
 

@@ -9,8 +9,8 @@ use insd_base::units::DEG;
 use insd_base::{FixQuality, HeaveQuality, Mode, Ned, Parties, Party, SolutionSigma};
 use insd_wire::nmea::{
     Fault, HeadingMode, MAX_LEN, Pinsd, PinsdAlignment, PinsdIntegrity, PinsdMode, PinsdPhase,
-    PinsdProtection, PinsdSigma, PinsdStatus, PinsdTime, ProtectionState, Sentence, Talker,
-    TimeOfDay, checksum,
+    PinsdProtection, PinsdSigma, PinsdSource, PinsdStatus, PinsdTime, ProtectionState, Sentence,
+    Talker, TimeOfDay, checksum,
 };
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -51,6 +51,8 @@ fn full_status() -> PinsdStatus {
         alerts: Some(999),
         integrity: Some(PinsdIntegrity::Agreed),
         excluded: Some(Party::ALL.into_iter().collect()),
+        source: Some(PinsdSource::Carrier),
+        seconds_of_source: Some(999_999_999),
     }
 }
 
@@ -61,6 +63,8 @@ fn each_of_our_sentences_is_written_as_its_page_says() {
         seconds_in_mode: Some(4210),
         alerts: Some(2),
         excluded: Some(excluded),
+        source: Some(PinsdSource::DeadReckoning),
+        seconds_of_source: Some(4212),
         ..full_status()
     };
     let sigma = SolutionSigma {
@@ -89,7 +93,7 @@ fn each_of_our_sentences_is_written_as_its_page_says() {
         gyrocompass: Some(12.5 * DEG),
     };
     for (pinsd, text) in [
-        (Pinsd::Status(status), "STA,235959.99,D,4210,E,6,2,M,0,2,A,GH"),
+        (Pinsd::Status(status), "STA,235959.99,D,4210,E,6,2,M,0,2,A,GH,N,4212"),
         (
             Pinsd::Sigma(PinsdSigma::of(TIME, &sigma, Some(0.05))),
             "SIG,235959.99,0.42,0.38,1.17,0.012,0.011,0.020,0.011,0.011,0.043,0.05",
@@ -132,6 +136,8 @@ fn what_is_unknown_is_empty() {
         alerts: None,
         integrity: None,
         excluded: None,
+        source: None,
+        seconds_of_source: None,
     };
     let alignment = PinsdAlignment {
         time: None,
@@ -143,7 +149,7 @@ fn what_is_unknown_is_empty() {
         gyrocompass: None,
     };
     for (pinsd, text) in [
-        (Pinsd::Status(status), "STA,,X,,V,0,,U,1,,,"),
+        (Pinsd::Status(status), "STA,,X,,V,0,,U,1,,,,,"),
         (Pinsd::Sigma(PinsdSigma::default()), "SIG,,,,,,,,,,,"),
         (Pinsd::Alignment(alignment), "ALI,,L,0,,,,"),
         (Pinsd::Protection(PinsdProtection::default()), "PRO,,,,,,,N"),
@@ -241,15 +247,17 @@ fn status_of(fields: &str) -> Result<PinsdStatus, Fault> {
 }
 
 #[test]
-fn a_status_of_a_version_that_did_not_tell_integrity_is_read() {
+fn a_status_of_a_version_that_did_not_tell_integrity_or_source_is_read() {
     let old = status_of("").unwrap();
     assert_eq!((old.alerts, old.integrity, old.excluded), (Some(2), None, None));
     let nobody = status_of(",A,N").unwrap();
     assert_eq!(nobody.excluded, Some(Parties::default()));
-    let newer = status_of(",V,IG,whatever,2").unwrap();
+    assert_eq!((nobody.source, nobody.seconds_of_source), (None, None));
+    let newer = status_of(",V,IG,R,9,whatever,2").unwrap();
+    assert_eq!((newer.source, newer.seconds_of_source), (Some(PinsdSource::Rtk), Some(9)));
     assert_eq!(newer.integrity, Some(PinsdIntegrity::Contradicted));
     assert_eq!(newer.excluded, Some([Party::Gnss, Party::Imu].into_iter().collect()));
-    for bad in [",X,N", ",AA,N", ",A,GX", ",A,NG"] {
+    for bad in [",X,N", ",AA,N", ",A,GX", ",A,NG", ",A,N,X,1", ",A,N,R,x"] {
         assert!(matches!(status_of(bad), Err(Fault::Malformed { .. })), "{bad}");
     }
 }
@@ -306,7 +314,8 @@ proptest! {
         let (x, y, z) = (Some(a), Some(b), Some(c));
         let time = Some(TimeOfDay { hour: small, minute: small, second: small, nanosecond: wide });
         let status = PinsdStatus {
-            time, seconds_in_mode: Some(wide), alerts: Some(wide), ..full_status()
+            time, seconds_in_mode: Some(wide), alerts: Some(wide), seconds_of_source: Some(wide),
+            ..full_status()
         };
         back(Pinsd::Status(status));
         let (position, velocity, attitude) = ([x, y, z], [y, z, x], [z, x, y]);

@@ -8,10 +8,12 @@ mod rinex;
 
 use std::collections::BTreeSet;
 
-use insd_base::satellites::BroadcastRecord;
+use insd_base::satellites::{
+    BroadcastRecord, Constellation, SatelliteEpoch, SatelliteId, SignalCode, SignalObservation,
+};
 use insd_base::{GpsTime, UtcTime};
 use insd_wire::binary::Fault;
-use insd_wire::gnss::rtcm::{Correction, Frame, MsmCollector};
+use insd_wire::gnss::rtcm::{Correction, Frame, MsmCollector, MsmWriter, write_record};
 use insd_wire::stream::{Cutter, Protocol};
 use proptest::prelude::*;
 use rinex::Compared;
@@ -188,7 +190,189 @@ macro_rules! same_msm {
     }};
 }
 
+/// The greatest differences of two epochs: code, m; phase, cycles; Doppler shift, Hz; density, dB. Signals are the same, whole cycles of a phase are not
+/// looked at.
+fn apart(one: &SatelliteEpoch, other: &SatelliteEpoch) -> [f64; 4] {
+    assert_eq!(one.tag, other.tag);
+    let mut others = other.signals.clone();
+    let mut apart = [0.0_f64; 4];
+    for own in &one.signals {
+        let is_it = |other: &SignalObservation| {
+            (other.satellite, other.signal) == (own.satellite, own.signal)
+        };
+        let other = others.remove(others.iter().position(is_it).unwrap());
+        assert_eq!((own.channel, own.half_cycle), (other.channel, other.half_cycle), "{own:?}");
+        let cycles = |a: f64, b: f64| (a - b - (a - b).round()).abs();
+        let pairs = [
+            (own.code, other.code),
+            (own.phase, other.phase),
+            (own.doppler, other.doppler),
+            (own.cn0, other.cn0),
+        ];
+        for (at, pair) in pairs.into_iter().enumerate() {
+            let off = match pair {
+                (Some(a), Some(b)) if at == 1 => cycles(a, b),
+                (Some(a), Some(b)) => (a - b).abs(),
+                (None, None) => 0.0,
+                _ => panic!("{own:?} {other:?}"),
+            };
+            apart[at] = apart[at].max(off);
+        }
+    }
+    assert_eq!(others, []);
+    apart
+}
+
+/// What frames say, put together.
+fn read(frames: &[Vec<u8>], about: GpsTime) -> Vec<Correction> {
+    let mut collector = MsmCollector::new();
+    frames.iter().flat_map(|frame| collector.take(frame, about).unwrap()).collect()
+}
+
+#[test]
+fn a_recorded_base_that_is_written_again_says_the_same() {
+    let (told, _) = heard(RECORDED);
+    let [Correction::Base(base), Correction::Epoch(epoch)] = &told[..] else { panic!("{told:?}") };
+    assert_eq!(read(&[base.write()], received()), [Correction::Base(*base)]);
+    let high = insd_wire::gnss::rtcm::BaseStation { height: Some(1.25), ..*base };
+    assert_eq!(read(&[high.write()], received()), [Correction::Base(high)]);
+    let again = read(&MsmWriter::new(7).write(epoch), received());
+    let [Correction::Epoch(again)] = &again[..] else { panic!("{again:?}") };
+    let apart = apart(epoch, again);
+    assert!(apart.iter().all(|own| *own < 1e-6), "{apart:?}");
+    let locks = epoch.signals.iter().zip(&again.signals);
+    assert!(locks.filter(|(own, other)| own.lock != other.lock).count() == 0);
+}
+
+/// A signal that a base may measure.
+fn any_signal(constellation: Constellation) -> impl Strategy<Value = SignalObservation> {
+    let codes = match constellation {
+        Constellation::Gps => ["1C", "2W", "2X", "5Q"],
+        Constellation::Glonass => ["1C", "1P", "2C", "2P"],
+        Constellation::Galileo => ["1X", "6C", "7Q", "5X"],
+        Constellation::BeiDou => ["2I", "6I", "7I", "5P"],
+        _ => ["1C", "1C", "5X", "5X"],
+    };
+    let code = prop::sample::select(codes.to_vec());
+    let measured = (2.0e7..4.2e7, -1e8..1e8, -4000.0..4000.0, 20.0..60.0, 0.0..6e4);
+    let known = prop::array::uniform4(prop::bool::weighted(0.9));
+    (1_u8..20, code, measured, known, any::<bool>()).prop_map(
+        move |(number, code, told, known, half)| {
+            let [band, attribute] = code.as_bytes() else { panic!("{code}") };
+            // PRN 120 is S20
+            let first = if constellation == Constellation::Sbas { 19 } else { 0 };
+            let satellite = SatelliteId::new(constellation, number + first).unwrap();
+            let (range, phase, doppler, density, lock) = told;
+            let [has_code, has_phase, has_doppler, has_density] = known;
+            let channel =
+                (constellation == Constellation::Glonass).then_some(number as i8 % 14 - 7);
+            let own = SignalObservation {
+                channel,
+                // signals of a satellite have come the same way, to some metres
+                code: has_code.then_some(2.1e7 + f64::from(number) * 1e6 + range % 40.0),
+                phase: (has_phase && has_code).then_some(phase),
+                cn0: has_density.then_some(density),
+                lock: Some(lock),
+                half_cycle: half && has_phase && has_code,
+                ..SignalObservation::unknown(satellite, SignalCode::new(band - b'0', *attribute))
+            };
+            // and go it alike, to a metre a second
+            let rate = f64::from(number) * 20.0 + doppler % 0.5;
+            let doppler = own.wavelength().filter(|_| has_doppler).map(|length| rate / length);
+            SignalObservation { doppler, ..own }
+        },
+    )
+}
+
+/// An epoch of a base, each signal once.
+fn any_epoch() -> impl Strategy<Value = SatelliteEpoch> {
+    use Constellation as C;
+    let each = [C::Gps, C::Glonass, C::Galileo, C::Sbas, C::Qzss, C::BeiDou]
+        .map(|own| prop::collection::vec(any_signal(own), 0..60));
+    (each, 0..604_800_000_i64).prop_map(|(each, of_week)| {
+        let mut signals = each.concat();
+        signals.retain(|own| own.satellite.constellation != C::Qzss || own.satellite.number <= 10);
+        signals.sort_by_key(|own| (own.satellite, own.signal));
+        signals.dedup_by_key(|own| (own.satellite, own.signal));
+        let tag = received().nearest_with_tow(of_week * 1_000_000);
+        SatelliteEpoch { tag, signals, leap_seconds: None, clock_reset: false }
+    })
+}
+
+#[test]
+fn a_phase_that_drifts_away_from_its_code_is_counted_anew_and_its_lock_begins_there() {
+    let satellite = SatelliteId::new(Constellation::Gps, 7).unwrap();
+    let mut writer = MsmWriter::new(1);
+    let mut epoch = SatelliteEpoch {
+        tag: received(),
+        signals: vec![SignalObservation {
+            code: Some(2.2e7),
+            phase: Some(0.25),
+            lock: Some(600.0),
+            ..SignalObservation::unknown(satellite, SignalCode::new(1, b'C'))
+        }],
+        leap_seconds: None,
+        clock_reset: false,
+    };
+    let (mut anew, mut last) = (0, None);
+    for _ in 0..20 {
+        let frames = writer.write(&epoch);
+        let [Correction::Epoch(told)] = &read(&frames, received())[..] else { panic!() };
+        let (own, signal) = (&told.signals[0], &mut epoch.signals[0]);
+        let whole = signal.phase.unwrap() - own.phase.unwrap();
+        assert!((whole - whole.round()).abs() < 1e-3, "{whole}");
+        let begins = last.is_some_and(|last: f64| (last - whole).abs() > 0.5);
+        assert_eq!(begins, own.lock == Some(0.0));
+        anew += usize::from(begins);
+        last = Some(whole);
+        // codes and phases part by 100 m an epoch, as an ionosphere never does
+        signal.code = signal.code.map(|code| code + 50.0);
+        signal.phase = signal.phase.map(|phase| phase - 50.0 / own.wavelength().unwrap());
+    }
+    assert_eq!(anew, 2);
+}
+
 proptest! {
+    #[test]
+    fn any_epoch_that_is_written_is_read_to_half_a_step(epoch in any_epoch()) {
+        let told = read(&MsmWriter::new(4095).write(&epoch), epoch.tag);
+        if epoch.signals.is_empty() {
+            prop_assert_eq!(told, []);
+            return Ok(());
+        }
+        let [Correction::Epoch(told)] = &told[..] else { panic!("{} messages", told.len()) };
+        let [code, phase, doppler, density] = apart(&epoch, told);
+        // half of 2^-29 and 2^-31 ms, of 1e-4 m/s and of 1/16 dB
+        prop_assert!(code < 2.9e-4 && phase < 8e-4 && doppler < 8e-4 && density < 0.032);
+        for (own, other) in epoch.signals.iter().filter_map(|own| Some((own, told.signals.iter().find(|other| (other.satellite, other.signal) == (own.satellite, own.signal))?))) {
+            let (own, other) = (own.lock.unwrap(), other.lock.unwrap());
+            prop_assert!(other <= own && own <= 1.04 * other + 0.002, "{} {}", own, other);
+        }
+    }
+
+    #[test]
+    fn any_record_that_is_written_is_read_again(rest in prop::collection::vec(any::<u8>(), 64)) {
+        for number in [1019, 1020, 1042, 1044, 1045, 1046] {
+            let Ok(told) = MsmCollector::new().take(&any_message(number, &rest), received()) else { continue };
+            let [Correction::Record(record)] = &told[..] else { panic!("{told:?}") };
+            let frame = write_record(record).unwrap();
+            prop_assert_eq!(Frame::open(&frame).unwrap().number(), Some(number));
+            prop_assert_eq!(&read(std::slice::from_ref(&frame), received()), &told);
+            let week = match MessageFrame::new(&frame).unwrap().get_message() {
+                Message::Msg1019(told) => i64::from(told.gps_week_number),
+                Message::Msg1042(told) => i64::from(told.bds_week_number) + 1356,
+                Message::Msg1044(told) => i64::from(told.qzss_week_number),
+                Message::Msg1045(told) => i64::from(told.gal_week_number) + 1024,
+                Message::Msg1046(told) => i64::from(told.gal_week_number) + 1024,
+                _ => continue,
+            };
+            let BroadcastRecord::Kepler(kepler) = record else { panic!("{record:?}") };
+            let behind = if number == 1042 { 14_000_000_000 } else { 0 };
+            let reference = kepler.orbit.reference.as_nanos() - behind;
+            prop_assert_eq!((GpsTime::from_nanos(reference).to_week().0 - week) % 1024, 0);
+        }
+    }
+
     #[test]
     fn any_orbit_is_read_as_another_library_reads_it(rest in prop::collection::vec(any::<u8>(), 64)) {
         for number in [1019, 1042, 1044, 1045, 1046] {

@@ -100,6 +100,19 @@ impl SolutionSource {
         }
     }
 
+    /// It in words, for people.
+    #[must_use]
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Rtk => "RTK: carrier phases against a base, with integers",
+            Self::Float => "carrier phases against a base, without integers",
+            Self::Carrier => "carrier phases",
+            Self::Code => "codes: ranges of satellites, or a receiver's fixes",
+            Self::Doppler => "Doppler shifts, or a receiver's velocity",
+            Self::DeadReckoning => "dead reckoning, without satellites",
+        }
+    }
+
     /// The source of a word of `nav.csv`.
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {

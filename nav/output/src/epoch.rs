@@ -27,6 +27,8 @@ pub struct OutputEpoch {
     pub covariance_north_east: Option<f64>,
     /// Since when the mode of the solution is what it is.
     pub mode_since: Option<Time>,
+    /// Since when its source is what it is.
+    pub source_since: Option<Time>,
     /// The instant in UTC.
     pub utc: Option<UtcTime>,
     /// What UTC is known from.
@@ -132,6 +134,7 @@ impl OutputEpoch {
             rate_of_turn: None,
             covariance_north_east: None,
             mode_since: None,
+            source_since: None,
             utc: None,
             time_source: None,
             heave: None,

@@ -57,6 +57,8 @@ pub struct Policy {
     /// Alert limit of the horizontal error of the position, m, with which a protection level is compared.
     /// Default none, as it depends on the waters and on what the position is for.
     pub alert_limit: Option<f64>,
+    /// Protection levels are of a risk of 10 to minus this, 1 to 9. Default 5.
+    pub risk_exponent: u8,
 }
 
 impl Default for PositionLimits {
@@ -84,6 +86,7 @@ impl Default for Policy {
             estimated_is_valid: false,
             least_speed: 0.1,
             alert_limit: None,
+            risk_exponent: 5,
         }
     }
 }

@@ -3,7 +3,7 @@
 use insd_base::geoid::undulation;
 use insd_base::{
     AlignmentStatus, Attitude, Body, DelayedHeave, FixQuality, Geodetic, Heave, HeaveQuality,
-    Judgement, Mode, Ned, Protection, Solution, SolutionSigma, Span, Time, UtcTime,
+    Judgement, Mode, Ned, Protection, Solution, SolutionSigma, SolutionSource, Span, Time, UtcTime,
 };
 use insd_n2k::pgn::{Sid, TimeSource};
 use insd_wire::nmea::{AlertEntry, CivilTime, HeadingMode, PositionMode};
@@ -370,6 +370,13 @@ impl<'a> RedactedEpoch<'a> {
         Some((self.whole.time - self.told.mode_since?).as_seconds())
     }
 
+    /// What the position lives by, and how long it has, s.
+    pub(crate) fn source(&self) -> Option<(SolutionSource, Option<f64>)> {
+        let source = self.told.solution?.source?;
+        let since = self.told.source_since.map(|since| (self.whole.time - since).as_seconds());
+        Some((source, since))
+    }
+
     /// Whether the heading is still being found.
     pub(crate) fn is_aligning(&self) -> bool {
         self.mode().is_some_and(|mode| !mode.is_navigating() && mode != Mode::Fault)
@@ -391,6 +398,11 @@ impl<'a> RedactedEpoch<'a> {
     /// Alert limit of the horizontal error, m.
     pub(crate) fn alert_limit(&self) -> Option<f64> {
         self.manner.policy.alert_limit
+    }
+
+    /// Protection levels are of a risk of 10 to minus this.
+    pub(crate) fn risk_exponent(&self) -> u8 {
+        self.manner.policy.risk_exponent.clamp(1, 9)
     }
 
     /// A speed, or `None` if it is too small to have a direction.

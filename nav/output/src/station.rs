@@ -1,6 +1,8 @@
 //! All ports together: when something is due, and the epoch of each port's monitoring point.
 
-use insd_base::{AlignmentStatus, Body, Heave, Mode, Motion, Span, StorageFaults, Time, UtcTime};
+use insd_base::{
+    AlignmentStatus, Body, Heave, Mode, Motion, SolutionSource, Span, StorageFaults, Time, UtcTime,
+};
 use insd_n2k::pgn::TimeSource;
 use insd_wire::nmea::{Acn, AlertCommand, Hbt};
 
@@ -184,6 +186,7 @@ impl OutputStation {
         for epoch in &mut epochs {
             epoch.distance = self.odometer.distance;
             epoch.mode_since = self.standing.since;
+            epoch.source_since = self.standing.source_since;
         }
         for (index, port) in self.ports.iter_mut().enumerate() {
             let Some(epoch) = epochs.get(port.config().point).or(epochs.first()) else { continue };
@@ -211,18 +214,24 @@ impl OutputStation {
     }
 }
 
-/// Since when the system does what it does, or nothing.
+/// Since when the system does what it does, or nothing, and lives by what it lives by.
 #[derive(Clone, Debug, Default)]
 struct Standing {
     mode: Option<Mode>,
     since: Option<Time>,
+    source: Option<SolutionSource>,
+    source_since: Option<Time>,
 }
 
 impl Standing {
     fn note(&mut self, epoch: &OutputEpoch) {
         let mode = epoch.solution.map(|solution| solution.mode);
         if self.since.is_none() || mode != self.mode {
-            *self = Standing { mode, since: Some(epoch.time) };
+            (self.mode, self.since) = (mode, Some(epoch.time));
+        }
+        let source = epoch.solution.and_then(|solution| solution.source);
+        if source != self.source {
+            (self.source, self.source_since) = (source, source.map(|_| epoch.time));
         }
     }
 }

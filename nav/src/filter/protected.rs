@@ -28,7 +28,7 @@ impl Filter {
         };
         let (view, acceleration) = self.dated_view();
         let claimed = self.claimed_sigma(&view, &acceleration);
-        let free = Protection::of(&claimed);
+        let free = Protection::of(&claimed).plus(&model.beyond_usual(&claimed));
         let adds = [AHEAD, 2.0 * AHEAD].map(|ahead| {
             beyond(&levels((&claimed, &view.c_ne), &separations, &model, ahead), &free)
         });

@@ -11,6 +11,7 @@ mod imus;
 mod lines;
 mod passage;
 mod pulses;
+mod rtk;
 mod satellites;
 mod streams;
 mod wild;

@@ -10,27 +10,19 @@ use insd_base::{
 use insd_config::VoyageCalendar;
 use insd_engine::EngineConfig;
 use insd_lab::ranges;
-use insd_simulator::{Scenario, raw_gnss, simulate};
+use insd_simulator::{raw_gnss, simulate};
 use insd_tests::sailing::{Logbook, sail_messages};
 use nalgebra::Vector3;
 
 use crate::figure;
 use crate::satellites::{context, errors};
 
-/// The first minutes of the shipped port on two bands, with a base 4 km away.
-fn port() -> Scenario {
-    let shipped = include_str!("../../../drivers/simulator/scenarios/26-tight-port.toml");
-    let base = "common_clock = [1]\nfrequencies = 2\n[raw.base]\nlat_deg = 35.03\nlon_deg = 135.85\nheight_m = 60.0\n";
-    let text = shipped.replace("common_clock = [1]\n", base);
-    Scenario::from_toml(&text).unwrap().with_duration(290.0)
-}
-
-/// A sail of it with what the base says changed, and then whatever is made of it.
+/// A sail of the first minutes of the shipped port, with what the base says changed, and then whatever is made of it.
 fn sail(
     base: impl Fn(f64, &mut BaseEpoch),
     mut told: impl FnMut(&mut Received),
 ) -> (Logbook, Vec<Truth>) {
-    let scenario = port();
+    let scenario = insd_tests::port_with_base(&[]).with_duration(290.0);
     let (voyage, raw) = (simulate(&scenario, 1), raw_gnss(&scenario, 1).unwrap());
     let start = VoyageCalendar::new(&voyage.header.start_utc).unwrap().utc(Time::START).to_gps();
     let station = raw.base.as_ref().unwrap();

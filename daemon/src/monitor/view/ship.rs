@@ -86,6 +86,12 @@ pub(super) fn state(frame: &mut Frame<'_>, area: Rect, snapshot: &Snapshot) {
             tell("Ready in", span(ready));
         }
     }
+    if let Some(source) = snapshot.present().and_then(|motion| motion.source.as_ref()) {
+        let since =
+            source.since_s.map_or_else(String::new, |since| format!(" for {}", span(since)));
+        let why = source.reason.as_ref().map_or_else(String::new, |why| format!(" ({why})"));
+        tell("Lives by", format!("{}{since}{why}", source.text));
+    }
     let time = &snapshot.time;
     let sigma = time.sigma_s.map_or_else(String::new, |sigma| format!(", within {sigma:.1e} s"));
     tell("UTC by", format!("{}{sigma}", word(&time.quality)));

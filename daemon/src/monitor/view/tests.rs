@@ -1,6 +1,6 @@
 use insd_web::snapshot::{
     Alert, SatelliteFate, Sensor, SensorState, ShownMotion, ShownPriority, ShownSatellite,
-    ShownSignal, ShownSky, SkyState, Snapshot,
+    ShownSignal, ShownSky, ShownSource, SkyState, Snapshot,
 };
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
@@ -21,12 +21,20 @@ fn seen(board: &Board, width: u16, height: u16, view: MonitorView) -> String {
 }
 
 fn board() -> Board {
+    let source = ShownSource {
+        name: "carrier".to_owned(),
+        text: "carrier phases".to_owned(),
+        since_s: Some(72.0),
+        reason: Some("the base moves".to_owned()),
+        ..ShownSource::default()
+    };
     let motion = ShownMotion {
         heading_deg: Some(62.04),
         sigma_heading_deg: Some(0.062),
         speed_kn: Some(12.6),
         course_deg: Some(64.2),
         pitch_deg: Some(-1.25),
+        source: Some(source),
         ..ShownMotion::default()
     };
     let sensor = Sensor { name: "imu".to_owned(), state: SensorState::Silent, ..Sensor::default() };
@@ -51,7 +59,14 @@ fn board() -> Board {
 #[test]
 fn the_picture_shows_ship_sensors_and_alerts() {
     let picture = drawn(&board(), 100, 30);
-    for text in ["DEAD RECKONING", "62.04°", "± 0.062", "silent", "warning Heading lost"] {
+    for text in [
+        "DEAD RECKONING",
+        "62.04°",
+        "± 0.062",
+        "silent",
+        "warning Heading lost",
+        "Lives by carrier phases",
+    ] {
         assert!(picture.contains(text), "{text} is not in\n{picture}");
     }
 }

@@ -44,6 +44,8 @@ pub(super) struct Showcase {
     /// When the mode that is shown changed last, and to which.
     mode_since: Time,
     mode_told: String,
+    /// The last change of the source of the solutions.
+    source: Option<ship::SourceTold>,
     /// What engines were found to differ in, when that was looked at last.
     disputes: Vec<Dispute>,
     aids: Aids,
@@ -69,6 +71,7 @@ impl Showcase {
             config: config.clone(),
             mode_since: Time::START,
             mode_told: String::new(),
+            source: None,
             disputes: Vec::new(),
             aids: Aids::default(),
             input_rates: Rates::default(),
@@ -93,6 +96,7 @@ impl Showcase {
                 let from = from.map(|from| from.as_str().to_owned());
                 self.enter(*time, from, to.as_str(), reason);
             }
+            Event::SourceChanged { time, to, why, .. } => self.source = Some((*time, *to, *why)),
             // what is passed over is counted, and would push all others out of the list
             Event::Rejected { reason: Rejection::RangesInUse, .. } => {}
             Event::Rejected { time, source, aid, reason } => {
@@ -182,8 +186,14 @@ impl Showcase {
             reason: self.shown.mode.reason.take(),
         };
         let motion = report.motion.as_ref();
-        self.shown.motion =
-            motion.map(|motion| ship::motion(motion, report.heave, |t| self.utc(t)));
+        self.shown.motion = motion.map(|motion| {
+            let told = self.source.as_ref();
+            let source = ship::source(&motion.solution, told, now, |t| self.utc(t));
+            insd_web::snapshot::ShownMotion {
+                source,
+                ..ship::motion(motion, report.heave, |t| self.utc(t))
+            }
+        });
         let status = report.alignment.as_ref();
         self.shown.alignment = status.map(|own| alignment::alignment(own, now, |t| self.utc(t)));
         self.shown.alerts = self.alerts.alerts(report);

@@ -3,10 +3,33 @@
 use std::f64::consts::PI;
 
 use insd_base::units::{DEG, KNOT, wrap_two_pi};
-use insd_base::{HeaveQuality, Integrity, Judgement, Mode, Motion, Solution, Time};
+use insd_base::{
+    HeaveQuality, Integrity, Judgement, Mode, Motion, Solution, SolutionSource, SourceReason, Time,
+};
 use insd_output::{Ellipse, Policy};
-use insd_web::snapshot::{Freshness, ShownHeave, ShownMotion as Shown};
+use insd_web::snapshot::{Freshness, ShownHeave, ShownMotion as Shown, ShownSource};
 use nalgebra::Vector3;
+
+/// The last change of the source of the solutions: when, to which, why.
+pub(super) type SourceTold = (Time, SolutionSource, SourceReason);
+
+/// What the position lives by at an instant; since when and why is known of a change that was told.
+pub(super) fn source(
+    solution: &Solution,
+    told: Option<&SourceTold>,
+    now: Time,
+    utc: impl Fn(Time) -> Option<String>,
+) -> Option<ShownSource> {
+    let own = solution.source?;
+    let told = told.filter(|(_, to, _)| *to == own);
+    Some(ShownSource {
+        name: own.as_str().to_owned(),
+        text: own.text().to_owned(),
+        since_s: told.map(|(since, ..)| (now - *since).as_seconds()),
+        changed_utc: told.and_then(|(since, ..)| utc(*since)),
+        reason: told.map(|(.., why)| why.to_string()),
+    })
+}
 
 /// What is shown of a motion, at the IMU.
 pub(super) fn motion(

@@ -1,5 +1,7 @@
 //! The satellites, and what becomes of each.
 
+use std::collections::BTreeMap;
+
 use insd_base::satellites::{SatelliteUse, SignalStrength, Sky, SkySatellite};
 use insd_base::units::DEG;
 use insd_base::{Counts, Time};
@@ -17,10 +19,10 @@ pub(super) fn sky(config: &Config, slow: &Slow, now: Time) -> ShownSky {
 }
 
 fn shown(sky: Option<&Sky>, is_heard: bool, counts: &Counts, now: Time) -> ShownSky {
-    let refused = refused(counts);
+    let (refused, against_base) = (causes(&counts.unranged), causes(&counts.rtk));
     let Some(sky) = sky else {
         let state = if is_heard { SkyState::FixesOnly } else { SkyState::NoReceiver };
-        return ShownSky { state, refused, ..ShownSky::default() };
+        return ShownSky { state, refused, against_base, ..ShownSky::default() };
     };
     let satellites: Vec<_> = sky.satellites.iter().map(|own| satellite(own, now)).collect();
     let used = satellites.iter().filter(|own| own.fate.is_used()).count();
@@ -30,6 +32,7 @@ fn shown(sky: Option<&Sky>, is_heard: bool, counts: &Counts, now: Time) -> Shown
         used: u32::try_from(used).ok(),
         satellites,
         refused,
+        against_base,
     }
 }
 
@@ -40,12 +43,12 @@ fn is_heard(sections: &[SensorConfig], all: &[SensorStatus]) -> bool {
     })
 }
 
-fn refused(counts: &Counts) -> Vec<Cause> {
+fn causes(counts: &BTreeMap<&'static str, u64>) -> Vec<Cause> {
     let cause = |(reason, count): (&&'static str, &u64)| Cause {
         reason: (*reason).to_owned(),
         count: *count,
     };
-    counts.unranged.iter().map(cause).collect()
+    counts.iter().map(cause).collect()
 }
 
 fn satellite(own: &SkySatellite, now: Time) -> ShownSatellite {

@@ -1,6 +1,7 @@
+use insd_base::satellites::RtkSilence;
 use insd_base::{
     Attitude, Body, Geodetic, Integrity, Judgement, Mode, ModeReason, Motion, Ned, Party, Solution,
-    SolutionSigma, Stamp,
+    SolutionSigma, SolutionSource, SourceReason, Stamp,
 };
 use insd_web::snapshot::Freshness;
 
@@ -73,6 +74,34 @@ fn the_motion_says_whether_it_may_be_relied_on_and_who_is_left_out() {
     ] {
         assert_eq!(told(integrity, good).integrity.as_deref(), word);
     }
+}
+
+#[test]
+fn what_the_position_lives_by_is_told_with_the_time_and_the_reason_of_its_last_change() {
+    let mut showcase = showcase();
+    let mut told = |event: Option<Event>, source| {
+        let event = event.map(|event| Product::Engine(Output::Event(event)));
+        event.iter().for_each(|product| showcase.hear(&Names::default(), product));
+        let mut report = report(42.0, 42.0);
+        report.utc = Some(report.stamp.system);
+        report.motion.as_mut().unwrap().solution.source = source;
+        showcase.see(&report);
+        showcase.shown.motion.clone().unwrap().source
+    };
+    assert_eq!(told(None, None), None);
+    // before its change was told it is known, and nothing else of it
+    let own = told(None, Some(SolutionSource::Carrier)).unwrap();
+    assert_eq!((own.name.as_str(), own.since_s, own.reason), ("carrier", None, None));
+    let why = SourceReason::NoRtk(RtkSilence::BaseSilent);
+    let (from, to) = (Some(SolutionSource::Rtk), SolutionSource::Carrier);
+    let time = Time::from_seconds(40.0);
+    let own = told(Some(Event::SourceChanged { time, from, to, why }), Some(to)).unwrap();
+    assert_eq!(
+        (own.since_s, own.reason.as_deref()),
+        (Some(2.0), Some("nothing comes of the base"))
+    );
+    assert_eq!(own.changed_utc.as_deref(), Some("2027-01-15T07:59:58.000Z"));
+    assert_eq!(own.text, "carrier phases");
 }
 
 #[test]

@@ -38,7 +38,7 @@ impl Snapshot {
         for alert in &mut shown.alerts {
             alert.since_s = alert.since_s.map(|since| since + passed);
         }
-        shown.judge_ship(now, navigator);
+        shown.judge_ship(now, passed, navigator);
         if navigator == Freshness::Gone {
             shown.forget_the_program();
         }
@@ -52,11 +52,11 @@ impl Snapshot {
     }
 
     /// Motion, alignment, engines and the mode: all hang on the samples of an IMU.
-    fn judge_ship(&mut self, now: f64, navigator: Freshness) {
+    fn judge_ship(&mut self, now: f64, passed: f64, navigator: Freshness) {
         let inertial = self.inertial_age(now);
         let own = inertial.map_or(Freshness::Fresh, Freshness::of_age).max(navigator);
         if let Some(motion) = &mut self.motion {
-            motion.grow_older(now, own);
+            motion.grow_older(now, passed, own);
         }
         self.motion = self.motion.take().filter(|motion| motion.freshness != Freshness::Gone);
         for engine in &mut self.engines {
@@ -106,7 +106,10 @@ impl Snapshot {
 }
 
 impl ShownMotion {
-    fn grow_older(&mut self, now: f64, least: Freshness) {
+    fn grow_older(&mut self, now: f64, passed: f64, least: Freshness) {
+        if let Some(source) = &mut self.source {
+            source.since_s = source.since_s.map(|since| since + passed);
+        }
         self.freshness = Freshness::of_age(now - self.valid_at_s).max(least);
         let is_gone = |at: f64| Freshness::of_age(now - at) == Freshness::Gone;
         self.heave = self.heave.take().filter(|heave| !is_gone(heave.valid_at_s));
@@ -216,7 +219,7 @@ impl ShownOutput {
 #[cfg(test)]
 mod tests {
     use super::super::freshness::OLD;
-    use super::super::{ShownHeave, ShownSatellite};
+    use super::super::{ShownHeave, ShownSatellite, ShownSource};
     use super::*;
 
     /// A ship that sails, told at once.
@@ -226,6 +229,7 @@ mod tests {
             valid_at_s: 99.98,
             heading_deg: Some(62.0),
             heave: Some(heave),
+            source: Some(ShownSource { since_s: Some(7.0), ..ShownSource::default() }),
             ..ShownMotion::default()
         };
         let imu = Sensor {
@@ -269,6 +273,8 @@ mod tests {
         let snapshot = sailing();
         assert!(snapshot.after(0.0) == snapshot);
         assert!(snapshot.after(0.3).present().is_some() && snapshot.after(0.3).is_navigating());
+        let source = snapshot.after(0.25).motion.unwrap().source.unwrap();
+        assert_eq!(source.since_s, Some(7.25));
     }
 
     #[test]

@@ -34,7 +34,9 @@ pub use program::{
     TimeInfo,
 };
 pub use sensors::{Sensor, SensorState, ShownBase, ShownChoice};
-pub use ship::{Found, ShownEstimate, ShownEstimates, ShownHeave, ShownMotion, ShownStands};
+pub use ship::{
+    Found, ShownEstimate, ShownEstimates, ShownHeave, ShownMotion, ShownSource, ShownStands,
+};
 pub use sky::{SatelliteFate, ShownSatellite, ShownSignal, ShownSky, SkyState};
 
 use serde::{Deserialize, Serialize};

@@ -91,10 +91,28 @@ pub struct ShownMotion {
     pub integrity: Option<String>,
     /// Who is left out: `gnss` (the first receiver), `gnss2`, `gnss3`, `log`, `heading`, `reference`, `imu`.
     pub excluded: Vec<String>,
+    /// The best source that the position lives by; `None` before the ship navigates.
+    pub source: Option<ShownSource>,
     /// Protection level of the horizontal position, m.
     pub hpl_m: Option<f64>,
     /// Of the height, m.
     pub vpl_m: Option<f64>,
+}
+
+/// What the position lives by: the best source that was used in the last seconds.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ShownSource {
+    /// Its word, as in `nav.csv`: `rtk`, `float`, `carrier`, `code`, `doppler`, `dr`.
+    pub name: String,
+    /// It in words.
+    pub text: String,
+    /// How long it has been that one, s; `None` while that was not told.
+    pub since_s: Option<f64>,
+    /// When it became that one, UTC, if that is known.
+    pub changed_utc: Option<String>,
+    /// Why it became that one: a better one has come, or what is wrong with a better one.
+    pub reason: Option<String>,
 }
 
 /// Heave: its mean over many waves is zero.

@@ -36,6 +36,9 @@ pub struct ShownSky {
     pub satellites: Vec<ShownSatellite>,
     /// Satellites that gave no range, by reason: one is counted in each epoch.
     pub refused: Vec<Cause>,
+    /// What became of the epochs against a base, by outcome: `fixed`, or why there was no place; `withdrawn`, `refuted` and `agrees`
+    /// count turns. Empty without a base.
+    pub against_base: Vec<Cause>,
 }
 
 /// What becomes of a satellite.

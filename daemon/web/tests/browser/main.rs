@@ -56,6 +56,19 @@ fn the_heading_moves() {
 
 #[test]
 #[ignore = "needs chromium and chromedriver"]
+fn what_the_position_lives_by_is_said_with_its_reason_and_only_when_it_is_known() {
+    let hidden = |browser: &Browser| {
+        browser.run("return document.getElementById('source').hidden") == Value::Bool(true)
+    };
+    let (_live, browser) = looking_at(Scene::Underway);
+    browser.until("RTK", || browser.text("#source").starts_with("Lives by RTK: carrier phases"));
+    assert!(browser.text("#source").ends_with("it has come"), "{}", browser.text("#source"));
+    let (_live, browser) = looking_at(Scene::Alignment);
+    browser.until("nothing", || hidden(&browser));
+}
+
+#[test]
+#[ignore = "needs chromium and chromedriver"]
 fn an_alert_is_acknowledged_with_a_token_and_not_without() {
     let (_live, browser) = looking_at(Scene::Fault);
     let alarm = ".alert.alarm";

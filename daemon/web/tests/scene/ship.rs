@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use insd_web::snapshot::{
     DisturbanceAxis, Found, Freshness, ShownAlignment, ShownDisturbance, ShownEstimate,
-    ShownEstimates, ShownFit, ShownHeave, ShownMotion,
+    ShownEstimates, ShownFit, ShownHeave, ShownMotion, ShownSource,
 };
 
 use super::{Scene, utc};
@@ -39,8 +39,7 @@ fn sailed(t: f64, scene: Scene) -> (f64, f64, f64) {
 
 /// How she moves and lies.
 pub(super) fn motion(t: f64, scene: Scene) -> ShownMotion {
-    let moored = scene == Scene::Alignment;
-    let fault = scene == Scene::Fault;
+    let (moored, fault) = (scene == Scene::Alignment, scene == Scene::Fault);
     let (north, east, course) = sailed(t, scene);
     let heading = (course + swell(t, 0.4, 11.0, 0.4)).rem_euclid(360.0);
     let sigma_heading = if moored { alignment_sigma(t) } else { 0.062 };
@@ -92,10 +91,29 @@ pub(super) fn motion(t: f64, scene: Scene) -> ShownMotion {
         velocity_quality: Some("autonomous".to_owned()),
         level_quality: Some("valid".to_owned()),
         integrity: (!moored).then(|| if fault { "unavailable" } else { "available" }.to_owned()),
-        excluded: if fault { vec!["gnss".to_owned()] } else { Vec::new() },
+        excluded: fault.then(|| "gnss".to_owned()).into_iter().collect(),
+        source: (!moored).then(|| source(t, fault)),
         hpl_m: Some(5.5 * sigma),
         vpl_m: Some(5.7),
         position_quality: Some(if fault { "estimated" } else { "differential" }.to_owned()),
+    }
+}
+
+/// Her base is heard until the receiver lies.
+fn source(t: f64, fault: bool) -> ShownSource {
+    let (name, text, since, reason) = if fault {
+        let reason = "nothing better is heard or used";
+        ("dr", "dead reckoning, without satellites", 240.0, reason)
+    } else {
+        let text = "RTK: carrier phases against a base, with integers";
+        ("rtk", text, 195.0, "it has come")
+    };
+    ShownSource {
+        name: name.to_owned(),
+        text: text.to_owned(),
+        since_s: Some((t - since).max(0.0)),
+        changed_utc: Some(utc(since)),
+        reason: Some(reason.to_owned()),
     }
 }
 

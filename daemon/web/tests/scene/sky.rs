@@ -61,6 +61,7 @@ pub(super) fn sky(t: f64, scene: Scene) -> ShownSky {
         used: u32::try_from(used).ok(),
         satellites,
         refused,
+        against_base: vec![cause("fixed", 0.9), cause("unclear", 0.1)],
     }
 }
 

@@ -18,6 +18,12 @@ pub struct Ntrip {
     pub address: String,
     /// The mount point.
     pub mount: String,
+    /// Whether the connection is secured by TLS, and the caster has to be who was called.
+    #[serde(default)]
+    pub tls: bool,
+    /// File with the certificates (PEM) of who may sign that of the caster; those of the system if left out.
+    #[serde(default)]
+    pub ca_file: Option<PathBuf>,
     /// Who calls, where the caster asks for it.
     #[serde(default)]
     pub user: Option<String>,
@@ -55,6 +61,8 @@ impl Ntrip {
         Ntrip {
             address,
             mount,
+            tls: false,
+            ca_file: None,
             user: None,
             password_file: None,
             credential: None,
@@ -78,6 +86,7 @@ impl Ntrip {
             (has_port, "address: expected HOST:PORT"),
             (mount && self.mount.bytes().all(is_name), "mount: expected the name of a mount point"),
             (user, "user: expected a name without a colon"),
+            (self.tls || self.ca_file.is_none(), "ca_file: expected tls = true beside it"),
             (secrets <= 1, "password_file: expected either this or credential"),
             (secrets == 0 || self.user.is_some(), "user: expected one, as there is a password"),
             (
@@ -106,9 +115,9 @@ mod tests {
         assert_eq!(own, Ntrip::new("caster.example.org:2101".to_owned(), "BASE1".to_owned()));
         assert_eq!(own.faults(), Vec::<String>::new());
         let wrong = "address = \"caster\"\nmount = \"A B\"\nversion = 3\npassword_file = \"a\"\n\
-                     credential = \"b\"\ngga_s = 0.1\ntimeout_s = 0.0";
+                     credential = \"b\"\nca_file = \"c\"\ngga_s = 0.1\ntimeout_s = 0.0";
         let faults = toml::from_str::<Ntrip>(wrong).unwrap().faults();
-        assert_eq!(faults.len(), 7, "{faults:?}");
+        assert_eq!(faults.len(), 8, "{faults:?}");
         assert!(toml::from_str::<Ntrip>(&format!("{text}\npassword = \"x\"")).is_err());
     }
 }

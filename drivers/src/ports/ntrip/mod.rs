@@ -9,6 +9,7 @@ mod chunks;
 mod config;
 mod request;
 mod secret;
+mod tls;
 mod watch;
 
 use std::time::Duration;
@@ -21,6 +22,7 @@ use self::answer::Answer;
 use self::chunks::Chunks;
 pub use self::config::Ntrip;
 pub(super) use self::secret::password;
+pub(super) use self::tls::secure;
 use self::watch::Watch;
 use super::outbox::Outbox;
 use super::stream::{read, talk};
@@ -55,7 +57,8 @@ pub(super) async fn converse<S: AsyncRead + AsyncWrite + Unpin>(
         }
         Ok(Answer::Refused(why)) | Err(why) => return Err(why),
     };
-    teller.open(format!("{name} ({version})"));
+    let secured = if config.tls { ", TLS" } else { "" };
+    teller.open(format!("{name} ({version}{secured})"));
     let (reader, writer) = tokio::io::split(stream);
     Ok(tokio::select! {
         reason = follow(reader, (is_chunked, rest), config, teller) => reason,

@@ -29,4 +29,6 @@ pub use calendar::TimeSystem;
 pub use compact::{PlainObservations, expand, is_compact};
 pub use error::{Flaw, Flaws, RinexError};
 pub use navigation::{NavigationMessages, read_navigation, write_navigation};
-pub use observation::{Equipment, ObservationHeader, ObservationReader, write_observations};
+pub use observation::{
+    Equipment, ObservationHeader, ObservationReader, write_moving, write_observations,
+};

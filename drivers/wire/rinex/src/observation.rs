@@ -12,4 +12,4 @@ pub(crate) use header::{Draft, leap_seconds, version};
 pub use header::{Equipment, ObservationHeader};
 pub use reader::ObservationReader;
 pub(crate) use rows::{instant, satellite};
-pub use write::write_observations;
+pub use write::{write_moving, write_observations};

@@ -67,9 +67,33 @@ impl StateLayout {
     }
 }
 
+impl StateLayout {
+    /// Writes a record, whose reference time is told by Moscow's day with these leap seconds.
+    pub(super) fn put(&self, bits: &mut Bits, record: &GlonassRecord, leap: i8) {
+        let groups = [
+            (self.position, record.position),
+            (self.velocity, record.velocity),
+            (self.acceleration, record.acceleration),
+        ];
+        for (fields, values) in groups {
+            fields.iter().zip(values).for_each(|(field, value)| field.put(bits, value));
+        }
+        self.reference.put(bits, (time_of_day(record.reference, leap) / SECOND) as f64);
+        self.tau.put(bits, -record.clock_offset);
+        self.gamma.put(bits, record.clock_drift);
+        self.age.put(bits, record.age_days);
+        self.health.put_raw(bits, u64::from(record.health));
+        self.unhealthy.put_raw(bits, u64::from(record.health) >> 1);
+    }
+}
+
+/// Moscow's time of day of an instant, ns.
+pub(super) fn time_of_day(at: GpsTime, leap: i8) -> i64 {
+    at.as_nanos().saturating_add(MOSCOW - i64::from(leap) * SECOND).rem_euclid(DAY)
+}
+
 /// The instant nearest to another at which Moscow has a time of day.
 pub(super) fn nearest_time_of_day(time_of_day: i64, near: GpsTime, leap: i8) -> GpsTime {
-    let moscow = near.as_nanos().saturating_add(MOSCOW - i64::from(leap) * SECOND);
-    let ahead = time_of_day.saturating_sub(moscow.rem_euclid(DAY)).rem_euclid(DAY);
+    let ahead = time_of_day.saturating_sub(self::time_of_day(near, leap)).rem_euclid(DAY);
     near.plus(Span::from_nanos(if ahead > DAY / 2 { ahead - DAY } else { ahead }))
 }

@@ -124,7 +124,7 @@ pub use phoct::{Marked, Phoct, PhoctState, WaveMotion};
 pub use phtro::Phtro;
 pub use pinsd::{
     Pinsd, PinsdAlignment, PinsdIntegrity, PinsdMode, PinsdPhase, PinsdProtection, PinsdSigma,
-    PinsdStatus, PinsdTime, ProtectionState,
+    PinsdSource, PinsdStatus, PinsdTime, ProtectionState,
 };
 pub use pixse::{Pixse, PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus};
 pub use pnorbt::{NortekBeam, NortekBottomTrack, NortekGroundSpeed, NortekSensors};

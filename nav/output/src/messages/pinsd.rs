@@ -33,11 +33,14 @@ pub(super) static ENTRIES: &[Entry] = &[
     Entry::own("PINSD.PRO", PinsdProtection::LONGEST, |said, _| unmarked(said, protection)),
 ];
 
-/// An error exceeds its protection level with probability 10 to minus this.
-const EXPONENT: u8 = 5;
+/// What the navigator adds for a risk is beside levels of this one: 10 to minus this.
+const USUAL: u8 = 5;
 
-/// So many sigmas a normal error exceeds, up or down, with that probability.
-const VERTICAL: f64 = 4.417_174;
+/// So many sigmas a normal error exceeds, up or down, with probability 10 to minus 1, 2, ... 9.
+const VERTICAL: [f64; 9] = [
+    1.644_854, 2.575_829, 3.290_527, 3.890_592, 4.417_174, 4.891_639, 5.326_724, 5.730_729,
+    6.109_410,
+];
 
 fn utc(said: &RedactedEpoch<'_>) -> Option<TimeOfDay> {
     said.civil().map(|utc| utc.time)
@@ -58,6 +61,8 @@ fn status(said: &RedactedEpoch<'_>, _: Talker) -> Option<Content> {
         alerts: None,
         integrity: said.judgement().map(|own| own.integrity.into()),
         excluded: said.judgement().map(|own| own.excluded),
+        source: said.source().map(|(source, _)| source.into()),
+        seconds_of_source: said.source().and_then(|(_, seconds)| seconds).map(|own| own as u32),
     };
     one(Pinsd::Status(status).write())
 }
@@ -92,15 +97,19 @@ fn alignment(said: &RedactedEpoch<'_>, _: Talker) -> Option<Content> {
 fn protection(said: &RedactedEpoch<'_>) -> Line {
     let axes = axes(said);
     let hidden = said.hidden().unwrap_or_default();
-    let horizontal = axes.map(|(major, _)| major * rayleigh(EXPONENT) + hidden.horizontal);
-    let vertical = said.position_sigma().map(|sigma| sigma.0.z * VERTICAL + hidden.vertical);
+    let exponent = said.risk_exponent();
+    let level = |std: f64, sigmas: fn(u8) -> f64, hidden: f64| {
+        (std * sigmas(USUAL) + hidden).max(std * sigmas(exponent))
+    };
+    let horizontal = axes.map(|(major, _)| level(major, rayleigh, hidden.horizontal));
+    let vertical = said.position_sigma().map(|sigma| level(sigma.0.z, normal, hidden.vertical));
     let alert_limit = said.alert_limit();
     Pinsd::Protection(PinsdProtection {
         time: utc(said),
         radius_95: axes.map(|(major, minor)| radius_95(major, minor)),
         horizontal,
         vertical,
-        exponent: axes.map(|_| EXPONENT),
+        exponent: axes.map(|_| exponent),
         alert_limit,
         state: ProtectionState::of(horizontal, alert_limit),
     })
@@ -116,6 +125,11 @@ fn axes(said: &RedactedEpoch<'_>) -> Option<(f64, f64)> {
 /// How many sigmas a circular normal error exceeds with probability 10 to minus this.
 fn rayleigh(exponent: u8) -> f64 {
     (2.0 * f64::from(exponent) * std::f64::consts::LN_10).sqrt()
+}
+
+/// How many sigmas a normal error exceeds, up or down, with that probability.
+fn normal(exponent: u8) -> f64 {
+    VERTICAL[usize::from(exponent.clamp(1, 9)) - 1]
 }
 
 /// Radius of the circle in which the error is with 95 %, m; see the module.
@@ -153,7 +167,7 @@ mod tests {
 
     #[test]
     fn a_protection_level_is_exceeded_with_its_probability_or_a_smaller_one() {
-        let k = rayleigh(EXPONENT);
+        let k = rayleigh(USUAL);
         assert!(((1.0 - within(k, 1.0)) / 1e-5 - 1.0).abs() < 1e-3, "{k}");
         for c in [0.1, 0.5, 0.9] {
             assert!(1.0 - within(k, c) < 1e-5, "{c}");
@@ -161,8 +175,12 @@ mod tests {
         // a very long ellipse is a line: a normal error, beyond z on either side
         let step = 1e-4;
         let density = |x: f64| (-0.5 * x * x).exp() / TAU.sqrt();
-        let tail = (0..40_000).map(|index| density(VERTICAL + (f64::from(index) + 0.5) * step));
-        let both = 2.0 * tail.sum::<f64>() * step;
-        assert!((both / 1e-5 - 1.0).abs() < 1e-3, "{both}");
+        for exponent in 1..=9 {
+            let from = normal(exponent);
+            let tail = (0..60_000).map(|index| density(from + (f64::from(index) + 0.5) * step));
+            let both = 2.0 * tail.sum::<f64>() * step;
+            let risk = 10_f64.powi(-i32::from(exponent));
+            assert!((both / risk - 1.0).abs() < 1e-3, "{exponent}: {both}");
+        }
     }
 }

@@ -1,11 +1,13 @@
 //! What insd says in its own sentences.
 
 use insd_base::units::DEG;
-use insd_base::{FixQuality, HeaveQuality, Integrity, Judgement, Mode, Ned, Parties, Party};
+use insd_base::{
+    FixQuality, HeaveQuality, Integrity, Judgement, Mode, Ned, Parties, Party, SolutionSource, Span,
+};
 use insd_output::{Manner, OutputEpoch, Policy};
 use insd_wire::nmea::{
-    HeadingMode, Pinsd, PinsdIntegrity, PinsdMode, PinsdProtection, PinsdStatus, ProtectionState,
-    Sentence,
+    HeadingMode, Pinsd, PinsdIntegrity, PinsdMode, PinsdProtection, PinsdSource, PinsdStatus,
+    ProtectionState, Sentence,
 };
 
 use crate::ship::*;
@@ -36,13 +38,38 @@ fn spread(north: f64, east: f64, covariance: Option<f64>) -> OutputEpoch {
 #[test]
 fn each_sentence_is_to_the_byte_what_its_page_says() {
     for (name, text) in [
-        ("PINSD.STA", "STA,030405.00,A,799,A,2,2,M,0,,A,N"),
+        ("PINSD.STA", "STA,030405.00,A,799,A,2,2,M,0,,A,N,,"),
         ("PINSD.SIG", "SIG,030405.00,0.80,0.60,1.50,0.020,0.030,0.040,0.020,0.030,0.050,0.04"),
         ("PINSD.ALI", "ALI,030405.00,F,1,0.500,0.170,6,0.040"),
         ("PINSD.PRO", "PRO,030405.00,1.75,3.84,6.63,5,,N"),
     ] {
         assert_eq!(said(name, &epoch()).unwrap(), format!("$PINSD,{text}"), "{name}");
     }
+}
+
+#[test]
+fn the_status_says_what_the_position_lives_by_and_for_how_long() {
+    let own = with(|ship| ship.source = Some(SolutionSource::Rtk));
+    let since = Some(own.time + Span::from_seconds(-42.5));
+    let told = status(&Manner::default(), &OutputEpoch { source_since: since, ..own });
+    assert_eq!((told.source, told.seconds_of_source), (Some(PinsdSource::Rtk), Some(42)));
+    let told = status(&Manner::default(), &epoch());
+    assert_eq!((told.source, told.seconds_of_source), (None, None));
+}
+
+#[test]
+fn levels_are_of_the_risk_that_is_asked_for() {
+    let own = spread(0.8, 0.6, Some(0.0));
+    let at = |risk_exponent| {
+        let policy = Policy { risk_exponent, ..Policy::default() };
+        protection(&Manner { policy, ..Manner::default() }, &own)
+    };
+    let told = [3, 5, 7].map(at);
+    assert_eq!(told.map(|own| own.exponent), [Some(3), Some(5), Some(7)]);
+    // without what the navigator adds, a level is never less than that of the usual risk
+    let [lax, usual, strict] = told.map(|own| own.horizontal.unwrap());
+    assert!((usual - 3.84).abs() < 0.01 && lax == usual, "{lax} {usual}");
+    assert!((strict - 0.8 * (14.0 * std::f64::consts::LN_10).sqrt()).abs() < 0.01, "{strict}");
 }
 
 #[test]

@@ -310,7 +310,7 @@ fn where_nothing_is_known_nothing_is_zero() {
         ("PIXSE.ALGSTS", "PIXSE,ALGSTS,80000000,00000000"),
         ("PIXSE.STATUS", "PIXSE,STATUS,00000000,00020000"),
         ("PIXSE.HT_STS", "PIXSE,HT_STS,FFFC0004"),
-        ("PINSD.STA", "PINSD,STA,,S,,V,0,,U,0,,,"),
+        ("PINSD.STA", "PINSD,STA,,S,,V,0,,U,0,,,,,"),
         ("PINSD.SIG", "PINSD,SIG,,,,,,,,,,,"),
         ("PINSD.PRO", "PINSD,PRO,,,,,,,N"),
     ] {

@@ -148,6 +148,11 @@ fn voyage(
         let (epochs, orbits) = (own.epochs.len(), own.records.len());
         eprintln!("raw/a{number}.obs: {}, {epochs} epochs, {orbits} orbits", own.name);
     }
+    let of_base = raw::of_base(measured);
+    if let Some(first) = of_base.first().filter(|_| !antennas.is_empty()) {
+        let moves = if first.is_moving { ", which moves" } else { "" };
+        eprintln!("raw/base.obs: {} epochs of a base{moves}", of_base.len());
+    }
     write_voyage(out, &voyage, Compression::Zstd)?;
     let files = Some(&files).filter(|_| !antennas.is_empty());
     Ok(write_raw(out, files, Compression::Zstd)?)

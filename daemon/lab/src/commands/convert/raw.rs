@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use insd_base::satellites::BroadcastRecord;
-use insd_base::{Body, Message, Received, Source};
+use insd_base::{BaseEpoch, Body, Message, Received, Source};
 use insd_drivers::recording::RawFiles;
 use insd_gnss::Ephemerides;
-use insd_rinex::{ObservationHeader, write_navigation, write_observations};
+use insd_rinex::{ObservationHeader, write_moving, write_navigation, write_observations};
 use serde::Serialize;
 
 use crate::raw_receivers::RawReceiver;
@@ -36,7 +36,7 @@ pub(super) fn antennas<'a>(told: impl Iterator<Item = &'a RawReceiver>) -> Vec<&
     own
 }
 
-/// The files of these receivers, and of a base that stands. `lever` is that of a receiver that has none of its own.
+/// The files of these receivers, and of a base. `lever` is that of a receiver that has none of its own.
 ///
 /// # Errors
 /// The table cannot be written as TOML.
@@ -77,21 +77,31 @@ fn navigation(antennas: &[&RawReceiver]) -> String {
     write_navigation(&records, &models.into_iter().collect::<Vec<_>>(), leap_seconds)
 }
 
-/// What the first base measured, if it stands: that of a moving one would be taken for one that does.
-fn base(measured: &[Received]) -> Option<String> {
+/// Epochs of the first base.
+pub(super) fn of_base(measured: &[Received]) -> Vec<&BaseEpoch> {
     let of_it = measured.iter().filter_map(|received| match &received.message {
-        Message::Base(told) if received.source == Source::Base(0) => Some(told),
+        Message::Base(told) if received.source == Source::Base(0) => Some(told.as_ref()),
         _ => None,
     });
-    let told: Vec<_> = of_it.collect();
-    if told.is_empty() || told.iter().any(|told| told.is_moving) {
-        return None;
-    }
-    let position = told.iter().rev().find_map(|told| told.position);
-    let header = ObservationHeader {
-        position: position.map(|place| place.0.into()),
+    of_it.collect()
+}
+
+/// What the first base measured; of one that moves with where it was at each epoch.
+fn base(measured: &[Received]) -> Option<String> {
+    let told = of_base(measured);
+    let first = told.first()?;
+    let epochs: Vec<_> = told.iter().map(|told| told.epoch.clone()).collect();
+    let places: Vec<_> =
+        told.iter().map(|told| told.position.map(|place| place.0.into())).collect();
+    let of_place = |position: Option<[f64; 3]>| ObservationHeader {
+        position,
+        is_moving: first.is_moving,
         ..ObservationHeader::of_marker("base")
     };
-    let epochs: Vec<_> = told.iter().map(|told| told.epoch.clone()).collect();
-    Some(write_observations(&header, &epochs))
+    Some(if first.is_moving {
+        write_moving(&of_place(places[0]), &epochs, &places)
+    } else {
+        let newest = places.iter().rev().copied().flatten().next();
+        write_observations(&of_place(newest), &epochs)
+    })
 }

@@ -35,7 +35,7 @@ mod tests {
     use super::*;
     use crate::snapshot::{
         Cause, SatelliteFate, Sensor, SensorState, ShownAid, ShownMotion, ShownSatellite,
-        ShownSignal, ShownSky, SkyState,
+        ShownSignal, ShownSky, ShownSource, SkyState,
     };
 
     #[test]
@@ -54,6 +54,7 @@ mod tests {
             used: Some(9),
             satellites: vec![low.clone(), low],
             refused: vec![Cause { reason: "low".to_owned(), count: 42 }],
+            against_base: vec![Cause { reason: "fixed".to_owned(), count: 7 }],
             ..ShownSky::default()
         };
         let mut snapshot = Snapshot { sky, ..Snapshot::default() };
@@ -64,6 +65,7 @@ mod tests {
             "insd_satellites_unused{reason=\"low\"} 2.0",
             "insd_satellite_cn0_db_hertz{satellite=\"G07\",signal=\"1C\"} 44.5",
             total,
+            "insd_rtk_epochs_total{outcome=\"fixed\"} 7",
         ] {
             assert!(told.lines().any(|own| own == line), "{line} is not in\n{told}");
         }
@@ -74,7 +76,13 @@ mod tests {
 
     #[test]
     fn metrics_have_units_in_their_names_and_leave_out_what_is_unknown() {
-        let motion = ShownMotion { heading_deg: Some(123.5), ..ShownMotion::default() };
+        let source =
+            ShownSource { name: "rtk".to_owned(), since_s: Some(42.0), ..ShownSource::default() };
+        let motion = ShownMotion {
+            heading_deg: Some(123.5),
+            source: Some(source),
+            ..ShownMotion::default()
+        };
         let reasons = vec![Cause { reason: "chi_square".to_owned(), count: 3 }];
         let aid = ShownAid {
             name: "gnss_position".to_owned(),
@@ -93,6 +101,8 @@ mod tests {
         let text = text(&snapshot) + &of_the_page(true, 2);
         for line in [
             "insd_heading_degrees 123.5",
+            "insd_source{source=\"rtk\"} 1.0",
+            "insd_source_seconds 42.0",
             "insd_aid_accepted_total{aid=\"gnss_position\"} 40",
             "insd_aid_rejected_total{aid=\"gnss_position\",reason=\"chi_square\"} 3",
             "insd_sensor_state{sensor=\"a \\\"b\\\"\",state=\"valid\"} 1.0",

@@ -73,6 +73,9 @@ fn satellites(sheet: &mut Sheet, snapshot: &Snapshot) {
     let refused =
         sheet.counter("satellites_refused", "Satellites of epochs without a range", ["reason"]);
     sky.refused.iter().for_each(|cause| refused.set(&[&cause.reason], cause.count));
+    let against_base =
+        sheet.counter("rtk_epochs", "Epochs against a base, and turns of RTK", ["outcome"]);
+    sky.against_base.iter().for_each(|cause| against_base.set(&[&cause.reason], cause.count));
     if sky.state != SkyState::Raw {
         return;
     }

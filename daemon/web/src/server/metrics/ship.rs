@@ -59,6 +59,12 @@ fn reliance(sheet: &mut Sheet, motion: &ShownMotion) {
             .gauge("integrity", "Whether the position may be relied on: 1", ["state"])
             .set(&[integrity], 1.0);
     }
+    if let Some(source) = &motion.source {
+        sheet
+            .gauge("source", "What the position lives by: 1", ["source"])
+            .set(&[&source.name], 1.0);
+        sheet.value("source_seconds", "How long it has lived by that", source.since_s);
+    }
     let excluded = sheet.gauge("sensor_excluded", "Who is left out: 1", ["party"]);
     for party in &motion.excluded {
         excluded.set(&[party], 1.0);

@@ -34,6 +34,8 @@ pub struct ObservationHeader {
     pub antenna: Equipment,
     /// Where it is about, m, in Earth-fixed axes.
     pub position: Option<[f64; 3]>,
+    /// Whether the antenna moves, as a record of flag 2 says, and one of flag 3 ends; its place is then that of the epoch that came last.
+    pub is_moving: bool,
     /// Antenna's reference point from the marker: up, east, north, m.
     pub antenna_delta: Option<[f64; 3]>,
     /// Interval of the epochs, s.

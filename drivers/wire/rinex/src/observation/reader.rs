@@ -90,8 +90,13 @@ impl<'a> ObservationReader<'a> {
         }
     }
 
-    /// Lines of a header, comments among them.
+    /// Lines of a header, comments among them, and whether the antenna moves from here on.
     fn event(&mut self, head: &Head<'_>) {
+        match head.flag {
+            2 => self.draft.header.is_moving = true,
+            3 => self.draft.header.is_moving = false,
+            _ => {}
+        }
         let early = self.draft.is_early();
         for _ in 0..head.count {
             let Some(line) = self.lines.peek().filter(|line| !is_head(line, early)) else {

@@ -1,8 +1,10 @@
 //! What is read of small files of observations, good and bad.
 
-use insd_base::{GpsTime, SatelliteEpoch};
+use insd_base::{
+    Constellation, GpsTime, SatelliteEpoch, SatelliteId, SignalCode, SignalObservation,
+};
 
-use super::ObservationReader;
+use super::{ObservationHeader, ObservationReader, write_moving};
 
 /// A line of a header.
 fn headed(contents: &str, label: &str) -> String {
@@ -280,4 +282,41 @@ fn phases_of_receivers_that_square_are_ambiguous_by_half_cycles() {
     assert!(flaws.is_empty(), "{flaws:?}");
     let told: Vec<_> = epochs[0].signals.iter().map(|own| own.half_cycle).collect();
     assert_eq!(told, [false, true, false, false]);
+}
+
+#[test]
+fn the_places_of_an_antenna_that_moves_come_back_with_their_epochs() {
+    let satellite = SatelliteId::new(Constellation::Gps, 7).unwrap();
+    let own = |second: i64| SatelliteEpoch {
+        tag: GpsTime::from_week(2300, second * 1_000_000_000),
+        signals: vec![SignalObservation {
+            code: Some(2.2e7 + second as f64),
+            ..SignalObservation::unknown(satellite, SignalCode::new(1, b'C'))
+        }],
+        leap_seconds: Some(18),
+        clock_reset: false,
+    };
+    let epochs: Vec<_> = (0..5).map(own).collect();
+    let place = |east: f64| Some([-3_957_196.25, 3_310_200.125 + east, 3_737_710.5]);
+    let places = [place(0.0), place(3.5), place(3.5), None, place(7.0)];
+    let header = ObservationHeader {
+        position: place(0.0),
+        is_moving: true,
+        leap_seconds: Some(18),
+        ..ObservationHeader::of_marker("base")
+    };
+    let text = write_moving(&header, &epochs, &places);
+    assert_eq!(text.matches("APPROX POSITION XYZ").count(), 4, "{text}");
+    assert!(text.contains("WATER_CRAFT"), "{text}");
+    let mut reader = ObservationReader::new(&text).unwrap();
+    for (epoch, place) in epochs.iter().zip(places) {
+        assert_eq!(reader.next().unwrap().unwrap(), *epoch);
+        let told = reader.header();
+        assert_eq!((told.is_moving, told.position), (true, place));
+    }
+    assert!(reader.next().is_none());
+    // one that stands again, as another program says it
+    let stands = text.replace("  2  0\n", "  3  0\n");
+    let mut reader = ObservationReader::new(&stands).unwrap();
+    assert!(reader.next().is_some() && !reader.header().is_moving);
 }

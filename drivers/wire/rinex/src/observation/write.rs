@@ -10,6 +10,9 @@ use crate::observation::codes::Quantity;
 use crate::observation::header::{Equipment, ObservationHeader};
 use crate::text::push_header;
 
+/// Type of a marker that moves: what carries the antenna is a ship more likely than anything else.
+const CRAFT: &str = "WATER_CRAFT";
+
 /// The columns of one constellation, as they are written.
 struct Columns {
     constellation: Constellation,
@@ -24,6 +27,42 @@ struct Columns {
 /// columns that hold something are written.
 #[must_use]
 pub fn write_observations(header: &ObservationHeader, epochs: &[SatelliteEpoch]) -> String {
+    written(header, epochs, |_, _| ())
+}
+
+/// The same of an antenna that moves, with where it is at each epoch, ECEF, m, to 0.1 mm. A record of flag 2 says that it moves; one of flag 4 brings its place where that is
+/// another than before, and zeros where nobody knows it (RINEX 3.05, table A3).
+#[must_use]
+pub fn write_moving(
+    header: &ObservationHeader,
+    epochs: &[SatelliteEpoch],
+    places: &[Option<[f64; 3]>],
+) -> String {
+    let mut last = header.position;
+    written(header, epochs, |out, number| {
+        let (date, seconds) = date(epochs[number].tag, 3);
+        let mut event = |flag, lines| {
+            out.push_str(&format!("> {date}{seconds:>11}  {flag}{lines:3}\n"));
+        };
+        if number == 0 {
+            event(2, 0);
+        }
+        let place = places.get(number).copied().flatten().filter(|own| triple(*own).is_some());
+        if place != last {
+            event(4, 1);
+            let told = triple(place.unwrap_or_default()).unwrap_or_default();
+            push_header(out, &told, "APPROX POSITION XYZ");
+            last = place;
+        }
+    })
+}
+
+/// A whole file; `before` writes what stands before each epoch, by its number.
+fn written(
+    header: &ObservationHeader,
+    epochs: &[SatelliteEpoch],
+    mut before: impl FnMut(&mut String, usize),
+) -> String {
     let columns = all_columns(header, epochs);
     let mut out = String::new();
     push_station(&mut out, header);
@@ -37,7 +76,8 @@ pub fn write_observations(header: &ObservationHeader, epochs: &[SatelliteEpoch])
     push_times(&mut out, header, epochs);
     push_channels(&mut out, header, epochs);
     push_header(&mut out, "", "END OF HEADER");
-    for epoch in epochs {
+    for (number, epoch) in epochs.iter().enumerate() {
+        before(&mut out, number);
         push_epoch(&mut out, epoch, &columns);
     }
     out
@@ -84,6 +124,9 @@ fn push_station(out: &mut String, header: &ObservationHeader) {
     push_header(out, &contents, "RINEX VERSION / TYPE");
     push_header(out, "insd", "PGM / RUN BY / DATE");
     push_header(out, &header.marker, "MARKER NAME");
+    if header.is_moving {
+        push_header(out, CRAFT, "MARKER TYPE");
+    }
     push_header(out, "", "OBSERVER / AGENCY");
     push_header(out, &equipment(&header.receiver), "REC # / TYPE / VERS");
     push_header(out, &equipment(&header.antenna), "ANT # / TYPE");

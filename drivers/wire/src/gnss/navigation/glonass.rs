@@ -61,23 +61,7 @@ pub(super) fn record(
 #[cfg(test)]
 pub(super) fn words(record: &GlonassRecord, leap: i8) -> Vec<Vec<u32>> {
     let mut bits = Bits::zeros(4 * SIZE);
-    let groups = [
-        (LAYOUT.position, record.position),
-        (LAYOUT.velocity, record.velocity),
-        (LAYOUT.acceleration, record.acceleration),
-    ];
-    for (fields, values) in groups {
-        fields.iter().zip(values).for_each(|(field, value)| field.put(&mut bits, value));
-    }
-    use super::super::kepler::SECOND;
-    use super::super::state::{DAY, MOSCOW};
-    let moscow = record.reference.as_nanos() + MOSCOW - i64::from(leap) * SECOND;
-    LAYOUT.reference.put(&mut bits, (moscow.rem_euclid(DAY) / SECOND) as f64);
-    LAYOUT.tau.put(&mut bits, -record.clock_offset);
-    LAYOUT.gamma.put(&mut bits, record.clock_drift);
-    LAYOUT.age.put(&mut bits, record.age_days);
-    LAYOUT.health.put_raw(&mut bits, u64::from(record.health));
-    LAYOUT.unhealthy.put_raw(&mut bits, u64::from(record.health) >> 1);
+    LAYOUT.put(&mut bits, record, leap);
     let string = |number: usize| {
         let mut own = Bits::default();
         own.append(&bits, number * SIZE, SIZE);

@@ -20,7 +20,7 @@ use crate::binary::Fault;
 const MILLI: i64 = 1_000_000;
 
 /// GPS time - BeiDou time, s.
-const BEIDOU: i64 = 14;
+pub(super) const BEIDOU: i64 = 14;
 
 /// Something that a message or the last of several has told.
 #[derive(Clone, Debug, PartialEq)]

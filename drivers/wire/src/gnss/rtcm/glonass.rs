@@ -8,13 +8,15 @@ use insd_base::satellites::{Constellation, GlonassRecord, SatelliteId};
 use super::super::bits::{Bits, Field};
 use super::super::kepler::half;
 use super::super::state::{StateLayout, vector};
+use super::NUMBER as OF_MESSAGE;
 use crate::binary::Fault;
 
 /// Number of the message.
 pub(super) const NUMBER: u16 = 1020;
 
-/// Bits up to DF126, the last that is read.
+/// Bits up to DF126, the last that is read, and of the whole message.
 const LENGTH: usize = 263;
+const WHOLE: usize = 360;
 
 const SATELLITE: Field = Field::count(12, 6);
 /// Channel + 7.
@@ -40,6 +42,16 @@ pub(super) fn read(bits: &Bits, received: GpsTime, leap: i8) -> Result<GlonassRe
         .ok_or(Fault::Range { field: "DF038" })?;
     let channel = channel(CHANNEL.raw(bits)).ok_or(Fault::Range { field: "DF040" })?;
     Ok(LAYOUT.record(satellite, channel, bits, (received, leap)))
+}
+
+/// The message of a record, without what is not read, with the leap seconds that hold.
+pub(super) fn write(record: &GlonassRecord, leap: i8) -> Bits {
+    let mut bits = Bits::zeros(WHOLE);
+    OF_MESSAGE.put_raw(&mut bits, NUMBER.into());
+    SATELLITE.put_raw(&mut bits, record.satellite.number.into());
+    CHANNEL.put(&mut bits, f64::from(record.channel) + 7.0);
+    LAYOUT.put(&mut bits, record, leap);
+    bits
 }
 
 /// A frequency channel, -7 to 6, that stands 7 higher.

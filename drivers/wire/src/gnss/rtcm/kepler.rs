@@ -7,7 +7,8 @@ use insd_base::GpsTime;
 use insd_base::satellites::{BroadcastKind, Constellation, KeplerRecord, SatelliteId};
 
 use super::super::bits::{Bits, Field};
-use super::super::kepler::{Layout, half, range_accuracy, semi, signal_in_space_accuracy};
+use super::super::kepler::{Layout, SECOND, half, range_accuracy, semi, signal_in_space_accuracy};
+use super::NUMBER;
 use crate::binary::Fault;
 
 /// One message: where it says what.
@@ -18,6 +19,8 @@ struct Ephemeris {
     /// Bits, its number included.
     length: usize,
     satellite: Field,
+    /// Weeks since the first of its system, which stands so many weeks behind that of GPS.
+    week: (Field, i64),
     /// Of the orbit and of the clock.
     issues: [Field; 2],
     accuracy: Field,
@@ -37,6 +40,7 @@ const GPS: Ephemeris = Ephemeris {
     kind: BroadcastKind::Lnav,
     length: 488,
     satellite: Field::count(12, 6),
+    week: (Field::count(18, 10), 0),
     issues: [Field::count(48, 8), Field::count(118, 10)],
     accuracy: Field::count(28, 4),
     health: &[(Field::count(480, 6), 0)],
@@ -72,6 +76,7 @@ const QZSS: Ephemeris = Ephemeris {
     kind: BroadcastKind::Lnav,
     length: 485,
     satellite: Field::count(12, 4),
+    week: (Field::count(446, 10), 0),
     issues: [Field::count(78, 8), Field::count(474, 10)],
     accuracy: Field::count(456, 4),
     health: &[(Field::count(460, 6), 0)],
@@ -107,6 +112,7 @@ const BEIDOU: Ephemeris = Ephemeris {
     kind: BroadcastKind::D1,
     length: 511,
     satellite: Field::count(12, 6),
+    week: (Field::count(18, 13), 1356),
     issues: [Field::count(49, 5), Field::count(128, 5)],
     accuracy: Field::count(31, 4),
     health: &[(Field::count(510, 1), 0)],
@@ -166,6 +172,7 @@ const GALILEO_FNAV: Ephemeris = Ephemeris {
     kind: BroadcastKind::Fnav,
     length: 496,
     satellite: Field::count(12, 6),
+    week: (Field::count(18, 12), 1024),
     issues: [Field::count(30, 10), Field::count(30, 10)],
     accuracy: Field::count(40, 8),
     health: &[(Field::count(488, 1), 3), (Field::count(486, 2), 4)],
@@ -180,6 +187,7 @@ const GALILEO_INAV: Ephemeris = Ephemeris {
     kind: BroadcastKind::Inav,
     length: 504,
     satellite: Field::count(12, 6),
+    week: (Field::count(18, 12), 1024),
     issues: [Field::count(30, 10), Field::count(30, 10)],
     accuracy: Field::count(40, 8),
     health: &[
@@ -207,7 +215,48 @@ pub(super) fn read(
     Some(own.read(bits, received))
 }
 
+/// The message of a record, without what is not read; `None` if there is none of its kind.
+pub(super) fn write(record: &KeplerRecord) -> Option<Bits> {
+    let kind = if record.kind == BroadcastKind::D2 { BroadcastKind::D1 } else { record.kind };
+    let is_it =
+        |own: &&Ephemeris| own.constellation == record.satellite.constellation && own.kind == kind;
+    ALL.into_iter().find(is_it).map(|own| own.write(record))
+}
+
 impl Ephemeris {
+    fn write(&self, record: &KeplerRecord) -> Bits {
+        let mut bits = Bits::zeros(self.length);
+        NUMBER.put_raw(&mut bits, self.number.into());
+        self.satellite.put_raw(&mut bits, record.satellite.number.into());
+        let system = record.orbit.reference.as_nanos() - self.layout.behind * SECOND;
+        let (week, weeks) = &self.week;
+        week.put_raw(&mut bits, (GpsTime::from_nanos(system).to_week().0 - weeks) as u64);
+        self.layout.put(&mut bits, &record.orbit, &record.clock);
+        for (field, issue) in self.issues.iter().zip([record.issue, record.clock_issue]) {
+            field.put_raw(&mut bits, issue.into());
+        }
+        for (field, at) in self.health {
+            field.put_raw(&mut bits, u64::from(record.health) >> at);
+        }
+        for (field, delay) in self.group_delays.iter().zip(record.group_delays) {
+            field.put(&mut bits, delay);
+        }
+        // the last index of each says that nothing is foretold
+        let indices = if self.constellation == Constellation::Galileo { 0..=255 } else { 0..=15 };
+        let last = *indices.end();
+        let index = indices.into_iter().find(|index| self.accuracy_of(*index) == record.accuracy);
+        self.accuracy.put_raw(&mut bits, index.unwrap_or(last) as u64);
+        bits
+    }
+
+    /// Accuracy of an index, m.
+    fn accuracy_of(&self, index: i64) -> Option<f64> {
+        match self.constellation {
+            Constellation::Galileo => signal_in_space_accuracy(index),
+            _ => range_accuracy(index),
+        }
+    }
+
     fn read(&self, bits: &Bits, received: GpsTime) -> Result<KeplerRecord, Fault> {
         if bits.len() < self.length {
             let (needed, found) = (self.length.div_ceil(8), bits.len() / 8);
@@ -218,17 +267,13 @@ impl Ephemeris {
         let orbit = self.layout.orbit(bits, received).ok_or(Fault::Range { field: "orbit" })?;
         let [issue, clock_issue] = self.issues.map(|field| field.raw(bits) as u16);
         let health = self.health.iter().map(|(field, at)| field.raw(bits) << at).sum::<u64>();
-        let accuracy = self.accuracy.whole(bits);
-        let galileo = self.constellation == Constellation::Galileo;
-        let accuracy =
-            if galileo { signal_in_space_accuracy(accuracy) } else { range_accuracy(accuracy) };
         Ok(KeplerRecord {
             satellite,
             kind: if satellite.is_geostationary() { BroadcastKind::D2 } else { self.kind },
             issue,
             clock_issue,
             health: health as u16,
-            accuracy,
+            accuracy: self.accuracy_of(self.accuracy.whole(bits)),
             group_delays: self.group_delays.map(|field| field.value(bits)),
             orbit,
             clock: self.layout.clock(bits, received),

@@ -3,17 +3,20 @@
 //! Layout: RTCM 10403.3, the contents of MSM (DF393 to DF408, DF416 to DF420). Masks tell which satellites and signals there are, and which cells of their product are filled;
 //! a product of more than 64 cells has no mask, and is refused.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use insd_base::satellites::{
     Constellation, SPEED_OF_LIGHT, SatelliteId, SignalCode, SignalObservation,
 };
 
 use super::super::bits::{Bits, extended};
+use super::frame::Frame;
 use super::glonass::channel;
 use super::signal;
 use crate::binary::Fault;
 
 /// Greatest number of cells that the cell mask (DF396) can have.
-const MOST_CELLS: usize = 64;
+pub(super) const MOST_CELLS: usize = 64;
 
 /// Range of one millisecond of light, m.
 const MILLISECOND: f64 = SPEED_OF_LIGHT * 1e-3;
@@ -221,6 +224,137 @@ impl Satellite {
             ..SignalObservation::unknown(id, code)
         }
     }
+}
+
+impl Msm {
+    /// The frame of an MSM7. What has no place in the masks, and satellites beyond the 64th cell, are left out; a code that is
+    /// more than 290 m from the first one of its satellite, and a phase that is more than 1170 m from it, are not told:
+    /// [`super::MsmWriter`] sees to both.
+    #[must_use]
+    pub fn write(&self) -> Vec<u8> {
+        let mut filled = BTreeMap::<u8, BTreeMap<u8, &SignalObservation>>::new();
+        for own in
+            self.signals.iter().filter(|own| own.satellite.constellation == self.constellation)
+        {
+            if let Some((satellite, code)) = signal::places(own.satellite, own.signal) {
+                filled.entry(satellite).or_default().insert(code, own);
+            }
+        }
+        let codes: BTreeSet<u8> = filled.values().flat_map(BTreeMap::keys).copied().collect();
+        let satellites: Vec<_> = filled.into_iter().take(MOST_CELLS / codes.len().max(1)).collect();
+        let mut bits = self.head();
+        let mask = |places: &mut dyn Iterator<Item = u8>, length: u8| {
+            places.fold(0_u64, |mask, place| mask | 1 << (length - place))
+        };
+        bits.push(mask(&mut satellites.iter().map(|(place, _)| *place), 64), 64);
+        bits.push(mask(&mut codes.iter().copied(), 32), 32);
+        for (_, own) in &satellites {
+            codes.iter().for_each(|code| _ = bits.push(own.contains_key(code).into(), 1));
+        }
+        put_satellites(&mut bits, self.constellation, satellites.iter().map(|(_, own)| own));
+        Frame { message: bits.bytes() }.write()
+    }
+
+    /// What stands before the masks: nothing of steering, of the clock and of smoothing is told.
+    fn head(&self) -> Bits {
+        let mut bits = Bits::default();
+        bits.push(signal::number(self.constellation, 7).into(), 12);
+        bits.push(self.station.into(), 12).push(self.time.into(), 30).push(self.more.into(), 1);
+        bits.push(0, 18);
+        bits
+    }
+}
+
+/// Writes what satellites have in common and then their cells, each field of all before the next.
+fn put_satellites<'a>(
+    bits: &mut Bits,
+    constellation: Constellation,
+    satellites: impl Iterator<Item = &'a BTreeMap<u8, &'a SignalObservation>>,
+) {
+    let (mut rough, mut cells) = (Vec::new(), Vec::new());
+    for signals in satellites {
+        let own = Rough::of(signals.values().copied());
+        cells.extend(signals.values().map(|signal| own.cell(signal)));
+        rough.push(own);
+    }
+    let whole = |range: Option<u64>| range.map_or(255, |range| range / 1024);
+    rough.iter().for_each(|own| _ = bits.push(whole(own.range), 8));
+    let is_glonass = constellation == Constellation::Glonass;
+    let extended = |channel: Option<i8>| match channel {
+        Some(channel) if is_glonass => (channel + 7) as u64,
+        _ if is_glonass => 15,
+        _ => 0,
+    };
+    rough.iter().for_each(|own| _ = bits.push(extended(own.channel), 4));
+    rough.iter().for_each(|own| _ = bits.push(own.range.unwrap_or_default() % 1024, 10));
+    rough.iter().for_each(|own| put_signed(bits, own.rate, 14));
+    let fine = |value: Option<f64>, power: i32| value.map(|value| value * 2_f64.powi(power));
+    let Widths { range, phase, lock, density } = FINE;
+    cells.iter().for_each(|cell| put_signed(bits, fine(cell.range, range.1), range.0));
+    cells.iter().for_each(|cell| put_signed(bits, fine(cell.phase, phase.1), phase.0));
+    cells.iter().for_each(|cell| _ = bits.push(lock_indicator(cell.lock), lock));
+    cells.iter().for_each(|cell| _ = bits.push(cell.half_cycle.into(), 1));
+    let steps = |cell: &Cell| fine(cell.density, density.1).map_or(0, |own| own.round() as u64);
+    cells.iter().for_each(|cell| _ = bits.push(steps(cell).min(1023), density.0));
+    cells.iter().for_each(|cell| put_signed(bits, cell.rate.map(|rate| rate * 1e4), 15));
+}
+
+/// A number in two's complement; where there is none, or no room for it, the least one that there is.
+fn put_signed(bits: &mut Bits, value: Option<f64>, length: usize) {
+    let most = (1_i64 << (length - 1)) - 1;
+    let steps = value.map(|value| value.round() as i64).filter(|steps| steps.abs() <= most);
+    bits.push(steps.unwrap_or(-most - 1) as u64, length);
+}
+
+/// What all signals of a satellite are told against.
+struct Rough {
+    /// DF397 and DF398: 1/1024 ms.
+    range: Option<u64>,
+    /// DF399: m/s.
+    rate: Option<f64>,
+    channel: Option<i8>,
+}
+
+impl Rough {
+    /// By the first signal that tells it.
+    fn of<'a>(mut signals: impl Iterator<Item = &'a SignalObservation> + Clone) -> Self {
+        let near = |own: &SignalObservation| own.code.or_else(|| phase_range(own));
+        let range = signals.clone().find_map(near).map(|range| range / MILLISECOND * 1024.0);
+        let range = range.map(f64::round).filter(|own| (0.0..255.0 * 1024.0).contains(own));
+        let channel = signals.clone().find_map(|own| own.channel);
+        let rate = signals.find_map(range_rate).map(f64::round);
+        Rough { range: range.map(|range| range as u64), rate, channel }
+    }
+
+    fn cell(&self, own: &SignalObservation) -> Cell {
+        let rough = self.range.map(|range| range as f64 / 1024.0);
+        let fine = |range: Option<f64>| Some(range? / MILLISECOND - rough?);
+        // a lock that is not known is long, or begins where it slipped
+        let untold = if own.slip { 0.0 } else { f64::INFINITY };
+        Cell {
+            range: fine(own.code),
+            phase: fine(phase_range(own)),
+            lock: own.lock.unwrap_or(untold),
+            half_cycle: own.half_cycle,
+            density: own.cn0,
+            rate: range_rate(own).zip(self.rate).map(|(rate, rough)| rate - rough),
+        }
+    }
+}
+
+/// The phase as a range, m.
+fn phase_range(own: &SignalObservation) -> Option<f64> {
+    Some(own.phase? * own.wavelength()?)
+}
+
+/// How fast the range grows by the Doppler shift, m/s.
+fn range_rate(own: &SignalObservation) -> Option<f64> {
+    Some(-own.doppler? * own.wavelength()?)
+}
+
+/// The last indicator of DF407 whose lock time is not beyond this one, s.
+fn lock_indicator(lock: f64) -> u64 {
+    (0..=704).rev().find(|own| fine_lock(*own) <= lock).unwrap_or_default()
 }
 
 /// The least lock time of DF402, s (table 3.5-74): nothing, then 32 ms, doubled with every step.

@@ -84,32 +84,49 @@ const BEIDOU: Signals = &[
 ];
 const NAVIC: Signals = &[(8, b"9A"), (22, b"5A")];
 
+/// Constellations in the order of their messages.
+const ORDER: [Constellation; 7] =
+    [C::Gps, C::Glonass, C::Galileo, C::Sbas, C::Qzss, C::BeiDou, C::Navic];
+
+/// SBAS counts from PRN 120, which RINEX calls S20.
+fn offset(constellation: Constellation) -> u8 {
+    if constellation == C::Sbas { 19 } else { 0 }
+}
+
 /// The constellation of a message, and its variant, 1 to 7; `None` if it is no MSM.
 pub(super) fn message(number: u16) -> Option<(Constellation, u8)> {
-    let constellation = match number.checked_sub(1070)? / 10 {
-        0 => C::Gps,
-        1 => C::Glonass,
-        2 => C::Galileo,
-        3 => C::Sbas,
-        4 => C::Qzss,
-        5 => C::BeiDou,
-        6 => C::Navic,
-        _ => return None,
-    };
+    let constellation = ORDER.get(usize::from(number.checked_sub(1070)? / 10))?;
     let variant = (number % 10) as u8;
-    (1..=7).contains(&variant).then_some((constellation, variant))
+    (1..=7).contains(&variant).then_some((*constellation, variant))
 }
 
 /// The satellite of a place in the mask, from 1.
 pub(super) fn satellite(constellation: Constellation, place: u8) -> Option<SatelliteId> {
-    // SBAS counts from PRN 120, which RINEX calls S20
-    let offset = if constellation == C::Sbas { 19 } else { 0 };
-    SatelliteId::new(constellation, place + offset)
+    SatelliteId::new(constellation, place + offset(constellation))
 }
 
 /// The signal of a place in the mask, from 1; `None` where the place is reserved.
 pub(super) fn signal(constellation: Constellation, place: u8) -> Option<SignalCode> {
-    let signals = match constellation {
+    let (_, [band, attribute]) = signals(constellation).iter().find(|(own, _)| *own == place)?;
+    Some(SignalCode::new(band - b'0', *attribute))
+}
+
+/// The number of the message of a constellation in a variant, 1 to 7.
+pub(super) fn number(constellation: Constellation, variant: u8) -> u16 {
+    let at = ORDER.iter().position(|own| *own == constellation).unwrap_or_default();
+    1070 + 10 * at as u16 + u16::from(variant)
+}
+
+/// The places, from 1, of a satellite and a signal in their masks; `None` where there is none for one of them.
+pub(super) fn places(satellite: SatelliteId, code: SignalCode) -> Option<(u8, u8)> {
+    let SatelliteId { constellation, number } = satellite;
+    let at = number.checked_sub(offset(constellation)).filter(|at| (1..=64).contains(at))?;
+    let own = signals(constellation).iter().map(|(place, _)| *place);
+    Some((at, own.into_iter().find(|place| signal(constellation, *place) == Some(code))?))
+}
+
+fn signals(constellation: Constellation) -> Signals {
+    match constellation {
         C::Gps => GPS,
         C::Glonass => GLONASS,
         C::Galileo => GALILEO,
@@ -117,7 +134,5 @@ pub(super) fn signal(constellation: Constellation, place: u8) -> Option<SignalCo
         C::Qzss => QZSS,
         C::BeiDou => BEIDOU,
         C::Navic => NAVIC,
-    };
-    let (_, [band, attribute]) = signals.iter().find(|(own, _)| *own == place)?;
-    Some(SignalCode::new(band - b'0', *attribute))
+    }
 }

@@ -23,7 +23,7 @@ mod status;
 pub use alignment::{PinsdAlignment, PinsdPhase};
 pub use protection::{PinsdProtection, ProtectionState};
 pub use sigma::PinsdSigma;
-pub use status::{PinsdIntegrity, PinsdMode, PinsdStatus, PinsdTime};
+pub use status::{PinsdIntegrity, PinsdMode, PinsdSource, PinsdStatus, PinsdTime};
 
 use super::decimal::Form;
 use super::fault::Fault;

@@ -1,6 +1,6 @@
 //! STA: what the system does, and how good that is.
 
-use insd_base::{FixQuality, HeaveQuality, Integrity, Mode, Parties, Party};
+use insd_base::{FixQuality, HeaveQuality, Integrity, Mode, Parties, Party, SolutionSource};
 
 use crate::nmea::civil::TimeOfDay;
 use crate::nmea::kinds::{Clock, DIGIT, Field, Needed, Whole, letter};
@@ -72,7 +72,27 @@ pub enum PinsdIntegrity {
     Unwatched,
 }
 
+/// What the position lives by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PinsdSource {
+    /// R: carrier phases against a base, with integers.
+    Rtk,
+    /// F: the same without integers.
+    Float,
+    /// P: carrier phases.
+    Carrier,
+    /// C: codes, or a receiver's fixes.
+    Code,
+    /// D: Doppler shifts, or a receiver's velocity.
+    Doppler,
+    /// N: no satellites.
+    DeadReckoning,
+}
+
 letters! {
+    PinsdSource {
+        Rtk b'R', Float b'F', Carrier b'P', Code b'C', Doppler b'D', DeadReckoning b'N'
+    }
     PinsdMode {
         Standby b'S', CoarseAlignment b'C', FineAlignment b'F', InMotionAlignment b'M',
         Aided b'A', DeadReckoning b'D', Inertial b'I', Fault b'X'
@@ -105,6 +125,19 @@ impl From<Integrity> for PinsdIntegrity {
     }
 }
 
+impl From<SolutionSource> for PinsdSource {
+    fn from(source: SolutionSource) -> Self {
+        match source {
+            SolutionSource::Rtk => PinsdSource::Rtk,
+            SolutionSource::Float => PinsdSource::Float,
+            SolutionSource::Carrier => PinsdSource::Carrier,
+            SolutionSource::Code => PinsdSource::Code,
+            SolutionSource::Doppler => PinsdSource::Doppler,
+            SolutionSource::DeadReckoning => PinsdSource::DeadReckoning,
+        }
+    }
+}
+
 impl From<Mode> for PinsdMode {
     fn from(mode: Mode) -> Self {
         match mode {
@@ -121,9 +154,9 @@ impl From<Mode> for PinsdMode {
 }
 
 sentence! {
-    /// What the system does, and how good that is. A line that ends before the last two fields is one of an
+    /// What the system does, and how good that is. A line that ends before one of the last four fields is one of an
     /// older version.
-    part PinsdStatus "PINSD" "STA", longest 61: Eq;
+    part PinsdStatus "PINSD" "STA", longest 73: Eq;
     /// UTC.
     1 time: Option<TimeOfDay> = Clock(2);
     /// What it does.
@@ -146,6 +179,10 @@ sentence! {
     10 integrity: Option<PinsdIntegrity> = letter(), later;
     /// Who is left out: N nobody; `None` where that is not known.
     11 excluded: Option<Parties> = PARTIES, later;
+    /// What the position lives by.
+    12 source: Option<PinsdSource> = letter(), later;
+    /// How long it has lived by that, whole s.
+    13 seconds_of_source: Option<u32> = Whole::of(1, 999_999_999), later;
 }
 
 fn letters_of(parties: Parties) -> String {

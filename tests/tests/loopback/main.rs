@@ -1,7 +1,9 @@
 //! The daemon itself, over pseudo terminals: what it recorded replays to the same bytes, and a sensor
-//! that is unplugged and plugged in again is read again. So do the raw messages of a receiver of satellites.
+//! that is unplugged and plugged in again is read again. So do the raw messages of a receiver of satellites, and with them what a caster sends.
 
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
+
+mod base;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -13,7 +15,7 @@ use std::time::Duration;
 use insd::clock::Clock;
 use insd::logging::Log;
 use insd::run::{RunOptions, run};
-use insd_base::Event;
+use insd_base::{Event, Solution, UtcTime};
 use insd_config::Config;
 use insd_drivers::raw::RawReader;
 use insd_drivers::recording::NavWriter;
@@ -27,6 +29,8 @@ use insd_vessel::{Product, Spoken};
 /// Seconds of the voyage that are sailed, and when the receiver is unplugged and plugged in again.
 const SAILED: f64 = 25.0;
 const UNPLUGGED: Range<f64> = 14.0..17.0;
+/// Ports from here on are no serial lines.
+const ELSEWHERE: usize = 100;
 /// Seconds that are sailed with raw satellites: until the heading is known and ranges are used.
 const WITH_RAW: f64 = 60.0;
 
@@ -42,7 +46,7 @@ fn a_run_over_real_lines_replays_to_the_same_bytes() {
     let options =
         RunOptions { nav: Some(nav.clone()), seconds: Some(SAILED + 3.0), ..RunOptions::default() };
     let daemon = start(&config, &text, options);
-    send(dir, &feed(&voyage, &feeds), SAILED, UNPLUGGED);
+    send(dir, &feed(&voyage, &feeds), SAILED, UNPLUGGED, |_| ());
     daemon.join().unwrap();
 
     let Replayed { nav: replayed, sent, states, .. } = replay(dir, &config);
@@ -76,7 +80,7 @@ fn a_run_with_raw_satellites_over_real_lines_replays_to_the_same_bytes() {
     sendings.extend(raw_feed::ubx(&raw, start_gps, 1));
     sendings.sort_by_key(|sending| sending.at);
     let daemon = start(&config, &text, options);
-    send(dir, &sendings, WITH_RAW, 0.0..0.0);
+    send(dir, &sendings, WITH_RAW, 0.0..0.0, |_| ());
     daemon.join().unwrap();
 
     let replayed = replay(dir, &config);
@@ -98,9 +102,11 @@ fn start(config: &Config, text: &str, options: RunOptions) -> JoinHandle<()> {
 
 fn configuration(dir: &Path, feeds: &FeedConfig, voyage: &insd_base::Voyage) -> String {
     let mut text = format!("[recording]\nfolder = {:?}\n", dir.join("recording"));
-    let shipped = include_str!("../../systemd/examples/survey.toml");
+    let shipped = include_str!("../../../systemd/examples/survey.toml");
     let imu = shipped.find("[imu]").unwrap()..shipped.find("[[port]]").unwrap();
-    text.push_str("[ship]\nstart = \"underway\"\ngnss_lever_m = [0.0, 0.0, -10.0]\n");
+    let arm = voyage.header.lever_arms.gnss.0;
+    let lever_m = [arm.x, arm.y, arm.z];
+    text.push_str(&format!("[ship]\nstart = \"underway\"\ngnss_lever_m = {lever_m:?}\n"));
     text.push_str(&shipped[imu]);
     for (port, sensor) in feeds.intake(voyage).sensors.iter().enumerate() {
         let (name, device) = (&sensor.port, dir.join(format!("tty{port}")));
@@ -122,10 +128,17 @@ fn configuration(dir: &Path, feeds: &FeedConfig, voyage: &insd_base::Voyage) -> 
     text
 }
 
-/// Sends in real time; the receiver's line is pulled and put back on the way.
-fn send(dir: &Path, sendings: &[Sending], sailed: f64, unplugged: Range<f64>) {
+/// Sends in real time; the receiver's line is pulled and put back on the way. What is of a port from [`ELSEWHERE`] on goes another way.
+fn send(
+    dir: &Path,
+    sendings: &[Sending],
+    sailed: f64,
+    unplugged: Range<f64>,
+    mut elsewhere: impl FnMut(&Sending),
+) {
     let open = |port: usize| Wire::new(&dir.join(format!("tty{port}"))).unwrap();
-    let ports = sendings.iter().map(|sending| sending.port + 1).max().unwrap();
+    let on_lines = sendings.iter().filter(|sending| sending.port < ELSEWHERE);
+    let ports = on_lines.map(|sending| sending.port + 1).max().unwrap();
     let mut wires: Vec<Option<Wire>> = (0..ports).map(|port| Some(open(port))).collect();
     // absent lines are looked for again within a second
     std::thread::sleep(Duration::from_millis(1500));
@@ -138,6 +151,10 @@ fn send(dir: &Path, sendings: &[Sending], sailed: f64, unplugged: Range<f64>) {
         let wait = due - clock.elapsed().as_secs_f64();
         if wait > 0.0 {
             std::thread::sleep(Duration::from_secs_f64(wait));
+        }
+        if sending.port >= ELSEWHERE {
+            elsewhere(sending);
+            continue;
         }
         if sending.port == 1 && unplugged.contains(&due) {
             wires[1] = None;
@@ -158,19 +175,30 @@ struct Replayed {
     states: Vec<String>,
     /// Measurements used, by aid.
     accepted: BTreeMap<&'static str, u64>,
+    /// The solutions, with UTC as far as it was known.
+    solutions: Vec<(Solution, Option<UtcTime>)>,
+    /// Changes of the source of the solutions.
+    sources: Vec<&'static str>,
 }
 
 fn replay(dir: &Path, config: &Config) -> Replayed {
     let mut pipeline = config.pipeline();
     let mut nav = NavWriter::new(Vec::new()).unwrap();
     let (mut sent, mut states) = (Vec::new(), Vec::new());
+    let (mut solutions, mut sources) = (Vec::new(), Vec::new());
     for arrival in RawReader::open(&dir.join("recording")).unwrap() {
         let arrival = arrival.unwrap();
         if let insd_base::Input::State(state) = &arrival.input {
             states.push(state.to_string());
         }
         pipeline.handle(&arrival, |product| match product {
-            Product::Engine(Output::Solution(solution)) => nav.write(&solution).unwrap(),
+            Product::Engine(Output::Solution(solution)) => {
+                nav.write(&solution).unwrap();
+                solutions.push((solution, None));
+            }
+            Product::Engine(Output::Event(Event::SourceChanged { to, .. })) => {
+                sources.push(to.as_str());
+            }
             Product::Engine(Output::Satellite(told)) => nav.hear_satellite(&told),
             Product::Engine(Output::Event(Event::SatelliteJudged {
                 satellite,
@@ -182,7 +210,11 @@ fn replay(dir: &Path, config: &Config) -> Replayed {
             }
             _ => {}
         });
+        for (solution, utc) in solutions.iter_mut().rev().take_while(|(_, utc)| utc.is_none()) {
+            *utc = pipeline.utc_at(solution.time);
+        }
     }
     let accepted = pipeline.counts().accepted.clone();
-    Replayed { nav: nav.finish().unwrap(), sent, states, accepted }
+    let nav = nav.finish().unwrap();
+    Replayed { nav, sent, states, accepted, solutions, sources }
 }
