@@ -70,7 +70,7 @@ export function qualities(motion) {
 // What the position lives by, since when and why.
 export function source(motion) {
   const own = motion?.source;
-  show(byId("source"), own);
+  show(byId("source"), Boolean(own));
   const since = known(own?.since_s) ? ` for ${duration(own.since_s)}` : "";
   setText(byId("source-why"), `${since}${own?.reason ? `: ${own.reason}` : ""}`);
 }

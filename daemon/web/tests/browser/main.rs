@@ -63,6 +63,7 @@ fn what_the_position_lives_by_is_said_with_its_reason_and_only_when_it_is_known(
     let (_live, browser) = looking_at(Scene::Underway);
     browser.until("RTK", || browser.text("#source").starts_with("Lives by RTK: carrier phases"));
     assert!(browser.text("#source").ends_with("it has come"), "{}", browser.text("#source"));
+    assert!(!hidden(&browser));
     let (_live, browser) = looking_at(Scene::Alignment);
     browser.until("nothing", || hidden(&browser));
 }
