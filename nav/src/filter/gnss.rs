@@ -167,7 +167,7 @@ impl Filter {
             white: std.value.map(|s| (s * s * (1.0 - share) * factor + by_north).sqrt()),
             slow: floors::slow_part(&(std.value * noise.sqrt()), share),
             acceleration: view.c_ne
-                * self.receiver.antenna.acceleration(self.state.time, &self.antenna_velocity()),
+                * self.antenna_acceleration(),
         })
     }
 
@@ -181,6 +181,12 @@ impl Filter {
         let rate = earth_relative_rate(&self.state.nominal, &self.state.rate);
         let swing = rate.cross(&self.antenna_lever());
         self.state.nominal.velocity + self.state.nominal.attitude.transform_vector(&swing)
+    }
+
+    /// Its acceleration as it shows in a velocity that is told late, ECEF axes, m/s^2.
+    pub(super) fn antenna_acceleration(&self) -> Vector3<f64> {
+        let late = self.state.nominal.gnss_velocity_delay;
+        self.receiver.antenna.acceleration(self.state.time, &self.antenna_velocity(), late)
     }
 
     fn apply_position(

@@ -129,7 +129,7 @@ impl Filter {
             white: self.config.floors.gnss_velocity(fix.velocity_std).value,
             slow: Vector3::zeros(),
             acceleration: view.c_ne
-                * self.receiver.antenna.acceleration(self.state.time, &self.antenna_velocity()),
+                * self.antenna_acceleration(),
         };
         Some(gnss_velocity::innovation(&view, &measured, &lever))
     }
