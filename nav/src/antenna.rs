@@ -18,7 +18,7 @@ const KEPT: usize = 24;
 const LEAST: f64 = 0.045;
 /// The mean is over so long at least, s: over less, the noise of small gyros that a long lever arm makes large is
 /// mistaken for motion, and a receiver that is late for one that is not; and at most, s.
-const SHORTEST: f64 = 0.25;
+const SHORTEST: f64 = 0.4;
 const LONGEST: f64 = 1.0;
 
 /// The last predicted velocities of the antenna, ECEF axes, the newest first.
@@ -87,12 +87,12 @@ mod tests {
 
     #[test]
     fn of_what_is_told_of_a_mean_nothing_is_left() {
-        // she brakes harder and harder: v = -t^3, of which the mean over the last 0.3 s is told
+        // she brakes harder and harder: v = -t^3, of which the mean over the last 0.6 s is told
         let velocity = |t: f64| -t.powi(3);
-        let mean = -(2.0_f64.powi(4) - 1.7_f64.powi(4)) / 4.0 / 0.3;
-        let left = velocity(2.0) - 0.15 * seen(20, 0.15, velocity).x - mean;
+        let mean = -(2.0_f64.powi(4) - 1.4_f64.powi(4)) / 4.0 / 0.6;
+        let left = velocity(2.0) - 0.3 * seen(20, 0.3, velocity).x - mean;
         assert!(left.abs() < 0.02, "{left}");
-        let of_two = 0.5 * (velocity(2.0) + velocity(1.7));
-        assert!((of_two - mean).abs() > 0.08);
+        let of_two = 0.5 * (velocity(2.0) + velocity(1.4));
+        assert!((of_two - mean).abs() > 0.25);
     }
 }
