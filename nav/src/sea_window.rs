@@ -13,7 +13,7 @@ const WINDOW: f64 = 20.0;
 /// No tide, swell or trim takes her so far from the level that was learnt, m;
 const FAR: f64 = 10.0;
 /// who is there in so many windows on end is not at sea.
-const ON_END: u32 = 3;
+const ON_END: u8 = 3;
 /// What hills, locks and slopes of rivers leave of a mean level, 1-sigma, m: enough to keep a height that nothing else holds from running away.
 pub const ASHORE: f64 = 100.0;
 /// How far a road may go from a level that was seen in one window, 1-sigma, m: over n^2 of one that was seen in n on end.
@@ -27,8 +27,8 @@ pub struct LevelWindow {
     /// Spread of the mean heave.
     pub heave: Spread,
     /// Windows on end in which she was far from the level, and in which she was there.
-    far: u32,
-    agreed: u32,
+    far: u8,
+    agreed: u8,
     /// She is not at sea.
     is_refuted: bool,
 }
@@ -50,7 +50,7 @@ impl LevelWindow {
     /// Sees how far the level is from a mean height that somebody else tells, m, beyond all that it may be off by or not.
     pub fn see(&mut self, off: f64, is_beyond: bool) {
         self.agreed = if is_beyond { 0 } else { self.agreed.saturating_add(1) };
-        self.far = if is_beyond && off.abs() > FAR { self.far + 1 } else { 0 };
+        self.far = if is_beyond && off.abs() > FAR { self.far.saturating_add(1) } else { 0 };
         self.is_refuted |= self.far >= ON_END;
     }
 

@@ -185,10 +185,7 @@ impl Finding {
     /// Whether the configuration is wrong, and not merely incomplete.
     #[must_use]
     pub fn is_fault(&self) -> bool {
-        !matches!(
-            self,
-            Finding::GnssLeverUnmeasured { .. } | Finding::OnWheels | Finding::NotAtSea
-        )
+        !matches!(self, Finding::GnssLeverUnmeasured { .. } | Finding::OnWheels | Finding::NotAtSea)
     }
 
     /// Whether a sensor tells nonsense, which no configuration mends.

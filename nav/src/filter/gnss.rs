@@ -166,8 +166,7 @@ impl Filter {
             velocity: view.c_ne * c_ne.transpose() * velocity.0,
             white: std.value.map(|s| (s * s * (1.0 - share) * factor + by_north).sqrt()),
             slow: floors::slow_part(&(std.value * noise.sqrt()), share),
-            acceleration: view.c_ne
-                * self.antenna_acceleration(),
+            acceleration: view.c_ne * self.antenna_acceleration(),
         })
     }
 
