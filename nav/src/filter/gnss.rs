@@ -99,8 +99,9 @@ impl Filter {
         }
     }
 
-    /// What a fix was set back by is no delay any more.
+    /// What a fix was set back by is no delay any more. It was taken for the receiver's, and may be that of the stamps of the IMU.
     fn note_redating(&mut self, redated: f64) {
+        self.receiver.lateness = self.receiver.lateness.max(redated.abs());
         self.state.nominal.gnss_delay -=
             self.receiver.redated.map_or(0.0, |before| redated - before);
         self.receiver.redated = Some(redated);
