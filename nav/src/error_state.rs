@@ -113,9 +113,10 @@ declare! {
     GNSS_DELAY: 1, "gnss_delay", "s", Scalar, Always,
         first: |config| config.gnss.delay_std, process: |_, _| Process::Constant,
         correction: Correction::Adds(|nominal| from_mut(&mut nominal.gnss_delay));
-    /// Lever arm from the IMU to the GNSS antenna, body axes, m, constant.
+    /// Lever arm from the IMU to the GNSS antenna, body axes, m, constant if it was measured, else a random walk.
     GNSS_LEVER: 3, "gnss_lever", "m", Body, Always,
-        first: |config| config.gnss_lever_std(), process: |_, _| Process::Constant,
+        first: |config| config.gnss_lever_std(),
+        process: |config, _| config.gnss_lever_walk().map_or(Process::Constant, Process::Walk),
         correction: Correction::Adds(|nominal| nominal.gnss_lever.as_mut_slice());
     /// Mean height of the IMU over the ellipsoid (sea level plus mounting height), m, random walk.
     SEA_LEVEL: 1, "sea_level", "m", Scalar, Always,

@@ -277,7 +277,7 @@ impl Filter {
     /// The estimate in the time of GNSS, with the acceleration of the antenna, ECEF axes, m/s^2.
     fn dated_view(&self) -> (View, Vector3<f64>) {
         let antenna = self.antenna_velocity();
-        let acceleration = self.receiver.antenna.acceleration(self.state.time, &antenna);
+        let acceleration = self.receiver.antenna.acceleration(self.state.time, &antenna, 0.0);
         (self.view().at_gnss_time(&acceleration, &self.dating()), acceleration)
     }
 

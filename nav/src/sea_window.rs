@@ -10,6 +10,14 @@ use crate::spread::Spread;
 
 /// Length of the window, s.
 const WINDOW: f64 = 20.0;
+/// No tide, swell or trim takes her so far from the level that was learnt, m;
+const FAR: f64 = 10.0;
+/// who is there in so many windows on end is not at sea.
+const ON_END: u8 = 3;
+/// What hills, locks and slopes of rivers leave of a mean level, 1-sigma, m: enough to keep a height that nothing else holds from running away.
+pub const ASHORE: f64 = 100.0;
+/// How far a road may go from a level that was seen in one window, 1-sigma, m: over n^2 of one that was seen in n on end.
+const HILLY: f64 = 30.0;
 
 /// Heights summed since the last mean was taken, and the spread of the means.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,6 +26,11 @@ pub struct LevelWindow {
     length: f64,
     /// Spread of the mean heave.
     pub heave: Spread,
+    /// Windows on end in which she was far from the level, and in which she was there.
+    far: u8,
+    agreed: u8,
+    /// She is not at sea.
+    is_refuted: bool,
 }
 
 impl LevelWindow {
@@ -28,7 +41,32 @@ impl LevelWindow {
             sum: 0.0,
             length: 0.0,
             heave: Spread::new(sea.initial_mean_heave, sea.least_mean_heave),
+            far: 0,
+            agreed: 0,
+            is_refuted: false,
         }
+    }
+
+    /// Sees how far the level is from a mean height that somebody else tells, m, beyond all that it may be off by or not.
+    pub fn see(&mut self, off: f64, is_beyond: bool) {
+        self.agreed = if is_beyond { 0 } else { self.agreed.saturating_add(1) };
+        self.far = if is_beyond && off.abs() > FAR { self.far.saturating_add(1) } else { 0 };
+        self.is_refuted |= self.far >= ON_END;
+    }
+
+    /// Whether she was seen where no sea is: it stays so.
+    #[must_use]
+    pub fn is_refuted(&self) -> bool {
+        self.is_refuted
+    }
+
+    /// What is left of a mean height over the level of a ship, 1-sigma, m; where nobody else tells her height, she may be none as long as the
+    /// level was not borne out.
+    #[must_use]
+    pub fn std(&self, is_told: bool) -> f64 {
+        let seen = f64::from(self.agreed.max(1));
+        let hill = if is_told { 0.0 } else { HILLY / (seen * seen) };
+        self.heave.std().max(hill)
     }
 
     /// Adds a height, m, that held for `duration` s.
@@ -54,5 +92,54 @@ impl LevelWindow {
     pub fn restart(&mut self) {
         self.sum = 0.0;
         self.length = 0.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn window() -> LevelWindow {
+        let sea = SeaModel { level_walk: 0.002, least_mean_heave: 0.02, initial_mean_heave: 0.3 };
+        LevelWindow::new(&sea)
+    }
+
+    #[test]
+    fn who_stays_tens_of_metres_from_the_sea_is_not_on_it() {
+        let mut level = window();
+        for off in [-12.0, -15.0] {
+            level.see(off, true);
+        }
+        assert!(!level.is_refuted());
+        level.see(-18.0, true);
+        assert!(level.is_refuted());
+        level.see(0.0, false);
+        assert!(level.is_refuted(), "for good");
+    }
+
+    #[test]
+    fn a_lock_a_leap_and_a_height_that_is_not_known_refute_no_sea() {
+        let mut level = window();
+        for window in 0..30 {
+            level.see(7.0, true);
+            level.see(30.0, window % 3 > 0);
+        }
+        for _ in 0..30 {
+            level.see(30.0, false);
+        }
+        assert!(!level.is_refuted());
+    }
+
+    #[test]
+    fn a_level_that_was_seen_once_holds_nobody_firmly_and_one_that_was_seen_for_minutes_does() {
+        let mut level = window();
+        level.see(0.0, false);
+        assert!(level.std(false) > 20.0 && level.std(true) < 1.0, "a road may climb");
+        for _ in 0..14 {
+            level.see(0.1, false);
+        }
+        assert!(level.std(false) < 1.0);
+        level.see(2.0, true);
+        assert!(level.std(false) > 20.0, "she was seen to climb");
     }
 }

@@ -51,7 +51,7 @@ impl EightState {
             let split = split(velocity.0.xy(), &std.value, share);
             let scene = self.scene();
             let swing = scene.swing(&lever);
-            let moving = self.antenna.acceleration(self.time, &(self.push + swing));
+            let moving = self.antenna.acceleration(self.time, &(self.push + swing), 0.0);
             let innovation =
                 aids::gnss_velocity(&scene, &split, &lever, &moving.xy(), &self.belief);
             let swing_noise = scene.swing_noise(&lever);

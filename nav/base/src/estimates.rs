@@ -46,6 +46,8 @@ pub struct Estimates {
     /// Course less heading on the mean while she went straight on, rad: leeway and current, and what the IMU is
     /// turned by. `None` before she has done so for two minutes.
     pub course_less_heading: Option<Estimate>,
+    /// Whether a receiver saw her climb as no sea does.
+    pub is_not_at_sea: bool,
     /// Whether she climbs as she points and never slides, as nothing does but what goes on wheels.
     pub goes_on_wheels: bool,
     /// Whether the ship is taken as lying at her berth.

@@ -123,6 +123,8 @@ pub enum Finding {
     },
     /// She climbs as she points and never slides, and is not configured as what goes on wheels.
     OnWheels,
+    /// A receiver saw her climb as no sea does, and she is not configured as what goes on wheels.
+    NotAtSea,
     /// Every heading that was found with the IMU was refuted by GNSS.
     ImuRefuted,
     /// The IMU is worse than its data sheet.
@@ -171,6 +173,7 @@ impl Finding {
             Finding::ImuTurns { .. } => "imu_turns",
             Finding::ImuAxes { .. } => "imu_axes",
             Finding::OnWheels => "on_wheels",
+            Finding::NotAtSea => "not_at_sea",
             Finding::ImuRefuted => "imu_refuted",
             Finding::ImuWorse { .. } => "imu_worse",
             Finding::MountingTilted { .. } => "mounting_tilted",
@@ -182,7 +185,7 @@ impl Finding {
     /// Whether the configuration is wrong, and not merely incomplete.
     #[must_use]
     pub fn is_fault(&self) -> bool {
-        !matches!(self, Finding::GnssLeverUnmeasured { .. } | Finding::OnWheels)
+        !matches!(self, Finding::GnssLeverUnmeasured { .. } | Finding::OnWheels | Finding::NotAtSea)
     }
 
     /// Whether a sensor tells nonsense, which no configuration mends.
@@ -407,6 +410,9 @@ impl Finding {
             Finding::OnWheels => f.write_str(
                 "she climbs as she points and never slides, as nothing does but what goes on wheels, and is held to them",
             ),
+            Finding::NotAtSea => f.write_str(
+                "her height changes as that of no sea does: the mean sea level holds it no more",
+            ),
             Finding::ImuRefuted => f.write_str(
                 "GNSS refutes every heading that is found with the IMU: are its axes, signs and units as \
                  configured, or is the receiver wrong?",
@@ -455,7 +461,7 @@ mod tests {
 
     #[test]
     fn a_car_that_is_configured_as_a_ship_is_no_fault_and_told_what_to_write() {
-        assert!(!Finding::OnWheels.is_fault());
+        assert!(!Finding::OnWheels.is_fault() && !Finding::NotAtSea.is_fault());
         assert_eq!(Finding::OnWheels.to_paste().as_deref(), Some("kind = \"car\""));
     }
 

@@ -38,6 +38,7 @@ impl Filter {
                 .log_lever_std
                 .map(|sigma| (self.config.lever_arms.log, Body(sigma))),
             course_less_heading: None,
+            is_not_at_sea: self.state.level.is_refuted(),
             goes_on_wheels: self.conduct.wheels.are_proven(),
             moored,
         }

@@ -99,8 +99,9 @@ impl Filter {
         }
     }
 
-    /// What a fix was set back by is no delay any more.
+    /// What a fix was set back by is no delay any more. It was taken for the receiver's, and may be that of the stamps of the IMU.
     fn note_redating(&mut self, redated: f64) {
+        self.receiver.lateness = self.receiver.lateness.max(redated.abs());
         self.state.nominal.gnss_delay -=
             self.receiver.redated.map_or(0.0, |before| redated - before);
         self.receiver.redated = Some(redated);
@@ -166,8 +167,7 @@ impl Filter {
             velocity: view.c_ne * c_ne.transpose() * velocity.0,
             white: std.value.map(|s| (s * s * (1.0 - share) * factor + by_north).sqrt()),
             slow: floors::slow_part(&(std.value * noise.sqrt()), share),
-            acceleration: view.c_ne
-                * self.receiver.antenna.acceleration(self.state.time, &self.antenna_velocity()),
+            acceleration: view.c_ne * self.antenna_acceleration(),
         })
     }
 
@@ -181,6 +181,12 @@ impl Filter {
         let rate = earth_relative_rate(&self.state.nominal, &self.state.rate);
         let swing = rate.cross(&self.antenna_lever());
         self.state.nominal.velocity + self.state.nominal.attitude.transform_vector(&swing)
+    }
+
+    /// Its acceleration as it shows in a velocity that is told late, ECEF axes, m/s^2.
+    pub(super) fn antenna_acceleration(&self) -> Vector3<f64> {
+        let late = self.state.nominal.gnss_velocity_delay;
+        self.receiver.antenna.acceleration(self.state.time, &self.antenna_velocity(), late)
     }
 
     fn apply_position(

@@ -10,7 +10,7 @@ pub(super) const GNSS_TIMEOUT: f64 = 5.0;
 const RELATIVE_TIMEOUT: f64 = 15.0;
 
 impl Filter {
-    fn gnss_is_fresh(&self) -> bool {
+    pub(super) fn gnss_is_fresh(&self) -> bool {
         self.receiver
             .trust
             .last_used()

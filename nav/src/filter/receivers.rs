@@ -128,8 +128,7 @@ impl Filter {
             velocity: view.c_ne * c_ne.transpose() * fix.velocity?.0,
             white: self.config.floors.gnss_velocity(fix.velocity_std).value,
             slow: Vector3::zeros(),
-            acceleration: view.c_ne
-                * self.receiver.antenna.acceleration(self.state.time, &self.antenna_velocity()),
+            acceleration: view.c_ne * self.antenna_acceleration(),
         };
         Some(gnss_velocity::innovation(&view, &measured, &lever))
     }

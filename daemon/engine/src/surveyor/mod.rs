@@ -306,7 +306,8 @@ impl Surveyor {
             levers.into_iter().flatten().filter(|_| is_imu_right).collect();
         let worse = (imu_is_worse_by > 1.0).then_some(Finding::ImuWorse { times: imu_is_worse_by });
         let wheels = estimates.goes_on_wheels.then_some(Finding::OnWheels);
-        found.extend(worse.into_iter().chain(delay(estimates)).chain(wheels));
+        let ashore = estimates.is_not_at_sea.then_some(Finding::NotAtSea);
+        found.extend(worse.into_iter().chain(delay(estimates)).chain(wheels).chain(ashore));
         found
     }
 
