@@ -319,6 +319,18 @@ impl Docket {
         }
     }
 
+    /// The receiver in use was left out for what may be its return from a lie: the position may be off by so much, m.
+    pub fn leave_open(&mut self, off: f64, now: Time) {
+        self.lies[self.lie_of(Party::Gnss)].unproven = Some((off, 0.0, now));
+    }
+
+    /// Somebody is not suspected any more.
+    pub fn drop_suspicion(&mut self, party: Party, now: Time) {
+        if self.standing(party) == Standing::Doubtful {
+            self.enter(party, Standing::Trusted, now);
+        }
+    }
+
     /// Whoever is doubted, by what the last look gave.
     pub fn doubt(&mut self, fault: Option<Fault>, now: Time) {
         let party = fault.map(Fault::party);
