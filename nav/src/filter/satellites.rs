@@ -65,6 +65,8 @@ pub(super) struct Satellites {
     source: Option<Source>,
     /// Since when the filter and nearly all of them contradict each other.
     strife: Option<Time>,
+    /// When nearly all of them contradicted the filter last, or had their phases broken.
+    upset: Option<Time>,
     /// Whether the place is known by ranges, and not by fixes.
     places: bool,
     /// What phases scatter beyond what is expected of them.
@@ -110,7 +112,20 @@ impl Satellites {
         let is_strife = are_most(out, all);
         let since = is_strife.then(|| self.strife.unwrap_or(now));
         self.strife = since;
+        self.upset = since.map(|_| now).or(self.upset);
         since.map(|since| (now - since).as_seconds())
+    }
+
+    /// Takes note of how many phases of all begin anew.
+    pub(super) fn note_breaks(&mut self, new: usize, all: usize, now: Time) {
+        if are_most(new, all) {
+            self.upset = Some(now);
+        }
+    }
+
+    /// Whether they have gone on without a break for so long, s.
+    pub(super) fn went_on(&self, now: Time, span: f64) -> bool {
+        self.are_fresh(now) && self.upset.is_none_or(|at| (now - at).as_seconds() > span)
     }
 
     /// The place of a satellite, and whether it is new there. `None` where all are taken.

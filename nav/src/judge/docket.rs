@@ -324,6 +324,19 @@ impl Docket {
         self.lies[self.lie_of(Party::Gnss)].unproven = Some((off, 0.0, now));
     }
 
+    /// What the receiver in use, which is left out, says that she is off by, north and east, m.
+    #[must_use]
+    pub fn off_by_gnss(&self) -> Vector2<f64> {
+        self.lies[self.lie_of(Party::Gnss)].off
+    }
+
+    /// Whether the receiver in use is left out for a leap of its place.
+    #[must_use]
+    pub fn has_leapt(&self) -> bool {
+        let gnss = &self.entries[self.place(Party::Gnss)];
+        gnss.standing == Standing::Excluded && gnss.fault == Some(Fault::Jump)
+    }
+
     /// Somebody is not suspected any more.
     pub fn drop_suspicion(&mut self, party: Party, now: Time) {
         if self.standing(party) == Standing::Doubtful {

@@ -43,7 +43,7 @@ pub use docket::Docket;
 pub use hypotheses::Separation;
 use onset::Onset;
 use pessimist::Pessimist;
-use returned::Suspicion;
+use returned::{Allowed, Suspicion};
 use rows::Direct;
 use shadow::Shadow;
 pub use shadow::agitate;
@@ -91,6 +91,8 @@ pub struct Judge {
     accused: Option<(Party, Time)>,
     /// What the receiver was suspected of, of late.
     suspicions: Vec<Suspicion>,
+    /// What of its lies the levels allowed for at the last looks, and where it is left out for a leap, at the last one before that.
+    allowed: Allowed,
     docket: Docket,
     /// Since when the log scatters wildly.
     wild: Option<Time>,
@@ -119,6 +121,7 @@ impl Judge {
             disputed: None,
             accused: None,
             suspicions: Vec::new(),
+            allowed: Allowed::default(),
             wild: None,
             is_coarse: config.has_coarse_gyros(),
             imu_on_trial: docket.imu_doubted_since().is_some(),

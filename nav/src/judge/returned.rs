@@ -9,12 +9,12 @@
 //! leaps being of any size between the least and the most, evenly by their logarithm.
 
 use insd_base::{Fault, Party, Time};
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::charge::{Charge, Kind};
 use super::rows::ALL;
 use super::verdict::{Ruling, lie_of_gnss};
-use super::{Alternative, Judge};
+use super::{Alternative, Judge, Separation};
 use crate::error_state::{Effects, POSITION, VELOCITY};
 
 /// Suspicions are kept for so long, s: a leap is found within some seconds, or not.
@@ -25,6 +25,10 @@ const SUSPECTED: f64 = 1e-3;
 const LASTS: f64 = 600.0;
 /// Leaps are between these, m.
 const LEAPS: [f64; 2] = [3.0, 1e3];
+/// What the levels allow for with less than this is of no account.
+const ALLOWED: f64 = 1e-8;
+/// Cause of a level: beyond all others of the judge.
+const RETURNED: usize = 999;
 /// Odds, as a logarithm, from which on one of the two is taken to be so.
 const SURE: f64 = 6.9;
 /// What was made of a lie is known no better than this, 1-sigma, m and m/s, some seconds after it has ended.
@@ -40,11 +44,51 @@ pub(super) struct Suspicion {
     effects: Effects,
 }
 
+/// What the levels allow for of a receiver's growing lies.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Allowed {
+    looks: Vec<(Time, Vec<Separation>)>,
+    /// Before the leap for which it is left out.
+    before: Option<Vec<Separation>>,
+    /// Chance that the leap ended one of them, once it is weighed.
+    ended: Option<f64>,
+}
+
+/// Whether a lie grows, so that a leap may end it.
+fn is_growing(fault: Fault) -> bool {
+    matches!(fault, Fault::Drag | Fault::Slide | Fault::Creep)
+}
+
 impl Judge {
+    /// Takes note of what the levels allow for.
+    pub fn note_allowed(&mut self, now: Time, all: &[Separation]) {
+        let is_it = |own: &&Separation| {
+            let fault = ALL.get(own.cause).map(|group| group.fault);
+            own.chance > ALLOWED && fault.is_some_and(is_growing)
+        };
+        self.allowed.looks.retain(|(at, _)| (now - *at).as_seconds() < KEPT);
+        self.allowed.looks.push((now, all.iter().filter(is_it).copied().collect()));
+    }
+
+    /// While the receiver is left out for a leap: that it has returned from a lie, and is right; `off` is where it says she is from where the navigator
+    /// does, ECEF, m, of an estimate with a covariance.
+    pub fn returned(
+        &mut self,
+        off: &Vector3<f64>,
+        covariance: &Matrix3<f64>,
+    ) -> Option<Separation> {
+        let before = self.allowed.before.as_ref().filter(|_| self.docket.leaves_out_gnss())?;
+        let ended = || chance_of_end(before, off);
+        let chance = *self.allowed.ended.get_or_insert_with(ended);
+        let noise = Matrix3::from_diagonal_element(UNTIDY[0] * UNTIDY[0]);
+        let (growth, spreading) = (Vector3::zeros(), Matrix3::zeros());
+        let (cause, covariance) = (RETURNED, covariance + noise);
+        Some(Separation { cause, chance, apart: *off, growth, covariance, spreading })
+    }
+
     /// Keeps what the receiver is suspected of, by what a look has found.
     pub(super) fn note_suspicion(&mut self, now: Time) {
         self.suspicions.retain(|own| (now - own.at).as_seconds() < KEPT);
-        let is_growing = |fault| matches!(fault, Fault::Drag | Fault::Slide | Fault::Creep);
         let mut all = self.assessment.charges.iter();
         let Some(charge) = all.find(|charge| is_growing(charge.fault)).copied() else { return };
         let chance = (charge.weight - self.assessment.total).exp();
@@ -59,9 +103,14 @@ impl Judge {
     /// position claimed to be no better than the two are apart. `None` where it is a leap.
     pub(super) fn look_at_return(&mut self, leap: &Charge, now: Time) -> Option<Ruling> {
         let Kind::Shaped { since, sized, .. } = leap.kind else { return None };
+        if leap.party() == Party::Gnss {
+            (self.allowed.before, self.allowed.ended) = (None, None);
+        }
         if leap.fault != Fault::Jump {
             return None;
         }
+        let look = self.allowed.looks.iter().rev().find(|(at, _)| *at <= since);
+        self.allowed.before = look.map(|(_, all)| all.clone());
         let before = self.suspected_before(since)?.clone();
         let jump = sized.value.xy();
         let odds =
@@ -91,6 +140,21 @@ impl Judge {
         let Kind::Shaped { since, .. } = leap.kind else { return None };
         Some(self.suspected_before(since)?.ended(self.alternative(leap)))
     }
+}
+
+/// The chance that a leap which took a receiver to a place off the estimate ended one of its lies: of each cause the likeliest, as far as it would have led
+/// so far.
+fn chance_of_end(lies: &[Separation], off: &Vector3<f64>) -> f64 {
+    let chance = |own: &Separation| {
+        let wide = own.covariance + Matrix3::from_diagonal_element(UNTIDY[0] * UNTIDY[0]);
+        let left = off - own.apart;
+        let square = wide.try_inverse().map_or(0.0, |inverse| left.dot(&(inverse * left)));
+        own.chance * (-0.5 * square).exp()
+    };
+    let of_cause = |lies: &[Separation]| lies.iter().map(chance).fold(0.0, f64::max);
+    let mut lies = lies.to_vec();
+    lies.sort_by_key(|own| own.cause);
+    lies.chunk_by(|a, b| a.cause == b.cause).map(of_cause).sum::<f64>().min(1.0)
 }
 
 impl Suspicion {
