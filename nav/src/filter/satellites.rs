@@ -185,3 +185,20 @@ impl Satellites {
 pub(super) fn are_most(some: usize, all: usize) -> bool {
     all >= FEW && 4 * some >= 3 * all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn satellites_of_which_nearly_all_phases_broke_have_not_gone_on() {
+        let at = Time::from_seconds;
+        let mut satellites = Satellites { last: Some(at(100.0)), ..Satellites::default() };
+        satellites.note_breaks(3, 10, at(90.0));
+        assert!(satellites.went_on(at(100.0), 30.0));
+        satellites.note_breaks(9, 10, at(90.0));
+        assert!(!satellites.went_on(at(100.0), 30.0));
+        satellites.last = Some(at(121.0));
+        assert!(satellites.went_on(at(121.0), 30.0));
+    }
+}

@@ -189,3 +189,32 @@ impl Suspicion {
         followed
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lie(cause: usize, chance: f64, north: f64) -> Separation {
+        Separation {
+            cause,
+            chance,
+            apart: Vector3::new(north, 0.0, 0.0),
+            growth: Vector3::zeros(),
+            covariance: Matrix3::from_diagonal_element(25.0),
+            spreading: Matrix3::zeros(),
+        }
+    }
+
+    #[test]
+    fn a_leap_to_where_the_ship_would_be_without_a_lie_is_as_likely_its_end_as_it_was_a_lie() {
+        let lies = [lie(2, 1e-3, 60.0), lie(4, 1e-4, 60.0), lie(2, 1e-3, 20.0)];
+        let chance = chance_of_end(&lies, &Vector3::new(60.0, 0.0, 0.0));
+        assert!((chance - 1.1e-3).abs() < 1e-9, "{chance}");
+    }
+
+    #[test]
+    fn a_leap_elsewhere_ends_no_lie() {
+        let chance = chance_of_end(&[lie(2, 1e-3, 60.0)], &Vector3::new(0.0, 60.0, 0.0));
+        assert!(chance < 1e-30, "{chance}");
+    }
+}
