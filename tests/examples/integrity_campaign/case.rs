@@ -199,13 +199,7 @@ impl Case {
                     format!("jumps = [{{ {during}, size_m = {} }}]", share * size),
                 )
             }
-            Kind::Base => {
-                let off = draw.of_any_size(0.3, 30.0);
-                let (north, east) =
-                    (off * angle.to_radians().cos(), off * angle.to_radians().sin());
-                let told = format!("told_off_m = [{north}, {east}, 0.0]");
-                (format!("{off:.1} m"), told, String::new())
-            }
+            Kind::Base => told_elsewhere(draw, angle),
             Kind::Multipath => {
                 let times = draw.of_any_size(3.0, 20.0);
                 (
@@ -252,4 +246,11 @@ fn base(draw: &mut Draw, place: &Geodetic, more: &str) -> String {
         place.longitude.to_degrees() + east,
         place.height + draw.between(5.0, 30.0)
     )
+}
+
+/// How far off a base says it is, and the key of that.
+fn told_elsewhere(draw: &mut Draw, angle: f64) -> (String, String, String) {
+    let off = draw.of_any_size(0.3, 30.0);
+    let (north, east) = (off * angle.to_radians().cos(), off * angle.to_radians().sin());
+    (format!("{off:.1} m"), format!("told_off_m = [{north}, {east}, 0.0]"), String::new())
 }
