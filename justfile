@@ -191,6 +191,11 @@ satellites-campaign seeds="20":
     cargo build --release
     cargo run --release -p insd-tests --example satellites_campaign -- "${CARGO_TARGET_DIR:-target}/release/insd" {{seeds}} docs/satellites.md
 
+# simulated ports in which something is wrong, spoofers and satellites and bases: do protection levels hold? A table of docs/protection.md; half an hour for 50 seeds
+integrity-campaign seeds="50" *page:
+    cargo build --release
+    cargo run --release -p insd-tests --example integrity_campaign -- "${CARGO_TARGET_DIR:-target}/release/insd" {{seeds}} {{page}}
+
 # ships at their berths in all seas, on all moorings, with all grades: the table of docs/figures.md; ten minutes for 24 seeds
 berth-campaign seeds="24":
     cargo run --release -p insd-tests --example berth_campaign -- {{seeds}} docs/figures.md

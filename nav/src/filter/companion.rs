@@ -10,11 +10,11 @@
 use std::sync::Arc;
 
 use insd_base::units::wrap_pi;
-use insd_base::{Message, Received, SolutionSigma};
+use insd_base::{Message, Party, Received, SolutionSigma};
 
-use super::Filter;
 use super::rtk_standing::RtkStanding;
 use super::satellites::Satellites;
+use super::{Filter, imu_position};
 use crate::declaration::Carried;
 use crate::error_state::POSITION;
 use crate::report::Report;
@@ -25,6 +25,8 @@ use crate::timeline::Estimator;
 /// where somebody else is, who counts for little beside ranges.
 const PARTED_BY_GNSS: f64 = 3.0;
 const PARTED: f64 = 4.5;
+/// Ranges that have gone on without a break for so long, s, have not leapt when a receiver is found to have.
+const STEADY: f64 = 30.0;
 /// Beyond so many what is claimed covers both.
 const APART: f64 = 2.0;
 
@@ -57,18 +59,59 @@ impl Filter {
         let mut report = self.companion_mut()?.apply(received);
         let companion = self.companion.as_deref()?;
         let sigmas = self.apart_from(companion);
-        let turned = self.turned_from(companion);
         let has_found_antenna = companion.has_mended_antenna() && !self.has_mended_antenna();
         let somebody_lies = companion.judgement().excluded.iter().next().is_some();
+        if companion.docket().has_leapt() && self.satellites.went_on(self.state.time, STEADY) {
+            match self.is_borne_out_by(received) {
+                // the next fix tells
+                None => return self.claim_both(),
+                Some(true) => {
+                    self.be_accompanied_anew();
+                    return None;
+                }
+                Some(false) => {}
+            }
+        }
         let parted = if companion.docket().leaves_out_gnss() { PARTED_BY_GNSS } else { PARTED };
         if has_found_antenna || somebody_lies && sigmas > parted {
             self.go_on_without_ranges(&mut report);
             return Some(report);
         }
-        let difference = (sigmas.max(turned) > APART).then(|| self.difference_to(companion));
+        self.claim_both()
+    }
+
+    /// While the two are apart, or the judge is in doubt, what is claimed covers both.
+    fn claim_both(&mut self) -> Option<Report> {
+        let companion = self.companion.as_deref()?;
+        let is_apart = self.apart_from(companion).max(self.turned_from(companion)) > APART;
+        let difference = is_apart.then(|| self.difference_to(companion));
         let both = [difference, companion.court.covered].into_iter().flatten();
         self.court.covered = both.reduce(|a, b| a.greatest(&b));
         None
+    }
+
+    /// Whether a fix says that she is where ranges have her; `None` of what is no fix.
+    fn is_borne_out_by(&self, received: &Received) -> Option<bool> {
+        let Message::Gnss(fix) = &received.message else { return None };
+        let position = fix.position.filter(|_| fix.rank == 0)?;
+        let (view, own) = (self.view(), &self.state.nominal.position);
+        let place = imu_position(&view, &position, &self.antenna_lever());
+        let off = (view.c_ne * (place.0 - own)).xy();
+        let std = self.config.floors.gnss_position(fix.position_std, fix.quality).value.xy();
+        let level = view.c_ne.fixed_rows::<2>(0).into_owned();
+        let variance = POSITION.covariance_in(&self.state.covariance, &level).trace();
+        Some(off.norm_squared() < PARTED_BY_GNSS.powi(2) * (variance + std.norm_squared()))
+    }
+
+    /// A receiver that is found to have leapt is back where its ranges have been all the while, which went on without a break: its fixes had gone astray, and who
+    /// lives by them.
+    fn be_accompanied_anew(&mut self) {
+        let mut docket = self.docket();
+        docket.recall(Party::Gnss, self.state.time, |_| true);
+        self.companion = None;
+        self.config = self.config.with_docket(docket);
+        self.court.covered = None;
+        self.be_accompanied();
     }
 
     /// The companion goes on in its place; who was left out among the satellites is not any more.

@@ -7,7 +7,7 @@ use insd_base::{SolutionSigma, Time};
 use super::hidden::Hidden;
 use crate::error_state::Errors;
 use crate::increments::Increment;
-use crate::judge::Judge;
+use crate::judge::{Judge, Separation};
 use crate::leap::LeapWatch;
 use crate::propagation::Stretch;
 use crate::strapdown::Step;
@@ -28,6 +28,8 @@ pub(super) struct Court {
     pub(super) owed: Errors,
     /// Sigmas that cover all that may be, while somebody may lie.
     pub(super) covered: Option<SolutionSigma>,
+    /// A receiver that is left out for a leap has returned from a lie: that may be so.
+    pub(super) returned: Option<Separation>,
     /// What faults that nobody has found add to the protection levels.
     pub(super) hidden: Hidden,
 }
@@ -43,6 +45,7 @@ impl Court {
             unjudged: Stretch::new(),
             owed: Errors::none(),
             covered: None,
+            returned: None,
             hidden: Hidden::default(),
         }
     }

@@ -22,6 +22,7 @@ impl Filter {
     /// Works out anew what faults that nobody has found add to the levels.
     pub(super) fn protect(&mut self) {
         let model = self.config.risk;
+        self.weigh_return(&model);
         let separations = match &self.companion {
             Some(companion) => self.separations_beside(companion, &model),
             None => self.judged_separations(self.state.time, &model),
@@ -52,7 +53,23 @@ impl Filter {
     /// What the judge has of everybody.
     fn judged_separations(&self, now: Time, model: &RiskModel) -> Vec<Separation> {
         let judge = self.court.judge.as_deref();
-        judge.map_or_else(Vec::new, |judge| judge.separations(now, model))
+        let mut all = judge.map_or_else(Vec::new, |judge| judge.separations(now, model));
+        all.extend(self.court.returned);
+        all
+    }
+
+    /// Whether a receiver that is left out for a leap has returned from a lie that nobody had found.
+    fn weigh_return(&mut self, model: &RiskModel) {
+        let now = self.state.time;
+        let Some(judge) = self.court.judge.as_deref() else { return };
+        let allowed = judge.separations(now, model);
+        let z = judge.docket().off_by_gnss();
+        let off = self.view().c_ne.tr_mul(&Vector3::new(z.x, z.y, 0.0));
+        let covariance = POSITION.covariance(&self.state.covariance);
+        if let Some(judge) = self.judge_now() {
+            judge.note_allowed(now, &allowed);
+            self.court.returned = judge.returned(&off, &covariance);
+        }
     }
 
     /// Where ranges are in use: what the companion's judge has of everybody, whose estimate is apart from this one; and each satellite, and all of a

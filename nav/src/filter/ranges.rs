@@ -110,6 +110,9 @@ impl Filter {
         if is_first {
             self.take_over_claims();
             self.be_judged();
+            // of the place they stay what they are
+            let companion = self.companion.as_deref();
+            self.court.covered = companion.and_then(|companion| companion.court.covered);
         }
     }
 
@@ -192,14 +195,18 @@ impl Filter {
 
     /// Constants of arcs that have begun are what makes the phase fit, and unknown.
     fn begin_arcs(&mut self, seated: &[Sighted<'_>]) {
+        let (mut new, mut all) = (0, 0);
         for one in seated {
             let Some(phase) = one.range.phase else { continue };
             let known = self.satellites.slot_mut(one.slot);
             let is_new = known.is_some_and(|slot| slot.arc.replace(phase.arc) != Some(phase.arc));
+            all += 1;
             if is_new {
+                new += 1;
                 self.begin_arc(one);
             }
         }
+        self.satellites.note_breaks(new, all, self.state.time);
     }
 
     fn begin_arc(&mut self, one: &Sighted<'_>) {

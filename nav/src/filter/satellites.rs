@@ -65,6 +65,8 @@ pub(super) struct Satellites {
     source: Option<Source>,
     /// Since when the filter and nearly all of them contradict each other.
     strife: Option<Time>,
+    /// When nearly all of them contradicted the filter last, or had their phases broken.
+    upset: Option<Time>,
     /// Whether the place is known by ranges, and not by fixes.
     places: bool,
     /// What phases scatter beyond what is expected of them.
@@ -110,7 +112,20 @@ impl Satellites {
         let is_strife = are_most(out, all);
         let since = is_strife.then(|| self.strife.unwrap_or(now));
         self.strife = since;
+        self.upset = since.map(|_| now).or(self.upset);
         since.map(|since| (now - since).as_seconds())
+    }
+
+    /// Takes note of how many phases of all begin anew.
+    pub(super) fn note_breaks(&mut self, new: usize, all: usize, now: Time) {
+        if are_most(new, all) {
+            self.upset = Some(now);
+        }
+    }
+
+    /// Whether they have gone on without a break for so long, s.
+    pub(super) fn went_on(&self, now: Time, span: f64) -> bool {
+        self.are_fresh(now) && self.upset.is_none_or(|at| (now - at).as_seconds() > span)
     }
 
     /// The place of a satellite, and whether it is new there. `None` where all are taken.
@@ -169,4 +184,21 @@ impl Satellites {
 /// Whether so many out of all satellites are nearly all: what the rest says is not believed against them.
 pub(super) fn are_most(some: usize, all: usize) -> bool {
     all >= FEW && 4 * some >= 3 * all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn satellites_of_which_nearly_all_phases_broke_have_not_gone_on() {
+        let at = Time::from_seconds;
+        let mut satellites = Satellites { last: Some(at(100.0)), ..Satellites::default() };
+        satellites.note_breaks(3, 10, at(90.0));
+        assert!(satellites.went_on(at(100.0), 30.0));
+        satellites.note_breaks(9, 10, at(90.0));
+        assert!(!satellites.went_on(at(100.0), 30.0));
+        satellites.last = Some(at(121.0));
+        assert!(satellites.went_on(at(121.0), 30.0));
+    }
 }

@@ -40,6 +40,7 @@ impl Judge {
         if !all.is_empty() && stands(0.0) {
             all.push(self.shadow());
         }
+        all.extend(self.without_what_may_have_ended());
         all
     }
 

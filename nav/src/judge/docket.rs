@@ -319,6 +319,31 @@ impl Docket {
         }
     }
 
+    /// The receiver in use was left out for what may be its return from a lie: the position may be off by so much, m.
+    pub fn leave_open(&mut self, off: f64, now: Time) {
+        self.lies[self.lie_of(Party::Gnss)].unproven = Some((off, 0.0, now));
+    }
+
+    /// What the receiver in use, which is left out, says that she is off by, north and east, m.
+    #[must_use]
+    pub fn off_by_gnss(&self) -> Vector2<f64> {
+        self.lies[self.lie_of(Party::Gnss)].off
+    }
+
+    /// Whether the receiver in use is left out for a leap of its place.
+    #[must_use]
+    pub fn has_leapt(&self) -> bool {
+        let gnss = &self.entries[self.place(Party::Gnss)];
+        gnss.standing == Standing::Excluded && gnss.fault == Some(Fault::Jump)
+    }
+
+    /// Somebody is not suspected any more.
+    pub fn drop_suspicion(&mut self, party: Party, now: Time) {
+        if self.standing(party) == Standing::Doubtful {
+            self.enter(party, Standing::Trusted, now);
+        }
+    }
+
     /// Whoever is doubted, by what the last look gave.
     pub fn doubt(&mut self, fault: Option<Fault>, now: Time) {
         let party = fault.map(Fault::party);

@@ -22,6 +22,7 @@ mod noise;
 mod onset;
 mod pessimist;
 mod receivers;
+mod returned;
 pub mod rows;
 mod scatter;
 mod shadow;
@@ -42,6 +43,7 @@ pub use docket::Docket;
 pub use hypotheses::Separation;
 use onset::Onset;
 use pessimist::Pessimist;
+use returned::{Allowed, Suspicion};
 use rows::Direct;
 use shadow::Shadow;
 pub use shadow::agitate;
@@ -87,6 +89,10 @@ pub struct Judge {
     /// What may be a lie as well as an IMU that is worse than assumed.
     disputed: Option<Charge>,
     accused: Option<(Party, Time)>,
+    /// What the receiver was suspected of, of late.
+    suspicions: Vec<Suspicion>,
+    /// What of its lies the levels allowed for at the last looks, and where it is left out for a leap, at the last one before that.
+    allowed: Allowed,
     docket: Docket,
     /// Since when the log scatters wildly.
     wild: Option<Time>,
@@ -114,6 +120,8 @@ impl Judge {
             suspect: None,
             disputed: None,
             accused: None,
+            suspicions: Vec::new(),
+            allowed: Allowed::default(),
             wild: None,
             is_coarse: config.has_coarse_gyros(),
             imu_on_trial: docket.imu_doubted_since().is_some(),
@@ -136,6 +144,7 @@ impl Judge {
         }
         self.onsets.clear();
         self.spare = Success::default();
+        self.suspicions.clear();
         (self.spawned, self.accused, self.in_doubt) = (None, None, false);
         (self.suspect, self.disputed) = (None, None);
         self.assessment = Assessment::default();
@@ -330,6 +339,7 @@ impl Judge {
         }
         self.looked = Some(now);
         self.assessment = self.assess(now);
+        self.note_suspicion(now);
         if self.docket.is_restless() {
             return self.look_at_imu(now);
         }
@@ -364,7 +374,9 @@ impl Judge {
         }
         let shaped = self.shape_of(whom, excused.contains(whom)).unwrap_or(accused);
         let needed = if shaped.fault.is_noise() { SCATTERS } else { PERSISTS };
-        persists(needed).then(|| self.convict(&shaped, now))
+        persists(needed).then(|| {
+            self.look_at_return(&shaped, now).unwrap_or_else(|| self.convict(&shaped, now))
+        })
     }
 
     /// Sees an innovation of somebody who is left out, as it is and weighed by the navigator.

@@ -154,6 +154,11 @@ impl Onset {
         })
     }
 
+    /// What a unit of each component of a group has done to the errors.
+    pub(super) fn effects_of(&self, group: &FaultGroup) -> Effects {
+        self.effects.some(group.rows.start, group.rows.len())
+    }
+
     /// What such a fault has done to the errors; the covariance of theirs is as much wider as its size is not known.
     pub(super) fn correct(&self, group: &FaultGroup, sized: &Sized, p: &mut Covariance) -> Errors {
         let width = group.rows.len();

@@ -333,7 +333,7 @@ fn late(charge: &Charge) -> Option<f64> {
 }
 
 /// What a receiver is off by after such an age, s: m, and how fast that grows, m/s.
-fn lie_of_gnss(charge: &Charge, age: f64) -> (Vector2<f64>, f64) {
+pub(super) fn lie_of_gnss(charge: &Charge, age: f64) -> (Vector2<f64>, f64) {
     let Kind::Shaped { sized, .. } = charge.kind else { return NO_LIE };
     let value = Vector2::new(sized.value.x, sized.value.y);
     match charge.fault {

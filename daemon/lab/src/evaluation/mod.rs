@@ -43,6 +43,7 @@ pub use rows::{RowWriter, read_rows};
 pub use sky::SkyRow;
 pub use stanford::{
     AlertLimit, IntegrityReport, LevelsOfAxis, StanfordClass, StanfordPoint, Tally,
+    share_of_independent,
 };
 pub use statistics::{Summary, mean, quantile, summarise, summarise_horizontal};
 pub use stored::{StoredEstimates, StoredFate};

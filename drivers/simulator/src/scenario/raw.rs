@@ -58,6 +58,13 @@ pub(crate) struct RawSegment {
     /// Of how many low satellites only a reflection is heard.
     #[serde(default)]
     pub(crate) reflected: usize,
+    /// How many times as large as stated multipath is.
+    #[serde(default = "once")]
+    pub(crate) multipath: f64,
+}
+
+fn once() -> f64 {
+    1.0
 }
 
 /// Something on land that hides a part of the sky.
@@ -135,6 +142,9 @@ pub(crate) struct RawBase {
     pub(crate) lon_deg: f64,
     /// Height above the ellipsoid.
     pub(crate) height_m: f64,
+    /// Where it says it is less where it is, north, east, down.
+    #[serde(default)]
+    pub(crate) told_off_m: [f64; 3],
 }
 
 /// Raw GNSS. The first keys are those of a voyage's `[raw]` table.

@@ -24,6 +24,9 @@ pub(super) fn check(raw: &Raw, faults: &mut Faults) {
         faults.range("raw.base.lat_deg", base.lat_deg, -90.0, 90.0);
         faults.range("raw.base.lon_deg", base.lon_deg, -360.0, 360.0);
         faults.range("raw.base.height_m", base.height_m, -1000.0, 20_000.0);
+        for (axis, off) in base.told_off_m.into_iter().enumerate() {
+            faults.range(format!("raw.base.told_off_m[{axis}]"), off, -1e5, 1e5);
+        }
     }
 }
 
@@ -81,7 +84,9 @@ fn sky(sky: &RawSky, faults: &mut Faults) {
 
 fn obstructions(raw: &Raw, faults: &mut Faults) {
     for (index, segment) in raw.segment.iter().enumerate() {
-        span(&format!("raw.segment[{index}]"), segment.t0_s, Some(segment.t1_s), faults);
+        let key = format!("raw.segment[{index}]");
+        span(&key, segment.t0_s, Some(segment.t1_s), faults);
+        faults.range(format!("{key}.multipath"), segment.multipath, 0.0, 100.0);
     }
     for (index, crane) in raw.crane.iter().enumerate() {
         let key = format!("raw.crane[{index}]");

@@ -44,6 +44,8 @@ pub(crate) struct Heard {
     pub(crate) line: f64,
     /// What a fault of the satellite adds.
     pub(crate) effect: Effect,
+    /// How many times as large as stated multipath is.
+    pub(crate) multipath: f64,
 }
 
 /// A signal as it is tracked.
@@ -204,7 +206,7 @@ impl Tracked {
         rng: &mut Pcg64,
     ) -> SignalObservation {
         let weight = weight(heard.elevation);
-        let multipath = self.multipath.advance(dt) * weight;
+        let multipath = self.multipath.advance(dt) * (weight * heard.multipath);
         let Signal { code, wavelength, ionosphere, group_delay } = self.signal;
         let delay = heard.ionosphere.map(|delay| delay * ionosphere);
         let mut noise = |std: f64| std * weight * normal(rng);

@@ -59,7 +59,7 @@ impl RawSpec {
 /// A receiver on land.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawBaseStation {
-    /// Its antenna.
+    /// Its antenna, as it says: not always where it is.
     pub position: Geodetic,
     /// What it measures.
     pub epochs: Vec<SatelliteEpoch>,

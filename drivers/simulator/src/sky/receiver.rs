@@ -180,6 +180,7 @@ impl<'a> Receiver<'a> {
             ionosphere: [paths[1][1], rate(1)],
             line: self.line,
             effect: effect(&world.faults, id, moment.t),
+            multipath: scene.multipath(moment.t),
         };
         channel.observe(self.raw, &heard, &mut self.slips)
     }

@@ -115,6 +115,13 @@ impl Scene {
         reflector.map_or(Reception::Direct, |(_, reflector)| Reception::Reflected(reflector))
     }
 
+    /// How many times as large as stated multipath is at time `t`, s.
+    pub(crate) fn multipath(&self, t: f64) -> f64 {
+        let now =
+            self.spans.iter().filter(|span| (span.segment.t0_s..span.segment.t1_s).contains(&t));
+        now.map(|span| span.segment.multipath).product()
+    }
+
     /// The spoofer at work at time `t`, s.
     pub(crate) fn spoof(&self, t: f64) -> Option<&RawSpoof> {
         self.spoofs.iter().find(|spoof| (spoof.t0_s..spoof.t1_s).contains(&t))

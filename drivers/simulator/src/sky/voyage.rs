@@ -1,9 +1,9 @@
 //! The raw GNSS of a whole voyage.
 
-use insd_base::earth::ecef;
+use insd_base::earth::{c_ne, ecef, geodetic};
 use insd_base::satellites::{BroadcastRecord, SatelliteEpoch};
 use insd_base::units::DEG;
-use insd_base::{Body, Geodetic, GpsTime, Time};
+use insd_base::{Body, Ecef, Geodetic, GpsTime, Time};
 use nalgebra::Vector3;
 
 use super::clock::Clock;
@@ -133,7 +133,8 @@ impl Sailing<'_> {
         let scene = Scene::open(self.raw.mask_deg * DEG);
         let epochs = receiver.epochs(world, &scene, self.clocks(0), [&still, &still]);
         slips.extend(receiver.slips());
-        RawBaseStation { position: point, epochs }
+        let off = c_ne(&point).tr_mul(&Vector3::from(base.told_off_m));
+        RawBaseStation { position: geodetic(&Ecef(ecef(&point).0 + off)), epochs }
     }
 
     /// The tags of a receiver, each with what its clock is then.

@@ -21,8 +21,7 @@ use super::evidence::{Judged, Pieces, Step, in_order, is_told, judge, measure};
 use super::statistics::quantile;
 pub use limit::AlertLimit;
 use sample::{Independence, independence};
-pub use tally::Tally;
-use tally::interval;
+pub use tally::{Tally, share_of_independent};
 
 /// Where an epoch stands in the chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -242,7 +241,8 @@ impl Counter<'_> {
         let epochs = held.iter().filter(|held| **held).count() as u64;
         let pieces: Pieces = measure(self.steps.iter().copied().zip(held));
         let share = epochs as f64 / self.points.len() as f64;
-        let (low, high) = interval(share, self.independence.map_or(0.0, |own| own.samples));
+        let (low, high) =
+            share_of_independent(share, self.independence.map_or(0.0, |own| own.samples));
         Tally {
             epochs,
             share,

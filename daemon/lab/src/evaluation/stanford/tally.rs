@@ -29,7 +29,8 @@ pub struct Tally {
 
 /// The interval of Clopper and Pearson (1934) for a share that was seen in `samples` independent samples, which need
 /// not be a whole number: two-sided, but one-sided where nothing or everything was seen. So 0 of n allows 3 / n.
-pub(super) fn interval(share: f64, samples: f64) -> (f64, f64) {
+#[must_use]
+pub fn share_of_independent(share: f64, samples: f64) -> (f64, f64) {
     if samples.is_nan() || samples <= 0.0 || share.is_nan() {
         return (0.0, 1.0);
     }
@@ -53,9 +54,9 @@ mod tests {
     #[test]
     fn nothing_seen_in_n_samples_allows_three_in_n() {
         for samples in [30.0, 1000.0, 250_000.0] {
-            let (low, high) = interval(0.0, samples);
+            let (low, high) = share_of_independent(0.0, samples);
             assert!(low == 0.0 && (2.8..3.0).contains(&(high * samples)), "{high}");
-            let (low, high) = interval(1.0, samples);
+            let (low, high) = share_of_independent(1.0, samples);
             assert!(high == 1.0 && (2.8..3.0).contains(&((1.0 - low) * samples)), "{low}");
         }
     }
@@ -63,17 +64,17 @@ mod tests {
     #[test]
     fn the_interval_is_that_of_the_tables() {
         // 5 of 50 and 1 of 10, R: binom.test
-        let (low, high) = interval(0.1, 50.0);
+        let (low, high) = share_of_independent(0.1, 50.0);
         assert!((low - 0.033_275_09).abs() < 1e-6 && (high - 0.218_135_4).abs() < 1e-6);
-        let (low, high) = interval(0.1, 10.0);
+        let (low, high) = share_of_independent(0.1, 10.0);
         assert!((low - 0.002_528_579).abs() < 1e-6 && (high - 0.445_016_1).abs() < 1e-6);
     }
 
     #[test]
     fn less_than_one_sample_proves_nothing() {
-        assert_eq!(interval(0.0, 0.0), (0.0, 1.0));
-        assert_eq!(interval(f64::NAN, 10.0), (0.0, 1.0));
-        let (low, high) = interval(0.01, 1.0);
+        assert_eq!(share_of_independent(0.0, 0.0), (0.0, 1.0));
+        assert_eq!(share_of_independent(f64::NAN, 10.0), (0.0, 1.0));
+        let (low, high) = share_of_independent(0.01, 1.0);
         assert!(low < 0.01 && high > 0.9, "{low} {high}");
     }
 }

@@ -124,6 +124,43 @@ fn a_base_station_stands_still_and_is_neither_hidden_nor_spoofed() {
 }
 
 #[test]
+fn a_base_may_say_that_it_is_elsewhere_and_measures_where_it_is() {
+    let table = "[raw.base]\nlat_deg = 35.01\nlon_deg = 139.0\nheight_m = 40.0\n";
+    let (_, honest) = made(&format!("{PERFECT}{CLEAR}{table}"), 1);
+    let (_, wrong) = made(&format!("{PERFECT}{CLEAR}{table}told_off_m = [3.0, 4.0, -12.0]\n"), 1);
+    let [honest, wrong] = [honest, wrong].map(|raw| raw.base.unwrap());
+    assert_eq!(honest.epochs, wrong.epochs);
+    let off = (ecef(&wrong.position).0 - ecef(&honest.position).0).norm();
+    assert_relative_eq!(off, 13.0, epsilon = 1e-6);
+    assert_relative_eq!(wrong.position.height - honest.position.height, 12.0, epsilon = 1e-4);
+}
+
+#[test]
+fn multipath_is_so_many_times_as_large_in_a_segment_and_nowhere_else() {
+    let part = |times: f64| {
+        let segment = "t0_s = 50.0\nt1_s = 90.0\nlabel = \"multipath\"";
+        let sizes = "multipath_code_std_m = 1.0\nmultipath_phase_std_m = 0.01\n";
+        let perfect =
+            PERFECT.replace("multipath_code_std_m = 0.0\nmultipath_phase_std_m = 0.0\n", sizes);
+        made(&format!("{perfect}{CLEAR}[[raw.segment]]\n{segment}\nmultipath = {times}\n"), 1)
+    };
+    let [(scenario, none), (_, once), (_, often)] = [0.0, 1.0, 5.0].map(part);
+    for ((none, once), often) in
+        none.antennas[0].iter().zip(&once.antennas[0]).zip(&often.antennas[0])
+    {
+        let times = if (50.0..90.0).contains(&seconds(&scenario, none)) { 5.0 } else { 1.0 };
+        for ((none, once), often) in none.signals.iter().zip(&once.signals).zip(&often.signals) {
+            let off = |of: &SignalObservation| of.code.unwrap() - none.code.unwrap();
+            if times > 1.0 {
+                assert_relative_eq!(off(often), times * off(once), epsilon = 1e-6);
+            } else {
+                assert_relative_eq!(once.code.unwrap(), often.code.unwrap(), epsilon = 1e-6);
+            }
+        }
+    }
+}
+
+#[test]
 fn an_unknown_key_or_a_fault_of_no_or_two_sizes_is_refused() {
     for (bad, told) in [
         ("rate_khz = 1.0\n", "rate_khz"),
