@@ -117,6 +117,18 @@ impl RangeMaker {
         self.ready.pop_front_if(|first| first.receipt <= receipt)
     }
 
+    /// All messages of a voyage in the order of their receipt, with what else is received.
+    #[must_use]
+    pub fn among(mut self, others: Vec<Received>) -> Vec<Received> {
+        let mut all = Vec::with_capacity(others.len() + self.epochs.rover.len());
+        for received in others {
+            all.extend(std::iter::from_fn(|| self.next_until(received.receipt)));
+            self.hear(&received);
+            all.push(received);
+        }
+        all
+    }
+
     fn take(&mut self, mut epoch: SatelliteEpoch) {
         let seconds = epoch.tag.since(self.epochs.start).as_seconds();
         let mask = self.epochs.masks.iter().find(|mask| (mask.from..mask.to).contains(&seconds));

@@ -98,7 +98,7 @@ impl Case {
     pub(crate) fn new(kind: Kind, seed: u64) -> Self {
         let mut draw = Draw(seed << 8 | kind as u64);
         let grade = if seed.is_multiple_of(2) { "navigation" } else { "mems" };
-        let has_log = seed / 2 % 2 == 0;
+        let has_log = (seed / 2).is_multiple_of(2);
         let mut case = Case {
             kind,
             seed,

@@ -43,7 +43,7 @@ fn main() -> Result<(), Failed> {
     let mut rows = Vec::new();
     for kind in KINDS.into_iter().filter(|kind| kind.name().starts_with(&only)) {
         let cases = seeds.clone().into_par_iter().map(|seed| Case::new(kind, seed));
-        let sailed: Result<Vec<_>, Failed> = cases.map(|case| sail(&program, case)).collect();
+        let sailed: Result<Vec<_>, Failed> = cases.map(|case| sail(&program, &case)).collect();
         let sailed: Vec<(Case, Way, Outcome)> = sailed?.into_iter().flatten().collect();
         for way in [Way::Tight, Way::Loose] {
             let own: Vec<&Outcome> =
@@ -65,7 +65,7 @@ fn main() -> Result<(), Failed> {
 }
 
 /// Makes a voyage and replays it.
-fn sail(program: &str, case: Case) -> Result<Vec<(Case, Way, Outcome)>, Failed> {
+fn sail(program: &str, case: &Case) -> Result<Vec<(Case, Way, Outcome)>, Failed> {
     let word = case.kind.name().replace(' ', "-");
     let folder = PathBuf::from(format!("target/integrity-campaign/{word}-{}", case.seed));
     let voyage = folder.join("voyage");
@@ -78,7 +78,7 @@ fn sail(program: &str, case: Case) -> Result<Vec<(Case, Way, Outcome)>, Failed> 
     for way in ways {
         let outcome = replay(program, &voyage, *way, case.wrong)
             .map_err(|why| format!("{word} {}: {why}", case.seed))?;
-        tell(&case, *way, &outcome);
+        tell(case, *way, &outcome);
         sailed.push((case.clone(), *way, outcome));
     }
     if std::env::var_os("KEEP").is_none() {

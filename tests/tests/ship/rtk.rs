@@ -9,7 +9,7 @@ use insd_base::{
 };
 use insd_config::VoyageCalendar;
 use insd_engine::EngineConfig;
-use insd_lab::ranges;
+use insd_lab::ranges::{Epochs, RangeMaker};
 use insd_simulator::{raw_gnss, simulate};
 use insd_tests::sailing::{Logbook, sail_messages};
 use nalgebra::Vector3;
@@ -34,11 +34,14 @@ fn sail(
         base(time.as_seconds(), &mut own);
         Received { receipt: time, source: Source::Base(0), message: Message::Base(Arc::new(own)) }
     });
-    let of_base: Vec<_> = of_base.collect();
-    let epochs = raw.antennas[0].iter().cloned();
-    let mut all = voyage.received();
-    all.extend(ranges::messages(&context(&raw), epochs, start, &[], &of_base));
-    all.sort_by_key(|received| received.receipt);
+    let epochs = Epochs {
+        start,
+        context: context(&raw),
+        rover: raw.antennas[0].iter().cloned().collect(),
+        base: of_base.collect(),
+        masks: Vec::new(),
+    };
+    let mut all = RangeMaker::new(epochs).among(voyage.received());
     all.iter_mut().for_each(&mut told);
     let config = EngineConfig::for_voyage(&voyage.header, 1.0);
     (sail_messages(&config, &all, 7), voyage.truth)

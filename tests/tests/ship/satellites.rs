@@ -1,5 +1,7 @@
 //! A ship among cranes: ranges of satellites where there are too few for a fix.
 
+use std::collections::VecDeque;
+
 use insd_base::satellites::{SatelliteRanges, SatelliteUse, Sky, SkySatellite, time_keeper};
 use insd_base::{
     Event, Geodetic, Message, Party, Received, Rejection, SatelliteId, Solution, Time, Truth,
@@ -8,7 +10,7 @@ use insd_base::{
 use insd_config::VoyageCalendar;
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_gnss::{Context, Noise};
-use insd_lab::ranges;
+use insd_lab::ranges::{Epochs, RangeMaker};
 use insd_simulator::{RawGnss, Scenario, raw_gnss, simulate};
 use insd_tests::sailing::sail_messages;
 use nalgebra::{SMatrix, Vector2};
@@ -40,15 +42,17 @@ pub(crate) fn context(raw: &RawGnss) -> Context {
 
 /// All messages of a voyage in the order of their receipt, with ranges or without.
 fn messages(voyage: &Voyage, raw: Option<&RawGnss>) -> Vec<Received> {
-    let mut all = voyage.received();
-    if let Some(raw) = raw {
-        let calendar = VoyageCalendar::new(&voyage.header.start_utc).unwrap();
-        let start = calendar.utc(insd_base::Time::START).to_gps();
-        let epochs = raw.antennas[0].iter().cloned();
-        all.extend(ranges::messages(&context(raw), epochs, start, &[], &[]));
-        all.sort_by_key(|received| received.receipt);
-    }
-    all
+    let all = voyage.received();
+    let Some(raw) = raw else { return all };
+    let calendar = VoyageCalendar::new(&voyage.header.start_utc).unwrap();
+    let epochs = Epochs {
+        start: calendar.utc(insd_base::Time::START).to_gps(),
+        context: context(raw),
+        rover: raw.antennas[0].iter().cloned().collect(),
+        base: VecDeque::new(),
+        masks: Vec::new(),
+    };
+    RangeMaker::new(epochs).among(all)
 }
 
 /// Horizontal errors against truth, north and east, m, with the claimed sigmas.

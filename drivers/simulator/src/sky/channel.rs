@@ -42,6 +42,8 @@ pub(crate) struct Heard {
     pub(crate) ionosphere: [f64; 2],
     /// Delay of the phase in the antenna's line, m.
     pub(crate) line: f64,
+    /// How often the antenna has turned so far, clockwise as seen from above: each time adds a cycle (Wu et al. 1993).
+    pub(crate) turns: f64,
     /// What a fault of the satellite adds.
     pub(crate) effect: Effect,
     /// How many times as large as stated multipath is.
@@ -217,7 +219,7 @@ impl Tracked {
         let cycles = (phase + noise(raw.phase_std_m)) / wavelength + half;
         SignalObservation {
             code: Some(range + noise(raw.code_std_m)),
-            phase: Some(cycles + self.constant + self.ambiguity),
+            phase: Some(cycles + heard.turns + self.constant + self.ambiguity),
             doppler: Some(-(rate + noise(raw.doppler_std_mps)) / wavelength),
             cn0: Some(strength(heard, code.band) + 0.7 * normal(rng)),
             lock: Some(lock.age),

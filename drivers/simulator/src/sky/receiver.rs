@@ -1,10 +1,12 @@
 //! A receiver with its antenna.
 
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
 use insd_base::satellites::{
     Constellation, SPEED_OF_LIGHT, SatelliteEpoch, SatelliteId, SignalObservation,
 };
+use insd_base::units::wrap_pi;
 use insd_base::{GpsTime, Span, Time};
 use nalgebra::Vector3;
 use rand_pcg::Pcg64;
@@ -54,6 +56,8 @@ pub(crate) struct Receiver<'a> {
     /// Delay of the phase in its line, m.
     line: f64,
     line_rng: Pcg64,
+    /// How often the antenna has turned so far, clockwise as seen from above, and how it lay at the newest epoch, rad.
+    turns: (f64, Option<f64>),
     slips: Vec<InjectedSlip>,
 }
 
@@ -83,24 +87,27 @@ impl<'a> Receiver<'a> {
             offsets: [Constellation::Galileo, Constellation::BeiDou].map(offset).into(),
             line: 0.0,
             line_rng: numbered(seed, Purpose::RawConstant, 300_000 + antenna as u64),
+            turns: (0.0, None),
             slips: Vec::new(),
         }
     }
 
     /// All epochs at the tags `tags`, each with its clock, s and m; those without a satellite are absent.
     ///
-    /// `own` moves as the antenna does, `first` as the ship's first antenna: it is that one's ranges that a spoofer sends to all.
+    /// `heading`, rad at time t, s, is how the antenna lies; `own` moves as the antenna does, `first` as the ship's first antenna: it is that one's ranges that a spoofer sends to all.
     pub(crate) fn epochs(
         &mut self,
         world: &World,
         scene: &Scene,
         clocks: impl Iterator<Item = (Time, Clock)>,
         [own, first]: [Motion<'_>; 2],
+        heading: &dyn Fn(f64) -> f64,
     ) -> Vec<SatelliteEpoch> {
         let mut epochs = Vec::new();
         for (tag, clock) in clocks {
             let t = tag.as_seconds();
             let moment = self.moment(t, t - clock.bias / SPEED_OF_LIGHT, scene, [own, first]);
+            self.turn(heading(t));
             self.line += self.raw.line_bias_walk_m_sqrt_s / self.raw.rate_hz.sqrt()
                 * normal(&mut self.line_rng);
             let heard = world.satellites.iter();
@@ -116,6 +123,12 @@ impl<'a> Receiver<'a> {
             }
         }
         epochs
+    }
+
+    fn turn(&mut self, heading: f64) {
+        let (turns, before) = self.turns;
+        let turned = before.map_or(0.0, |before| wrap_pi(heading - before));
+        self.turns = (turns + turned / TAU, Some(heading));
     }
 
     /// The slips that happened.
@@ -179,6 +192,7 @@ impl<'a> Receiver<'a> {
             range: [paths[1][0] + clock.bias + offset + spoofed, rate(0) + clock.drift],
             ionosphere: [paths[1][1], rate(1)],
             line: self.line,
+            turns: self.turns.0,
             effect: effect(&world.faults, id, moment.t),
             multipath: scene.multipath(moment.t),
         };

@@ -116,7 +116,9 @@ impl Sailing<'_> {
         let number = index + 1;
         let oscillator =
             shared.filter(|_| self.raw.common_clock.contains(&number)).unwrap_or(number);
-        let epochs = receiver.epochs(world, scene, self.clocks(oscillator), [&own, &first]);
+        let epochs = receiver.epochs(world, scene, self.clocks(oscillator), [&own, &first], &|t| {
+            self.track.at(t).attitude().heading
+        });
         slips.extend(receiver.slips());
         epochs
     }
@@ -131,7 +133,7 @@ impl Sailing<'_> {
         let still = |_| ecef(&point).0;
         let mut receiver = Receiver::new(self.raw, 0, world, self.seed);
         let scene = Scene::open(self.raw.mask_deg * DEG);
-        let epochs = receiver.epochs(world, &scene, self.clocks(0), [&still, &still]);
+        let epochs = receiver.epochs(world, &scene, self.clocks(0), [&still, &still], &|_| 0.0);
         slips.extend(receiver.slips());
         let off = c_ne(&point).tr_mul(&Vector3::from(base.told_off_m));
         RawBaseStation { position: geodetic(&Ecef(ecef(&point).0 + off)), epochs }
