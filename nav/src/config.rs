@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use crate::disturbance::{PrefilterConfig, WhiteningConfig};
 use crate::floors::Floors;
-use crate::judge::Docket;
+use crate::judge::docket::Docket;
 use crate::protection::RiskModel;
 
 /// Gyros with a larger turn-on bias than this, rad/s, are coarse: they do not find north on their own, and are no judges

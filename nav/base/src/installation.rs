@@ -422,6 +422,13 @@ impl Finding {
                 "the IMU drifts by more than its data sheet says: its in-run biases and scale factors are taken to \
                  be {times:.0} times as large"
             ),
+            _ => self.fmt_of_mounting(f),
+        }
+    }
+
+    /// What of its mounting there is to be said.
+    fn fmt_of_mounting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Finding::MountingTilted { roll, pitch } => write!(
                 f,
                 "the IMU seems to be mounted {}: it says roll {:.0} deg, pitch {:.0} deg",

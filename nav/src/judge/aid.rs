@@ -3,7 +3,7 @@
 use insd_base::{Party, Time};
 
 use super::scatter::Scatter;
-use crate::error_state::Innovation;
+use crate::error_state::{Innovation, Weighed};
 
 /// An aid that is heard: each has noise and outliers of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -168,6 +168,17 @@ impl Hearing {
 /// Whether something happened within such a time, s.
 fn is_within(at: Option<Time>, now: Time, span: f64) -> bool {
     at.is_some_and(|at| (now - at).as_seconds() <= span)
+}
+
+/// The mean square of an innovation, of which one is expected, if it agrees: one in 10,000 honest ones does not.
+pub(super) fn agreement(weighed: &Weighed) -> Option<f64> {
+    let limit = match weighed.rows() {
+        1 => 15.1,
+        2 => 18.4,
+        3 => 21.1,
+        _ => 27.9,
+    };
+    Some(weighed.nis()).filter(|nis| *nis <= limit).map(|nis| nis / weighed.rows() as f64)
 }
 
 #[cfg(test)]

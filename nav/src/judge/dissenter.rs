@@ -8,7 +8,7 @@
 use insd_base::{Party, Time};
 use nalgebra::UnitQuaternion;
 
-use super::Aid;
+use super::aid::Aid;
 use super::shadow::{Shadow, agitate};
 use crate::error_state::{Innovation, Weighed};
 

@@ -15,8 +15,8 @@ use insd_base::{Fault, Integrity, Judgement, Parties, Party, Span, Standing, Sta
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
+use super::aid::{Aid, agreement};
 use super::lie::LieOfGnss;
-use super::{Aid, agreement};
 use crate::error_state::Weighed;
 use crate::error_state::{Covariance, POSITION};
 

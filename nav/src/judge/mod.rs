@@ -14,7 +14,7 @@ mod aid;
 mod charge;
 mod claims;
 mod dissenter;
-mod docket;
+pub(crate) mod docket;
 mod evidence;
 mod hypotheses;
 mod lie;
@@ -36,7 +36,7 @@ use crate::declaration::Declaration;
 use crate::error_state::{Block, Covariance, Errors, Innovation, Weighed};
 use crate::propagation::Passage;
 pub use aid::Aid;
-use aid::{AIDS, Hearing};
+use aid::{AIDS, Hearing, agreement};
 use charge::{Assessment, Charge, DOUBT};
 use dissenter::{Dissenter, Success, log_likelihood};
 pub use docket::Docket;
@@ -443,15 +443,4 @@ impl Judge {
         let is_doubted = |party| self.docket.standing(party) == Standing::Doubtful;
         self.docket.leaves_out(aid) || aid.party().is_some_and(is_doubted)
     }
-}
-
-/// The mean square of an innovation, of which one is expected, if it agrees: one in 10,000 honest ones does not.
-fn agreement(weighed: &Weighed) -> Option<f64> {
-    let limit = match weighed.rows() {
-        1 => 15.1,
-        2 => 18.4,
-        3 => 21.1,
-        _ => 27.9,
-    };
-    Some(weighed.nis()).filter(|nis| *nis <= limit).map(|nis| nis / weighed.rows() as f64)
 }

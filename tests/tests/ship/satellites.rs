@@ -195,16 +195,15 @@ fn a_satellite_that_lies_is_named_before_it_moves_the_ship_and_used_again_afterw
     }
 }
 
-/// What the engine tells of the sky at each second of a voyage, from the first ranges on.
+/// What the engine tells of the sky after each epoch of ranges.
 fn skies(voyage: &Voyage, raw: &RawGnss) -> (Vec<Sky>, insd_base::Counts) {
     let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
     let mut skies: Vec<Sky> = Vec::new();
     for received in messages(voyage, Some(raw)) {
         engine.handle(&received);
-        while let Some(output) = engine.poll_output() {
-            if matches!(output, Output::Solution(_)) {
-                skies.extend(engine.sky());
-            }
+        while engine.poll_output().is_some() {}
+        if matches!(received.message, Message::Ranges(_)) {
+            skies.extend(engine.sky());
         }
     }
     (skies, engine.counts().clone())

@@ -3,7 +3,7 @@
 use insd_base::SatelliteId;
 use nalgebra::{Matrix3, RowVector4, Vector3};
 
-use super::tracker::PhaseChange;
+use super::change::PhaseChange;
 use crate::least_squares::{Observation, Solved, solve};
 
 /// No slip is smaller, m: half a cycle on L1 is 95 mm, of which a part goes into the solution.

@@ -8,8 +8,8 @@ use insd_base::satellites::ArcPhase;
 use insd_base::{BroadcastRecord, GpsTime, SatelliteId};
 use nalgebra::Vector3;
 
+use super::change::PhaseChange;
 use super::displacement::CarrierDisplacement;
-use super::tracker::PhaseChange;
 use crate::sight::Sight;
 
 /// Epochs are held against those so long before, s: reflections last for seconds.

@@ -6,6 +6,7 @@ use insd_base::satellites::{ArcPhase, Measured, SPEED_OF_LIGHT};
 use insd_base::{GpsTime, SatelliteEpoch, SatelliteId, SignalCode};
 use nalgebra::Vector3;
 
+use super::change::PhaseChange;
 use super::ionosphere::IonosphereTrack;
 use super::observed::{Observed, Phase};
 use super::scatter::{Scatter, Tracked};
@@ -16,21 +17,6 @@ use crate::sight::Sight;
 const LONGEST: f64 = 60.0;
 /// 1-sigma of the rate of the ionosphere on L1 at the zenith that its model does not have, m/s.
 const IONOSPHERE_RATE: f64 = 0.002;
-
-/// The change of a satellite's phase between two epochs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PhaseChange {
-    /// The satellite.
-    pub satellite: SatelliteId,
-    /// As it stood at the epoch before.
-    pub before: Sight,
-    /// As it stands.
-    pub now: Sight,
-    /// `range(now) - range(before) + c (change of the receiver's clock)` as the phase has it, m.
-    pub change: f64,
-    /// Its variance, m^2.
-    pub variance: f64,
-}
 
 /// A satellite whose phase is tracked.
 #[derive(Clone, Copy, Debug)]
