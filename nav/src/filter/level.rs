@@ -8,6 +8,9 @@ use crate::error_state::{Errors, Innovation, POSITION, SEA_LEVEL, VELOCITY, Weig
 use crate::judge::{Aid, Judge, rows};
 use crate::sea_window::ASHORE;
 
+/// A height that tells whether she is at sea is known to this, 1-sigma, m.
+const KNOWN: f64 = 3.0;
+
 impl Filter {
     /// Holds the mean height over a window of waves against the sea level: firmly at sea, and ashore by next to nothing.
     pub(super) fn hold_sea_level(&mut self) {
@@ -48,12 +51,20 @@ impl Filter {
         !self.vessel().has_wheels() && !self.state.level.is_refuted()
     }
 
-    /// Whether her berth holds her, or a receiver tells her height against whom nothing speaks.
+    /// Whether her height is known, as her berth holds her, or a receiver tells it against whom nothing speaks, nor against where his antenna is.
     fn is_height_told(&self) -> bool {
+        let up = self.state.nominal.position.normalize();
+        let variance = up.dot(&(POSITION.covariance(&self.state.covariance) * up));
+        if variance > KNOWN * KNOWN {
+            return false;
+        }
         let is_clear = |judge: &Judge| {
             !judge.is_in_doubt() && judge.docket().standing(Party::Gnss) == Standing::Trusted
         };
-        self.state.is_moored() || self.gnss_is_fresh() && self.judge().is_some_and(is_clear)
+        self.state.is_moored()
+            || self.gnss_is_fresh()
+                && self.installation.doubt.is_none()
+                && self.judge().is_some_and(is_clear)
     }
 
     /// Lets a height move the vertical channel only. Without any other aid tilt and heading errors

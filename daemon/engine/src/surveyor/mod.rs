@@ -44,6 +44,8 @@ const LATEST: f64 = 1.5;
 const LATE: f64 = 0.5;
 /// A lever arm that was not measured is told when it is known so well, each component, 1-sigma, m.
 const KNOWN: f64 = 0.5;
+/// On a straight course it comes to be known less well: up to so much it is the one that was told, m.
+const STILL_KNOWN: f64 = 2.0;
 
 /// What was found, and when to look next.
 #[derive(Clone, Debug)]
@@ -342,7 +344,9 @@ impl Surveyor {
         let (found, sigma) = (estimates.gnss_lever, estimates.gnss_lever_sigma);
         let configured = estimates.gnss_lever_configured;
         if configured.0.norm() == 0.0 {
-            let known = sigma.0.max() < KNOWN;
+            let is_unmeasured = |own: &Finding| matches!(own, Finding::GnssLeverUnmeasured { .. });
+            let was_told = self.findings.iter().any(is_unmeasured);
+            let known = sigma.0.max() < if was_told { STILL_KNOWN } else { KNOWN };
             return known.then_some(Finding::GnssLeverUnmeasured { found, sigma });
         }
         let difference = found.0 - configured.0;
