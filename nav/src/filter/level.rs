@@ -51,7 +51,7 @@ impl Filter {
         !self.vessel().has_wheels() && !self.state.level.is_refuted()
     }
 
-    /// Whether her height is known, as her berth holds her, or a receiver tells it against whom nothing speaks, nor against where his antenna is.
+    /// Whether her height is known, as her berth holds her, or a receiver tells it against whom nothing speaks.
     fn is_height_told(&self) -> bool {
         let up = self.state.nominal.position.normalize();
         let variance = up.dot(&(POSITION.covariance(&self.state.covariance) * up));
@@ -61,10 +61,7 @@ impl Filter {
         let is_clear = |judge: &Judge| {
             !judge.is_in_doubt() && judge.docket().standing(Party::Gnss) == Standing::Trusted
         };
-        self.state.is_moored()
-            || self.gnss_is_fresh()
-                && self.installation.doubt.is_none()
-                && self.judge().is_some_and(is_clear)
+        self.state.is_moored() || self.gnss_is_fresh() && self.judge().is_some_and(is_clear)
     }
 
     /// Lets a height move the vertical channel only. Without any other aid tilt and heading errors
