@@ -26,9 +26,9 @@ pub struct LevelWindow {
     length: f64,
     /// Spread of the mean heave.
     pub heave: Spread,
-    /// Windows on end in which she was far from the level, and in which she was there.
+    /// Windows on end in which she was far from the level, and in which she was there; before anybody told her height none.
     far: u8,
-    agreed: u8,
+    agreed: Option<u8>,
     /// She is not at sea.
     is_refuted: bool,
 }
@@ -42,14 +42,14 @@ impl LevelWindow {
             length: 0.0,
             heave: Spread::new(sea.initial_mean_heave, sea.least_mean_heave),
             far: 0,
-            agreed: 0,
+            agreed: None,
             is_refuted: false,
         }
     }
 
     /// Sees how far the level is from a mean height that somebody else tells, m, beyond all that it may be off by or not.
     pub fn see(&mut self, off: f64, is_beyond: bool) {
-        self.agreed = if is_beyond { 0 } else { self.agreed.saturating_add(1) };
+        self.agreed = Some(if is_beyond { 0 } else { self.agreed.unwrap_or(0).saturating_add(1) });
         self.far = if is_beyond && off.abs() > FAR { self.far.saturating_add(1) } else { 0 };
         self.is_refuted |= self.far >= ON_END;
     }
@@ -60,12 +60,14 @@ impl LevelWindow {
         self.is_refuted
     }
 
-    /// What is left of a mean height over the level of a ship, 1-sigma, m; where nobody else tells her height, she may be none as long as the
-    /// level was not borne out.
+    /// What is left of a mean height over the level of a ship, 1-sigma, m; where somebody told her height and nobody does now, she may be none as
+    /// far as the level was not borne out.
     #[must_use]
     pub fn std(&self, is_told: bool) -> f64 {
-        let seen = f64::from(self.agreed.max(1));
-        let hill = if is_told { 0.0 } else { HILLY / (seen * seen) };
+        let hill = self.agreed.filter(|_| !is_told).map_or(0.0, |agreed| {
+            let seen = f64::from(agreed.max(1));
+            HILLY / (seen * seen)
+        });
         self.heave.std().max(hill)
     }
 
@@ -133,6 +135,7 @@ mod tests {
     #[test]
     fn a_level_that_was_seen_once_holds_nobody_firmly_and_one_that_was_seen_for_minutes_does() {
         let mut level = window();
+        assert!(level.std(false) < 1.0, "a ship that never hears a receiver is at sea");
         level.see(0.0, false);
         assert!(level.std(false) > 20.0 && level.std(true) < 1.0, "a road may climb");
         for _ in 0..14 {
