@@ -7,7 +7,7 @@
 //!
 //! and not (v(t) - v(t - T)) / T, which takes what is told to be of two velocities and nothing between them. The two differ with the
 //! change of the acceleration, as does the swing of an antenna when a car brakes: a lever arm is found a third of a metre too long by it.
-//! Held by `of_a_mean_over_the_span_nothing_is_left`.
+//! Held by `of_what_is_told_of_a_mean_nothing_is_left`.
 
 use insd_base::Time;
 use nalgebra::Vector3;

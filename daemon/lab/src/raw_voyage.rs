@@ -99,7 +99,7 @@ fn base(
     let fault = |error| BadInput(format!("{}: {error}", path.display()));
     let mut reader = ObservationReader::new(&plain).map_err(fault)?;
     let surveyed = table.base().map(|place| earth::ecef(&place));
-    let mut all = Vec::new();
+    let (mut all, mut is_known) = (VecDeque::new(), true);
     while let Some(read) = reader.next() {
         let Ok(epoch) = read else { continue };
         let header = reader.header();
@@ -107,15 +107,16 @@ fn base(
         let by_file = header.position.map(|place| Ecef(place.into()));
         // what was surveyed is the place of one that stands
         let position = surveyed.filter(|_| !is_moving).or(by_file);
+        is_known &= position.is_some();
         let time = Time::START + epoch.tag.since(start);
         let told = BaseEpoch { time, station: None, position, is_moving, epoch };
         let message = Message::Base(Arc::new(told));
-        all.push((position, Received { receipt: time, source: Source::Base(0), message }));
+        all.push_back(Received { receipt: time, source: Source::Base(0), message });
     }
-    if all.iter().any(|(position, _)| position.is_none()) {
+    if !is_known {
         eprintln!("{}: nobody says where the base is", path.display());
     }
-    Ok(all.into_iter().map(|(_, received)| received).collect())
+    Ok(all)
 }
 
 fn plain(text: &[u8]) -> anyhow::Result<Vec<u8>> {

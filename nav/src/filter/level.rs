@@ -32,9 +32,9 @@ impl Filter {
         if is_at_sea {
             let expected = weighed.sigma()[0].powi(2) - innovation.r[0];
             self.state.level.heave.learn(innovation.z[0], expected);
-        }
-        if is_at_sea && is_told {
-            self.state.level.see(innovation.z[0], excess > 1.0);
+            if is_told {
+                self.state.level.see(innovation.z[0], excess > 1.0);
+            }
         }
         if excess > 1.0 {
             return;

@@ -22,10 +22,14 @@ impl Filter {
     /// Works out anew what faults that nobody has found add to the levels.
     pub(super) fn protect(&mut self) {
         let model = self.config.risk;
-        self.weigh_return(&model);
+        let mut judged = self.judged_separations(self.state.time, &model);
+        self.weigh_return(&judged);
         let separations = match &self.companion {
             Some(companion) => self.separations_beside(companion, &model),
-            None => self.judged_separations(self.state.time, &model),
+            None => {
+                judged.extend(self.court.returned);
+                judged
+            }
         };
         let (view, acceleration) = self.dated_view();
         let claimed = self.claimed_sigma(&view, &acceleration);
@@ -53,21 +57,18 @@ impl Filter {
     /// What the judge has of everybody.
     fn judged_separations(&self, now: Time, model: &RiskModel) -> Vec<Separation> {
         let judge = self.court.judge.as_deref();
-        let mut all = judge.map_or_else(Vec::new, |judge| judge.separations(now, model));
-        all.extend(self.court.returned);
-        all
+        judge.map_or_else(Vec::new, |judge| judge.separations(now, model))
     }
 
     /// Whether a receiver that is left out for a leap has returned from a lie that nobody had found.
-    fn weigh_return(&mut self, model: &RiskModel) {
+    fn weigh_return(&mut self, judged: &[Separation]) {
         let now = self.state.time;
         let Some(judge) = self.court.judge.as_deref() else { return };
-        let allowed = judge.separations(now, model);
         let z = judge.docket().off_by_gnss();
         let off = self.view().c_ne.tr_mul(&Vector3::new(z.x, z.y, 0.0));
         let covariance = POSITION.covariance(&self.state.covariance);
         if let Some(judge) = self.judge_now() {
-            judge.note_allowed(now, &allowed);
+            judge.note_allowed(now, judged);
             self.court.returned = judge.returned(&off, &covariance);
         }
     }
@@ -80,6 +81,7 @@ impl Filter {
         let apart = companion.state.nominal.position - own.position;
         let growth = companion.state.nominal.velocity - own.velocity;
         let mut all = companion.judged_separations(now, model);
+        all.extend(companion.court.returned);
         for one in &mut all {
             one.apart += apart;
             one.growth += growth;

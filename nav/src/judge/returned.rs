@@ -13,7 +13,7 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::charge::{Charge, Kind};
 use super::rows::ALL;
-use super::verdict::{Ruling, lie_of_gnss};
+use super::verdict::{Ruling, growth, lie_of_gnss};
 use super::{Alternative, Judge, Separation};
 use crate::error_state::{Effects, POSITION, VELOCITY};
 
@@ -163,7 +163,7 @@ impl Suspicion {
         let Kind::Shaped { since: begun, sized, group } = self.charge.kind else { return None };
         let age = (since - begun).as_seconds();
         let (off, _) = lie_of_gnss(&self.charge, age);
-        let grown = if self.charge.fault == Fault::Creep { 0.5 * age * age } else { age };
+        let (grown, _) = growth(self.charge.fault, age)?;
         let size: Matrix2<f64> = sized.covariance().fixed_view::<2, 2>(0, 0).into();
         let untidy = Matrix2::from_diagonal_element(UNTIDY[0] * UNTIDY[0]);
         let covariance = size * (grown * grown) + of_leap + untidy;

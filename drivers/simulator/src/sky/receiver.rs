@@ -94,7 +94,8 @@ impl<'a> Receiver<'a> {
 
     /// All epochs at the tags `tags`, each with its clock, s and m; those without a satellite are absent.
     ///
-    /// `heading`, rad at time t, s, is how the antenna lies; `own` moves as the antenna does, `first` as the ship's first antenna: it is that one's ranges that a spoofer sends to all.
+    /// `own` moves as the antenna does, `first` as the ship's first antenna: it is that one's ranges that a spoofer sends to all. `heading`: how the
+    /// antenna lies, rad, at time t, s.
     pub(crate) fn epochs(
         &mut self,
         world: &World,
