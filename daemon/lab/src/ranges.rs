@@ -75,8 +75,6 @@ pub struct RangeMaker {
     link: RtkLink,
     highest: Vec<SatelliteId>,
     turns: Turns,
-    /// As they were at the epoch before.
-    turns_before: Turns,
     ready: VecDeque<Received>,
 }
 
@@ -90,7 +88,6 @@ impl RangeMaker {
             link: RtkLink::default(),
             highest: Vec::new(),
             turns: Turns::default(),
-            turns_before: Turns::default(),
             ready: VecDeque::new(),
         }
     }
@@ -137,8 +134,7 @@ impl RangeMaker {
             let left = &self.highest[..self.highest.len().min(mask.left)];
             epoch.signals.retain(|signal| left.contains(&signal.satellite));
         }
-        let turned = self.turns.since(std::mem::replace(&mut self.turns_before, self.turns));
-        let guess = Guess { turned, ..Guess::default() };
+        let guess = Guess { turned: self.turns.so_far(), ..Guess::default() };
         let ranged = self.ranging.take(&self.epochs.context, &epoch, guess);
         if !is_masked {
             self.highest = by_elevation(&ranged);

@@ -58,7 +58,7 @@ impl Ranged {
 pub struct Guess {
     /// Position of the antenna, ECEF, m, to some ten metres.
     pub antenna: Option<Vector3<f64>>,
-    /// By what it has turned since the epoch before, rad, clockwise as seen from above.
+    /// By what it has turned so far, from wherever that is counted, rad, clockwise as seen from above.
     pub turned: f64,
 }
 
@@ -75,10 +75,10 @@ impl Turns {
         self.sum += if turned.is_finite() { turned } else { 0.0 };
     }
 
-    /// What she has turned by since others were taken, rad, clockwise as seen from above.
+    /// What she has turned by so far, rad, clockwise as seen from above.
     #[must_use]
-    pub fn since(&self, before: Turns) -> f64 {
-        self.sum - before.sum
+    pub fn so_far(&self) -> f64 {
+        self.sum
     }
 }
 

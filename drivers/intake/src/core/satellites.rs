@@ -78,7 +78,7 @@ impl Core {
             self.refuse(index, Refusal::Repeated);
             return;
         }
-        let ranged = sky.range(epoch, self.turns);
+        let ranged = sky.range(epoch, &self.turns);
         let news = sky.look_at_orbits(epoch);
         self.tell_faults(index, now, news);
         let sampled = sky::sampled(&ranged, epoch.tag);

@@ -28,8 +28,6 @@ pub(crate) struct Sky {
     pub(super) waiting: VecDeque<(Ranged, Option<SatelliteEpoch>)>,
     context: Context,
     ranging: Ranging,
-    /// How the ship had turned when the newest epoch came.
-    turns: Option<Turns>,
     /// What its epochs come to against a base, once one is heard.
     link: Option<Box<RtkLink>>,
     /// Where the receiver said last that its antenna is, ECEF, m; until an epoch has told it.
@@ -101,10 +99,10 @@ impl Sky {
     }
 
     /// What an epoch tells.
-    pub(super) fn range(&mut self, epoch: &SatelliteEpoch, turns: Turns) -> Ranged {
+    pub(super) fn range(&mut self, epoch: &SatelliteEpoch, turns: &Turns) -> Ranged {
         let antenna = self.antenna.filter(|_| !self.is_placed);
-        let turned = turns.since(self.turns.replace(turns).unwrap_or(turns));
-        let ranged = self.ranging.take(&self.context, epoch, Guess { antenna, turned });
+        let guess = Guess { antenna, turned: turns.so_far() };
+        let ranged = self.ranging.take(&self.context, epoch, guess);
         self.is_placed |= ranged.point.is_ok();
         ranged
     }

@@ -66,13 +66,18 @@ impl Scatter {
         ((self.squares + PRIOR) / (self.freedoms + PRIOR)).max(1.0)
     }
 
+    /// Whether an epoch is to be taken: not every one of those that are close together.
+    pub(super) fn is_due(&self, tag: GpsTime) -> bool {
+        let since = |before: GpsTime| tag.since(before).as_seconds();
+        self.earlier.back().is_none_or(|last| !(0.0..EVERY).contains(&since(last.tag)))
+    }
+
     /// Takes an epoch with the antenna at about this place, ECEF, m.
     pub(super) fn hear(&mut self, tag: GpsTime, antenna: &Vector3<f64>, phases: Vec<Tracked>) {
         let since = |before: GpsTime| tag.since(before).as_seconds();
         self.earlier.retain(|epoch| (0.0..FARTHEST).contains(&since(epoch.tag)));
-        let is_due = self.looked.is_none_or(|looked| !(0.0..EVERY).contains(&since(looked)));
         let before = self.earlier.iter().rfind(|epoch| since(epoch.tag) >= APART);
-        if let Some(before) = before.filter(|_| is_due) {
+        if let Some(before) = before {
             let changes = changes(&before.phases, &phases);
             let moved = CarrierDisplacement::solve(&changes, &before.antenna);
             if let Some(moved) = moved.filter(|moved| moved.residuals.len() > 4) {

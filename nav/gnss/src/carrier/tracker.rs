@@ -39,8 +39,6 @@ pub struct CarrierTracker {
     seen: BTreeMap<SatelliteId, (Observed, Arc)>,
     /// Arcs begun so far.
     arcs: u32,
-    /// Turns of the antenna so far, clockwise as seen from above.
-    turns: f64,
     /// What phases scatter by.
     scatter: Scatter,
 }
@@ -48,7 +46,7 @@ pub struct CarrierTracker {
 impl CarrierTracker {
     /// The changes since the epoch before, for an antenna at about this place, ECEF, m: an error of 100 m there makes one of 15 mm/s at the most
     /// (satellites move by 1.5e-4 rad/s as seen from the Earth), and none in a solution that knows its place before. `turned`: by what the antenna
-    /// has turned since, rad, clockwise as seen from above, if that is known.
+    /// has turned so far, from wherever that is counted, rad, clockwise as seen from above.
     pub fn advance(
         &mut self,
         context: &Context,
@@ -56,7 +54,6 @@ impl CarrierTracker {
         antenna: &Vector3<f64>,
         turned: f64,
     ) -> Vec<PhaseChange> {
-        self.turns += turned / std::f64::consts::TAU;
         let elapsed = self.tag.map(|before| epoch.tag.since(before).as_seconds());
         let elapsed =
             elapsed.filter(|elapsed| *elapsed > 0.0 && *elapsed < LONGEST && !epoch.clock_reset);
@@ -64,7 +61,7 @@ impl CarrierTracker {
         let before = std::mem::take(&mut self.seen);
         let mut changes = Vec::new();
         for signals in epoch.signals.chunk_by(|a, b| a.satellite == b.satellite) {
-            let antenna = (antenna, self.turns);
+            let antenna = (antenna, turned / std::f64::consts::TAU);
             let Some(now) = Observed::new(context, (epoch.tag, repeated), signals, antenna) else {
                 continue;
             };
@@ -82,7 +79,9 @@ impl CarrierTracker {
             self.seen.insert(now.satellite, (now, arc));
         }
         self.tag = Some(epoch.tag);
-        self.scatter.hear(epoch.tag, antenna, self.tracked());
+        if self.scatter.is_due(epoch.tag) {
+            self.scatter.hear(epoch.tag, antenna, self.tracked());
+        }
         changes
     }
 

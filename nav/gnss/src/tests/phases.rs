@@ -51,7 +51,6 @@ fn an_antenna_that_turns_changes_no_range() {
         let mut turning = plain.clone();
         let so_far = 0.05 * f64::from(second);
         add(&mut turning, |_| so_far);
-        let before = turns;
         if second > 0 {
             turns.hear(&ImuSample {
                 time: Time::from_seconds(f64::from(second)),
@@ -59,7 +58,7 @@ fn an_antenna_that_turns_changes_no_range() {
                 delta_velocity: Body::default(),
             });
         }
-        let guess = Guess { turned: turns.since(before), ..Guess::default() };
+        let guess = Guess { turned: turns.so_far(), ..Guess::default() };
         let [still, turned] = [
             rangings[0].take(&context, &plain, Guess::default()),
             rangings[1].take(&context, &turning, guess),
