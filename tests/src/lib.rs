@@ -12,6 +12,7 @@ pub mod caster;
 pub mod engines;
 pub mod noise_free;
 pub mod pages;
+pub mod programs;
 pub mod raw_feed;
 pub mod recorded;
 pub mod sailing;

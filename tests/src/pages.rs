@@ -1,5 +1,17 @@
 //! Pages of the documentation that programs fill in.
 
+use std::io;
+
+/// Puts a table into a page, by its path, between the marks of that name; without a page it is printed.
+///
+/// # Errors
+/// The page cannot be read or written, or has no such marks.
+pub fn put(page: Option<String>, name: &str, table: &str) -> io::Result<()> {
+    let Some(page) = page else { return insd_lab::terminal::print(table) };
+    let text = std::fs::read_to_string(&page)?;
+    std::fs::write(&page, filled(&text, name, table).map_err(io::Error::other)?)
+}
+
 /// The page with a table put between its marks, `<!-- table NAME -->` and `<!-- end of table -->`.
 ///
 /// # Errors

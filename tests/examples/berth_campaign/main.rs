@@ -15,7 +15,7 @@ use insd_base::{Time, Voyage};
 use insd_lab::evaluation::{CampaignReport, InstantEstimates, Run, Yardstick, errors};
 use insd_nav::berth::Method;
 use insd_simulator::{Override, simulate};
-use insd_tests::pages::filled;
+use insd_tests::pages;
 use insd_tests::sailing::sail_aligned;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
@@ -38,14 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         eprint!("{rows}");
         table += &rows;
     }
-    match args.next() {
-        Some(page) => {
-            let text = std::fs::read_to_string(&page)?;
-            std::fs::write(&page, filled(&text, "berth-campaign", &table)?)?;
-        }
-        None => insd_lab::terminal::print(&table)?,
-    }
-    Ok(())
+    Ok(pages::put(args.next(), "berth-campaign", &table)?)
 }
 
 /// The rows of a cell, one for each method.

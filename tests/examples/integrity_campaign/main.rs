@@ -16,7 +16,8 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use insd_tests::pages::filled;
+use insd_tests::pages;
+use insd_tests::programs::run;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use case::{Case, KINDS, Kind, SCENARIO};
@@ -54,14 +55,7 @@ fn main() -> Result<(), Failed> {
         eprint!("{}", rows.last().map_or("", String::as_str));
     }
     let table = table::HEAD.to_owned() + &rows.concat();
-    match arguments.next() {
-        Some(page) => {
-            let text = std::fs::read_to_string(&page)?;
-            std::fs::write(&page, filled(&text, "integrity-campaign", &table)?)?;
-        }
-        None => insd_lab::terminal::print(&table)?,
-    }
-    Ok(())
+    Ok(pages::put(arguments.next(), "integrity-campaign", &table)?)
 }
 
 /// Makes a voyage and replays it.
@@ -98,14 +92,6 @@ fn replay(
     let mut replay = Command::new(program);
     run(replay.arg("replay").arg(voyage).args(["--gnss", gnss, "--rate", "2", "--out"]).arg(&out))?;
     outcome(&out, &voyage.join("truth.csv"), wrong).map_err(|why| why.to_string().into())
-}
-
-fn run(command: &mut Command) -> Result<(), Failed> {
-    let output = command.output()?;
-    match output.status.success() {
-        true => Ok(()),
-        false => Err(String::from_utf8_lossy(&output.stderr).into()),
-    }
 }
 
 fn tell(case: &Case, way: Way, own: &Outcome) {

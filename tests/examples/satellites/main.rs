@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 use insd_base::{Ecef, GpsTime, SatelliteEpoch, Span, earth};
 use insd_gnss::{CarrierDisplacement, CarrierTracker, Context, SinglePoint};
-use insd_tests::pages::filled;
+use insd_tests::pages;
 use nalgebra::Vector3;
 
 use sets::{SETS, Set, Whereabouts};
@@ -31,14 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         eprint!("{row}");
         table += &row;
     }
-    match std::env::args().nth(1) {
-        Some(page) => {
-            let text = std::fs::read_to_string(&page)?;
-            std::fs::write(&page, filled(&text, "satellites", &table)?)?;
-        }
-        None => insd_lab::terminal::print(&table)?,
-    }
-    Ok(())
+    Ok(pages::put(std::env::args().nth(1), "satellites", &table)?)
 }
 
 /// What was found of a set.

@@ -13,7 +13,8 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use insd_tests::pages::filled;
+use insd_tests::pages;
+use insd_tests::programs::run;
 
 use scores::{Score, score, segments, track};
 
@@ -36,14 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let rows = all.iter().rev().map(|(label, scores)| row(label, scores));
     let table = HEAD.to_owned() + &rows.collect::<String>();
-    match arguments.next() {
-        Some(page) => {
-            let text = std::fs::read_to_string(&page)?;
-            std::fs::write(&page, filled(&text, "satellites-campaign", &table)?)?;
-        }
-        None => insd_lab::terminal::print(&table)?,
-    }
-    Ok(())
+    Ok(pages::put(arguments.next(), "satellites-campaign", &table)?)
 }
 
 /// Makes the voyage of a seed, replays it both ways and adds the scores of its segments by their labels.
@@ -73,14 +67,6 @@ fn sail(
         }
     }
     Ok(())
-}
-
-fn run(command: &mut Command) -> Result<(), Box<dyn Error>> {
-    let output = command.output()?;
-    match output.status.success() {
-        true => Ok(()),
-        false => Err(String::from_utf8_lossy(&output.stderr).into()),
-    }
 }
 
 fn row(label: &str, [fixes, ranges]: &[Vec<Score>; 2]) -> String {

@@ -15,7 +15,8 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use insd_tests::pages::filled;
+use insd_tests::pages;
+use insd_tests::programs::run;
 
 use log::Instants;
 
@@ -35,14 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     voyage::make(&folder, &dir)?;
     let walk = Walk { program, dir, reference: log::reference(&folder)? };
     let table = HEAD.to_owned() + &walk.rows()?;
-    match arguments.next() {
-        Some(page) => {
-            let text = std::fs::read_to_string(&page)?;
-            std::fs::write(&page, filled(&text, "walk", &table)?)?;
-        }
-        None => insd_lab::terminal::print(&table)?,
-    }
-    Ok(())
+    Ok(pages::put(arguments.next(), "walk", &table)?)
 }
 
 struct Walk {
@@ -96,10 +90,7 @@ impl Walk {
         let out = self.dir.join("nav.csv");
         let mut command = Command::new(&self.program);
         command.arg("replay").arg(&self.dir).arg("--out").arg(&out).args(["--rate", "20"]);
-        let output = command.args(options).output()?;
-        if !output.status.success() {
-            return Err(String::from_utf8_lossy(&output.stderr).into());
-        }
+        run(command.args(options))?;
         let track = track(&out)?;
         let at = |time: f64| track.iter().find(|(own, _)| (own - time).abs() < 1e-3);
         let Some((_, first)) = track.first() else { return Ok(Vec::new()) };

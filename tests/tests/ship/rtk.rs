@@ -7,15 +7,14 @@ use insd_base::{
     BaseEpoch, Ecef, Event, Message, Received, SolutionSource, Source, SourceReason, Time, Truth,
     earth,
 };
-use insd_config::VoyageCalendar;
 use insd_engine::EngineConfig;
-use insd_lab::ranges::{Epochs, RangeMaker};
+use insd_lab::ranges::RangeMaker;
 use insd_simulator::{raw_gnss, simulate};
 use insd_tests::sailing::{Logbook, sail_messages};
 use nalgebra::Vector3;
 
 use crate::figure;
-use crate::satellites::{context, errors};
+use crate::satellites::{epochs, errors};
 
 /// A sail of the first minutes of the shipped port, with what the base says changed, and then whatever is made of it.
 fn sail(
@@ -24,23 +23,17 @@ fn sail(
 ) -> (Logbook, Vec<Truth>) {
     let scenario = insd_tests::port_with_base(&[]).with_duration(290.0);
     let (voyage, raw) = (simulate(&scenario, 1), raw_gnss(&scenario, 1).unwrap());
-    let start = VoyageCalendar::new(&voyage.header.start_utc).unwrap().utc(Time::START).to_gps();
+    let mut epochs = epochs(&voyage, &raw);
     let station = raw.base.as_ref().unwrap();
     let place = Some(earth::ecef(&station.position));
     let of_base = station.epochs.iter().map(|epoch| {
-        let time = Time::START + epoch.tag.since(start);
+        let time = Time::START + epoch.tag.since(epochs.start);
         let epoch = epoch.clone();
         let mut own = BaseEpoch { time, station: None, position: place, is_moving: false, epoch };
         base(time.as_seconds(), &mut own);
         Received { receipt: time, source: Source::Base(0), message: Message::Base(Arc::new(own)) }
     });
-    let epochs = Epochs {
-        start,
-        context: context(&raw),
-        rover: raw.antennas[0].iter().cloned().collect(),
-        base: of_base.collect(),
-        masks: Vec::new(),
-    };
+    epochs.base = of_base.collect();
     let mut all = RangeMaker::new(epochs).among(voyage.received());
     all.iter_mut().for_each(&mut told);
     let config = EngineConfig::for_voyage(&voyage.header, 1.0);

@@ -22,7 +22,7 @@ fn tight_port() -> Scenario {
     insd_lab::scenario::find("26", &[]).unwrap().scenario
 }
 
-pub(crate) fn context(raw: &RawGnss) -> Context {
+fn context(raw: &RawGnss) -> Context {
     let spec = &raw.spec;
     let mut context = Context {
         noise: Noise {
@@ -44,15 +44,19 @@ pub(crate) fn context(raw: &RawGnss) -> Context {
 fn messages(voyage: &Voyage, raw: Option<&RawGnss>) -> Vec<Received> {
     let all = voyage.received();
     let Some(raw) = raw else { return all };
+    RangeMaker::new(epochs(voyage, raw)).among(all)
+}
+
+/// What the first antenna measures on a voyage, without a base.
+pub(crate) fn epochs(voyage: &Voyage, raw: &RawGnss) -> Epochs {
     let calendar = VoyageCalendar::new(&voyage.header.start_utc).unwrap();
-    let epochs = Epochs {
-        start: calendar.utc(insd_base::Time::START).to_gps(),
+    Epochs {
+        start: calendar.utc(Time::START).to_gps(),
         context: context(raw),
         rover: raw.antennas[0].iter().cloned().collect(),
         base: VecDeque::new(),
         masks: Vec::new(),
-    };
-    RangeMaker::new(epochs).among(all)
+    }
 }
 
 /// Horizontal errors against truth, north and east, m, with the claimed sigmas.
