@@ -35,6 +35,9 @@ const SLACK_PHASE: f64 = 0.01;
 pub(super) const UNKNOWN_PLACE: f64 = 30.0;
 /// Codes of epochs that are closer than this, s, are no news: a receiver's loop smooths them, and what reflects is the same.
 const CODE_TIME: f64 = 1.0;
+/// The codes of an arc that lasts count with a variance that grows by itself in each time of this, s. The errors of codes have all periods, from the
+/// receiver's noise to what the quay reflects for an hour: of such noise (flicker) a mean gets better with the logarithm of the time only.
+const NEWS_TIME: f64 = 2.0;
 /// A constant of which nothing is known, m.
 const UNKNOWN_CONSTANT: f64 = 100.0;
 
@@ -216,6 +219,8 @@ impl Filter {
         self.state.nominal.phase_constants[one.slot] = constant;
         let variance = UNKNOWN_CONSTANT * UNKNOWN_CONSTANT;
         self.state.covariance.renew_state(PHASE_CONSTANTS.key(), one.slot, variance);
+        let now = self.state.time;
+        self.satellites.slot_mut(one.slot).iter_mut().for_each(|slot| slot.arc_began = now);
     }
 
     fn use_phases(
@@ -233,7 +238,7 @@ impl Filter {
         };
         let Some(mut rows) = Rows::of(seated, row) else { return };
         self.satellites.unrest.spread(&mut rows.all, self.state.time);
-        let (_, slipped) = self.absorb_rows(rows, SLIP, (PHASE_AID, from), report);
+        let (_, slipped) = self.absorb_rows(rows, seated, SLIP, (PHASE_AID, from), report);
         for one in slipped.iter().filter_map(|index| seated.get(*index)) {
             self.begin_arc(one);
         }
@@ -256,7 +261,7 @@ impl Filter {
                 .flatten()
         };
         if let Some(rows) = Rows::of(seated, row) {
-            self.absorb_rows(rows, 0.0, (RATE_AID, from), report);
+            self.absorb_rows(rows, seated, 0.0, (RATE_AID, from), report);
         }
     }
 
@@ -273,7 +278,7 @@ impl Filter {
         self.hear_excluded(&out, from.0.time, report);
         let now = self.state.time;
         let Some(rows) = self.code_rows(&used) else { return used };
-        let (accepted, faulty) = self.absorb_rows(rows, 0.0, (CODE_AID, from), report);
+        let (accepted, faulty) = self.absorb_rows(rows, &used, 0.0, (CODE_AID, from), report);
         if !accepted.is_empty() {
             self.receiver.trust.used(self.state.time);
         }
@@ -297,6 +302,17 @@ impl Filter {
         })
     }
 
+    /// Weighs codes that nothing speaks against for what is news in them: of a satellite whose phase goes on the next code says little that those before
+    /// have not said.
+    fn weigh_news(&self, rows: &mut Rows, seated: &[Sighted<'_>]) -> Option<Weighed> {
+        for (row, index) in rows.of.iter().enumerate() {
+            let slot = self.satellites.slot(seated[*index].slot);
+            let lasts = slot.map_or(0.0, |slot| slot.arc_lasts(self.state.time));
+            rows.all.r[(row, row)] *= 1.0 + lasts / NEWS_TIME;
+        }
+        rows.all.weigh(&self.state.covariance)
+    }
+
     /// Those that are left out are listened to and not used.
     fn hear_excluded(&mut self, out: &[Sighted<'_>], sampled: Time, report: &mut Report) {
         let now = self.state.time;
@@ -318,6 +334,7 @@ impl Filter {
     fn absorb_rows(
         &mut self,
         mut rows: Rows,
+        seated: &[Sighted<'_>],
         least: f64,
         (aid, (told, source)): (&'static str, (&SatelliteRanges, Source)),
         report: &mut Report,
@@ -343,6 +360,7 @@ impl Filter {
                     let unrest = &mut self.satellites.unrest;
                     break Some(unrest.hear((&rows.all, weighed), &self.state.covariance));
                 }
+                None if aid == CODE_AID => break self.weigh_news(&mut rows, seated),
                 None => break Some(weighed),
             }
         };

@@ -24,6 +24,8 @@ pub(super) struct Slot {
     seen: Time,
     /// The arc whose constant is estimated.
     pub(super) arc: Option<u32>,
+    /// When that began.
+    pub(super) arc_began: Time,
     /// Of one that is left out: since when, and its codes in a row that agree.
     out: Option<(Time, u8)>,
 }
@@ -32,6 +34,11 @@ impl Slot {
     /// Whether it is left out.
     pub(super) fn is_excluded(&self) -> bool {
         self.out.is_some()
+    }
+
+    /// For how long its phase has gone on without a break, s.
+    pub(super) fn arc_lasts(&self, now: Time) -> f64 {
+        self.arc.map_or(0.0, |_| (now - self.arc_began).as_seconds())
     }
 
     /// Its code contradicts those of the others: it is left out, and its phase begins anew when it comes back. Returns it if that is new.
@@ -142,7 +149,8 @@ impl Satellites {
         };
         let place = self.slots.iter().position(is_free)?;
         let SatelliteRange { satellite, slow_std, .. } = *range;
-        self.slots[place] = Some(Slot { satellite, slow_std, seen: now, arc: None, out: None });
+        self.slots[place] =
+            Some(Slot { satellite, slow_std, seen: now, arc: None, arc_began: now, out: None });
         Some((place, true))
     }
 
