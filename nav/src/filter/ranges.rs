@@ -198,11 +198,12 @@ impl Filter {
 
     /// Constants of arcs that have begun are what makes the phase fit, and unknown.
     fn begin_arcs(&mut self, seated: &[Sighted<'_>]) {
+        let now = self.state.time;
         let (mut new, mut all) = (0, 0);
         for one in seated {
             let Some(phase) = one.range.phase else { continue };
             let known = self.satellites.slot_mut(one.slot);
-            let is_new = known.is_some_and(|slot| slot.arc.replace(phase.arc) != Some(phase.arc));
+            let is_new = known.is_some_and(|slot| slot.goes_over_to(phase.arc, now));
             all += 1;
             if is_new {
                 new += 1;
@@ -219,8 +220,6 @@ impl Filter {
         self.state.nominal.phase_constants[one.slot] = constant;
         let variance = UNKNOWN_CONSTANT * UNKNOWN_CONSTANT;
         self.state.covariance.renew_state(PHASE_CONSTANTS.key(), one.slot, variance);
-        let now = self.state.time;
-        self.satellites.slot_mut(one.slot).iter_mut().for_each(|slot| slot.arc_began = now);
     }
 
     fn use_phases(

@@ -24,8 +24,8 @@ pub(super) struct Slot {
     seen: Time,
     /// The arc whose constant is estimated.
     pub(super) arc: Option<u32>,
-    /// When that began.
-    pub(super) arc_began: Time,
+    /// When that began, for the receiver: the errors of codes go on over a slip that is found here.
+    arc_began: Time,
     /// Of one that is left out: since when, and its codes in a row that agree.
     out: Option<(Time, u8)>,
 }
@@ -39,6 +39,15 @@ impl Slot {
     /// For how long its phase has gone on without a break, s.
     pub(super) fn arc_lasts(&self, now: Time) -> f64 {
         self.arc.map_or(0.0, |_| (now - self.arc_began).as_seconds())
+    }
+
+    /// Its phase is of this arc; returns whether that is another one than before.
+    pub(super) fn goes_over_to(&mut self, arc: u32, now: Time) -> bool {
+        let is_new = self.arc.replace(arc) != Some(arc);
+        if is_new {
+            self.arc_began = now;
+        }
+        is_new
     }
 
     /// Its code contradicts those of the others: it is left out, and its phase begins anew when it comes back. Returns it if that is new.
