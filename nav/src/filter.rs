@@ -354,17 +354,18 @@ impl Estimator for Filter {
         let (view, acceleration) = self.dated_view();
         let v_n = view.v_n();
         let turn_of_n = view.c_nb().transpose() * earth::transport_rate(&view.geodetic, &v_n);
+        let (sigma, hidden) = self.claims(&view, &acceleration);
         Solution {
             time: self.state.time,
             position: view.geodetic,
             velocity: Ned(v_n),
             attitude: view.attitude(),
             rate: Body(view.rate - turn_of_n),
-            sigma: self.claimed_sigma(&view, &acceleration),
+            sigma,
             mode: self.mode(),
             judgement: self.judgement(),
             source: self.source(),
-            hidden: self.court.hidden.at(self.state.time),
+            hidden,
         }
     }
 

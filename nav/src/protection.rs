@@ -165,6 +165,13 @@ mod tests {
     }
 
     #[test]
+    fn of_two_places_of_which_she_is_in_one_a_level_reaches_to_the_farther_one_and_its_errors() {
+        let renewals = RiskModel::default().renewals();
+        let level = of(&[(renewals, 0.0, 0.7), (renewals, 2.6, 1.0)]);
+        assert!((2.6 + 5.0..2.6 + 5.5).contains(&level), "{level}");
+    }
+
+    #[test]
     fn another_risk_widens_or_narrows_a_level_as_far_as_errors_of_nobody_lying_ask() {
         let sigma = SolutionSigma {
             position: insd_base::Ned::new(1.5, 2.0, 3.0),

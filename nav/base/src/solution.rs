@@ -227,7 +227,8 @@ pub struct Solution {
     pub judgement: Judgement,
     /// The best source in use; `None` before the ship navigates.
     pub source: Option<SolutionSource>,
-    /// What faults that may be there, and that nobody has found, add to the protection levels, m.
+    /// What faults that may be there, and that nobody has found, add to the protection levels, m. Negative where the claim covers two places, of which she
+    /// is in one: a level reaches to the farther one and its errors, and not as many times as far as it does of a sigma.
     pub hidden: Protection,
 }
 

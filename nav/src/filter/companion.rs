@@ -80,13 +80,16 @@ impl Filter {
         self.claim_both()
     }
 
-    /// While the two are apart, or the judge is in doubt, what is claimed covers both.
+    /// While the two are apart, or the judge is in doubt, what is claimed covers it.
     fn claim_both(&mut self) -> Option<Report> {
         let companion = self.companion.as_deref()?;
         let is_apart = self.apart_from(companion).max(self.turned_from(companion)) > APART;
-        let difference = is_apart.then(|| self.difference_to(companion));
-        let both = [difference, companion.court.covered].into_iter().flatten();
-        self.court.covered = both.reduce(|a, b| a.greatest(&b));
+        let beside = is_apart.then(|| self.difference_to(companion));
+        let is_new = is_apart && self.court.beside.is_none();
+        (self.court.covered, self.court.beside) = (companion.court.covered, beside);
+        if is_new {
+            self.protect();
+        }
         None
     }
 
@@ -110,7 +113,7 @@ impl Filter {
         docket.recall(Party::Gnss, self.state.time, |_| true);
         self.companion = None;
         self.config = self.config.with_docket(docket);
-        self.court.covered = None;
+        (self.court.covered, self.court.beside) = (None, None);
         self.be_accompanied();
     }
 

@@ -28,6 +28,8 @@ pub(super) struct Court {
     pub(super) owed: Errors,
     /// Sigmas that cover all that may be, while somebody may lie.
     pub(super) covered: Option<SolutionSigma>,
+    /// Where ranges are in use and fixes have her elsewhere: how far.
+    pub(super) beside: Option<SolutionSigma>,
     /// A receiver that is left out for a leap has returned from a lie: that may be so.
     pub(super) returned: Option<Separation>,
     /// What faults that nobody has found add to the protection levels.
@@ -45,6 +47,7 @@ impl Court {
             unjudged: Stretch::new(),
             owed: Errors::none(),
             covered: None,
+            beside: None,
             returned: None,
             hidden: Hidden::default(),
         }

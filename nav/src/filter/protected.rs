@@ -18,6 +18,9 @@ const WRONG_RANGE: f64 = 50.0;
 /// Causes of the judge are below this.
 const BY_SATELLITE: usize = 1000;
 
+/// That of fixes beside ranges.
+const BESIDE: usize = BY_SATELLITE - 1;
+
 impl Filter {
     /// Works out anew what faults that nobody has found add to the levels.
     pub(super) fn protect(&mut self) {
@@ -32,8 +35,8 @@ impl Filter {
             }
         };
         let (view, acceleration) = self.dated_view();
-        let claimed = self.claimed_sigma(&view, &acceleration);
-        let free = Protection::of(&claimed).plus(&model.beyond_usual(&claimed));
+        let claimed = self.sigma_of_one(&view, &acceleration);
+        let free = usual(&claimed, &model);
         let adds = [AHEAD, 2.0 * AHEAD].map(|ahead| {
             beyond(&levels((&claimed, &view.c_ne), &separations, &model, ahead), &free)
         });
@@ -47,8 +50,27 @@ impl Filter {
         }
     }
 
-    /// 1-sigma that the filter claims of its solution.
-    pub(super) fn claimed_sigma(&self, view: &View, acceleration: &Vector3<f64>) -> SolutionSigma {
+    /// 1-sigma that the filter claims of its solution, and what is hidden beside it. The claim covers where fixes have her that are apart from ranges, as if
+    /// that were a sigma; the levels know that she is in one place or in the other.
+    pub(super) fn claims(
+        &self,
+        view: &View,
+        acceleration: &Vector3<f64>,
+    ) -> (SolutionSigma, Protection) {
+        let own = self.sigma_of_one(view, acceleration);
+        let hidden = self.court.hidden.at(self.state.time);
+        let Some(beside) = self.court.beside else { return (own, hidden) };
+        let both = own.greatest(&beside);
+        let (less, more) = (usual(&own, &self.config.risk), usual(&both, &self.config.risk));
+        let hidden = Protection {
+            horizontal: hidden.horizontal + less.horizontal - more.horizontal,
+            vertical: hidden.vertical + less.vertical - more.vertical,
+        };
+        (both, hidden)
+    }
+
+    /// 1-sigma where nothing is made of fixes beside ranges.
+    fn sigma_of_one(&self, view: &View, acceleration: &Vector3<f64>) -> SolutionSigma {
         let own = solution_sigma(view, acceleration, &self.dating(), &self.state.covariance);
         let own = self.with_base_error(own);
         self.court.covered.map_or(own, |covered| own.greatest(&covered))
@@ -81,6 +103,7 @@ impl Filter {
         let apart = companion.state.nominal.position - own.position;
         let growth = companion.state.nominal.velocity - own.velocity;
         let mut all = companion.judged_separations(now, model);
+        all.extend(self.court.beside.map(|_| companion.undisputed(model)));
         all.extend(companion.court.returned);
         for one in &mut all {
             one.apart += apart;
@@ -103,6 +126,18 @@ impl Filter {
         all
     }
 
+    /// This estimate, taken to be as likely as the one beside it.
+    fn undisputed(&self, model: &RiskModel) -> Separation {
+        Separation {
+            cause: BESIDE,
+            chance: model.renewals(),
+            apart: Vector3::zeros(),
+            growth: Vector3::zeros(),
+            covariance: POSITION.covariance(&self.state.covariance),
+            spreading: VELOCITY.covariance(&self.state.covariance),
+        }
+    }
+
     /// The filter in which the codes of some satellites, by their places, may be wrong by [`WRONG_RANGE`].
     fn without(&self, places: &[usize], slow: f64, chance: f64) -> Option<Separation> {
         let errors = &self.state.nominal.range_errors;
@@ -120,6 +155,11 @@ impl Filter {
             spreading: VELOCITY.covariance(p) + release.more(VELOCITY),
         })
     }
+}
+
+/// Levels of errors with these sigmas where nobody lies.
+fn usual(sigma: &SolutionSigma, model: &RiskModel) -> Protection {
+    Protection::of(sigma).plus(&model.beyond_usual(sigma))
 }
 
 /// The levels at so many seconds from now, of what is claimed where nobody lies, and of all that may be.

@@ -92,9 +92,10 @@ fn times_to_be_told(points: &[StanfordPoint]) -> Vec<f64> {
 }
 
 impl Outcome {
-    /// Alerts while nothing is wrong: somebody is left out, or for ten seconds the level is beyond the limit or the row not to be used.
+    /// Alerts while nothing is wrong: somebody is left out, or what could be used, as its level was within the limit, can not for ten seconds.
     fn count_alerts(&mut self, rows: &[NavRow], wrong: Option<[f64; 2]>) {
         let (mut since, mut names, mut last) = (None, Vec::new(), SETTLED);
+        let mut was_usable = false;
         for row in rows {
             let t = row.solution.time.as_seconds();
             if t < SETTLED {
@@ -115,7 +116,8 @@ impl Outcome {
             let is_beyond = row.horizontal_level.is_none_or(|level| level >= LIMIT);
             let is_told = is_beyond || row.integrity == Some(Availability::Fault);
             let due = if is_named { 0.0 } else { PATIENCE };
-            match (is_named || is_told, since) {
+            was_usable |= !is_told;
+            match (is_named || is_told && was_usable, since) {
                 (false, _) => since = None,
                 (true, None) => since = Some((t, false)),
                 _ => {}
