@@ -329,7 +329,7 @@ impl Filter {
     }
 
     /// Sigmas that cover all that the estimate may be instead.
-    fn cover(&self) -> Option<SolutionSigma> {
+    pub(super) fn cover(&self) -> Option<SolutionSigma> {
         let ((view, acceleration), dating) = (self.dated_view(), self.dating());
         let of = |other: &Alternative| {
             let apart = difference(&view, &other.error);

@@ -115,7 +115,7 @@ impl Filter {
             self.be_judged();
             // of the place they stay what they are
             let companion = self.companion.as_deref();
-            self.court.covered = companion.and_then(|companion| companion.court.covered);
+            self.court.covered = companion.and_then(Filter::cover);
         }
     }
 

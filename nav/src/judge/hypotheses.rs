@@ -8,6 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::Judge;
 use super::charge::{Charge, WORST, unsure};
+use super::onset::Onset;
 use super::rows::ALL;
 use crate::error_state::{Covariance, Errors, POSITION, VELOCITY};
 use crate::protection::RiskModel;
@@ -63,11 +64,11 @@ impl Judge {
         for (i, onset) in self.onsets.iter().enumerate() {
             let next = self.onsets.get(i + 1).map_or(now, |next| next.since);
             let lasts = (next - onset.since).as_seconds().max(1.0);
-            let unsure = unsure((now - onset.since).as_seconds(), WORST);
             for (group, of) in ALL.iter().enumerate() {
                 let rate = rate(of.fault, model) / 3600.0;
                 // who is not there does nothing
                 let is_there = rate > 0.0 && !onset.is_blind_to(group);
+                let unsure = unsure_of(onset, group, now);
                 let sized = is_there.then(|| onset.sized(group, unsure)).flatten();
                 let Some(sized) = sized else { continue };
                 let [place, way] = onset.places(of, [POSITION, VELOCITY]);
@@ -80,6 +81,21 @@ impl Judge {
         }
         open.extend(self.shapeless(now, model));
         weighed(&open)
+    }
+
+    /// Since when the receiver would lie if what speaks most for it were so.
+    pub(super) fn feared(&self, now: Time) -> Option<Time> {
+        let of_gnss = |onset: &Onset| {
+            let own = ALL.iter().enumerate().filter(|(_, of)| of.fault.party() == Party::Gnss);
+            let factors = own.filter_map(|(group, _)| {
+                let unsure = unsure_of(onset, group, now);
+                Some(onset.sized(group, unsure)?.log_factor)
+            });
+            factors.fold(0.0, f64::max)
+        };
+        let all = self.onsets.iter().map(|onset| (of_gnss(onset), onset.since));
+        let most = all.max_by(|a, b| a.0.total_cmp(&b.0));
+        most.filter(|(factor, _)| *factor > 0.0).map(|(_, since)| since)
     }
 
     /// Of those who do not believe one sensor, whatever it does: since they have found likelier what is said than who believes all. What
@@ -99,6 +115,17 @@ impl Judge {
             }
         })
     }
+}
+
+/// How many times as uncertain as stated the innovations are that tell of a fault. A lie that is there of a sudden is told of at its begin, and what was told then
+/// is worth no less for what comes later; one that grows is told of all the time.
+fn unsure_of(onset: &Onset, group: usize, now: Time) -> f64 {
+    let age = (now - onset.since).as_seconds();
+    let is_sudden = matches!(
+        ALL[group].fault,
+        Fault::Jump | Fault::Height | Fault::Drag | Fault::Slide | Fault::Velocity
+    );
+    unsure(if is_sudden { onset.told_for(group).min(age) } else { age }, WORST)
 }
 
 /// Chances by odds against nobody lying, and all others.

@@ -244,7 +244,7 @@ impl Judge {
         }
         for onset in &mut self.onsets {
             let age = (now - onset.since).as_seconds();
-            onset.hear(&weighed, aid.is_absorbed(), direct(age));
+            onset.hear(now, &weighed, aid.is_absorbed(), direct(age));
         }
         let likelihood = log_likelihood(&weighed);
         self.spare.hear((aid, now), innovation, &weighed, &self.shadow);
@@ -286,12 +286,14 @@ impl Judge {
         }
         self.spawned = Some(now);
         self.onsets.retain(|onset| (now - onset.since).as_seconds() < OLDEST);
+        let feared = self.feared(now);
         let mut i = 1;
         while i + 1 < self.onsets.len() {
             let age = (now - self.onsets[i].since).as_seconds();
             let apart = (self.onsets[i + 1].since - self.onsets[i - 1].since).as_seconds();
-            let is_accused = self.is_accused(self.onsets[i].since);
-            if age < YOUNG || apart > CLOSE * age || is_accused {
+            let since = self.onsets[i].since;
+            let is_kept = self.is_accused(since) || feared == Some(since);
+            if age < YOUNG || apart > CLOSE * age || is_kept {
                 i += 1;
             } else {
                 self.onsets.remove(i);

@@ -25,6 +25,8 @@ pub(super) struct Onset {
     effects: Effects,
     information: [Matrix3<f64>; GROUPS],
     evidence: [Vector3<f64>; GROUPS],
+    /// Of the information of each group, times for how long a fault had lasted when it came, s.
+    aged: [f64; GROUPS],
     /// Sum of the normalised squares since, and how many components there were.
     misfit: f64,
     heard: f64,
@@ -69,6 +71,7 @@ impl Onset {
             effects: rows::at_onset(),
             information: [Matrix3::zeros(); GROUPS],
             evidence: [Vector3::zeros(); GROUPS],
+            aged: [0.0; GROUPS],
             misfit: 0.0,
             heard: 0.0,
         }
@@ -80,7 +83,8 @@ impl Onset {
     }
 
     /// Hears an innovation before it is absorbed, if it is.
-    pub(super) fn hear(&mut self, weighed: &Weighed, is_absorbed: bool, direct: Direct) {
+    pub(super) fn hear(&mut self, now: Time, weighed: &Weighed, is_absorbed: bool, direct: Direct) {
+        let age = (now - self.since).as_seconds();
         self.effects.conform(weighed.layout());
         let effect = weighed.effect_of(&self.effects, direct);
         let z = weighed.whitened();
@@ -91,6 +95,7 @@ impl Onset {
             information += own * own.transpose();
             let mut evidence = self.evidence[i].rows_mut(0, width);
             evidence += own * &z;
+            self.aged[i] += own.norm_squared() * age;
         }
         if is_absorbed {
             weighed.pass_on(&mut self.effects, &effect);
@@ -103,12 +108,19 @@ impl Onset {
     pub(super) fn forget(&mut self, party: Party) {
         for (i, _) in ALL.iter().enumerate().filter(|(_, group)| group.fault.party() == party) {
             (self.information[i], self.evidence[i]) = (Matrix3::zeros(), Vector3::zeros());
+            self.aged[i] = 0.0;
         }
     }
 
     /// Mean square of the innovations since, of which one is expected, that is left when so much is explained.
     pub(super) fn left(&self, explained: f64) -> f64 {
         (self.misfit - explained) / self.heard.max(1.0)
+    }
+
+    /// For how long innovations have told of a fault of a group, s: as long as it has lasted where they do so evenly, less where most was told at its begin.
+    pub(super) fn told_for(&self, group: usize) -> f64 {
+        let information = self.information[group].trace();
+        if information > 0.0 { 2.0 * self.aged[group] / information } else { 0.0 }
     }
 
     /// Sizes a fault of a group; `None` where the numbers are none. `unsure` is how many times as uncertain as
