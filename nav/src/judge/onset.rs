@@ -179,3 +179,23 @@ impl Onset {
         own.total(&sized.value.as_slice()[..width])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_told_at_a_begin_was_told_for_a_short_time_and_what_is_told_evenly_for_all_of_it() {
+        let told = |ages: std::ops::Range<u32>| {
+            let mut own = Onset::new(Time::START);
+            for age in ages {
+                own.information[0][(0, 0)] += 1.0;
+                own.aged[0] += f64::from(age);
+            }
+            own.told_for(0)
+        };
+        assert!((told(0..101) - 100.0).abs() < 1e-9);
+        assert!((told(0..5) - 4.0).abs() < 1e-9);
+        assert!(told(0..0).abs() < 1e-9);
+    }
+}

@@ -10,6 +10,7 @@ mod consistency;
 mod faults;
 mod identity;
 mod junk;
+mod levels;
 mod outputs;
 mod places;
 mod rtk;
