@@ -114,10 +114,13 @@ impl Filter {
     fn be_accompanied_anew(&mut self) {
         let mut docket = self.docket();
         docket.recall(Party::Gnss, self.state.time, |_| true);
-        self.companion = None;
+        let before = self.companion.take();
         self.config = self.config.with_docket(docket);
         (self.court.covered, self.court.beside) = (None, None);
         self.be_accompanied();
+        if let Some((companion, before)) = self.companion_mut().zip(before) {
+            companion.doubt_with(&before);
+        }
     }
 
     /// The companion goes on in its place; who was left out among the satellites is not any more.

@@ -323,8 +323,7 @@ impl Filter {
         let Alternative { error, covariance } = other;
         self.state.become_other(error, covariance);
         self.forget_motion();
-        let view = self.view();
-        self.installation.bias.iter_mut().for_each(|bias| bias.excuse(&view));
+        self.excuse_installation();
         self.receiver.trust.clear();
     }
 

@@ -132,6 +132,32 @@ impl Filter {
         score.max(0.0)
     }
 
+    /// What was heard of late is somebody else's fault. Who was in doubt about the installation before has to be told anew that it is as configured.
+    pub(super) fn excuse_installation(&mut self) {
+        let view = self.view();
+        let is_doubted = self.is_installation_doubted();
+        if let Some(bias) = &mut self.installation.bias {
+            if is_doubted {
+                *bias = SeparateBias::new(&view);
+            } else {
+                bias.excuse(&view);
+            }
+        }
+    }
+
+    /// Takes over what another filter of the same ship doubts of the installation.
+    pub(super) fn doubt_with(&mut self, other: &Filter) {
+        if other.is_installation_doubted() {
+            self.installation.doubt = other.installation.doubt;
+            self.excuse_installation();
+        }
+    }
+
+    /// Whether it is likelier that a constant is wrong than that it is not.
+    fn is_installation_doubted(&self) -> bool {
+        self.installation.doubt.is_some_and(|(chance, _)| chance > LIKELY)
+    }
+
     /// Where the innovations show that the antenna sits elsewhere than configured, or that its epochs come
     /// later: takes the estimate to be what it would have been with that.
     pub(super) fn mend_installation(&mut self) {
