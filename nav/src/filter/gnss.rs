@@ -377,6 +377,7 @@ impl Filter {
         let lever = self.antenna_lever();
         let view = self.view();
         let place = imu_position(&view, &measured.position, &lever);
+        self.follow_contradicted((place.0 - self.state.nominal.position).norm());
         let variance = floors::greatest_told(&(measured.white + measured.slow)).powi(2);
         POSITION.renew(&mut self.state.covariance, &Matrix3::from_diagonal_element(variance));
         self.state.nominal.position = place.0;

@@ -62,6 +62,16 @@ impl Filter {
         }
     }
 
+    /// The receiver is followed from now on, which says that she is so far, m, from where she was thought to be.
+    pub(super) fn follow_contradicted(&mut self, off: f64) {
+        let now = self.state.time;
+        if let Some(judge) = self.judge_now() {
+            judge.follow_contradicted(off, now);
+            let docket = *judge.docket();
+            self.config = self.config.with_docket(docket);
+        }
+    }
+
     /// Brings the judge up to the time of the estimate. It must be settled.
     pub(super) fn judge_now(&mut self) -> Option<&mut Judge> {
         let regime = self.regime();

@@ -19,7 +19,9 @@ const WRONG_RANGE: f64 = 50.0;
 const BY_SATELLITE: usize = 1000;
 
 /// That of fixes beside ranges.
-const BESIDE: usize = BY_SATELLITE - 1;
+const BESIDE: usize = BY_SATELLITE - 2;
+/// That of a lie that was left open.
+const LEFT_OPEN: usize = BY_SATELLITE - 3;
 
 impl Filter {
     /// Works out anew what faults that nobody has found add to the levels.
@@ -79,7 +81,27 @@ impl Filter {
     /// What the judge has of everybody.
     fn judged_separations(&self, now: Time, model: &RiskModel) -> Vec<Separation> {
         let judge = self.court.judge.as_deref();
-        judge.map_or_else(Vec::new, |judge| judge.separations(now, model))
+        let mut all = judge.map_or_else(Vec::new, |judge| judge.separations(now, model));
+        all.extend(self.left_open(now));
+        all
+    }
+
+    /// What the receiver that the estimate follows may be doing, which a verdict against the IMU left open.
+    fn left_open(&self, now: Time) -> Option<Separation> {
+        let docket = self.docket();
+        let lie = docket.open_lie()?;
+        let [(off, unsure), (rate, spreading)] = lie.grown(now)?;
+        let level = self.view().c_ne.fixed_rows::<2>(0).transpose();
+        Some(Separation {
+            cause: LEFT_OPEN,
+            chance: lie.chance(now),
+            apart: -level * off,
+            growth: -level * rate,
+            covariance: POSITION.covariance(&self.state.covariance)
+                + level * unsure * level.transpose(),
+            spreading: VELOCITY.covariance(&self.state.covariance)
+                + level * spreading * level.transpose(),
+        })
     }
 
     /// Whether a receiver that is left out for a leap has returned from a lie that nobody had found.

@@ -10,6 +10,7 @@
 //! by its own name.
 
 mod of_imu;
+mod open;
 
 use insd_base::{Fault, Integrity, Judgement, Parties, Party, Span, Standing, Stands, Time};
 use nalgebra::Vector2;
@@ -19,6 +20,7 @@ use super::aid::{Aid, agreement};
 use super::lie::LieOfGnss;
 use crate::error_state::Weighed;
 use crate::error_state::{Covariance, POSITION};
+pub(crate) use open::OpenLie;
 
 /// Who agrees for so long is heard again, s; each time he relapses for twice as long, up to this.
 const QUARANTINE: f64 = 60.0;
@@ -99,6 +101,8 @@ pub struct Docket {
     by_one: bool,
     /// Two told another speed at once then, which the IMU did not feel.
     alike: Option<Time>,
+    /// What the receiver in use may be doing instead of what the IMU was convicted of.
+    open: Option<OpenLie>,
 }
 
 impl Docket {
@@ -314,6 +318,7 @@ impl Docket {
             return;
         }
         self.enter(party, Standing::Excluded, now);
+        self.open = self.open.filter(|_| party != Party::Gnss);
         if party.is_receiver() {
             self.lies[self.lie_of(party)].find(lie.0, lie.1, now);
         }
@@ -421,8 +426,8 @@ impl Docket {
     /// What is left when the navigator begins anew on the word of a receiver that was not trusted.
     #[must_use]
     pub fn begun_anew(&self, now: Time) -> Self {
-        let Docket { parts, lies, worse, by_one, alike, .. } = *self;
-        let mut anew = Docket { parts, lies, worse, by_one, alike, ..Docket::default() };
+        let Docket { parts, lies, worse, by_one, alike, open, .. } = *self;
+        let mut anew = Docket { parts, lies, worse, by_one, alike, open, ..Docket::default() };
         let others = [Party::Log, Party::Heading].into_iter().chain(Party::RECEIVERS);
         for named in others.filter(|named| *named != self.receiver_in_use()) {
             let own = &self.entries[named as usize];
@@ -459,6 +464,7 @@ impl Docket {
         }
         self.lies = self.lies.map(|lie| lie.shifted(by));
         self.alike = self.alike.map(|since| since + by);
+        self.open = self.open.map(|lie| lie.shifted(by));
         self
     }
 }

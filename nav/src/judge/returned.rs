@@ -12,6 +12,7 @@ use insd_base::{Fault, Party, Time};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::charge::{Charge, Kind};
+use super::docket::OpenLie;
 use super::rows::ALL;
 use super::verdict::{Ruling, growth, lie_of_gnss};
 use super::{Alternative, Judge, Separation};
@@ -84,6 +85,33 @@ impl Judge {
         let (growth, spreading) = (Vector3::zeros(), Matrix3::zeros());
         let (cause, covariance) = (RETURNED, covariance + noise);
         Some(Separation { cause, chance, apart: *off, growth, covariance, spreading })
+    }
+
+    /// The receiver is followed from now on, which says that she is so far, m, from where the others have her, if it is not known who of them is wrong.
+    pub fn follow_contradicted(&mut self, off: f64, now: Time) {
+        if self.in_doubt {
+            self.leave_lie_open(now);
+            self.docket.follow_contradicted(off, now);
+        }
+    }
+
+    /// The IMU is convicted: what the receiver may have done instead, by what the levels allowed for at the last look, is left open.
+    pub(super) fn leave_lie_open(&mut self, now: Time) {
+        let look = self.allowed.looks.last();
+        let likeliest =
+            look.and_then(|(_, all)| all.iter().max_by(|a, b| a.chance.total_cmp(&b.chance)));
+        let Some(Separation { cause, chance, .. }) = likeliest.copied() else { return };
+        let is_it =
+            |charge: &&Charge| matches!(charge.kind, Kind::Shaped { group, .. } if group == cause);
+        let Some(charge) = self.assessment.charges.iter().find(is_it) else { return };
+        let Kind::Shaped { since, sized, .. } = charge.kind else { return };
+        self.docket.leave_lie_open(OpenLie {
+            fault: charge.fault,
+            since,
+            value: sized.value.xy(),
+            covariance: sized.covariance().fixed_view::<2, 2>(0, 0).into(),
+            left: (now, chance),
+        });
     }
 
     /// Keeps what the receiver is suspected of, by what a look has found.

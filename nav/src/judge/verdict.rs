@@ -96,6 +96,7 @@ impl Judge {
     /// with that; else it is not believed for a while.
     fn convict_imu(&mut self, charge: &Charge, now: Time) -> Ruling {
         self.docket.note_witnesses(self.witnesses(now), now);
+        self.leave_lie_open(now);
         let push = self.false_push(charge);
         if push.is_some() {
             self.docket.note_alike(now);
