@@ -65,6 +65,14 @@ impl Docket {
         self.enter(Party::Gnss, Standing::Probation, now);
     }
 
+    /// Whether the receiver in use is left out for going astray by and by, as all of its satellites do together.
+    #[must_use]
+    pub fn has_gone_astray(&self) -> bool {
+        let gnss = &self.entries[self.place(Party::Gnss)];
+        let is_growing = |fault| matches!(fault, Fault::Drag | Fault::Slide | Fault::Creep);
+        gnss.standing == Standing::Excluded && gnss.fault.is_some_and(is_growing)
+    }
+
     /// What was left open.
     #[must_use]
     pub fn open_lie(&self) -> Option<&OpenLie> {
