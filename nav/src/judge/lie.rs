@@ -1,6 +1,6 @@
 //! What a receiver that is left out is off by, followed as long as it is.
 
-use insd_base::{Span, Time};
+use insd_base::{Fault, Span, Time};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
@@ -109,6 +109,16 @@ impl LieOfGnss {
         let unproven = self.unproven.map(|(off, rate, at)| (off, rate, at + by));
         let found = self.found.map(|(at, off)| (at + by, off));
         LieOfGnss { seen: self.seen.map(|seen| seen + by), found, last: None, unproven, ..self }
+    }
+}
+
+/// What a unit of a lie of a receiver has grown to after such an age, s, and how fast it grows; `None` of what moves no place.
+pub(super) fn growth(fault: Fault, age: f64) -> Option<(f64, f64)> {
+    match fault {
+        Fault::Jump | Fault::SpareJump => Some((1.0, 0.0)),
+        Fault::Drag | Fault::Slide | Fault::SpareDrag => Some((age, 1.0)),
+        Fault::Creep => Some((0.5 * age * age, age)),
+        _ => None,
     }
 }
 

@@ -13,8 +13,9 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::charge::{Charge, Kind};
 use super::docket::OpenLie;
+use super::lie::growth;
 use super::rows::ALL;
-use super::verdict::{Ruling, growth, lie_of_gnss};
+use super::verdict::{Ruling, lie_of_gnss};
 use super::{Alternative, Judge, Separation};
 use crate::error_state::{Effects, POSITION, VELOCITY};
 

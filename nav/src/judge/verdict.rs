@@ -6,6 +6,7 @@ use nalgebra::Vector2;
 
 use super::charge::{Charge, DOUBT, Kind};
 use super::docket::NO_LIE;
+use super::lie::growth;
 use super::{Aid, Judge, SCATTERS, UNHEARD, WILD};
 use crate::config::WORST;
 use crate::error_state::{
@@ -338,14 +339,4 @@ pub(super) fn lie_of_gnss(charge: &Charge, age: f64) -> (Vector2<f64>, f64) {
     let Kind::Shaped { sized, .. } = charge.kind else { return NO_LIE };
     let value = Vector2::new(sized.value.x, sized.value.y);
     growth(charge.fault, age).map_or(NO_LIE, |(size, rate)| (value * size, value.norm() * rate))
-}
-
-/// What a unit of a lie of a receiver has grown to after such an age, s, and how fast it grows; `None` of what moves no place.
-pub(super) fn growth(fault: Fault, age: f64) -> Option<(f64, f64)> {
-    match fault {
-        Fault::Jump | Fault::SpareJump => Some((1.0, 0.0)),
-        Fault::Drag | Fault::Slide | Fault::SpareDrag => Some((age, 1.0)),
-        Fault::Creep => Some((0.5 * age * age, age)),
-        _ => None,
-    }
 }

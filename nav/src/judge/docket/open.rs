@@ -7,7 +7,7 @@ use insd_base::{Fault, Party, Span, Standing, Time};
 use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Serialize};
 
-use super::super::verdict::growth;
+use super::super::lie::growth;
 use super::Docket;
 
 /// Whoever leads a receiver astray does so for so long, s.
