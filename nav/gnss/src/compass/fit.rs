@@ -1,0 +1,104 @@
+//! An epoch that does not fit as the array is configured: what would make it fit.
+
+use super::lines::LineBiases;
+use super::model::Model;
+use super::search::{Region, candidates};
+use super::settings::{CompassArray, CompassShape};
+use super::signal::Common;
+use super::solve::{Outcome, Start, solve};
+
+/// By how much better an epoch has to fit before something is taken for wrong.
+const BETTER: f64 = 2.0;
+
+/// What was done to an epoch to make it fit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Freed {
+    /// Nothing.
+    Nothing,
+    /// The clock of one receiver.
+    Clock(usize),
+    /// One antenna was left out.
+    Antenna(usize),
+}
+
+/// Solves an epoch as it is.
+pub(super) fn plain(model: &Model<'_>, start: &Start) -> Option<(Outcome, Freed)> {
+    solve(model, start).map(|outcome| (outcome, Freed::Nothing))
+}
+
+/// Solves an epoch, and where it does not fit, with the clock of each receiver free in turn, and without each antenna.
+pub(super) fn fitted(model: &Model<'_>, start: &Start) -> Option<(Outcome, Freed)> {
+    let own = solve(model, start)?;
+    if own.times() <= 1.0 {
+        return Some((own, Freed::Nothing));
+    }
+    let clocks = clocks(model).into_iter().filter_map(|antenna| {
+        let array = with_own_clock(model.array, antenna);
+        Some((solve(&Model { array: &array, ..*model }, start)?, Freed::Clock(antenna)))
+    });
+    let antennas = spare(model).filter_map(|antenna| {
+        let others = |common| without(common, &|own| own == antenna);
+        let commons: Vec<Common> = model.commons.iter().filter_map(others).collect();
+        Some((solve(&Model { commons: &commons, ..*model }, start)?, Freed::Antenna(antenna)))
+    });
+    let others: Vec<_> = clocks.chain(antennas).collect();
+    let best = others.into_iter().min_by(|(a, _), (b, _)| a.times().total_cmp(&b.times()));
+    let is_better = |(other, _): &(Outcome, Freed)| {
+        other.times() <= 1.0 && other.times() * BETTER < own.times()
+    };
+    Some(best.filter(is_better).unwrap_or((own, Freed::Nothing)))
+}
+
+/// Receivers that share their clock with others; of two alone it is the second.
+fn clocks(model: &Model<'_>) -> Vec<usize> {
+    let clocks = &model.array.clocks;
+    let sharing = |antenna: &usize| {
+        let others = clocks.iter().filter(|own| **own == clocks[*antenna]).count() - 1;
+        others > 1 || (others == 1 && clocks[..*antenna].contains(&clocks[*antenna]))
+    };
+    (0..clocks.len()).filter(sharing).collect()
+}
+
+/// Antennas without which there are still three.
+fn spare(model: &Model<'_>) -> std::ops::Range<usize> {
+    let count = model.array.antennas();
+    0..if count > 3 { count } else { 0 }
+}
+
+/// The array with a receiver on a clock that no other has.
+pub(super) fn with_own_clock(array: &CompassArray, antenna: usize) -> CompassArray {
+    let mut array = array.clone();
+    let unused = array.clocks.iter().max().map_or(0, |most| most.saturating_add(1));
+    array.clocks[antenna] = unused;
+    array
+}
+
+/// A signal without some of the antennas; `None` where fewer than two are left.
+pub(super) fn without(common: &Common, is_out: &dyn Fn(usize) -> bool) -> Option<Common> {
+    let mut common = common.clone();
+    common.heard.retain(|own| !is_out(own.antenna));
+    (common.heard.len() >= 2).then_some(common)
+}
+
+/// Two antennas that make an epoch fit when they change places.
+pub(super) fn swapped(
+    model: &Model<'_>,
+    lines: &LineBiases,
+    region: &Region,
+    times: f64,
+) -> Option<(usize, usize)> {
+    let CompassShape::Body(levers) = model.shape() else { return None };
+    let pairs = (0..levers.len()).flat_map(|a| (a + 1..levers.len()).map(move |b| (a, b)));
+    let tried = pairs.filter_map(|pair| {
+        let array = model.array.swapped(pair);
+        let model = Model { array: &array, ..*model };
+        let poses = candidates(&model, lines, region).ok()?;
+        let solved = poses.into_iter().filter_map(|pose| {
+            let start = Start { pose, covariance: region.covariance(), lines: lines.clone() };
+            solve(&model, &start).map(|outcome| outcome.times())
+        });
+        Some((solved.min_by(f64::total_cmp)?, pair))
+    });
+    let (best, pair) = tried.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    (best <= 1.0 && best * BETTER < times).then_some(pair)
+}

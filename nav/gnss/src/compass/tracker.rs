@@ -1,0 +1,264 @@
+//! An array that is followed from epoch to epoch.
+
+use insd_base::{GpsTime, SatelliteEpoch};
+use nalgebra::Vector3;
+
+use super::faults::Monitor;
+use super::fit::{fitted, plain, swapped};
+use super::hypotheses::{Hypothesis, weighed};
+use super::lines::LineBiases;
+use super::model::Model;
+use super::observe::{Observed, Place, observe};
+use super::outcome::{CompassEpoch, CompassFix, CompassRefusal, CompassRejection};
+use super::pose::CompassPose;
+use super::prior::CompassPrior;
+use super::search::{Region, candidates};
+use super::settings::{CompassArray, CompassSettings, CompassShape};
+use super::solve::{Outcome, Start};
+use super::told::told;
+use crate::context::Context;
+use crate::rtk::{PlacedEpoch, RtkSettings, RtkSolution};
+use crate::single_point::SinglePoint;
+
+/// After a pause of so many seconds all begins anew, but for line biases.
+const LONGEST: f64 = 120.0;
+/// After so many epochs in a row that do not fit it is searched for anew, and in wider places.
+const PATIENCE: usize = 3;
+/// Poses in which antennas are less than this share of a wavelength apart are one.
+const ONE: f64 = 0.05;
+/// So many measurements beyond the unknowns have to bear on what is believed.
+const BORNE: f64 = 4.0;
+
+/// Follows an array of antennas: attitude of a hull, or the vector between two antennas, epoch by epoch.
+///
+/// ```
+/// use insd_gnss::{CompassArray, CompassPrior, CompassSettings, CompassTracker, Context};
+/// # use insd_base::{GpsTime, SatelliteEpoch};
+/// # use nalgebra::Vector3;
+/// # let context = Context::default();
+/// # let tag = GpsTime::from_week(2300, 0);
+/// # let epoch = SatelliteEpoch { tag, signals: Vec::new(), leap_seconds: None, clock_reset: false };
+/// let corner = |forward, starboard| Vector3::new(forward, starboard, 0.0);
+/// let levers = vec![corner(0.05, -0.05), corner(0.05, 0.05), corner(-0.05, 0.05)];
+/// let array = CompassArray::on_one_clock(levers);
+/// let mut compass = CompassTracker::new(array, CompassSettings::default());
+/// let epochs = [Some(&epoch), Some(&epoch), None];
+/// match compass.take(&context, &epochs, &CompassPrior::default()).told {
+///     Ok(fix) => println!("{:?}, wrong by {}", fix.attitude(), fix.doubt),
+///     Err(why) => println!("unknown: {why}"),
+/// }
+/// ```
+#[derive(Clone, Debug)]
+pub struct CompassTracker {
+    array: CompassArray,
+    settings: CompassSettings,
+    lines: LineBiases,
+    hypotheses: Vec<Hypothesis>,
+    before: Option<GpsTime>,
+    place: Option<Vector3<f64>>,
+    monitor: Monitor,
+    /// Epochs in a row that did not fit.
+    misfits: usize,
+}
+
+impl CompassTracker {
+    /// An array of which nothing is known but how its antennas stand.
+    #[must_use]
+    pub fn new(array: CompassArray, settings: CompassSettings) -> Self {
+        Self::with_lines(array, settings, LineBiases::default())
+    }
+
+    /// The same with line biases that have been found before.
+    #[must_use]
+    pub fn with_lines(array: CompassArray, settings: CompassSettings, lines: LineBiases) -> Self {
+        let monitor = Monitor::new(array.antennas());
+        Self {
+            array,
+            settings,
+            lines,
+            hypotheses: Vec::new(),
+            before: None,
+            place: None,
+            monitor,
+            misfits: 0,
+        }
+    }
+
+    /// Line biases as far as they are known.
+    #[must_use]
+    pub fn lines(&self) -> &LineBiases {
+        &self.lines
+    }
+
+    /// Takes an epoch of each antenna, those of one instant together; `None` of one that was not heard.
+    pub fn take(
+        &mut self,
+        context: &Context,
+        epochs: &[Option<&SatelliteEpoch>],
+        prior: &CompassPrior,
+    ) -> CompassEpoch {
+        let tag = epochs.iter().flatten().next().map(|epoch| epoch.tag);
+        let mut epoch = CompassEpoch {
+            tag,
+            told: Err(CompassRefusal::Array),
+            hypotheses: 0,
+            faults: Vec::new(),
+            rejected: Vec::new(),
+        };
+        if self.array.is_usable() && epochs.len() == self.array.antennas() {
+            epoch.told = Err(CompassRefusal::NoPlace);
+            if let Some(place) = self.placed(context, epochs, prior)
+                && let Some(mut observed) = observe(context, &self.settings, epochs, place)
+            {
+                self.monitor.hear(&observed);
+                observed.commons = self.monitor.of_use(&observed.commons);
+                epoch.rejected.append(&mut observed.rejected);
+                let heard = (context, epochs, place.at);
+                epoch.told = self.found(heard, &observed, prior, &mut epoch.rejected);
+            }
+        }
+        epoch.hypotheses = self.hypotheses.len();
+        epoch.faults = self.monitor.faults();
+        epoch
+    }
+
+    /// About where the antennas are.
+    fn placed(
+        &mut self,
+        context: &Context,
+        epochs: &[Option<&SatelliteEpoch>],
+        prior: &CompassPrior,
+    ) -> Option<Place> {
+        let by_codes = || {
+            let mut points = epochs.iter().flatten();
+            points.find_map(|epoch| SinglePoint::solve(context, epoch, self.place).ok())
+        };
+        let at = prior.antenna.or_else(|| by_codes().map(|point| point.position));
+        let at = at.filter(|at| at.iter().all(|x| x.is_finite())).or(self.place)?;
+        self.place = Some(at);
+        let velocity = prior.velocity.filter(|v| v.iter().all(|x| x.is_finite()));
+        Some(Place { at, velocity: velocity.unwrap_or_else(Vector3::zeros) })
+    }
+
+    fn found(
+        &mut self,
+        heard: (&Context, &[Option<&SatelliteEpoch>], Vector3<f64>),
+        observed: &Observed,
+        prior: &CompassPrior,
+        rejected: &mut Vec<CompassRejection>,
+    ) -> Result<CompassFix, CompassRefusal> {
+        let signals = observed.commons.len();
+        if signals < 2 {
+            return Err(CompassRefusal::TooFew { signals });
+        }
+        let array = self.monitor.effective(&self.array);
+        let model = Model { array: &array, commons: &observed.commons };
+        let elapsed = self.before.map_or(f64::INFINITY, |own| observed.tag.since(own).as_seconds());
+        self.before = Some(observed.tag);
+        if !(elapsed > 0.0 && elapsed < LONGEST) || self.misfits >= PATIENCE {
+            self.hypotheses.clear();
+        }
+        let mut all = self.followed(&model, elapsed, prior);
+        if all.is_empty() {
+            let lasted = if elapsed.is_finite() { elapsed.max(0.0) } else { 0.0 };
+            self.lines.advance(lasted, self.settings.line_walk);
+            all = self.searched(&model, heard, observed, prior)?;
+        }
+        let shortest = model.shortest();
+        let doubt = weighed(&mut all, &array.shape, ONE * shortest);
+        self.hypotheses = all;
+        let outcome = self.judged(doubt)?;
+        let told = told(&model, &outcome, observed, prior);
+        rejected.extend(told.rejected);
+        Ok(CompassFix { doubt, ..told.fix })
+    }
+
+    /// What becomes of each hypothesis.
+    fn followed(
+        &mut self,
+        model: &Model<'_>,
+        elapsed: f64,
+        prior: &CompassPrior,
+    ) -> Vec<Hypothesis> {
+        let before = std::mem::take(&mut self.hypotheses);
+        let is_alone = before.len() == 1;
+        let follow = |own: &Hypothesis| {
+            let turn = prior.turn.as_ref();
+            let mut start = own.predicted(&self.settings, model.shape(), (elapsed, turn));
+            if is_alone {
+                start.helped(prior);
+            }
+            Some(own.followed(fitted(model, &start)?, elapsed))
+        };
+        before.iter().filter_map(follow).collect()
+    }
+
+    /// Hypotheses of an epoch that stands for itself.
+    fn searched(
+        &mut self,
+        model: &Model<'_>,
+        (context, epochs, at): (&Context, &[Option<&SatelliteEpoch>], Vector3<f64>),
+        observed: &Observed,
+        prior: &CompassPrior,
+    ) -> Result<Vec<Hypothesis>, CompassRefusal> {
+        let is_lost = self.misfits >= PATIENCE;
+        let region = Region::of(prior, is_lost);
+        let poses = match model.shape() {
+            CompassShape::Baseline { length: None } => by_codes(context, epochs, &at, observed),
+            _ => candidates(model, &self.lines, &region)?,
+        };
+        let solved = |pose: CompassPose| {
+            let start = Start { pose, covariance: region.covariance(), lines: self.lines.clone() };
+            let own = if is_lost { fitted(model, &start) } else { plain(model, &start) };
+            own.map(Hypothesis::new)
+        };
+        let all: Vec<Hypothesis> = poses.into_iter().filter_map(solved).collect();
+        let best = all.iter().map(|own| own.outcome.times()).fold(f64::INFINITY, f64::min);
+        if is_lost
+            && best > 1.0
+            && let Some(pair) = swapped(model, &self.lines, &region, best)
+        {
+            self.monitor.fits_swapped(pair);
+        }
+        Ok(all)
+    }
+
+    /// The likeliest, if it fits and nothing else does.
+    fn judged(&mut self, doubt: f64) -> Result<Outcome, CompassRefusal> {
+        let Some(best) = self.hypotheses.first() else {
+            self.misfits += 1;
+            return Err(CompassRefusal::Geometry);
+        };
+        let (level, limit) = (best.outcome.level(), self.settings.level);
+        if level > limit {
+            self.misfits += 1;
+            return Err(CompassRefusal::Residuals { level, limit });
+        }
+        self.misfits = 0;
+        if doubt > self.settings.risk || best.count < BORNE {
+            let hypotheses = self.hypotheses.len();
+            return Err(CompassRefusal::Ambiguous { hypotheses, doubt });
+        }
+        self.monitor.fitted(best.freed);
+        self.lines = best.outcome.lines.clone();
+        Ok(best.outcome.clone())
+    }
+}
+
+/// The vector between two antennas as a rover against a base has it, if its integers are sure.
+fn by_codes(
+    context: &Context,
+    epochs: &[Option<&SatelliteEpoch>],
+    at: &Vector3<f64>,
+    observed: &Observed,
+) -> Vec<CompassPose> {
+    let [Some(first), Some(second)] = epochs else { return Vec::new() };
+    let base = PlacedEpoch { epoch: first, position: *at };
+    let settings = RtkSettings::default();
+    let solved = RtkSolution::single_epoch(context, &settings, second, &base, None);
+    let fixed = solved.ok().and_then(|solution| solution.fixed.ok());
+    fixed
+        .map(|fix| CompassPose::Baseline(observed.c_ne * (fix.position - at)))
+        .into_iter()
+        .collect()
+}
