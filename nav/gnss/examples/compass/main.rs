@@ -6,16 +6,22 @@
 
 #![allow(clippy::unwrap_used)] // a file that is missing ends it
 
+#[path = "../../tests/array/mod.rs"]
+mod array;
 #[path = "../../src/tests/random.rs"]
 mod random;
 #[path = "../../tests/sets/mod.rs"]
 mod sets;
 
 mod real;
+mod square;
 
 fn main() {
     let page = std::env::args().nth(1);
     put(page.as_deref(), "real", &real::table());
+    put(page.as_deref(), "errors", &square::errors_table());
+    put(page.as_deref(), "cold", &square::cold_table());
+    put(page.as_deref(), "faults", &square::faults_table());
 }
 
 /// Puts a table between its marks of a page; without a page it is printed.

@@ -21,6 +21,8 @@ fn runs() -> Vec<(Pair, [usize; 2], f64)> {
     for pair in [
         common("common-clock-1p6m, G, L1", "G", &[1]),
         common("common-clock-1p6m, GE, L1", "GE", &[1]),
+        common("common-clock-1p6m, GE, L1 and L2", "GE", &[1, 2, 7]),
+        common("common-clock-1p6m, GE, all", "GE", &[]),
         common("common-clock-1p6m, GEC, all", "GEC", &[]),
     ] {
         runs.push((pair, [0, 0], 1.594));
@@ -75,6 +77,8 @@ impl Set {
         let settings = CompassSettings {
             lowest: 15_f64.to_radians(),
             turning: 1e-4,
+            line_walk: std::env::var("LW").map_or(5e-5, |x| x.parse().unwrap()),
+            weak: std::env::var("WK").map_or(34.0, |x| x.parse().unwrap()),
             ..CompassSettings::default()
         };
         let mut tracker = CompassTracker::with_lines(array, settings, lines);
@@ -100,6 +104,8 @@ impl Set {
     }
 
     fn row(&self, table: &mut String, clocks: &str, judged: &Judged) {
+        let ends = [Vector3::from(self.pair.base_at), Vector3::from(self.pair.rover_at.unwrap())];
+        let known = (ends[1] - ends[0]).norm();
         let column = |place: usize| judged.found.iter().map(move |own| own[place]);
         let count = judged.found.len().max(1) as f64;
         let std = |place: usize| {
