@@ -19,9 +19,16 @@ mod square;
 fn main() {
     let page = std::env::args().nth(1);
     put(page.as_deref(), "real", &real::table());
-    put(page.as_deref(), "errors", &square::errors_table());
-    put(page.as_deref(), "cold", &square::cold_table());
-    put(page.as_deref(), "faults", &square::faults_table());
+    let w = std::env::var("WHAT").unwrap_or_default();
+    if w.is_empty() || w.contains('e') {
+        put(page.as_deref(), "errors", &square::errors_table());
+    }
+    if w.is_empty() || w.contains('c') {
+        put(page.as_deref(), "cold", &square::cold_table());
+    }
+    if w.is_empty() || w.contains('f') {
+        put(page.as_deref(), "faults", &square::faults_table());
+    }
 }
 
 /// Puts a table between its marks of a page; without a page it is printed.

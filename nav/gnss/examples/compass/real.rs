@@ -112,7 +112,7 @@ impl Set {
             let mean = column(place).sum::<f64>() / count;
             (column(place).map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt()
         };
-        let rms = (column(2).map(|x| (x - self.length).powi(2)).sum::<f64>() / count).sqrt();
+        let rms = (column(2).map(|x| (x - known).powi(2)).sum::<f64>() / count).sqrt();
         let _ = writeln!(
             table,
             "| {} | {clocks} | {} | {} | {} | {:.4} | {:.4} | {:.2} | {:.2} |",

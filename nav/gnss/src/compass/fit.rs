@@ -10,6 +10,9 @@ use super::solve::{Outcome, Start, solve};
 /// By how much better an epoch has to fit before something is taken for wrong.
 const BETTER: f64 = 2.0;
 
+/// Of an array with two antennas exchanged so many poses are looked at.
+const FIRST: usize = 12;
+
 /// What was done to an epoch to make it fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Freed {
@@ -19,6 +22,14 @@ pub(super) enum Freed {
     Clock(usize),
     /// One antenna was left out.
     Antenna(usize),
+}
+
+impl Freed {
+    /// The signals that were used.
+    pub(super) fn commons(self, commons: &[Common]) -> Vec<Common> {
+        let is_out = |antenna: usize| self == Self::Antenna(antenna);
+        commons.iter().filter_map(|common| without(common, &is_out)).collect()
+    }
 }
 
 /// Solves an epoch as it is.
@@ -37,16 +48,20 @@ pub(super) fn fitted(model: &Model<'_>, start: &Start) -> Option<(Outcome, Freed
         Some((solve(&Model { array: &array, ..*model }, start)?, Freed::Clock(antenna)))
     });
     let antennas = spare(model).filter_map(|antenna| {
-        let others = |common| without(common, &|own| own == antenna);
-        let commons: Vec<Common> = model.commons.iter().filter_map(others).collect();
-        Some((solve(&Model { commons: &commons, ..*model }, start)?, Freed::Antenna(antenna)))
+        let freed = Freed::Antenna(antenna);
+        let commons = freed.commons(model.commons);
+        Some((solve(&Model { commons: &commons, ..*model }, start)?, freed))
     });
-    let others: Vec<_> = clocks.chain(antennas).collect();
-    let best = others.into_iter().min_by(|(a, _), (b, _)| a.times().total_cmp(&b.times()));
     let is_better = |(other, _): &(Outcome, Freed)| {
         other.times() <= 1.0 && other.times() * BETTER < own.times()
     };
-    Some(best.filter(is_better).unwrap_or((own, Freed::Nothing)))
+    let best = |all: Vec<(Outcome, Freed)>| {
+        let best = all.into_iter().min_by(|(a, _), (b, _)| a.times().total_cmp(&b.times()));
+        best.filter(is_better)
+    };
+    // without an antenna all fits that fits with its clock free
+    let found = best(clocks.collect()).or_else(|| best(antennas.collect()));
+    Some(found.unwrap_or((own, Freed::Nothing)))
 }
 
 /// Receivers that share their clock with others; of two alone it is the second.
@@ -92,7 +107,7 @@ pub(super) fn swapped(
     let tried = pairs.filter_map(|pair| {
         let array = model.array.swapped(pair);
         let model = Model { array: &array, ..*model };
-        let poses = candidates(&model, lines, region).ok()?;
+        let poses = candidates(&model, lines, region, FIRST).ok()?.poses;
         let solved = poses.into_iter().filter_map(|pose| {
             let start = Start { pose, covariance: region.covariance(), lines: lines.clone() };
             solve(&model, &start).map(|outcome| outcome.times())

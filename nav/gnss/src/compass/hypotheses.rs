@@ -1,8 +1,10 @@
 //! Poses that are still possible, and what epochs say of each.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::fit::Freed;
+use super::pose::CompassPose;
+use super::prior::CompassPrior;
 use super::settings::{CompassSettings, CompassShape};
 use super::solve::{Outcome, Start};
 
@@ -13,7 +15,7 @@ const ERRORS_LAST: f64 = 10.0;
 /// A hypothesis with less of a chance is given up.
 const LEAST: f64 = 1e-9;
 /// At most so many are carried.
-const MOST: usize = 48;
+pub(super) const MOST: usize = 128;
 
 /// A pose that is possible, and what has been seen of it.
 #[derive(Clone, Debug)]
@@ -21,6 +23,8 @@ pub(super) struct Hypothesis {
     pub(super) outcome: Outcome,
     /// What was done to its last epoch to make it fit.
     pub(super) freed: Freed,
+    /// One epoch alone speaks for it.
+    pub(super) is_new: bool,
     misfit: f64,
     /// Measurements that have borne on it, beyond what they had to tell.
     pub(super) count: f64,
@@ -28,9 +32,9 @@ pub(super) struct Hypothesis {
 
 impl Hypothesis {
     /// One that an epoch begins.
-    pub(super) fn new((outcome, freed): (Outcome, Freed)) -> Self {
-        let (misfit, count) = outcome.evidence();
-        Self { outcome, freed, misfit, count }
+    pub(super) fn new((outcome, freed): (Outcome, Freed), prior: &CompassPrior) -> Self {
+        let (misfit, count) = evidence(&outcome, prior);
+        Self { outcome, freed, is_new: true, misfit, count }
     }
 
     /// Where the next epoch begins: turned as is told, or as uncertain as an array is that may have turned by itself.
@@ -56,16 +60,39 @@ impl Hypothesis {
     }
 
     /// What another epoch makes of it.
-    pub(super) fn followed(&self, (outcome, freed): (Outcome, Freed), elapsed: f64) -> Self {
+    pub(super) fn followed(
+        &self,
+        (outcome, freed): (Outcome, Freed),
+        elapsed: f64,
+        prior: &CompassPrior,
+    ) -> Self {
         let new = 1.0 - (-elapsed / ERRORS_LAST).exp();
-        let (misfit, count) = outcome.evidence();
-        Self { outcome, freed, misfit: self.misfit + new * misfit, count: self.count + new * count }
+        let (misfit, count) = evidence(&outcome, prior);
+        let (misfit, count) = (self.misfit + new * misfit, self.count + new * count);
+        Self { outcome, freed, is_new: false, misfit, count }
     }
 
     /// The logarithm of how likely what was seen is, the variance of the noise being unknown: it falls with the misfit as Student's distribution does.
     fn likelihood(&self) -> f64 {
         -0.5 * (WORTH + self.count) * ((WORTH + self.misfit) / WORTH).ln()
     }
+}
+
+/// Misfit and measurements of an epoch, those of the prior among them: a hypothesis that has the hull elsewhere than it is known to be is less likely.
+fn evidence(outcome: &Outcome, prior: &CompassPrior) -> (f64, f64) {
+    let (misfit, count) = outcome.evidence();
+    let (CompassPose::Attitude(c_nb), Some(own)) = (outcome.pose, prior.attitude) else {
+        return (misfit, count);
+    };
+    let level = own.std.x.max(own.std.y);
+    if !level.is_finite() {
+        return (misfit, count);
+    }
+    // what is known of the heading is in the region that is searched
+    let down = Vector3::z();
+    let tilt = (own.c_nb.transpose() * down).angle(&(c_nb.transpose() * down));
+    let drawn = outcome.covariance[(0, 0)] + outcome.covariance[(1, 1)];
+    (misfit + tilt * tilt / (level * level + drawn), count + 2.0)
 }
 
 /// Keeps what is possible, likeliest first, of those that have the antennas nearer to each other than this, m, one. Gives back the chance that the first is wrong.

@@ -238,7 +238,6 @@ impl Observed {
                 satellite,
                 signal,
                 wavelength,
-                elevation: direction.elevation,
                 line_of_sight: -(self.c_ne * first.sight.transmitter().gradient(&place.at)),
                 heard,
             });

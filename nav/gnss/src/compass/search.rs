@@ -12,8 +12,8 @@ use super::pose::CompassPose;
 use super::prior::CompassPrior;
 use super::settings::CompassShape;
 
-/// Poses that are looked at more closely at the most.
-const CANDIDATES: usize = 48;
+/// How well phases agree at the least at the point of the grid that is nearest to the true pose.
+const AGREEING: f64 = 0.8;
 /// Poses that are tried at the most.
 const MOST: usize = 400_000;
 /// The headings of the grid are no further apart, rad: 5 degrees.
@@ -53,12 +53,20 @@ impl Region {
     }
 }
 
-/// Poses in which phases agree best, apart from each other.
+/// Poses that may be it.
+pub(super) struct Candidates {
+    pub(super) poses: Vec<CompassPose>,
+    /// Whether these are all in which phases agree as well as they do near the true one.
+    pub(super) is_complete: bool,
+}
+
+/// Poses in which phases agree best, apart from each other, `most` at the most.
 pub(super) fn candidates(
     model: &Model<'_>,
     lines: &LineBiases,
     region: &Region,
-) -> Result<Vec<CompassPose>, CompassRefusal> {
+    most: usize,
+) -> Result<Candidates, CompassRefusal> {
     let span = model.array.span().unwrap_or(0.0);
     let shortest = model.shortest();
     let step = FINE * shortest / span.max(1e-3);
@@ -73,16 +81,17 @@ pub(super) fn candidates(
     let scored = poses.into_iter().map(|pose| (prepared.score(&model.offsets(&pose)), pose));
     let mut scored: Vec<(f64, CompassPose)> = scored.collect();
     scored.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    let mut chosen: Vec<CompassPose> = Vec::new();
-    for (_, pose) in scored {
-        if chosen.len() >= CANDIDATES {
-            break;
+    let mut poses: Vec<CompassPose> = Vec::new();
+    for (score, pose) in scored {
+        if poses.iter().any(|other| pose.apart(other, model.shape()) <= APART * shortest) {
+            continue;
         }
-        if chosen.iter().all(|other| pose.apart(other, model.shape()) > APART * shortest) {
-            chosen.push(pose);
+        if poses.len() >= most {
+            return Ok(Candidates { poses, is_complete: score < AGREEING });
         }
+        poses.push(pose);
     }
-    Ok(chosen)
+    Ok(Candidates { poses, is_complete: true })
 }
 
 /// Attitudes all over a region; `None` where they are too many.

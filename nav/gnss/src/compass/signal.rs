@@ -22,7 +22,6 @@ pub(super) struct Common {
     /// As the first of the antennas tracks it.
     pub(super) signal: SignalCode,
     pub(super) wavelength: f64,
-    pub(super) elevation: f64,
     /// From the antennas to the satellite: north, east, down.
     pub(super) line_of_sight: Vector3<f64>,
     /// In order of the antennas; the first is what the others are held against.

@@ -81,6 +81,20 @@ impl Outcome {
         self.misfit.0 / self.misfit.1.max(1) as f64
     }
 
+    /// By how much an antenna may be off in the pose, m; the greatest 1-sigma.
+    pub(super) fn unsure(&self, shape: &CompassShape) -> f64 {
+        let antennas = match shape {
+            CompassShape::Body(levers) => levers.len(),
+            CompassShape::Baseline { .. } => 2,
+        };
+        let off = |antenna| {
+            let jacobian = self.pose.jacobian(shape, antenna);
+            let covariance: Matrix3<f64> = jacobian * self.covariance * jacobian.transpose();
+            covariance.symmetric_eigenvalues().max()
+        };
+        (0..antennas).map(off).fold(0.0, f64::max).sqrt()
+    }
+
     /// Weighed squares over what chance makes them exceed once in a million, what is left out included.
     pub(super) fn times(&self) -> f64 {
         let (misfit, count) = self.evidence();
@@ -114,7 +128,8 @@ pub(super) fn solve(model: &Model<'_>, start: &Start) -> Option<Outcome> {
         let pass = iterate(model, &start.pose, (&lines, &information), &used)?;
         let residuals = residuals(model, &pass);
         let worst = worst(model, &pass, &residuals, &used);
-        let allowed = misfits.len() < model.commons.len() / SHARE;
+        let allowed = misfits.len() < model.commons.len() / SHARE
+            && !(misfits.is_empty() && is_hopeless(model, &residuals));
         if let Some(worst) = worst.filter(|_| allowed) {
             used[worst.common] = false;
             misfits.push(worst);
@@ -241,6 +256,19 @@ fn residuals(model: &Model<'_>, pass: &Pass) -> Vec<DVector<f64>> {
         DVector::from_iterator(integers.len(), left)
     };
     model.commons.iter().zip(&pass.integers).map(one).collect()
+}
+
+/// Whether the better two thirds of the signals are so far from fitting that leaving out the others is of no use.
+fn is_hopeless(model: &Model<'_>, residuals: &[DVector<f64>]) -> bool {
+    const HOPELESS: f64 = 16.0;
+    let level = |(common, left): (&Common, &DVector<f64>)| {
+        let full = left.clone().insert_row(0, 0.0);
+        full.dot(&(common.weight() * &full)) / left.len().max(1) as f64
+    };
+    let mut levels: Vec<f64> = model.commons.iter().zip(residuals).map(level).collect();
+    levels.sort_by(f64::total_cmp);
+    let better = levels.len() - levels.len() / SHARE;
+    levels[..better].iter().sum::<f64>() > HOPELESS * better as f64
 }
 
 /// The signal that fits worst, if chance makes one as bad less than once in a million.

@@ -4,20 +4,20 @@ use insd_base::{GpsTime, SatelliteEpoch};
 use nalgebra::Vector3;
 
 use super::faults::Monitor;
-use super::fit::{fitted, plain, swapped};
-use super::hypotheses::{Hypothesis, weighed};
+use super::fit::{Freed, fitted, plain, swapped};
+use super::hypotheses::{Hypothesis, MOST, weighed};
 use super::lines::LineBiases;
 use super::model::Model;
 use super::observe::{Observed, Place, observe};
 use super::outcome::{CompassEpoch, CompassFix, CompassRefusal, CompassRejection};
 use super::pose::CompassPose;
 use super::prior::CompassPrior;
-use super::search::{Region, candidates};
+use super::search::{Candidates, Region, candidates};
 use super::settings::{CompassArray, CompassSettings, CompassShape};
 use super::solve::{Outcome, Start};
 use super::told::told;
 use crate::context::Context;
-use crate::rtk::{PlacedEpoch, RtkSettings, RtkSolution};
+use crate::rtk::{PlacedEpoch, RtkFix, RtkSettings, RtkSolution};
 use crate::single_point::SinglePoint;
 
 /// After a pause of so many seconds all begins anew, but for line biases.
@@ -26,6 +26,8 @@ const LONGEST: f64 = 120.0;
 const PATIENCE: usize = 3;
 /// Poses in which antennas are less than this share of a wavelength apart are one.
 const ONE: f64 = 0.05;
+/// Before an attitude is told for the first time antennas have to be known to this share of a wavelength, so that their integers hold.
+const SHARP: f64 = 0.06;
 /// So many measurements beyond the unknowns have to bear on what is believed.
 const BORNE: f64 = 4.0;
 
@@ -59,6 +61,8 @@ pub struct CompassTracker {
     monitor: Monitor,
     /// Epochs in a row that did not fit.
     misfits: usize,
+    /// An attitude has been told, and followed since.
+    is_known: bool,
 }
 
 impl CompassTracker {
@@ -81,6 +85,7 @@ impl CompassTracker {
             place: None,
             monitor,
             misfits: 0,
+            is_known: false,
         }
     }
 
@@ -158,6 +163,7 @@ impl CompassTracker {
         if !(elapsed > 0.0 && elapsed < LONGEST) || self.misfits >= PATIENCE {
             self.hypotheses.clear();
         }
+        self.is_known &= !self.hypotheses.is_empty();
         let mut all = self.followed(&model, elapsed, prior);
         if all.is_empty() {
             let lasted = if elapsed.is_finite() { elapsed.max(0.0) } else { 0.0 };
@@ -167,8 +173,9 @@ impl CompassTracker {
         let shortest = model.shortest();
         let doubt = weighed(&mut all, &array.shape, ONE * shortest);
         self.hypotheses = all;
-        let outcome = self.judged(doubt)?;
-        let told = told(&model, &outcome, observed, prior);
+        let (outcome, freed) = self.judged(doubt, shortest)?;
+        let commons = freed.commons(model.commons);
+        let told = told(&Model { commons: &commons, ..model }, &outcome, observed, prior);
         rejected.extend(told.rejected);
         Ok(CompassFix { doubt, ..told.fix })
     }
@@ -188,7 +195,7 @@ impl CompassTracker {
             if is_alone {
                 start.helped(prior);
             }
-            Some(own.followed(fitted(model, &start)?, elapsed))
+            Some(own.followed(fitted(model, &start)?, elapsed, prior))
         };
         before.iter().filter_map(follow).collect()
     }
@@ -203,14 +210,17 @@ impl CompassTracker {
     ) -> Result<Vec<Hypothesis>, CompassRefusal> {
         let is_lost = self.misfits >= PATIENCE;
         let region = Region::of(prior, is_lost);
-        let poses = match model.shape() {
+        let Candidates { poses, is_complete } = match model.shape() {
             CompassShape::Baseline { length: None } => by_codes(context, epochs, &at, observed),
-            _ => candidates(model, &self.lines, &region)?,
+            _ => candidates(model, &self.lines, &region, MOST)?,
         };
+        if !is_complete && !is_lost {
+            return Err(CompassRefusal::Ambiguous { hypotheses: poses.len(), doubt: 1.0 });
+        }
         let solved = |pose: CompassPose| {
             let start = Start { pose, covariance: region.covariance(), lines: self.lines.clone() };
             let own = if is_lost { fitted(model, &start) } else { plain(model, &start) };
-            own.map(Hypothesis::new)
+            own.map(|own| Hypothesis::new(own, prior))
         };
         let all: Vec<Hypothesis> = poses.into_iter().filter_map(solved).collect();
         let best = all.iter().map(|own| own.outcome.times()).fold(f64::INFINITY, f64::min);
@@ -220,11 +230,14 @@ impl CompassTracker {
         {
             self.monitor.fits_swapped(pair);
         }
-        Ok(all)
+        if is_complete || best > 1.0 {
+            return Ok(all);
+        }
+        Err(CompassRefusal::Ambiguous { hypotheses: all.len(), doubt: 1.0 })
     }
 
     /// The likeliest, if it fits and nothing else does.
-    fn judged(&mut self, doubt: f64) -> Result<Outcome, CompassRefusal> {
+    fn judged(&mut self, doubt: f64, shortest: f64) -> Result<(Outcome, Freed), CompassRefusal> {
         let Some(best) = self.hypotheses.first() else {
             self.misfits += 1;
             return Err(CompassRefusal::Geometry);
@@ -232,16 +245,22 @@ impl CompassTracker {
         let (level, limit) = (best.outcome.level(), self.settings.level);
         if level > limit {
             self.misfits += 1;
+            // what never fitted is not followed
+            if best.is_new {
+                self.hypotheses.clear();
+            }
             return Err(CompassRefusal::Residuals { level, limit });
         }
         self.misfits = 0;
-        if doubt > self.settings.risk || best.count < BORNE {
+        let is_sharp = self.is_known || best.outcome.unsure(&self.array.shape) < SHARP * shortest;
+        if doubt > self.settings.risk || best.count < BORNE || !is_sharp {
             let hypotheses = self.hypotheses.len();
             return Err(CompassRefusal::Ambiguous { hypotheses, doubt });
         }
+        self.is_known = true;
         self.monitor.fitted(best.freed);
         self.lines = best.outcome.lines.clone();
-        Ok(best.outcome.clone())
+        Ok((best.outcome.clone(), best.freed))
     }
 }
 
@@ -251,14 +270,13 @@ fn by_codes(
     epochs: &[Option<&SatelliteEpoch>],
     at: &Vector3<f64>,
     observed: &Observed,
-) -> Vec<CompassPose> {
-    let [Some(first), Some(second)] = epochs else { return Vec::new() };
+) -> Candidates {
+    let none = Candidates { poses: Vec::new(), is_complete: true };
+    let [Some(first), Some(second)] = epochs else { return none };
     let base = PlacedEpoch { epoch: first, position: *at };
     let settings = RtkSettings::default();
     let solved = RtkSolution::single_epoch(context, &settings, second, &base, None);
     let fixed = solved.ok().and_then(|solution| solution.fixed.ok());
-    fixed
-        .map(|fix| CompassPose::Baseline(observed.c_ne * (fix.position - at)))
-        .into_iter()
-        .collect()
+    let pose = |fix: RtkFix| CompassPose::Baseline(observed.c_ne * (fix.position - at));
+    Candidates { poses: fixed.map(pose).into_iter().collect(), ..none }
 }
