@@ -12,6 +12,7 @@ mod align;
 mod faults;
 mod fit;
 mod hypotheses;
+mod level;
 mod line;
 mod lines;
 mod model;

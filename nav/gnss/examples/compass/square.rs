@@ -13,7 +13,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::array::{Made, bound, square};
 
 /// Seeds of each figure.
-const SEEDS: u64 = 8;
+const SEEDS: u64 = 24;
 
 fn settings() -> CompassSettings {
     CompassSettings { phase: 1.5e-3, ..CompassSettings::default() }
@@ -217,12 +217,16 @@ pub(crate) fn faults_table() -> String {
     let swap = |epochs: &mut Vec<Option<SatelliteEpoch>>, which: usize| {
         epochs.swap(which, (which + 1 + which / 2) % 4);
     };
+    // across a corner one exchange is the other one turned about
     let is_swap = |own: &CompassFault, which: usize| {
         let other = (which + 1 + which / 2) % 4;
-        *own == CompassFault::Swapped { one: which.min(other), other: which.max(other) }
+        let pair = (which.min(other), which.max(other));
+        let twin = if which < 2 { pair } else { ((which + 1) % 4, (other + 1) % 4) };
+        let CompassFault::Swapped { one, other } = own else { return false };
+        (*one, *other) == pair || (*one, *other) == (twin.0.min(twin.1), twin.0.max(twin.1))
     };
     row(&mut table, "nothing", (&nothing, &quiet), &|_, _| false);
-    for rate in [30.0, 0.3, 0.01] {
+    for rate in [30.0, 0.3, 0.03, 0.01] {
         let label = format!("one receiver on its own clock, {rate} m/s off");
         row(&mut table, &label, (&clock(rate), &quiet), &is_own);
     }

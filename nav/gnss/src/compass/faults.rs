@@ -1,5 +1,7 @@
 //! What is wrong with antennas, cables, clocks and the configuration, by what epochs show in a row.
 
+use std::collections::BTreeMap;
+
 use insd_base::GpsTime;
 
 use super::fit::{Freed, with_own_clock, without};
@@ -27,7 +29,7 @@ pub(super) struct Monitor {
     own_clock: Vec<bool>,
     incoherent: Vec<usize>,
     left_out: Vec<usize>,
-    swapped: Option<((usize, usize), usize)>,
+    swapped: BTreeMap<(usize, usize), usize>,
     began: Option<(GpsTime, Vec<Option<f64>>)>,
     rates: Vec<f64>,
 }
@@ -106,16 +108,17 @@ impl Monitor {
                 self.incoherent[antenna] = 0;
             }
         }
-        self.swapped = None;
+        self.swapped.clear();
     }
 
-    /// Two antennas fit in each other's place where nothing does as configured.
-    pub(super) fn fits_swapped(&mut self, pair: (usize, usize)) {
-        let count = match self.swapped {
-            Some((own, count)) if own == pair => count + 1,
-            _ => 1,
-        };
-        self.swapped = Some((pair, count.min(MOST)));
+    /// Pairs of antennas that fit in each other's place where nothing does as configured.
+    pub(super) fn fits_swapped(&mut self, pairs: &[(usize, usize)]) {
+        for pair in pairs {
+            self.swapped.entry(*pair).or_default();
+        }
+        for (pair, count) in &mut self.swapped {
+            note(count, pairs.contains(pair));
+        }
     }
 
     /// The array with the clocks that have been found.
@@ -126,8 +129,8 @@ impl Monitor {
 
     /// Signals without the antennas that are not to be used.
     pub(super) fn of_use(&self, commons: &[Common]) -> Vec<Common> {
-        let is_out =
-            |antenna: usize| self.broken[antenna] >= BORNE_OUT || self.left_out[antenna] > 0;
+        // what is deaf or weak is of no use, whether that has been so for long or not
+        let is_out = |antenna: usize| self.broken[antenna] > 0 || self.left_out[antenna] > 0;
         commons.iter().filter_map(|common| without(common, &is_out)).collect()
     }
 
@@ -144,11 +147,11 @@ impl Monitor {
                 faults.push(CompassFault::Incoherent { antenna });
             }
         }
-        if let Some(((one, other), count)) = self.swapped
-            && count >= BORNE_OUT
-        {
-            faults.push(CompassFault::Swapped { one, other });
-        }
+        let swapped = self.swapped.iter().filter(|(_, count)| **count >= BORNE_OUT);
+        faults.extend(swapped.map(|((one, other), _)| {
+            let (one, other) = (*one, *other);
+            CompassFault::Swapped { one, other }
+        }));
         faults
     }
 }

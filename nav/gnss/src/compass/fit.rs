@@ -1,8 +1,10 @@
 //! An epoch that does not fit as the array is configured: what would make it fit.
 
+use super::level::is_possible;
 use super::lines::LineBiases;
 use super::model::Model;
-use super::search::{Region, candidates};
+use super::prior::CompassPrior;
+use super::search::{Candidates, Region, candidates};
 use super::settings::{CompassArray, CompassShape};
 use super::signal::Common;
 use super::solve::{Outcome, Start, solve};
@@ -10,6 +12,8 @@ use super::solve::{Outcome, Start, solve};
 /// By how much better an epoch has to fit before something is taken for wrong.
 const BETTER: f64 = 2.0;
 
+/// The same where many epochs say so.
+const BETTER_BY_TIME: f64 = 1.25;
 /// Of an array with two antennas exchanged so many poses are looked at.
 const FIRST: usize = 12;
 
@@ -38,9 +42,15 @@ pub(super) fn plain(model: &Model<'_>, start: &Start) -> Option<(Outcome, Freed)
 }
 
 /// Solves an epoch, and where it does not fit, with the clock of each receiver free in turn, and without each antenna.
-pub(super) fn fitted(model: &Model<'_>, start: &Start) -> Option<(Outcome, Freed)> {
+///
+/// `is_suspicious`: epochs have fitted worse than they should for a while, though none so badly that it alone says so.
+pub(super) fn fitted(
+    model: &Model<'_>,
+    start: &Start,
+    is_suspicious: bool,
+) -> Option<(Outcome, Freed)> {
     let own = solve(model, start)?;
-    if own.times() <= 1.0 {
+    if own.times() <= 1.0 && !is_suspicious {
         return Some((own, Freed::Nothing));
     }
     let clocks = clocks(model).into_iter().filter_map(|antenna| {
@@ -53,7 +63,8 @@ pub(super) fn fitted(model: &Model<'_>, start: &Start) -> Option<(Outcome, Freed
         Some((solve(&Model { commons: &commons, ..*model }, start)?, freed))
     });
     let is_better = |(other, _): &(Outcome, Freed)| {
-        other.times() <= 1.0 && other.times() * BETTER < own.times()
+        let better = if own.times() > 1.0 { BETTER } else { BETTER_BY_TIME };
+        other.times() <= 1.0 && other.times() * better < own.times()
     };
     let best = |all: Vec<(Outcome, Freed)>| {
         let best = all.into_iter().min_by(|(a, _), (b, _)| a.times().total_cmp(&b.times()));
@@ -95,25 +106,26 @@ pub(super) fn without(common: &Common, is_out: &dyn Fn(usize) -> bool) -> Option
     (common.heard.len() >= 2).then_some(common)
 }
 
-/// Two antennas that make an epoch fit when they change places.
+/// Pairs of antennas that make an epoch fit when they change places: of a square both that stand across a corner, as one exchange is the other one turned about.
 pub(super) fn swapped(
     model: &Model<'_>,
     lines: &LineBiases,
-    region: &Region,
+    (region, prior): (&Region, &CompassPrior),
     times: f64,
-) -> Option<(usize, usize)> {
-    let CompassShape::Body(levers) = model.shape() else { return None };
+) -> Vec<(usize, usize)> {
+    let CompassShape::Body(levers) = model.shape() else { return Vec::new() };
     let pairs = (0..levers.len()).flat_map(|a| (a + 1..levers.len()).map(move |b| (a, b)));
-    let tried = pairs.filter_map(|pair| {
-        let array = model.array.swapped(pair);
+    let fits = |pair: &(usize, usize)| {
+        let array = model.array.swapped(*pair);
         let model = Model { array: &array, ..*model };
-        let poses = candidates(&model, lines, region, FIRST).ok()?.poses;
-        let solved = poses.into_iter().filter_map(|pose| {
+        let Ok(Candidates { poses, .. }) = candidates(&model, lines, region, FIRST) else {
+            return false;
+        };
+        let mut solved = poses.into_iter().filter_map(|pose| {
             let start = Start { pose, covariance: region.covariance(), lines: lines.clone() };
-            solve(&model, &start).map(|outcome| outcome.times())
+            solve(&model, &start).filter(|outcome| is_possible(outcome, prior))
         });
-        Some((solved.min_by(f64::total_cmp)?, pair))
-    });
-    let (best, pair) = tried.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
-    (best <= 1.0 && best * BETTER < times).then_some(pair)
+        solved.any(|outcome| outcome.times() <= 1.0 && outcome.times() * BETTER < times)
+    };
+    pairs.filter(fits).collect()
 }

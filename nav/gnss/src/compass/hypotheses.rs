@@ -1,9 +1,9 @@
 //! Poses that are still possible, and what epochs say of each.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 use super::fit::Freed;
-use super::pose::CompassPose;
+use super::level::tilt;
 use super::prior::CompassPrior;
 use super::settings::{CompassSettings, CompassShape};
 use super::solve::{Outcome, Start};
@@ -81,18 +81,7 @@ impl Hypothesis {
 /// Misfit and measurements of an epoch, those of the prior among them: a hypothesis that has the hull elsewhere than it is known to be is less likely.
 fn evidence(outcome: &Outcome, prior: &CompassPrior) -> (f64, f64) {
     let (misfit, count) = outcome.evidence();
-    let (CompassPose::Attitude(c_nb), Some(own)) = (outcome.pose, prior.attitude) else {
-        return (misfit, count);
-    };
-    let level = own.std.x.max(own.std.y);
-    if !level.is_finite() {
-        return (misfit, count);
-    }
-    // what is known of the heading is in the region that is searched
-    let down = Vector3::z();
-    let tilt = (own.c_nb.transpose() * down).angle(&(c_nb.transpose() * down));
-    let drawn = outcome.covariance[(0, 0)] + outcome.covariance[(1, 1)];
-    (misfit + tilt * tilt / (level * level + drawn), count + 2.0)
+    tilt(outcome, prior).map_or((misfit, count), |tilt| (misfit + tilt, count + 2.0))
 }
 
 /// Keeps what is possible, likeliest first, of those that have the antennas nearer to each other than this, m, one. Gives back the chance that the first is wrong.

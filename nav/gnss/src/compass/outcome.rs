@@ -158,7 +158,8 @@ pub enum CompassFault {
         /// By how much its clock gains on the others by its codes, m/s.
         rate: f64,
     },
-    /// Two antennas stand in each other's place: nothing fits as they are configured, and all does when they are exchanged.
+    /// Two antennas stand in each other's place: nothing fits as they are configured, and all does when they are exchanged. Of an array that is
+    /// symmetrical there are two such pairs, both of which are told, unless a heading is known.
     Swapped {
         /// One of them.
         one: usize,

@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use super::faults::Monitor;
 use super::fit::{Freed, fitted, plain, swapped};
 use super::hypotheses::{Hypothesis, MOST, weighed};
+use super::level::is_possible;
 use super::lines::LineBiases;
 use super::model::Model;
 use super::observe::{Observed, Place, observe};
@@ -28,6 +29,10 @@ const PATIENCE: usize = 3;
 const ONE: f64 = 0.05;
 /// Before an attitude is told for the first time antennas have to be known to this share of a wavelength, so that their integers hold.
 const SHARP: f64 = 0.06;
+/// Of the variance of residuals over that assumed an epoch is this share of what is remembered.
+const LATELY: f64 = 0.1;
+/// Where it has been larger than this for a while, clocks are looked at.
+const SUSPICIOUS: f64 = 1.3;
 /// So many measurements beyond the unknowns have to bear on what is believed.
 const BORNE: f64 = 4.0;
 
@@ -61,6 +66,8 @@ pub struct CompassTracker {
     monitor: Monitor,
     /// Epochs in a row that did not fit.
     misfits: usize,
+    /// Variance of the residuals over that assumed, lately.
+    level: f64,
     /// An attitude has been told, and followed since.
     is_known: bool,
 }
@@ -85,6 +92,7 @@ impl CompassTracker {
             place: None,
             monitor,
             misfits: 0,
+            level: 1.0,
             is_known: false,
         }
     }
@@ -195,7 +203,8 @@ impl CompassTracker {
             if is_alone {
                 start.helped(prior);
             }
-            Some(own.followed(fitted(model, &start)?, elapsed, prior))
+            let found = fitted(model, &start, self.level > SUSPICIOUS)?;
+            is_possible(&found.0, prior).then(|| own.followed(found, elapsed, prior))
         };
         before.iter().filter_map(follow).collect()
     }
@@ -217,18 +226,23 @@ impl CompassTracker {
         if !is_complete && !is_lost {
             return Err(CompassRefusal::Ambiguous { hypotheses: poses.len(), doubt: 1.0 });
         }
-        let solved = |pose: CompassPose| {
-            let start = Start { pose, covariance: region.covariance(), lines: self.lines.clone() };
-            let own = if is_lost { fitted(model, &start) } else { plain(model, &start) };
-            own.map(|own| Hypothesis::new(own, prior))
+        let solved = |pose: &CompassPose, is_mended: bool| {
+            let (pose, lines) = (*pose, self.lines.clone());
+            let start = Start { pose, covariance: region.covariance(), lines };
+            let own = if is_mended { fitted(model, &start, false) } else { plain(model, &start) };
+            let own = own.filter(|(outcome, _)| is_possible(outcome, prior))?;
+            Some(Hypothesis::new(own, prior))
         };
-        let all: Vec<Hypothesis> = poses.into_iter().filter_map(solved).collect();
+        let all: Vec<_> = poses.iter().filter_map(|pose| solved(pose, false)).collect();
         let best = all.iter().map(|own| own.outcome.times()).fold(f64::INFINITY, f64::min);
-        if is_lost
-            && best > 1.0
-            && let Some(pair) = swapped(model, &self.lines, &region, best)
-        {
-            self.monitor.fits_swapped(pair);
+        if is_lost && best > 1.0 {
+            // an array with two antennas exchanged would fit nearly without one of them
+            let sound = Region::of(prior, false);
+            let pairs = swapped(model, &self.lines, (&sound, prior), best);
+            self.monitor.fits_swapped(&pairs);
+            if pairs.is_empty() {
+                return Ok(poses.iter().filter_map(|pose| solved(pose, true)).collect());
+            }
         }
         if is_complete || best > 1.0 {
             return Ok(all);
@@ -258,6 +272,7 @@ impl CompassTracker {
             return Err(CompassRefusal::Ambiguous { hypotheses, doubt });
         }
         self.is_known = true;
+        self.level += LATELY * (level - self.level);
         self.monitor.fitted(best.freed);
         self.lines = best.outcome.lines.clone();
         Ok((best.outcome.clone(), best.freed))
