@@ -257,7 +257,9 @@ impl CompassTracker {
             return Err(CompassRefusal::Geometry);
         };
         let (level, limit) = (best.outcome.level(), self.settings.level);
-        if level > limit {
+        // what is told for the first time has to fit with nearly all satellites
+        let is_doubtful = !self.is_known && best.outcome.times() > 1.0;
+        if level > limit || is_doubtful {
             self.misfits += 1;
             // what never fitted is not followed
             if best.is_new {
