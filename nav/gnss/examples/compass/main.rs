@@ -1,7 +1,7 @@
 //! Antennas against each other: real pairs, a made-up square of four and a made-up berthing: the tables of docs/compass.md.
 //!
 //! ```text
-//! INSD_RAW_GNSS=... INSD_VOYAGES=... cargo run --release -p insd-gnss --example compass [-- docs/compass.md]
+//! INSD_RAW_GNSS=... INSD_VOYAGES=... cargo run --release -p insd-gnss --example compass [-- docs/compass.md [real]]
 //! ```
 
 #![allow(clippy::unwrap_used)] // a file that is missing ends it
@@ -13,21 +13,25 @@ mod random;
 #[path = "../../tests/sets/mod.rs"]
 mod sets;
 
+mod berthing;
 mod real;
 mod square;
 
 fn main() {
     let page = std::env::args().nth(1);
-    put(page.as_deref(), "real", &real::table());
-    let w = std::env::var("WHAT").unwrap_or_default();
-    if w.is_empty() || w.contains('e') {
-        put(page.as_deref(), "errors", &square::errors_table());
-    }
-    if w.is_empty() || w.contains('c') {
-        put(page.as_deref(), "cold", &square::cold_table());
-    }
-    if w.is_empty() || w.contains('f') {
-        put(page.as_deref(), "faults", &square::faults_table());
+    let wanted = std::env::args().nth(2);
+    type Table = fn() -> String;
+    let tables: [(&str, Table); 5] = [
+        ("real", real::table),
+        ("errors", square::errors_table),
+        ("cold", square::cold_table),
+        ("faults", square::faults_table),
+        ("berthing", berthing::table),
+    ];
+    for (name, table) in tables {
+        if wanted.as_ref().is_none_or(|wanted| wanted == name) {
+            put(page.as_deref().filter(|page| *page != "-"), name, &table());
+        }
     }
 }
 

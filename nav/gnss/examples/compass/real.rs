@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use insd_base::{Ecef, earth};
 use insd_gnss::{
-    CompassArray, CompassPrior, CompassSettings, CompassShape, CompassTracker, Context, LineBiases,
+    CompassArray, CompassPose, CompassPrior, CompassSettings, CompassShape, CompassTracker,
+    Context, LineBiases,
 };
 use nalgebra::Vector3;
 
@@ -67,7 +68,6 @@ struct Set {
 struct Judged {
     found: Vec<[f64; 3]>,
     wrong: usize,
-    why: Vec<String>,
 }
 
 impl Set {
@@ -77,8 +77,8 @@ impl Set {
         let settings = CompassSettings {
             lowest: 15_f64.to_radians(),
             turning: 1e-4,
-            line_walk: std::env::var("LW").map_or(5e-5, |x| x.parse().unwrap()),
-            weak: std::env::var("WK").map_or(34.0, |x| x.parse().unwrap()),
+            // stations in rooms
+            line_walk: 1e-5,
             ..CompassSettings::default()
         };
         let mut tracker = CompassTracker::with_lines(array, settings, lines);
@@ -90,15 +90,11 @@ impl Set {
         for moment in &self.moments {
             let prior = CompassPrior { antenna: Some(base), ..CompassPrior::default() };
             let epochs = [Some(&moment.base), Some(&moment.rover)];
-            match tracker.take(&self.context, &epochs, &prior).told {
-                Ok(fix) => {
-                    let (found, _) = fix.baseline().unwrap();
-                    judged.found.push(found);
-                    let insd_gnss::CompassPose::Baseline(b) = fix.pose else { unreachable!() };
-                    judged.wrong += usize::from((b - known).norm() > 0.04);
-                }
-                Err(why) => judged.why.push(why.to_string()),
-            }
+            let Ok(fix) = tracker.take(&self.context, &epochs, &prior).told else { continue };
+            let Some((found, _)) = fix.baseline() else { continue };
+            judged.found.push(found);
+            let CompassPose::Baseline(vector) = fix.pose else { continue };
+            judged.wrong += usize::from((vector - known).norm() > 0.04);
         }
         (judged, tracker.lines().clone())
     }
@@ -125,8 +121,5 @@ impl Set {
             std(2) * 1e3,
             rms * 1e3,
         );
-        for why in judged.why.iter().take(3) {
-            eprintln!("{}: {why}", self.pair.label);
-        }
     }
 }

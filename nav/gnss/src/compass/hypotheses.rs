@@ -15,7 +15,7 @@ const ERRORS_LAST: f64 = 10.0;
 /// A hypothesis with less of a chance is given up.
 const LEAST: f64 = 1e-9;
 /// At most so many are carried.
-pub(super) const MOST: usize = 128;
+pub(super) const MOST: usize = 512;
 
 /// A pose that is possible, and what has been seen of it.
 #[derive(Clone, Debug)]

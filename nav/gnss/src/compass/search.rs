@@ -22,6 +22,9 @@ const HEADINGS: f64 = 0.0873;
 const FINE: f64 = 0.2;
 /// Poses in which antennas are less than this share of a wavelength apart lead to the same integers.
 const APART: f64 = 0.15;
+/// Where phases agree less than this nothing is looked for, once so many poses have been found.
+const HARDLY: f64 = 0.5;
+const FEWEST: usize = 12;
 /// Beyond so many 1-sigmas nothing is looked for.
 const SIGMAS: f64 = 3.0;
 /// Nobody sails with more list than this, rad: 80 degrees.
@@ -83,6 +86,9 @@ pub(super) fn candidates(
     scored.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     let mut poses: Vec<CompassPose> = Vec::new();
     for (score, pose) in scored {
+        if score < HARDLY && poses.len() >= FEWEST {
+            break;
+        }
         if poses.iter().any(|other| pose.apart(other, model.shape()) <= APART * shortest) {
             continue;
         }

@@ -33,6 +33,8 @@ const SHARP: f64 = 0.06;
 const LATELY: f64 = 0.1;
 /// Where it has been larger than this for a while, clocks are looked at.
 const SUSPICIOUS: f64 = 1.3;
+/// Or so many measurements beyond the unknowns have left nothing else.
+const ALONE: f64 = 40.0;
 /// So many measurements beyond the unknowns have to bear on what is believed.
 const BORNE: f64 = 4.0;
 
@@ -268,7 +270,9 @@ impl CompassTracker {
             return Err(CompassRefusal::Residuals { level, limit });
         }
         self.misfits = 0;
-        let is_sharp = self.is_known || best.outcome.unsure(&self.array.shape) < SHARP * shortest;
+        let is_alone = self.hypotheses.len() == 1 && best.count > ALONE;
+        let is_sharp = best.outcome.unsure(&self.array.shape) < SHARP * shortest;
+        let is_sharp = is_sharp || is_alone || self.is_known;
         if doubt > self.settings.risk || best.count < BORNE || !is_sharp {
             let hypotheses = self.hypotheses.len();
             return Err(CompassRefusal::Ambiguous { hypotheses, doubt });
