@@ -64,9 +64,9 @@ pub(super) fn align(model: &Model<'_>, pose: &CompassPose, lines: &mut LineBiase
                 free += 1;
             }
         }
-        for place in 0..lines.keys.len() {
+        for (place, is_fresh) in fresh.iter().enumerate() {
             let key = lines.keys[place];
-            if fresh[place] && key.antenna == antenna {
+            if *is_fresh && key.antenna == antenna {
                 let chosen = |own: &Heard, _: &Heard| own.line == key;
                 let by = middle(model, antenna, &offsets, lines, &chosen);
                 lines.mean[place] += by.unwrap_or(0.0);
