@@ -5,8 +5,8 @@ use std::fmt::Write;
 use insd_base::units::wrap_pi;
 use insd_base::{Attitude, SatelliteEpoch};
 use insd_gnss::{
-    AttitudePrior, CompassArray, CompassEpoch, CompassFault, CompassPrior, CompassSettings,
-    CompassTracker,
+    AttitudePrior, CompassArray, CompassEpoch, CompassFault, CompassFix, CompassPrior,
+    CompassSettings, CompassTracker,
 };
 use nalgebra::{Matrix3, Vector3};
 
@@ -141,7 +141,7 @@ fn best(made: &Made, after: f64, truth: &Attitude) -> Option<Matrix3<f64>> {
 
 /// Whether errors are what is claimed.
 fn is_right(epoch: &CompassEpoch, off: &[f64; 3]) -> bool {
-    let told = epoch.told.as_ref().ok().and_then(|fix| fix.attitude());
+    let told = epoch.told.as_ref().ok().and_then(CompassFix::attitude);
     let within = |covariance: Matrix3<f64>| {
         (0..3).all(|axis| off[axis].abs() < 5.0 * covariance[(axis, axis)].sqrt())
     };
@@ -153,29 +153,29 @@ const COLD: &str = "| satellites | level | right at once | right in 60 s | unkno
 /// Cold starts: heading unknown, level known to a degree or not at all.
 pub(crate) fn cold_table() -> String {
     let mut table = String::from(COLD);
-    for satellites in [15, 8, 6, 5, 4] {
-        for is_level in [true, false] {
-            let (mut at_once, mut right, mut unknown, mut wrong) = (0, 0, 0, 0);
-            let mut times = Vec::new();
-            for seed in 0..SEEDS {
-                match cold(1000 + seed, satellites, is_level) {
-                    None => unknown += 1,
-                    Some((after, true)) => {
-                        right += 1;
-                        at_once += u32::from(after == 0);
-                        times.push(after);
-                    }
-                    Some((_, false)) => wrong += 1,
+    for (satellites, is_level) in
+        [(15, true), (15, false), (8, true), (8, false), (6, true), (5, true), (4, true)]
+    {
+        let (mut at_once, mut right, mut unknown, mut wrong) = (0, 0, 0, 0);
+        let mut times = Vec::new();
+        for seed in 0..SEEDS {
+            match cold(1000 + seed, satellites, is_level) {
+                None => unknown += 1,
+                Some((after, true)) => {
+                    right += 1;
+                    at_once += u32::from(after == 0);
+                    times.push(after);
                 }
+                Some((_, false)) => wrong += 1,
             }
-            times.sort_unstable();
-            let level = if is_level { "1 deg" } else { "unknown" };
-            let middle = times.get(times.len() / 2).map_or(String::new(), ToString::to_string);
-            let _ = writeln!(
-                table,
-                "| {satellites} | {level} | {at_once} | {right} | {unknown} | {wrong} | {middle} |"
-            );
         }
+        times.sort_unstable();
+        let level = if is_level { "1 deg" } else { "unknown" };
+        let middle = times.get(times.len() / 2).map_or(String::new(), ToString::to_string);
+        let _ = writeln!(
+            table,
+            "| {satellites} | {level} | {at_once} | {right} | {unknown} | {wrong} | {middle} |"
+        );
     }
     table
 }
