@@ -33,7 +33,7 @@ const SHARP: f64 = 0.06;
 const LATELY: f64 = 0.1;
 /// Where it has been larger than this for a while, clocks are looked at.
 const SUSPICIOUS: f64 = 1.3;
-/// Or so many measurements beyond the unknowns have left nothing else.
+/// Or, of the vector between two, so many measurements beyond the unknowns have left nothing else.
 const ALONE: f64 = 40.0;
 /// So many measurements beyond the unknowns have to bear on what is believed.
 const BORNE: f64 = 4.0;
@@ -270,7 +270,9 @@ impl CompassTracker {
             return Err(CompassRefusal::Residuals { level, limit });
         }
         self.misfits = 0;
-        let is_alone = self.hypotheses.len() == 1 && best.count > ALONE;
+        // a vector on one satellite system and clocks of its own is never as sharp in one epoch
+        let is_pair = matches!(self.array.shape, CompassShape::Baseline { .. });
+        let is_alone = is_pair && self.hypotheses.len() == 1 && best.count > ALONE;
         let is_sharp = best.outcome.unsure(&self.array.shape) < SHARP * shortest;
         let is_sharp = is_sharp || is_alone || self.is_known;
         if doubt > self.settings.risk || best.count < BORNE || !is_sharp {
