@@ -78,6 +78,14 @@ impl<'a> Model<'a> {
         self.commons.iter().map(|common| common.wavelength).fold(1.0, f64::min)
     }
 
+    /// How many satellites there are.
+    pub(super) fn satellites(&self) -> usize {
+        let mut all: Vec<_> = self.commons.iter().map(|common| common.satellite).collect();
+        all.sort();
+        all.dedup();
+        all.len()
+    }
+
     /// Where all antennas stand.
     pub(super) fn offsets(&self, pose: &CompassPose) -> Vec<Vector3<f64>> {
         let antennas = 0..self.array.antennas();

@@ -35,6 +35,8 @@ const LATELY: f64 = 0.1;
 const SUSPICIOUS: f64 = 1.3;
 /// Or, of the vector between two, so many measurements beyond the unknowns have left nothing else.
 const ALONE: f64 = 40.0;
+/// So many satellites find an attitude of which nothing is known: with five and four of 200 made-up starts one and five were wrong.
+const ENOUGH: usize = 6;
 /// So many measurements beyond the unknowns have to bear on what is believed.
 const BORNE: f64 = 4.0;
 
@@ -183,7 +185,7 @@ impl CompassTracker {
         let shortest = model.shortest();
         let doubt = weighed(&mut all, &array.shape, ONE * shortest);
         self.hypotheses = all;
-        let (outcome, freed) = self.judged(doubt, shortest)?;
+        let (outcome, freed) = self.judged(doubt, shortest, model.satellites())?;
         let commons = freed.commons(model.commons);
         let told = told(&Model { commons: &commons, ..model }, &outcome, observed, prior);
         rejected.extend(told.rejected);
@@ -253,7 +255,12 @@ impl CompassTracker {
     }
 
     /// The likeliest, if it fits and nothing else does.
-    fn judged(&mut self, doubt: f64, shortest: f64) -> Result<(Outcome, Freed), CompassRefusal> {
+    fn judged(
+        &mut self,
+        doubt: f64,
+        shortest: f64,
+        satellites: usize,
+    ) -> Result<(Outcome, Freed), CompassRefusal> {
         let Some(best) = self.hypotheses.first() else {
             self.misfits += 1;
             return Err(CompassRefusal::Geometry);
@@ -275,7 +282,10 @@ impl CompassTracker {
         let is_alone = is_pair && self.hypotheses.len() == 1 && best.count > ALONE;
         let is_sharp = best.outcome.unsure(&self.array.shape) < SHARP * shortest;
         let is_sharp = is_sharp || is_alone || self.is_known;
-        if doubt > self.settings.risk || best.count < BORNE || !is_sharp {
+        // fewer do not tell a hull that may stand anyhow; what is predicted well enough for rounding they do
+        let is_many = satellites >= ENOUGH || best.outcome.success > 1.0 - self.settings.risk;
+        let is_enough = self.is_known || is_pair || is_many;
+        if doubt > self.settings.risk || best.count < BORNE || !is_sharp || !is_enough {
             let hypotheses = self.hypotheses.len();
             return Err(CompassRefusal::Ambiguous { hypotheses, doubt });
         }
