@@ -181,6 +181,10 @@ satellites:
 rtk:
     cargo run --release -p insd-gnss --example rtk
 
+# antennas against each other, real, made up and on a made-up berthing: the tables of docs/compass.md, a quarter of an hour; INSD_RAW_GNSS as above, INSD_VOYAGES: the folder of voyages
+compass:
+    cargo run --release -p insd-gnss --example compass -- docs/compass.md
+
 # a walk with a MEMS IMU and a receiver, fixes against ranges, with all satellites and few: a table of docs/satellites.md; INSD_RAW_GNSS as above
 walk:
     cargo build --release

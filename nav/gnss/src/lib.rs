@@ -1,12 +1,13 @@
 //! Satellites of navigation: where they are, what lies between, and what follows for a receiver.
 //!
 //! Pure, and without a filter: an epoch of a receiver and what satellites broadcast go in; ranges as they should be, positions, velocities and
-//! displacements with their covariances come out. ECEF axes, metres, seconds, radians; e points from the antenna to the satellite.
+//! displacements with their covariances come out, and of several antennas how they stand. ECEF axes, metres, seconds, radians; e points from the antenna to the satellite.
 
 pub mod atmosphere;
 mod band_code;
 mod budget;
 mod carrier;
+mod compass;
 mod context;
 mod ephemerides;
 mod integers;
@@ -20,6 +21,11 @@ mod single_point;
 mod velocity;
 
 pub use carrier::{CarrierDisplacement, CarrierTracker, PhaseChange};
+pub use compass::{
+    AttitudePrior, CompassArray, CompassEpoch, CompassFault, CompassFix, CompassInteger,
+    CompassObjection, CompassPose, CompassPrior, CompassRefusal, CompassRejection, CompassResidual,
+    CompassRows, CompassSettings, CompassShape, CompassTracker, LineBias, LineBiases,
+};
 pub use context::{Context, Delays};
 pub use ephemerides::{Ephemerides, OrbitRefusal};
 pub use integers::{IntegerRefusal, IntegerSearch, IntegerVector};

@@ -24,6 +24,7 @@ pub use double::{DifferencedRows, DoubleDifferences, PairAmbiguity};
 pub use link::RtkLink;
 pub use outcome::{RtkFix, RtkRefusal, RtkSolution, RtkWithdrawal};
 pub use pairing::SignalPair;
+pub(crate) use pairing::pairs;
 pub use prior::RoverPrior;
 pub use settings::RtkSettings;
 pub use tracker::RtkTracker;

@@ -133,6 +133,13 @@ pub fn inflation(elevation: f64, cn0: Option<f64>) -> f64 {
     low * 10_f64.powf(weak)
 }
 
+/// Variance of a receiver's phase, m^2: `phase^2 (1 + 1/sin^2 E)`, tenfold for each 10 dB that C/N0 is below `weak`, dB Hz, up to a thousandfold.
+pub(crate) fn phase_variance((phase, weak): (f64, f64), elevation: f64, cn0: Option<f64>) -> f64 {
+    let told = cn0.filter(|cn0| cn0.is_finite());
+    let poor = told.map_or(0.0, |cn0| ((weak - cn0) / 10.0).clamp(0.0, 3.0));
+    2.0 * phase.powi(2) * inflation(elevation, None) * 10_f64.powf(poor)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -42,7 +42,7 @@ impl SignalPair {
 
 /// The pairs of all satellites that both hear: of each band the one that is most alike, with phases before codes alone. GLONASS is left out:
 /// its wavelengths differ, and so do the delays of receivers from channel to channel.
-pub(super) fn pairs<'a>(
+pub(crate) fn pairs<'a>(
     rover: &'a SatelliteEpoch,
     base: &'a SatelliteEpoch,
 ) -> Vec<(SignalPair, &'a SignalObservation, &'a SignalObservation)> {

@@ -1,6 +1,6 @@
 //! What real-time kinematic positioning takes its receivers for, and what it asks before it believes integers.
 
-use crate::signals::inflation;
+use crate::signals::{inflation, phase_variance};
 
 /// Receivers, limits and demands.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,8 +63,6 @@ impl RtkSettings {
 
     /// Variance of one receiver's phase, m^2.
     pub(super) fn phase_variance(&self, elevation: f64, cn0: Option<f64>) -> f64 {
-        let told = cn0.filter(|cn0| cn0.is_finite());
-        let weak = told.map_or(0.0, |cn0| ((self.weak - cn0) / 10.0).clamp(0.0, 3.0));
-        2.0 * self.phase.powi(2) * inflation(elevation, None) * 10_f64.powf(weak)
+        phase_variance((self.phase, self.weak), elevation, cn0)
     }
 }

@@ -10,10 +10,11 @@ mod sky;
 use insd_base::satellites::{Measured, SatelliteRange};
 use insd_base::{GpsTime, SatelliteEpoch, Span};
 use insd_gnss::{
-    CarrierDisplacement, CarrierTracker, Context, Guess, PlacedEpoch, Ranged, Ranging, RtkSettings,
+    AttitudePrior, CarrierDisplacement, CarrierTracker, CompassArray, CompassPrior,
+    CompassSettings, CompassTracker, Context, Guess, PlacedEpoch, Ranged, Ranging, RtkSettings,
     RtkTracker,
 };
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// Reads orders out of bytes; of what is not there every number is zero.
 pub(crate) struct Orders<'a>(&'a [u8]);
@@ -65,6 +66,10 @@ pub(crate) fn everything(bytes: &[u8]) -> usize {
     let (mut ranging, mut tracker) = (Ranging::default(), CarrierTracker::default());
     let settings = RtkSettings::default();
     let mut rtk = [RtkTracker::continuous(settings), RtkTracker::continuous(settings)];
+    let corner = |x: f64, y: f64| Vector3::new(x, y, 0.0);
+    let corners = vec![corner(0.05, -0.05), corner(0.05, 0.05), corner(-0.05, 0.05)];
+    let mut compass =
+        CompassTracker::new(CompassArray::on_one_clock(corners), CompassSettings::default());
     let mut counted = 0;
     for second in 0..orders.byte() % 8 {
         let epoch = sky::epoch(&context, f64::from(second), &mut orders);
@@ -74,6 +79,10 @@ pub(crate) fn everything(bytes: &[u8]) -> usize {
         counted += ranged.ranges.len();
         check_carrier(&mut tracker, &context, &epoch, guess);
         check_rtk(&mut rtk, &context, (&epoch, f64::from(second)));
+        // the search for what fits to nothing is slow
+        if second < 2 {
+            check_compass(&mut compass, &context, (&epoch, f64::from(second)));
+        }
     }
     counted
 }
@@ -101,6 +110,24 @@ fn check_rtk(
         let Ok(told) = tracker.take(context, rover, &base, None) else { continue };
         assert!(is_finite(&told.float) && is_finite(&told.position()), "{told:?}");
         assert!(told.covariance().iter().all(|value| value.is_finite()), "{told:?}");
+    }
+}
+
+/// A damaged antenna between two that are sound.
+fn check_compass(
+    compass: &mut CompassTracker,
+    context: &Context,
+    (damaged, second): (&SatelliteEpoch, f64),
+) {
+    let sound = sky::epoch(context, second, &mut Orders(&[]));
+    let level = Vector3::repeat(0.02);
+    let attitude = Some(AttitudePrior { c_nb: Matrix3::identity(), std: level });
+    let prior = CompassPrior { attitude, ..CompassPrior::default() };
+    let epoch = compass.take(context, &[Some(&sound), Some(damaged), Some(&sound)], &prior);
+    if let Ok(fix) = epoch.told {
+        let rows = fix.rows.residuals.iter().chain(fix.rows.covariance.iter());
+        let all = fix.covariance.iter().chain(rows).all(|value| value.is_finite());
+        assert!(all && fix.doubt.is_finite() && fix.success.is_finite(), "{fix:?}");
     }
 }
 
