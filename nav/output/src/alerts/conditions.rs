@@ -3,6 +3,7 @@
 use insd_base::{FixQuality, Integrity, Judgement, Mode, Party, Solution, Span, Time};
 use insd_wire::nmea::{AlertId, AlertPriority, HeadingMode, Manufacturer};
 
+use crate::docking::DockingLimits;
 use crate::epoch::OutputEpoch;
 use crate::policy::Policy;
 
@@ -57,6 +58,10 @@ pub enum Condition {
     NotRecording,
     /// What the next start goes on from cannot be saved.
     NotSaving,
+    /// At the berth that is chosen she would touch faster than the limit that is set.
+    ApproachFast,
+    /// A part of her is nearer to the quay that is chosen than the limit that is set, and still comes nearer.
+    QuayNear,
 }
 
 /// An alert that there can be.
@@ -84,7 +89,7 @@ fn own(
 
 impl Condition {
     /// All of them, those that matter most first.
-    pub const ALL: [Condition; 21] = [
+    pub const ALL: [Condition; 23] = [
         Condition::SystemFault,
         Condition::HeadingLost,
         Condition::PositionLost,
@@ -93,6 +98,8 @@ impl Condition {
         Condition::ImuDoubt,
         Condition::GnssExcluded,
         Condition::EnginesDiffer,
+        Condition::ApproachFast,
+        Condition::QuayNear,
         Condition::HeadingDegraded,
         Condition::PositionEstimated,
         Condition::HeadingExcluded,
@@ -182,6 +189,12 @@ impl Condition {
             Condition::Installation => {
                 own(10_021, Caution, ["Installation", "Not as configured. See page"], [0, 10])
             }
+            Condition::ApproachFast => {
+                own(10_040, Warning, ["Approach speed", "Contact faster than the limit"], [1, 3])
+            }
+            Condition::QuayNear => {
+                own(10_041, Caution, ["Quay near", "Nearer than the limit, and closing"], [1, 3])
+            }
             Condition::GnssExcluded
             | Condition::PositionDoubt
             | Condition::HeadingExcluded
@@ -249,11 +262,12 @@ struct Latch {
 }
 
 impl Watch {
-    /// Takes note of an epoch, by the limits of a policy; gives which conditions hold now.
+    /// Takes note of an epoch, by the limits of a policy and those of an approach; gives which conditions hold now.
     pub fn note(
         &mut self,
         epoch: &OutputEpoch,
         policy: &Policy,
+        approach: &DockingLimits,
         simulated: bool,
     ) -> [(Condition, bool); Condition::ALL.len()] {
         let usable = epoch.solution.filter(|solution| solution.mode != Mode::Fault);
@@ -302,6 +316,8 @@ impl Watch {
             Condition::Installation => epoch.doubts.installation,
             Condition::NotRecording => epoch.storage.recording,
             Condition::NotSaving => epoch.storage.state,
+            Condition::ApproachFast => epoch.docking.is_some_and(|own| approach.is_too_fast(&own)),
+            Condition::QuayNear => epoch.docking.is_some_and(|own| approach.is_too_near(&own)),
         };
         let mut found = Condition::ALL.map(|condition| (condition, holds(condition)));
         for ((condition, holds), latch) in found.iter_mut().zip(&mut self.latches) {
