@@ -1,7 +1,8 @@
 //! All ports together: when something is due, and the epoch of each port's monitoring point.
 
 use insd_base::{
-    AlignmentStatus, Body, Heave, Mode, Motion, Ned, SolutionSource, Span, StorageFaults, Time, UtcTime,
+    AlignmentStatus, Body, Heave, Mode, Motion, Ned, SolutionSource, Span, StorageFaults, Time,
+    UtcTime,
 };
 use insd_n2k::pgn::TimeSource;
 use insd_wire::nmea::{Acn, AlertCommand, Hbt};
@@ -287,8 +288,7 @@ fn carried(boundary: &Boundary, moment: &Situation) -> Option<Motion> {
 
 /// What is known of a monitoring point at a boundary.
 fn epoch(boundary: &Boundary, moment: &Situation, point: usize, lever: &Body) -> OutputEpoch {
-    let is_near =
-        |time: Time| (boundary.time - time).as_nanos().abs() <= CARRIED.as_nanos();
+    let is_near = |time: Time| (boundary.time - time).as_nanos().abs() <= CARRIED.as_nanos();
     let motion = carried(boundary, moment).map(|motion| motion.at_point(lever));
     let heave = moment.heaves.get(point).copied().flatten();
     OutputEpoch {

@@ -181,10 +181,10 @@ impl View<'_> {
 
     fn point(&self, seen: &Seen, ahead: f64) -> DockingPoint {
         let along = Estimate { value: ahead * seen.along.value, ..seen.along };
-        let above = self.quay.height.map(|edge| Estimate {
-            value: seen.height.value - edge,
-            sigma: seen.height.sigma,
-        });
+        let above = self
+            .quay
+            .height
+            .map(|edge| Estimate { value: seen.height.value - edge, sigma: seen.height.sigma });
         let hidden = self.motion.solution.hidden.horizontal * seen.beside.gradient.norm();
         DockingPoint {
             distance: seen.distance,
@@ -238,6 +238,7 @@ fn quadratic(direction: &Vector3<f64>, covariance: &Matrix3<f64>) -> f64 {
 
 /// What is claimed beyond a covariance, along a direction.
 fn beyond(claimed: &Vector3<f64>, covariance: &Matrix3<f64>, direction: &Vector3<f64>) -> f64 {
-    let size = claimed.zip_map(&covariance.diagonal(), |all, own| (all * all - own).max(0.0).sqrt());
+    let size =
+        claimed.zip_map(&covariance.diagonal(), |all, own| (all * all - own).max(0.0).sqrt());
     size.dot(&direction.abs())
 }

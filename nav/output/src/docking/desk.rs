@@ -121,7 +121,8 @@ impl DockingLimits {
     #[must_use]
     pub fn is_too_near(&self, docking: &Docking) -> bool {
         let is_near = |limit: f64, point: &DockingPoint| {
-            point.distance.value < limit && point.closing.value > RANGING.max(2.0 * point.closing.sigma)
+            point.distance.value < limit
+                && point.closing.value > RANGING.max(2.0 * point.closing.sigma)
         };
         let points = || docking.points.iter().flatten();
         docking.is_watched()

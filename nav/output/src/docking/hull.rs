@@ -50,8 +50,7 @@ impl Hull {
             if before == 0.0 {
                 return Some(one[1]);
             }
-            (before * after < 0.0)
-                .then(|| one[1] + (other[1] - one[1]) * before / (before - after))
+            (before * after < 0.0).then(|| one[1] + (other[1] - one[1]) * before / (before - after))
         };
         self.outline.iter().zip(next).filter_map(cut).collect()
     }

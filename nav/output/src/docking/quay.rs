@@ -1,7 +1,7 @@
 //! The quay: a line of two points, the fenders before it, and where a point of the ship is by it.
 
-use insd_base::earth::{c_ne, ecef};
 use insd_base::Geodetic;
+use insd_base::earth::{c_ne, ecef};
 use nalgebra::{Matrix3, Vector3};
 
 /// Which side of the line is water, looking from its first point to the second.

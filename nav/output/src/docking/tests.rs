@@ -110,7 +110,8 @@ fn what_is_told_of_a_ship_alongside_is_what_a_ruler_says() {
     close(parallel.angle.unwrap().value, 0.0, 3e-5);
     let [bow, stern, manifold] = parallel.points.map(Option::unwrap);
     // 30 m less half the beam and the fenders; she turns to port, so her bow comes nearer the faster
-    for (point, closing, along) in [(bow, 0.15, 150.0), (stern, 0.05, 50.0), (manifold, 0.105, 105.0)]
+    for (point, closing, along) in
+        [(bow, 0.15, 150.0), (stern, 0.05, 50.0), (manifold, 0.105, 105.0)]
     {
         close(point.distance.value, 19.0, 2e-3);
         close(point.closing.value, closing, 1e-5);
@@ -135,7 +136,9 @@ fn she_may_lie_the_other_way_and_the_points_may_stand_the_other_way() {
     let starboard = look(&ship(273.0));
     assert_eq!(starboard.side, Some(DockingSide::Starboard));
     close(starboard.angle.unwrap().value, 3.0 * DEG, 3e-5);
-    assert!(starboard.points[0].unwrap().distance.value < starboard.points[1].unwrap().distance.value);
+    assert!(
+        starboard.points[0].unwrap().distance.value < starboard.points[1].unwrap().distance.value
+    );
     // ahead is west now, and she makes way to the east
     assert!(starboard.points[0].unwrap().along.value < 0.0);
     let mut turned = config();
@@ -185,7 +188,8 @@ struct Dice(u64);
 
 impl Dice {
     fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((self.0 >> 11) as f64 + 0.5) / 9_007_199_254_740_992.0
     }
 
@@ -234,7 +238,8 @@ fn sigmas_cover_the_errors_of_ships_that_are_drawn_from_the_covariance() {
         }
         let (own, told) = (truth.angle.unwrap(), told.angle.unwrap());
         errors.push((own.value - told.value) / told.sigma);
-        let (own, told) = (truth.contact.unwrap(), look_with(exact.clone(), &estimate).contact.unwrap());
+        let (own, told) =
+            (truth.contact.unwrap(), look_with(exact.clone(), &estimate).contact.unwrap());
         errors.push((own.seconds.value - told.seconds.value) / told.seconds.sigma);
         sums.iter_mut().zip(&errors).for_each(|(sum, error)| *sum += error * error);
     }
@@ -275,7 +280,8 @@ fn nothing_is_told_of_what_is_not_known() {
         docking.state
     };
     let not = DockingState::NotValid;
-    let contradiction = |own: &mut Motion| own.solution.judgement.integrity = Integrity::Contradiction;
+    let contradiction =
+        |own: &mut Motion| own.solution.judgement.integrity = Integrity::Contradiction;
     let unproven = |own: &mut Motion| own.solution.judgement.integrity = Integrity::Unproven;
     for (mode, state) in [
         (Mode::Fault, not(NotDocking::Fault)),

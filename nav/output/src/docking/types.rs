@@ -194,7 +194,16 @@ impl Docking {
     #[must_use]
     pub fn not_valid(time: Time, (berth, choice): (usize, BerthChoice), why: NotDocking) -> Self {
         let state = DockingState::NotValid(why);
-        Docking { time, berth, choice, state, points: [None; 3], side: None, angle: None, contact: None }
+        Docking {
+            time,
+            berth,
+            choice,
+            state,
+            points: [None; 3],
+            side: None,
+            angle: None,
+            contact: None,
+        }
     }
 
     /// How a part stands to the quay.

@@ -7,9 +7,7 @@ use insd_wire::nmea::{
 };
 
 use super::entry::{Content, Entry};
-use crate::docking::{
-    BerthChoice, Docking, DockingPoint, DockingSide, DockingState, HullPart,
-};
+use crate::docking::{BerthChoice, Docking, DockingPoint, DockingSide, DockingState, HullPart};
 use crate::redacted_epoch::RedactedEpoch;
 
 /// Parts of a ship that are told of at the most.

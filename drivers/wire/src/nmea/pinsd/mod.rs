@@ -24,9 +24,7 @@ mod sigma;
 mod status;
 
 pub use alignment::{PinsdAlignment, PinsdPhase};
-pub use docking::{
-    PinsdBerth, PinsdChoice, PinsdDocking, PinsdPart, PinsdPartOfShip, PinsdSide,
-};
+pub use docking::{PinsdBerth, PinsdChoice, PinsdDocking, PinsdPart, PinsdPartOfShip, PinsdSide};
 pub use protection::{PinsdProtection, ProtectionState};
 pub use sigma::PinsdSigma;
 pub use status::{PinsdIntegrity, PinsdMode, PinsdSource, PinsdStatus, PinsdTime};
