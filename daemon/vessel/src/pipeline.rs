@@ -205,7 +205,9 @@ impl<R: OrderReader> Pipeline<R> {
                     Err(doubt) if !resumed => Obeyed::NotResumed(doubt),
                     _ => {
                         // a berth that is configured no more is not there to be chosen
-                        chosen.iter().for_each(|name| drop(self.outputs.choose_berth(Some(name))));
+                        if let Some(name) = chosen {
+                            self.outputs.choose_berth(Some(&name));
+                        }
                         Obeyed::Resumed
                     }
                 }

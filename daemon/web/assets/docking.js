@@ -28,6 +28,13 @@ export function startDocking() {
 const sized = (value) => (known(value) ? fixed(Math.abs(value), 2) : DASH);
 const way = (value, [plus, minus], none) => (!known(value) ? "" : Math.abs(value) < STILL ? none : value > 0 ? plus : minus);
 
+// A number, and its unit only beside one.
+function number(id, text) {
+  const node = byId(id);
+  setText(node, text);
+  node.closest("dd").classList.toggle("without", text === DASH);
+}
+
 function sure(value, level) {
   const own = known(value) ? `1σ ${sigma(value, value < 0.0995 ? 3 : 2)}` : "";
   return known(level) ? `${own} · level ${fixed(level, 2)} m` : own;
@@ -37,8 +44,9 @@ function part(name, point, limits) {
   const near = known(point?.distance_m) && known(limits.distance_m) && point.distance_m < limits.distance_m && point.closing_mps > STILL;
   const fast = known(point?.closing_mps) && known(limits.contact_speed_mps) && point.closing_mps > limits.contact_speed_mps;
   setText(byId(`d-${name}-sure`), sure(point?.sigma_distance_m, point?.level_m));
-  setText(byId(`d-${name}-closing`), sized(point?.closing_mps));
-  setText(byId(`d-${name}-way`), way(point?.closing_mps, ["closing", "opening"], "no motion across"));
+  number(`d-${name}-closing`, sized(point?.closing_mps));
+  const over = fast ? ` ⚠ over ${fixed(limits.contact_speed_mps, 2)}` : near ? ` ⚠ within ${fixed(limits.distance_m, 1)} m` : "";
+  setText(byId(`d-${name}-way`), way(point?.closing_mps, ["closing", "opening"], "still") + over);
   setText(byId(`d-${name}-speed-sure`), known(point?.sigma_closing_mps) ? `1σ ${sigma(point.sigma_closing_mps, 3)}` : "");
   const along = known(point?.along_mps) ? `${sized(point.along_mps)} m/s ${way(point.along_mps, ["ahead", "astern"], "along the quay")}` : "";
   setText(byId(`d-${name}-along`), along);
@@ -75,13 +83,13 @@ function head(data, [state, why]) {
 
 function middle(docking) {
   const angle = docking?.angle_deg;
-  setText(byId("d-angle"), known(angle) ? fixed(Math.abs(angle), 1) : DASH);
+  number("d-angle", known(angle) ? fixed(Math.abs(angle), 1) : DASH);
   setText(byId("d-angle-way"), !known(angle) ? "" : Math.abs(angle) < PARALLEL ? "parallel" : angle > 0 ? "bow in" : "bow out");
   setText(byId("d-angle-sure"), known(docking?.sigma_angle_deg) ? `1σ ${sigma(docking.sigma_angle_deg, 2)}` : "");
   const contact = docking?.contact;
   setText(byId("d-contact-part"), contact ? (contact.part === "manifold" ? "amidships" : contact.part) : "");
-  setText(byId("d-contact-speed"), known(contact?.speed_mps) ? fixed(contact.speed_mps, 2) : DASH);
-  const when = known(contact?.in_s) ? `in ${duration(contact.in_s)} (1σ ${sigma(contact.sigma_in_s, contact.sigma_in_s < 9.5 ? 1 : 0)} s)` : "";
+  number("d-contact-speed", known(contact?.speed_mps) ? fixed(contact.speed_mps, 2) : DASH);
+  const when = known(contact?.in_s) ? `in ${duration(contact.in_s)} ${sigma(contact.sigma_in_s, contact.sigma_in_s < 9.5 ? 1 : 0)}, going on so` : "";
   setText(byId("d-contact-when"), contact ? when : docking?.side ? "none while she goes on so" : "");
   const limit = docking?.contact_speed_limit_mps;
   byId("d-contact").classList.toggle("fast", known(limit) && known(contact?.speed_mps) && contact.speed_mps > limit);
@@ -119,6 +127,7 @@ const dots = (points) => points.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}
 // The plan: her bow is up, the quay on the side on which she has it.
 export function plan(root) {
   const land = svg(root, "polygon", { class: "d-land" });
+  const beyond = svg(root, "polyline", { class: "d-beyond" });
   const edge = svg(root, "polyline", { class: "d-edge" });
   const fenders = svg(root, "path", { class: "d-fenders" });
   const bollards = svg(root, "path", { class: "d-bollards" });
@@ -146,6 +155,7 @@ export function plan(root) {
     setAttr(root, "viewBox", `${x.toFixed(2)} ${y.toFixed(2)} ${(Math.max(...xs) - x).toFixed(2)} ${(Math.max(...ys) - y).toFixed(2)}`);
     const L = quay.length_m;
     setAttr(land, "points", dots([[0, 0], [L, 0], [L, -LAND], [0, -LAND]].map(at)));
+    setAttr(beyond, "points", dots([[least, 0], [most, 0]].map(at)));
     setAttr(edge, "points", dots([[0, 0], [L, 0]].map(at)));
     const all = quay.fenders_m;
     const lone = all.length < 2 ? [...Array(Math.max(2, Math.round(L / 15)))].map((_, k, own) => [(L * (k + 0.5)) / own.length, all[0]?.[1] ?? 0]) : all;

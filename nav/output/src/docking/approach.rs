@@ -108,9 +108,7 @@ impl View<'_> {
             seen.min_by(|one, other| one.distance.value.total_cmp(&other.distance.value))
         };
         let parts = HullPart::ALL.map(nearest);
-        if parts.iter().flatten().all(|seen| seen.distance.value < ASHORE) {
-            let none = parts.iter().flatten().next().is_none();
-            let why = if none { NotDocking::NoSolution } else { NotDocking::Ashore };
+        if let Some(why) = self.behind(&parts) {
             return Docking::not_valid(time, which, why);
         }
         let corners = hull.corners();
@@ -128,6 +126,21 @@ impl View<'_> {
         let (berth, choice) = which;
         let (side, angle) = (Some(side), Some(angle));
         Docking { time, berth, choice, state, points, side, angle, contact: first }
+    }
+
+    /// Why nothing is told of a hull that is behind the line, or of which nothing finite is known.
+    fn behind(&self, parts: &[Option<Seen>; 3]) -> Option<NotDocking> {
+        let all = || parts.iter().flatten();
+        let is_beside = |seen: &Seen| (0.0..=self.axes.length).contains(&seen.beside.place);
+        if all().any(|seen| seen.distance.value >= ASHORE) {
+            None
+        } else if all().next().is_none() {
+            Some(NotDocking::NoSolution)
+        } else if all().any(is_beside) {
+            Some(NotDocking::Ashore)
+        } else {
+            Some(NotDocking::Behind)
+        }
     }
 
     /// Whether ahead is from the first point of the line to the second, as 1 or -1; which side lies to the quay; and the angle

@@ -301,6 +301,7 @@ fn nothing_is_told_of_what_is_not_known() {
     assert_eq!(told(&|own| own.solution.attitude.heading = f64::NAN), not(NotDocking::NoSolution));
     assert_eq!(told(&|own| own.solution.position = place(-2100.0, 100.0)), not(NotDocking::Away));
     assert_eq!(told(&|own| own.solution.position = place(40.0, 100.0)), not(NotDocking::Ashore));
+    assert_eq!(told(&|own| own.solution.position = place(40.0, 400.0)), not(NotDocking::Behind));
     let desk = BerthDesk::new(config());
     let later = Time::from_seconds(11.0);
     for motion in [None, Some(&ship(90.0))] {

@@ -63,6 +63,8 @@ pub enum NotDocking {
     Away,
     /// The whole ship is on the land side of the quay.
     Ashore,
+    /// The whole ship is behind the line, but beyond its ends.
+    Behind,
 }
 
 impl DockingState {
@@ -94,6 +96,7 @@ impl DockingState {
                 NotDocking::Contradiction => "the sensors contradict each other",
                 NotDocking::Away => "too far from the berth",
                 NotDocking::Ashore => "the ship is on the land side of the quay line",
+                NotDocking::Behind => "the ship is behind the quay line, beyond its ends",
             },
         })
     }
