@@ -3,7 +3,7 @@
 use insd_base::{FixQuality, Integrity, Judgement, Mode, Party, Solution, Span, Time};
 use insd_wire::nmea::{AlertId, AlertPriority, HeadingMode, Manufacturer};
 
-use crate::docking::DockingLimits;
+use crate::docking::{Docking, DockingLimits};
 use crate::epoch::OutputEpoch;
 use crate::policy::Policy;
 
@@ -189,12 +189,7 @@ impl Condition {
             Condition::Installation => {
                 own(10_021, Caution, ["Installation", "Not as configured. See page"], [0, 10])
             }
-            Condition::ApproachFast => {
-                own(10_040, Warning, ["Approach speed", "Contact faster than the limit"], [1, 3])
-            }
-            Condition::QuayNear => {
-                own(10_041, Caution, ["Quay near", "Nearer than the limit, and closing"], [1, 3])
-            }
+            Condition::ApproachFast | Condition::QuayNear => self.of_approach(),
             Condition::GnssExcluded
             | Condition::PositionDoubt
             | Condition::HeadingExcluded
@@ -202,6 +197,18 @@ impl Condition {
             | Condition::ImuDoubt
             | Condition::OnTrial
             | Condition::ReferenceExcluded => self.of_sensors(),
+        }
+    }
+
+    /// Those of going alongside.
+    fn of_approach(self) -> Definition {
+        use AlertPriority::{Caution, Warning};
+        match self {
+            Condition::ApproachFast => {
+                own(10_040, Warning, ["Approach speed", "Contact faster than the limit"], [1, 3])
+            }
+            // a part is near
+            _ => own(10_041, Caution, ["Quay near", "Nearer than the limit and closing"], [1, 3]),
         }
     }
 
@@ -235,6 +242,14 @@ impl Condition {
             }
             // another reference of position
             _ => own(10_022, Caution, ["2nd pos. doubt", "Contradicted. See page"], [0, 10]),
+        }
+    }
+
+    /// Whether one of going alongside holds.
+    fn holds_at(self, docking: &Docking, limits: &DockingLimits) -> bool {
+        match self {
+            Condition::ApproachFast => limits.is_too_fast(docking),
+            _ => limits.is_too_near(docking),
         }
     }
 
@@ -276,12 +291,7 @@ impl Watch {
         self.had_heading |= heading.is_some_and(|mode| mode != HeadingMode::NotValid);
         self.had_position |= quality.is_some_and(|quality| quality != FixQuality::Invalid);
         let (had_heading, had_position) = (self.had_heading, self.had_position);
-        let by_sigma = Policy { estimated_without_gnss: false, ..*policy };
-        let is_estimated = usable.is_some_and(|solution| {
-            let at_berth = matches!(solution.mode, Mode::CoarseAlignment | Mode::FineAlignment);
-            let own = if at_berth { &by_sigma } else { policy };
-            own.quality(&solution) == FixQuality::Estimated
-        });
+        let is_estimated = usable.is_some_and(|solution| is_estimated(policy, &solution));
         let Judgement { integrity, excluded } =
             epoch.solution.map(|solution| solution.judgement).unwrap_or_default();
         let is_spare_out = [Party::Gnss2, Party::Gnss3].iter().any(|own| excluded.contains(*own));
@@ -316,8 +326,9 @@ impl Watch {
             Condition::Installation => epoch.doubts.installation,
             Condition::NotRecording => epoch.storage.recording,
             Condition::NotSaving => epoch.storage.state,
-            Condition::ApproachFast => epoch.docking.is_some_and(|own| approach.is_too_fast(&own)),
-            Condition::QuayNear => epoch.docking.is_some_and(|own| approach.is_too_near(&own)),
+            Condition::ApproachFast | Condition::QuayNear => {
+                epoch.docking.is_some_and(|own| condition.holds_at(&own, approach))
+            }
         };
         let mut found = Condition::ALL.map(|condition| (condition, holds(condition)));
         for ((condition, holds), latch) in found.iter_mut().zip(&mut self.latches) {
@@ -326,6 +337,14 @@ impl Watch {
         }
         found
     }
+}
+
+/// Whether a position is estimated. At the berth that is so by design, and only little certainty counts.
+fn is_estimated(policy: &Policy, solution: &Solution) -> bool {
+    let by_sigma = Policy { estimated_without_gnss: false, ..*policy };
+    let at_berth = matches!(solution.mode, Mode::CoarseAlignment | Mode::FineAlignment);
+    let own = if at_berth { &by_sigma } else { policy };
+    own.quality(solution) == FixQuality::Estimated
 }
 
 /// Whether the level of a position is beyond the alert limit, if there is one.
