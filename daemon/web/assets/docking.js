@@ -8,7 +8,7 @@ import { give, mayChange } from "./alerts.js";
 const STILL = 0.005;
 const PARALLEL = 0.05;
 // A vector is the way of so long, s.
-const AHEAD = 30;
+const AHEAD = 60;
 // What is shown of the land behind the edge, and of the quay beyond the ship, m.
 const LAND = 9;
 const MARGIN = 14;
@@ -95,9 +95,9 @@ function middle(docking) {
   byId("d-contact").classList.toggle("fast", known(limit) && known(contact?.speed_mps) && contact.speed_mps > limit);
   show(byId("d-manifold"), Boolean(docking?.manifold));
   const { above_m: above, sigma_above_m: aboveSure } = docking?.manifold ?? {};
-  setText(byId("d-above"), known(above) ? `${fixed(above, 1)} m above the quay, 1σ ${sigma(aboveSure, 1)}` : "");
+  setText(byId("d-above"), known(above) ? `${fixed(above, 1)} ${sigma(aboveSure, 1)} m above it` : "");
   const place = docking?.manifold?.place_m;
-  setText(byId("d-place"), known(place) ? `${fixed(place, 1)} m along the quay` : "");
+  setText(byId("d-place"), known(place) ? `${fixed(place, 1)} m along quay` : "");
 }
 
 export function docking(data) {
