@@ -274,6 +274,9 @@ pub(crate) fn faults(config: &Config) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use insd_base::{Arrival, Input, Order, PortId, Stamp, Time, UtcTime};
+    use insd_vessel::{Obeyed, Product};
+
     use super::*;
 
     const SURVEY: &str = include_str!("../../../systemd/examples/survey.toml");
@@ -391,5 +394,34 @@ fender_m = 1.2
                 .contains(&"berth-far")
         );
         assert!(causes("beam_m = 22.0\n", "").contains(&"no-beam"));
+    }
+
+    #[test]
+    fn an_order_chooses_a_berth_that_there_is_and_a_new_configuration_keeps_it() {
+        let text = with("berth = \"Pier 3\"\n", "");
+        let mut pipeline = Config::of_text(&text).unwrap().pipeline();
+        let mut order = |order: Order| {
+            let stamp = Stamp { monotonic: Time::START, system: UtcTime::from_nanos(0) };
+            let arrival = Arrival { stamp, port: PortId(u16::MAX), input: Input::Order(order) };
+            let mut obeyed = Vec::new();
+            pipeline.handle(&arrival, |product| obeyed.push(product));
+            let chosen = pipeline.outputs().station().berths().chosen().map(str::to_owned);
+            (obeyed, chosen)
+        };
+        let berth = |name: &str| Order::Berth(Some(name.to_owned()));
+        let done = |name: Option<&str>, done| {
+            vec![Product::Order(Obeyed::Berth { name: name.map(str::to_owned), done })]
+        };
+        let pier = Some("Pier 3".to_owned());
+        assert_eq!(order(berth("Pier 4")), (done(Some("Pier 4"), false), None));
+        assert_eq!(order(berth("Pier 3")), (done(Some("Pier 3"), true), pier.clone()));
+        let other = text.replace("fender_m = 1.2", "fender_m = 1.3");
+        let (obeyed, chosen) = order(Order::Configuration(other));
+        let Product::Order(Obeyed::Configured(change)) = &obeyed[0] else {
+            unreachable!("{obeyed:?}")
+        };
+        assert!(change.outputs && !change.inputs && change.waiting.is_empty());
+        assert_eq!(chosen, pier);
+        assert_eq!(order(Order::Berth(None)), (done(None, true), None));
     }
 }
