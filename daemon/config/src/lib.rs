@@ -6,6 +6,7 @@
 
 mod bad_input;
 mod berth;
+mod berths;
 pub mod calendar;
 pub mod check;
 mod environment;
