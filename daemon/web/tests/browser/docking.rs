@@ -19,7 +19,7 @@ fn docking(scene: Scene) -> (Live, Browser) {
 /// A number as the view has it: no sign of minus but its own, no thin spaces.
 fn number(browser: &Browser, id: &str) -> f64 {
     let text = browser.text(&format!("#{id}"));
-    text.replace('−', "-").parse().unwrap_or_else(|_| panic!("{id}: {text}"))
+    text.replace('−', "-").parse().unwrap()
 }
 
 /// What the interface tells of the berth.

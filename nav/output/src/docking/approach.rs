@@ -87,7 +87,7 @@ fn refused(motion: &Motion) -> Option<NotDocking> {
     let is_finite = [&own.position.latitude, &own.position.longitude, &own.attitude.heading]
         .into_iter()
         .chain(own.velocity.0.iter())
-        .chain(motion.covariance.iter().flat_map(|all| all.iter()))
+        .chain(motion.covariance.iter().flat_map(MotionCovariance::iter))
         .all(|part| part.is_finite());
     match (own.mode, own.judgement.integrity) {
         (Mode::Fault, _) => Some(NotDocking::Fault),
