@@ -2,6 +2,7 @@
 
 use insd_drivers::can::CanConfig;
 
+use crate::berths;
 use crate::file::Config;
 use crate::spares;
 
@@ -22,6 +23,7 @@ pub(super) fn of(config: &Config) -> Vec<String> {
         faults.push(format!("{place}: {}: expected {}", fault.key, fault.expected));
     }
     outputs(config, &mut faults);
+    faults.extend(berths::faults(config));
     nodes(config, &mut faults);
     faults.extend(config.state.faults().chain(config.web.faults()).chain(config.log.faults()));
     faults

@@ -7,6 +7,7 @@ use insd_intake::sensor::TimeBase;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::berth::{BerthSection, DockingSection};
 use crate::imu::ImuModel;
 use crate::models::{
     AlignmentSection, FloorSection, GateSection, ModelSection, ProtectionSection, Sections,
@@ -56,6 +57,12 @@ pub struct Config {
     /// Points of the ship that outputs speak of.
     #[serde(default, rename = "point")]
     pub points: Vec<PointSection>,
+    /// Berths to go alongside.
+    #[serde(default, rename = "berth")]
+    pub berths: Vec<BerthSection>,
+    /// The ship that goes alongside, and when to be warned.
+    #[serde(default)]
+    pub docking: DockingSection,
     /// Ports that are written to.
     #[serde(default, rename = "output")]
     pub outputs: Vec<OutputSection>,

@@ -5,6 +5,8 @@
 //! bends no type into another; then by `config`, which lays `INSD__SECTION__KEY` of the environment over it.
 
 mod bad_input;
+mod berth;
+mod berths;
 pub mod calendar;
 pub mod check;
 mod environment;
@@ -33,6 +35,7 @@ mod succession;
 mod tests;
 
 pub use bad_input::BadInput;
+pub use berth::{BerthSection, DockingSection, WaterHand};
 pub use calendar::VoyageCalendar;
 pub use check::{ConfigFinding, ConfigPlace, Examined, Severity};
 pub use file::Config;

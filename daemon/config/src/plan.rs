@@ -105,6 +105,7 @@ impl Config {
             points: self.levers(),
             groups: (!self.nodes.is_empty()).then(|| Rate::from_hertz(GROUPS_RATE)),
             obeyed: obeyed.collect(),
+            berths: self.docking(),
         }
     }
 

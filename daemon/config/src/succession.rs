@@ -57,6 +57,8 @@ impl Config {
         let inputs = self.ports != before.ports || self.sensors != before.sensors;
         let outputs = self.outputs != before.outputs
             || self.points != before.points
+            || self.berths != before.berths
+            || self.docking != before.docking
             || self.ports.iter().map(|port| port.alerts).ne(before.ports.iter().map(|p| p.alerts));
         (self, Change { inputs, outputs, waiting })
     }

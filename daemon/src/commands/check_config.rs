@@ -96,6 +96,9 @@ fn summary(config: &Config) -> String {
     for output in &config.outputs {
         line("output", &output.name, &outgoing(output));
     }
+    for berth in &config.berths {
+        line("berth", &berth.name, &format!("quay of {:.0} m", berth.quay().length()));
+    }
     for node in &config.nodes {
         line("node", &node.port, &format!("NMEA 2000, address {} first", node.address));
     }

@@ -9,6 +9,7 @@ use insd_drivers::raw::RecorderState;
 use insd_intake::status::IntakeStatus;
 use insd_n2k::node::NodeStatus;
 use insd_output::alerts::AlertView;
+use insd_output::docking::Docking;
 use insd_vessel::{Dispute, EngineStatus};
 
 use super::outputs::OutputReport;
@@ -23,12 +24,21 @@ pub(super) struct Report {
     pub(super) mode: Mode,
     pub(super) motion: Option<Motion>,
     pub(super) heave: Option<Heave>,
+    /// How she stands to the berth that is chosen or near.
+    pub(super) alongside: Option<Alongside>,
     pub(super) alignment: Option<AlignmentStatus>,
     pub(super) alerts: Vec<AlertView>,
     pub(super) engines: Vec<EngineStatus>,
     /// When each sensor spoke last, in the order of the configuration.
     pub(super) heard: Vec<Option<Time>>,
     pub(super) slow: Option<Box<Slow>>,
+}
+
+/// How she stands to a berth, and the corners of her hull in its plan.
+#[derive(Clone, Debug)]
+pub(super) struct Alongside {
+    pub(super) docking: Docking,
+    pub(super) outline: Vec<[f64; 2]>,
 }
 
 /// What is looked at once a second.

@@ -46,7 +46,9 @@ fn tell_command(names: &Names, commanded: &Commanded) {
 
 fn tell_order(obeyed: &Obeyed) {
     match obeyed {
-        Obeyed::Alert { .. } => tracing::info!(target: SECURITY, "{}", words::order(obeyed)),
+        Obeyed::Alert { .. } | Obeyed::Berth { .. } => {
+            tracing::info!(target: SECURITY, "{}", words::order(obeyed))
+        }
         Obeyed::Configured(change) if change.is_nothing() => {
             tracing::info!(target: SECURITY, "the configuration is as it was");
         }

@@ -5,7 +5,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 
 use anyhow::Context;
-use insd_base::{Arrival, Event, Input, Order, Span, Stamp, StorageFaults, Time};
+use insd_base::{Arrival, Event, Input, Motion, Order, Span, Stamp, StorageFaults, Time};
 use insd_config::{Config, OutputFile, stored};
 use insd_drivers::ports::Receiver;
 use insd_drivers::raw::Recorder;
@@ -18,7 +18,7 @@ use super::connections::{Connections, NOWHERE};
 use super::control::Control;
 use super::heart::{Heart, Progress};
 use super::journal::{Journal, Note};
-use super::report::{Report, Slow};
+use super::report::{Alongside, Report, Slow};
 use crate::clock::{HostClock, boot_now};
 use crate::state::{Kept, Remains, Saver};
 
@@ -212,12 +212,17 @@ impl Worker {
 
     fn report(&self, now: &Stamp, is_second: bool, with_sea: bool) -> Report {
         let (pipeline, outputs) = (&self.pipeline, self.pipeline.outputs());
+        let motion = pipeline.motion();
+        let docking = pipeline.docking(motion.as_ref(), now.monotonic);
+        let plan = |own: &Motion| outputs.station().berths().plan(own);
+        let outline = motion.as_ref().filter(|_| docking.is_some()).map(plan).unwrap_or_default();
         Report {
             stamp: *now,
             utc: self.pipeline.utc_at(now.monotonic),
             mode: pipeline.mode(),
-            motion: pipeline.motion(),
+            motion,
             heave: pipeline.heave(),
+            alongside: docking.map(|docking| Alongside { docking, outline }),
             alignment: outputs.alignment(),
             alerts: outputs.station().alerts().views().collect(),
             engines: pipeline.engines(),

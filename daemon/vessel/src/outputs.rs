@@ -94,7 +94,8 @@ impl Outputs {
     #[must_use]
     pub fn new(plan: OutputPlan) -> Self {
         Outputs {
-            station: OutputStation::new(plan.ports, plan.points, plan.groups),
+            station: OutputStation::new(plan.ports, plan.points, plan.groups)
+                .with_berths(plan.berths),
             commands: AlertCommands::new(plan.obeyed),
             alignment: None,
             receiver: None,
@@ -156,6 +157,11 @@ impl Outputs {
         utc: Option<UtcTime>,
     ) -> bool {
         self.station.obey(identifier, command, now, utc)
+    }
+
+    /// Chooses a berth by its name, or again the nearest; whether there is such a berth.
+    pub fn choose_berth(&mut self, name: Option<&str>) -> bool {
+        self.station.choose_berth(name)
     }
 
     /// Speaks from now on to other ports, knowing and alerting of what it did.
@@ -274,7 +280,7 @@ mod tests {
 
     fn obeying_the_bridge() -> Outputs {
         let (ports, points) = (vec![simulated()], vec![Body::default()]);
-        Outputs::new(OutputPlan { ports, points, obeyed: vec![BRIDGE], groups: None })
+        Outputs::new(OutputPlan { ports, points, obeyed: vec![BRIDGE], ..OutputPlan::default() })
     }
 
     /// Formatters of what is told in some seconds.

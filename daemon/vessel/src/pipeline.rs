@@ -12,12 +12,16 @@ use insd_intake::event::IntakeEvent;
 use insd_intake::status::IntakeStatus;
 use insd_intake::{Intake, Intaken};
 use insd_output::WakeUp;
+use insd_output::docking::Docking;
 use insd_wire::nmea::AlertCommand;
 
 use crate::checkpoints::Checkpoints;
 use crate::outputs::{Commanded, Knows, Outputs, Spoken};
 use crate::plan::{Change, Plan};
 use crate::spares::{Dispute, EngineStatus, FIRST, InUse, Redundancy, Said, Vote};
+
+/// In a checkpoint the name of the berth that is chosen stands under this name, which is that of no engine.
+const BERTH: &str = "";
 
 /// What an arrival led to.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +45,13 @@ pub enum Product {
 /// What became of an order.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Obeyed {
+    /// Another berth was chosen, or none: whether there is such a berth.
+    Berth {
+        /// Its name; none for the nearest.
+        name: Option<String>,
+        /// Whether it was done.
+        done: bool,
+    },
     /// One about an alert: whether there is such an alert that it could be done to.
     Alert {
         /// The alert's identifier.
@@ -187,12 +198,23 @@ impl<R: OrderReader> Pipeline<R> {
                     Some(own) => self.engine.resume(own, now, *age),
                     None => Err(ResumeDoubt::Damaged),
                 };
+                let chosen = checkpoints.of(BERTH).map(String::from_utf8_lossy);
                 let spares = self.redundancy.as_mut();
                 let resumed = spares.is_some_and(|own| own.resume(&checkpoints, now, *age));
                 match first {
                     Err(doubt) if !resumed => Obeyed::NotResumed(doubt),
-                    _ => Obeyed::Resumed,
+                    _ => {
+                        // a berth that is configured no more is not there to be chosen
+                        if let Some(name) = chosen {
+                            self.outputs.choose_berth(Some(&name));
+                        }
+                        Obeyed::Resumed
+                    }
                 }
+            }
+            Order::Berth(name) => {
+                let done = self.outputs.choose_berth(name.as_deref());
+                Obeyed::Berth { name: name.clone(), done }
             }
             Order::StoredState(text) => match self.reader.stored_state(text) {
                 Ok(state) => {
@@ -222,7 +244,10 @@ impl<R: OrderReader> Pipeline<R> {
     pub fn checkpoint(&self) -> Option<Vec<u8>> {
         let first = self.engine.checkpoint().map(|state| (FIRST.to_owned(), state));
         let spares = self.redundancy.iter().flat_map(Redundancy::checkpoints);
-        Checkpoints(first.into_iter().chain(spares).collect()).bytes()
+        let mut all: Vec<(String, Vec<u8>)> = first.into_iter().chain(spares).collect();
+        let chosen = self.outputs.station().berths().chosen().filter(|_| !all.is_empty());
+        all.extend(chosen.map(|name| (BERTH.to_owned(), name.as_bytes().to_vec())));
+        Checkpoints(all).bytes()
     }
 
     /// Who reads its orders, and so knows the configuration that holds.
@@ -253,6 +278,12 @@ impl<R: OrderReader> Pipeline<R> {
     #[must_use]
     pub fn motion(&self) -> Option<Motion> {
         self.in_use().motion()
+    }
+
+    /// How she stands to the berth that is chosen or near, at that sample; `None` where there is none.
+    #[must_use]
+    pub fn docking(&self, motion: Option<&Motion>, now: Time) -> Option<Docking> {
+        self.outputs.station().berths().look(motion, now)
     }
 
     /// Heave of the first IMU by the engine in use.

@@ -4,6 +4,7 @@ use insd_base::{Body, PortId};
 use insd_engine::EngineConfig;
 use insd_engine::vote::Voice;
 use insd_intake::config::IntakeConfig;
+use insd_output::docking::DockingConfig;
 use insd_output::{OutputPortConfig, Rate};
 
 /// What a pipeline is made of.
@@ -46,6 +47,8 @@ pub struct OutputPlan {
     pub groups: Option<Rate>,
     /// Ports on which the alert management of the bridge is obeyed.
     pub obeyed: Vec<PortId>,
+    /// Berths to go alongside.
+    pub berths: DockingConfig,
 }
 
 /// What is different after a configuration was read again.

@@ -106,6 +106,9 @@ pub fn order(obeyed: &Obeyed) -> String {
             let refused = if *done { "" } else { ", which could not be done" };
             format!("alert {identifier} {command} on the page{refused}")
         }
+        Obeyed::Berth { name: Some(name), done: true } => format!("berth {name} is chosen"),
+        Obeyed::Berth { name: Some(name), .. } => format!("there is no berth {name}"),
+        Obeyed::Berth { name: None, .. } => "the nearest berth is proposed".to_owned(),
         Obeyed::Configured(change) if change.waiting.is_empty() => {
             "another configuration holds".to_owned()
         }

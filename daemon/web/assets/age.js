@@ -14,8 +14,18 @@ export function after(data, passed) {
   const navigator = ofAge(time.told_ago_s);
   if (navigator === "gone") return forgotten(data, time);
   const motion = moved(data.motion, time.at_s, navigator);
+  const docking = alongside(data.docking, time.at_s, navigator);
   const silent = { name: "fault", since_s: time.told_ago_s, reason: "nothing is heard of the navigator" };
-  return { ...data, time, motion, mode: navigator === "fresh" ? data.mode : silent };
+  return { ...data, time, motion, docking, mode: navigator === "fresh" ? data.mode : silent };
+}
+
+// The quay stays where it is; what is told of the ship beside it does not.
+function alongside(docking, now, navigator) {
+  if (!docking) return null;
+  const freshness = worst(docking.freshness ?? "fresh", ofAge(now - docking.valid_at_s), navigator);
+  if (freshness !== "gone") return { ...docking, freshness };
+  const { berth, choice, why, valid_at_s, quay } = docking;
+  return { berth, choice, valid_at_s, quay, freshness, state: "not_valid", why: why ?? "nothing new is known", outline_m: [] };
 }
 
 function moved(motion, now, navigator) {
@@ -37,7 +47,7 @@ function forgotten(data, time) {
     ...data,
     time: { at_s: time.at_s, told_ago_s: time.told_ago_s, quality: "" },
     mode: { name: "fault", since_s: time.told_ago_s, reason: "nothing is heard of the navigator" },
-    motion: null, alignment: null, estimates: null, disturbance: null,
+    motion: null, docking: alongside(data.docking, time.at_s, "gone"), alignment: null, estimates: null, disturbance: null,
     engines: data.engines.map(({ name }) => ({ name, mode: "", in_use: false, healthy: false, differs: [] })),
     sensors: data.sensors.map(row), choices: [],
     sky: { state: "unknown", satellites: [], refused: data.sky?.refused ?? [] },

@@ -45,7 +45,10 @@ function tellToken() {
   for (const row of rows.values()) row.buttons.forEach((button) => { button.disabled = !token || Boolean(readOnly); });
 }
 
-const give = (path, body) =>
+// Whether something can be changed from this tab.
+export const mayChange = () => Boolean(token) && !readOnly;
+
+export const give = (path, body) =>
   order(path, token, body).catch(() => ({ done: false, text: "the program cannot be reached" }));
 
 function build(alert) {

@@ -12,10 +12,12 @@ import { sky } from "./sky.js";
 import { alignment, disturbance, modes, modeTone } from "./alignment.js";
 import { alerts, startAlerts } from "./alerts.js";
 import * as bridge from "./bridge.js";
+import { docking, plan, startDocking } from "./docking.js";
 
 const bind = binder(document);
 const instruments = [rose(byId("rose")), rose(byId("b-rose")), horizon(byId("horizon")), turn(byId("turn")), turn(byId("b-turn")), qualities, source];
 const sheet = chart(byId("chart"));
+const quay = plan(byId("d-plan"));
 const past = history();
 const plots = [
   ["plot-heading", () => past.unwrapped("heading_deg"), { least: 2, wrap: true }],
@@ -60,6 +62,8 @@ function drawLive() {
   bind(data);
   instruments.forEach((show) => show(data.motion));
   alignment(data);
+  docking(data);
+  quay(data.docking);
   setText(byId("utc"), clock(data.time.utc));
   setAttr(byId("utc"), "datetime", data.time.utc ?? "");
   setClass(byId("mode-chip"), `mode tone-${modeTone(data.mode.name)}`);
@@ -179,5 +183,6 @@ window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", red
 startTheme();
 bridge.startView(redraw);
 startAlerts();
+startDocking();
 setInterval(() => { if (performance.now() - at > LOOK) age(false); }, LOOK);
 follow({ onData: take, onLink });

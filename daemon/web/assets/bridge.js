@@ -1,4 +1,4 @@
-// The view for the bridge: one screen of what is steered by, with the alerts and the last hours.
+// The views: the page, one for the bridge, one to go alongside. The one for the bridge: one screen of what is steered by, with the alerts and the last hours.
 
 import { byId, keep, make, recall, setClass, setText, show } from "./dom.js";
 import { fixed, known, words } from "./format.js";
@@ -23,11 +23,13 @@ export function startView(onChange) {
   const apply = () => {
     document.body.dataset.view = select.value;
     show(byId("bridge"), isBridge());
+    show(byId("docking"), select.value === "docking");
     keep("localStorage", "view", select.value);
     onChange();
   };
-  // a screen can be started with it: …/#bridge
-  select.value = location.hash === "#bridge" ? "bridge" : recall("localStorage", "view") ?? "page";
+  // a screen can be started with one: …/#bridge, …/#docking
+  const asked = location.hash.slice(1);
+  select.value = ["bridge", "docking"].includes(asked) ? asked : recall("localStorage", "view") ?? "page";
   select.addEventListener("change", apply);
   apply();
 }

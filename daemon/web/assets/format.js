@@ -47,6 +47,9 @@ export function metres(value) {
   return fixed(value, value < 10 ? 2 : value < 100 ? 1 : 0);
 }
 
+// across a quay centimetres count where she is near
+export const berth = (value) => fixed(value, Math.abs(value) < 9.995 ? 2 : 1);
+
 export function duration(seconds) {
   if (!known(seconds)) return DASH;
   const s = Math.max(0, Math.floor(seconds));
@@ -99,7 +102,7 @@ const plain = (value) => (value === null || value === undefined || value === "" 
 
 // the formats that the page names in data-as
 export const formats = {
-  plain, lat, lon, metres, duration, bytes, count, words, date, datetime, smalltime,
+  plain, lat, lon, metres, berth, duration, bytes, count, words, date, datetime, smalltime,
   bearing: (value) => bearing(value), bearing0: (value) => bearing(value, 0),
   fixed0: (v) => fixed(v, 0), fixed1: (v) => fixed(v, 1), fixed2: (v) => fixed(v, 2), fixed3: (v) => fixed(v, 3),
   signed1: (v) => signed(v, 1), signed2: (v) => signed(v, 2),

@@ -29,6 +29,8 @@ pub enum PageOrder {
         /// Its instance, if it has one.
         instance: Option<u32>,
     },
+    /// The berth of this name is gone alongside; without a name the nearest is proposed.
+    Berth(Option<String>),
     /// What the journal tells from now on: a level, or a filter by module.
     LogLevel(String),
 }
@@ -38,6 +40,8 @@ impl fmt::Display for PageOrder {
         match self {
             PageOrder::Acknowledge { id, .. } => write!(f, "acknowledge alert {id}"),
             PageOrder::Silence { id, .. } => write!(f, "silence alert {id}"),
+            PageOrder::Berth(Some(name)) => write!(f, "choose berth {name}"),
+            PageOrder::Berth(None) => f.write_str("choose the nearest berth"),
             PageOrder::LogLevel(level) => write!(f, "log at level {level}"),
         }
     }

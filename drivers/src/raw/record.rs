@@ -200,6 +200,11 @@ fn put_order(bytes: &mut Vec<u8>, order: &Order) {
             put(bytes, 3);
             put_bytes(bytes, text.as_bytes());
         }
+        // no berth has an empty name
+        Order::Berth(name) => {
+            put(bytes, 4);
+            put_bytes(bytes, name.as_deref().unwrap_or_default().as_bytes());
+        }
     }
 }
 
@@ -338,6 +343,7 @@ fn take_order(bytes: &mut &[u8]) -> Option<Order> {
             Order::Checkpoint { age, state: take_bytes(bytes)?.to_vec() }
         }
         3 => Order::StoredState(take_text(bytes)?),
+        4 => Order::Berth(Some(take_text(bytes)?).filter(|name| !name.is_empty())),
         _ => return None,
     })
 }

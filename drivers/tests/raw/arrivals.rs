@@ -57,6 +57,7 @@ fn order() -> impl Strategy<Value = Order> {
         (any::<i64>(), vec(any::<u8>(), 0..60))
             .prop_map(|(age, state)| Order::Checkpoint { age: Span::from_nanos(age), state }),
         ".{0,40}".prop_map(Order::StoredState),
+        proptest::option::of(".{1,40}").prop_map(Order::Berth),
     ]
 }
 

@@ -115,7 +115,7 @@ fn the_examples_of_the_page_are_read_and_written_byte_for_byte() {
         .map(str::trim)
         .filter(|line| line.starts_with("$PINSD,") && !line.ends_with("*hh"))
         .collect();
-    assert_eq!(examples.len(), 4);
+    assert_eq!(examples.len(), 6);
     for line in examples {
         let (_, sentence) = Sentence::read(line.as_bytes()).unwrap();
         assert_eq!(sentence.write(Talker::IN).as_str(), line);

@@ -151,6 +151,8 @@ pub enum Order {
     },
     /// The state of a ship at her berth that the run before has stored: its text.
     StoredState(String),
+    /// The berth of this name is gone alongside; without a name the nearest is proposed.
+    Berth(Option<String>),
 }
 
 /// What an operator can do about an alert.
@@ -191,6 +193,7 @@ impl Order {
         match self {
             Order::Alert { .. } => 0,
             Order::Configuration(text) | Order::StoredState(text) => text.len(),
+            Order::Berth(name) => name.as_ref().map_or(0, String::len),
             Order::Checkpoint { state, .. } => state.len(),
         }
     }

@@ -15,7 +15,13 @@ impl Protection {
     #[must_use]
     pub fn of(sigma: &SolutionSigma) -> Self {
         let sigma = &sigma.position.0;
-        Protection { horizontal: HORIZONTAL * sigma.xy().norm(), vertical: VERTICAL * sigma.z }
+        Protection { horizontal: HORIZONTAL * sigma.xy().norm(), vertical: Self::along(sigma.z) }
+    }
+
+    /// Along one direction, where nobody lies: by its 1-sigma, in the same unit.
+    #[must_use]
+    pub fn along(sigma: f64) -> f64 {
+        VERTICAL * sigma
     }
 
     /// Both added.

@@ -6,6 +6,7 @@ use insd_base::{
 };
 use insd_n2k::pgn::TimeSource;
 
+use crate::docking::Docking;
 use crate::schedule::Boundary;
 
 /// A levelling that has said nothing for longer than this has come to a halt: it speaks every 10 s.
@@ -53,6 +54,10 @@ pub struct OutputEpoch {
     pub doubts: Doubts,
     /// What cannot be written on the disk.
     pub storage: StorageFaults,
+    /// How the ship stands to the berth that is chosen or near.
+    pub docking: Option<Docking>,
+    /// Velocity of the stern over the Earth, where it is known which point that is, m/s.
+    pub stern: Option<Ned>,
 }
 
 /// What of the installation is found to be otherwise than configured.
@@ -147,6 +152,8 @@ impl OutputEpoch {
             engines_differ: false,
             doubts: Doubts::default(),
             storage: StorageFaults::default(),
+            docking: None,
+            stern: None,
         }
     }
     /// Whether it is being found which way is down: there cannot be a solution yet.

@@ -9,6 +9,7 @@
 //! the profiles and the policy.
 
 pub mod alerts;
+pub mod docking;
 mod epoch;
 mod lan;
 mod manner;

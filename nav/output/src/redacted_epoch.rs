@@ -9,6 +9,7 @@ use insd_n2k::pgn::{Sid, TimeSource};
 use insd_wire::nmea::{AlertEntry, CivilTime, HeadingMode, PositionMode};
 
 use crate::alerts::Announcement;
+use crate::docking::{Docking, DockingState, NotDocking};
 use crate::epoch::{Distance, OutputEpoch, SatelliteGeometry, Variation};
 use crate::manner::Manner;
 use crate::policy::{mode_of, uses_gnss};
@@ -328,6 +329,28 @@ impl<'a> RedactedEpoch<'a> {
     /// Velocity through the water in the ship's level axes.
     pub(crate) fn through_water(&self) -> Option<Level> {
         self.level(Ned(self.moving()?.velocity.0 - self.current()?.0))
+    }
+
+    /// How the ship stands to a berth: only where heading and position may be told.
+    pub(crate) fn docking(&self) -> Option<Docking> {
+        let docking = self.told.docking?;
+        let is_told = self.heading().is_some() && self.position().is_some();
+        let which = (docking.berth, docking.choice);
+        let none = || Docking::not_valid(docking.time, which, NotDocking::NotNavigating);
+        let is_not = matches!(docking.state, DockingState::NotValid(_));
+        Some(if is_told || is_not { docking } else { none() })
+    }
+
+    /// Velocity of the stern over ground in the ship's level axes.
+    pub(crate) fn stern_over_ground(&self) -> Option<Level> {
+        self.moving()?;
+        self.level(self.told.stern.filter(all_finite)?)
+    }
+
+    /// The same through the water.
+    pub(crate) fn stern_through_water(&self) -> Option<Level> {
+        self.moving()?;
+        self.level(Ned(self.told.stern.filter(all_finite)?.0 - self.current()?.0))
     }
 
     /// Velocity of the water over ground.

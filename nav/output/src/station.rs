@@ -1,12 +1,14 @@
 //! All ports together: when something is due, and the epoch of each port's monitoring point.
 
 use insd_base::{
-    AlignmentStatus, Body, Heave, Mode, Motion, SolutionSource, Span, StorageFaults, Time, UtcTime,
+    AlignmentStatus, Body, Heave, Mode, Motion, Ned, SolutionSource, Span, StorageFaults, Time,
+    UtcTime,
 };
 use insd_n2k::pgn::TimeSource;
 use insd_wire::nmea::{Acn, AlertCommand, Hbt};
 
 use crate::alerts::{AlertBoard, AlertConfig, Watch};
+use crate::docking::{BerthDesk, DockingConfig, HullPart};
 use crate::epoch::{Distance, Doubts, OutputEpoch, SatelliteGeometry, Variation};
 use crate::policy::Policy;
 use crate::port::{OutputPortConfig, Port, PortMessage};
@@ -57,6 +59,7 @@ pub struct OutputStation {
     standing: Standing,
     watch: Watch,
     board: AlertBoard,
+    berths: BerthDesk,
 }
 
 impl OutputStation {
@@ -80,6 +83,7 @@ impl OutputStation {
             standing: Standing::default(),
             watch: Watch::default(),
             board: AlertBoard::default(),
+            berths: BerthDesk::default(),
         }
     }
 
@@ -87,6 +91,23 @@ impl OutputStation {
     #[must_use]
     pub fn with_alerts(self, config: AlertConfig) -> Self {
         OutputStation { board: AlertBoard::new(config), ..self }
+    }
+
+    /// The same with berths to go alongside.
+    #[must_use]
+    pub fn with_berths(self, config: DockingConfig) -> Self {
+        OutputStation { berths: BerthDesk::new(config), ..self }
+    }
+
+    /// The berths, and which of them is told of.
+    #[must_use]
+    pub fn berths(&self) -> &BerthDesk {
+        &self.berths
+    }
+
+    /// Chooses a berth by its name, or again the nearest; whether there is such a berth.
+    pub fn choose_berth(&mut self, name: Option<&str>) -> bool {
+        self.berths.choose(name)
     }
 
     /// Its ports.
@@ -129,6 +150,7 @@ impl OutputStation {
         self.standing.clone_from(&before.standing);
         self.watch = before.watch;
         self.board.clone_from(&before.board);
+        self.berths.inherit(&before.berths);
     }
 
     /// Hears a heartbeat of the bridge; see [`AlertBoard::hear`].
@@ -176,10 +198,20 @@ impl OutputStation {
             .enumerate()
             .map(|(index, lever)| epoch(boundary, moment, index, lever))
             .collect();
+        let motion = carried(boundary, moment);
+        let is_upkeep = Rate::from_hertz(UPKEEP).is_on(boundary.grid());
+        if let Some(motion) = motion.filter(|_| is_upkeep) {
+            self.berths.note(&motion.solution.position);
+        }
+        let docking = self.berths.look(motion.as_ref(), boundary.time);
+        let stern = self.stern(motion.as_ref());
+        for epoch in &mut epochs {
+            (epoch.docking, epoch.stern) = (docking, stern);
+        }
         if let Some(imu) = epochs.first().copied() {
             self.odometer.note(&imu);
             self.standing.note(&imu);
-            if Rate::from_hertz(UPKEEP).is_on(boundary.grid()) {
+            if is_upkeep {
                 self.keep_watch(&imu, boundary);
             }
         }
@@ -198,12 +230,19 @@ impl OutputStation {
         epochs
     }
 
+    /// How the stern moves.
+    fn stern(&self, motion: Option<&Motion>) -> Option<Ned> {
+        let lever = self.berths.config().hull.as_ref()?.told(HullPart::Stern)?;
+        Some(motion?.at_point(&lever).solution.velocity)
+    }
+
     /// Raises and rectifies alerts.
     fn keep_watch(&mut self, epoch: &OutputEpoch, now: &Boundary) {
         let mut judges = self.ports.iter().filter(|port| port.tells_alerts());
         let policy = judges.next().map_or_else(Policy::default, |port| port.config().manner.policy);
         let simulated = self.ports.iter().any(|port| port.config().manner.simulated);
-        for (condition, holds) in self.watch.note(epoch, &policy, simulated) {
+        let limits = self.berths.config().limits;
+        for (condition, holds) in self.watch.note(epoch, &policy, &limits, simulated) {
             if holds {
                 self.board.raise(condition, now);
             } else {
@@ -236,17 +275,21 @@ impl Standing {
     }
 }
 
-/// What is known of a monitoring point at a boundary. The newest motion is carried on to it, but not
-/// for longer than 0.2 s: nothing is told with a new time that is not new.
-fn epoch(boundary: &Boundary, moment: &Situation, point: usize, lever: &Body) -> OutputEpoch {
-    let within =
-        |time: Time, span: Span| (boundary.time - time).as_nanos().abs() <= span.as_nanos();
-    let is_near = |time: Time| within(time, CARRIED);
+/// The newest motion at a boundary. It is carried on to it, but not for longer than 0.2 s: nothing is told with a new time
+/// that is not new.
+fn carried(boundary: &Boundary, moment: &Situation) -> Option<Motion> {
     let motion = moment.motion.filter(|motion| {
         let relayed = motion.solution.mode == Mode::Standby;
-        within(motion.solution.time, if relayed { RELAYED } else { CARRIED })
+        let age = (boundary.time - motion.solution.time).as_nanos().abs();
+        age <= if relayed { RELAYED } else { CARRIED }.as_nanos()
     });
-    let motion = motion.map(|motion| motion.at(boundary.time).at_point(lever));
+    motion.map(|motion| motion.at(boundary.time))
+}
+
+/// What is known of a monitoring point at a boundary.
+fn epoch(boundary: &Boundary, moment: &Situation, point: usize, lever: &Body) -> OutputEpoch {
+    let is_near = |time: Time| (boundary.time - time).as_nanos().abs() <= CARRIED.as_nanos();
+    let motion = carried(boundary, moment).map(|motion| motion.at_point(lever));
     let heave = moment.heaves.get(point).copied().flatten();
     OutputEpoch {
         solution: motion.map(|motion| motion.solution),

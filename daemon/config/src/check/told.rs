@@ -82,7 +82,8 @@ fn cause(key: &str, text: &str) -> &'static str {
     match key.split('.').next_back().unwrap_or_default() {
         "name" => "duplicate-name",
         "port" => "unknown-port",
-        "point" => "unknown-point",
+        "point" | "bow" | "stern" | "manifold" if text.contains("name of") => "unknown-point",
+        "berth" => "unknown-berth",
         "imu" => "unknown-imu",
         "profile" => "unknown-profile",
         "mounting" => "mounting-axes",
@@ -109,7 +110,10 @@ fn advise(finding: &mut ConfigFinding, config: &Config) {
             let imus = config.sensors.iter().filter(|own| own.kind.role() == Role::Imu);
             imus.map(|own| own.name.as_str()).collect()
         }
-        (_, "point") => config.points.iter().map(|point| point.name.as_str()).collect(),
+        ("docking", "berth") => config.berths.iter().map(|own| own.name.as_str()).collect(),
+        (_, "point") | ("docking", "bow" | "stern" | "manifold") => {
+            config.points.iter().map(|point| point.name.as_str()).collect()
+        }
         (_, "profile") => Profile::all().map(|profile| profile.name).collect(),
         _ => Vec::new(),
     };

@@ -4,6 +4,7 @@
 mod aids;
 mod alerts;
 mod alignment;
+mod docking;
 mod engines;
 mod meaning;
 mod ports;
@@ -194,6 +195,8 @@ impl Showcase {
                 ..ship::motion(motion, report.heave, |t| self.utc(t))
             }
         });
+        let alongside = report.alongside.as_ref();
+        self.shown.docking = alongside.and_then(|own| docking::docking(&self.config, own));
         let status = report.alignment.as_ref();
         self.shown.alignment = status.map(|own| alignment::alignment(own, now, |t| self.utc(t)));
         self.shown.alerts = self.alerts.alerts(report);
@@ -219,6 +222,7 @@ impl Audience for Showcase {
     fn configure(&mut self, config: &Config, text: &str) {
         self.config = config.clone();
         self.shown.program.configuration_hash = Some(program::hash(text));
+        self.shown.berths = config.berths.iter().map(|berth| berth.name.clone()).collect();
         self.shown.program.simulated = config.outputs.iter().any(|output| output.simulated);
     }
 

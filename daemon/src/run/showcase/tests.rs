@@ -41,6 +41,7 @@ fn report(now: f64, heard: f64) -> Report {
         mode: Mode::Aided,
         motion: Some(motion),
         heave: None,
+        alongside: None,
         alignment: None,
         alerts: Vec::new(),
         engines: Vec::new(),

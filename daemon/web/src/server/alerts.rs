@@ -18,6 +18,8 @@ use super::guard::fault;
 use super::hall::Hall;
 use crate::SECURITY;
 
+/// Longest name of a berth, characters.
+const LONGEST_NAME: usize = 200;
 /// Longest filter of the journal, characters.
 const LONGEST_LEVEL: usize = 200;
 
@@ -27,6 +29,13 @@ const LONGEST_LEVEL: usize = 200;
 struct AlertBody {
     #[serde(default)]
     instance: Option<u32>,
+}
+
+/// The body of an order about the berth.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BerthBody {
+    name: Option<String>,
 }
 
 /// The body of an order about the journal.
@@ -77,6 +86,23 @@ pub(super) async fn log_level(
             return Err("level: a level such as \"debug\", or a filter by module".to_owned());
         }
         Ok(PageOrder::LogLevel(level))
+    };
+    give(&hall, &headers, peer, order).await
+}
+
+pub(super) async fn berth(
+    State(hall): State<Arc<Hall>>,
+    Extension(peer): Extension<Peer>,
+    headers: HeaderMap,
+    body: Bytes,
+) -> Response {
+    let order = || {
+        let BerthBody { name } = parse(&body)?;
+        let good = |name: &String| !name.is_empty() && name.chars().count() <= LONGEST_NAME;
+        if !name.as_ref().is_none_or(good) {
+            return Err("name: the name of a berth, or null for the nearest".to_owned());
+        }
+        Ok(PageOrder::Berth(name))
     };
     give(&hall, &headers, peer, order).await
 }

@@ -5,7 +5,9 @@ use std::sync::OnceLock;
 use axum::body::Bytes;
 use serde::Serialize;
 
-use crate::snapshot::{Alert, ShownAlignment, ShownMode, ShownMotion, Snapshot, TimeInfo};
+use crate::snapshot::{
+    Alert, ShownAlignment, ShownDocking, ShownMode, ShownMotion, Snapshot, TimeInfo,
+};
 
 use super::metrics;
 
@@ -27,6 +29,7 @@ struct Live<'a> {
     time: &'a TimeInfo,
     mode: &'a ShownMode,
     motion: &'a Option<ShownMotion>,
+    docking: &'a Option<ShownDocking>,
     alignment: &'a Option<ShownAlignment>,
 }
 
@@ -63,8 +66,8 @@ impl Frame {
 
     /// What changes many times a second, as an event of the stream.
     pub(super) fn live(&self) -> Bytes {
-        let Snapshot { version, time, mode, motion, alignment, .. } = self.snapshot();
-        let live = Live { version: *version, time, mode, motion, alignment };
+        let Snapshot { version, time, mode, motion, docking, alignment, .. } = self.snapshot();
+        let live = Live { version: *version, time, mode, motion, docking, alignment };
         self.live.get_or_init(|| self.event("live", &json(&live))).clone()
     }
 
@@ -72,6 +75,9 @@ impl Frame {
     pub(super) fn has_news_since(&self, earlier: &Frame) -> bool {
         let (now, before) = (self.snapshot(), earlier.snapshot());
         let alert = |one: &Alert| (one.id, one.instance, one.state);
+        let berth = |own: &Snapshot| {
+            own.docking.as_ref().map(|own| (own.berth.clone(), own.choice.clone()))
+        };
         now.mode.name != before.mode.name
             || now
                 .sensors
@@ -79,6 +85,7 @@ impl Frame {
                 .map(|one| one.state)
                 .ne(before.sensors.iter().map(|one| one.state))
             || now.inputs.iter().map(|one| one.state).ne(before.inputs.iter().map(|one| one.state))
+            || berth(now) != berth(before)
             || now.alerts.iter().map(alert).ne(before.alerts.iter().map(alert))
     }
 

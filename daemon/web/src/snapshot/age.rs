@@ -59,6 +59,7 @@ impl Snapshot {
             motion.grow_older(now, passed, own);
         }
         self.motion = self.motion.take().filter(|motion| motion.freshness != Freshness::Gone);
+        self.docking.iter_mut().for_each(|docking| docking.grow_older(now, own));
         for engine in &mut self.engines {
             engine.grow_older(now, navigator);
         }

@@ -15,6 +15,7 @@ mod age;
 mod aids;
 mod alerts;
 mod alignment;
+mod docking;
 mod freshness;
 mod ports;
 mod program;
@@ -25,6 +26,7 @@ mod sky;
 pub use aids::{Cause, Rejected, Samples, ShownAid};
 pub use alerts::{Alert, ShownAlertState, ShownEvent, ShownPriority, ShownSeverity};
 pub use alignment::{DisturbanceAxis, ShownAlignment, ShownDisturbance, ShownFit};
+pub use docking::{ShownContact, ShownDocking, ShownDockingPoint, ShownQuay};
 pub use freshness::{Freshness, GONE, OLD};
 pub use ports::{
     Age, Bus, BusNode, BusState, OutputMessage, Schedule, ShownInput, ShownOutput, ShownPortState,
@@ -67,6 +69,10 @@ pub struct Snapshot {
     pub modes: Vec<ShownTransition>,
     /// Where the ship is, how she moves and lies; `None` while nothing is known that could be shown.
     pub motion: Option<ShownMotion>,
+    /// How she stands to the berth that is chosen or near; `None` where there is none.
+    pub docking: Option<ShownDocking>,
+    /// Names of the berths that can be chosen.
+    pub berths: Vec<String>,
     /// What the alignment knows of itself; `None` before its first word.
     pub alignment: Option<ShownAlignment>,
     /// The instances of the navigator, if there are several.
@@ -120,6 +126,8 @@ impl Default for Snapshot {
             mode: ShownMode::default(),
             modes: Vec::new(),
             motion: None,
+            docking: None,
+            berths: Vec::new(),
             alignment: None,
             engines: Vec::new(),
             estimates: None,

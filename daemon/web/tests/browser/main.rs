@@ -8,6 +8,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
 
+mod docking;
 mod driver;
 mod live;
 mod look;
@@ -188,7 +189,7 @@ fn nothing_goes_beyond_the_edge_of_any_screen() {
 fn words_can_be_told_from_their_ground_in_every_light() {
     let (_live, browser) = looking_at(Scene::Fault);
     browser.until("alerts", || !browser.elements(".alert .acknowledge").is_empty());
-    for view in ["page", "bridge"] {
+    for view in ["page", "bridge", "docking"] {
         choose(&browser, "view", view);
         for light in LIGHTS {
             choose(&browser, "theme", light);

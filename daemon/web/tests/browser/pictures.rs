@@ -13,12 +13,16 @@ const LARGEST: usize = 300_000;
 /// Name, scene, size, light, and how far down.
 type Picture = (&'static str, Scene, [u32; 2], &'static str, &'static str);
 
-const PICTURES: [Picture; 10] = [
+const PICTURES: [Picture; 14] = [
     ("underway", Scene::Underway, [1920, 1080], "day", "#ship"),
     ("underway-dusk", Scene::Underway, [1600, 900], "dusk", "#ship"),
     ("underway-night", Scene::Underway, [1600, 900], "night", "#ship"),
     ("bridge", Scene::Underway, [1920, 1080], "day", "#bridge"),
     ("bridge-night", Scene::Fault, [1920, 1080], "night", "#bridge"),
+    ("docking", Scene::Underway, [1920, 1080], "day", "#docking"),
+    ("docking-night", Scene::Underway, [1920, 1080], "night", "#docking"),
+    ("docking-phone", Scene::Underway, [390, 844], "day", "#docking"),
+    ("docking-phone-night", Scene::Fault, [390, 844], "night", "#docking"),
     ("alignment", Scene::Alignment, [1280, 800], "day", "#alignment"),
     ("satellites", Scene::Underway, [1440, 860], "day", "#satellites"),
     ("fault", Scene::Fault, [1280, 860], "dusk", "#alerts"),
@@ -42,13 +46,14 @@ fn pictures() {
         let live = lives.iter().find(|(own, _)| *own == scene).map(|(_, live)| live).unwrap();
         browser.size(width, height);
         browser.go(&live.url());
-        let view = if place == "#bridge" { "bridge" } else { "page" };
+        let view = ["bridge", "docking"].into_iter().find(|view| place == format!("#{view}"));
+        let view = view.unwrap_or("page");
         browser.run(&format!(
             "localStorage.setItem('theme', '{theme}'); localStorage.setItem('view', '{view}')"
         ));
         browser.go(&live.url());
         browser.until("data come", || browser.text("#link") == "live");
-        let down = "if (!['#ship', '#bridge'].includes('PLACE')) document.querySelector('PLACE').scrollIntoView()";
+        let down = "if (!['#ship', '#bridge', '#docking'].includes('PLACE')) document.querySelector('PLACE').scrollIntoView()";
         browser.run(&down.replace("PLACE", place));
         std::thread::sleep(Duration::from_millis(2500));
         let png = browser.picture();

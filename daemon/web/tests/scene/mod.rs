@@ -3,6 +3,7 @@
 
 #![allow(dead_code)] // each test uses a part of it
 
+mod docking;
 pub(crate) mod faults;
 mod plumbing;
 mod ship;
@@ -48,13 +49,15 @@ pub(crate) struct Show {
     /// States of the two alerts of the fault that ask to be acknowledged.
     alerts: [ShownAlertState; 2],
     level: String,
+    /// The berth that somebody chose.
+    berth: Option<String>,
 }
 
 impl Show {
     /// A scene that has been going on for some minutes.
     pub(crate) fn new(scene: Scene) -> Self {
         let alerts = [ShownAlertState::Unacknowledged; 2];
-        Show { scene, ticks: 3000, alerts, level: "info".to_owned() }
+        Show { scene, ticks: 3000, alerts, level: "info".to_owned(), berth: None }
     }
 
     /// The same from its beginning, to be gone through by [`Show::skip`].
@@ -84,6 +87,8 @@ impl Show {
             modes: self.modes(),
             mode,
             motion: Some(ship::motion(t, self.scene)),
+            docking: Some(docking::docking(t, self.scene, self.berth.as_deref())),
+            berths: docking::BERTHS.map(str::to_owned).to_vec(),
             alignment: Some(ship::alignment(t, self.scene)),
             engines: self.engines(t),
             estimates: Some(ship::estimates(t)),
@@ -115,6 +120,13 @@ impl Show {
 
     fn obey_one(&mut self, order: &PageOrder) -> Result<(), String> {
         let (id, state) = match order {
+            PageOrder::Berth(name) => {
+                if !name.as_ref().is_none_or(|name| docking::BERTHS.contains(&name.as_str())) {
+                    return Err("there is no such berth".to_owned());
+                }
+                self.berth.clone_from(name);
+                return Ok(());
+            }
             PageOrder::LogLevel(level) => {
                 self.level.clone_from(level);
                 return Ok(());

@@ -123,8 +123,9 @@ pub use phlin::{Phlin, Phspd};
 pub use phoct::{Marked, Phoct, PhoctState, WaveMotion};
 pub use phtro::Phtro;
 pub use pinsd::{
-    Pinsd, PinsdAlignment, PinsdIntegrity, PinsdMode, PinsdPhase, PinsdProtection, PinsdSigma,
-    PinsdSource, PinsdStatus, PinsdTime, ProtectionState,
+    Pinsd, PinsdAlignment, PinsdBerth, PinsdChoice, PinsdDocking, PinsdIntegrity, PinsdMode,
+    PinsdPart, PinsdPartOfShip, PinsdPhase, PinsdProtection, PinsdSide, PinsdSigma, PinsdSource,
+    PinsdStatus, PinsdTime, ProtectionState,
 };
 pub use pixse::{Pixse, PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus};
 pub use pnorbt::{NortekBeam, NortekBottomTrack, NortekGroundSpeed, NortekSensors};

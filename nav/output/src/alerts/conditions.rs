@@ -3,6 +3,7 @@
 use insd_base::{FixQuality, Integrity, Judgement, Mode, Party, Solution, Span, Time};
 use insd_wire::nmea::{AlertId, AlertPriority, HeadingMode, Manufacturer};
 
+use crate::docking::{Docking, DockingLimits};
 use crate::epoch::OutputEpoch;
 use crate::policy::Policy;
 
@@ -57,6 +58,10 @@ pub enum Condition {
     NotRecording,
     /// What the next start goes on from cannot be saved.
     NotSaving,
+    /// At the berth that is chosen she would touch faster than the limit that is set.
+    ApproachFast,
+    /// A part of her is nearer to the quay that is chosen than the limit that is set, and still comes nearer.
+    QuayNear,
 }
 
 /// An alert that there can be.
@@ -84,7 +89,7 @@ fn own(
 
 impl Condition {
     /// All of them, those that matter most first.
-    pub const ALL: [Condition; 21] = [
+    pub const ALL: [Condition; 23] = [
         Condition::SystemFault,
         Condition::HeadingLost,
         Condition::PositionLost,
@@ -93,6 +98,8 @@ impl Condition {
         Condition::ImuDoubt,
         Condition::GnssExcluded,
         Condition::EnginesDiffer,
+        Condition::ApproachFast,
+        Condition::QuayNear,
         Condition::HeadingDegraded,
         Condition::PositionEstimated,
         Condition::HeadingExcluded,
@@ -182,6 +189,7 @@ impl Condition {
             Condition::Installation => {
                 own(10_021, Caution, ["Installation", "Not as configured. See page"], [0, 10])
             }
+            Condition::ApproachFast | Condition::QuayNear => self.of_approach(),
             Condition::GnssExcluded
             | Condition::PositionDoubt
             | Condition::HeadingExcluded
@@ -189,6 +197,18 @@ impl Condition {
             | Condition::ImuDoubt
             | Condition::OnTrial
             | Condition::ReferenceExcluded => self.of_sensors(),
+        }
+    }
+
+    /// Those of going alongside.
+    fn of_approach(self) -> Definition {
+        use AlertPriority::{Caution, Warning};
+        match self {
+            Condition::ApproachFast => {
+                own(10_040, Warning, ["Approach speed", "Contact faster than the limit"], [1, 3])
+            }
+            // a part is near
+            _ => own(10_041, Caution, ["Quay near", "Nearer than the limit and closing"], [1, 3]),
         }
     }
 
@@ -225,6 +245,14 @@ impl Condition {
         }
     }
 
+    /// Whether one of going alongside holds.
+    fn holds_at(self, docking: &Docking, limits: &DockingLimits) -> bool {
+        match self {
+            Condition::ApproachFast => limits.is_too_fast(docking),
+            _ => limits.is_too_near(docking),
+        }
+    }
+
     /// For how long it must hold, or be gone, before that counts.
     fn delay(self, holds: bool) -> Span {
         let [raised, rectified] = self.definition().delays;
@@ -249,11 +277,12 @@ struct Latch {
 }
 
 impl Watch {
-    /// Takes note of an epoch, by the limits of a policy; gives which conditions hold now.
+    /// Takes note of an epoch, by the limits of a policy and those of an approach; gives which conditions hold now.
     pub fn note(
         &mut self,
         epoch: &OutputEpoch,
         policy: &Policy,
+        approach: &DockingLimits,
         simulated: bool,
     ) -> [(Condition, bool); Condition::ALL.len()] {
         let usable = epoch.solution.filter(|solution| solution.mode != Mode::Fault);
@@ -262,12 +291,7 @@ impl Watch {
         self.had_heading |= heading.is_some_and(|mode| mode != HeadingMode::NotValid);
         self.had_position |= quality.is_some_and(|quality| quality != FixQuality::Invalid);
         let (had_heading, had_position) = (self.had_heading, self.had_position);
-        let by_sigma = Policy { estimated_without_gnss: false, ..*policy };
-        let is_estimated = usable.is_some_and(|solution| {
-            let at_berth = matches!(solution.mode, Mode::CoarseAlignment | Mode::FineAlignment);
-            let own = if at_berth { &by_sigma } else { policy };
-            own.quality(&solution) == FixQuality::Estimated
-        });
+        let is_estimated = usable.is_some_and(|solution| is_estimated(policy, &solution));
         let Judgement { integrity, excluded } =
             epoch.solution.map(|solution| solution.judgement).unwrap_or_default();
         let is_spare_out = [Party::Gnss2, Party::Gnss3].iter().any(|own| excluded.contains(*own));
@@ -302,6 +326,9 @@ impl Watch {
             Condition::Installation => epoch.doubts.installation,
             Condition::NotRecording => epoch.storage.recording,
             Condition::NotSaving => epoch.storage.state,
+            Condition::ApproachFast | Condition::QuayNear => {
+                epoch.docking.is_some_and(|own| condition.holds_at(&own, approach))
+            }
         };
         let mut found = Condition::ALL.map(|condition| (condition, holds(condition)));
         for ((condition, holds), latch) in found.iter_mut().zip(&mut self.latches) {
@@ -310,6 +337,14 @@ impl Watch {
         }
         found
     }
+}
+
+/// Whether a position is estimated. At the berth that is so by design, and only little certainty counts.
+fn is_estimated(policy: &Policy, solution: &Solution) -> bool {
+    let by_sigma = Policy { estimated_without_gnss: false, ..*policy };
+    let at_berth = matches!(solution.mode, Mode::CoarseAlignment | Mode::FineAlignment);
+    let own = if at_berth { &by_sigma } else { policy };
+    own.quality(solution) == FixQuality::Estimated
 }
 
 /// Whether the level of a position is beyond the alert limit, if there is one.

@@ -1,6 +1,7 @@
 //! The messages that a port can send, by family: an epoch as each of them.
 
 mod alerts;
+mod docking;
 mod entry;
 mod heading;
 mod motion;
@@ -42,6 +43,7 @@ static FAMILIES: &[&[Entry]] = &[
     pixse::ENTRIES,
     motion::ENTRIES,
     pinsd::ENTRIES,
+    docking::ENTRIES,
     transducers::ENTRIES,
     state::ENTRIES,
     signalk::ENTRIES,

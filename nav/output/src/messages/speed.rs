@@ -1,6 +1,6 @@
 //! Course, speed and distance.
 
-use insd_wire::nmea::{Talker, Vbw, VbwVelocity, Vhw, Vlw, Vtg};
+use insd_wire::nmea::{Talker, Vbw, VbwStern, VbwVelocity, Vhw, Vlw, Vtg};
 
 use super::entry::{Content, Entry, one};
 use crate::redacted_epoch::{Level, RedactedEpoch};
@@ -22,13 +22,20 @@ fn vtg(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     one(Vtg { course, course_magnetic, speed, mode: Some(said.velocity_mode()) }.write(talker))
 }
 
-/// What the stern does is left empty: nothing is known of where she is measured there.
+/// What the stern does is empty where nobody has told which point that is.
 fn vbw(said: &RedactedEpoch<'_>, talker: Talker) -> Option<Content> {
     if said.is_muted() {
         return None;
     }
     let water = velocity(said.through_water());
-    one(Vbw { water, ground: velocity(said.over_ground()), ..Vbw::default() }.write(talker))
+    let ground = velocity(said.over_ground());
+    let stern_water = stern(said.stern_through_water());
+    let stern_ground = stern(said.stern_over_ground());
+    one(Vbw { water, ground, stern_water, stern_ground, without_stern: false }.write(talker))
+}
+
+fn stern(level: Option<Level>) -> VbwStern {
+    VbwStern { transverse: level.map(|level| level.starboard), valid: level.is_some() }
 }
 
 fn velocity(level: Option<Level>) -> VbwVelocity {

@@ -100,8 +100,8 @@ impl Say for SpeedComponents {
             starboard_water,
             forward_ground,
             starboard_ground,
-            stern_starboard_water: None,
-            stern_starboard_ground: None,
+            stern_starboard_water: said.stern_through_water().map(|level| level.starboard),
+            stern_starboard_ground: said.stern_over_ground().map(|level| level.starboard),
         }
     }
 }

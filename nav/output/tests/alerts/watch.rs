@@ -37,7 +37,7 @@ impl Look {
                 utc: now.utc,
                 ..OutputEpoch::unknown(now.time)
             };
-            let holding = self.watch.note(&epoch(usual), &self.policy, false);
+            let holding = self.watch.note(&epoch(usual), &self.policy, &Default::default(), false);
             found = holding.iter().filter(|(_, holds)| *holds).map(|(own, _)| *own).collect();
             self.seconds = ((self.seconds + 0.1) * 10.0).round() / 10.0;
         }
@@ -202,7 +202,7 @@ fn simulated_data_are_told_at_once() {
     let mut watch = Watch::default();
     let epoch =
         OutputEpoch { solution: Some(solution(Time::START)), ..OutputEpoch::unknown(Time::START) };
-    let found = watch.note(&epoch, &Policy::default(), true);
+    let found = watch.note(&epoch, &Policy::default(), &Default::default(), true);
     let holding: Vec<_> = found.iter().filter(|(_, holds)| *holds).collect();
     assert_eq!(holding, [&(Simulated, true)]);
 }

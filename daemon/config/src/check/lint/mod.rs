@@ -1,5 +1,6 @@
 //! What is allowed, and yet wrong on nearly every ship: what installers get wrong.
 
+mod berths;
 mod found;
 mod imu;
 mod outputs;
@@ -22,5 +23,6 @@ pub(super) fn all(config: &Config) -> Vec<ConfigFinding> {
     sockets::look(config, &mut found);
     sensors::look(config, &mut found);
     outputs::look(config, &mut found);
+    berths::look(config, &mut found);
     found.0
 }

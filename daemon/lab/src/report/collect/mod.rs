@@ -2,6 +2,7 @@
 
 pub(crate) mod aids;
 pub(crate) mod alerts;
+pub(crate) mod berths;
 pub(crate) mod border;
 pub(crate) mod journal;
 pub(crate) mod lane;
@@ -18,6 +19,7 @@ use insd_vessel::{Names, Pipeline, Product, Spoken, words};
 
 use self::aids::Aids;
 use self::alerts::Alerts;
+use self::berths::Berths;
 use self::border::Border;
 use self::journal::Journal;
 use self::modes::Modes;
@@ -41,6 +43,7 @@ pub(crate) struct Collected {
     pub(crate) aids: Aids,
     pub(crate) satellites: Satellites,
     pub(crate) alerts: Alerts,
+    pub(crate) berths: Berths,
     pub(crate) border: Border,
     pub(crate) said: Said,
     pub(crate) journal: Journal,
@@ -62,6 +65,7 @@ impl Collected {
             aids: Aids::new(start),
             satellites: Satellites::default(),
             alerts: Alerts::new(start),
+            berths: Berths::default(),
             border: Border::new(start),
             said: Said::default(),
             journal: Journal::new(),
@@ -80,6 +84,7 @@ impl Collected {
             let utc = pipeline.utc_at(now);
             self.times.note(now, utc);
             self.border.clocks(&arrival.stamp, utc);
+            self.berths.name(pipeline.outputs().station().berths());
         }
         self.times.note(now, None);
         let station = pipeline.outputs().station();
@@ -104,6 +109,8 @@ impl Collected {
                 if let Some(heave) = epochs.first().and_then(|epoch| epoch.heave) {
                     self.motion.heave(&heave);
                 }
+                let docking = epochs.first().and_then(|epoch| epoch.docking);
+                docking.iter().for_each(|docking| self.berths.note(docking));
             }
             Product::Order(obeyed) => self.journal.write(now, "order", words::order(obeyed)),
             Product::Vote(vote) => self.journal.write(now, "engines", words::vote(vote)),

@@ -2,6 +2,7 @@
 
 mod aids;
 mod alerts;
+mod berths;
 mod border;
 mod head;
 pub(crate) mod html;
@@ -27,6 +28,7 @@ pub(crate) fn page(report: &VoyageReport) -> String {
         ("trust", "Whom she believed", trust::trust(report)),
         ("aids", "Aids used and rejected", aids::aids(report)),
         ("alerts", "Alerts", alerts::alerts(report)),
+        ("berths", "Alongside", berths::berths(report)),
         ("ports", "Ports and sensors", border::ports(report)),
         ("sources", "Sources", border::sources(report)),
         ("time", "Time", border::time(report)),

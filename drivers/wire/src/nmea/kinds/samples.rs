@@ -7,8 +7,8 @@ use crate::nmea::phoct::{Waves, WithState};
 use crate::nmea::table::Sampled;
 use crate::nmea::{
     Acn, Arc, Dtm, Frame, Gst, Hbt, Hcr, Hdg, Hdm, Hdt, Line, MAX_LEN, PfecAttitude, Phcmp, Phinf,
-    Phlin, Phoct, Phspd, Phtro, PinsdAlignment, PinsdProtection, PinsdSigma, PinsdStatus, Rot,
-    Sentence, Talker, Ths, Vdr, Vhw, Vlw, Vtg, checksum,
+    Phlin, Phoct, Phspd, Phtro, PinsdAlignment, PinsdBerth, PinsdPartOfShip, PinsdProtection,
+    PinsdSigma, PinsdStatus, Rot, Sentence, Talker, Ths, Vdr, Vhw, Vlw, Vtg, checksum,
 };
 
 /// Numbers without pattern, and always the same ones (splitmix64).
@@ -241,6 +241,8 @@ mod tests {
             Phspd::sample,
             Phtro::sample,
             PinsdAlignment::sample,
+            PinsdBerth::sample,
+            PinsdPartOfShip::sample,
             PinsdProtection::sample,
             PinsdSigma::sample,
             PinsdStatus::sample,

@@ -11,16 +11,20 @@
 //! $PINSD,SIG,...   1-sigma of the solution              [PinsdSigma]
 //! $PINSD,ALI,...   how the alignment gets on            [PinsdAlignment]
 //! $PINSD,PRO,...   protection levels                    [PinsdProtection]
+//! $PINSD,BTH,...   how she stands to a berth            [PinsdBerth]
+//! $PINSD,DOK,...   and each part of her                 [PinsdPartOfShip]
 //! ```
 //! None is longer than the 82 bytes of the standard. A field that is unknown is empty. Later versions may
 //! append fields, and readers ignore what they do not know. `docs/pinsd.md` says the same to people.
 
 mod alignment;
+mod docking;
 mod protection;
 mod sigma;
 mod status;
 
 pub use alignment::{PinsdAlignment, PinsdPhase};
+pub use docking::{PinsdBerth, PinsdChoice, PinsdDocking, PinsdPart, PinsdPartOfShip, PinsdSide};
 pub use protection::{PinsdProtection, ProtectionState};
 pub use sigma::PinsdSigma;
 pub use status::{PinsdIntegrity, PinsdMode, PinsdSource, PinsdStatus, PinsdTime};
@@ -61,6 +65,10 @@ pub enum Pinsd {
     Alignment(PinsdAlignment),
     /// PRO.
     Protection(PinsdProtection),
+    /// BTH.
+    Berth(PinsdBerth),
+    /// DOK.
+    Part(PinsdPartOfShip),
 }
 
 impl Pinsd {
@@ -68,7 +76,7 @@ impl Pinsd {
     pub const ADDRESS: &'static str = "PINSD";
 
     /// Greatest length of any of them, bytes with CR LF.
-    pub const LONGEST: usize = 81;
+    pub const LONGEST: usize = 82;
 
     /// Writes the sentence; minutes to 0.00001, sigmas of the operator to 0.1 m and 0.01 deg.
     #[must_use]
@@ -100,6 +108,14 @@ impl Pinsd {
                 line.text(PinsdProtection::NAME);
                 protection.write_fields(line);
             }
+            Pinsd::Berth(berth) => {
+                line.text(PinsdBerth::NAME);
+                berth.write_fields(line);
+            }
+            Pinsd::Part(part) => {
+                line.text(PinsdPartOfShip::NAME);
+                part.write_fields(line);
+            }
         })
     }
 
@@ -122,6 +138,8 @@ impl Pinsd {
             PinsdSigma::NAME => Pinsd::Sigma(PinsdSigma::read_fields(&mut fields)?),
             PinsdAlignment::NAME => Pinsd::Alignment(PinsdAlignment::read_fields(&mut fields)?),
             PinsdProtection::NAME => Pinsd::Protection(PinsdProtection::read_fields(&mut fields)?),
+            PinsdBerth::NAME => Pinsd::Berth(PinsdBerth::read_fields(&mut fields)?),
+            PinsdPartOfShip::NAME => Pinsd::Part(PinsdPartOfShip::read_fields(&mut fields)?),
             _ => return Err(Fault::OtherSentence),
         })
     }
