@@ -47,7 +47,7 @@ fn tell_command(names: &Names, commanded: &Commanded) {
 fn tell_order(obeyed: &Obeyed) {
     match obeyed {
         Obeyed::Alert { .. } | Obeyed::Berth { .. } => {
-            tracing::info!(target: SECURITY, "{}", words::order(obeyed))
+            tracing::info!(target: SECURITY, "{}", words::order(obeyed));
         }
         Obeyed::Configured(change) if change.is_nothing() => {
             tracing::info!(target: SECURITY, "the configuration is as it was");
