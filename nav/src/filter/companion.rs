@@ -83,12 +83,12 @@ impl Filter {
     /// While the two are apart, or the judge is in doubt, what is claimed covers it.
     fn claim_both(&mut self) -> Option<Report> {
         let companion = self.companion.as_deref()?;
-        let was_apart = self.court.beside.is_some();
+        let (was_apart, docket) = (self.court.beside.is_some(), companion.docket());
         let is_apart = self.apart_from(companion).max(self.turned_from(companion)) > APART
             // who sails on without the receiver knows less and less, which takes nothing back
-            || was_apart && companion.docket().leaves_out_gnss()
+            || was_apart && docket.leaves_out_gnss()
             // no reflection does that, and the ranges are of the same receiver
-            || companion.docket().has_gone_astray();
+            || docket.has_gone_astray();
         let beside = is_apart.then(|| self.difference_to(companion));
         let is_new = is_apart && !was_apart;
         (self.court.covered, self.court.beside) = (companion.court.covered, beside);

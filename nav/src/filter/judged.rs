@@ -67,8 +67,14 @@ impl Filter {
         let now = self.state.time;
         if let Some(judge) = self.judge_now() {
             judge.follow_contradicted(off, now);
-            let docket = *judge.docket();
-            self.config = self.config.with_docket(docket);
+        }
+        self.take_docket();
+    }
+
+    /// What the judge has on file is what the filter goes by.
+    fn take_docket(&mut self) {
+        if let Some(judge) = self.court.judge.as_ref() {
+            self.config = self.config.with_docket(*judge.docket());
         }
     }
 
@@ -271,9 +277,7 @@ impl Filter {
                     self.doubt_gyros(mended);
                 }
             }
-            if let Some(judge) = self.court.judge.as_ref() {
-                self.config = self.config.with_docket(*judge.docket());
-            }
+            self.take_docket();
             self.restart_judge();
         }
         self.court.covered = self.cover();

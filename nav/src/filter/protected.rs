@@ -92,16 +92,11 @@ impl Filter {
         let lie = docket.open_lie()?;
         let [(off, unsure), (rate, spreading)] = lie.grown(now)?;
         let level = self.view().c_ne.fixed_rows::<2>(0).transpose();
-        Some(Separation {
-            cause: LEFT_OPEN,
-            chance: lie.chance(now),
-            apart: -level * off,
-            growth: -level * rate,
-            covariance: POSITION.covariance(&self.state.covariance)
-                + level * unsure * level.transpose(),
-            spreading: VELOCITY.covariance(&self.state.covariance)
-                + level * spreading * level.transpose(),
-        })
+        let mut own = self.as_it_is(LEFT_OPEN, lie.chance(now));
+        (own.apart, own.growth) = (-level * off, -level * rate);
+        own.covariance += level * unsure * level.transpose();
+        own.spreading += level * spreading * level.transpose();
+        Some(own)
     }
 
     /// Whether a receiver that is left out for a leap has returned from a lie that nobody had found.
@@ -125,7 +120,8 @@ impl Filter {
         let apart = companion.state.nominal.position - own.position;
         let growth = companion.state.nominal.velocity - own.velocity;
         let mut all = companion.judged_separations(now, model);
-        all.extend(self.court.beside.map(|_| companion.undisputed(model)));
+        // one of the two is as likely as the other
+        all.extend(self.court.beside.map(|_| companion.as_it_is(BESIDE, model.renewals())));
         all.extend(companion.court.returned);
         for one in &mut all {
             one.apart += apart;
@@ -148,11 +144,11 @@ impl Filter {
         all
     }
 
-    /// This estimate, taken to be as likely as the one beside it.
-    fn undisputed(&self, model: &RiskModel) -> Separation {
+    /// That this estimate is right.
+    fn as_it_is(&self, cause: usize, chance: f64) -> Separation {
         Separation {
-            cause: BESIDE,
-            chance: model.renewals(),
+            cause,
+            chance,
             apart: Vector3::zeros(),
             growth: Vector3::zeros(),
             covariance: POSITION.covariance(&self.state.covariance),

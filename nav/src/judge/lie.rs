@@ -4,6 +4,8 @@ use insd_base::{Fault, Span, Time};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
+/// Whoever leads a receiver astray does so for so long, s.
+pub(super) const LASTS: f64 = 600.0;
 /// A lie of so many sigmas of the navigator's position would show.
 const WOULD_SHOW: f64 = 8.0;
 /// A step of a position is one beyond so many sigmas of its noise, and this, m.
@@ -110,6 +112,11 @@ impl LieOfGnss {
         let found = self.found.map(|(at, off)| (at + by, off));
         LieOfGnss { seen: self.seen.map(|seen| seen + by), found, last: None, unproven, ..self }
     }
+}
+
+/// Whether a lie grows, so that a leap may end it.
+pub(super) fn is_growing(fault: Fault) -> bool {
+    matches!(fault, Fault::Drag | Fault::Slide | Fault::Creep)
 }
 
 /// What a unit of a lie of a receiver has grown to after such an age, s, and how fast it grows; `None` of what moves no place.

@@ -13,7 +13,7 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::charge::{Charge, Kind};
 use super::docket::OpenLie;
-use super::lie::growth;
+use super::lie::{LASTS, growth, is_growing};
 use super::rows::ALL;
 use super::verdict::{Ruling, lie_of_gnss};
 use super::{Alternative, Judge, Separation};
@@ -23,8 +23,6 @@ use crate::error_state::{Effects, POSITION, VELOCITY};
 const KEPT: f64 = 20.0;
 /// What is less likely is no suspicion.
 const SUSPECTED: f64 = 1e-3;
-/// Whoever leads a receiver astray does so for so long, s.
-const LASTS: f64 = 600.0;
 /// Leaps are between these, m.
 const LEAPS: [f64; 2] = [3.0, 1e3];
 /// What the levels allow for with less than this is of no account.
@@ -54,11 +52,6 @@ pub(super) struct Allowed {
     before: Option<Vec<Separation>>,
     /// Chance that the leap ended one of them, once it is weighed.
     ended: Option<f64>,
-}
-
-/// Whether a lie grows, so that a leap may end it.
-fn is_growing(fault: Fault) -> bool {
-    matches!(fault, Fault::Drag | Fault::Slide | Fault::Creep)
 }
 
 impl Judge {

@@ -7,11 +7,8 @@ use insd_base::{Fault, Party, Span, Standing, Time};
 use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Serialize};
 
-use super::super::lie::growth;
+use super::super::lie::{LASTS, growth, is_growing};
 use super::Docket;
-
-/// Whoever leads a receiver astray does so for so long, s.
-const LASTS: f64 = 600.0;
 
 /// What the receiver may be doing, of an estimate that follows it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -69,7 +66,6 @@ impl Docket {
     #[must_use]
     pub fn has_gone_astray(&self) -> bool {
         let gnss = &self.entries[self.place(Party::Gnss)];
-        let is_growing = |fault| matches!(fault, Fault::Drag | Fault::Slide | Fault::Creep);
         gnss.standing == Standing::Excluded && gnss.fault.is_some_and(is_growing)
     }
 
