@@ -192,13 +192,14 @@ impl OutputStation {
         moment: &Situation,
         mut send: impl FnMut(usize, Vec<PortMessage>),
     ) -> Vec<OutputEpoch> {
-        let mut epochs: Vec<OutputEpoch> = self
-            .points
-            .iter()
-            .enumerate()
-            .map(|(index, lever)| epoch(boundary, moment, index, lever))
-            .collect();
         let motion = carried(boundary, moment);
+        let points = self.points.iter().enumerate();
+        let mut epochs: Vec<OutputEpoch> = points
+            .map(|(index, lever)| {
+                let motion = motion.map(|motion| motion.at_point(lever));
+                epoch(boundary, moment, motion, index)
+            })
+            .collect();
         let is_upkeep = Rate::from_hertz(UPKEEP).is_on(boundary.grid());
         if let Some(motion) = motion.filter(|_| is_upkeep) {
             self.berths.note(&motion.solution.position);
@@ -286,10 +287,14 @@ fn carried(boundary: &Boundary, moment: &Situation) -> Option<Motion> {
     motion.map(|motion| motion.at(boundary.time))
 }
 
-/// What is known of a monitoring point at a boundary.
-fn epoch(boundary: &Boundary, moment: &Situation, point: usize, lever: &Body) -> OutputEpoch {
+/// What is known of a monitoring point at a boundary, which moves so.
+fn epoch(
+    boundary: &Boundary,
+    moment: &Situation,
+    motion: Option<Motion>,
+    point: usize,
+) -> OutputEpoch {
     let is_near = |time: Time| (boundary.time - time).as_nanos().abs() <= CARRIED.as_nanos();
-    let motion = carried(boundary, moment).map(|motion| motion.at_point(lever));
     let heave = moment.heaves.get(point).copied().flatten();
     OutputEpoch {
         solution: motion.map(|motion| motion.solution),

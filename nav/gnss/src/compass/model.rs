@@ -124,6 +124,12 @@ impl Common {
         DMatrix::from_diagonal(&weights) - &weights * weights.transpose() / sum
     }
 
+    /// Weighed squares of what is left of differences against the first antenna.
+    pub(super) fn squares(&self, left: &DVector<f64>) -> f64 {
+        let full = of_antennas(left);
+        full.dot(&(self.weight() * &full))
+    }
+
     /// From phases to differences against the first antenna.
     pub(super) fn against_first(&self) -> DMatrix<f64> {
         let count = self.heard.len() - 1;
@@ -142,4 +148,9 @@ impl Common {
             first + if i == j { self.heard[i + 1].variance } else { 0.0 }
         })
     }
+}
+
+/// Of each antenna what differences against the first one leave, nought for that: what all share is of no account.
+pub(super) fn of_antennas(left: &DVector<f64>) -> DVector<f64> {
+    left.clone().insert_row(0, 0.0)
 }

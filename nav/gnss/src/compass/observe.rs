@@ -96,8 +96,8 @@ fn tracked<'a>(epochs: &[Option<&'a SatelliteEpoch>]) -> Vec<Tracked<'a>> {
                     let by = tracked.by[0].1;
                     by.satellite == pair.satellite && by.signal.band == pair.base.band
                 };
-                let before = all[..known].iter_mut().find(same);
-                if before.is_some() {
+                let is_known = all[..known].iter_mut().any(|own| same(&own));
+                if is_known {
                     continue;
                 }
                 match all[known..].iter_mut().find(same) {
@@ -185,7 +185,7 @@ fn lateness(
 fn strengths(epochs: &[Option<&SatelliteEpoch>]) -> Vec<Option<f64>> {
     let strength = |epoch: &Option<&SatelliteEpoch>| {
         let signals = epoch.as_ref()?.signals.iter();
-        median(signals.filter_map(|own| own.cn0.filter(|cn0| cn0.is_finite())).collect())
+        median(signals.filter_map(|own| own.cn0).collect())
     };
     epochs.iter().map(strength).collect()
 }

@@ -5,7 +5,7 @@ use statrs::function::erf::erf;
 
 use super::align::{Loose, align};
 use super::lines::LineBiases;
-use super::model::Model;
+use super::model::{Model, of_antennas};
 use super::pose::CompassPose;
 use super::prior::CompassPrior;
 use super::settings::CompassShape;
@@ -139,8 +139,7 @@ pub(super) fn solve(model: &Model<'_>, start: &Start) -> Option<Outcome> {
         let mut misfit = moved.dot(&(&information * &moved));
         for ((common, left), used) in model.commons.iter().zip(&residuals).zip(&used) {
             if *used {
-                let full = left.clone().insert_row(0, 0.0);
-                misfit += full.dot(&(common.weight() * &full));
+                misfit += common.squares(left);
             }
         }
         let (by_length, known) = by_length(model.shape(), &pass.pose);
@@ -204,7 +203,7 @@ fn iterate(
         }
         for ((common, left), used) in model.commons.iter().zip(&left).zip(used) {
             if *used {
-                let full = left.clone().insert_row(0, 0.0);
+                let full = of_antennas(left);
                 normal.add(&model.design(common, &pose, &lines), &full, &common.weight());
             }
         }
@@ -261,10 +260,8 @@ fn residuals(model: &Model<'_>, pass: &Pass) -> Vec<DVector<f64>> {
 /// Whether the better two thirds of the signals are so far from fitting that leaving out the others is of no use.
 fn is_hopeless(model: &Model<'_>, residuals: &[DVector<f64>]) -> bool {
     const HOPELESS: f64 = 16.0;
-    let level = |(common, left): (&Common, &DVector<f64>)| {
-        let full = left.clone().insert_row(0, 0.0);
-        full.dot(&(common.weight() * &full)) / left.len().max(1) as f64
-    };
+    let level =
+        |(common, left): (&Common, &DVector<f64>)| common.squares(left) / left.len().max(1) as f64;
     let mut levels: Vec<f64> = model.commons.iter().zip(residuals).map(level).collect();
     levels.sort_by(f64::total_cmp);
     let better = levels.len() - levels.len() / SHARE;
