@@ -61,6 +61,8 @@ pub enum Carried {
     WithHeading,
     /// From the first ranges of satellites on.
     WithRanges,
+    /// From the first epoch of several antennas on.
+    WithAntennas,
     /// While the ship is held at her berth.
     AtBerth,
 }

@@ -14,6 +14,16 @@ use crate::declaration::{Carried, Correction, Declaration, Process, StateAxes};
 
 /// Satellites that are used at once, the highest ones.
 pub const SATELLITES: usize = 24;
+/// Lines of antennas that are told apart at once: three beside the first, of three constellations on two bands.
+pub const LINES: usize = 18;
+/// What an epoch of antennas tells: attitude and lines.
+pub const ANTENNA_ROWS: usize = 3 + LINES;
+/// How long reflections of phases go on between antennas, s.
+const ANTENNA_REFLECTION_TIME: f64 = 120.0;
+/// 1-sigma of a line before anything is known of it, m: so much more than a phase is worth that it tells nothing.
+pub(crate) const LINE_UNKNOWN: f64 = 1.0;
+/// By what it wanders, m per root of a second.
+const LINE_WALK: f64 = 5e-5;
 /// 1-sigma of a receiver's clock before anything is known of it, m and m/s: a millisecond.
 const CLOCK_UNKNOWN: f64 = 3e5;
 /// 1-sigma of the offset between two systems in a receiver, m.
@@ -169,6 +179,14 @@ declare! {
         first: |_| PHASE_DRIFT,
         process: |_, _| Process::Markov { std: PHASE_DRIFT, time: RANGE_ERROR_TIME },
         correction: Correction::Adds(|nominal| nominal.phase_drifts.as_mut_slice());
+    /// What cables and receivers add to the phases of antennas beside the first, m, random walk.
+    ANTENNA_LINES: LINES, "antenna_lines", "m", Scalar, WithAntennas,
+        first: |_| LINE_UNKNOWN, process: |_, _| Process::Walk(LINE_WALK),
+        correction: Correction::Adds(|nominal| nominal.antenna_lines.as_mut_slice());
+    /// What reflections add to each row of what antennas tell, in units of the row's sigma, Gauss-Markov.
+    ANTENNA_REFLECTIONS: ANTENNA_ROWS, "antenna_reflections", "sigma", Scalar, WithAntennas,
+        first: |_| 1.0, process: |_, _| Process::of_sigmas(ANTENNA_REFLECTION_TIME),
+        correction: Correction::Adds(|nominal| nominal.antenna_reflections.as_mut_slice());
     /// Mean place of a moored ship from her named berth, north and east, m, constant but for shifts.
     BERTH_OFFSET: 2, "berth_offset", "m", ComputedNed, AtBerth,
         first: |_| 0.0, process: |_, _| Process::Constant,

@@ -22,6 +22,7 @@ use crate::separate_bias::SeparateBias;
 use crate::solution_sigma::solution_covariance;
 use crate::strapdown;
 use crate::timeline::Estimator;
+use antennas::Antennas;
 use conduct::Conduct;
 use court::Court;
 pub use entry::Judged;
@@ -36,6 +37,7 @@ use sources::Sources;
 use state::State;
 
 pub mod ahead;
+mod antennas;
 mod bent;
 pub mod checkpoint;
 mod companion;
@@ -90,6 +92,8 @@ pub struct Filter {
     satellites: Satellites,
     /// How far places against a base are believed.
     rtk: RtkStanding,
+    /// Several antennas, as they are followed.
+    antennas: Antennas,
     /// What was used when.
     sources: Sources,
     /// While there are ranges, the same ship without them.
@@ -113,6 +117,7 @@ impl Filter {
             court: Court::new(initial.time),
             satellites: Satellites::default(),
             rtk: RtkStanding::default(),
+            antennas: Antennas::default(),
             sources: Sources::default(),
             companion: None,
             navigating: false,
@@ -329,6 +334,7 @@ impl Estimator for Filter {
         match &received.message {
             Message::Imu(_) | Message::Base(_) => {}
             Message::Rtk(told) => self.apply_rtk(told, received.source, &mut report),
+            Message::Compass(told) => self.apply_compass(told, received.source, &mut report),
             Message::Gnss(fix) if fix.rank > 0 => self.compare(fix, received.source),
             // its own receiver's fix is made of the same ranges, and tells no more than whose antenna it is
             Message::Gnss(fix) if self.satellites.are_fresh(self.state.time) => {

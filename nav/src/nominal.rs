@@ -7,7 +7,9 @@ use nalgebra::{Matrix3, Rotation2, SVector, UnitQuaternion, Vector2, Vector3, Ve
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::{declaration, no_errors};
-use crate::error_state::{ATTITUDE, DECLARATIONS, Errors, POSITION, SATELLITES};
+use crate::error_state::{
+    ANTENNA_ROWS, ATTITUDE, DECLARATIONS, Errors, LINES, POSITION, SATELLITES,
+};
 
 /// Estimated values of everything in the error state; units and axes as stated there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -70,6 +72,10 @@ pub struct Nominal {
     pub phase_constants: SVector<f64, SATELLITES>,
     /// Its drift, m/s.
     pub phase_drifts: SVector<f64, SATELLITES>,
+    /// What the line of each antenna adds to its phases, m.
+    pub antenna_lines: SVector<f64, LINES>,
+    /// What reflections add to each row of what antennas tell, sigmas.
+    pub antenna_reflections: SVector<f64, ANTENNA_ROWS>,
 }
 
 impl Nominal {
@@ -107,6 +113,8 @@ impl Nominal {
             reflections: SVector::zeros(),
             phase_constants: SVector::zeros(),
             phase_drifts: SVector::zeros(),
+            antenna_lines: SVector::zeros(),
+            antenna_reflections: SVector::zeros(),
         }
     }
 

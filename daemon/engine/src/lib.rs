@@ -5,6 +5,7 @@
 //! I/O, no clock, no thread, no randomness.
 
 mod alignment_status;
+mod antennas;
 mod blind;
 mod checkpoint;
 mod checks;

@@ -12,6 +12,7 @@ enum Kind {
     Other,
     Ranges,
     Rtk,
+    Compass,
 }
 
 /// What came lately.
@@ -28,6 +29,7 @@ impl Recent {
         let kind = match message {
             Message::Ranges(_) => Kind::Ranges,
             Message::Rtk(_) => Kind::Rtk,
+            Message::Compass(_) => Kind::Compass,
             _ => Kind::Other,
         };
         let times = self.times.entry((source, kind)).or_default();

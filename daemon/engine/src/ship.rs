@@ -14,6 +14,7 @@ use insd_nav::filter::judged::ImuState;
 use insd_nav::judge::Docket;
 use insd_nav::{Estimator, Increment, NavConfig, Navigator, Report};
 
+use crate::antennas::as_heading;
 use crate::blind::{Blind, Word, tells_heading, unchecked, without_heading};
 use crate::heir::Heir;
 use crate::images::{Images, Verdict as Seat};
@@ -407,8 +408,9 @@ impl Estimator for Ship {
                 navigator.apply(received)
             }
             _ if is_compared(received) => Report::default(),
-            Ship::Aligning { bank, .. } => bank.apply(received),
+            Ship::Aligning { bank, .. } => bank.apply(&as_heading(received)),
             Ship::InMotion { finder, blind, images, .. } => {
+                let received = &as_heading(received);
                 let is_left_out = finder.config().docket.is_excluded(Party::Heading);
                 if blind.is_none() && tells_heading(received) && !is_left_out {
                     *blind = Some(Blind::beside(finder));

@@ -6,7 +6,10 @@ use std::sync::Arc;
 
 use insd_base::satellites::SatelliteEpoch;
 use insd_base::{GpsTime, Message, Received, RtkEpoch, SatelliteId, Source, Time};
-use insd_gnss::{Context, Guess, Ranged, Ranging, RtkLink, Turns};
+use insd_gnss::{ArrayRanged, ArrayRanging, Context, Ranged, RtkLink, Turns};
+
+/// Receivers that sample at the same instant put it apart by less than this, s.
+const TOGETHER: f64 = 0.02;
 
 /// What is made of GNSS.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -59,8 +62,10 @@ pub struct Epochs {
     pub start: GpsTime,
     /// What is known of orbits, the air and the receiver.
     pub context: Context,
-    /// Of the receiver, in their order.
-    pub rover: VecDeque<SatelliteEpoch>,
+    /// Of each antenna, in their order.
+    pub rover: Vec<VecDeque<SatelliteEpoch>>,
+    /// How the antennas stand.
+    pub array: ArrayRanging,
     /// Of the base, in their order.
     pub base: VecDeque<Received>,
     /// Which satellites are taken away.
@@ -71,7 +76,6 @@ pub struct Epochs {
 #[derive(Debug)]
 pub struct RangeMaker {
     epochs: Epochs,
-    ranging: Ranging,
     link: RtkLink,
     highest: Vec<SatelliteId>,
     turns: Turns,
@@ -84,7 +88,6 @@ impl RangeMaker {
     pub fn new(epochs: Epochs) -> Self {
         RangeMaker {
             epochs,
-            ranging: Ranging::default(),
             link: RtkLink::default(),
             highest: Vec::new(),
             turns: Turns::default(),
@@ -101,11 +104,8 @@ impl RangeMaker {
 
     /// The next message that is received up to an instant.
     pub fn next_until(&mut self, receipt: Time) -> Option<Received> {
-        let start = self.epochs.start;
-        while let Some(epoch) =
-            self.epochs.rover.pop_front_if(|epoch| Time::START + epoch.tag.since(start) <= receipt)
-        {
-            self.take(epoch);
+        while let Some(epochs) = self.epochs.next_until(receipt) {
+            self.take(epochs);
         }
         let is_of_base = self.epochs.base.front().is_some_and(|next| next.receipt <= receipt);
         if self.ready.is_empty() && is_of_base {
@@ -126,26 +126,36 @@ impl RangeMaker {
         all
     }
 
-    fn take(&mut self, mut epoch: SatelliteEpoch) {
-        let seconds = epoch.tag.since(self.epochs.start).as_seconds();
+    fn take(&mut self, mut epochs: Vec<Option<SatelliteEpoch>>) {
+        let Some(tag) = epochs.iter().flatten().map(|epoch| epoch.tag).min() else { return };
+        let seconds = tag.since(self.epochs.start).as_seconds();
         let mask = self.epochs.masks.iter().find(|mask| (mask.from..mask.to).contains(&seconds));
         let is_masked = mask.is_some();
         if let Some(mask) = mask {
             let left = &self.highest[..self.highest.len().min(mask.left)];
-            epoch.signals.retain(|signal| left.contains(&signal.satellite));
+            for epoch in epochs.iter_mut().flatten() {
+                epoch.signals.retain(|signal| left.contains(&signal.satellite));
+            }
         }
-        let guess = Guess { turned: self.turns.so_far(), ..Guess::default() };
-        let ranged = self.ranging.take(&self.epochs.context, &epoch, guess);
+        let heard: Vec<_> = epochs.iter().map(Option::as_ref).collect();
+        let (context, array) = (&self.epochs.context, &mut self.epochs.array);
+        let ArrayRanged { ranged, compass } = array.take(context, &heard, None, &self.turns);
+        let Some((ranged, first)) = ranged.zip(heard.into_iter().flatten().next()) else { return };
         if !is_masked {
             self.highest = by_elevation(&ranged);
         }
-        let told = message(&epoch, ranged, self.epochs.start);
+        let told = message(first, ranged, self.epochs.start);
         let (receipt, time) = (told.receipt, told.message.time());
         while self.epochs.base.front().is_some_and(|next| next.receipt <= receipt) {
             self.take_base();
         }
+        let source = told.source;
         self.ready.push_back(told);
-        let rtk = self.link.hear_rover(&self.epochs.context, &epoch, time);
+        self.ready.extend(compass.map(|compass| {
+            let message = Message::Compass(Arc::new(compass.at(time)));
+            Received { receipt, source, message }
+        }));
+        let rtk = self.link.hear_rover(&self.epochs.context, first, time);
         self.ready.extend(rtk.into_iter().map(|rtk| against(receipt, rtk)));
     }
 
@@ -156,6 +166,17 @@ impl RangeMaker {
         let receipt = next.receipt;
         self.ready.push_back(next);
         self.ready.extend(rtk.map(|rtk| against(receipt, rtk)));
+    }
+}
+
+impl Epochs {
+    /// The epochs of all antennas that are of the next instant, if that is none after a receipt.
+    fn next_until(&mut self, receipt: Time) -> Option<Vec<Option<SatelliteEpoch>>> {
+        let first = self.rover.iter().filter_map(|own| Some(own.front()?.tag)).min()?;
+        let is_due = Time::START + first.since(self.start) <= receipt;
+        let of_instant =
+            |epoch: &mut SatelliteEpoch| epoch.tag.since(first).as_seconds() < TOGETHER;
+        is_due.then(|| self.rover.iter_mut().map(|own| own.pop_front_if(of_instant)).collect())
     }
 }
 

@@ -5,8 +5,9 @@ use std::path::Path;
 
 use insd_base::Geodetic;
 use insd_config::BadInput;
-use insd_gnss::Noise;
+use insd_gnss::{ArrayRanging, Noise};
 use insd_nav::config::RangeModel;
+use nalgebra::Vector3;
 use serde::Deserialize;
 
 /// What of `voyage.toml` concerns raw GNSS; the rest is read elsewhere.
@@ -26,8 +27,12 @@ struct BaseTable {
 }
 
 /// The errors of a receiver; one that is not stated is that of a good receiver.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 pub(crate) struct RawTable {
+    #[serde(default)]
+    antennas_m: Vec<[f64; 3]>,
+    #[serde(default)]
+    common_clock: Vec<usize>,
     code_std_m: Option<f64>,
     phase_std_m: Option<f64>,
     doppler_std_mps: Option<f64>,
@@ -54,14 +59,42 @@ impl RawTable {
         let text = fs::read_to_string(&path)?;
         let file: File = toml::from_str(&text)
             .map_err(|error| BadInput(format!("{}: {error}", path.display())))?;
-        match file.raw.fault() {
-            Some((key, value)) => {
-                let expected = "expected a number that is not negative";
-                Err(BadInput(format!("{}: raw.{key}: {expected}, found {value}", path.display()))
-                    .into())
-            }
-            None => Ok(RawTable { base: file.base.map(BaseTable::place), ..file.raw }),
+        let fault = |key: &str, expected: &str, found: String| {
+            BadInput(format!("{}: raw.{key}: {expected}, found {found}", path.display()))
+        };
+        if let Some((key, value)) = file.raw.fault() {
+            let expected = "expected a number that is not negative";
+            return Err(fault(key, expected, value.to_string()).into());
         }
+        if let Some(number) = file.raw.unknown_antenna() {
+            let expected = format!("expected numbers of antennas, 1 to {}", file.raw.antennas());
+            return Err(fault("common_clock", &expected, number.to_string()).into());
+        }
+        Ok(RawTable { base: file.base.map(BaseTable::place), ..file.raw })
+    }
+
+    /// How many antennas there are.
+    pub(crate) fn antennas(&self) -> usize {
+        self.antennas_m.len().max(1)
+    }
+
+    fn unknown_antenna(&self) -> Option<usize> {
+        let known = 1..=self.antennas();
+        self.common_clock.iter().copied().find(|number| !known.contains(number))
+    }
+
+    /// The antennas with a receiver each: those that share a clock, every other on its own.
+    pub(crate) fn array(&self) -> ArrayRanging {
+        let levers: Vec<Vector3<f64>> = (0..self.antennas()).map(|own| self.lever(own)).collect();
+        let clock = |own: usize| {
+            if self.common_clock.contains(&(own + 1)) { 0 } else { own + 1 }
+        };
+        let clocks: Vec<usize> = (0..levers.len()).map(clock).collect();
+        ArrayRanging::new(&levers, &clocks)
+    }
+
+    fn lever(&self, antenna: usize) -> Vector3<f64> {
+        self.antennas_m.get(antenna).copied().unwrap_or_default().into()
     }
 
     /// A value that no error has.
@@ -116,5 +149,14 @@ mod tests {
         assert_eq!(fault("[imu]\nrate_hz = 100.0\n"), None);
         assert_eq!(fault("[raw]\nphase_std_m = -0.1\n"), Some(("phase_std_m", -0.1)));
         assert!(fault("[raw]\ndoppler_std_mps = nan\n").is_some());
+    }
+
+    #[test]
+    fn a_clock_of_an_antenna_that_is_not_there_is_refused() {
+        let unknown = |text: &str| toml::from_str::<File>(text).unwrap().raw.unknown_antenna();
+        let two = "[raw]\nantennas_m = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]\ncommon_clock = ";
+        assert_eq!(unknown(&format!("{two}[1, 2]")), None);
+        assert_eq!(unknown(&format!("{two}[1, 3]")), Some(3));
+        assert_eq!(unknown(&format!("{two}[0]")), Some(0));
     }
 }

@@ -23,7 +23,7 @@ pub(crate) struct RawVoyage {
 }
 
 impl RawVoyage {
-    /// Reads the raw GNSS of the first antenna of a voyage, if it is there and wanted: where `gnss` leaves the choice it is.
+    /// Reads the raw GNSS of all antennas of a voyage, if it is there and wanted: where `gnss` leaves the choice it is.
     ///
     /// # Errors
     /// A file that is there cannot be read, or it is missing where it was asked for.
@@ -52,10 +52,16 @@ impl RawVoyage {
         let start = calendar.utc(Time::START).to_gps();
         let told = read_raw_base(dir)?;
         let told = told.map(|(path, text)| base(&path, &text, table, start)).transpose()?;
+        let mut rover = vec![observed(&texts)?];
+        for antenna in 2..=table.antennas() {
+            let own = read_raw(dir, antenna)?;
+            rover.push(own.map(|texts| observed(&texts)).transpose()?.unwrap_or_default());
+        }
         let epochs = Epochs {
             start,
             context: Context { noise: table.noise(), ..context(&texts.navigation)? },
-            rover: observed(&texts)?,
+            rover,
+            array: table.array(),
             base: told.unwrap_or_default(),
             masks: masks.to_vec(),
         };

@@ -479,7 +479,7 @@ proptest! {
                 Message::Gnss(own) => own.position.is_none_or(|at| at.latitude.abs() <= 90.0 * DEG),
                 Message::Log(own) => [own.u, own.v].iter().flatten().all(|part| part.is_finite()),
                 Message::Reference(own) => own.heading.is_none_or(f64::is_finite),
-                Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => false,
+                Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) | Message::Compass(_) => false,
             };
             prop_assert!(finite, "{message:?}");
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::frames::{Body, Geodetic, Ned};
 use crate::gnss::GnssFix;
-use crate::satellites::{BaseEpoch, RtkEpoch, SatelliteRanges};
+use crate::satellites::{BaseEpoch, CompassReading, RtkEpoch, SatelliteRanges};
 use crate::time::Time;
 
 /// Increments of one IMU sampling interval, ending at `time`.
@@ -120,6 +120,8 @@ pub enum Message {
     Base(Arc<BaseEpoch>),
     /// What an epoch of ranges came to against a base.
     Rtk(RtkEpoch),
+    /// What several antennas told of how the hull stands.
+    Compass(Arc<CompassReading>),
 }
 
 impl Message {
@@ -134,6 +136,7 @@ impl Message {
             Message::Ranges(m) => m.time,
             Message::Base(m) => m.time,
             Message::Rtk(m) => m.time,
+            Message::Compass(m) => m.time,
         }
     }
 }

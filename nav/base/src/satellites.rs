@@ -2,7 +2,9 @@
 
 mod base;
 mod broadcast;
+mod compass;
 mod epoch;
+mod line;
 mod ranges;
 mod refusal;
 mod rtk;
@@ -14,7 +16,11 @@ pub use broadcast::{
     BroadcastKind, BroadcastRecord, ClockPolynomial, GlonassRecord, IonosphereModel, KeplerOrbit,
     KeplerRecord,
 };
+pub use compass::{
+    AntennaPhase, AntennaSignal, CompassFault, CompassPhases, CompassReading, CompassRefusal,
+};
 pub use epoch::{SatelliteEpoch, SignalObservation};
+pub use line::LineBias;
 pub use ranges::{
     AntennaDisplacement, ArcPhase, HeardSatellite, Measured, SatelliteRange, SatelliteRanges,
     Transmitter, time_keeper,

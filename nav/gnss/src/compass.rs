@@ -5,22 +5,20 @@
 //!
 //! **Line biases** are states of this core, as integers cannot be told without them: a phase is known only up to whole wavelengths *and* its line. They are learnt with an
 //! attitude that is free in each epoch, so that nothing of a navigator goes into them or into the fix, and both may be used as measurements. A filter
-//! that knows its attitude from epoch to epoch tells lines and attitude apart much sooner: it takes [`CompassRows`], whose integers are resolved, and carries
-//! line biases of its own. It begins them at what the rows assumed of them, and has them counted from there.
+//! that knows its attitude from epoch to epoch tells lines and attitude apart much sooner: it takes the
+//! [signals](CompassFix::signals), whose integers are resolved, and carries line biases of its own.
 
 mod align;
 mod faults;
 mod fit;
 mod hypotheses;
 mod level;
-mod line;
 mod lines;
 mod model;
 mod observe;
 mod outcome;
 mod pose;
 mod prior;
-mod rows;
 mod search;
 mod settings;
 mod signal;
@@ -28,14 +26,11 @@ mod solve;
 mod told;
 mod tracker;
 
-pub use line::LineBias;
 pub use lines::LineBiases;
 pub use outcome::{
-    CompassEpoch, CompassFault, CompassFix, CompassInteger, CompassObjection, CompassRefusal,
-    CompassRejection, CompassResidual,
+    CompassEpoch, CompassFix, CompassInteger, CompassObjection, CompassRejection, CompassResidual,
 };
 pub use pose::CompassPose;
 pub use prior::{AttitudePrior, CompassPrior};
-pub use rows::CompassRows;
 pub use settings::{CompassArray, CompassSettings, CompassShape};
 pub use tracker::CompassTracker;

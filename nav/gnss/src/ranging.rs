@@ -8,7 +8,7 @@ use insd_base::satellites::{
     AntennaDisplacement, HeardSatellite, RangeRefusal, SPEED_OF_LIGHT, SatelliteRange,
     SatelliteRanges,
 };
-use insd_base::{GpsTime, ImuSample, SatelliteEpoch, Span, Time};
+use insd_base::{GpsTime, SatelliteEpoch, Span, Time};
 use nalgebra::Vector3;
 
 use crate::budget::LOWEST;
@@ -60,26 +60,6 @@ pub struct Guess {
     pub antenna: Option<Vector3<f64>>,
     /// By what it has turned so far, from wherever that is counted, rad, clockwise as seen from above.
     pub turned: f64,
-}
-
-/// How an antenna turns with the ship, by the gyro whose axis points down: a bias of 1000 deg/h makes 0.15 mm of a phase in a second, and no heading is needed.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Turns {
-    sum: f64,
-}
-
-impl Turns {
-    /// Takes a sample of the IMU.
-    pub fn hear(&mut self, sample: &ImuSample) {
-        let turned = sample.delta_theta.0.z;
-        self.sum += if turned.is_finite() { turned } else { 0.0 };
-    }
-
-    /// What she has turned by so far, rad, clockwise as seen from above.
-    #[must_use]
-    pub fn so_far(&self) -> f64 {
-        self.sum
-    }
 }
 
 /// A receiver that is followed from epoch to epoch.
@@ -166,6 +146,7 @@ impl Ranging {
                 .ok_or(RangeRefusal::NoDelay)?;
         Ok(SatelliteRange {
             satellite,
+            offset: Vector3::zeros(),
             transmitter: sight.transmitter(),
             elevation: direction.elevation,
             code: Some(code),

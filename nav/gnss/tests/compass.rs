@@ -7,12 +7,13 @@ mod array;
 mod random;
 
 use array::{Made, square};
+use insd_base::satellites::{AntennaSignal, CompassFault, CompassRefusal, LineBias};
 use insd_base::{Attitude, Ecef, SatelliteEpoch, earth};
 use insd_gnss::{
-    AttitudePrior, CompassArray, CompassEpoch, CompassFault, CompassFix, CompassObjection,
-    CompassPose, CompassPrior, CompassRefusal, CompassRows, CompassSettings, CompassTracker,
+    AttitudePrior, CompassArray, CompassEpoch, CompassFix, CompassObjection, CompassPose,
+    CompassPrior, CompassSettings, CompassTracker,
 };
-use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 const HULL: Attitude = Attitude { roll: 0.05, pitch: -0.03, heading: 2.0 };
 
@@ -90,46 +91,19 @@ fn a_cold_start_under_two_satellites_is_unknown_and_with_known_lines_they_are_en
 }
 
 #[test]
-fn rows_change_with_the_assumed_attitude_as_their_columns_say() {
-    let mut made = made(4, 10);
-    let mut compass = on_one_clock();
-    sail(&mut compass, &mut made, 5);
-    let epochs = made.epochs(5.0, &HULL.c_nb());
-    let c_ne = earth::c_ne(&earth::geodetic(&Ecef(made.place)));
-    for axis in 0..3 {
-        // of true axes against assumed ones, in ECEF axes: C = (I - [psi x]) C_assumed
-        let psi = Vector3::ith(axis, 1e-5);
-        let assumed = |psi: Vector3<f64>| {
-            let turned = Rotation3::from_scaled_axis(c_ne * psi).into_inner();
-            let mut known = prior(&made, f64::INFINITY);
-            known.attitude =
-                known.attitude.map(|own| AttitudePrior { c_nb: turned * HULL.c_nb(), ..own });
-            take(&mut compass.clone(), &made, &epochs, &known).told.unwrap().rows
-        };
-        let (more, less) = (assumed(psi), assumed(-psi));
-        let changed = &more.residuals - &less.residuals;
-        let expected = &more.attitude * psi * 2.0;
-        assert!((&changed - &expected).amax() < 1e-9, "{changed} {expected}");
-    }
-}
-
-/// The same epoch once more, with rows about the very attitude that it tells.
-fn about_itself(compass: &CompassTracker, made: &Made, epochs: &[SatelliteEpoch]) -> CompassFix {
-    let first = take(&mut compass.clone(), made, epochs, &prior(made, f64::INFINITY)).told.unwrap();
-    let CompassPose::Attitude(c_nb) = first.pose else { unreachable!() };
-    let mut known = prior(made, f64::INFINITY);
-    known.attitude = known.attitude.map(|own| AttitudePrior { c_nb, ..own });
-    take(&mut compass.clone(), made, epochs, &known).told.unwrap()
-}
-
-#[test]
-fn rows_solved_by_themselves_come_to_what_is_told() {
+fn signals_solved_by_themselves_come_to_what_is_told() {
     let mut made = made(5, 15);
     let epochs = made.epochs(0.0, &HULL.c_nb());
-    let fix = about_itself(&on_one_clock(), &made, &epochs);
-    let (off, covariance) = solved(&fix.rows);
-    assert!(off.norm() < 1e-4, "{off}");
+    let fix = take(&mut on_one_clock(), &made, &epochs, &prior(&made, f64::INFINITY)).told.unwrap();
+    assert_come_to(&made, &fix);
+}
+
+/// Attitude and its covariance by signals about what is told, their lines free, are what is told.
+fn assert_come_to(made: &Made, fix: &CompassFix) {
+    let CompassPose::Attitude(c_nb) = fix.pose else { unreachable!() };
     let c_ne = earth::c_ne(&earth::geodetic(&Ecef(made.place)));
+    let (off, covariance) = solved(&fix.signals, &(c_ne.transpose() * c_nb));
+    assert!(off.norm() < 1e-4, "{off}");
     assert_alike(&fix.covariance, &(c_ne * covariance * c_ne.transpose()));
 }
 
@@ -140,16 +114,30 @@ fn assert_alike(one: &Matrix3<f64>, other: &Matrix3<f64>) {
     }
 }
 
-/// Attitude and its covariance by rows alone, their lines free.
-fn solved(rows: &CompassRows) -> (Vector3<f64>, Matrix3<f64>) {
-    let (attitude, free) = (&rows.attitude, &rows.lines);
-    let count = free.ncols();
-    let mut design = DMatrix::zeros(attitude.nrows(), 3 + count);
-    design.columns_mut(0, 3).copy_from(attitude);
-    design.columns_mut(3, count).copy_from(free);
-    let weight = rows.covariance.clone().try_inverse().unwrap();
-    let covariance = (design.transpose() * &weight * &design).try_inverse().unwrap();
-    let found: DVector<f64> = &covariance * design.transpose() * weight * &rows.residuals;
+/// Small rotation of an attitude, from body to ECEF axes, and its covariance by signals alone. What antennas share is free in each signal, and so is each line.
+fn solved(signals: &[AntennaSignal], c_eb: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+    let phases = signals.iter().flat_map(|signal| &signal.phases);
+    let mut lines: Vec<LineBias> = phases.filter_map(|phase| phase.line).collect();
+    lines.sort();
+    lines.dedup();
+    let count = 3 + lines.len() + signals.len();
+    let (mut normal, mut right) = (DMatrix::zeros(count, count), DVector::zeros(count));
+    for (place, signal) in signals.iter().enumerate() {
+        for phase in &signal.phases {
+            let arm = c_eb * phase.lever;
+            let mut row = DVector::zeros(count);
+            row.fixed_rows_mut::<3>(0).copy_from(&arm.cross(&signal.gradient));
+            if let Some(line) = lines.iter().position(|own| Some(*own) == phase.line) {
+                row[3 + line] = 1.0;
+            }
+            row[3 + lines.len() + place] = 1.0;
+            let beyond = phase.phase - signal.gradient.dot(&arm);
+            normal.ger(1.0 / phase.variance, &row, &row, 1.0);
+            right.axpy(beyond / phase.variance, &row, 1.0);
+        }
+    }
+    let covariance = normal.try_inverse().unwrap();
+    let found = &covariance * right;
     (found.fixed_rows::<3>(0).into_owned(), covariance.fixed_view::<3, 3>(0, 0).into_owned())
 }
 
@@ -164,13 +152,10 @@ fn receivers_on_clocks_of_their_own_tell_what_double_differences_do() {
     let mut compass = CompassTracker::new(CompassArray::on_own_clocks(square()), settings);
     sail(&mut compass, &mut made, 20);
     let epochs = made.epochs(20.0, &HULL.c_nb());
-    let fix = about_itself(&compass, &made, &epochs);
+    let fix = take(&mut compass, &made, &epochs, &prior(&made, f64::INFINITY)).told.unwrap();
     assert!(is_right(&fix));
     // a column that is free for each antenna is what double differences are
-    let (off, by_rows) = solved(&fix.rows);
-    assert!(off.norm() < 1e-4, "{off}");
-    let c_ne = earth::c_ne(&earth::geodetic(&Ecef(made.place)));
-    assert_alike(&fix.covariance, &(c_ne * by_rows * c_ne.transpose()));
+    assert_come_to(&made, &fix);
 }
 
 #[test]

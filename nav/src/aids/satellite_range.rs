@@ -50,6 +50,20 @@ impl Antenna {
         let position = view.nominal.position + arm - way * view.nominal.gnss_delay;
         Self { arm, position, velocity, swing, way: *way }
     }
+
+    /// The point from which a range is measured: in the middle of several antennas that is not where the lever arm ends.
+    #[must_use]
+    pub fn of_range(&self, view: &View, range: &SatelliteRange) -> Self {
+        let beside = view.c_eb * range.offset;
+        let turned = view.c_eb * view.rate.cross(&range.offset);
+        Self {
+            arm: self.arm + beside,
+            position: self.position + beside,
+            velocity: self.velocity + turned,
+            swing: self.swing + turned,
+            way: self.way,
+        }
+    }
 }
 
 /// A satellite and its place among those in use.
@@ -80,13 +94,15 @@ fn clock(view: &View, range: &SatelliteRange) -> f64 {
 /// Range and clock as a code or a phase should have them, without errors of their own, m.
 #[must_use]
 pub fn predicted(view: &View, antenna: &Antenna, range: &SatelliteRange) -> f64 {
+    let antenna = antenna.of_range(view, range);
     range.transmitter.range(&antenna.position) + clock(view, range)
 }
 
 /// What a range depends on, whatever measures it.
 fn geometry(view: &View, antenna: &Antenna, range: &SatelliteRange) -> Jacobian {
+    let antenna = antenna.of_range(view, range);
     let mut h = Jacobian::none(1);
-    let (place, attitude, lever) = by_place(view, antenna, &gradient(antenna, range));
+    let (place, attitude, lever) = by_place(view, &antenna, &gradient(&antenna, range));
     h.set(POSITION, &place);
     h.set(ATTITUDE, &attitude);
     h.set(GNSS_LEVER, &lever);
@@ -150,6 +166,7 @@ pub fn rate(
     lever: &Vector3<f64>,
 ) -> Option<Innovation> {
     let rate = range.rate?;
+    let (antenna, lever) = (&antenna.of_range(view, range), &(lever + range.offset));
     let e = -gradient(antenna, range);
     let expected = range.transmitter.range_rate(&antenna.position, &antenna.velocity)
         + view.nominal.receiver_clock.y;

@@ -1,15 +1,17 @@
 //! Measurement matrices against perturbed predictions, driven from one table.
 
-use insd_base::satellites::{ArcPhase, Measured, SatelliteRange, Transmitter};
+use insd_base::satellites::{
+    AntennaPhase, AntennaSignal, ArcPhase, LineBias, Measured, SatelliteRange, Transmitter,
+};
 use insd_base::units::DEG;
-use insd_base::{Attitude, Geodetic, LogReference};
+use insd_base::{Attitude, Geodetic, LogReference, SignalCode};
 use insd_estimation::Place;
 use nalgebra::{Vector2, Vector3, Vector4};
 
 use super::satellite_range::Sighted;
 use super::*;
 use crate::declaration::{all_states, no_errors};
-use crate::error_state::Innovation;
+use crate::error_state::{ANTENNA_LINES, ATTITUDE, Innovation};
 
 const MEASURED_RATE: Vector3<f64> = Vector3::new(0.02, -0.05, 0.03);
 
@@ -54,6 +56,7 @@ fn sighted(view: &View) -> (satellite_range::Antenna, SatelliteRange) {
     let measured = Measured { value: 2.4e7, variance: 0.1 };
     let range = SatelliteRange {
         satellite: "E11".parse().unwrap(),
+        offset: Vector3::new(0.4, -0.7, 0.2),
         transmitter: Transmitter { position: over, velocity: Vector3::new(1200.0, -900.0, 2100.0) },
         elevation: 1.0,
         code: Some(measured),
@@ -65,6 +68,27 @@ fn sighted(view: &View) -> (satellite_range::Antenna, SatelliteRange) {
     };
     let lever = LEVER + view.nominal.gnss_lever;
     (satellite_range::Antenna::of(view, &lever, &Vector3::new(5.0, -3.0, 0.4)), range)
+}
+
+/// The phase of an antenna whose line is the fifth.
+fn compared(view: &View) -> Rows {
+    let signal = SignalCode { band: 1, attribute: b'C' };
+    let satellite = "G03".parse().unwrap();
+    let phase = AntennaPhase {
+        lever: Vector3::new(1.0, 0.2, -0.1),
+        phase: 0.01,
+        variance: 1e-6,
+        line: Some(LineBias::new(1, satellite, signal, signal)),
+        clock: None,
+    };
+    let gradient = Vector3::new(0.3, -0.5, 0.7).normalize();
+    let told = AntennaSignal { satellite, signal, wavelength: 0.19, gradient, phases: vec![phase] };
+    let (z, turned) = antenna_phases::beyond(view, (&told, &phase), Some(4));
+    let mut h = vec![0.0; all_states().states()];
+    let place = |key| all_states().start(key).unwrap();
+    h[place(ATTITUDE.key())..][..3].copy_from_slice(turned.as_slice());
+    h[place(ANTENNA_LINES.key()) + 4] = 1.0;
+    vec![(z, h)]
 }
 
 /// A named aid and its rows.
@@ -118,6 +142,7 @@ fn table() -> Vec<Entry> {
             let lever = LEVER + view.nominal.gnss_lever;
             rows(&satellite_range::rate(view, &antenna, &range, &lever).unwrap())
         }),
+        ("antenna_phases", compared),
         ("reference_heading", |view| rows(&reference_heading::innovation(view, 2.0, DEG))),
         ("reference_velocity", |view| {
             rows(&reference_velocity::innovation(view, &Vector2::new(5.0, -3.0), 0.1))

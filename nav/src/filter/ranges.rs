@@ -232,7 +232,7 @@ impl Filter {
         let attitude = ATTITUDE.covariance(&self.state.covariance);
         let row = |one: &Sighted<'_>| {
             let mut row = satellite_range::phase(&view, &antenna, *one)?;
-            row.r[(0, 0)] += bent_range(&attitude, &antenna, one.range);
+            row.r[(0, 0)] += bent_range(&attitude, &antenna.of_range(&view, one.range), one.range);
             Some(row)
         };
         let Some(mut rows) = Rows::of(seated, row) else { return };

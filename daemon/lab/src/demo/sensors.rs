@@ -49,9 +49,11 @@ impl DemoSensor {
     fn of(message: &Message) -> DemoSensor {
         match message {
             Message::Imu(_) => DemoSensor::Imu,
-            Message::Gnss(_) | Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {
-                DemoSensor::Gnss
-            }
+            Message::Gnss(_)
+            | Message::Ranges(_)
+            | Message::Base(_)
+            | Message::Rtk(_)
+            | Message::Compass(_) => DemoSensor::Gnss,
             Message::Log(_) => DemoSensor::Log,
             Message::Reference(_) => DemoSensor::Reference,
         }

@@ -73,6 +73,8 @@ pub struct ArcPhase {
 pub struct SatelliteRange {
     /// The satellite.
     pub satellite: SatelliteId,
+    /// Where it is measured from the antenna that the lever arm is of, body axes, m: in the middle of several antennas that have it.
+    pub offset: Vector3<f64>,
     /// Where it was.
     pub transmitter: Transmitter,
     /// Above the horizon, rad.

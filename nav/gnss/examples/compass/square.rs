@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 
+use insd_base::satellites::CompassFault;
 use insd_base::units::wrap_pi;
 use insd_base::{Attitude, SatelliteEpoch};
 use insd_gnss::{
-    AttitudePrior, CompassArray, CompassEpoch, CompassFault, CompassFix, CompassPrior,
-    CompassSettings, CompassTracker,
+    AttitudePrior, CompassArray, CompassEpoch, CompassFix, CompassPrior, CompassSettings,
+    CompassTracker,
 };
 use nalgebra::{Matrix3, Vector3};
 

@@ -6,9 +6,9 @@ use insd_base::GpsTime;
 
 use super::fit::{Freed, with_own_clock, without};
 use super::observe::Observed;
-use super::outcome::CompassFault;
 use super::settings::CompassArray;
 use super::signal::Common;
+use insd_base::satellites::CompassFault;
 
 /// So many epochs more that show a fault than do not, and it is one.
 const BORNE_OUT: usize = 4;

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::line::LineBias;
+use insd_base::satellites::LineBias;
 
 /// 1-sigma of a line bias that is new and of a clock that is free, m: so much more than a phase is worth that it tells nothing.
 const WIDE: f64 = 1.0;

@@ -2,11 +2,11 @@
 
 use nalgebra::{DMatrix, DVector, RowVector3, Vector3};
 
-use super::line::LineBias;
 use super::lines::LineBiases;
 use super::pose::CompassPose;
 use super::settings::{CompassArray, CompassShape};
 use super::signal::{Common, Heard};
+use insd_base::satellites::LineBias;
 
 /// An array as it is taken for in one epoch, and what it heard.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +23,19 @@ pub(super) struct Clock {
 impl<'a> Model<'a> {
     pub(super) fn shape(&self) -> &'a CompassShape {
         &self.array.shape
+    }
+
+    /// The clock of an antenna, if it is not the first one's.
+    pub(super) fn own_clock(&self, antenna: usize) -> Option<usize> {
+        Some(self.array.clocks[antenna]).filter(|clock| *clock != self.array.clocks[0])
+    }
+
+    /// Where an antenna stands on the hull; nought of two antennas without one.
+    pub(super) fn lever(&self, antenna: usize) -> Vector3<f64> {
+        match self.shape() {
+            CompassShape::Body(levers) => levers[antenna],
+            CompassShape::Baseline { .. } => Vector3::zeros(),
+        }
     }
 
     /// Line biases that the epoch has to do with, each once.
@@ -45,10 +58,7 @@ impl<'a> Model<'a> {
     pub(super) fn clocks(&self, lines: &LineBiases) -> Vec<Clock> {
         let mut clocks: Vec<((usize, i64), Clock)> = Vec::new();
         for (place, line) in lines.keys.iter().enumerate() {
-            let clock = self.array.clocks[line.antenna];
-            if clock == self.array.clocks[0] {
-                continue;
-            }
+            let Some(clock) = self.own_clock(line.antenna) else { continue };
             // micrometres: bands are centimetres apart
             let Some(wavelength) = self.wavelength(line) else { continue };
             let key = (clock, (wavelength * 1e6).round() as i64);

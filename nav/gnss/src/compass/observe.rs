@@ -1,11 +1,10 @@
 //! Epochs of several receivers held against each other, each satellite as each antenna had it.
 
 use insd_base::frames::Ecef;
-use insd_base::satellites::SPEED_OF_LIGHT;
+use insd_base::satellites::{LineBias, SPEED_OF_LIGHT};
 use insd_base::{GpsTime, SatelliteEpoch, SignalCode, SignalObservation, earth};
 use nalgebra::{Matrix3, Vector3};
 
-use super::line::LineBias;
 use super::outcome::{CompassObjection, CompassRejection};
 use super::settings::CompassSettings;
 use super::signal::{Common, Heard};

@@ -1,12 +1,10 @@
 //! What an epoch of the compass comes to.
 
-use std::fmt;
-
+use insd_base::satellites::{AntennaSignal, CompassFault, CompassRefusal};
 use insd_base::{Attitude, GpsTime, SatelliteId, SignalCode};
 use nalgebra::Matrix3;
 
 use super::pose::CompassPose;
-use super::rows::CompassRows;
 
 /// An epoch of all antennas.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,14 +29,16 @@ pub struct CompassFix {
     pub pose: CompassPose,
     /// Covariance of the small rotation about north, east and down (rad^2), or of the baseline (m^2). What satellites do not tell has ten radians or metres.
     pub covariance: Matrix3<f64>,
-    /// What a filter with an attitude of its own makes an aid of.
-    pub rows: CompassRows,
+    /// What a filter with an attitude of its own makes an aid of; of a baseline the antennas' places are nought.
+    pub signals: Vec<AntennaSignal>,
     /// Integers, cycles: of each antenna against the first that has the signal, beyond what the line bias is counted from.
     pub integers: Vec<CompassInteger>,
     /// What is left of each difference.
     pub residuals: Vec<CompassResidual>,
     /// Sum of the weighed squares of the residuals, and its degrees of freedom.
     pub chi_square: (f64, usize),
+    /// Variance of the residuals over that assumed, of this and the epochs before, the last ten above all.
+    pub level: f64,
     /// The chance that the integers are wrong, all hypotheses weighed against each other.
     pub doubt: f64,
     /// The chance that rounding finds the integers of an epoch from what is predicted, if its covariance is true.
@@ -108,71 +108,6 @@ pub enum CompassObjection {
     },
 }
 
-/// Why no attitude is told.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CompassRefusal {
-    /// The array is none: fewer than two antennas, or all in one place.
-    Array,
-    /// Nobody knows where the antennas are, to ten metres.
-    NoPlace,
-    /// Two antennas have no two signals in common.
-    TooFew {
-        /// Signals that two antennas have in common.
-        signals: usize,
-    },
-    /// They determine nothing.
-    Geometry,
-    /// Several attitudes fit, or too little bears out the one that does.
-    Ambiguous {
-        /// How many.
-        hypotheses: usize,
-        /// The chance that the likeliest is wrong.
-        doubt: f64,
-    },
-    /// Nothing fits.
-    Residuals {
-        /// Variance of the residuals of what fits best over that assumed.
-        level: f64,
-        /// The most that is taken.
-        limit: f64,
-    },
-    /// Antennas so far apart cannot be searched for without a better attitude to begin at.
-    TooFarApart {
-        /// m.
-        span: f64,
-    },
-}
-
-/// What is wrong with the installation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CompassFault {
-    /// An antenna hears next to nothing of what the others do, or much less strongly: its cable or the antenna itself is broken.
-    Broken {
-        /// The antenna.
-        antenna: usize,
-    },
-    /// A receiver runs on a clock of its own though it is said to share one. It is used as such.
-    OwnClock {
-        /// The antenna.
-        antenna: usize,
-        /// By how much its clock gains on the others by its codes, m/s.
-        rate: f64,
-    },
-    /// Two antennas stand in each other's place: nothing fits as they are configured, and all does when they are exchanged. Of an array that is
-    /// symmetrical there are two such pairs, both of which are told, unless a heading is known.
-    Swapped {
-        /// One of them.
-        one: usize,
-        /// The other.
-        other: usize,
-    },
-    /// The phases of one antenna fit to nothing, those of the others to each other. It is left out.
-    Incoherent {
-        /// The antenna.
-        antenna: usize,
-    },
-}
-
 impl CompassFix {
     /// Roll, pitch and heading, rad, and the covariance of them in this order, rad^2; `None` of a baseline.
     #[must_use]
@@ -200,46 +135,5 @@ impl CompassFix {
             b.x / length, b.y / length, b.z / length,
         );
         Some((own, by_vector * self.covariance * by_vector.transpose()))
-    }
-}
-
-impl fmt::Display for CompassRefusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Array => write!(f, "no two antennas apart"),
-            Self::NoPlace => write!(f, "nobody knows where the antennas are"),
-            Self::TooFew { signals } => write!(f, "{signals} signals in common"),
-            Self::Geometry => write!(f, "signals in common determine nothing"),
-            Self::Ambiguous { hypotheses, doubt } => {
-                write!(f, "{hypotheses} attitudes fit, the likeliest wrong by {doubt:.1e}")
-            }
-            Self::Residuals { level, limit } => {
-                write!(f, "nothing fits: residuals {level:.1} times as assumed, at most {limit:.1}")
-            }
-            Self::TooFarApart { span } => {
-                write!(f, "antennas {span:.1} m apart need an attitude to begin at")
-            }
-        }
-    }
-}
-
-impl fmt::Display for CompassFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Broken { antenna } => {
-                write!(f, "antenna {}: hears next to nothing; cable or antenna", antenna + 1)
-            }
-            Self::OwnClock { antenna, rate } => write!(
-                f,
-                "antenna {}: its receiver runs on a clock of its own, {rate:.2} m/s",
-                antenna + 1
-            ),
-            Self::Swapped { one, other } => {
-                write!(f, "antennas {} and {} are in each other's place", one + 1, other + 1)
-            }
-            Self::Incoherent { antenna } => {
-                write!(f, "antenna {}: its phases fit to nothing", antenna + 1)
-            }
-        }
     }
 }

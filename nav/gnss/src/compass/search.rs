@@ -7,10 +7,10 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use super::align::Coherence;
 use super::lines::LineBiases;
 use super::model::Model;
-use super::outcome::CompassRefusal;
 use super::pose::CompassPose;
 use super::prior::CompassPrior;
 use super::settings::CompassShape;
+use insd_base::satellites::CompassRefusal;
 
 /// How well phases agree at the least at the point of the grid that is nearest to the true pose.
 const AGREEING: f64 = 0.8;

@@ -3,7 +3,7 @@
 use insd_base::{SatelliteId, SignalCode};
 use nalgebra::Vector3;
 
-use super::line::LineBias;
+use insd_base::satellites::LineBias;
 
 /// What one antenna has of it.
 #[derive(Clone, Copy, Debug)]

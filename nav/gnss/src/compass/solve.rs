@@ -61,8 +61,6 @@ pub(super) struct Outcome {
     pub(super) pose: CompassPose,
     pub(super) covariance: Matrix3<f64>,
     pub(super) lines: LineBiases,
-    /// Line biases as they were assumed before the epoch told of them.
-    pub(super) assumed: LineBiases,
     /// Integers of each signal: of each antenna against the first.
     pub(super) integers: Vec<Vec<f64>>,
     /// What is left of each signal, m, likewise.
@@ -146,7 +144,6 @@ pub(super) fn solve(model: &Model<'_>, start: &Start) -> Option<Outcome> {
         let freedom = freedom(model, &loose, &used) + known;
         return Some(told(
             &pass,
-            &lines,
             (residuals, used, misfits),
             (misfit + by_length, freedom),
             success,
@@ -156,7 +153,6 @@ pub(super) fn solve(model: &Model<'_>, start: &Start) -> Option<Outcome> {
 
 fn told(
     pass: &Pass,
-    assumed: &LineBiases,
     (residuals, used, misfits): (Vec<DVector<f64>>, Vec<bool>, Vec<Misfit>),
     misfit: (f64, usize),
     success: f64,
@@ -169,7 +165,6 @@ fn told(
         pose: pass.pose,
         covariance: covariance.fixed_view::<3, 3>(0, 0).into(),
         lines,
-        assumed: assumed.clone(),
         integers: pass.integers.clone(),
         residuals,
         used,

@@ -2,18 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use nalgebra::{DMatrix, DVector};
+use insd_base::satellites::{AntennaPhase, AntennaSignal};
 
-use super::line::LineBias;
 use super::model::Model;
 use super::observe::Observed;
 use super::outcome::{
     CompassFix, CompassInteger, CompassObjection, CompassRejection, CompassResidual,
 };
-use super::pose::CompassPose;
-use super::prior::CompassPrior;
-use super::rows::CompassRows;
-use super::signal::Common;
+use super::signal::{Common, Heard};
 use super::solve::{Misfit, Outcome};
 
 /// A fix and what was left out of it.
@@ -22,19 +18,15 @@ pub(super) struct Told {
     pub(super) rejected: Vec<CompassRejection>,
 }
 
-pub(super) fn told(
-    model: &Model<'_>,
-    outcome: &Outcome,
-    observed: &Observed,
-    prior: &CompassPrior,
-) -> Told {
+pub(super) fn told(model: &Model<'_>, outcome: &Outcome, observed: &Observed) -> Told {
     let mut fix = CompassFix {
         pose: outcome.pose,
         covariance: outcome.covariance,
-        rows: rows(model, outcome, observed, prior),
+        signals: signals(model, outcome, observed),
         integers: Vec::new(),
         residuals: Vec::new(),
         chi_square: outcome.misfit,
+        level: 1.0,
         doubt: 0.0,
         success: outcome.success,
         satellites: 0,
@@ -85,54 +77,27 @@ fn rejection(model: &Model<'_>, outcome: &Outcome, misfit: &Misfit) -> CompassRe
     }
 }
 
-/// Rows about the attitude that was known beforehand, else about what was found.
-fn rows(
-    model: &Model<'_>,
-    outcome: &Outcome,
-    observed: &Observed,
-    prior: &CompassPrior,
-) -> CompassRows {
-    let pose = match (outcome.pose, prior.attitude) {
-        (CompassPose::Attitude(_), Some(own)) => CompassPose::Attitude(own.c_nb),
-        (pose, _) => pose,
-    };
-    let lines = &outcome.assumed;
-    let kept: Vec<usize> = (0..model.commons.len()).filter(|place| outcome.used[*place]).collect();
-    let lines_of = |place: &usize| model.commons[*place].heard.iter().map(|own| own.line);
-    let biases: BTreeSet<LineBias> =
-        kept.iter().flat_map(lines_of).filter(|line| !line.is_origin()).collect();
-    let biases: Vec<LineBias> = biases.into_iter().collect();
-    let count = kept.iter().map(|place| model.commons[*place].heard.len() - 1).sum();
-    let of_line = |line: &LineBias| lines.place(line).map_or(0.0, |place| lines.mean[place]);
-    let mut rows = CompassRows {
-        residuals: DVector::zeros(count),
-        attitude: DMatrix::zeros(count, 3),
-        assumed: DVector::from_iterator(biases.len(), biases.iter().map(of_line)),
-        lines: DMatrix::zeros(count, biases.len()),
-        biases,
-        covariance: DMatrix::zeros(count, count),
-        of: Vec::with_capacity(count),
-    };
-    let offsets = model.offsets(&pose);
-    for place in kept {
-        let (common, first) = (&model.commons[place], rows.of.len());
-        let against = &common.heard[0];
-        let design = common.against_first() * model.design(common, &pose, lines);
-        let by_pose = design.columns(0, 3) * observed.c_ne;
-        let size = common.heard.len() - 1;
-        rows.attitude.rows_mut(first, size).copy_from(&by_pose);
-        rows.covariance.view_mut((first, first), (size, size)).copy_from(&common.covariance());
-        for (row, own) in common.heard[1..].iter().enumerate() {
-            let whole = outcome.integers[place][row] * common.wavelength;
-            rows.residuals[first + row] =
-                model.difference(common, (own, against), &offsets, lines) - whole;
-            for (line, sign) in [(&own.line, 1.0), (&against.line, -1.0)] {
-                if let Some(column) = rows.biases.iter().position(|bias| bias == line) {
-                    rows.lines[(first + row, column)] += sign;
-                }
-            }
-            rows.of.push((common.satellite, common.signal, own.antenna, against.antenna));
+/// Signals that fit, whole cycles taken out.
+fn signals(model: &Model<'_>, outcome: &Outcome, observed: &Observed) -> Vec<AntennaSignal> {
+    let kept = (0..model.commons.len()).filter(|place| outcome.used[*place]);
+    let all = kept.map(|place| {
+        let common = &model.commons[place];
+        let first = common.heard[0].phase;
+        let cycles = std::iter::once(0.0).chain(outcome.integers[place].iter().copied());
+        let phase = |(own, cycles): (&Heard, f64)| AntennaPhase {
+            lever: model.lever(own.antenna),
+            phase: own.phase - first - cycles * common.wavelength,
+            variance: own.variance,
+            line: Some(own.line).filter(|line| !line.is_origin()),
+            clock: model.own_clock(own.antenna),
+        };
+        AntennaSignal {
+            satellite: common.satellite,
+            signal: common.signal,
+            wavelength: common.wavelength,
+            gradient: -(observed.c_ne.transpose() * common.line_of_sight),
+            phases: common.heard.iter().zip(cycles).map(phase).collect(),
         }
-    }
-    rows
+    });
+    all.collect()
 }

@@ -1,5 +1,6 @@
 //! An array that is followed from epoch to epoch.
 
+use insd_base::satellites::CompassRefusal;
 use insd_base::{GpsTime, SatelliteEpoch};
 use nalgebra::Vector3;
 
@@ -10,7 +11,7 @@ use super::level::is_possible;
 use super::lines::LineBiases;
 use super::model::Model;
 use super::observe::{Observed, Place, observe};
-use super::outcome::{CompassEpoch, CompassFix, CompassRefusal, CompassRejection};
+use super::outcome::{CompassEpoch, CompassFix, CompassRejection};
 use super::pose::CompassPose;
 use super::prior::CompassPrior;
 use super::search::{Candidates, Region, candidates};
@@ -187,9 +188,9 @@ impl CompassTracker {
         self.hypotheses = all;
         let (outcome, freed) = self.judged(doubt, shortest, model.satellites())?;
         let commons = freed.commons(model.commons);
-        let told = told(&Model { commons: &commons, ..model }, &outcome, observed, prior);
+        let told = told(&Model { commons: &commons, ..model }, &outcome, observed);
         rejected.extend(told.rejected);
-        Ok(CompassFix { doubt, ..told.fix })
+        Ok(CompassFix { doubt, level: self.level, ..told.fix })
     }
 
     /// What becomes of each hypothesis.

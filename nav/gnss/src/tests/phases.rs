@@ -8,7 +8,8 @@ use insd_base::{Body, ImuSample, SatelliteEpoch, SignalObservation, Time};
 use super::random::Random;
 use super::sky::{berth, context, epoch};
 use super::still;
-use crate::ranging::{Guess, Ranging, Turns};
+use crate::ranging::{Guess, Ranging};
+use crate::turns::Turns;
 
 /// Adds so many cycles to the phase of each signal.
 fn add(epoch: &mut SatelliteEpoch, mut cycles: impl FnMut(&SignalObservation) -> f64) {

@@ -125,8 +125,9 @@ fn check_compass(
     let prior = CompassPrior { attitude, ..CompassPrior::default() };
     let epoch = compass.take(context, &[Some(&sound), Some(damaged), Some(&sound)], &prior);
     if let Ok(fix) = epoch.told {
-        let rows = fix.rows.residuals.iter().chain(fix.rows.covariance.iter());
-        let all = fix.covariance.iter().chain(rows).all(|value| value.is_finite());
+        let phases = fix.signals.iter().flat_map(|signal| &signal.phases);
+        let phases = phases.flat_map(|own| [own.phase, own.variance]);
+        let all = fix.covariance.iter().copied().chain(phases).all(f64::is_finite);
         assert!(all && fix.doubt.is_finite() && fix.success.is_finite(), "{fix:?}");
     }
 }

@@ -165,7 +165,7 @@ fn enter(voyage: &mut Voyage, received: &Received) {
         // a voyage directory holds one receiver
         Message::Gnss(message) if message.rank > 0 => {}
         // made of raw data, which are kept as such
-        Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {}
+        Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) | Message::Compass(_) => {}
         Message::Gnss(message) => voyage.gnss.push(Stamped { message: *message, arrival }),
         Message::Log(message) => voyage.log.push(Stamped { message: *message, arrival }),
         Message::Reference(message) => {

@@ -1,6 +1,6 @@
 //! Line biases: what cables and receivers add to a phase, one for each antenna, constellation and signal.
 
-use insd_base::{Constellation, SatelliteId, SignalCode};
+use super::signal::{Constellation, SatelliteId, SignalCode};
 
 /// Which line: a signal of a constellation on its way from one antenna through its receiver, against the first antenna's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -18,7 +18,9 @@ pub struct LineBias {
 }
 
 impl LineBias {
-    pub(super) fn new(
+    /// Of an antenna whose receiver tracks a satellite by one signal, held against one that tracks it by another or the same.
+    #[must_use]
+    pub fn new(
         antenna: usize,
         satellite: SatelliteId,
         signal: SignalCode,
@@ -34,7 +36,8 @@ impl LineBias {
     }
 
     /// Nought by definition: what the others are counted from.
-    pub(super) fn is_origin(&self) -> bool {
+    #[must_use]
+    pub fn is_origin(&self) -> bool {
         self.antenna == 0 && self.signal == self.against
     }
 }

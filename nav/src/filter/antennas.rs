@@ -1,0 +1,105 @@
+//! Several antennas of one hull: how it stands, by phases whose whole cycles are known.
+//!
+//! Cycles were told without the filter, so that nothing is counted twice but the phases of the epoch. What reflects goes on for a minute: epochs that are
+//! closer together are no news to that extent.
+
+use insd_base::satellites::{CompassPhases, CompassReading, LineBias};
+use insd_base::{SatelliteId, Source};
+
+use super::Filter;
+use super::entry::{COMPASS_AID, enter};
+use crate::aids::antenna_phases;
+use crate::declaration::Carried;
+use crate::error_state::{ANTENNA_LINES, ANTENNA_REFLECTIONS, ANTENNA_ROWS, LINE_UNKNOWN, LINES};
+use crate::report::{Outcome, Report};
+
+/// After so many epochs in a row that contradict the filter its lines are not those of the antennas.
+const CONTRADICTED: u8 = 5;
+
+/// The antennas as the filter follows them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Antennas {
+    /// Lines that are carried, in the order of their states.
+    lines: Vec<LineBias>,
+    /// Of which run of integers they are.
+    run: Option<u32>,
+    /// Satellites of the epoch before.
+    sky: Vec<SatelliteId>,
+    /// Epochs in a row that contradict the filter.
+    contradicted: u8,
+}
+
+impl Filter {
+    pub(super) fn apply_compass(
+        &mut self,
+        reading: &CompassReading,
+        source: Source,
+        report: &mut Report,
+    ) {
+        let Ok(told) = &reading.told else { return };
+        if !self.navigating {
+            return;
+        }
+        self.begin_to_carry(Carried::WithAntennas);
+        self.seat_lines(told, reading.run);
+        self.seat_reflections(told);
+        let lines = &self.antennas.lines;
+        let innovation = antenna_phases::innovation(&self.view(), &told.signals, lines);
+        let Some(innovation) = innovation else { return };
+        let judged = self.gated(&innovation, None);
+        let outcome = enter(report, reading.time, source, COMPASS_AID, &judged);
+        self.note_compass(outcome);
+    }
+
+    /// Lines of integers that were found anew, and those that are new, are not known.
+    fn seat_lines(&mut self, told: &CompassPhases, run: u32) {
+        if self.antennas.run != Some(run) {
+            self.antennas.run = Some(run);
+            self.forget_lines();
+        }
+        let phases = told.signals.iter().flat_map(|signal| &signal.phases);
+        for line in phases.filter_map(|phase| phase.line) {
+            let lines = &mut self.antennas.lines;
+            if lines.len() < LINES && !lines.contains(&line) {
+                lines.push(line);
+            }
+        }
+    }
+
+    fn forget_lines(&mut self) {
+        self.antennas.lines.clear();
+        self.state.nominal.antenna_lines.fill(0.0);
+        let covariance = &mut self.state.covariance;
+        for line in 0..LINES {
+            covariance.renew_state(ANTENNA_LINES.key(), line, LINE_UNKNOWN * LINE_UNKNOWN);
+        }
+    }
+
+    /// Under another sky reflections are others.
+    fn seat_reflections(&mut self, told: &CompassPhases) {
+        let mut sky: Vec<_> = told.signals.iter().map(|signal| signal.satellite).collect();
+        sky.sort_unstable();
+        sky.dedup();
+        let before = std::mem::take(&mut self.antennas.sky);
+        let stayed = sky.iter().filter(|satellite| before.contains(satellite)).count();
+        if 3 * stayed < 2 * sky.len().max(before.len()) {
+            self.state.nominal.antenna_reflections.fill(0.0);
+            for row in 0..ANTENNA_ROWS {
+                self.state.covariance.renew_state(ANTENNA_REFLECTIONS.key(), row, 1.0);
+            }
+        }
+        self.antennas.sky = sky;
+    }
+
+    fn note_compass(&mut self, outcome: Outcome) {
+        if outcome == Outcome::Accepted {
+            self.antennas.contradicted = 0;
+            return;
+        }
+        self.antennas.contradicted += 1;
+        if self.antennas.contradicted >= CONTRADICTED {
+            self.antennas.contradicted = 0;
+            self.forget_lines();
+        }
+    }
+}
