@@ -49,6 +49,7 @@ use insd_nav::{
 };
 
 use alignment_status::StatusTeller;
+use antennas::Antennas;
 use coarse::Coarse;
 pub use config::EngineConfig;
 use disturbance::Trace;
@@ -100,6 +101,7 @@ pub struct Engine {
     stage: Stage,
     alignment_status: StatusTeller,
     surveyor: Surveyor,
+    antennas: Antennas,
     /// What makes the IMU of no use, while something does.
     shunned: Option<Finding>,
     /// What was told of how everybody stands.
@@ -156,6 +158,7 @@ impl Engine {
             stage: Stage::Levelling(Box::new(Coarse::new(&config))),
             alignment_status: StatusTeller::new(&config.imu, config.alignment.accuracy),
             surveyor: Surveyor::new(&config.lever_arms, config.accept_mounting),
+            antennas: Antennas::default(),
             period: Span::from_seconds(1.0 / config.output_rate),
             shunned: None,
             told: Told::default(),
@@ -391,6 +394,9 @@ impl Engine {
         }
         if let Message::Ranges(told) = &received.message {
             self.hear_satellites(told);
+        }
+        if let Message::Compass(reading) = &received.message {
+            self.hear_antennas(reading);
         }
         let Some(received) = &self.as_used(received) else { return };
         let (checked, faults) = checks::checked(received, self.config.vessel);

@@ -71,6 +71,12 @@ pub fn engine(event: &Event) -> (&'static str, Option<String>) {
             ("satellite", Some(format!("{satellite} is used again")))
         }
         Event::RtkJudged { turn, .. } => ("RTK", Some(turn.to_string())),
+        Event::CompassJudged { why_not: None, .. } => {
+            ("antennas", Some("the antennas tell how she stands".to_owned()))
+        }
+        Event::CompassJudged { why_not: Some(why), .. } => {
+            ("antennas", Some(format!("the antennas do not tell how she stands: {why}")))
+        }
         Event::SourceChanged { to, why, .. } => {
             ("source", Some(format!("best source {}: {why}", to.as_str())))
         }

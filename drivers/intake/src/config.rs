@@ -144,6 +144,12 @@ pub struct SensorConfig {
     /// Of a receiver: what is made of its raw messages, if it sends any.
     #[serde(default)]
     pub raw: RawUse,
+    /// Of a receiver with raw messages: its antenna is one of those that together are a compass.
+    #[serde(default)]
+    pub array: bool,
+    /// Of such a receiver: the oscillator that it shares with others that name the same one; its own if left out.
+    #[serde(default)]
+    pub clock: Option<String>,
     /// Of a base: what is known of it beside what it says.
     #[serde(default)]
     pub base: BaseSettings,
@@ -411,6 +417,8 @@ impl SensorConfig {
             lever_m: None,
             delay_s: 0.0,
             raw: RawUse::default(),
+            array: false,
+            clock: None,
             base: BaseSettings::default(),
             rate_hz: hundred(),
             time: TimeBase::default(),
@@ -467,6 +475,7 @@ impl SensorConfig {
         let has_raw = matches!(self.kind, Kind::Ubx | Kind::Sbf);
         let expected = "a receiver that sends more than raw data, if it is off: ubx, sbf";
         expect(self.raw == RawUse::Tight || has_raw, "raw", expected);
+        self.look_at_array(config, &mut expect);
         expect(self.base.fault().is_none(), "base", self.base.fault().unwrap_or_default());
         let is_base = self.kind == Kind::RtcmBase || self.base == BaseSettings::default();
         expect(is_base, "base", "a base station, for only that has one");
@@ -493,5 +502,21 @@ impl SensorConfig {
         for fault in self.layout.iter().flat_map(|layout| layout.layout().faults()) {
             expect(false, "layout", &fault);
         }
+    }
+
+    fn look_at_array(
+        &self,
+        config: &IntakeConfig,
+        expect: &mut impl FnMut(bool, &'static str, &str),
+    ) {
+        let measures = matches!(self.kind, Kind::Ubx | Kind::Sbf | Kind::Rtcm);
+        let is_raw = measures && self.raw == RawUse::Tight;
+        let expected = "a receiver whose raw messages are used: ubx, sbf, rtcm";
+        expect(!self.array || is_raw, "array", expected);
+        let members = config.sensors.iter().filter(|sensor| sensor.array).count();
+        expect(!self.array || members > 1, "array", "two antennas at least that are an array");
+        let expected = "where the antenna of an array stands, to a centimetre";
+        expect(!self.array || self.lever().is_some(), "lever_m", expected);
+        expect(self.clock.is_none() || self.array, "clock", "a receiver of an array");
     }
 }

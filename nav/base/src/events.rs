@@ -6,7 +6,7 @@ use std::fmt;
 use crate::installation::Finding;
 use crate::messages::Source;
 use crate::party::{ReceiverChange, Stands};
-use crate::satellites::{RtkSilence, RtkTurn, SatelliteId};
+use crate::satellites::{CompassRefusal, RtkSilence, RtkTurn, SatelliteId};
 use crate::solution::{Mode, SolutionSource};
 use crate::time::Time;
 
@@ -350,6 +350,13 @@ pub enum Event {
         time: Time,
         /// How.
         turn: RtkTurn,
+    },
+    /// Several antennas tell how the hull stands, or do not any more.
+    CompassJudged {
+        /// When.
+        time: Time,
+        /// Why they do not; `None`: they do.
+        why_not: Option<CompassRefusal>,
     },
     /// The best source of the solution is another one.
     SourceChanged {

@@ -6,6 +6,7 @@ use std::fmt;
 use crate::estimates::Estimate;
 use crate::frames::Body;
 use crate::party::Party;
+use crate::satellites::CompassFault;
 
 /// Axes of an IMU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -151,6 +152,11 @@ pub enum Finding {
         /// Direction of its velocity less that of the solution's, clockwise from above, rad.
         turn: f64,
     },
+    /// Several antennas that are a compass are not as configured, or one of them is broken.
+    Antennas {
+        /// What is wrong.
+        fault: CompassFault,
+    },
 }
 
 impl Finding {
@@ -179,6 +185,10 @@ impl Finding {
             Finding::MountingTilted { .. } => "mounting_tilted",
             Finding::MountingTurned { .. } => "mounting_turned",
             Finding::LogMounting { .. } => "log_mounting",
+            Finding::Antennas { fault: CompassFault::Broken { .. } } => "antenna_broken",
+            Finding::Antennas { fault: CompassFault::OwnClock { .. } } => "antenna_clock",
+            Finding::Antennas { fault: CompassFault::Swapped { .. } } => "antennas_swapped",
+            Finding::Antennas { fault: CompassFault::Incoherent { .. } } => "antenna_incoherent",
         }
     }
 
@@ -413,6 +423,7 @@ impl Finding {
             Finding::NotAtSea => f.write_str(
                 "her height changes as that of no sea does: the mean sea level holds it no more",
             ),
+            Finding::Antennas { fault } => write!(f, "{fault}"),
             Finding::ImuRefuted => f.write_str(
                 "GNSS refutes every heading that is found with the IMU: are its axes, signs and units as \
                  configured, or is the receiver wrong?",

@@ -16,6 +16,7 @@ mod stuck;
 mod swing;
 mod turns;
 
+use insd_base::satellites::CompassFault;
 use insd_base::{
     Body, Estimate, Estimates, ExternalReference, Finding, GnssFix, ImuSample, LeverArms,
     LogVelocity, Message, Mode, Parties, Party, Received, Rejection, Solution, Span, Time,
@@ -59,6 +60,8 @@ pub(crate) struct Surveyor {
     leaning: Leaning,
     still: StandingStill,
     log: LogWatch,
+    /// What is wrong with antennas that are a compass.
+    antennas: Vec<CompassFault>,
     newest: Option<Solution>,
     next: Option<Time>,
     /// Lever arm of a receiver that tags its epochs late, body axes, m, and by how much, s.
@@ -87,6 +90,7 @@ impl Surveyor {
             leaning: Leaning::default(),
             still: StandingStill::default(),
             log: LogWatch::default(),
+            antennas: Vec::new(),
             newest: None,
             next: None,
             late: None,
@@ -208,11 +212,8 @@ impl Surveyor {
                     self.probation.hear(told, (own.attitude.heading, own.sigma.heading));
                 }
             }
-            Message::Imu(_)
-            | Message::Ranges(_)
-            | Message::Base(_)
-            | Message::Rtk(_)
-            | Message::Compass(_) => {}
+            Message::Imu(_) | Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {}
+            Message::Compass(reading) => self.antennas.clone_from(&reading.faults),
         }
     }
 
@@ -288,6 +289,7 @@ impl Surveyor {
         }
         found.extend(self.log.finding());
         found.extend(self.still.all().map(|what| Finding::Frozen { what }));
+        found.extend(self.antennas.iter().map(|fault| Finding::Antennas { fault: *fault }));
         let is_new = |finding: &&Finding| {
             !self.findings.iter().any(|known| known.as_str() == finding.as_str())
         };

@@ -1,5 +1,6 @@
 //! From frames to messages for the navigator: what all sensors share.
 
+mod array;
 mod base;
 mod gnss;
 mod imu;
@@ -13,6 +14,8 @@ use std::collections::VecDeque;
 use insd_base::can::{BusEvent, CanFrame};
 use insd_base::{Geodetic, Message, PortId, Received, Source, Span, Stamp, Time};
 use insd_gnss::Turns;
+
+use self::array::Array;
 use insd_n2k::Name;
 
 use crate::Intaken;
@@ -63,6 +66,8 @@ pub(crate) struct Core {
     here: Option<Geodetic>,
     /// How the ship turns, by the IMU in use.
     turns: Turns,
+    /// Receivers that together are a compass.
+    array: Option<Array>,
     /// Whose ranges of satellites are used, and when they came last.
     ranging: Option<(usize, Time)>,
 }
@@ -98,6 +103,7 @@ impl Core {
             system: SystemWatch::default(),
             here: None,
             turns: Turns::default(),
+            array: Array::of(config),
             ranging: None,
         }
     }

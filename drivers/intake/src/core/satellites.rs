@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use insd_base::{GnssFix, GpsTime, Message, SatelliteEpoch, Source, Span, Stamp, Time};
-use insd_gnss::Ranged;
+use insd_gnss::{CompassTold, Ranged};
 use insd_wire::gnss::EpochTime;
 
-use super::sky::{self, FaultNews};
+use super::array::Arrived;
+use super::sky::{self, FaultNews, Undated};
 use super::{Came, Core, WAITING};
 use crate::choice::Quantity;
 use crate::event::{BroadcastFault, Happening, Refusal};
@@ -65,7 +66,6 @@ impl Core {
         epoch: &SatelliteEpoch,
         is_dated: bool,
     ) {
-        let now = stamp.monotonic;
         let sets_time = is_dated && self.is_fixless(index, came.ended);
         if !sets_time && !self.is_timely(index, came, epoch.tag) {
             self.refuse(index, Refusal::TimeDoubted);
@@ -78,14 +78,68 @@ impl Core {
             self.refuse(index, Refusal::Repeated);
             return;
         }
-        let ranged = sky.range(epoch, &self.turns);
+        let epoch = epoch.clone();
+        let arrived = Arrived { stamp: *stamp, came, epoch, is_dated, order };
+        let array = self.array.as_mut();
+        let Some((array, place)) = array.and_then(|own| own.place(index).map(|at| (own, at)))
+        else {
+            self.measured(index, &arrived);
+            return;
+        };
+        for together in array.take(place, arrived) {
+            self.measured_together(together);
+        }
+    }
+
+    /// Epochs of one instant of receivers that are an array: ranges are those of the first, or of the middle of all. Without the first each stands for itself.
+    fn measured_together(&mut self, together: Vec<Option<Arrived>>) {
+        let Some(mut array) = self.array.take() else { return };
+        let first = array.members[0];
+        let epochs: Vec<_> =
+            together.iter().map(|own| own.as_ref().map(|own| &own.epoch)).collect();
+        let sky = self.sensors[first].sky.as_mut().zip(together[0].as_ref());
+        let ranged = sky.and_then(|(sky, arrived)| {
+            let told = sky.range_together(&mut array.ranging, &epochs, &self.turns);
+            Some((arrived, told.ranged?, told.compass))
+        });
+        let members = array.members.clone();
+        self.array = Some(array);
+        match ranged {
+            Some((arrived, ranged, compass)) => {
+                // the last of them is when all are known
+                let last = together.iter().flatten().map(|own| own.stamp.monotonic).max();
+                let now = last.unwrap_or(arrived.stamp.monotonic);
+                self.weigh(first, now, arrived, (ranged, compass));
+            }
+            None => {
+                for (index, arrived) in members.into_iter().zip(together) {
+                    arrived.iter().for_each(|arrived| self.measured(index, arrived));
+                }
+            }
+        }
+    }
+
+    fn measured(&mut self, index: usize, arrived: &Arrived) {
+        let Some(sky) = &mut self.sensors[index].sky else { return };
+        let ranged = sky.range(&arrived.epoch, &self.turns);
+        self.weigh(index, arrived.stamp.monotonic, arrived, (ranged, None));
+    }
+
+    fn weigh(
+        &mut self,
+        index: usize,
+        now: Time,
+        Arrived { came, epoch, is_dated, order, .. }: &Arrived,
+        (ranged, compass): (Ranged, Option<CompassTold>),
+    ) {
+        let Some(sky) = &mut self.sensors[index].sky else { return };
         let news = sky.look_at_orbits(epoch);
         self.tell_faults(index, now, news);
         let sampled = sky::sampled(&ranged, epoch.tag);
-        let knows_time = is_dated || ranged.point.is_ok();
-        if !self.is_believed(index, came, sampled, knows_time) {
+        let knows_time = *is_dated || ranged.point.is_ok();
+        if !self.is_believed(index, *came, sampled, knows_time) {
             if let Some(sky) = &mut self.sensors[index].sky {
-                sky.order = order; // a tag that is doubted makes no later one late
+                sky.order = *order; // a tag that is doubted makes no later one late
             }
             self.refuse(index, Refusal::TimeDoubted);
             return;
@@ -93,7 +147,7 @@ impl Core {
         if ranged.ranges.is_empty() {
             self.refuse(index, Refusal::NoOrbit);
         }
-        self.range(index, now, ranged, epoch);
+        self.range(index, now, (ranged, compass), epoch);
     }
 
     /// Whether the time of an epoch fits what is known. It sets the ship's time if it is all that the receiver tells of it.
@@ -125,38 +179,44 @@ impl Core {
     }
 
     /// Ranges wait until it is known when they were.
-    fn range(&mut self, index: usize, now: Time, ranged: Ranged, epoch: &SatelliteEpoch) {
+    fn range(
+        &mut self,
+        index: usize,
+        now: Time,
+        (ranged, compass): (Ranged, Option<CompassTold>),
+        epoch: &SatelliteEpoch,
+    ) {
         let Some(sky) = &mut self.sensors[index].sky else { return };
         let kept = sky.kept(epoch);
-        sky.waiting.push_back((ranged, kept));
+        sky.waiting.push_back(Undated { ranged, compass, kept });
         if sky.waiting.len() > WAITING {
             sky.waiting.pop_front();
             self.refuse(index, Refusal::NoTime);
         }
-        while let Some((ranged, kept)) = self.next_ranged(index) {
-            let Some(time) = self.utc.time_of(ranged.sampled) else {
+        while let Some(undated) = self.next_undated(index) {
+            let Some(time) = self.utc.time_of(undated.ranged.sampled) else {
                 if let Some(sky) = &mut self.sensors[index].sky {
-                    sky.waiting.push_front((ranged, kept));
+                    sky.waiting.push_front(undated);
                 }
                 break;
             };
-            self.ranged(index, now, time, (ranged, kept));
+            self.ranged(index, now, time, undated);
         }
     }
 
-    fn next_ranged(&mut self, index: usize) -> Option<(Ranged, Option<SatelliteEpoch>)> {
+    fn next_undated(&mut self, index: usize) -> Option<Undated> {
         self.sensors[index].sky.as_mut()?.waiting.pop_front()
     }
 
-    fn ranged(
-        &mut self,
-        index: usize,
-        now: Time,
-        time: Time,
-        (ranged, kept): (Ranged, Option<SatelliteEpoch>),
-    ) {
+    fn ranged(&mut self, index: usize, now: Time, time: Time, undated: Undated) {
+        let Undated { ranged, compass, kept } = undated;
+        let source = Source::Gnss(self.sensors[index].number);
         if self.is_fixless(index, now) {
             self.point(index, now, time, &ranged);
+        }
+        // how the hull stands does not hang on whose ranges are used
+        if let Some(compass) = compass {
+            self.pass(index, now, source, Message::Compass(Arc::new(compass.at(time))));
         }
         if !self.may_range(index, now) {
             self.refuse(index, Refusal::NotChosen);
@@ -167,7 +227,6 @@ impl Core {
             self.take_ranges_of(index, now);
         }
         let told = ranged.told(time);
-        let source = Source::Gnss(self.sensors[index].number);
         self.pass(index, now, source, Message::Ranges(Arc::new(told)));
         let sky = self.sensors[index].sky.as_mut().zip(kept);
         let told = sky.map(|(sky, epoch)| sky.against_base(&epoch, time)).unwrap_or_default();

@@ -9,7 +9,8 @@ use insd_base::{
     Constellation, Ecef, FixQuality, GnssFix, GpsTime, Ned, SatelliteEpoch, Time, earth,
 };
 use insd_gnss::{
-    Context, DopplerVelocity, Guess, OrbitRefusal, Ranged, Ranging, RtkLink, SinglePoint, Turns,
+    ArrayRanged, ArrayRanging, CompassTold, Context, DopplerVelocity, Guess, OrbitRefusal, Ranged,
+    Ranging, RtkLink, SinglePoint, Turns,
 };
 use insd_wire::gnss::navigation::Broadcast;
 use nalgebra::{Matrix3, Vector3};
@@ -24,8 +25,8 @@ pub(crate) struct Sky {
     pub(super) order: EpochOrder,
     /// When the first epoch came.
     pub(super) begun: Option<Time>,
-    /// Ranges whose instant on the ship's time line is not known yet, where there is a base with the epoch that they are of.
-    pub(super) waiting: VecDeque<(Ranged, Option<SatelliteEpoch>)>,
+    /// What has been made of epochs whose instant on the ship's time line is not known yet.
+    pub(super) waiting: VecDeque<Undated>,
     context: Context,
     ranging: Ranging,
     /// What its epochs come to against a base, once one is heard.
@@ -37,6 +38,15 @@ pub(crate) struct Sky {
     sent: Faults,
     /// What is wrong with the orbits of satellites that are seen.
     orbits: Faults,
+}
+
+/// What has been made of an epoch.
+#[derive(Clone, Debug)]
+pub(super) struct Undated {
+    pub(super) ranged: Ranged,
+    pub(super) compass: Option<CompassTold>,
+    /// Where there is a base: the epoch itself.
+    pub(super) kept: Option<SatelliteEpoch>,
 }
 
 /// What is wrong with satellites, by satellite.
@@ -105,6 +115,19 @@ impl Sky {
         let ranged = self.ranging.take(&self.context, epoch, guess);
         self.is_placed |= ranged.point.is_ok();
         ranged
+    }
+
+    /// What the epochs of an array tell, whose first receiver this is.
+    pub(super) fn range_together(
+        &mut self,
+        array: &mut ArrayRanging,
+        epochs: &[Option<&SatelliteEpoch>],
+        turns: &Turns,
+    ) -> ArrayRanged {
+        let antenna = self.antenna.filter(|_| !self.is_placed);
+        let told = array.take(&self.context, epochs, antenna, turns);
+        self.is_placed |= told.ranged.as_ref().is_some_and(|ranged| ranged.point.is_ok());
+        told
     }
 
     /// An epoch of a base; gives what an epoch that has waited for it comes to.

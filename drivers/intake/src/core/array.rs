@@ -1,0 +1,87 @@
+//! Receivers that together are a compass: their epochs of one instant are taken together.
+
+use insd_base::{SatelliteEpoch, Stamp};
+use insd_gnss::ArrayRanging;
+use nalgebra::Vector3;
+
+use super::Came;
+use crate::config::IntakeConfig;
+use crate::satellites::EpochOrder;
+
+/// Receivers that sample at the same instant put it apart by less than this, s.
+const TOGETHER: f64 = 0.02;
+
+/// An epoch as it came.
+#[derive(Clone, Debug)]
+pub(super) struct Arrived {
+    pub(super) stamp: Stamp,
+    pub(super) came: Came,
+    pub(super) epoch: SatelliteEpoch,
+    pub(super) is_dated: bool,
+    /// The order of the receiver's epochs before it.
+    pub(super) order: EpochOrder,
+}
+
+/// The receivers of an array, and what of the newest instant has come.
+#[derive(Clone, Debug)]
+pub(super) struct Array {
+    /// Numbers of the sensors; the first is the one whose antenna ranges are of.
+    pub(super) members: Vec<usize>,
+    pub(super) ranging: ArrayRanging,
+    come: Vec<Option<Arrived>>,
+    /// Who was heard in the instant before.
+    heard: Vec<bool>,
+}
+
+impl Array {
+    /// That of a configuration, if it has one.
+    pub(super) fn of(config: &IntakeConfig) -> Option<Self> {
+        let sensors = config.sensors.iter().enumerate();
+        let own: Vec<_> = sensors.filter(|(_, sensor)| sensor.array).collect();
+        if own.len() < 2 {
+            return None;
+        }
+        let levers: Vec<Vector3<f64>> =
+            own.iter().map(|(_, sensor)| sensor.lever().unwrap_or_default().0).collect();
+        let names: Vec<_> = own.iter().map(|(_, sensor)| sensor.clock.as_deref()).collect();
+        // one that is on no stated clock is on its own
+        let clock = |place: usize| match names[place] {
+            Some(name) => names.iter().position(|other| *other == Some(name)).unwrap_or(place),
+            None => place,
+        };
+        let clocks: Vec<usize> = (0..own.len()).map(clock).collect();
+        Some(Self {
+            members: own.iter().map(|(index, _)| *index).collect(),
+            ranging: ArrayRanging::new(&levers, &clocks),
+            come: vec![None; own.len()],
+            heard: vec![true; own.len()],
+        })
+    }
+
+    /// Its place among the antennas of a sensor that belongs to it.
+    pub(super) fn place(&self, sensor: usize) -> Option<usize> {
+        self.members.iter().position(|own| *own == sensor)
+    }
+
+    /// Takes an epoch. Gives those of an instant, each in its place, when all that are to be expected have come, or an epoch of the next one has.
+    pub(super) fn take(&mut self, place: usize, arrived: Arrived) -> Vec<Vec<Option<Arrived>>> {
+        let tag = arrived.epoch.tag;
+        let is_of_instant = |own: &Arrived| tag.since(own.epoch.tag).as_seconds().abs() < TOGETHER;
+        let mut ready = Vec::new();
+        if !self.come.iter().flatten().all(is_of_instant) {
+            ready.push(self.taken());
+        }
+        self.come[place] = Some(arrived);
+        let is_missing = |(come, heard): (&Option<Arrived>, &bool)| *heard && come.is_none();
+        if !self.come.iter().zip(&self.heard).any(is_missing) {
+            ready.push(self.taken());
+        }
+        ready
+    }
+
+    fn taken(&mut self) -> Vec<Option<Arrived>> {
+        let come = std::mem::replace(&mut self.come, vec![None; self.members.len()]);
+        self.heard = come.iter().map(Option::is_some).collect();
+        come
+    }
+}
