@@ -2,7 +2,7 @@
 
 use insd_base::units::{DEG, DEG_PER_HOUR};
 use insd_base::{Body, ImuSpec, LeverArms, VesselKind};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::disturbance::{PrefilterConfig, WhiteningConfig};
 use crate::floors::Floors;
@@ -137,6 +137,8 @@ pub struct Models {
     pub whitening: WhiteningConfig,
     /// The receiver of ranges.
     pub ranges: RangeModel,
+    /// Antennas that are a compass.
+    pub antennas: AntennaModel,
     /// The risk of protection levels.
     pub risk: RiskModel,
 }
@@ -148,6 +150,33 @@ pub struct RangeModel {
     pub clock_walk: f64,
     /// Random walk of the clock's drift, m/s per root of a second.
     pub drift_walk: f64,
+}
+
+/// Antennas that together are a compass.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct AntennaModel {
+    /// How well it is known how they sit, small rotations about body axes, 1-sigma, rad.
+    pub axes_std: Vector3<f64>,
+}
+
+impl AntennaModel {
+    /// Of antennas at these lever arms, body axes, m, each known to so much, 1-sigma, m: the covariance of the rotation that fits points best,
+    /// `std^2 (sum (r . r I - r r^T))^-1`, r from their middle (Horn, Closed-form solution of absolute orientation, JOSA A 4, 1987, for small angles). About the line of two it is not known.
+    #[must_use]
+    pub fn of(levers: &[Vector3<f64>], std: f64) -> Self {
+        /// About what no antenna is off the axis of, rad.
+        const UNKNOWN: f64 = 0.5;
+        let middle = levers.iter().sum::<Vector3<f64>>() / levers.len().max(1) as f64;
+        let spread = |lever: &Vector3<f64>| {
+            let r = lever - middle;
+            Matrix3::from_diagonal_element(r.norm_squared()) - r * r.transpose()
+        };
+        let all: Matrix3<f64> = levers.iter().map(spread).sum();
+        let variance = std * std;
+        let known = all + Matrix3::from_diagonal_element(variance / (UNKNOWN * UNKNOWN));
+        let inverse = known.try_inverse().unwrap_or_else(Matrix3::zeros);
+        AntennaModel { axes_std: inverse.diagonal().map(|own| (own * variance).max(0.0).sqrt()) }
+    }
 }
 
 impl Default for RangeModel {
@@ -229,6 +258,8 @@ pub struct NavConfig {
     pub whitening: WhiteningConfig,
     /// The receiver of ranges.
     pub ranges: RangeModel,
+    /// Antennas that are a compass.
+    pub antennas: AntennaModel,
     /// The risk of protection levels.
     pub risk: RiskModel,
     /// Longest interval between propagations of the covariance, s.
@@ -263,6 +294,7 @@ impl NavConfig {
             prefilter: models.prefilter,
             whitening: models.whitening,
             ranges: models.ranges,
+            antennas: models.antennas,
             risk: models.risk,
             covariance_interval: 0.1,
             docket: Docket::default(),
@@ -382,5 +414,27 @@ impl NavConfig {
     #[must_use]
     pub fn is_gnss_lever_unknown(&self) -> bool {
         self.gnss_lever_std() >= ANYWHERE
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn antennas_sit_as_well_as_their_places_are_known() {
+        let corner = |x: f64, y: f64| Vector3::new(x - 6.0, y, -14.0);
+        let square =
+            [corner(0.05, 0.05), corner(0.05, -0.05), corner(-0.05, -0.05), corner(-0.05, 0.05)];
+        let own = AntennaModel::of(&square, 0.001).axes_std;
+        // each is 71 mm from the middle, and 50 mm from the axes forward and to starboard
+        let expected = Vector3::new(0.001 / 0.1, 0.001 / 0.1, 0.001 / 0.02_f64.sqrt());
+        assert!((own - expected).norm() < 1e-5, "{own}");
+        let two = AntennaModel::of(&square[..2], 0.001).axes_std;
+        assert!(
+            (two.y - 0.5).abs() < 1e-3 && (two.z - 0.001 / 0.005_f64.sqrt()).abs() < 1e-4,
+            "{two}"
+        );
+        assert_eq!(AntennaModel::of(&[], 0.002).axes_std, AntennaModel::of(&square, 0.0).axes_std);
     }
 }

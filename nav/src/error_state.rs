@@ -19,7 +19,7 @@ pub const LINES: usize = 18;
 /// What an epoch of antennas tells: attitude and lines.
 pub const ANTENNA_ROWS: usize = 3 + LINES;
 /// How long reflections of phases go on between antennas, s.
-const ANTENNA_REFLECTION_TIME: f64 = 120.0;
+const ANTENNA_REFLECTION_TIME: f64 = 180.0;
 /// 1-sigma of a line before anything is known of it, m: so much more than a phase is worth that it tells nothing.
 pub(crate) const LINE_UNKNOWN: f64 = 1.0;
 /// By what it wanders, m per root of a second.
@@ -183,6 +183,10 @@ declare! {
     ANTENNA_LINES: LINES, "antenna_lines", "m", Scalar, WithAntennas,
         first: |_| LINE_UNKNOWN, process: |_, _| Process::Walk(LINE_WALK),
         correction: Correction::Adds(|nominal| nominal.antenna_lines.as_mut_slice());
+    /// How the antennas that are a compass sit otherwise than configured, small rotation about body axes, rad, constant.
+    ANTENNA_AXES: 3, "antenna_axes", "rad", Body, WithAntennas,
+        first: |config| config.antennas.axes_std.max(), process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.antenna_axes.as_mut_slice());
     /// What reflections add to each row of what antennas tell, in units of the row's sigma, Gauss-Markov.
     ANTENNA_REFLECTIONS: ANTENNA_ROWS, "antenna_reflections", "sigma", Scalar, WithAntennas,
         first: |_| 1.0, process: |_, _| Process::of_sigmas(ANTENNA_REFLECTION_TIME),

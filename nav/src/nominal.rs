@@ -74,6 +74,8 @@ pub struct Nominal {
     pub phase_drifts: SVector<f64, SATELLITES>,
     /// What the line of each antenna adds to its phases, m.
     pub antenna_lines: SVector<f64, LINES>,
+    /// How antennas sit otherwise than configured, rotation about body axes, rad.
+    pub antenna_axes: Vector3<f64>,
     /// What reflections add to each row of what antennas tell, sigmas.
     pub antenna_reflections: SVector<f64, ANTENNA_ROWS>,
 }
@@ -114,6 +116,7 @@ impl Nominal {
             phase_constants: SVector::zeros(),
             phase_drifts: SVector::zeros(),
             antenna_lines: SVector::zeros(),
+            antenna_axes: Vector3::zeros(),
             antenna_reflections: SVector::zeros(),
         }
     }

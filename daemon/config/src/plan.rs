@@ -5,6 +5,7 @@ use insd_drivers::ports::{PortConfig, Transport};
 use insd_engine::EngineConfig;
 use insd_intake::config::{IntakeConfig, PortSpec, SensorConfig};
 use insd_intake::port::Link;
+use insd_nav::config::{AntennaModel, Models};
 use insd_output::Rate;
 use insd_vessel::{OutputPlan, Pipeline, Plan};
 
@@ -70,7 +71,7 @@ impl Config {
             start,
             initial: place.map(|(lat, lon)| Geodetic::from_degrees(lat, lon, ship.height_m)),
             output_rate: ship.rate_hz,
-            models: self.assumed().models(),
+            models: Models { antennas: self.antennas(), ..self.assumed().models() },
             alignment: self.alignment.config(),
             stored: None,
             vessel: ship.kind.into(),
@@ -78,6 +79,14 @@ impl Config {
             accept_mounting: ship.accept_mounting,
             relay: ship.relay,
         }
+    }
+
+    /// How well it is known how antennas sit that are a compass; the worst of them for all.
+    fn antennas(&self) -> AntennaModel {
+        let own = self.sensors.iter().filter(|sensor| sensor.array);
+        let std = own.clone().map(|sensor| sensor.lever_std_m).fold(0.0, f64::max);
+        let levers: Vec<_> = own.filter_map(|sensor| Some(sensor.lever()?.0)).collect();
+        AntennaModel::of(&levers, std)
     }
 
     /// The lever arm of the best receiver that has one of its own.

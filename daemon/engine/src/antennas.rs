@@ -1,7 +1,10 @@
 //! A compass of antennas while the heading is still being found: a heading like that of any other compass. What has one takes its phases.
 
+use std::sync::Arc;
+
 use insd_base::satellites::CompassReading;
 use insd_base::{Event, ExternalReference, Message, Received, Time};
+use nalgebra::Matrix3;
 
 use crate::Engine;
 
@@ -52,6 +55,18 @@ impl Engine {
             self.tell(news);
         }
     }
+
+    /// What antennas tell as well as it is known how they sit.
+    pub(crate) fn as_well_as_they_sit(&self, received: &Received) -> Received {
+        let mut received = received.clone();
+        if let Message::Compass(reading) = &mut received.message
+            && let Ok(told) = &mut Arc::make_mut(reading).told
+        {
+            let std = self.nav.antennas.axes_std;
+            told.covariance += Matrix3::from_diagonal(&std.component_mul(&std));
+        }
+        received
+    }
 }
 
 /// What an alignment is told of a message.
@@ -73,4 +88,48 @@ pub(crate) fn as_heading(received: &Received) -> Received {
         heading_std: Some(std),
     };
     Received { message: Message::Reference(reference), ..*received }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use insd_base::Attitude;
+    use insd_base::satellites::{CompassPhases, CompassRefusal};
+
+    fn reading(second: u32, std: Option<f64>) -> CompassReading {
+        let told = std.map(|std| CompassPhases {
+            attitude: Attitude { heading: 1.0, ..Attitude::default() },
+            covariance: Matrix3::from_diagonal_element(std * std),
+            signals: Vec::new(),
+        });
+        let told = told.ok_or(CompassRefusal::NoPlace);
+        let time = Time::from_seconds(f64::from(second));
+        CompassReading { time, run: 0, told, faults: Vec::new() }
+    }
+
+    #[test]
+    fn antennas_that_tell_and_that_fall_silent_are_told_once() {
+        let mut antennas = Antennas::default();
+        let news = |second: u32| antennas.hear(&reading(second, (second < 20).then_some(0.01)));
+        let told: Vec<_> = (0..60).filter_map(news).collect();
+        let [Event::CompassJudged { why_not: None, .. }, Event::CompassJudged { time, why_not }] =
+            told[..]
+        else {
+            unreachable!("{told:?}")
+        };
+        assert_eq!((time, why_not), (Time::from_seconds(29.0), Some(CompassRefusal::NoPlace)));
+    }
+
+    #[test]
+    fn an_alignment_is_told_a_heading_only_where_one_is_known() {
+        let heard = |std: Option<f64>| {
+            let message = Message::Compass(Arc::new(reading(1, std)));
+            let source = insd_base::Source::Gnss(0);
+            as_heading(&Received { receipt: Time::from_seconds(1.1), source, message }).message
+        };
+        let Message::Reference(told) = heard(Some(0.02)) else { unreachable!() };
+        assert_eq!((told.heading, told.heading_std), (Some(1.0), Some(0.02)));
+        assert!(matches!(heard(Some(10.0)), Message::Compass(_)));
+        assert!(matches!(heard(None), Message::Compass(_)));
+    }
 }

@@ -398,7 +398,8 @@ impl Engine {
         if let Message::Compass(reading) = &received.message {
             self.hear_antennas(reading);
         }
-        let Some(received) = &self.as_used(received) else { return };
+        let received = self.as_well_as_they_sit(received);
+        let Some(received) = &self.as_used(&received) else { return };
         let (checked, faults) = checks::checked(received, self.config.vessel);
         for aid in faults {
             self.reject(received, aid, Rejection::OutOfRange);

@@ -150,6 +150,9 @@ pub struct SensorConfig {
     /// Of such a receiver: the oscillator that it shares with others that name the same one; its own if left out.
     #[serde(default)]
     pub clock: Option<String>,
+    /// Of such a receiver: how well the phase centre of its antenna is known against those of the others, each component, 1-sigma, m.
+    #[serde(default = "millimetres")]
+    pub lever_std_m: f64,
     /// Of a base: what is known of it beside what it says.
     #[serde(default)]
     pub base: BaseSettings,
@@ -256,6 +259,10 @@ fn one_degree() -> f64 {
 }
 fn tenth() -> f64 {
     0.1
+}
+/// What centres of phase of patch antennas differ by.
+fn millimetres() -> f64 {
+    0.002
 }
 fn ten() -> f64 {
     10.0
@@ -419,6 +426,7 @@ impl SensorConfig {
             raw: RawUse::default(),
             array: false,
             clock: None,
+            lever_std_m: millimetres(),
             base: BaseSettings::default(),
             rate_hz: hundred(),
             time: TimeBase::default(),
@@ -518,5 +526,6 @@ impl SensorConfig {
         let expected = "where the antenna of an array stands, to a centimetre";
         expect(!self.array || self.lever().is_some(), "lever_m", expected);
         expect(self.clock.is_none() || self.array, "clock", "a receiver of an array");
+        expect((0.0..=1.0).contains(&self.lever_std_m), "lever_std_m", "0 to 1 m");
     }
 }

@@ -11,7 +11,7 @@ use nalgebra::{Vector2, Vector3, Vector4};
 use super::satellite_range::Sighted;
 use super::*;
 use crate::declaration::{all_states, no_errors};
-use crate::error_state::{ANTENNA_LINES, ATTITUDE, Innovation};
+use crate::error_state::{ANTENNA_AXES, ANTENNA_LINES, ATTITUDE, Innovation};
 
 const MEASURED_RATE: Vector3<f64> = Vector3::new(0.02, -0.05, 0.03);
 
@@ -87,6 +87,8 @@ fn compared(view: &View) -> Rows {
     let mut h = vec![0.0; all_states().states()];
     let place = |key| all_states().start(key).unwrap();
     h[place(ATTITUDE.key())..][..3].copy_from_slice(turned.as_slice());
+    h[place(ANTENNA_AXES.key())..][..3]
+        .copy_from_slice((view.c_eb.transpose() * turned).as_slice());
     h[place(ANTENNA_LINES.key()) + 4] = 1.0;
     vec![(z, h)]
 }

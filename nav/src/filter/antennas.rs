@@ -6,11 +6,15 @@
 use insd_base::satellites::{CompassPhases, CompassReading, LineBias};
 use insd_base::{SatelliteId, Source};
 
+use nalgebra::Matrix3;
+
 use super::Filter;
 use super::entry::{COMPASS_AID, enter};
 use crate::aids::antenna_phases;
 use crate::declaration::Carried;
-use crate::error_state::{ANTENNA_LINES, ANTENNA_REFLECTIONS, ANTENNA_ROWS, LINE_UNKNOWN, LINES};
+use crate::error_state::{
+    ANTENNA_AXES, ANTENNA_LINES, ANTENNA_REFLECTIONS, ANTENNA_ROWS, LINE_UNKNOWN, LINES,
+};
 use crate::report::{Outcome, Report};
 
 /// After so many epochs in a row that contradict the filter its lines are not those of the antennas.
@@ -40,7 +44,7 @@ impl Filter {
         if !self.navigating {
             return;
         }
-        self.begin_to_carry(Carried::WithAntennas);
+        self.begin_with_antennas();
         self.seat_lines(told, reading.run);
         self.seat_reflections(told);
         let lines = &self.antennas.lines;
@@ -49,6 +53,16 @@ impl Filter {
         let judged = self.gated(&innovation, None);
         let outcome = enter(report, reading.time, source, COMPASS_AID, &judged);
         self.note_compass(outcome);
+    }
+
+    /// Their states join; how they sit is known better about one axis than about another.
+    fn begin_with_antennas(&mut self) {
+        if !self.state.covariance.has(ANTENNA_AXES) {
+            self.begin_to_carry(Carried::WithAntennas);
+            let std = self.config.antennas.axes_std;
+            let known = Matrix3::from_diagonal(&std.component_mul(&std));
+            ANTENNA_AXES.renew(&mut self.state.covariance, &known);
+        }
     }
 
     /// Lines of integers that were found anew, and those that are new, are not known.

@@ -93,6 +93,10 @@ fn restamp(received: &mut Received, off: f64) {
             let base = Arc::make_mut(m);
             base.time = base.time + span;
         }
+        Message::Compass(m) => {
+            let reading = Arc::make_mut(m);
+            reading.time = reading.time + span;
+        }
         Message::Ranges(m) => {
             let ranges = Arc::make_mut(m);
             ranges.time = ranges.time + span;
@@ -129,6 +133,11 @@ fn spoil(received: &mut Received, field: u8, value: f64) {
         },
         Message::Ranges(m) => Arc::make_mut(m).ranges.clear(),
         Message::Base(m) => Arc::make_mut(m).epoch.signals.clear(),
+        Message::Compass(m) => {
+            let told = Arc::make_mut(m).told.as_mut().ok();
+            let phases = told.into_iter().flat_map(|told| &mut told.signals);
+            phases.flat_map(|own| &mut own.phases).for_each(|phase| phase.phase = value);
+        }
         Message::Rtk(m) => {
             m.place.iter_mut().for_each(|place| place.antenna[axis] = value);
         }

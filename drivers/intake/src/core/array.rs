@@ -85,3 +85,54 @@ impl Array {
         come
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::{Kind, SensorConfig};
+    use insd_base::{GpsTime, Span, Time, UtcTime};
+
+    fn array(antennas: usize) -> Array {
+        let sensor = |number: usize| SensorConfig {
+            array: true,
+            clock: Some("rack".to_owned()),
+            lever_m: Some([0.1 * number as f64 + 1.0, 0.0, -5.0]),
+            ..SensorConfig::new(&format!("gnss {number}"), "port", Kind::Ubx)
+        };
+        let sensors = (0..antennas).map(sensor).collect();
+        Array::of(&IntakeConfig { sensors, ..IntakeConfig::default() }).unwrap()
+    }
+
+    /// How many of each instant come together when antennas are heard in this order: number, second.
+    fn taken(array: &mut Array, heard: &[(usize, u32)]) -> Vec<Vec<usize>> {
+        let mut all = Vec::new();
+        for (place, second) in heard {
+            let tag = GpsTime::from_week(2400, 0).plus(Span::from_seconds(f64::from(*second)));
+            let system = UtcTime::from_civil((2026, 1, 1), (0, 0, 0), 0).unwrap();
+            let stamp = Stamp { monotonic: Time::START, system };
+            let came = Came { begun: Time::START, ended: Time::START };
+            let epoch =
+                SatelliteEpoch { tag, signals: Vec::new(), leap_seconds: None, clock_reset: false };
+            let order = EpochOrder::default();
+            for own in array.take(*place, Arrived { stamp, came, epoch, is_dated: true, order }) {
+                let present = own.iter().enumerate().filter(|(_, own)| own.is_some());
+                all.push(present.map(|(place, _)| place).collect());
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn epochs_of_an_instant_are_taken_together_in_any_order() {
+        let told = taken(&mut array(3), &[(2, 0), (0, 0), (1, 0), (0, 1), (1, 1), (2, 1)]);
+        assert_eq!(told, [[0, 1, 2], [0, 1, 2]]);
+    }
+
+    #[test]
+    fn one_that_falls_silent_is_waited_for_once_and_taken_again_when_it_is_heard() {
+        let heard = [(0, 0), (1, 0), (0, 1), (0, 2), (0, 3), (1, 3), (0, 4), (1, 4)];
+        let told = taken(&mut array(2), &heard);
+        let expected: [&[usize]; 6] = [&[0, 1], &[0], &[0], &[0], &[1], &[0, 1]];
+        assert_eq!(told, expected);
+    }
+}

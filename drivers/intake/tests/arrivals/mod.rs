@@ -64,7 +64,7 @@ const DIALECTS: [Dialect; 6] = [
 const END: f64 = 3.2e9;
 
 /// What passed, by the kind of message: IMU, GNSS, log, reference, ranges, bases.
-pub(crate) type Passed = [usize; 6];
+pub(crate) type Passed = [usize; 8];
 
 /// Lets everything arrive that the bytes say, and looks at what is passed on.
 pub(crate) fn everything(bytes: &[u8]) -> Passed {
@@ -212,6 +212,12 @@ fn is_sane(message: &Message) -> usize {
             let place = told.place.map(|place| place.antenna);
             place.iter().for_each(|place| finite(&[Some(place.norm())]));
             6
+        }
+        Message::Compass(reading) => {
+            let told = reading.told.as_ref().ok();
+            let heading = told.map(|told| told.attitude.heading);
+            finite(&[heading, told.map(|told| told.covariance.norm())]);
+            7
         }
         Message::Ranges(ranges) => {
             let codes = ranges.ranges.iter().filter_map(|range| range.code);

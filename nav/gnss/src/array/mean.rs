@@ -132,3 +132,70 @@ fn mean(all: &[Measured]) -> Option<Measured> {
         variance: all.iter().map(|own| own.variance).sum::<f64>() / (count * count),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use insd_base::satellites::Transmitter;
+
+    fn range(code: f64, phase: f64, arc: u32) -> SatelliteRange {
+        let measured = |value| Measured { value, variance: 0.09 };
+        SatelliteRange {
+            satellite: "E11".parse().unwrap(),
+            offset: Vector3::zeros(),
+            transmitter: Transmitter {
+                position: Vector3::new(2.9e7, 0.0, 0.0),
+                velocity: Vector3::zeros(),
+            },
+            elevation: 1.0,
+            code: Some(measured(code)),
+            rate: None,
+            phase: Some(ArcPhase { phase: measured(phase), arc }),
+            slow_std: 1.0,
+            by_ionosphere: 1.0,
+            multipath_std: 0.4,
+        }
+    }
+
+    const LEVERS: [[f64; 3]; 2] = [[1.0, 0.0, -5.0], [1.2, 0.4, -5.0]];
+
+    fn merged(mean: &mut MeanAntenna, told: &[Told]) -> SatelliteRange {
+        mean.learn_offsets(told);
+        mean.merged(&LEVERS.map(Vector3::from), told)
+    }
+
+    #[test]
+    fn two_antennas_are_one_between_them_with_codes_of_the_first_ones_receiver() {
+        let told = [(0, range(100.0, 50.0, 1)), (1, range(107.0, 52.0, 9))];
+        let own = merged(&mut MeanAntenna::default(), &told);
+        assert!((own.offset - Vector3::new(0.1, 0.2, 0.0)).norm() < 1e-12);
+        let code = own.code.unwrap();
+        assert!((code.value - 100.0).abs() < 1e-9 && (code.variance - 0.045).abs() < 1e-12);
+        assert!((own.phase.unwrap().phase.value - 51.0).abs() < 1e-12);
+        assert!((own.multipath_std - 0.4 / 2_f64.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_slip_of_one_or_an_antenna_less_begins_another_arc() {
+        let mut mean = MeanAntenna::default();
+        let mut arc = |told: &[Told]| merged(&mut mean, told).phase.unwrap().arc;
+        let (first, second) = ((0, range(100.0, 50.0, 1)), (1, range(100.0, 52.0, 9)));
+        let both = arc(&[first, second]);
+        assert_eq!(arc(&[first, second]), both);
+        let slipped = arc(&[first, (1, range(100.0, 52.0, 10))]);
+        assert_ne!(slipped, both);
+        let alone = arc(&[first]);
+        assert!(alone != slipped && alone != both);
+    }
+
+    #[test]
+    fn a_code_by_another_way_is_not_in_the_mean() {
+        let mut mean = MeanAntenna::default();
+        let three = |third: f64| {
+            [(0, range(100.0, 50.0, 1)), (1, range(100.2, 52.0, 9)), (1, range(third, 52.0, 9))]
+        };
+        merged(&mut mean, &three(100.1));
+        let own = mean.merged(&LEVERS.map(Vector3::from), &three(130.0));
+        assert!((own.code.unwrap().value - 100.0).abs() < 0.5, "{:?}", own.code);
+    }
+}
