@@ -34,11 +34,11 @@ use sensors::epochs;
 use track::Track;
 
 pub use limit::{Limit, LimitError, limit};
-pub use scenario::{Fault, Override, Scenario, ScenarioError};
+pub use scenario::{Fault, Override, Scenario, ScenarioBerth, ScenarioError};
 pub use shipped::shipped;
 pub use sky::{
-    InjectedFault, InjectedSlip, InjectedSpoof, JudgedSegment, RawBaseStation, RawGnss, RawSpec,
-    RawTruth,
+    InjectedAntennaFault, InjectedFault, InjectedSlip, InjectedSpoof, JudgedSegment,
+    RawBaseStation, RawGnss, RawSpec, RawTruth,
 };
 
 /// Simulates the voyage of a scenario. The same scenario and seed give the same voyage; every source

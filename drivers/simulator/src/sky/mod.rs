@@ -11,6 +11,7 @@ mod channel;
 mod clock;
 mod constellation;
 mod faults;
+mod installation;
 mod kepler;
 mod output;
 mod path;
@@ -24,7 +25,9 @@ mod voyage;
 mod wander;
 
 pub use output::{RawBaseStation, RawGnss, RawSpec};
-pub use truth::{InjectedFault, InjectedSlip, InjectedSpoof, JudgedSegment, RawTruth};
+pub use truth::{
+    InjectedAntennaFault, InjectedFault, InjectedSlip, InjectedSpoof, JudgedSegment, RawTruth,
+};
 pub(crate) use voyage::raw_gnss;
 
 #[cfg(test)]
