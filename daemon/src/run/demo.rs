@@ -44,7 +44,7 @@ pub fn open(config: &Config, text: &str, log: &Log) -> anyhow::Result<Box<dyn On
 
 impl Onlooker for DemoPage {
     fn hear(&mut self, output: &Output) {
-        self.page.showcase.hear(&Names::default(), &Product::Engine(output.clone()));
+        self.page.showcase.hear(&Names::default(), &Product::Engine(*output));
     }
 
     fn see(&mut self, sight: &Sight<'_>) {

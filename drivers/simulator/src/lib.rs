@@ -33,7 +33,7 @@ use scenario::{Gnss, Log};
 use sensors::epochs;
 use track::Track;
 
-pub use limit::{Limit, LimitError, limit};
+pub use limit::{Limit, LimitError, SegmentLimit, limit, satellite_limit};
 pub use scenario::{Fault, Override, Scenario, ScenarioBerth, ScenarioError};
 pub use shipped::shipped;
 pub use sky::{

@@ -13,7 +13,7 @@ const SHIP: &str = include_str!("../../../../systemd/examples/minimal.toml");
 /// Names of the points that bow and stern are.
 const ENDS: [&str; 2] = ["bow", "stern"];
 /// When to be warned: a faster first contact, m/s, and a part that is nearer and still comes nearer, m.
-const WARN: (f64, f64) = (0.15, 5.0);
+const WARN: (f64, f64) = (0.25, 5.0);
 
 /// What is written behind the ship.
 #[derive(Serialize)]

@@ -242,7 +242,7 @@ impl Tracked {
 }
 
 /// Factor on all noise: 1 at the zenith.
-fn weight(elevation: f64) -> f64 {
+pub(crate) fn weight(elevation: f64) -> f64 {
     ((1.0 + elevation.sin().powi(-2)) / 2.0).sqrt()
 }
 

@@ -21,6 +21,7 @@ mod satellite;
 mod scene;
 mod signals;
 mod truth;
+mod view;
 mod voyage;
 mod wander;
 
@@ -28,6 +29,7 @@ pub use output::{RawBaseStation, RawGnss, RawSpec};
 pub use truth::{
     InjectedAntennaFault, InjectedFault, InjectedSlip, InjectedSpoof, JudgedSegment, RawTruth,
 };
+pub(crate) use view::{Seen, SkyView};
 pub(crate) use voyage::raw_gnss;
 
 #[cfg(test)]

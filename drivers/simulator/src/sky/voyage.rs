@@ -29,11 +29,8 @@ pub(crate) fn raw_gnss(
     track: &Track,
     seed: u64,
 ) -> Option<RawGnss> {
-    let start = Calendar::new(&scenario.start_utc)?.gps(Time::START);
     let voyage = Sailing { raw, track, duration: scenario.duration(), seed };
-    let nominal = satellites(&raw.sky.constellations, reference_before(start), seed);
-    let world = voyage.world(&nominal, start);
-    let scene = Scene::new(raw, &world.satellites, |t| Site::new(t, voyage.antenna(0, t)), seed);
+    let (nominal, world, scene) = voyage.surroundings(&scenario.start_utc)?;
     let mut slips = Vec::new();
     let antennas =
         (0..raw.antennas_m.len()).map(|index| voyage.receive(&world, &scene, index, &mut slips));
@@ -58,6 +55,18 @@ pub(crate) fn raw_gnss(
     })
 }
 
+/// Satellites and air of a voyage that follows `track`, and what stands between her and the sky; `None` where the start is no instant.
+pub(crate) fn setting(
+    scenario: &Scenario,
+    raw: &Raw,
+    track: &Track,
+    seed: u64,
+) -> Option<(World, Scene)> {
+    let voyage = Sailing { raw, track, duration: scenario.duration(), seed };
+    let (_, world, scene) = voyage.surroundings(&scenario.start_utc)?;
+    Some((world, scene))
+}
+
 /// A voyage to be heard.
 #[derive(Clone, Copy, Debug)]
 struct Sailing<'a> {
@@ -68,6 +77,16 @@ struct Sailing<'a> {
 }
 
 impl Sailing<'_> {
+    fn surroundings(&self, start_utc: &str) -> Option<(Vec<Nominal>, World, Scene)> {
+        let start = Calendar::new(start_utc)?.gps(Time::START);
+        let letters = &self.raw.sky.constellations;
+        let nominal = satellites(letters, reference_before(start), self.seed);
+        let world = self.world(&nominal, start);
+        let site = |t| Site::new(t, self.antenna(0, t));
+        let scene = Scene::new(self.raw, &world.satellites, site, self.seed);
+        Some((nominal, world, scene))
+    }
+
     /// Place of an antenna by its index at time `t`, s, ECEF, m.
     fn antenna(&self, index: usize, t: f64) -> Vector3<f64> {
         let lever = self.raw.antennas_m.get(index).copied().unwrap_or_default();

@@ -53,8 +53,8 @@ fn turn(track: &Track, t: f64, bias: f64) -> Matrix3<f64> {
 fn held_against_geometry(scenario: &Scenario, raw: &RawGnss, seed: u64) {
     let track = Track::new(scenario, seed);
     let start = raw.antennas[0][0].tag;
-    for other in 1..4 {
-        let lever = Vector3::from(LEVERS[other]) - Vector3::from(LEVERS[0]);
+    for (other, lever) in LEVERS.iter().enumerate().skip(1) {
+        let lever = Vector3::from(*lever) - Vector3::from(LEVERS[0]);
         let first = differences(scenario, raw, [0, other], 1.0);
         for t in [1.0, 20.0, 57.0, 119.0] {
             for (key, [code, phase]) in differences(scenario, raw, [0, other], t) {
