@@ -154,7 +154,7 @@ impl<'a> Analysis<'a> {
         let [low, high] = sky.ionosphere_factor;
         set(self.states.factor, (high - low) / 12.0_f64.sqrt());
         set(self.states.water, sky.wet_zenith_std_m);
-        let omega = std::f64::consts::TAU / sky.period_s;
+        let omega = omega(raw);
         for own in self.states.satellites() {
             let slow = slow_std(raw);
             set(own.slow, slow);
@@ -335,12 +335,18 @@ fn slow_std(raw: &Raw) -> f64 {
     (sky.orbit_std_m.powi(2) / 3.0 + sky.clock_std_m.powi(2) + sky.record_step_m.powi(2)).sqrt()
 }
 
+/// Frequency of what stands for smooth errors, rad/s: their periods are strewn evenly from half to one and a half times the mean one, of
+/// which the mean square of the frequency is 4/3 of that of the mean period.
+fn omega(raw: &Raw) -> f64 {
+    std::f64::consts::TAU / raw.sky.period_s * (4.0_f64 / 3.0).sqrt()
+}
+
 /// Transition and noise of a clock, of orbit and satellite clock, and of the ionosphere.
 fn smooth(raw: &Raw, interval: f64) -> [(DMatrix<f64>, DMatrix<f64>); 3] {
     let walks = [raw.clock_bias_walk_m_sqrt_s, raw.clock_drift_walk_mps_sqrt_s];
     let density = DMatrix::from_row_slice(2, 2, &[walks[0].powi(2), 0.0, 0.0, walks[1].powi(2)]);
     let clock = discrete(&DMatrix::from_row_slice(2, 2, &[0.0, 1.0, 0.0, 0.0]), &density, interval);
-    let omega = std::f64::consts::TAU / raw.sky.period_s;
+    let omega = omega(raw);
     let oscillator = |std: f64| {
         let dynamics = [0.0, 1.0, -omega * omega, -2.0 * DAMPING * omega];
         let white = 4.0 * DAMPING * omega.powi(3) * std * std;
