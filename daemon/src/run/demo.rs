@@ -5,7 +5,7 @@ use insd_config::Config;
 use insd_engine::Output;
 use insd_intake::clock::TimeQuality;
 use insd_intake::status::{IntakeStatus, TimeStatus};
-use insd_lab::demo::onlooker::{Onlooker, Sight};
+use insd_lab::demo::onlooker::{DemoSight, Onlooker};
 use insd_vessel::{Names, Product};
 
 use super::journal::Audience;
@@ -47,7 +47,7 @@ impl Onlooker for DemoPage {
         self.page.showcase.hear(&Names::default(), &Product::Engine(*output));
     }
 
-    fn see(&mut self, sight: &Sight<'_>) {
+    fn see(&mut self, sight: &DemoSight<'_>) {
         let now = self.clock.now();
         let is_due = |last: Option<Time>, interval: f64| {
             last.is_none_or(|last| now.monotonic - last >= Span::from_seconds(interval))
@@ -65,8 +65,8 @@ impl Onlooker for DemoPage {
     }
 }
 
-fn report(sight: &Sight<'_>, system: UtcTime, is_second: bool) -> Report {
-    let Sight { now, utc, engine, outputs } = *sight;
+fn report(sight: &DemoSight<'_>, system: UtcTime, is_second: bool) -> Report {
+    let DemoSight { now, utc, engine, outputs } = *sight;
     let motion = engine.motion();
     let berths = outputs.station().berths();
     let alongside = berths.look(motion.as_ref(), now).map(|docking| {
@@ -89,7 +89,7 @@ fn report(sight: &Sight<'_>, system: UtcTime, is_second: bool) -> Report {
 }
 
 /// What is known of a ship without ports and without disks.
-fn slow(sight: &Sight<'_>) -> Slow {
+fn slow(sight: &DemoSight<'_>) -> Slow {
     let engine = sight.engine;
     let time = TimeStatus { utc: sight.utc, quality: TimeQuality::Messages, sigma: None };
     let intake = IntakeStatus { ports: Vec::new(), sensors: Vec::new(), choices: Vec::new(), time };

@@ -6,7 +6,7 @@ use insd_vessel::Outputs;
 
 /// All that there is to see of the ship now.
 #[derive(Clone, Copy, Debug)]
-pub struct Sight<'a> {
+pub struct DemoSight<'a> {
     /// Voyage time.
     pub now: Time,
     /// The same in UTC.
@@ -22,5 +22,5 @@ pub trait Onlooker: Send {
     /// The engine told something.
     fn hear(&mut self, output: &Output);
     /// She has gone on.
-    fn see(&mut self, sight: &Sight<'_>);
+    fn see(&mut self, sight: &DemoSight<'_>);
 }

@@ -10,7 +10,7 @@ use insd_vessel::{OutputPlan, Outputs, Spoken};
 
 use super::alongside;
 use super::board::{Board, Phase};
-use super::onlooker::{Onlooker, Sight};
+use super::onlooker::{DemoSight, Onlooker};
 use super::rejections;
 use super::sensors::Sensors;
 use super::truth::{TrueTrack, east_north};
@@ -189,7 +189,7 @@ impl DemoShip {
         if let Some(onlooker) = &mut self.onlooker {
             let (now, engine, outputs) = (self.board.now, &self.engine, &self.outputs);
             let utc = self.calendar.map(|calendar| calendar.utc(now));
-            onlooker.see(&Sight { now, utc, engine, outputs });
+            onlooker.see(&DemoSight { now, utc, engine, outputs });
         }
     }
 }

@@ -1,3 +1,5 @@
+//! What raw GNSS tells of a ship, and of which nothing is told.
+
 use insd_base::units::DEG;
 
 use super::*;
