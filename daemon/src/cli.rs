@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use insd_config::BadInput;
+use insd_config::{BadInput, Config};
 use insd_drivers::recording::RecordingError;
 use insd_lab::commands::{
     campaign, convert, evaluate, feed, integrity, limit, replay, report, simulate,
@@ -15,6 +15,7 @@ use insd_lab::demo;
 use crate::clock::HostClock;
 use crate::commands::{check_config, doctor, example_config, generate, monitor, ports, run, sniff};
 use crate::logging::Log;
+use crate::run::open_demo;
 
 /// Exit status when the input is to blame.
 const BAD_INPUT: u8 = 2;
@@ -89,7 +90,10 @@ impl Cli {
             Command::Run(args) => run::run(&args, log),
             Command::Monitor(args) => monitor::run(&args),
             Command::Convert(args) => convert::run(&args),
-            Command::Demo(args) => demo::run(args, Arc::new(HostClock::start())),
+            Command::Demo(args) => {
+                let open = |config: &Config, text: &str| open_demo(config, text, log);
+                demo::run(args, Arc::new(HostClock::start()), open)
+            }
             Command::Simulate(args) => simulate::run(&args),
             Command::Replay(args) => replay::run(&args, crate::run::tell),
             Command::Report(args) => report::run(&args),

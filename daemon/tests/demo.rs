@@ -57,6 +57,26 @@ fn a_demo_writes_readable_nmea_that_is_marked_as_simulated() {
 }
 
 #[test]
+fn the_demo_of_a_berthing_tells_how_she_stands_to_the_quay_and_shows_it_on_a_page() {
+    // a port that is free now
+    let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+    let page = port.to_string();
+    let options = ["--scenario", "berthing", "--speed", "20", "--page", page.as_str()];
+    let (mut child, mut output) = start(&options);
+    let told = (0..120).map(|_| line(&mut output)).find(|line| line.contains("Pier 1: bow "));
+    assert!(told.is_some_and(|line| line.contains(", stern ")));
+    let asked = format!("http://{page}/api/v1/status");
+    let text = ureq::get(&asked).call().unwrap().body_mut().read_to_string().unwrap();
+    let status: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(status["docking"]["berth"], "Pier 1");
+    assert_eq!(status["docking"]["state"], "valid");
+    assert!(status["docking"]["bow"]["distance_m"].as_f64().unwrap() > 0.0);
+    assert_eq!(status["program"]["simulated"], true);
+    kill_process(Pid::from_child(&child), Signal::TERM).unwrap();
+    assert!(child.wait().unwrap().success());
+}
+
+#[test]
 fn a_demo_ends_by_itself_and_on_every_polite_signal_with_status_0() {
     let (mut child, _output) = start(&["--duration", "0.5"]);
     assert!(child.wait().unwrap().success());

@@ -4,6 +4,7 @@ mod alert_journal;
 mod bus;
 mod connections;
 mod control;
+mod demo;
 mod headline;
 mod heart;
 mod journal;
@@ -39,6 +40,7 @@ use crate::state::{self, Folders, Remains, Saver};
 
 use alert_journal::AlertJournal;
 use connections::Connections;
+pub use demo::open as open_demo;
 use headline::Headline;
 use heart::Heart;
 use journal::{Audience, Journal};

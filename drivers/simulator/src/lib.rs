@@ -33,12 +33,12 @@ use scenario::{Gnss, Log};
 use sensors::epochs;
 use track::Track;
 
-pub use limit::{Limit, LimitError, limit};
-pub use scenario::{Fault, Override, Scenario, ScenarioError};
+pub use limit::{Limit, LimitError, SegmentLimit, limit, satellite_limit};
+pub use scenario::{Fault, Override, Scenario, ScenarioBerth, ScenarioError};
 pub use shipped::shipped;
 pub use sky::{
-    InjectedFault, InjectedSlip, InjectedSpoof, JudgedSegment, RawBaseStation, RawGnss, RawSpec,
-    RawTruth,
+    InjectedAntennaFault, InjectedFault, InjectedSlip, InjectedSpoof, JudgedSegment,
+    RawBaseStation, RawGnss, RawSpec, RawTruth,
 };
 
 /// Simulates the voyage of a scenario. The same scenario and seed give the same voyage; every source

@@ -38,5 +38,6 @@ pub fn shipped() -> &'static [(&'static str, &'static str)] {
         "26-tight-port.toml",
         "27-satellite-faults.toml",
         "28-spoofer.toml",
+        "29-berthing-4ant.toml",
     ]
 }

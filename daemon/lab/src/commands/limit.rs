@@ -2,7 +2,9 @@
 
 use insd_base::units::DEG;
 use insd_config::BadInput;
-use insd_simulator::{Limit, Override, Scenario, limit};
+use insd_simulator::{
+    JudgedSegment, Limit, Override, Scenario, SegmentLimit, limit, satellite_limit,
+};
 use serde::Serialize;
 
 use crate::scenario;
@@ -22,6 +24,9 @@ pub struct LimitArgs {
     /// Instant, s; may be repeated; 60, 120, 300, 600, 900 and 1800 if not given
     #[arg(long, value_name = "T", value_parser = super::seconds)]
     at: Vec<f64>,
+    /// In place of instants the segments of a scenario with raw GNSS, by satellites, in the sky of this seed
+    #[arg(long, value_name = "SEED", conflicts_with = "at")]
+    segments: Option<u64>,
     /// Set a key of the scenario to another value, as start.lat_deg=60; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     sets: Vec<Override>,
@@ -53,6 +58,9 @@ struct Row {
 /// The scenario is faulty, or has something that the limit is not known for.
 pub fn run(args: &LimitArgs) -> anyhow::Result<()> {
     let named = scenario::find(&args.scenario, &args.sets)?;
+    if let Some(seed) = args.segments {
+        return run_segments(args, &named, seed);
+    }
     let at = if args.at.is_empty() { instants(&named.scenario) } else { args.at.clone() };
     let limits = limit(&named.scenario, &at)
         .map_err(|fault| BadInput(format!("{}: {fault}", named.name)))?;
@@ -65,6 +73,95 @@ pub fn run(args: &LimitArgs) -> anyhow::Result<()> {
         crate::terminal::print(&(head + &table(&report.limits).to_string()))?;
     }
     Ok(())
+}
+
+/// The limits of segments in the shape of a voyage's `limit.json`.
+#[derive(Clone, Debug, Serialize)]
+struct SegmentsReport {
+    scenario: String,
+    seed: u64,
+    note: &'static str,
+    segments: Vec<SegmentRow>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct SegmentRow {
+    label: String,
+    t0_s: f64,
+    t1_s: f64,
+    hpos_end_m: f64,
+    relative_end_m: f64,
+    relative_rms_m: f64,
+    hvel_end_mps: f64,
+    heading_rms_deg: f64,
+    roll_rms_deg: f64,
+    pitch_rms_deg: f64,
+}
+
+fn run_segments(args: &LimitArgs, named: &scenario::Named, seed: u64) -> anyhow::Result<()> {
+    let limits = satellite_limit(&named.scenario, seed)
+        .map_err(|fault| BadInput(format!("{}: {fault}", named.name)))?;
+    let report = SegmentsReport {
+        scenario: named.name.clone(),
+        seed,
+        note: "1-sigma; position is horizontal (root of north plus east variance); relative: since the start of the segment",
+        segments: limits.iter().map(SegmentRow::new).collect(),
+    };
+    if args.json {
+        return Ok(crate::terminal::print(&(serde_json::to_string(&report)? + "\n"))?);
+    }
+    let head = format!("{}, seed {seed}: 1-sigma of the optimal filter\n\n", report.scenario);
+    Ok(crate::terminal::print(&(head + &segment_table(&report.segments).to_string()))?)
+}
+
+impl SegmentRow {
+    fn new(limit: &SegmentLimit) -> Self {
+        let JudgedSegment { t0_s, t1_s, label, .. } = limit.segment.clone();
+        let [heading, roll, pitch] = limit.attitude_rms.map(|own| own / DEG);
+        SegmentRow {
+            label,
+            t0_s,
+            t1_s,
+            hpos_end_m: limit.position_end,
+            relative_end_m: limit.relative_end,
+            relative_rms_m: limit.relative_rms,
+            hvel_end_mps: limit.velocity_end,
+            heading_rms_deg: heading,
+            roll_rms_deg: roll,
+            pitch_rms_deg: pitch,
+        }
+    }
+}
+
+fn segment_table(rows: &[SegmentRow]) -> Table {
+    let names = [
+        "segment",
+        "from s",
+        "to s",
+        "position m",
+        "relative m",
+        "RMS m",
+        "velocity m/s",
+        "heading deg",
+        "roll deg",
+        "pitch deg",
+    ];
+    let mut table = Table::new(&names.map(|name| (name, Align::Right)));
+    for row in rows {
+        let figures = [
+            row.hpos_end_m,
+            row.relative_end_m,
+            row.relative_rms_m,
+            row.hvel_end_mps,
+            row.heading_rms_deg,
+            row.roll_rms_deg,
+            row.pitch_rms_deg,
+        ];
+        let mut cells = vec![row.label.clone(), format!("{}", row.t0_s), format!("{}", row.t1_s)];
+        cells.extend(figures.map(|figure| significant(figure, 3)));
+        table.push(cells);
+    }
+    table
 }
 
 /// The instants that are looked at unless others are asked for: those of the bars that come before

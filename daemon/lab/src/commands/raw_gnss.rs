@@ -76,7 +76,7 @@ mod tests {
     use super::*;
     use insd_base::BroadcastRecord;
     use insd_rinex::{ObservationReader, read_navigation};
-    use insd_simulator::{Scenario, raw_gnss};
+    use insd_simulator::{Scenario, raw_gnss, shipped};
 
     fn raw() -> RawGnss {
         let text = "name = \"a\"\nmode = \"underway\"\n[start]\nlat_deg = 35.0\nlon_deg = 139.0\n\
@@ -90,10 +90,30 @@ mod tests {
     fn what_is_written_is_read_back_as_far_as_the_format_holds_it() {
         let raw = raw();
         let files = files(&raw).unwrap();
+        assert_eq!(files.antennas.len(), 1);
+        held_against(&files.antennas[0], &raw.antennas[0]);
+    }
+
+    #[test]
+    fn each_antenna_of_four_is_read_back_from_a_file_of_its_own() {
+        let text = shipped().iter().find(|(file, _)| file.starts_with("29")).unwrap().1;
+        let scenario = Scenario::from_toml(text).unwrap().with_duration(30.0);
+        let raw = raw_gnss(&scenario, 1).unwrap();
+        let files = files(&raw).unwrap();
+        assert_eq!(files.antennas.len(), 4);
+        for (text, made) in files.antennas.iter().zip(&raw.antennas) {
+            held_against(text, made);
+        }
+        let tables: toml::Table = files.tables.parse().unwrap();
+        assert_eq!(tables["raw"]["antennas_m"].as_array().map(Vec::len), Some(4));
+        assert_eq!(tables["raw"]["common_clock"].as_array().map(Vec::len), Some(4));
+    }
+
+    fn held_against(text: &str, made: &[SatelliteEpoch]) {
         let read: Vec<SatelliteEpoch> =
-            ObservationReader::new(&files.antennas[0]).unwrap().map(Result::unwrap).collect();
-        assert_eq!(read.len(), raw.antennas[0].len());
-        for (read, made) in read.iter().zip(&raw.antennas[0]) {
+            ObservationReader::new(text).unwrap().map(Result::unwrap).collect();
+        assert_eq!(read.len(), made.len());
+        for (read, made) in read.iter().zip(made) {
             assert_eq!((read.tag, read.signals.len()), (made.tag, made.signals.len()));
             for made in &made.signals {
                 let own = |read: &&insd_base::SignalObservation| {

@@ -103,6 +103,8 @@ pub struct Board {
     pub mode_since: Time,
     /// Error of that solution.
     pub true_error: Option<TrueError>,
+    /// How she stands to the berth that she goes to, in words.
+    pub alongside: Option<String>,
     /// One line for each sensor.
     pub sensors: Vec<DemoSensorStatus>,
     /// The engine's counters.

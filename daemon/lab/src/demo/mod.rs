@@ -4,7 +4,9 @@
 //! to a pseudo terminal; the main thread shows the [`board::Board`] that it publishes. Everything
 //! but the pace is free of clocks: [`ship::DemoShip`] advances to whatever time it is told.
 
+pub mod alongside;
 pub mod board;
+pub mod onlooker;
 pub mod pace;
 pub mod plain;
 pub mod rejections;
@@ -17,12 +19,15 @@ pub mod truth;
 pub mod view;
 
 use std::io::IsTerminal;
+use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::Context;
+use insd_config::Config;
 use insd_drivers::ports::Clock;
 
+use onlooker::Onlooker;
 use pace::{DemoPace, Worker};
 use scenario::DemoVoyage;
 
@@ -47,18 +52,33 @@ pub struct DemoArgs {
     #[arg(long)]
     pub plain: bool,
 
+    /// Serve the status page of the ship, too; with --scenario berthing its docking view
+    #[arg(long, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "127.0.0.1:8470")]
+    pub page: Option<SocketAddr>,
+
     /// End by itself after so many seconds on the wall clock
     #[arg(long, value_name = "S", value_parser = seconds)]
     pub duration: Option<Duration>,
 }
 
-/// Runs the demo until its voyage, its duration or the user's patience ends.
+/// Runs the demo until its voyage, its duration or the user's patience ends. `open` opens the page of a ship of such a configuration,
+/// with its text.
 ///
 /// # Errors
-/// A scenario that cannot be found or read, no pseudo terminal, or a terminal that fails.
-pub fn run(args: DemoArgs, clock: Arc<dyn Clock>) -> anyhow::Result<()> {
-    let DemoArgs { speed, scenario, seed, plain, duration } = args;
+/// A scenario that cannot be found or read, no page, no pseudo terminal, or a terminal that fails.
+pub fn run(
+    args: DemoArgs,
+    clock: Arc<dyn Clock>,
+    open: impl FnOnce(&Config, &str) -> anyhow::Result<Box<dyn Onlooker>>,
+) -> anyhow::Result<()> {
+    let DemoArgs { speed, scenario, seed, plain, page, duration } = args;
     let choice = DemoVoyage::find(&scenario, seed)?;
+    let (mut config, text) = choice.configuration()?;
+    let onlooker = page.map(|address| {
+        config.web.listen = address;
+        open(&config, &text)
+    });
+    let onlooker = onlooker.transpose()?;
     let pty =
         PseudoTerminal::open().context("cannot open a pseudo terminal for the NMEA sentences")?;
     let plain = plain || !std::io::stdout().is_terminal();
@@ -66,7 +86,7 @@ pub fn run(args: DemoArgs, clock: Arc<dyn Clock>) -> anyhow::Result<()> {
         .enable_all()
         .build()
         .context("cannot start the event loop")?;
-    let worker = Worker::start(choice, pty, DemoPace { speed }, clock);
+    let worker = Worker::start((choice, config), pty, DemoPace { speed }, clock, onlooker);
     let shown = runtime.block_on(async {
         if plain {
             plain::show(&worker, duration).await

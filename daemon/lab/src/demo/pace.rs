@@ -7,9 +7,12 @@ use std::time::Duration;
 
 use anyhow::anyhow;
 use insd_base::{Span, Time};
+use insd_config::Config;
 use insd_drivers::ports::Clock;
 
+use super::alongside;
 use super::board::{Board, DemoPort, Phase};
+use super::onlooker::Onlooker;
 use super::scenario::DemoVoyage;
 use super::ship::DemoShip;
 use crate::pty::PseudoTerminal;
@@ -36,13 +39,14 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// Starts to make the voyage and then to sail it.
+    /// Starts to make the voyage and then to sail it, by her configuration.
     #[must_use]
     pub fn start(
-        choice: DemoVoyage,
+        (choice, config): (DemoVoyage, Config),
         pty: PseudoTerminal,
         pace: DemoPace,
         clock: Arc<dyn Clock>,
+        onlooker: Option<Box<dyn Onlooker>>,
     ) -> Self {
         let path = pty.path().display().to_string();
         let port = DemoPort { path, ..DemoPort::default() };
@@ -51,7 +55,9 @@ impl Worker {
         let (stop, stopped) = channel();
         let shared = Arc::clone(&board);
         let thread = std::thread::spawn(move || {
-            let ship = DemoShip::new(choice.sail(), first);
+            let voyage = choice.sail();
+            let berths = alongside::docking(&config, &voyage.header.imu);
+            let ship = DemoShip::new(voyage, first).with_berths(berths).with_onlooker(onlooker);
             sail(ship, pty, &keeping(pace, &*clock), &shared, &stopped);
         });
         Worker { board, stop, thread }

@@ -76,6 +76,9 @@ pub fn line(board: &Board) -> String {
     if let Some(error) = &board.true_error {
         let _ = write!(line, "  true error {}", words::distance(error.horizontal));
     }
+    if let Some(alongside) = &board.alongside {
+        let _ = write!(line, "  {alongside}");
+    }
     let _ = writeln!(line, "  rejected {}", board.counts.rejected_total());
     line
 }

@@ -1,8 +1,10 @@
 //! Which voyage the demo sails.
 
 use insd_base::Voyage;
+use insd_config::Config;
 use insd_simulator::{Scenario, simulate};
 
+use super::alongside;
 use crate::scenario;
 
 /// A scenario and a seed: one voyage, not yet made.
@@ -25,6 +27,14 @@ impl DemoVoyage {
     #[must_use]
     pub fn title(&self) -> String {
         format!("{}, seed {}", self.scenario.name(), self.seed)
+    }
+
+    /// The configuration of a ship like hers, with the berth that she goes to, and its text.
+    ///
+    /// # Errors
+    /// What the scenario says of its berth is no berth for a configuration.
+    pub fn configuration(&self) -> anyhow::Result<(Config, String)> {
+        alongside::configuration(&self.scenario)
     }
 
     /// Makes the voyage. It takes a second or two for hours at sea.

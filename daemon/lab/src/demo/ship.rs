@@ -4,10 +4,13 @@
 use insd_base::{Body, Event, Geodetic, Message, Mode, Received, Solution, Time, Voyage};
 use insd_config::VoyageCalendar;
 use insd_engine::{Engine, EngineConfig, Output};
+use insd_output::docking::DockingConfig;
 use insd_output::{Manner, OutputPortConfig, Profile};
 use insd_vessel::{OutputPlan, Outputs, Spoken};
 
+use super::alongside;
 use super::board::{Board, Phase};
+use super::onlooker::{DemoSight, Onlooker};
 use super::rejections;
 use super::sensors::Sensors;
 use super::truth::{TrueTrack, east_north};
@@ -19,7 +22,6 @@ const OUTPUT_RATE: f64 = 10.0;
 const TRACK_INTERVAL: i64 = 2_000_000_000;
 
 /// A voyage under way.
-#[derive(Debug)]
 pub struct DemoShip {
     messages: std::vec::IntoIter<Received>,
     engine: Engine,
@@ -30,6 +32,7 @@ pub struct DemoShip {
     sensors: Sensors,
     tracked: Time,
     board: Board,
+    onlooker: Option<Box<dyn Onlooker>>,
 }
 
 /// The port of the demo: everything, marked as simulated where a sentence can be. No ship's equipment
@@ -40,6 +43,15 @@ fn bridge() -> OutputPortConfig {
     OutputPortConfig { manner, ..bridge }
 }
 
+fn outputs(berths: DockingConfig) -> Outputs {
+    Outputs::new(OutputPlan {
+        ports: vec![bridge()],
+        points: vec![Body::default()],
+        berths,
+        ..OutputPlan::default()
+    })
+}
+
 impl DemoShip {
     /// A ship at the start of her voyage. `board` carries title, speed and port on.
     #[must_use]
@@ -48,18 +60,27 @@ impl DemoShip {
         DemoShip {
             messages: voyage.received().into_iter(),
             engine: Engine::new(EngineConfig::for_voyage(&voyage.header, OUTPUT_RATE)),
-            outputs: Outputs::new(OutputPlan {
-                ports: vec![bridge()],
-                points: vec![Body::default()],
-                ..OutputPlan::default()
-            }),
+            outputs: outputs(DockingConfig::default()),
             calendar: VoyageCalendar::new(&voyage.header.start_utc),
             origin,
             sensors: Sensors::of(&voyage),
             truth: TrueTrack::new(voyage.truth),
             tracked: Time::from_nanos(-TRACK_INTERVAL),
             board: Board { phase: Phase::Sailing, ..board },
+            onlooker: None,
         }
+    }
+
+    /// The same with berths to go alongside.
+    #[must_use]
+    pub fn with_berths(self, berths: DockingConfig) -> Self {
+        DemoShip { outputs: outputs(berths), ..self }
+    }
+
+    /// The same with somebody who looks on.
+    #[must_use]
+    pub fn with_onlooker(self, onlooker: Option<Box<dyn Onlooker>>) -> Self {
+        DemoShip { onlooker, ..self }
     }
 
     /// Sails to `until`: all messages received by then go through the engine, and the sentences of
@@ -74,6 +95,7 @@ impl DemoShip {
             self.engine.handle(&received);
             while let Some(output) = self.engine.poll_output() {
                 self.outputs.note(&output);
+                self.onlooker.iter_mut().for_each(|own| own.hear(&output));
                 self.take(output);
             }
             self.speak(received.receipt, wire);
@@ -160,5 +182,14 @@ impl DemoShip {
         self.board.counts.clone_from(self.engine.counts());
         let solution = self.board.solution.as_ref();
         self.board.true_error = solution.and_then(|solution| self.truth.error_of(solution));
+        let motion = self.engine.motion();
+        let desk = self.outputs.station().berths();
+        let docking = desk.look(motion.as_ref(), self.board.now);
+        self.board.alongside = docking.map(|docking| alongside::line(&docking, desk));
+        if let Some(onlooker) = &mut self.onlooker {
+            let (now, engine, outputs) = (self.board.now, &self.engine, &self.outputs);
+            let utc = self.calendar.map(|calendar| calendar.utc(now));
+            onlooker.see(&DemoSight { now, utc, engine, outputs });
+        }
     }
 }

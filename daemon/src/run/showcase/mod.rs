@@ -142,6 +142,17 @@ impl Showcase {
         }
     }
 
+    /// Shows how everything stood so long ago, s.
+    pub(super) fn show(&mut self, report: &Report, told_ago: f64) {
+        self.see_fast(report);
+        if let Some(slow) = &report.slow {
+            self.see_slow(report, slow);
+        }
+        self.shown.time.told_ago_s = told_ago;
+        self.follow_mode(report.stamp.monotonic);
+        self.publisher.publish(self.shown.clone());
+    }
+
     fn see_slow(&mut self, report: &Report, slow: &Slow) {
         let now = report.stamp.monotonic;
         self.input_rates.note(now, slow.intake.ports.iter().map(|port| port.counts.bytes));
@@ -227,14 +238,8 @@ impl Audience for Showcase {
     }
 
     fn see(&mut self, report: &Report) {
-        self.see_fast(report);
-        if let Some(slow) = &report.slow {
-            self.see_slow(report, slow);
-        }
         let now = self.origin.clock.now().monotonic;
-        self.shown.time.told_ago_s = (now - report.stamp.monotonic).as_seconds().max(0.0);
-        self.follow_mode(report.stamp.monotonic);
-        self.publisher.publish(self.shown.clone());
+        self.show(report, (now - report.stamp.monotonic).as_seconds().max(0.0));
     }
 }
 

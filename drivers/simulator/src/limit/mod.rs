@@ -15,12 +15,14 @@ mod aid;
 mod block;
 mod covariance;
 mod model;
+mod satellites;
 mod way;
 
 use crate::scenario::{Gnss, HeadingReference, Imu, Scenario};
 
 use aid::{Berth, Fixes};
 use covariance::Covariance;
+pub use satellites::{SegmentLimit, satellite_limit};
 use way::Way;
 
 /// The 1-sigma of the optimal filter at one instant.

@@ -3,6 +3,7 @@
 //! The fields are the keys of the TOML file and carry the units of their names; they are checked
 //! once, here, and turned into SI where the simulation takes them up.
 
+mod berth;
 mod fault;
 mod gnss;
 mod imu;
@@ -20,12 +21,15 @@ use serde::Deserialize;
 
 use fault::Faults;
 
+pub use berth::ScenarioBerth;
 pub use fault::{Fault, ScenarioError};
 pub(crate) use gnss::{Gnss, GnssGrade, GnssNoise, StdFault};
 pub(crate) use imu::{Imu, Vibration};
 pub(crate) use log::{Current, Log, LogAxes};
 pub use overrides::Override;
-pub(crate) use raw::{Raw, RawBase, RawCrane, RawFault, RawSegment, RawSky, RawSpoof};
+pub(crate) use raw::{
+    Raw, RawAntennaFault, RawBase, RawCrane, RawFault, RawSegment, RawSky, RawSpoof,
+};
 pub(crate) use reference::{PositionReference, Reference};
 pub(crate) use sea::{ExposurePoint, Sea, Shift};
 pub(crate) use voyage::{
@@ -74,6 +78,8 @@ pub struct Scenario {
     pub(crate) current: Current,
     /// External reference.
     pub(crate) reference: Option<Reference>,
+    /// The berth that the voyage ends at.
+    pub(crate) berth: Option<ScenarioBerth>,
 }
 
 fn new_year() -> String {
@@ -138,6 +144,18 @@ impl Scenario {
         &self.description
     }
 
+    /// The berth that the voyage ends at, if it is one.
+    #[must_use]
+    pub fn berth(&self) -> Option<&ScenarioBerth> {
+        self.berth.as_ref()
+    }
+
+    /// Length and beam of the hull, m; the IMU is amidships.
+    #[must_use]
+    pub fn hull(&self) -> [f64; 2] {
+        [self.ship.length_m, self.ship.beam_m]
+    }
+
     /// Length of the voyage, s.
     #[must_use]
     pub fn duration(&self) -> f64 {
@@ -186,6 +204,9 @@ impl Scenario {
         }
         if let Some(reference) = &self.reference {
             reference.check(&mut faults);
+        }
+        if let Some(berth) = &self.berth {
+            berth.check(&mut faults);
         }
         if self.mode == Mode::Moored && !self.route.legs.first().is_some_and(|leg| leg.moored) {
             faults.add("mode", "\"moored\" needs a first leg with moored = true");

@@ -132,6 +132,26 @@ pub(crate) struct RawSpoof {
     pub(crate) clock_m: f64,
 }
 
+/// What is wrong with the installation of one antenna: exactly one of the three is given.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RawAntennaFault {
+    /// Its number, from 1.
+    pub(crate) antenna: usize,
+    /// Beginning; the start unless given.
+    #[serde(default)]
+    pub(crate) t0_s: f64,
+    /// End, excluded; never unless given.
+    pub(crate) t1_s: Option<f64>,
+    /// Its cable is broken: nothing comes.
+    #[serde(default)]
+    pub(crate) broken: bool,
+    /// Its signals are weaker by this.
+    pub(crate) weaker_db: Option<f64>,
+    /// Its receiver runs on an oscillator of its own, whatever `common_clock` says: so much faster than the one before. Has no end.
+    pub(crate) own_clock_mps: Option<f64>,
+}
+
 /// A receiver on land, of the same kind as those on board.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
@@ -201,6 +221,10 @@ pub(crate) struct Raw {
     pub(crate) crane: Vec<RawCrane>,
     /// Faults of satellites.
     pub(crate) fault: Vec<RawFault>,
+    /// Faults of the installation of single antennas.
+    pub(crate) antenna_fault: Vec<RawAntennaFault>,
+    /// Numbers of two antennas of which the voyage tells each to be where the other is.
+    pub(crate) swapped: Option<[usize; 2]>,
     /// Spoofers.
     pub(crate) spoof: Vec<RawSpoof>,
     /// Base station.
@@ -235,6 +259,8 @@ impl Default for Raw {
             segment: Vec::new(),
             crane: Vec::new(),
             fault: Vec::new(),
+            antenna_fault: Vec::new(),
+            swapped: None,
             spoof: Vec::new(),
             base: None,
         }

@@ -1,7 +1,7 @@
 //! What is asked of the values of `[raw]`.
 
 use super::fault::Faults;
-use super::raw::{Raw, RawFault, RawSky};
+use super::raw::{Raw, RawAntennaFault, RawFault, RawSky};
 
 /// Checks all values of the table.
 pub(super) fn check(raw: &Raw, faults: &mut Faults) {
@@ -12,6 +12,9 @@ pub(super) fn check(raw: &Raw, faults: &mut Faults) {
     obstructions(raw, faults);
     for (index, fault) in raw.fault.iter().enumerate() {
         satellite_fault(&format!("raw.fault[{index}]"), fault, faults);
+    }
+    for (index, fault) in raw.antenna_fault.iter().enumerate() {
+        antenna_fault(&format!("raw.antenna_fault[{index}]"), fault, raw.antennas_m.len(), faults);
     }
     for (index, spoof) in raw.spoof.iter().enumerate() {
         let key = format!("raw.spoof[{index}]");
@@ -39,6 +42,12 @@ fn antennas(raw: &Raw, faults: &mut Faults) {
     }
     if raw.common_clock.iter().any(|number| !(1..=raw.antennas_m.len()).contains(number)) {
         faults.add("raw.common_clock", "expected numbers of antennas, from 1");
+    }
+    let is_pair = |[one, other]: [usize; 2]| {
+        one != other && [one, other].iter().all(|own| (1..=raw.antennas_m.len()).contains(own))
+    };
+    if raw.swapped.is_some_and(|pair| !is_pair(pair)) {
+        faults.add("raw.swapped", "expected numbers of two antennas, from 1");
     }
 }
 
@@ -108,6 +117,27 @@ fn satellite_fault(key: &str, fault: &RawFault, faults: &mut Faults) {
     faults.range(key, size, -1e5, 1e5);
     if fault.stale_mps2.is_some() && fault.t1_s.is_some() {
         faults.add(format!("{key}.t1_s"), "expected no end of a stale orbit");
+    }
+}
+
+fn antenna_fault(key: &str, fault: &RawAntennaFault, antennas: usize, faults: &mut Faults) {
+    span(key, fault.t0_s, fault.t1_s, faults);
+    if !(1..=antennas).contains(&fault.antenna) {
+        faults.add(format!("{key}.antenna"), "expected the number of an antenna, from 1");
+    }
+    let sizes = [fault.broken.then_some(0.0), fault.weaker_db, fault.own_clock_mps];
+    let [size] = sizes.into_iter().flatten().collect::<Vec<f64>>()[..] else {
+        faults.add(key, "expected one of broken, weaker_db and own_clock_mps");
+        return;
+    };
+    if fault.weaker_db.is_some() {
+        faults.range(format!("{key}.weaker_db"), size, 0.0, 60.0);
+    }
+    if fault.own_clock_mps.is_some() {
+        faults.range(format!("{key}.own_clock_mps"), size, -1000.0, 1000.0);
+        if fault.t1_s.is_some() {
+            faults.add(format!("{key}.t1_s"), "expected no end of a clock of its own");
+        }
     }
 }
 

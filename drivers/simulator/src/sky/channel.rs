@@ -6,6 +6,7 @@ use rand_pcg::Pcg64;
 
 use super::constellation::number;
 use super::faults::Effect;
+use super::installation::TRACKED_FROM;
 use super::signals::{Signal, signals};
 use super::truth::InjectedSlip;
 use crate::random::{GaussMarkov, Purpose, normal, numbered, uniform};
@@ -48,6 +49,15 @@ pub(crate) struct Heard {
     pub(crate) effect: Effect,
     /// How many times as large as stated multipath is.
     pub(crate) multipath: f64,
+    /// By how much it is weaker than it should be, dB.
+    pub(crate) weaker: f64,
+}
+
+impl Heard {
+    /// Whether a receiver loses it.
+    pub(crate) fn is_too_weak(&self) -> bool {
+        strength(self, 1) < TRACKED_FROM
+    }
 }
 
 /// A signal as it is tracked.
@@ -211,7 +221,8 @@ impl Tracked {
         let multipath = self.multipath.advance(dt) * (weight * heard.multipath);
         let Signal { code, wavelength, ionosphere, group_delay } = self.signal;
         let delay = heard.ionosphere.map(|delay| delay * ionosphere);
-        let mut noise = |std: f64| std * weight * normal(rng);
+        let weaker = 10_f64.powf(heard.weaker / 20.0);
+        let mut noise = |std: f64| std * weight * weaker * normal(rng);
         let range = heard.range[0] + delay[0] + group_delay + heard.effect.code + multipath.x;
         let phase = heard.range[0] - delay[0] + heard.effect.phase + heard.line + multipath.y;
         let rate = heard.range[1] - delay[1] + heard.effect.rate;
@@ -231,7 +242,7 @@ impl Tracked {
 }
 
 /// Factor on all noise: 1 at the zenith.
-fn weight(elevation: f64) -> f64 {
+pub(crate) fn weight(elevation: f64) -> f64 {
     ((1.0 + elevation.sin().powi(-2)) / 2.0).sqrt()
 }
 
@@ -239,5 +250,5 @@ fn weight(elevation: f64) -> f64 {
 fn strength(heard: &Heard, band: u8) -> f64 {
     let second = if band == 1 { 0.0 } else { -2.0 };
     let reflected = if heard.source == Source::Reflected { -10.0 } else { 0.0 };
-    36.0 + 12.0 * heard.elevation.sin() + second + reflected
+    36.0 + 12.0 * heard.elevation.sin() + second + reflected - heard.weaker
 }

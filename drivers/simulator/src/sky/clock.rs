@@ -33,6 +33,12 @@ impl Clock {
         Clock { bias, drift, was_set: false, walks, jumps: raw.clock_jumps, rng }
     }
 
+    /// An oscillator of its own for the receiver of one antenna, which goes on from this one, faster by `faster`, m/s.
+    pub(crate) fn apart(&self, antenna: u64, faster: f64, seed: u64) -> Self {
+        let rng = numbered(seed, Purpose::RawClock, 1000 + antenna);
+        Clock { drift: self.drift + faster, rng, ..self.clone() }
+    }
+
     /// Goes on by `dt`, s: both walks with the covariance that they have together, q_f [dt^3/3, dt^2/2; dt^2/2, dt] for the drift's.
     pub(crate) fn advance(&mut self, dt: f64) {
         let [first, second, third] = std::array::from_fn(|_| normal(&mut self.rng));

@@ -11,6 +11,7 @@ mod channel;
 mod clock;
 mod constellation;
 mod faults;
+mod installation;
 mod kepler;
 mod output;
 mod path;
@@ -20,11 +21,15 @@ mod satellite;
 mod scene;
 mod signals;
 mod truth;
+mod view;
 mod voyage;
 mod wander;
 
 pub use output::{RawBaseStation, RawGnss, RawSpec};
-pub use truth::{InjectedFault, InjectedSlip, InjectedSpoof, JudgedSegment, RawTruth};
+pub use truth::{
+    InjectedAntennaFault, InjectedFault, InjectedSlip, InjectedSpoof, JudgedSegment, RawTruth,
+};
+pub(crate) use view::{Seen, SkyView};
 pub(crate) use voyage::raw_gnss;
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use insd_base::Geodetic;
 use insd_base::satellites::{BroadcastRecord, IonosphereModel, SatelliteEpoch};
 use serde::Serialize;
 
+use super::installation::told_antennas;
 use super::truth::RawTruth;
 use crate::scenario::Raw;
 
@@ -12,7 +13,7 @@ use crate::scenario::Raw;
 pub struct RawSpec {
     /// Rate of epochs.
     pub rate_hz: f64,
-    /// Antennas from the IMU, body axes.
+    /// Antennas from the IMU, body axes, as they are told.
     pub antennas_m: Vec<[f64; 3]>,
     /// Numbers, from 1, of the antennas whose receivers share one oscillator.
     pub common_clock: Vec<usize>,
@@ -41,7 +42,7 @@ impl RawSpec {
     pub(crate) fn of(raw: &Raw) -> Self {
         RawSpec {
             rate_hz: raw.rate_hz,
-            antennas_m: raw.antennas_m.clone(),
+            antennas_m: told_antennas(raw),
             common_clock: raw.common_clock.clone(),
             code_std_m: raw.code_std_m,
             phase_std_m: raw.phase_std_m,

@@ -14,6 +14,7 @@ use rand_pcg::Pcg64;
 use super::channel::{Channel, Heard, Source};
 use super::clock::Clock;
 use super::faults::{Effect, SatelliteFault};
+use super::installation::loss;
 use super::path::{Air, Path, Site, ray};
 use super::satellite::Satellite;
 use super::scene::{Reception, Scene};
@@ -196,7 +197,12 @@ impl<'a> Receiver<'a> {
             turns: self.turns.0,
             effect: effect(&world.faults, id, moment.t),
             multipath: scene.multipath(moment.t),
+            weaker: loss(&self.raw.antenna_fault, self.antenna, moment.t),
         };
+        if heard.is_too_weak() {
+            channel.lose();
+            return Vec::new();
+        }
         channel.observe(self.raw, &heard, &mut self.slips)
     }
 }

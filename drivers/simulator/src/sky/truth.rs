@@ -44,6 +44,35 @@ pub struct InjectedFault {
     pub size: f64,
 }
 
+fn antenna<S: Serializer>(number: &usize, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(&antenna_name(*number))
+}
+
+fn antennas<S: Serializer>(pair: &Option<[usize; 2]>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(pair.iter().flatten().map(|number| antenna_name(*number)))
+}
+
+/// What an antenna is called by its number; 0 is the base station.
+fn antenna_name(number: usize) -> String {
+    if number == 0 { "base".to_owned() } else { format!("a{number}") }
+}
+
+/// What was wrong with the installation of one antenna; t0 <= t < t1, s.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InjectedAntennaFault {
+    /// Number of the antenna, from 1.
+    #[serde(serialize_with = "antenna")]
+    pub antenna: usize,
+    /// Key of its size: `weaker_db` or `own_clock_mps`; `broken` has none.
+    pub kind: String,
+    /// Beginning, s.
+    pub t0_s: f64,
+    /// End, excluded, s.
+    pub t1_s: f64,
+    /// Its size, in the unit of its key.
+    pub size: f64,
+}
+
 /// A spoofer's pull; t0 <= t < t1, s.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InjectedSpoof {
@@ -77,11 +106,7 @@ pub struct InjectedSlip {
 
 impl From<InjectedSlip> for (f64, String, String, i32, bool) {
     fn from(slip: InjectedSlip) -> Self {
-        let antenna = match slip.antenna {
-            0 => "base".to_owned(),
-            number => format!("a{number}"),
-        };
-        (slip.t_s, antenna, slip.satellite.to_string(), slip.cycles, slip.told)
+        (slip.t_s, antenna_name(slip.antenna), slip.satellite.to_string(), slip.cycles, slip.told)
     }
 }
 
@@ -98,4 +123,10 @@ pub struct RawTruth {
     pub spoofs: Vec<InjectedSpoof>,
     /// Cycle slips, antenna by antenna.
     pub slips: Vec<InjectedSlip>,
+    /// Faults of the installation of single antennas.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub antenna_faults: Vec<InjectedAntennaFault>,
+    /// Two antennas of which each is told to be where the other is.
+    #[serde(serialize_with = "antennas", skip_serializing_if = "Option::is_none")]
+    pub swapped: Option<[usize; 2]>,
 }

@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use super::clock::Clock;
 use super::constellation::{Nominal, satellites};
 use super::faults::faults;
+use super::installation::{injected, own_clock};
 use super::output::{RawBaseStation, RawGnss, RawSpec};
 use super::path::{Air, Site};
 use super::receiver::{Receiver, World};
@@ -28,17 +29,14 @@ pub(crate) fn raw_gnss(
     track: &Track,
     seed: u64,
 ) -> Option<RawGnss> {
-    let start = Calendar::new(&scenario.start_utc)?.gps(Time::START);
     let voyage = Sailing { raw, track, duration: scenario.duration(), seed };
-    let nominal = satellites(&raw.sky.constellations, reference_before(start), seed);
-    let world = voyage.world(&nominal, start);
-    let scene = Scene::new(raw, &world.satellites, |t| Site::new(t, voyage.antenna(0, t)), seed);
+    let (nominal, world, scene) = voyage.surroundings(&scenario.start_utc)?;
     let mut slips = Vec::new();
     let antennas =
         (0..raw.antennas_m.len()).map(|index| voyage.receive(&world, &scene, index, &mut slips));
     let antennas = antennas.collect();
     let base = raw.base.map(|base| voyage.receive_ashore(&world, &base, &mut slips));
-    let injected = world.faults.iter().map(|fault| fault.injected(voyage.duration));
+    let satellite_faults = world.faults.iter().map(|fault| fault.injected(voyage.duration));
     Some(RawGnss {
         spec: RawSpec::of(raw),
         antennas,
@@ -48,11 +46,25 @@ pub(crate) fn raw_gnss(
         truth: RawTruth {
             scenario: scenario.name.clone(),
             segments: scene.segments(),
-            satellite_faults: injected.collect(),
+            satellite_faults: satellite_faults.collect(),
             spoofs: scene.injected_spoofs(),
             slips,
+            antenna_faults: injected(&raw.antenna_fault, voyage.duration),
+            swapped: raw.swapped,
         },
     })
+}
+
+/// Satellites and air of a voyage that follows `track`, and what stands between her and the sky; `None` where the start is no instant.
+pub(crate) fn setting(
+    scenario: &Scenario,
+    raw: &Raw,
+    track: &Track,
+    seed: u64,
+) -> Option<(World, Scene)> {
+    let voyage = Sailing { raw, track, duration: scenario.duration(), seed };
+    let (_, world, scene) = voyage.surroundings(&scenario.start_utc)?;
+    Some((world, scene))
 }
 
 /// A voyage to be heard.
@@ -65,6 +77,16 @@ struct Sailing<'a> {
 }
 
 impl Sailing<'_> {
+    fn surroundings(&self, start_utc: &str) -> Option<(Vec<Nominal>, World, Scene)> {
+        let start = Calendar::new(start_utc)?.gps(Time::START);
+        let letters = &self.raw.sky.constellations;
+        let nominal = satellites(letters, reference_before(start), self.seed);
+        let world = self.world(&nominal, start);
+        let site = |t| Site::new(t, self.antenna(0, t));
+        let scene = Scene::new(self.raw, &world.satellites, site, self.seed);
+        Some((nominal, world, scene))
+    }
+
     /// Place of an antenna by its index at time `t`, s, ECEF, m.
     fn antenna(&self, index: usize, t: f64) -> Vector3<f64> {
         let lever = self.raw.antennas_m.get(index).copied().unwrap_or_default();
@@ -111,12 +133,7 @@ impl Sailing<'_> {
         let mut receiver = Receiver::new(self.raw, index + 1, world, self.seed);
         let own = |t: f64| self.antenna(index, t);
         let first = |t: f64| self.antenna(0, t);
-        // those that share an oscillator have that of the first of them
-        let shared = self.raw.common_clock.iter().min().copied();
-        let number = index + 1;
-        let oscillator =
-            shared.filter(|_| self.raw.common_clock.contains(&number)).unwrap_or(number);
-        let epochs = receiver.epochs(world, scene, self.clocks(oscillator), [&own, &first], &|t| {
+        let epochs = receiver.epochs(world, scene, self.clocks(index + 1), [&own, &first], &|t| {
             self.track.at(t).attitude().heading
         });
         slips.extend(receiver.slips());
@@ -139,11 +156,19 @@ impl Sailing<'_> {
         RawBaseStation { position: geodetic(&Ecef(ecef(&point).0 + off)), epochs }
     }
 
-    /// The tags of a receiver, each with what its clock is then.
-    fn clocks(&self, oscillator: usize) -> impl Iterator<Item = (Time, Clock)> {
+    /// The tags of the receiver of one antenna, 0 for the base station, each with what its clock is then.
+    fn clocks(&self, antenna: usize) -> impl Iterator<Item = (Time, Clock)> {
+        // those that share an oscillator have that of the first of them
+        let shared = self.raw.common_clock.iter().min().copied();
+        let oscillator =
+            shared.filter(|_| self.raw.common_clock.contains(&antenna)).unwrap_or(antenna);
         let clock = Clock::new(self.raw, oscillator as u64, self.seed);
-        let dt = 1.0 / self.raw.rate_hz;
+        let (dt, seed) = (1.0 / self.raw.rate_hz, self.seed);
+        let mut leaves = own_clock(&self.raw.antenna_fault, antenna);
         epochs(self.raw.rate_hz, 1, self.duration).scan(clock, move |clock, tag| {
+            if let Some((_, faster)) = leaves.take_if(|(t, _)| tag.as_seconds() > *t) {
+                *clock = clock.apart(antenna as u64, faster, seed);
+            }
             clock.advance(dt);
             Some((tag, clock.clone()))
         })

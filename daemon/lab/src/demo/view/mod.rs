@@ -35,7 +35,7 @@ pub fn draw(frame: &mut Frame<'_>, board: &Board) {
     let [title, mode, upper, strip, lower, port, keys] = Layout::vertical([
         Constraint::Length(1),
         Constraint::Length(1),
-        Constraint::Length(11),
+        Constraint::Length(11 + u16::from(board.alongside.is_some())),
         Constraint::Length(3),
         Constraint::Min(5),
         Constraint::Length(1),

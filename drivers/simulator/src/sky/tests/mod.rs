@@ -1,5 +1,6 @@
 //! Claims about the raw GNSS of whole voyages.
 
+mod antennas;
 mod ranges;
 mod scenes;
 

@@ -1,0 +1,55 @@
+//! What raw GNSS tells of a ship, and of which nothing is told.
+
+use insd_base::units::DEG;
+
+use super::*;
+use crate::scenario::Override;
+use crate::shipped;
+
+/// A straight minute and a half under an open sky with these antennas, and a minute with as many satellites as told.
+fn segments(antennas: &str, satellites: usize) -> Vec<SegmentLimit> {
+    let text = format!(
+        "name = \"a\"\nmode = \"underway\"\n[start]\nlat_deg = 35.0\nlon_deg = 139.0\n[[route.legs]]\nheading_deg = 10.0\nspeed_kn = 3.0\n\
+         duration_s = 150.0\n[imu]\ngrade = \"mems\"\n[raw]\n{antennas}sky = {{ constellations = \"GE\" }}\n\
+         [[raw.segment]]\nt0_s = 30.0\nt1_s = 90.0\nlabel = \"open\"\n\
+         [[raw.segment]]\nt0_s = 90.0\nt1_s = 150.0\nlabel = \"few\"\nsatellites = {satellites}\n"
+    );
+    satellite_limit(&Scenario::from_toml(&text).unwrap(), 1).unwrap()
+}
+
+const PAIR: &str = "antennas_m = [[-5.0, -0.5, -14.0], [-5.0, 0.5, -14.0]]\n";
+
+#[test]
+fn phases_tell_the_way_of_a_minute_to_centimetres_and_nothing_tells_it_without_satellites() {
+    // above the IMU, as the heading of a ship that does not turn is unknown
+    let found = segments("antennas_m = [[0.0, 0.0, -14.0]]\n", 0);
+    let [open, none] = &found[..] else { panic!("{found:?}") };
+    assert!((0.001..0.05).contains(&open.relative_rms), "{}", open.relative_rms);
+    assert!(none.relative_rms > 0.5, "{}", none.relative_rms);
+    assert!(open.position_end < 3.0 && open.velocity_end < 0.02, "{open:?}");
+}
+
+#[test]
+fn a_second_antenna_on_the_same_clock_tells_the_heading_of_a_ship_that_does_not_turn() {
+    let heading = |antennas: &str| segments(antennas, 5)[1].attitude_rms[0] / DEG;
+    let (one, own, shared) =
+        (heading(""), heading(PAIR), heading(&format!("{PAIR}common_clock = [1, 2]\n")));
+    assert!(one > 10.0 && own < 0.5, "{one} {own}");
+    assert!(shared <= own, "{shared} {own}");
+}
+
+#[test]
+fn what_is_not_modelled_gives_no_number() {
+    for (number, sets, told) in [
+        (7, &[][..], "no raw GNSS"),
+        (27, &[], "faults of satellites"),
+        (29, &["raw.frequencies=2"], "two frequencies"),
+        (29, &["raw.swapped=[1, 2]"], "faults of antennas"),
+        (29, &["imu.grade=perfect"], "an IMU without errors"),
+    ] {
+        let sets: Vec<Override> = sets.iter().map(|set| set.parse().unwrap()).collect();
+        let scenario = Scenario::with_overrides(shipped()[number - 1].1, &sets).unwrap();
+        let message = satellite_limit(&scenario, 1).unwrap_err().to_string();
+        assert!(message.contains(told), "{number} {sets:?}: {message}");
+    }
+}
