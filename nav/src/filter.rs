@@ -56,6 +56,7 @@ mod leaps;
 mod level;
 mod mending;
 mod misconduct;
+mod misplaced;
 mod mode;
 mod moored;
 mod motion;

@@ -52,6 +52,8 @@ pub struct RiskModel {
     pub satellite_fails: f64,
     /// All satellites of one constellation other than GPS are wrong, 1/h.
     pub constellation_fails: f64,
+    /// A base stands elsewhere than it says, where nobody on board answers for its place: a probability.
+    pub base_misplaced: f64,
     /// A log is wrong, 1/h.
     pub log_fails: f64,
     /// A compass is wrong, 1/h.
@@ -62,7 +64,7 @@ pub struct RiskModel {
 
 /// IMO A.915(22), appendix 2, for the risk and its time. Satellites and constellations: of the order that
 /// integrity monitoring in aviation assumes of them. Receivers: failed positions of a constellation (Sensors 19 (2019) 4847, table 3). Interference where none is
-/// expected, logs, compasses: assumed. Three axes of 50 000 h each for a triad.
+/// expected, logs, compasses: assumed. Bases: assumed. Three axes of 50 000 h each for a triad.
 impl Default for RiskModel {
     fn default() -> Self {
         RiskModel {
@@ -73,6 +75,7 @@ impl Default for RiskModel {
             receiver_deceived: 1e-5,
             satellite_fails: 1e-5,
             constellation_fails: 1e-4,
+            base_misplaced: 1e-2,
             log_fails: 1e-4,
             heading_fails: 1e-4,
             imu_fails: 6e-5,

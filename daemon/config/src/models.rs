@@ -130,6 +130,8 @@ pub struct ProtectionSection {
     pub satellite_fails_per_h: Option<f64>,
     /// All satellites of one constellation other than GPS are wrong, 1/h.
     pub constellation_fails_per_h: Option<f64>,
+    /// A base stands elsewhere than it says, where its `sensor` has no coordinates of it: a probability.
+    pub base_misplaced: Option<f64>,
     /// A log is wrong, 1/h.
     pub log_fails_per_h: Option<f64>,
     /// A compass is wrong, 1/h.
@@ -384,6 +386,7 @@ impl ProtectionSection {
             receiver_deceived_per_h [0.0, 1.0] => own.receiver_deceived;
             satellite_fails_per_h [0.0, 1.0] => own.satellite_fails;
             constellation_fails_per_h [0.0, 1.0] => own.constellation_fails;
+            base_misplaced [0.0, 1.0] => own.base_misplaced;
             log_fails_per_h [0.0, 1.0] => own.log_fails;
             heading_fails_per_h [0.0, 1.0] => own.heading_fails;
             imu_fails_per_h [0.0, 1.0] => own.imu_fails;

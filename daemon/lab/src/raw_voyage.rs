@@ -112,10 +112,11 @@ fn base(
         let is_moving = header.is_moving;
         let by_file = header.position.map(|place| Ecef(place.into()));
         // what was surveyed is the place of one that stands
-        let position = surveyed.filter(|_| !is_moving).or(by_file);
+        let by_survey = surveyed.filter(|_| !is_moving);
+        let (position, is_surveyed) = (by_survey.or(by_file), by_survey.is_some());
         is_known &= position.is_some();
         let time = Time::START + epoch.tag.since(start);
-        let told = BaseEpoch { time, station: None, position, is_moving, epoch };
+        let told = BaseEpoch { time, station: None, position, is_surveyed, is_moving, epoch };
         let message = Message::Base(Arc::new(told));
         all.push_back(Received { receipt: time, source: Source::Base(0), message });
     }

@@ -81,7 +81,7 @@ impl Filter {
     }
 
     /// While the two are apart, or the judge is in doubt, what is claimed covers it.
-    fn claim_both(&mut self) -> Option<Report> {
+    pub(super) fn claim_both(&mut self) -> Option<Report> {
         let companion = self.companion.as_deref()?;
         let (was_apart, docket) = (self.court.beside.is_some(), companion.docket());
         let is_apart = self.apart_from(companion).max(self.turned_from(companion)) > APART

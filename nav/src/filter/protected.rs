@@ -127,6 +127,7 @@ impl Filter {
             one.apart += apart;
             one.growth += growth;
         }
+        all.extend(self.base_misplaced(companion, model));
         let used: Vec<_> = self.satellites.used(now).collect();
         for (at, slow, satellite) in &used {
             all.extend(self.without(&[*at], *slow, model.chance(model.satellite_fails)));

@@ -85,6 +85,8 @@ impl Filter {
         self.begin_arcs(&seated);
         self.use_phases(&seated, (told, source), report);
         self.use_rates(&seated, (told, source), report);
+        // what has moved this one has not moved the companion, and the next fix is a second away
+        self.claim_both();
         self.protect_at_epochs();
     }
 

@@ -84,9 +84,14 @@ impl Filter {
             return Err(RtkSilence::Contradicted);
         }
         self.absorb(&weighed);
-        self.rtk.used = Some(self.state.time);
+        let is_first = self.rtk.used.replace(self.state.time).is_none();
         let far = BASELINE * place.baseline;
         self.rtk.base_std = Some(BASE.map(|std| std + far));
+        self.rtk.is_base_surveyed = place.is_surveyed;
+        if is_first {
+            // so much more is claimed from now on
+            self.protect();
+        }
         Ok(())
     }
 

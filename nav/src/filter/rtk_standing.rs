@@ -15,6 +15,8 @@ pub(super) struct RtkStanding {
     pub(super) used: Option<Time>,
     /// 1-sigma of what the base's coordinates are off by, level and down, m, once a place has been used.
     pub(super) base_std: Option<[f64; 2]>,
+    /// Whether somebody on board answers for where the base is, as of that place.
+    pub(super) is_base_surveyed: bool,
     /// In a row that contradict the ship, or agree while that is not believed.
     refuted: u8,
     agreeing: u8,

@@ -60,7 +60,8 @@ impl Judge {
         if !self.in_doubt {
             return Some(self.shadow());
         }
-        let others = self.suspect.filter(|suspect| suspect.party() != Party::Imu);
+        let is_alone = |suspect: &Charge| !self.lies_another(suspect.party());
+        let others = self.suspect.filter(|own| own.party() != Party::Imu && is_alone(own));
         others.map(|suspect| self.alternative(&suspect))
     }
 

@@ -213,7 +213,7 @@ impl Judge {
 
     /// Whether somebody else lies beside him, as whoever does not believe him has found out: then what is made of the
     /// others' word is no better than the navigator's estimate, which has refused them.
-    fn lies_another(&self, whom: Party) -> bool {
+    pub(super) fn lies_another(&self, whom: Party) -> bool {
         self.success(whom).is_some_and(|success| success.worst > BLATANT)
     }
 

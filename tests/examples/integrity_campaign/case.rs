@@ -235,13 +235,13 @@ impl Case {
     }
 }
 
-/// A base within some kilometres, with more of its table.
+/// A base within some kilometres, for whose place nobody on board answers, with more of its table.
 fn base(draw: &mut Draw, place: &Geodetic, more: &str) -> String {
     let north = draw.between(-0.03, 0.03);
     let east = draw.between(-0.03, 0.03);
     let comma = if more.is_empty() { "" } else { ", " };
     format!(
-        "base = {{ lat_deg = {}, lon_deg = {}, height_m = {}{comma}{more} }}",
+        "base = {{ lat_deg = {}, lon_deg = {}, height_m = {}, surveyed = false{comma}{more} }}",
         place.latitude.to_degrees() + north,
         place.longitude.to_degrees() + east,
         place.height + draw.between(5.0, 30.0)

@@ -29,7 +29,14 @@ fn sail(
     let of_base = station.epochs.iter().map(|epoch| {
         let time = Time::START + epoch.tag.since(epochs.start);
         let epoch = epoch.clone();
-        let mut own = BaseEpoch { time, station: None, position: place, is_moving: false, epoch };
+        let mut own = BaseEpoch {
+            time,
+            station: None,
+            position: place,
+            is_surveyed: true,
+            is_moving: false,
+            epoch,
+        };
         base(time.as_seconds(), &mut own);
         Received { receipt: time, source: Source::Base(0), message: Message::Base(Arc::new(own)) }
     });

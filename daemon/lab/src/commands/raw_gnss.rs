@@ -48,7 +48,8 @@ pub(super) fn files(raw: &RawGnss) -> anyhow::Result<RawFiles> {
         let place = ecef(&base.position).0;
         write_observations(&header("base", rate, Some(place.into())), &base.epochs)
     };
-    let tables = Tables { raw: &raw.spec, base: raw.base.as_ref().map(BaseTable::from) };
+    let surveyed = raw.base.as_ref().filter(|base| base.is_surveyed);
+    let tables = Tables { raw: &raw.spec, base: surveyed.map(BaseTable::from) };
     let ionosphere = [(Constellation::Gps, raw.ionosphere)];
     Ok(RawFiles {
         antennas: (1..).zip(&raw.antennas).map(antenna).collect(),

@@ -118,7 +118,9 @@ impl Base {
         self.status.position = position;
         let news = (self.unplaced == UNPLACED).then_some(BaseNews::Unplaced);
         let (station, is_moving) = (self.status.station, self.place.is_moving());
-        (BaseEpoch { time, station, position: position.map(Ecef), is_moving, epoch }, news)
+        let is_surveyed = self.place.is_surveyed();
+        let position = position.map(Ecef);
+        (BaseEpoch { time, station, position, is_surveyed, is_moving, epoch }, news)
     }
 }
 

@@ -52,6 +52,11 @@ impl Place {
         self.settings.moving
     }
 
+    /// Whether where it is stands in the configuration, and nothing that it tells speaks against that.
+    pub(super) fn is_surveyed(&self) -> bool {
+        self.configured.is_some() && !self.contradicts
+    }
+
     /// How far it is from the ship, m.
     pub(super) fn distance(&self) -> Option<f64> {
         self.distance
@@ -188,8 +193,10 @@ mod tests {
         let news = place.hear(&told(1, (lat, lon, height + 20.0)), at(1.0));
         assert!(matches!(news[1], BaseNews::Contradicts { by } if (by - 20.0).abs() < 1e-6));
         assert_eq!(place.at(at(1.0)), Some(configured));
+        assert!(!place.is_surveyed(), "one of the two is wrong");
         let news = place.hear(&told(1, HARBOUR), at(2.0));
         assert_eq!(news[1], BaseNews::Agrees);
+        assert!(place.is_surveyed());
     }
 
     #[test]

@@ -165,6 +165,13 @@ pub(crate) struct RawBase {
     /// Where it says it is less where it is, north, east, down.
     #[serde(default)]
     pub(crate) told_off_m: [f64; 3],
+    /// Whether somebody on board has it surveyed where it says it is; else that is its word alone.
+    #[serde(default = "surveyed")]
+    pub(crate) surveyed: bool,
+}
+
+fn surveyed() -> bool {
+    true
 }
 
 /// Raw GNSS. The first keys are those of a voyage's `[raw]` table.

@@ -62,6 +62,8 @@ impl RawSpec {
 pub struct RawBaseStation {
     /// Its antenna, as it says: not always where it is.
     pub position: Geodetic,
+    /// Somebody on board has it surveyed there.
+    pub is_surveyed: bool,
     /// What it measures.
     pub epochs: Vec<SatelliteEpoch>,
 }

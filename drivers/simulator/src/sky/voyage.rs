@@ -153,7 +153,8 @@ impl Sailing<'_> {
         let epochs = receiver.epochs(world, &scene, self.clocks(0), [&still, &still], &|_| 0.0);
         slips.extend(receiver.slips());
         let off = c_ne(&point).tr_mul(&Vector3::from(base.told_off_m));
-        RawBaseStation { position: geodetic(&Ecef(ecef(&point).0 + off)), epochs }
+        let position = geodetic(&Ecef(ecef(&point).0 + off));
+        RawBaseStation { position, is_surveyed: base.surveyed, epochs }
     }
 
     /// The tags of the receiver of one antenna, 0 for the base station, each with what its clock is then.

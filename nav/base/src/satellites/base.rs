@@ -13,6 +13,8 @@ pub struct BaseEpoch {
     pub station: Option<u16>,
     /// Reference point of its antenna, in the frame of its network, m; `None` while nobody has told it.
     pub position: Option<Ecef>,
+    /// That position is by a survey that somebody on board answers for, and not the base's own word alone.
+    pub is_surveyed: bool,
     /// It moves: the position is that of about this epoch, and known no better than a single point may be.
     pub is_moving: bool,
     /// What it measured, with its own tag.

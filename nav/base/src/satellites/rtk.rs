@@ -26,6 +26,8 @@ pub struct RtkPlace {
     pub covariance: Matrix3<f64>,
     /// Distance to the base, m.
     pub baseline: f64,
+    /// Where the base is somebody on board answers for, and not its own word alone.
+    pub is_surveyed: bool,
     /// By how much the base's epoch is older, s.
     pub age: f64,
     /// The chance that the integers are wrong, by what the candidates weigh against each other.

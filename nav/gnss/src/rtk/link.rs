@@ -116,11 +116,16 @@ impl RtkLink {
         if is_withdrawal {
             (self.fixed, self.is_sure) = (None, false);
         }
-        let place = told.map_err(silence).and_then(|told| self.place(&told, &position));
+        let place = told.map_err(silence).and_then(|told| self.place(&told, &base, &position));
         Some(RtkEpoch { time, place, is_withdrawal })
     }
 
-    fn place(&mut self, told: &RtkSolution, base: &Vector3<f64>) -> Result<RtkPlace, RtkSilence> {
+    fn place(
+        &mut self,
+        told: &RtkSolution,
+        base: &BaseEpoch,
+        at: &Vector3<f64>,
+    ) -> Result<RtkPlace, RtkSilence> {
         let fix = told.fixed.as_ref().map_err(|why| silence(*why));
         let fix = match fix {
             Ok(fix) => fix,
@@ -136,7 +141,8 @@ impl RtkLink {
         Ok(RtkPlace {
             antenna: position,
             covariance: covariance * level.max(1.0),
-            baseline: (position - base).norm(),
+            baseline: (position - at).norm(),
+            is_surveyed: base.is_surveyed,
             age: told.age,
             doubt,
         })
