@@ -61,6 +61,8 @@ pub enum Carried {
     WithHeading,
     /// From the first ranges of satellites on.
     WithRanges,
+    /// From the first reading of a docking aid on, while any is heard.
+    WithRanging,
     /// While the ship is held at her berth.
     AtBerth,
 }

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Rotation2, SVector, UnitQuaternion, Vector2, Vector3, Ve
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::{declaration, no_errors};
-use crate::error_state::{ATTITUDE, DECLARATIONS, Errors, POSITION, SATELLITES};
+use crate::error_state::{ATTITUDE, DECLARATIONS, Errors, POSITION, RANGING_MARKS, SATELLITES};
 
 /// Estimated values of everything in the error state; units and axes as stated there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -70,6 +70,8 @@ pub struct Nominal {
     pub phase_constants: SVector<f64, SATELLITES>,
     /// Its drift, m/s.
     pub phase_drifts: SVector<f64, SATELLITES>,
+    /// What the survey of each mark of docking aids is off by, sigmas.
+    pub ranging_errors: SVector<f64, { 3 * RANGING_MARKS }>,
 }
 
 impl Nominal {
@@ -107,6 +109,7 @@ impl Nominal {
             reflections: SVector::zeros(),
             phase_constants: SVector::zeros(),
             phase_drifts: SVector::zeros(),
+            ranging_errors: SVector::zeros(),
         }
     }
 

@@ -17,6 +17,8 @@ pub(crate) fn checked(received: &Received, vessel: VesselKind) -> (Received, Vec
     match &mut clean.message {
         // ranges are judged one by one where they are made
         Message::Imu(_) | Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {}
+        // the filter asks whether a distance can be one
+        Message::Ranging(_) => {}
         Message::Gnss(fix) => {
             keep(&mut fix.position, is_place, "gnss_position", &mut faults);
             keep(&mut fix.velocity, |v| v.0.iter().all(is_speed), "gnss_velocity", &mut faults);

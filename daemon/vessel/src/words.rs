@@ -71,6 +71,9 @@ pub fn engine(event: &Event) -> (&'static str, Option<String>) {
             ("satellite", Some(format!("{satellite} is used again")))
         }
         Event::RtkJudged { turn, .. } => ("RTK", Some(turn.to_string())),
+        Event::RangingJudged { ranging, turn, .. } => {
+            ("docking aid", Some(format!("number {}: {turn}", ranging + 1)))
+        }
         Event::SourceChanged { to, why, .. } => {
             ("source", Some(format!("best source {}: {why}", to.as_str())))
         }

@@ -6,6 +6,7 @@ use std::fmt;
 use crate::installation::Finding;
 use crate::messages::Source;
 use crate::party::{ReceiverChange, Stands};
+use crate::ranging::RangingTurn;
 use crate::satellites::{RtkSilence, RtkTurn, SatelliteId};
 use crate::solution::{Mode, SolutionSource};
 use crate::time::Time;
@@ -350,6 +351,15 @@ pub enum Event {
         time: Time,
         /// How.
         turn: RtkTurn,
+    },
+    /// A docking aid is believed otherwise than before.
+    RangingJudged {
+        /// When.
+        time: Time,
+        /// Which, in the order of the configuration.
+        ranging: u8,
+        /// How.
+        turn: RangingTurn,
     },
     /// The best source of the solution is another one.
     SourceChanged {

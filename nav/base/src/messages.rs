@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::frames::{Body, Geodetic, Ned};
 use crate::gnss::GnssFix;
+use crate::ranging::RangingReading;
 use crate::satellites::{BaseEpoch, RtkEpoch, SatelliteRanges};
 use crate::time::Time;
 
@@ -87,10 +88,12 @@ pub enum Source {
     Reference(u8),
     /// Base station, which is not on board.
     Base(u8),
+    /// Docking aid.
+    Ranging(u8),
 }
 
 impl Source {
-    /// Short name for tables and events: `imu`, `gnss`, `log`, `reference`, `base`.
+    /// Short name for tables and events: `imu`, `gnss`, `log`, `reference`, `base`, `ranging`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -99,6 +102,7 @@ impl Source {
             Source::Log(_) => "log",
             Source::Reference(_) => "reference",
             Source::Base(_) => "base",
+            Source::Ranging(_) => "ranging",
         }
     }
 }
@@ -120,6 +124,8 @@ pub enum Message {
     Base(Arc<BaseEpoch>),
     /// What an epoch of ranges came to against a base.
     Rtk(RtkEpoch),
+    /// Distance of a docking aid.
+    Ranging(RangingReading),
 }
 
 impl Message {
@@ -134,6 +140,7 @@ impl Message {
             Message::Ranges(m) => m.time,
             Message::Base(m) => m.time,
             Message::Rtk(m) => m.time,
+            Message::Ranging(m) => m.time,
         }
     }
 }

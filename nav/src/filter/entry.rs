@@ -12,6 +12,8 @@ pub(super) const CODE_AID: &str = "satellite_code";
 pub(super) const RATE_AID: &str = "satellite_rate";
 pub(super) const PHASE_AID: &str = "satellite_phase";
 pub(super) const RTK_AID: &str = "rtk_position";
+/// That of docking aids.
+pub(super) const RANGING_AID: &str = "ranging";
 
 /// What the gates said of an innovation.
 #[derive(Clone, Copy, Debug, PartialEq)]

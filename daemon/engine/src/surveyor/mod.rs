@@ -208,7 +208,11 @@ impl Surveyor {
                     self.probation.hear(told, (own.attitude.heading, own.sigma.heading));
                 }
             }
-            Message::Imu(_) | Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {}
+            Message::Imu(_)
+            | Message::Ranges(_)
+            | Message::Base(_)
+            | Message::Rtk(_)
+            | Message::Ranging(_) => {}
         }
     }
 

@@ -67,6 +67,9 @@ pub fn event(event: &Event) -> String {
         }
         Event::SatelliteJudged { satellite, .. } => format!("{satellite} is used again"),
         Event::RtkJudged { turn, .. } => turn.to_string(),
+        Event::RangingJudged { ranging, turn, .. } => {
+            format!("Docking aid {}: {turn}", ranging + 1)
+        }
         Event::SourceChanged { to, .. } => format!("Best source {}", to.as_str()),
         Event::PositionReset { .. } => "Position set anew".to_owned(),
         Event::StoredStateUsed { .. } => "Stored heading confirmed".to_owned(),

@@ -53,7 +53,7 @@ impl DemoSensor {
                 DemoSensor::Gnss
             }
             Message::Log(_) => DemoSensor::Log,
-            Message::Reference(_) => DemoSensor::Reference,
+            Message::Reference(_) | Message::Ranging(_) => DemoSensor::Reference,
         }
     }
 }
