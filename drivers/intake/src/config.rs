@@ -1,6 +1,6 @@
 //! What is plugged in: ports by their link, sensors by their format and place.
 
-use insd_base::Body;
+use insd_base::{Body, RangingTarget};
 use insd_wire::imu::can::LayoutChoice;
 use insd_wire::imu::kvh::{KvhFormat, KvhLinear, KvhRotation, KvhTemperature};
 use insd_wire::imu::stim::{StimFormat, StimKind, StimRange};
@@ -60,6 +60,11 @@ pub enum Kind {
     NmeaPosition,
     /// Positions and headings typed in by an operator (PINSD).
     Manual,
+    /// Docking aids that tell a distance each: PINSD,RNG. What they measure to stands in `[[ranging]]`.
+    Ranging,
+    /// A local position reference, CyScan or RadaScan: RLS. Where its targets are stands in `[[ranging]]`, and the direction of its axis A in
+    /// `heading_offset_deg`.
+    Rls,
     /// A GNSS receiver of NMEA 2000: 129029, 129026, 129539, 129542, 126992, 129033.
     N2kGnss,
     /// A compass of NMEA 2000: 127250; 127257 if `yaw` is set.
@@ -85,6 +90,8 @@ pub enum Role {
     Heading,
     /// Position.
     Position,
+    /// Distances to lines and points ashore.
+    Ranging,
     /// The other end of differences of satellites.
     Base,
 }
@@ -223,6 +230,25 @@ pub struct IntakeConfig {
     pub sensors: Vec<SensorConfig>,
     /// Name of the only IMU that is used; the others are listened to. The best that is valid if left out.
     pub imu: Option<String>,
+    /// Docking aids, in the order of their [`insd_base::Source`].
+    pub rangings: Vec<RangingSpec>,
+}
+
+/// A docking aid: one head, one anchor, and what it measures to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RangingSpec {
+    /// Name of the sensor that tells its distances.
+    pub sensor: String,
+    /// Its number there.
+    pub head: u32,
+    /// Number of what it measures to: of the same line or point for all that do.
+    pub mark: u16,
+    /// What it measures to.
+    pub target: RangingTarget,
+    /// The point of the ship, from the IMU.
+    pub lever: Body,
+    /// 1-sigma of a reading that states none, m.
+    pub std: f64,
 }
 
 /// A fault of a sensor's description.
@@ -277,6 +303,7 @@ impl Kind {
             Kind::NmeaLog | Kind::Pd0 | Kind::Pd6 | Kind::Nortek | Kind::N2kLog => Role::Log,
             Kind::Compass | Kind::Psxn | Kind::Pashr | Kind::N2kHeading => Role::Heading,
             Kind::NmeaPosition | Kind::Manual | Kind::N2kPosition => Role::Position,
+            Kind::Ranging | Kind::Rls => Role::Ranging,
             Kind::RtcmBase => Role::Base,
         }
     }
@@ -303,7 +330,9 @@ impl Kind {
             | Kind::Psxn
             | Kind::Pashr
             | Kind::NmeaPosition
-            | Kind::Manual => Protocol::Nmea,
+            | Kind::Manual
+            | Kind::Ranging
+            | Kind::Rls => Protocol::Nmea,
             Kind::N2kGnss | Kind::N2kHeading | Kind::N2kLog | Kind::N2kPosition | Kind::CanImu => {
                 return None;
             }

@@ -183,3 +183,80 @@ impl Filter {
 fn is_distance(reading: &RangingReading) -> bool {
     reading.distance.abs() < FARTHEST && reading.std > 0.0 && reading.std.is_finite()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::filter::checkpoint::tests;
+    use crate::timeline::Estimator;
+    use insd_base::{
+        Body, Ecef, Geodetic, Message, RangingBeam, RangingLine, RangingTarget, RangingTurn,
+        Received, earth,
+    };
+    use nalgebra::Vector3;
+
+    /// A line that runs north, 20 m east of where the filter has the ship.
+    fn reading(filter: &Filter, distance: f64) -> RangingReading {
+        let view = filter.view();
+        let end = |north: f64| -> Geodetic {
+            let way = view.c_ne.tr_mul(&Vector3::new(north, 20.0, 0.0));
+            earth::geodetic(&Ecef(view.nominal.position + way))
+        };
+        RangingReading {
+            time: filter.time(),
+            mark: 4,
+            target: RangingTarget::Line(RangingLine {
+                ends: [end(-100.0), end(100.0)],
+                water_right: false,
+                std: 0.1,
+                beam: RangingBeam::Across,
+            }),
+            lever: Body::default(),
+            distance,
+            std: 0.03,
+        }
+    }
+
+    fn apply(filter: &mut Filter, reading: &RangingReading) -> Report {
+        let (receipt, source) = (filter.time(), Source::Ranging(0));
+        filter.apply(&Received { receipt, source, message: Message::Ranging(*reading) })
+    }
+
+    #[test]
+    fn many_readings_do_not_make_a_line_better_known_than_its_survey() {
+        let (_, mut filter) = tests::filter();
+        let told = reading(&filter, 20.0);
+        for _ in 0..2000 {
+            let report = apply(&mut filter, &told);
+            assert_eq!(report.aids[0].outcome, Outcome::Accepted);
+        }
+        let east = filter.view().c_ne.row(1) * POSITION.covariance(filter.covariance());
+        let std = (east * filter.view().c_ne.row(1).transpose())[0].sqrt();
+        // between two ends that are off each for itself
+        assert!((std - 0.1 / 2.0_f64.sqrt()).abs() < 0.003, "{std}");
+    }
+
+    #[test]
+    fn what_contradicts_is_refused_each_time_and_told_once_and_the_states_leave_after_it() {
+        let (_, mut filter) = tests::filter();
+        for _ in 0..50 {
+            let told = reading(&filter, 20.0);
+            apply(&mut filter, &told);
+        }
+        let (mut turns, before) = (Vec::new(), filter.nominal().position);
+        let wrong = reading(&filter, 23.0);
+        for step in 0..40 {
+            let own = RangingReading { distance: 23.0 + 0.001 * f64::from(step), ..wrong };
+            filter.state.time = filter.state.time + insd_base::Span::from_seconds(0.1);
+            let report = apply(&mut filter, &own);
+            assert_eq!(report.aids[0].outcome, Outcome::Rejected(Rejection::ChiSquare));
+            turns.extend(report.rangings.iter().map(|(_, number, turn)| (*number, *turn)));
+        }
+        assert_eq!(turns, [(0, RangingTurn::Contradicted)]);
+        assert_eq!(filter.nominal().position, before);
+        assert!(filter.covariance().has(RANGING_ERRORS));
+        filter.state.time = filter.state.time + insd_base::Span::from_seconds(400.0);
+        filter.forget_silent_marks();
+        assert!(!filter.covariance().has(RANGING_ERRORS));
+    }
+}
