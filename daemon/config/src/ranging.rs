@@ -1,7 +1,8 @@
 //! Docking aids: `[[ranging]]`, one for each head or anchor.
 
 use insd_base::{Body, Ecef, Geodetic, RangingBeam, RangingLine, RangingTarget, earth};
-use insd_intake::config::{Kind, RangingSpec};
+use insd_intake::config::Kind;
+use insd_intake::ranging::RangingSpec;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,9 +1,7 @@
 //! What is plugged in: ports by their link, sensors by their format and place.
 
-use insd_base::{Body, RangingTarget};
+use insd_base::Body;
 use insd_wire::imu::can::LayoutChoice;
-use insd_wire::imu::kvh::{KvhFormat, KvhLinear, KvhRotation, KvhTemperature};
-use insd_wire::imu::stim::{StimFormat, StimKind, StimRange};
 pub use insd_wire::nmea::PashrDialect as Dialect;
 use insd_wire::stream::Protocol;
 use schemars::JsonSchema;
@@ -13,6 +11,7 @@ use crate::base::BaseSettings;
 use crate::device::DeviceFilter;
 use crate::mounting::Mounting;
 use crate::port::Link;
+use crate::ranging::RangingSpec;
 use crate::satellites::RawUse;
 use crate::sensor::TimeBase;
 
@@ -234,23 +233,6 @@ pub struct IntakeConfig {
     pub rangings: Vec<RangingSpec>,
 }
 
-/// A docking aid: one head, one anchor, and what it measures to.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RangingSpec {
-    /// Name of the sensor that tells its distances.
-    pub sensor: String,
-    /// Its number there.
-    pub head: u32,
-    /// Number of what it measures to: of the same line or point for all that do.
-    pub mark: u16,
-    /// What it measures to.
-    pub target: RangingTarget,
-    /// The point of the ship, from the IMU.
-    pub lever: Body,
-    /// 1-sigma of a reading that states none, m.
-    pub std: f64,
-}
-
 /// A fault of a sensor's description.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ConfigFault {
@@ -343,50 +325,6 @@ impl Kind {
     #[must_use]
     pub fn is_n2k(self) -> bool {
         matches!(self, Kind::N2kGnss | Kind::N2kHeading | Kind::N2kLog | Kind::N2kPosition)
-    }
-}
-
-impl KvhSettings {
-    /// The decoder's form, for messages at this interval, s.
-    #[must_use]
-    pub fn format(&self, interval: f64) -> KvhFormat {
-        KvhFormat {
-            rotation: if self.rates { KvhRotation::Rate } else { KvhRotation::Delta },
-            degrees: self.degrees,
-            linear: if self.delta_velocity {
-                KvhLinear::DeltaMetres
-            } else {
-                KvhLinear::Acceleration
-            },
-            temperature: if self.centidegrees {
-                KvhTemperature::CentiCelsius
-            } else {
-                KvhTemperature::Celsius
-            },
-            interval,
-        }
-    }
-}
-
-impl StimSettings {
-    /// The decoder's form, for datagrams at this interval, s; `None` for a range that no unit has.
-    #[must_use]
-    pub fn format(&self, interval: f64) -> Option<StimFormat> {
-        let kind = |increments| if increments { StimKind::Increment } else { StimKind::Rate };
-        let range = match self.range_g {
-            2 => StimRange::G2,
-            5 => StimRange::G5,
-            10 => StimRange::G10,
-            30 => StimRange::G30,
-            80 => StimRange::G80,
-            _ => return None,
-        };
-        Some(StimFormat {
-            gyro: kind(self.gyro_increments),
-            accel: kind(self.accel_increments),
-            range,
-            interval: Some(interval),
-        })
     }
 }
 

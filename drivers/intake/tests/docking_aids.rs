@@ -6,9 +6,10 @@ use insd_base::{
     Arrival, Body, ExternalReference, Geodetic, GnssFix, Input, Message, PortId, RangingReading,
     RangingTarget, Source, Stamp, Time, UtcTime,
 };
-use insd_intake::config::{IntakeConfig, Kind, PortSpec, RangingSpec, SensorConfig};
+use insd_intake::config::{IntakeConfig, Kind, PortSpec, SensorConfig};
 use insd_intake::event::Refusal;
 use insd_intake::port::Link;
+use insd_intake::ranging::RangingSpec;
 use insd_intake::{Intake, Intaken};
 
 /// Noon of a day in 2026, ns since 1970.
@@ -69,10 +70,8 @@ fn distances(all: &[(Source, Message)]) -> Vec<(Source, RangingReading)> {
 
 #[test]
 fn two_heads_on_one_line_are_told_apart_and_each_is_as_old_as_it_says() {
-    let sensor = SensorConfig {
-        latency_s: 0.1,
-        ..SensorConfig::new("lasers", "port", Kind::Ranging)
-    };
+    let sensor =
+        SensorConfig { latency_s: 0.1, ..SensorConfig::new("lasers", "port", Kind::Ranging) };
     let (all, intake) = told(vec![sensor], vec![spec("lasers", 1), spec("lasers", 2)], |tenth| {
         let stern = if tenth < 200 { "8.000,A,,0.25" } else { ",V,," };
         sentence("PINSD,RNG,1,12.345,A,0.020,")

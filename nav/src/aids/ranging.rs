@@ -26,7 +26,7 @@ const SLANT: f64 = 0.5;
 
 /// A predicted distance and what it depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Prediction {
+pub struct RangingPrediction {
     /// Distance, m.
     pub distance: f64,
     /// Its gradient by the place of the ship, ECEF axes.
@@ -40,7 +40,7 @@ pub struct Prediction {
 /// Predicts a distance; `mark` is the number of what it is measured to among the error states. `None` where there is none:
 /// a beam that does not meet the line, or grazes it.
 #[must_use]
-pub fn predict(view: &View, reading: &RangingReading, mark: usize) -> Option<Prediction> {
+pub fn predict(view: &View, reading: &RangingReading, mark: usize) -> Option<RangingPrediction> {
     let arm = view.c_eb * reading.lever.0;
     let errors = view.nominal.ranging_errors.fixed_rows::<3>(3 * mark).into_owned();
     match &reading.target {
@@ -52,7 +52,7 @@ pub fn predict(view: &View, reading: &RangingReading, mark: usize) -> Option<Pre
 /// Innovation of a reading; `more` is a variance beyond that of the reading, m^2.
 #[must_use]
 pub fn innovation(
-    prediction: &Prediction,
+    prediction: &RangingPrediction,
     reading: &RangingReading,
     mark: usize,
     more: f64,
@@ -73,7 +73,7 @@ fn to_point(
     (place, [level, down]): (&Geodetic, &[f64; 2]),
     arm: &Vector3<f64>,
     errors: &Vector3<f64>,
-) -> Option<Prediction> {
+) -> Option<RangingPrediction> {
     let to_ned = earth::c_ne(place);
     let std = Vector3::new(*level, *level, *down);
     let off = to_ned.tr_mul(&std.component_mul(errors));
@@ -81,7 +81,7 @@ fn to_point(
     let distance = away.norm();
     let unit = away.try_normalize(f64::EPSILON)?;
     let by_survey = (to_ned * unit).component_mul(&std);
-    Some(Prediction { distance, gradient: -unit, arm: *arm, by_survey })
+    Some(RangingPrediction { distance, gradient: -unit, arm: *arm, by_survey })
 }
 
 /// The upright face above a line, ECEF axes.
@@ -109,7 +109,7 @@ impl Face {
         view: &View,
         (line, arm): (&RangingLine, &Vector3<f64>),
         errors: &Vector3<f64>,
-    ) -> Option<Prediction> {
+    ) -> Option<RangingPrediction> {
         let from_origin = view.nominal.position + arm - self.origin;
         // the line as it is taken to be is a plane, too: its ends are off by these
         let [at_first, at_second] = [errors.x, errors.y].map(|error| error * line.std);
@@ -119,7 +119,7 @@ impl Face {
             Vector3::new(1.0 - share, share, 0.0) * (-line.std * factor)
         };
         match line.beam {
-            RangingBeam::Across => Some(Prediction {
+            RangingBeam::Across => Some(RangingPrediction {
                 distance: normal.dot(&from_origin) - at_first,
                 gradient: normal,
                 arm: *arm,
@@ -131,7 +131,7 @@ impl Face {
                 let ahead = (at - self.along.dot(&from_origin)) / with;
                 let share = at / self.length;
                 let off = at_first * (1.0 - share) + at_second * share;
-                (with.abs() > SLANT).then(|| Prediction {
+                (with.abs() > SLANT).then(|| RangingPrediction {
                     distance: self.across.dot(&(from_origin + side * ahead)) - off,
                     gradient: self.across - self.along * (self.across.dot(&side) / with),
                     arm: arm + side * ahead,
@@ -143,7 +143,7 @@ impl Face {
                 let towards = -normal.dot(&beam);
                 let distance = (normal.dot(&from_origin) - at_first) / towards;
                 let hit = from_origin + beam * distance;
-                (towards > SLANT && distance > 0.0).then(|| Prediction {
+                (towards > SLANT && distance > 0.0).then(|| RangingPrediction {
                     distance,
                     gradient: normal / towards,
                     arm: arm + beam * distance,

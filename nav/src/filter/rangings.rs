@@ -11,7 +11,7 @@ use super::Filter;
 use super::bent::bent_distance;
 use super::entry::{Judged, NO_INNOVATION, RANGING_AID, detail, enter};
 use super::ranging_standing::RangingStanding;
-use crate::aids::ranging::{self, Prediction};
+use crate::aids::ranging::{self, RangingPrediction};
 use crate::declaration::{Carried, carried};
 use crate::error_state::{ATTITUDE, POSITION, RANGING_ERRORS, RANGING_MARKS, VELOCITY, Weighed};
 use crate::judge::Separation;
@@ -132,7 +132,7 @@ impl Filter {
     }
 
     /// What a linear filter leaves out of a long arm that an unsure attitude turns, m^2.
-    fn bent_ranging(&self, prediction: &Prediction) -> f64 {
+    fn bent_ranging(&self, prediction: &RangingPrediction) -> f64 {
         let attitude = ATTITUDE.covariance(&self.state.covariance);
         bent_distance(&attitude, &prediction.gradient, &prediction.arm)
     }

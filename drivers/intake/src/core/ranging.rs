@@ -3,9 +3,9 @@
 use insd_base::{Message, RangingReading, Source, Span, Stamp};
 
 use super::{Came, Core};
-use crate::config::RangingSpec;
 use crate::decode::HeadDistance;
 use crate::event::Refusal;
+use crate::ranging::RangingSpec;
 use crate::sensor::Pace;
 
 /// One of them, and how often it speaks.
