@@ -124,10 +124,7 @@ fn sail(voyage: &Voyage, rangings: Vec<Received>) -> Logbook {
     let mut all = voyage.received();
     all.extend(rangings);
     all.sort_by_key(|received| received.receipt);
-    let mut config = EngineConfig::for_voyage(&voyage.header, 10.0);
-    // as slow as the errors of the simulated receiver are, s: the survey of the line is learnt from them
-    config.models.gnss.rtk_position_time = 300.0;
-    sail_messages(&config, &all, 7)
+    sail_messages(&EngineConfig::for_voyage(&voyage.header, 10.0), &all, 7)
 }
 
 /// Errors of bow and stern across the quay while satellites are gone, m.

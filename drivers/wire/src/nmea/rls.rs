@@ -57,7 +57,7 @@ mod tests {
         };
         let line = rls.write();
         assert!(line.as_str().starts_with("$RLS,-012.34,+105.60,A,271.500,V,00A1*"), "{line:?}");
-        assert_eq!(line.as_str().len(), 42);
+        assert_eq!(line.as_bytes().len(), 42);
         let (talker, read) = Sentence::read(line.as_bytes()).unwrap();
         assert_eq!(talker, None);
         assert_eq!(read.write(crate::nmea::Talker::IN), line);

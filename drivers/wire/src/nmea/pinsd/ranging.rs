@@ -32,6 +32,6 @@ mod tests {
             std: Some(999.999),
             age: Some(99.99),
         };
-        assert_eq!(Pinsd::Range(longest).write().as_str().len(), PinsdRange::LONGEST);
+        assert_eq!(Pinsd::Range(longest).write().as_bytes().len(), PinsdRange::LONGEST);
     }
 }
