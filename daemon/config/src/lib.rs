@@ -24,6 +24,7 @@ mod plan;
 mod policy;
 mod port;
 mod ranging;
+mod rangings;
 mod read;
 pub mod reference;
 mod service;

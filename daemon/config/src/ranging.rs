@@ -1,17 +1,13 @@
 //! Docking aids: `[[ranging]]`, one for each head or anchor.
 
 use insd_base::{Body, Ecef, Geodetic, RangingBeam, RangingLine, RangingTarget, earth};
-use insd_intake::config::Kind;
-use insd_intake::ranging::RangingSpec;
+use insd_intake::config::{Kind, SensorConfig};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::berth::{BerthSection, WaterHand};
-use crate::file::Config;
 
-/// Docking aids that are told apart.
-const MOST: usize = 16;
 /// Half of what an axis of a local position reference is taken to be long, m.
 const AXIS: f64 = 100.0;
 /// A line that is shorter has no direction, and one that is longer is not one, m.
@@ -88,31 +84,31 @@ fn decimetres() -> f64 {
 }
 
 impl RangingSection {
-    fn berth<'a>(&self, config: &'a Config) -> Option<&'a BerthSection> {
-        config.berths.iter().find(|berth| Some(&berth.name) == self.berth.as_ref())
+    fn berth<'a>(&self, berths: &'a [BerthSection]) -> Option<&'a BerthSection> {
+        berths.iter().find(|berth| Some(&berth.name) == self.berth.as_ref())
     }
 
-    fn survey(&self, config: &Config) -> f64 {
-        let of_berth = self.berth(config).map(|berth| berth.std_m);
+    fn survey(&self, berths: &[BerthSection]) -> f64 {
+        let of_berth = self.berth(berths).map(|berth| berth.std_m);
         self.survey_std_m.or(of_berth).unwrap_or(0.1)
     }
 
-    fn ends(&self, config: &Config) -> Option<([Geodetic; 2], WaterHand)> {
+    fn ends(&self, berths: &[BerthSection]) -> Option<([Geodetic; 2], WaterHand)> {
         let own = self.line_deg.map(|line| {
             let place = |[lat, lon]: [f64; 2]| Geodetic::from_degrees(lat, lon, 0.0);
             (line.map(place), self.water)
         });
-        own.or_else(|| self.berth(config).map(|berth| (berth.line(), berth.water)))
+        own.or_else(|| self.berth(berths).map(|berth| (berth.line(), berth.water)))
     }
 
     /// What it measures to; `None` where nothing is named.
-    fn target(&self, config: &Config) -> Option<RangingTarget> {
-        let std = self.survey(config);
+    pub(crate) fn target(&self, berths: &[BerthSection]) -> Option<RangingTarget> {
+        let std = self.survey(berths);
         if let Some([lat, lon]) = self.point_deg {
             let place = Geodetic::from_degrees(lat, lon, self.height_m);
             return Some(RangingTarget::Point { place, std: [std, self.height_std_m] });
         }
-        let (ends, water) = self.ends(config)?;
+        let (ends, water) = self.ends(berths)?;
         let water_right = water == WaterHand::Right;
         Some(RangingTarget::Line(RangingLine { ends, water_right, std, beam: self.beam() }))
     }
@@ -129,18 +125,18 @@ impl RangingSection {
     }
 
     /// Whether it measures to the same line or point as another: both share what its survey is off by.
-    fn shares_mark(&self, other: &RangingSection) -> bool {
+    pub(crate) fn shares_mark(&self, other: &RangingSection) -> bool {
         let place =
             |own: &RangingSection| (own.berth.clone(), own.line_deg, own.point_deg, own.origin_deg);
         place(self) == place(other)
     }
 
     /// Of a local position reference: across the axis B she is A metres, and across A she is B.
-    fn axes(&self, config: &Config) -> Option<[RangingTarget; 2]> {
+    pub(crate) fn axes(&self, berths: &[BerthSection]) -> Option<[RangingTarget; 2]> {
         let [lat, lon] = self.origin_deg?;
         let origin = Geodetic::from_degrees(lat, lon, 0.0);
         let (place, c_en) = (earth::ecef(&origin).0, earth::c_ne(&origin).transpose());
-        let std = self.survey(config);
+        let std = self.survey(berths);
         let line = |turn_deg: f64, water_right: bool| {
             let (sin, cos) = (self.axis_deg + turn_deg).to_radians().sin_cos();
             let ends = [-AXIS, AXIS].map(|along| {
@@ -154,15 +150,15 @@ impl RangingSection {
     }
 
     /// All that is wrong with it, in words.
-    fn faults(&self, config: &Config) -> Vec<String> {
+    pub(crate) fn faults(&self, sensors: &[SensorConfig], berths: &[BerthSection]) -> Vec<String> {
         let mut faults = Vec::new();
         let mut expect = |good: bool, fault: &str| {
             if !good {
                 faults.push(fault.to_owned());
             }
         };
-        let of_kind = |own: &&insd_intake::config::SensorConfig| own.name == self.sensor;
-        let sensor = config.sensors.iter().find(of_kind);
+        let of_kind = |own: &&SensorConfig| own.name == self.sensor;
+        let sensor = sensors.iter().find(of_kind);
         let (kind, fault) = match self.origin_deg {
             Some(_) => (Kind::Rls, "sensor: expected the name of a [[sensor]] of kind \"rls\""),
             None => {
@@ -173,7 +169,7 @@ impl RangingSection {
         expect((1..=999).contains(&self.head), "head: expected 1 to 999");
         let near = self.lever_m.iter().all(|length| length.abs() <= 1000.0);
         expect(near, "lever_m: expected [forward, starboard, down] in m, each within +-1000");
-        let known = self.berth.is_none() || self.berth(config).is_some();
+        let known = self.berth.is_none() || self.berth(berths).is_some();
         expect(known, "berth: expected the name of a [[berth]]");
         let named = [
             self.berth.is_some(),
@@ -183,12 +179,12 @@ impl RangingSection {
         ];
         let one = named.iter().filter(|own| **own).count() == 1;
         expect(one, "name: expected one of berth, line_deg, point_deg and origin_deg");
-        self.places(config, &mut expect);
+        self.places(berths, &mut expect);
         self.numbers(&mut expect);
         faults
     }
 
-    fn places(&self, config: &Config, expect: &mut impl FnMut(bool, &str)) {
+    fn places(&self, berths: &[BerthSection], expect: &mut impl FnMut(bool, &str)) {
         let on_earth = |[lat, lon]: [f64; 2]| lat.abs() <= 90.0 && lon.abs() <= 180.0;
         let sound = self.line_deg.iter().flatten().all(|point| on_earth(*point));
         expect(sound, "line_deg: expected two of [latitude, longitude], -90 to 90 and -180 to 180");
@@ -196,7 +192,7 @@ impl RangingSection {
         expect(sound, "origin_deg: expected [latitude, longitude], -90 to 90 and -180 to 180");
         let sound = self.point_deg.is_none_or(on_earth);
         expect(sound, "point_deg: expected [latitude, longitude], -90 to 90 and -180 to 180");
-        let length = self.ends(config).map(|(ends, _)| {
+        let length = self.ends(berths).map(|(ends, _)| {
             let [from, to] = ends.map(|end| earth::ecef(&end).0);
             (to - from).norm()
         });
@@ -232,171 +228,5 @@ impl RangingSection {
         let survey = self.survey_std_m.is_none_or(sigma);
         expect(survey, "survey_std_m: expected 0.001 to 100");
         expect(sigma(self.height_std_m), "height_std_m: expected 0.001 to 100");
-    }
-}
-
-impl Config {
-    /// What the intake is told of docking aids.
-    pub(crate) fn ranging_specs(&self) -> Vec<RangingSpec> {
-        let specs = |(index, own): (usize, &RangingSection)| {
-            let first = self.rangings.iter().position(|other| other.shares_mark(own));
-            let mark = u16::try_from(2 * first.unwrap_or(index)).unwrap_or(u16::MAX - 1);
-            let [forward, starboard, down] = own.lever_m;
-            let spec = |head: u32, mark: u16, target: RangingTarget| RangingSpec {
-                sensor: own.sensor.clone(),
-                head,
-                mark,
-                target,
-                lever: Body::new(forward, starboard, down),
-                std: own.std_m,
-            };
-            match own.axes(self) {
-                Some([a, b]) => vec![spec(1, mark, a), spec(2, mark + 1, b)],
-                None => own
-                    .target(self)
-                    .map(|target| spec(own.head, mark, target))
-                    .into_iter()
-                    .collect(),
-            }
-        };
-        self.rangings.iter().enumerate().flat_map(specs).collect()
-    }
-}
-
-/// All that is wrong with docking aids, with their places.
-pub(crate) fn faults(config: &Config) -> Vec<String> {
-    let all = &config.rangings;
-    let mut faults = Vec::new();
-    for own in all {
-        let place = format!("[[ranging]] \"{}\"", own.name);
-        if all.iter().filter(|other| other.name == own.name).count() > 1 {
-            faults.push(format!("{place}: name: expected a name that no other docking aid has"));
-        }
-        let is_same =
-            |other: &&RangingSection| other.sensor == own.sensor && other.head == own.head;
-        if all.iter().filter(is_same).count() > 1 {
-            faults
-                .push(format!("{place}: head: expected a number that no other of its sensor has"));
-        }
-        faults.extend(own.faults(config).into_iter().map(|fault| format!("{place}: {fault}")));
-    }
-    if let Some(last) = all.last().filter(|_| config.ranging_specs().len() > MOST) {
-        let fault = format!("name: expected no more than {MOST} heads, where axes are two");
-        faults.push(format!("[[ranging]] \"{}\": {fault}", last.name));
-    }
-    faults
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const SURVEY: &str = include_str!("../../../systemd/examples/survey.toml");
-    const LASERS: &str = "
-[[sensor]]
-name = \"docking lasers\"
-port = \"bridge-in\"
-kind = \"ranging\"
-[[point]]
-name = \"bow\"
-lever_m = [62.0, 0.0, 4.0]
-[[point]]
-name = \"stern\"
-lever_m = [-58.0, 0.0, 4.0]
-[docking]
-bow = \"bow\"
-stern = \"stern\"
-[[berth]]
-name = \"Pier 3\"
-from_deg = [35.44, 139.65]
-to_deg = [35.44, 139.6525]
-std_m = 0.04
-[[ranging]]
-name = \"bow laser\"
-sensor = \"docking lasers\"
-head = 1
-lever_m = [60.0, 11.0, 4.0]
-berth = \"Pier 3\"
-beam = \"ashore\"
-at_m = 190.0
-[[ranging]]
-name = \"stern laser\"
-sensor = \"docking lasers\"
-head = 2
-lever_m = [-58.0, 11.0, 4.0]
-berth = \"Pier 3\"
-[[ranging]]
-name = \"anchor\"
-sensor = \"docking lasers\"
-head = 3
-lever_m = [0.0, 0.0, -20.0]
-point_deg = [35.441, 139.651]
-height_m = 48.0
-";
-
-    fn with(from: &str, to: &str) -> String {
-        assert!(LASERS.contains(from), "{from}");
-        format!("{SURVEY}{}", LASERS.replacen(from, to, 1))
-    }
-
-    #[test]
-    fn heads_on_one_berth_share_its_survey_and_an_anchor_has_its_own() {
-        let config = Config::of_text(&with("beam", "beam")).unwrap();
-        let specs = config.intake().rangings;
-        assert_eq!(specs.iter().map(|own| own.mark).collect::<Vec<_>>(), [0, 0, 4]);
-        let RangingTarget::Line(line) = specs[0].target else { panic!("{specs:?}") };
-        assert_eq!((line.std, line.beam), (0.04, RangingBeam::Ashore(190.0)));
-        assert_eq!(specs[1].lever, Body::new(-58.0, 11.0, 4.0));
-        let RangingTarget::Point { place, std } = specs[2].target else { panic!("{specs:?}") };
-        assert_eq!((place.height, std), (48.0, [0.1, 0.2]));
-    }
-
-    #[test]
-    fn each_mistake_is_told_with_its_section_its_key_and_what_was_expected() {
-        for (from, to, told) in [
-            (
-                "sensor = \"docking lasers\"",
-                "sensor = \"laser\"",
-                "[[ranging]] \"bow laser\": sensor: expected the name of a [[sensor]] of kind",
-            ),
-            ("head = 2", "head = 1", "head: expected a number that no other of its sensor has"),
-            ("head = 1", "head = 0", "head: expected 1 to 999"),
-            (
-                "berth = \"Pier 3\"\nbeam",
-                "berth = \"Pier 4\"\nbeam",
-                "berth: expected the name of a [[berth]]",
-            ),
-            (
-                "berth = \"Pier 3\"\nbeam",
-                "beam",
-                "expected one of berth, line_deg, point_deg and origin_deg",
-            ),
-            ("at_m = 190.0", "at_m = 1900.0", "at_m: expected a place on the line"),
-            ("at_m = 190.0", "", "at_m: expected with beam = \"ashore\""),
-            (
-                "beam = \"ashore\"",
-                "beam = \"aboard\"",
-                "direction_deg: expected with beam = \"aboard\"",
-            ),
-            (
-                "height_m = 48.0",
-                "beam = \"aboard\"\ndirection_deg = 90.0",
-                "beam: expected none to a point or between axes",
-            ),
-            (
-                "point_deg = [35.441, 139.651]",
-                "point_deg = [139.651, 35.441]",
-                "point_deg: expected [latitude",
-            ),
-            (
-                "point_deg = [35.441, 139.651]",
-                "line_deg = [[35.4, 139.6], [35.4, 139.6]]",
-                "line_deg: expected two points",
-            ),
-            ("head = 3", "head = 3\nstd_m = 0.0", "std_m: expected 0.001 to 100"),
-        ] {
-            let fault = Config::of_text(&with(from, to)).unwrap_err();
-            assert!(fault.contains(told), "{from} -> {to}:\n{fault}");
-        }
     }
 }

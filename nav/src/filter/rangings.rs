@@ -78,7 +78,7 @@ impl Filter {
         source: Source,
         report: &mut Report,
     ) {
-        let (judged, used_place) = match self.expect(reading) {
+        let (judged, used_place) = match self.foresee(reading) {
             Ok((place, weighed)) => {
                 let judged = self.take_ranging(&weighed, source, report);
                 (judged, (judged.outcome == Outcome::Accepted).then_some(place))
@@ -97,7 +97,7 @@ impl Filter {
     }
 
     /// A reading beside what is expected of it, and the place of its mark; or why it is nothing to the ship.
-    fn expect(&mut self, reading: &RangingReading) -> Result<(usize, Weighed), Rejection> {
+    fn foresee(&mut self, reading: &RangingReading) -> Result<(usize, Weighed), Rejection> {
         if !is_distance(reading) {
             return Err(Rejection::OutOfRange);
         }
