@@ -27,7 +27,7 @@ impl Config {
             match own.axes(&self.berths) {
                 Some([a, b]) => vec![spec(1, mark, a), spec(2, mark + 1, b)],
                 None => own
-                    .target(self)
+                    .target(&self.berths)
                     .map(|target| spec(own.head, mark, target))
                     .into_iter()
                     .collect(),
