@@ -63,6 +63,8 @@ pub enum Carried {
     WithRanges,
     /// From the first epoch of several antennas on.
     WithAntennas,
+    /// From the first reading of a docking aid on, while any is heard.
+    WithRanging,
     /// While the ship is held at her berth.
     AtBerth,
 }

@@ -42,6 +42,11 @@ pub const PHASE_DRIFT: f64 = 5e-4;
 /// By what its reflections walk beside that, m per root of a second.
 const PHASE_WALK: f64 = 5e-4;
 
+/// Lines and points ashore that docking aids measure to at once.
+pub const RANGING_MARKS: usize = 4;
+/// How long their surveys, and the zeros of their instruments, go on to be off by the same, s.
+const SURVEY_TIME: f64 = 7200.0;
+
 /// 1-sigma of the mean height before anything is known of it, m.
 pub(crate) const SEA_LEVEL_UNKNOWN: f64 = 30.0;
 
@@ -191,6 +196,11 @@ declare! {
     ANTENNA_REFLECTIONS: ANTENNA_ROWS, "antenna_reflections", "sigma", Scalar, WithAntennas,
         first: |_| 1.0, process: |_, _| Process::of_sigmas(ANTENNA_REFLECTION_TIME),
         correction: Correction::Adds(|nominal| nominal.antenna_reflections.as_mut_slice());
+    /// What the survey of each line and point ashore that a docking aid measures to is off by, in units of its sigma, Gauss-Markov: of a line
+    /// across it at its first end and at its second; of a point north, east and down.
+    RANGING_ERRORS: 3 * RANGING_MARKS, "ranging_errors", "sigma", Scalar, WithRanging,
+        first: |_| 1.0, process: |_, _| Process::of_sigmas(SURVEY_TIME),
+        correction: Correction::Adds(|nominal| nominal.ranging_errors.as_mut_slice());
     /// Mean place of a moored ship from her named berth, north and east, m, constant but for shifts.
     BERTH_OFFSET: 2, "berth_offset", "m", ComputedNed, AtBerth,
         first: |_| 0.0, process: |_, _| Process::Constant,

@@ -30,6 +30,7 @@ pub(crate) use entry::NO_INNOVATION;
 use entry::detail;
 use heard::Heard;
 use installation::Installation;
+use rangings::Rangings;
 use receiver::Receiver;
 use rtk_standing::RtkStanding;
 use satellites::Satellites;
@@ -63,6 +64,8 @@ mod motion;
 mod others;
 mod protected;
 mod ranges;
+mod ranging_standing;
+mod rangings;
 mod receiver;
 mod receivers;
 mod rtk;
@@ -95,6 +98,8 @@ pub struct Filter {
     rtk: RtkStanding,
     /// Several antennas, as they are followed.
     antennas: Antennas,
+    /// Docking aids, and what they measure to.
+    rangings: Rangings,
     /// What was used when.
     sources: Sources,
     /// While there are ranges, the same ship without them.
@@ -119,6 +124,7 @@ impl Filter {
             satellites: Satellites::default(),
             rtk: RtkStanding::default(),
             antennas: Antennas::default(),
+            rangings: Rangings::default(),
             sources: Sources::default(),
             companion: None,
             navigating: false,
@@ -351,7 +357,9 @@ impl Estimator for Filter {
             }
             Message::Reference(r) => self.apply_reference(r, received.source, &mut report),
             Message::Ranges(ranges) => self.apply_ranges(ranges, received.source, &mut report),
+            Message::Ranging(told) => self.apply_ranging(told, received.source, &mut report),
         }
+        self.forget_silent_marks();
         self.sources.note(self.state.time, &report, &received.message);
         self.heed();
         report

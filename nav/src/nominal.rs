@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::declaration::{declaration, no_errors};
 use crate::error_state::{
-    ANTENNA_ROWS, ATTITUDE, DECLARATIONS, Errors, LINES, POSITION, SATELLITES,
+    ANTENNA_ROWS, ATTITUDE, DECLARATIONS, Errors, LINES, POSITION, RANGING_MARKS, SATELLITES,
 };
 
 /// Estimated values of everything in the error state; units and axes as stated there.
@@ -78,6 +78,8 @@ pub struct Nominal {
     pub antenna_axes: Vector3<f64>,
     /// What reflections add to each row of what antennas tell, sigmas.
     pub antenna_reflections: SVector<f64, ANTENNA_ROWS>,
+    /// What the survey of each mark of docking aids is off by, sigmas.
+    pub ranging_errors: SVector<f64, { 3 * RANGING_MARKS }>,
 }
 
 impl Nominal {
@@ -118,6 +120,7 @@ impl Nominal {
             antenna_lines: SVector::zeros(),
             antenna_axes: Vector3::zeros(),
             antenna_reflections: SVector::zeros(),
+            ranging_errors: SVector::zeros(),
         }
     }
 

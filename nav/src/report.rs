@@ -1,6 +1,8 @@
 //! What the filter did with a measurement.
 
-use insd_base::{Rejection, RtkSilence, RtkTurn, SatelliteId, SatelliteInnovation, Source, Time};
+use insd_base::{
+    RangingTurn, Rejection, RtkSilence, RtkTurn, SatelliteId, SatelliteInnovation, Source, Time,
+};
 
 /// Whether a quantity was used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +46,8 @@ pub struct Report {
     pub ranges: Vec<SatelliteInnovation>,
     /// RTK is believed otherwise from now on.
     pub rtk: Vec<(Time, RtkTurn)>,
+    /// Docking aids, by their number, that are believed otherwise from now on.
+    pub rangings: Vec<(Time, u8, RangingTurn)>,
     /// What an epoch against a base came to: a place that is used, or why there is none.
     pub against_base: Option<Result<(), RtkSilence>>,
 }

@@ -168,5 +168,6 @@ fn rank(source: Source) -> u8 {
         Source::Log(_) => 2,
         Source::Reference(_) => 3,
         Source::Base(_) => 4,
+        Source::Ranging(_) => 5,
     }
 }

@@ -345,9 +345,11 @@ impl Estimator for EightState {
 
     fn apply(&mut self, received: &Received) -> Report {
         match &received.message {
-            Message::Imu(_) | Message::Base(_) | Message::Rtk(_) | Message::Compass(_) => {
-                Report::default()
-            }
+            Message::Imu(_)
+            | Message::Base(_)
+            | Message::Rtk(_)
+            | Message::Compass(_)
+            | Message::Ranging(_) => Report::default(),
             Message::Ranges(ranges) => self.ranges(ranges, received.source),
             Message::Gnss(fix) => self.gnss(fix, received.source),
             Message::Log(log) => self.log(log, received.source),

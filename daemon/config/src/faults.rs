@@ -4,6 +4,7 @@ use insd_drivers::can::CanConfig;
 
 use crate::berths;
 use crate::file::Config;
+use crate::rangings;
 use crate::spares;
 
 /// Names, ranges and references: each fault with its place and what was expected.
@@ -24,6 +25,7 @@ pub(super) fn of(config: &Config) -> Vec<String> {
     }
     outputs(config, &mut faults);
     faults.extend(berths::faults(config));
+    faults.extend(rangings::faults(config));
     nodes(config, &mut faults);
     faults.extend(config.state.faults().chain(config.web.faults()).chain(config.log.faults()));
     faults

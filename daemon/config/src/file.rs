@@ -15,6 +15,7 @@ use crate::models::{
 use crate::node::NodeSection;
 use crate::output::{OutputSection, PointSection};
 use crate::port::PortSection;
+use crate::ranging::RangingSection;
 use crate::service::{ChronySection, LogSection, RecordingSection, StateSection, WebSection};
 use crate::ship::ShipSection;
 use crate::spare::SpareSection;
@@ -63,6 +64,9 @@ pub struct Config {
     /// The ship that goes alongside, and when to be warned.
     #[serde(default)]
     pub docking: DockingSection,
+    /// Docking aids.
+    #[serde(default, rename = "ranging")]
+    pub rangings: Vec<RangingSection>,
     /// Ports that are written to.
     #[serde(default, rename = "output")]
     pub outputs: Vec<OutputSection>,

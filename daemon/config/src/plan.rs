@@ -48,7 +48,7 @@ impl Config {
             .iter()
             .map(|port| PortSpec { name: port.name.clone(), link: link(&port.transport) });
         let (sensors, imu) = (self.sensors.clone(), self.ship.imu.clone());
-        IntakeConfig { ports: ports.collect(), sensors, imu }
+        IntakeConfig { ports: ports.collect(), sensors, imu, rangings: self.ranging_specs() }
     }
 
     /// What the engine is told.

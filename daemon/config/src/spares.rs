@@ -6,6 +6,7 @@ use insd_engine::EngineConfig;
 use insd_engine::vote::Voice;
 use insd_intake::config::{IntakeConfig, Role, SensorConfig};
 use insd_vessel::{FIRST, Spare};
+use nalgebra::Vector3;
 
 use crate::file::Config;
 use crate::spare::SpareSection;
@@ -41,6 +42,9 @@ impl Config {
             if *arm != [0.0; 3] {
                 arm.iter_mut().zip(offset).for_each(|(length, offset)| *length -= offset);
             }
+        }
+        for aid in &mut intake.rangings {
+            aid.lever.0 -= Vector3::from(*offset);
         }
         intake.imu = imu.map(str::to_owned);
         let is_other = |sensor: &SensorConfig| {

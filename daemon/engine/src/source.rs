@@ -34,5 +34,8 @@ impl Engine {
             *self.counts.rtk.entry(turn.as_str()).or_insert(0) += 1;
             self.tell(Event::RtkJudged { time, turn });
         }
+        for (time, ranging, turn) in report.rangings.iter().copied() {
+            self.tell(Event::RangingJudged { time, ranging, turn });
+        }
     }
 }

@@ -118,6 +118,7 @@ fn tell_engine(event: &Event) {
         }
         Event::PositionReset { .. }
         | Event::RtkJudged { .. }
+        | Event::RangingJudged { .. }
         | Event::StoredStateDropped { .. } => {
             let (what, text) = words::engine(event);
             tracing::warn!("{what}: {}", text.unwrap_or_default());

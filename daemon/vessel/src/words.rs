@@ -77,6 +77,9 @@ pub fn engine(event: &Event) -> (&'static str, Option<String>) {
         Event::CompassJudged { why_not: Some(why), .. } => {
             ("antennas", Some(format!("the antennas do not tell how she stands: {why}")))
         }
+        Event::RangingJudged { ranging, turn, .. } => {
+            ("docking aid", Some(format!("number {}: {turn}", ranging + 1)))
+        }
         Event::SourceChanged { to, why, .. } => {
             ("source", Some(format!("best source {}: {why}", to.as_str())))
         }

@@ -2,8 +2,6 @@
 
 use insd_base::Body;
 use insd_wire::imu::can::LayoutChoice;
-use insd_wire::imu::kvh::{KvhFormat, KvhLinear, KvhRotation, KvhTemperature};
-use insd_wire::imu::stim::{StimFormat, StimKind, StimRange};
 pub use insd_wire::nmea::PashrDialect as Dialect;
 use insd_wire::stream::Protocol;
 use schemars::JsonSchema;
@@ -13,6 +11,7 @@ use crate::base::BaseSettings;
 use crate::device::DeviceFilter;
 use crate::mounting::Mounting;
 use crate::port::Link;
+use crate::ranging::RangingSpec;
 use crate::satellites::RawUse;
 use crate::sensor::TimeBase;
 
@@ -60,6 +59,11 @@ pub enum Kind {
     NmeaPosition,
     /// Positions and headings typed in by an operator (PINSD).
     Manual,
+    /// Docking aids that tell a distance each: PINSD,RNG. What they measure to stands in `[[ranging]]`.
+    Ranging,
+    /// A local position reference, CyScan or RadaScan: RLS. Where its targets are stands in `[[ranging]]`, and the direction of its axis A in
+    /// `heading_offset_deg`.
+    Rls,
     /// A GNSS receiver of NMEA 2000: 129029, 129026, 129539, 129542, 126992, 129033.
     N2kGnss,
     /// A compass of NMEA 2000: 127250; 127257 if `yaw` is set.
@@ -85,6 +89,8 @@ pub enum Role {
     Heading,
     /// Position.
     Position,
+    /// Distances to lines and points ashore.
+    Ranging,
     /// The other end of differences of satellites.
     Base,
 }
@@ -232,6 +238,8 @@ pub struct IntakeConfig {
     pub sensors: Vec<SensorConfig>,
     /// Name of the only IMU that is used; the others are listened to. The best that is valid if left out.
     pub imu: Option<String>,
+    /// Docking aids, in the order of their [`insd_base::Source`].
+    pub rangings: Vec<RangingSpec>,
 }
 
 /// A fault of a sensor's description.
@@ -290,6 +298,7 @@ impl Kind {
             Kind::NmeaLog | Kind::Pd0 | Kind::Pd6 | Kind::Nortek | Kind::N2kLog => Role::Log,
             Kind::Compass | Kind::Psxn | Kind::Pashr | Kind::N2kHeading => Role::Heading,
             Kind::NmeaPosition | Kind::Manual | Kind::N2kPosition => Role::Position,
+            Kind::Ranging | Kind::Rls => Role::Ranging,
             Kind::RtcmBase => Role::Base,
         }
     }
@@ -316,7 +325,9 @@ impl Kind {
             | Kind::Psxn
             | Kind::Pashr
             | Kind::NmeaPosition
-            | Kind::Manual => Protocol::Nmea,
+            | Kind::Manual
+            | Kind::Ranging
+            | Kind::Rls => Protocol::Nmea,
             Kind::N2kGnss | Kind::N2kHeading | Kind::N2kLog | Kind::N2kPosition | Kind::CanImu => {
                 return None;
             }
@@ -327,50 +338,6 @@ impl Kind {
     #[must_use]
     pub fn is_n2k(self) -> bool {
         matches!(self, Kind::N2kGnss | Kind::N2kHeading | Kind::N2kLog | Kind::N2kPosition)
-    }
-}
-
-impl KvhSettings {
-    /// The decoder's form, for messages at this interval, s.
-    #[must_use]
-    pub fn format(&self, interval: f64) -> KvhFormat {
-        KvhFormat {
-            rotation: if self.rates { KvhRotation::Rate } else { KvhRotation::Delta },
-            degrees: self.degrees,
-            linear: if self.delta_velocity {
-                KvhLinear::DeltaMetres
-            } else {
-                KvhLinear::Acceleration
-            },
-            temperature: if self.centidegrees {
-                KvhTemperature::CentiCelsius
-            } else {
-                KvhTemperature::Celsius
-            },
-            interval,
-        }
-    }
-}
-
-impl StimSettings {
-    /// The decoder's form, for datagrams at this interval, s; `None` for a range that no unit has.
-    #[must_use]
-    pub fn format(&self, interval: f64) -> Option<StimFormat> {
-        let kind = |increments| if increments { StimKind::Increment } else { StimKind::Rate };
-        let range = match self.range_g {
-            2 => StimRange::G2,
-            5 => StimRange::G5,
-            10 => StimRange::G10,
-            30 => StimRange::G30,
-            80 => StimRange::G80,
-            _ => return None,
-        };
-        Some(StimFormat {
-            gyro: kind(self.gyro_increments),
-            accel: kind(self.accel_increments),
-            range,
-            interval: Some(interval),
-        })
     }
 }
 

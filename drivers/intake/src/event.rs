@@ -48,6 +48,8 @@ pub enum Refusal {
     Broadcast,
     /// Where a base says that it is is no place on Earth.
     BasePlace,
+    /// A distance of a head that no `[[ranging]]` has.
+    UnknownHead,
 }
 
 impl Refusal {
@@ -70,6 +72,7 @@ impl Refusal {
             Refusal::NoOrbit => "no_orbit",
             Refusal::Broadcast => "broadcast",
             Refusal::BasePlace => "base_place",
+            Refusal::UnknownHead => "unknown_head",
         }
     }
 }

@@ -16,11 +16,13 @@ pub mod device;
 pub mod event;
 pub mod mounting;
 pub mod port;
+pub mod ranging;
 pub mod satellites;
 pub mod sensor;
 pub mod status;
 
 mod core;
+mod inertial;
 mod magnetic;
 
 pub use magnetic::variation;

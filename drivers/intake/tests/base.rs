@@ -74,6 +74,7 @@ fn hear(settings: BaseSettings, north_deg: f64, size: usize) -> Heard {
         ports: vec![port("gnss"), port("caster")],
         sensors: vec![SensorConfig::new("gnss", "gnss", Kind::NmeaGnss), base],
         imu: None,
+        rangings: Vec::new(),
     };
     let mut heard = Heard {
         bases: Vec::new(),
@@ -165,6 +166,7 @@ fn a_base_is_refused_while_nobody_knows_the_time() {
         ports: vec![PortSpec { name: "caster".to_owned(), link: Link::Stream }],
         sensors: vec![SensorConfig::new("base", "caster", Kind::RtcmBase)],
         imu: None,
+        rangings: Vec::new(),
     };
     let mut intake = Intake::new(&config);
     let system = UtcTime::from_civil((2023, 1, 3), (12, 0, 0), 0).unwrap();
@@ -183,6 +185,7 @@ fn half_a_place_and_a_base_that_is_none_are_faults_of_the_configuration() {
             ports: vec![PortSpec { name: "port".to_owned(), link: Link::Stream }],
             sensors: vec![SensorConfig { base, ..SensorConfig::new("own", "port", kind) }],
             imu: None,
+            rangings: Vec::new(),
         };
         config.faults().into_iter().filter(|fault| fault.key == "base").count()
     };

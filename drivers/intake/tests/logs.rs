@@ -25,7 +25,7 @@ struct Ship {
 impl Ship {
     fn new(sensor: SensorConfig, link: Link) -> Self {
         let ports = vec![PortSpec { name: "port".to_owned(), link }];
-        let config = IntakeConfig { ports, sensors: vec![sensor], imu: None };
+        let config = IntakeConfig { ports, sensors: vec![sensor], imu: None, rangings: Vec::new() };
         Ship { intake: Intake::new(&config), measured: Vec::new(), events: Vec::new() }
     }
 

@@ -38,7 +38,7 @@ fn ranks(quality: impl Fn(usize, i64) -> u8) -> (Vec<(i64, u8, u8)>, Intake) {
         ..SensorConfig::new(name, name, Kind::NmeaGnss)
     };
     let sensors = names.iter().enumerate().map(sensor).collect();
-    let mut intake = Intake::new(&IntakeConfig { ports, sensors, imu: None });
+    let mut intake = Intake::new(&IntakeConfig { ports, sensors, imu: None, rangings: Vec::new() });
     let mut ranks = Vec::new();
     for second in 0..40_i64 {
         for port in 0..2_u16 {

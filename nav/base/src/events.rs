@@ -6,6 +6,7 @@ use std::fmt;
 use crate::installation::Finding;
 use crate::messages::Source;
 use crate::party::{ReceiverChange, Stands};
+use crate::ranging::RangingTurn;
 use crate::satellites::{CompassRefusal, RtkSilence, RtkTurn, SatelliteId};
 use crate::solution::{Mode, SolutionSource};
 use crate::time::Time;
@@ -357,6 +358,15 @@ pub enum Event {
         time: Time,
         /// Why they do not; `None`: they do.
         why_not: Option<CompassRefusal>,
+    },
+    /// A docking aid is believed otherwise than before.
+    RangingJudged {
+        /// When.
+        time: Time,
+        /// Which, in the order of the configuration.
+        ranging: u8,
+        /// How.
+        turn: RangingTurn,
     },
     /// The best source of the solution is another one.
     SourceChanged {

@@ -26,6 +26,7 @@ pub mod messages;
 pub mod motion;
 pub mod party;
 pub mod protection;
+pub mod ranging;
 pub mod requirement;
 pub mod satellites;
 pub mod sea_fit;
@@ -61,6 +62,7 @@ pub use messages::{
 pub use motion::{Current, Motion, MotionCovariance};
 pub use party::{Fault, Integrity, Judgement, Parties, Party, ReceiverChange, Standing, Stands};
 pub use protection::Availability;
+pub use ranging::{RangingBeam, RangingLine, RangingReading, RangingTarget, RangingTurn};
 pub use requirement::Requirement;
 pub use satellites::{
     BaseEpoch, BroadcastRecord, Constellation, IonosphereModel, RtkEpoch, RtkPlace, RtkSilence,

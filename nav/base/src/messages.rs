@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::frames::{Body, Geodetic, Ned};
 use crate::gnss::GnssFix;
+use crate::ranging::RangingReading;
 use crate::satellites::{BaseEpoch, CompassReading, RtkEpoch, SatelliteRanges};
 use crate::time::Time;
 
@@ -87,10 +88,12 @@ pub enum Source {
     Reference(u8),
     /// Base station, which is not on board.
     Base(u8),
+    /// Docking aid.
+    Ranging(u8),
 }
 
 impl Source {
-    /// Short name for tables and events: `imu`, `gnss`, `log`, `reference`, `base`.
+    /// Short name for tables and events: `imu`, `gnss`, `log`, `reference`, `base`, `ranging`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -99,6 +102,7 @@ impl Source {
             Source::Log(_) => "log",
             Source::Reference(_) => "reference",
             Source::Base(_) => "base",
+            Source::Ranging(_) => "ranging",
         }
     }
 }
@@ -122,6 +126,8 @@ pub enum Message {
     Rtk(RtkEpoch),
     /// What several antennas told of how the hull stands.
     Compass(Arc<CompassReading>),
+    /// Distance of a docking aid.
+    Ranging(RangingReading),
 }
 
 impl Message {
@@ -137,6 +143,7 @@ impl Message {
             Message::Base(m) => m.time,
             Message::Rtk(m) => m.time,
             Message::Compass(m) => m.time,
+            Message::Ranging(m) => m.time,
         }
     }
 }

@@ -6,6 +6,7 @@ pub mod berth;
 pub mod gnss_position;
 pub mod gnss_velocity;
 pub mod log_velocity;
+pub mod ranging;
 pub mod reference_heading;
 pub mod reference_position;
 pub mod reference_velocity;

@@ -4,7 +4,10 @@ use insd_base::satellites::{
     AntennaPhase, AntennaSignal, ArcPhase, LineBias, Measured, SatelliteRange, Transmitter,
 };
 use insd_base::units::DEG;
-use insd_base::{Attitude, Geodetic, LogReference, SignalCode};
+use insd_base::{
+    Attitude, Body, Geodetic, LogReference, RangingBeam, RangingLine, RangingReading,
+    RangingTarget, SignalCode, Time,
+};
 use insd_estimation::Place;
 use nalgebra::{Vector2, Vector3, Vector4};
 
@@ -36,6 +39,9 @@ fn estimate() -> Nominal {
     nominal.reflections[7] = -0.3;
     nominal.ionosphere = 0.2;
     nominal.phase_constants[7] = 1.5;
+    nominal.ranging_errors[3] = 0.7;
+    nominal.ranging_errors[4] = -0.9;
+    nominal.ranging_errors[5] = 0.4;
     nominal
 }
 
@@ -95,6 +101,21 @@ fn compared(view: &View) -> Rows {
 
 /// A named aid and its rows.
 type Entry = (&'static str, fn(&View) -> Rows);
+
+fn ranging_table() -> Vec<Entry> {
+    vec![
+        ("ranging_across", |view| ranging_rows(view, by_quay(RangingBeam::Across))),
+        ("ranging_ashore", |view| ranging_rows(view, by_quay(RangingBeam::Ashore(40.0)))),
+        ("ranging_aboard", |view| {
+            let direction = Body::new(0.3, -0.93, 0.2);
+            ranging_rows(view, by_quay(RangingBeam::Aboard(direction)))
+        }),
+        ("ranging_point", |view| {
+            let place = Geodetic::from_degrees(52.000_1, 179.900_4, 60.0);
+            ranging_rows(view, RangingTarget::Point { place, std: [0.3, 0.6] })
+        }),
+    ]
+}
 
 fn table() -> Vec<Entry> {
     let position = |view: &View| {
@@ -172,6 +193,28 @@ fn log_rows(view: &View, reference: LogReference) -> Rows {
     rows(&log_velocity::complete(&prediction, &Vector3::new(5.0, 0.5, 0.1), 0.03))
 }
 
+/// A quay on her port side, 40 m off and 20 degrees from parallel to her.
+fn by_quay(beam: RangingBeam) -> RangingTarget {
+    let c_en = earth::c_ne(&estimate().geodetic()).transpose();
+    let at = |ahead: f64| {
+        let heading = 2.2 + 0.35;
+        let (across, along) = (heading - 0.5 * std::f64::consts::PI, heading);
+        let way = Vector3::new(across.cos(), across.sin(), 0.0) * 40.0
+            + Vector3::new(along.cos(), along.sin(), 0.0) * ahead;
+        earth::geodetic(&insd_base::Ecef(estimate().position + c_en * way))
+    };
+    let ends = [at(-60.0), at(90.0)];
+    RangingTarget::Line(RangingLine { ends, water_right: true, std: 0.4, beam })
+}
+
+fn ranging_rows(view: &View, target: RangingTarget) -> Rows {
+    let lever = Body::new(-6.0, -8.0, 4.0);
+    let reading =
+        RangingReading { time: Time::START, mark: 9, target, lever, distance: 30.0, std: 0.03 };
+    let prediction = ranging::predict(view, &reading, 1).unwrap();
+    rows(&ranging::innovation(&prediction, &reading, 1, 0.0))
+}
+
 fn view_moved_by(state: usize, amount: f64) -> View {
     let mut error = no_errors();
     let layout = all_states();
@@ -188,15 +231,16 @@ fn view_moved_by(state: usize, amount: f64) -> View {
 /// A step large enough against rounding, of ranges of 20 000 km, too, and small enough against curvature.
 fn step_of(name: &str, state: usize) -> f64 {
     match state {
+        0..3 if name.starts_with("ranging") => 0.01,
         0..3 => 1.0,
-        _ if name.starts_with("satellite") => 1e-3,
+        _ if name.starts_with("satellite") || name.starts_with("ranging") => 1e-3,
         _ => 1e-5,
     }
 }
 
 #[test]
 fn every_measurement_matrix_agrees_with_perturbed_predictions() {
-    for (name, rows_of) in table() {
+    for (name, rows_of) in table().into_iter().chain(ranging_table()) {
         let here = rows_of(&view_moved_by(0, 0.0));
         for state in 0..all_states().states() {
             let step = step_of(name, state);

@@ -135,6 +135,8 @@ impl Filter {
             water: later(kept.last_water),
             ..Heard::default()
         };
+        // which mark had which states is not kept: they begin anew
+        filter.end_to_carry(Carried::WithRanging);
         filter.begin_navigation();
         let is_noise = |noise: &f64| noise.is_finite() && *noise > 0.0;
         let is_finite = kept.rate.iter().all(|x| x.is_finite())

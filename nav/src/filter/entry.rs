@@ -13,6 +13,8 @@ pub(super) const RATE_AID: &str = "satellite_rate";
 pub(super) const PHASE_AID: &str = "satellite_phase";
 pub(super) const RTK_AID: &str = "rtk_position";
 pub(super) const COMPASS_AID: &str = "antenna_phases";
+/// That of docking aids.
+pub(super) const RANGING_AID: &str = "ranging";
 
 /// What the gates said of an innovation.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -29,13 +29,14 @@ impl Filter {
         let model = self.config.risk;
         let mut judged = self.judged_separations(self.state.time, &model);
         self.weigh_return(&judged);
-        let separations = match &self.companion {
+        let mut separations = match &self.companion {
             Some(companion) => self.separations_beside(companion, &model),
             None => {
                 judged.extend(self.court.returned);
                 judged
             }
         };
+        separations.extend(self.without_marks(self.state.time, &model));
         let (view, acceleration) = self.dated_view();
         let claimed = self.sigma_of_one(&view, &acceleration);
         let free = usual(&claimed, &model);

@@ -165,6 +165,14 @@ impl Judge {
         self.shadows().for_each(|shadow| declared.join(&mut shadow.covariance, config));
     }
 
+    /// A block of states is not carried any longer.
+    pub fn leave(&mut self, declared: &Declaration) {
+        for shadow in self.shadows() {
+            shadow.covariance.leave(declared.key);
+            shadow.apart.conform(&shadow.covariance.layout().clone());
+        }
+    }
+
     /// The errors of a block of three states are no longer those of before, and known to a covariance.
     pub fn renew(&mut self, block: Block<3>, covariance: &Matrix3<f64>) {
         for shadow in self.shadows() {

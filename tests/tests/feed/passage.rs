@@ -169,6 +169,7 @@ fn kind(source: Source) -> usize {
         Source::Log(_) => 2,
         Source::Reference(_) => 3,
         Source::Base(_) => 4,
+        Source::Ranging(_) => 5,
     }
 }
 

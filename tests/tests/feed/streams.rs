@@ -44,7 +44,8 @@ fn measured(all: &[Intaken]) -> Measured {
             Message::Gnss(fix) => measured.gnss.push(*fix),
             Message::Log(log) => measured.log.push(*log),
             Message::Reference(reference) => measured.heading.push(*reference),
-            Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) | Message::Compass(_) => {}
+            Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {}
+            Message::Compass(_) | Message::Ranging(_) => {}
         }
     }
     measured

@@ -89,6 +89,7 @@ fn restamp(received: &mut Received, off: f64) {
         Message::Log(m) => m.time = m.time + span,
         Message::Reference(m) => m.time = m.time + span,
         Message::Rtk(m) => m.time = m.time + span,
+        Message::Ranging(m) => m.time = m.time + span,
         Message::Base(m) => {
             let base = Arc::make_mut(m);
             base.time = base.time + span;
@@ -141,6 +142,8 @@ fn spoil(received: &mut Received, field: u8, value: f64) {
         Message::Rtk(m) => {
             m.place.iter_mut().for_each(|place| place.antenna[axis] = value);
         }
+        Message::Ranging(m) if field & 4 == 0 => m.distance = value,
+        Message::Ranging(m) => m.std = value,
     }
 }
 

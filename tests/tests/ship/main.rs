@@ -13,6 +13,7 @@ mod junk;
 mod levels;
 mod outputs;
 mod places;
+mod rangings;
 mod rtk;
 mod satellites;
 mod starts;

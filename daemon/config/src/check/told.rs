@@ -84,6 +84,7 @@ fn cause(key: &str, text: &str) -> &'static str {
         "port" => "unknown-port",
         "point" | "bow" | "stern" | "manifold" if text.contains("name of") => "unknown-point",
         "berth" => "unknown-berth",
+        "sensor" => "unknown-sensor",
         "imu" => "unknown-imu",
         "profile" => "unknown-profile",
         "mounting" => "mounting-axes",
@@ -110,7 +111,10 @@ fn advise(finding: &mut ConfigFinding, config: &Config) {
             let imus = config.sensors.iter().filter(|own| own.kind.role() == Role::Imu);
             imus.map(|own| own.name.as_str()).collect()
         }
-        ("docking", "berth") => config.berths.iter().map(|own| own.name.as_str()).collect(),
+        ("ranging", "sensor") => config.sensors.iter().map(|own| own.name.as_str()).collect(),
+        ("docking" | "ranging", "berth") => {
+            config.berths.iter().map(|own| own.name.as_str()).collect()
+        }
         (_, "point") | ("docking", "bow" | "stern" | "manifold") => {
             config.points.iter().map(|point| point.name.as_str()).collect()
         }

@@ -212,8 +212,12 @@ impl Surveyor {
                     self.probation.hear(told, (own.attitude.heading, own.sigma.heading));
                 }
             }
-            Message::Imu(_) | Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {}
             Message::Compass(reading) => self.antennas.clone_from(&reading.faults),
+            Message::Imu(_)
+            | Message::Ranges(_)
+            | Message::Base(_)
+            | Message::Rtk(_)
+            | Message::Ranging(_) => {}
         }
     }
 

@@ -163,6 +163,7 @@ fn shifted(received: &Received, by: Span) -> Received {
         Message::Base(m) => &mut Arc::make_mut(m).time,
         Message::Rtk(m) => &mut m.time,
         Message::Compass(m) => &mut Arc::make_mut(m).time,
+        Message::Ranging(m) => &mut m.time,
     };
     *time = *time + by;
     moved

@@ -69,6 +69,9 @@ pub fn event(event: &Event) -> String {
         Event::RtkJudged { turn, .. } => turn.to_string(),
         Event::CompassJudged { why_not: None, .. } => "Antennas tell the heading".to_owned(),
         Event::CompassJudged { why_not: Some(why), .. } => format!("✗ Antennas: {why}"),
+        Event::RangingJudged { ranging, turn, .. } => {
+            format!("Docking aid {}: {turn}", ranging + 1)
+        }
         Event::SourceChanged { to, .. } => format!("Best source {}", to.as_str()),
         Event::PositionReset { .. } => "Position set anew".to_owned(),
         Event::StoredStateUsed { .. } => "Stored heading confirmed".to_owned(),

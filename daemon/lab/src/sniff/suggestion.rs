@@ -144,6 +144,10 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         }));
     sensors.extend(compasses(port));
     sensors.extend(own(port, "psxn", "psxn", "PSXN"));
+    sensors.extend(
+        own(port, "rls", "rls", "RLS")
+            .map(|sensor| sensor.note("its axes must be told in [[ranging]] (docs/berthing.md)")),
+    );
     sensors.extend(own(port, "pashr", "pashr", "PASHR").map(|sensor| {
         sensor.note("dialect must be stated: sbg, sbg_wassp, ixblue, novatel, trimble or applanix")
     }));

@@ -249,6 +249,14 @@ fn a_magnetic_compass_is_suggested_as_such() {
 }
 
 #[test]
+fn a_local_position_reference_is_suggested_with_where_its_axes_are_to_be_told() {
+    let port = after(&lines(0..20, "RLS,+012.34,-105.60,A,271.500,A,0000"));
+    let (_, sensors) = suggested(&port);
+    assert_eq!(sensors[0].kind, Kind::Rls, "{sensors:?}");
+    assert!(port.suggestions.concat().contains("[[ranging]]"), "{:?}", port.suggestions);
+}
+
+#[test]
 fn an_imu_is_suggested_with_the_rate_to_which_it_was_set() {
     // the accelerations of the maker's SDK (mip_sdk, MIT)
     const ACCEL: [u8; 20] = *b"\x75\x65\x80\x0E\x0E\x04\x3F\x80\0\0\x40\0\0\0\xC0\x40\0\0\x79\xED";
@@ -281,7 +289,8 @@ fn the_advice_for_lines_without_a_checksum_works_as_it_is_pasted() {
     // the ship that is configured so
     let name = sensors[0].port.clone();
     let ports = vec![insd_intake::config::PortSpec { name, link: super::port::link("/dev/x") }];
-    let config = insd_intake::config::IntakeConfig { ports, sensors, imu: None };
+    let config =
+        insd_intake::config::IntakeConfig { ports, sensors, imu: None, rangings: Vec::new() };
     // nothing is wrong with what was pasted, but a ship needs an IMU besides
     assert!(config.faults().iter().all(|fault| fault.sensor.is_empty()), "{:?}", config.faults());
     let mut intake = insd_intake::Intake::new(&config);

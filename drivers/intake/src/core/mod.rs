@@ -4,6 +4,7 @@ mod array;
 mod base;
 mod gnss;
 mod imu;
+mod ranging;
 mod reference;
 mod satellites;
 mod sensor;
@@ -28,6 +29,7 @@ use crate::event::{Happening, IntakeEvent, Refusal};
 use crate::magnetic::Variation;
 use crate::port::Frame;
 
+use ranging::DockingAid;
 pub(crate) use sensor::Sensor;
 
 /// A better source must have been valid for this long to be taken back, s.
@@ -70,11 +72,13 @@ pub(crate) struct Core {
     array: Option<Array>,
     /// Whose ranges of satellites are used, and when they came last.
     ranging: Option<(usize, Time)>,
+    /// Docking aids.
+    aids: Vec<DockingAid>,
 }
 
 impl Core {
     pub(crate) fn new(config: &IntakeConfig) -> Self {
-        let mut numbers = [0_u8; 6];
+        let mut numbers = [0_u8; 7];
         let sensors = config.sensors.iter().map(|sensor| {
             let number = &mut numbers[sensor.kind.role() as usize];
             let own = Sensor::new(sensor, config, *number);
@@ -105,6 +109,7 @@ impl Core {
             turns: Turns::default(),
             array: Array::of(config),
             ranging: None,
+            aids: config.rangings.iter().cloned().map(DockingAid::new).collect(),
         }
     }
 
@@ -238,6 +243,7 @@ impl Core {
             Reading::Heading(heading) => self.heading(index, stamp, came, heading),
             Reading::Fix(position, std) => self.manual(index, stamp, came, *position, *std),
             Reading::Place(position) => self.place(index, stamp, came, *position),
+            Reading::Range(range) => self.distance(index, stamp, came, range),
             Reading::Clock(epoch) => self.clock(index, stamp, came, epoch),
             Reading::Shown(shown) => self.sensors[index].status.shown.enter(*shown),
             Reading::LeftOut(reason) => self.refuse(index, *reason),

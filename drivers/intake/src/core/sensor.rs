@@ -81,7 +81,8 @@ impl Sensor {
             Role::Imu => &[Quantity::Inertial],
             Role::Gnss if self.config.heading => &[Quantity::Gnss, Quantity::Heading],
             Role::Gnss => &[Quantity::Gnss],
-            Role::Base => &[],
+            Role::Ranging if self.config.kind == Kind::Rls => &[Quantity::Heading],
+            Role::Base | Role::Ranging => &[],
             Role::Log => &[Quantity::BottomVelocity, Quantity::WaterVelocity],
             Role::Heading => &[Quantity::Heading],
             Role::Position if self.config.kind == Kind::Manual => {

@@ -5,6 +5,7 @@ mod heading;
 mod imu;
 mod log;
 mod n2k;
+mod ranging;
 
 use insd_base::Time;
 use insd_base::can::CanFrame;
@@ -21,6 +22,7 @@ use crate::status::ShownPart;
 
 pub use heading::{HeadingReading, North};
 pub use log::ShipVelocity;
+pub use ranging::HeadDistance;
 
 /// What a frame says.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +45,8 @@ pub enum Reading {
     Fix(Position, Option<f64>),
     /// A position, or that there is none, that is timed by its receipt.
     Place(Option<Position>),
+    /// A distance of a docking aid.
+    Range(HeadDistance),
     /// UTC beside the fixes of a receiver.
     Clock(EpochTime),
     /// Something that is shown and not used.
@@ -166,6 +170,8 @@ impl Decoder {
             Kind::NmeaGnss | Kind::NmeaPosition => gnss::nmea(&sentence),
             Kind::NmeaLog | Kind::Nortek => self.log.sentence(&sentence)?,
             Kind::Manual => vec![manual(&sentence)],
+            Kind::Ranging => ranging::own(&sentence),
+            Kind::Rls => ranging::rls(&sentence, &self.config)?,
             _ => self.heading.sentence(&sentence, &self.config)?,
         };
         let left_out = usize::from(frame.left_out().count);
@@ -194,7 +200,8 @@ impl Decoder {
             Kind::Compass => &["HDT", "THS", "HDG", "HDM"],
             Kind::Psxn => &["PSXN"],
             Kind::Pashr => &["PASHR"],
-            Kind::Manual => &["PINSD"],
+            Kind::Manual | Kind::Ranging => &["PINSD"],
+            Kind::Rls => &["RLS"],
             _ => &[],
         };
         own.contains(&name)

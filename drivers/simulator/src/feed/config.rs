@@ -41,6 +41,8 @@ impl Encoding {
             | Kind::RtcmBase
             | Kind::NmeaPosition
             | Kind::Manual
+            | Kind::Ranging
+            | Kind::Rls
             | Kind::N2kGnss
             | Kind::N2kHeading
             | Kind::N2kLog
@@ -223,6 +225,7 @@ impl FeedConfig {
                 .collect(),
             sensors: sensors.map(config).collect(),
             imu: None,
+            rangings: Vec::new(),
         }
     }
 }

@@ -74,6 +74,7 @@ mod pnorbt;
 mod prdid;
 mod psxn;
 mod ptnthtm;
+mod rls;
 mod rmc;
 mod rot;
 mod sentence;
@@ -124,8 +125,8 @@ pub use phoct::{Marked, Phoct, PhoctState, WaveMotion};
 pub use phtro::Phtro;
 pub use pinsd::{
     Pinsd, PinsdAlignment, PinsdBerth, PinsdChoice, PinsdDocking, PinsdIntegrity, PinsdMode,
-    PinsdPart, PinsdPartOfShip, PinsdPhase, PinsdProtection, PinsdSide, PinsdSigma, PinsdSource,
-    PinsdStatus, PinsdTime, ProtectionState,
+    PinsdPart, PinsdPartOfShip, PinsdPhase, PinsdProtection, PinsdRange, PinsdSide, PinsdSigma,
+    PinsdSource, PinsdStatus, PinsdTime, ProtectionState,
 };
 pub use pixse::{Pixse, PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus};
 pub use pnorbt::{NortekBeam, NortekBottomTrack, NortekGroundSpeed, NortekSensors};
@@ -133,6 +134,7 @@ pub use position::Position;
 pub use prdid::{Prdid, PrdidForm};
 pub use psxn::{Psxn, PsxnQuality};
 pub use ptnthtm::Ptnthtm;
+pub use rls::Rls;
 pub use rmc::Rmc;
 pub use rot::Rot;
 pub use sentence::Sentence;

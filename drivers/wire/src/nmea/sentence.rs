@@ -5,8 +5,8 @@ use super::frame::Frame;
 use super::line::{Line, Talker};
 use super::{
     Acn, Alc, Alf, Arc, Dtm, Gbs, Gga, Gll, Gns, Gsa, Gst, Gsv, Hbt, Hcr, Hdg, Hdm, Hdt,
-    NortekBeam, NortekBottomTrack, NortekGroundSpeed, Pashr, Pinsd, Psxn, Rmc, Rot, Ths, Txt, Vbw,
-    Vdr, Vhw, Vlw, Vtg, Xdr, Zda,
+    NortekBeam, NortekBottomTrack, NortekGroundSpeed, Pashr, Pinsd, Psxn, Rls, Rmc, Rot, Ths, Txt,
+    Vbw, Vdr, Vhw, Vlw, Vtg, Xdr, Zda,
 };
 use super::{PfecAttitude, Phcmp, Phinf, Phlin, Phoct, Phspd, Phtro, Pixse, Prdid, Ptnthtm};
 
@@ -151,6 +151,8 @@ sentences! {
         Psxn("PSXN"),
         /// Attitude of compasses of True North.
         Ptnthtm("PTNTHTM"),
+        /// Position and heading by a local position reference.
+        Rls("RLS"),
     }
 }
 
@@ -172,7 +174,10 @@ impl Sentence {
     pub fn read_frame(frame: &Frame<'_>) -> Result<Self, Fault> {
         match frame.approved() {
             Ok((_, formatter)) => Sentence::read_approved(frame, formatter),
-            Err(_) if frame.address().starts_with('P') => Sentence::read_own(frame),
+            // one has the address of neither the standard nor a maker's own
+            Err(_) if frame.address().starts_with('P') || frame.address() == Rls::ADDRESS => {
+                Sentence::read_own(frame)
+            }
             Err(fault) => Err(fault),
         }
     }

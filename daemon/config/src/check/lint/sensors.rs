@@ -130,8 +130,11 @@ fn told_apart(one: &SensorConfig, other: &SensorConfig) -> bool {
         && !other.talkers.is_empty()
         && one.talkers.iter().all(|talker| !other.talkers.contains(talker));
     let by_kind = one.kind != other.kind
-        && [one, other]
-            .iter()
-            .any(|own| matches!(own.kind, Kind::Psxn | Kind::Pashr | Kind::Nortek | Kind::Manual));
+        && [one, other].iter().any(|own| {
+            matches!(
+                own.kind,
+                Kind::Psxn | Kind::Pashr | Kind::Nortek | Kind::Manual | Kind::Ranging | Kind::Rls
+            )
+        });
     by_talker || by_kind
 }

@@ -164,8 +164,9 @@ fn enter(voyage: &mut Voyage, received: &Received) {
         Message::Imu(message) => voyage.imu.push(Stamped { message: *message, arrival }),
         // a voyage directory holds one receiver
         Message::Gnss(message) if message.rank > 0 => {}
-        // made of raw data, which are kept as such
-        Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) | Message::Compass(_) => {}
+        // made of raw data, which are kept as such; and no file of a voyage holds docking aids
+        Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {}
+        Message::Compass(_) | Message::Ranging(_) => {}
         Message::Gnss(message) => voyage.gnss.push(Stamped { message: *message, arrival }),
         Message::Log(message) => voyage.log.push(Stamped { message: *message, arrival }),
         Message::Reference(message) => {

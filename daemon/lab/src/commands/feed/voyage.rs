@@ -36,7 +36,8 @@ fn read(dir: &Path) -> anyhow::Result<Voyage> {
             Message::Log(own) => voyage.log.push(Stamped::prompt(own)),
             Message::Reference(own) => voyage.reference.push(Stamped::prompt(own)),
             // no file of a voyage holds them
-            Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) | Message::Compass(_) => {}
+            Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {}
+            Message::Compass(_) | Message::Ranging(_) => {}
         }
     }
     Ok(voyage)

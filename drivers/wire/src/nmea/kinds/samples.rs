@@ -8,7 +8,8 @@ use crate::nmea::table::Sampled;
 use crate::nmea::{
     Acn, Arc, Dtm, Frame, Gst, Hbt, Hcr, Hdg, Hdm, Hdt, Line, MAX_LEN, PfecAttitude, Phcmp, Phinf,
     Phlin, Phoct, Phspd, Phtro, PinsdAlignment, PinsdBerth, PinsdPartOfShip, PinsdProtection,
-    PinsdSigma, PinsdStatus, Rot, Sentence, Talker, Ths, Vdr, Vhw, Vlw, Vtg, checksum,
+    PinsdRange, PinsdSigma, PinsdStatus, Rls, Rot, Sentence, Talker, Ths, Vdr, Vhw, Vlw, Vtg,
+    checksum,
 };
 
 /// Numbers without pattern, and always the same ones (splitmix64).
@@ -149,7 +150,7 @@ impl<T: Copy> Field<T> {
     /// One of the texts that are read and written.
     fn text(&self, dice: &mut Dice) -> String {
         let letters = (b'0'..=b'9').chain(b'A'..=b'Z').map(|letter| char::from(letter).to_string());
-        let longer = ["W84", "89ABCDEF"].map(str::to_owned);
+        let longer = ["W84", "89ABCDEF", "1A2F"].map(str::to_owned);
         let is_taken = |text: &String| {
             let Some(value) = (self.read)(text) else { return false };
             let line = Line::compose_own("P", |line| (self.write)(line, value));
@@ -244,8 +245,10 @@ mod tests {
             PinsdBerth::sample,
             PinsdPartOfShip::sample,
             PinsdProtection::sample,
+            PinsdRange::sample,
             PinsdSigma::sample,
             PinsdStatus::sample,
+            Rls::sample,
             Rot::sample,
             Ths::sample,
             Vdr::sample,

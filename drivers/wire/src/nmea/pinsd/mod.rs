@@ -5,6 +5,10 @@
 //! $PINSD,FIX,ddmm.mmmmm,N,dddmm.mmmmm,E,x.x*hh   a position and its 1-sigma, m
 //! $PINSD,HDG,x.xx,x.xx*hh                        a true heading and its 1-sigma, deg
 //! ```
+//! What a docking aid tells insd that has no sentence of its own:
+//! ```text
+//! $PINSD,RNG,...   a distance to a line or a point ashore   [PinsdRange]
+//! ```
 //! What insd tells others, in their files:
 //! ```text
 //! $PINSD,STA,...   what it does and how good that is    [PinsdStatus]
@@ -20,12 +24,14 @@
 mod alignment;
 mod docking;
 mod protection;
+mod ranging;
 mod sigma;
 mod status;
 
 pub use alignment::{PinsdAlignment, PinsdPhase};
 pub use docking::{PinsdBerth, PinsdChoice, PinsdDocking, PinsdPart, PinsdPartOfShip, PinsdSide};
 pub use protection::{PinsdProtection, ProtectionState};
+pub use ranging::PinsdRange;
 pub use sigma::PinsdSigma;
 pub use status::{PinsdIntegrity, PinsdMode, PinsdSource, PinsdStatus, PinsdTime};
 
@@ -57,6 +63,8 @@ pub enum Pinsd {
         /// 1-sigma, rad.
         std: Option<f64>,
     },
+    /// RNG.
+    Range(PinsdRange),
     /// STA.
     Status(PinsdStatus),
     /// SIG.
@@ -91,6 +99,10 @@ impl Pinsd {
                 line.text("HDG");
                 line.degrees(*heading, 2);
                 line.number(std.map(f64::to_degrees), DEGREES);
+            }
+            Pinsd::Range(range) => {
+                line.text(PinsdRange::NAME);
+                range.write_fields(line);
             }
             Pinsd::Status(status) => {
                 line.text(PinsdStatus::NAME);
@@ -134,6 +146,7 @@ impl Pinsd {
                 heading: fields.degrees()?,
                 std: fields.number_in(0.0..=DEGREES.limit)?.map(f64::to_radians),
             },
+            PinsdRange::NAME => Pinsd::Range(PinsdRange::read_fields(&mut fields)?),
             PinsdStatus::NAME => Pinsd::Status(PinsdStatus::read_fields(&mut fields)?),
             PinsdSigma::NAME => Pinsd::Sigma(PinsdSigma::read_fields(&mut fields)?),
             PinsdAlignment::NAME => Pinsd::Alignment(PinsdAlignment::read_fields(&mut fields)?),
