@@ -42,6 +42,12 @@ pub(super) fn mode(frame: &mut Frame<'_>, area: Rect, board: &Board) {
     frame.render_widget(Line::styled(since, style).right_aligned(), area);
 }
 
+/// How she stands to the berth that she goes to, where she goes to one.
+pub(super) fn alongside(frame: &mut Frame<'_>, area: Rect, board: &Board) {
+    let text = board.alongside.as_deref().unwrap_or_default();
+    frame.render_widget(Line::styled(format!(" {text}"), strong()), area);
+}
+
 /// Green may be used, yellow with care, cyan not yet, red not at all.
 fn colour(mode: Option<Mode>) -> Color {
     match mode {

@@ -32,10 +32,11 @@ pub fn draw(frame: &mut Frame<'_>, board: &Board) {
         frame.render_widget(Paragraph::new(text).wrap(ratatui::widgets::Wrap { trim: true }), area);
         return;
     }
-    let [title, mode, upper, strip, lower, port, keys] = Layout::vertical([
+    let [title, mode, alongside, upper, strip, lower, port, keys] = Layout::vertical([
         Constraint::Length(1),
         Constraint::Length(1),
-        Constraint::Length(11 + u16::from(board.alongside.is_some())),
+        Constraint::Length(u16::from(board.alongside.is_some())),
+        Constraint::Length(11),
         Constraint::Length(3),
         Constraint::Min(5),
         Constraint::Length(1),
@@ -45,6 +46,7 @@ pub fn draw(frame: &mut Frame<'_>, board: &Board) {
     let [left, right] = Layout::horizontal([Constraint::Fill(1), Constraint::Fill(1)]).areas(upper);
     banner::title(frame, title, board);
     banner::mode(frame, mode, board);
+    banner::alongside(frame, alongside, board);
     ship::draw(frame, left, board);
     sensors::draw(frame, right, board);
     compass::draw(frame, strip, board);

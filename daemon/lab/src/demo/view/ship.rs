@@ -21,17 +21,11 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, board: &Board) {
         frame.render_widget(Line::styled(" nothing is known yet", dim()), inside);
         return;
     };
-    let [upper, middle, lower] = Layout::vertical([
-        Constraint::Min(8),
-        Constraint::Length(1),
-        Constraint::Length(u16::from(board.alongside.is_some())),
-    ])
-    .areas(inside);
+    let [upper, lower] =
+        Layout::vertical([Constraint::Min(8), Constraint::Length(1)]).areas(inside);
     let widths = [Constraint::Length(10), Constraint::Min(17), Constraint::Length(10)];
     frame.render_widget(Table::new(figures(solution), widths).column_spacing(0), upper);
-    frame.render_widget(truth(board), middle);
-    let alongside = board.alongside.as_deref().unwrap_or_default();
-    frame.render_widget(Line::styled(format!(" {alongside}"), strong()), lower);
+    frame.render_widget(truth(board), lower);
 }
 
 fn figures(solution: &Solution) -> Vec<Row<'static>> {

@@ -98,6 +98,16 @@ fn the_least_terminal_shows_all_that_matters_uncut() {
 }
 
 #[test]
+fn how_she_stands_to_her_berth_is_told_over_the_whole_width_and_hides_nothing_else() {
+    let text = "Pier 1: bow 123.45 m at +0.15 m/s, stern 123.42 m at +0.16 m/s";
+    let board = Board { alongside: Some(text.to_owned()), ..board() };
+    let picture = picture(&board, 80, 24);
+    for text in [text, "True error 0.8 m", "GNSS position: jumped", "heading ▼   ◇ course"] {
+        says(&picture, text);
+    }
+}
+
+#[test]
 fn a_roomy_terminal_shows_the_track_too() {
     says(&picture(&board(), 120, 40), "own truth GNSS · north up");
 }
