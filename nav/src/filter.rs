@@ -30,7 +30,7 @@ pub(crate) use entry::NO_INNOVATION;
 use entry::detail;
 use heard::Heard;
 use installation::Installation;
-use rangings::Rangings;
+use ranging_standing::Rangings;
 use receiver::Receiver;
 use rtk_standing::RtkStanding;
 use satellites::Satellites;

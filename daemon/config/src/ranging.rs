@@ -178,7 +178,7 @@ impl RangingSection {
             self.origin_deg.is_some(),
         ];
         let one = named.iter().filter(|own| **own).count() == 1;
-        expect(one, "name: expected one of berth, line_deg, point_deg and origin_deg");
+        expect(one, "line_deg: expected this, berth, point_deg or origin_deg, and one of them");
         self.places(berths, &mut expect);
         self.numbers(&mut expect);
         faults

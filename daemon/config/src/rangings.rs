@@ -149,7 +149,7 @@ height_m = 48.0
             (
                 "berth = \"Pier 3\"\nbeam",
                 "beam",
-                "expected one of berth, line_deg, point_deg and origin_deg",
+                "line_deg: expected this, berth, point_deg or origin_deg",
             ),
             ("at_m = 190.0", "at_m = 1900.0", "at_m: expected a place on the line"),
             ("at_m = 190.0", "", "at_m: expected with beam = \"ashore\""),

@@ -1,6 +1,8 @@
-//! How far a docking aid is believed, by whether it agrees with the ship.
+//! How far a docking aid is believed, by whether it agrees with the ship; and which lines and points have which states.
 
-use insd_base::{RangingTurn, Time};
+use insd_base::{RangingReading, RangingTurn, Time};
+
+use crate::error_state::RANGING_MARKS;
 
 /// One that contradicts the ship with so many readings in a row, over so long, s, is wrong: somebody who walks through its beam is not.
 const CONTRADICTIONS: u8 = 5;
@@ -10,6 +12,11 @@ const AGREEING: u8 = 10;
 const AGREES: f64 = 5.0;
 /// After such a silence, s, it begins anew: but one that was not believed is not yet.
 const SILENT: f64 = 10.0;
+
+/// Docking aids that are told apart.
+const AIDS: usize = 16;
+/// What was measured to so recently, s, has a part in where the ship is taken to be.
+const RECENT: f64 = 60.0;
 
 /// How far one is believed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,6 +46,51 @@ impl RangingStanding {
         }
         let turn = if agrees { RangingTurn::Agrees } else { RangingTurn::Contradicted };
         (agrees && !self.is_contradicted, turns.then_some(turn))
+    }
+}
+
+/// A line or point with states.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mark {
+    number: u16,
+    pub(super) heard: Time,
+    pub(super) used: Option<Time>,
+    /// 1-sigma of its survey, m.
+    std: f64,
+}
+
+/// Docking aids, and what they measure to.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Rangings {
+    pub(super) marks: [Option<Mark>; RANGING_MARKS],
+    pub(super) standings: [RangingStanding; AIDS],
+}
+
+impl Rangings {
+    /// None has states any more.
+    pub(super) fn forget_marks(&mut self) {
+        self.marks = [None; RANGING_MARKS];
+    }
+
+    /// The place of a mark among the states; `None` where all are taken.
+    pub(super) fn place(&mut self, reading: &RangingReading, now: Time) -> Option<usize> {
+        let is_own = |mark: &Option<Mark>| mark.is_some_and(|mark| mark.number == reading.mark);
+        let known = self.marks.iter().position(is_own);
+        let place = known.or_else(|| self.marks.iter().position(Option::is_none))?;
+        let used = self.marks[place].and_then(|mark| mark.used);
+        let std = reading.target.survey_std();
+        self.marks[place] = Some(Mark { number: reading.mark, heard: now, used, std });
+        Some(place)
+    }
+
+    /// Places and survey of those that were used of late.
+    pub(super) fn used(&self, now: Time) -> impl Iterator<Item = (usize, f64)> {
+        let of_late = move |mark: Mark| {
+            let is_recent = |used: Time| (now - used).as_seconds() < RECENT;
+            mark.used.is_some_and(is_recent).then_some(mark.std)
+        };
+        let all = self.marks.into_iter().enumerate();
+        all.filter_map(move |(place, mark)| Some((place, of_late(mark?)?)))
     }
 }
 

@@ -5,71 +5,26 @@
 
 use insd_base::{RangingReading, Rejection, Source, Time};
 use insd_estimation::Release;
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::Filter;
-use super::bent::bent_distance;
 use super::entry::{Judged, NO_INNOVATION, RANGING_AID, detail, enter};
-use super::ranging_standing::RangingStanding;
+use super::ranging_standing::Mark;
 use crate::aids::ranging::{self, RangingPrediction};
 use crate::declaration::{Carried, carried};
-use crate::error_state::{ATTITUDE, POSITION, RANGING_ERRORS, RANGING_MARKS, VELOCITY, Weighed};
+use crate::error_state::{ATTITUDE, POSITION, RANGING_ERRORS, VELOCITY, Weighed};
 use crate::judge::Separation;
 use crate::protection::RiskModel;
 use crate::report::{Outcome, Report};
 
-/// Docking aids that are told apart.
-const AIDS: usize = 16;
 /// What nobody has measured to for so long, s, has no states any more.
 const FORGOTTEN: f64 = 300.0;
-/// What was measured to so recently, s, has a part in where the ship is taken to be.
-const RECENT: f64 = 60.0;
 /// Nothing is measured to from farther away, m.
 const FARTHEST: f64 = 50_000.0;
 /// How wrong a mark may be, 1-sigma, m: another fender, a container, a hand on the tripod.
 const WRONG_MARK: f64 = 2.0;
 /// Causes of the levels, beside those of the judge and of satellites.
 const BY_MARK: usize = 900;
-
-/// A line or point with states.
-#[derive(Clone, Copy, Debug)]
-struct Mark {
-    number: u16,
-    heard: Time,
-    used: Option<Time>,
-    /// 1-sigma of its survey, m.
-    std: f64,
-}
-
-/// Docking aids, and what they measure to.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Rangings {
-    marks: [Option<Mark>; RANGING_MARKS],
-    standings: [RangingStanding; AIDS],
-}
-
-impl Rangings {
-    /// The place of a mark among the states; `None` where all are taken.
-    fn place(&mut self, reading: &RangingReading, now: Time) -> Option<usize> {
-        let is_own = |mark: &Option<Mark>| mark.is_some_and(|mark| mark.number == reading.mark);
-        let known = self.marks.iter().position(is_own);
-        let place = known.or_else(|| self.marks.iter().position(Option::is_none))?;
-        let used = self.marks[place].and_then(|mark| mark.used);
-        let std = reading.target.survey_std();
-        self.marks[place] = Some(Mark { number: reading.mark, heard: now, used, std });
-        Some(place)
-    }
-
-    /// Places and survey of those that were used of late.
-    fn used(&self, now: Time) -> impl Iterator<Item = (usize, f64)> {
-        let of_late = move |mark: Mark| {
-            let is_recent = |used: Time| (now - used).as_seconds() < RECENT;
-            mark.used.is_some_and(is_recent).then_some(mark.std)
-        };
-        let all = self.marks.into_iter().enumerate();
-        all.filter_map(move |(place, mark)| Some((place, of_late(mark?)?)))
-    }
-}
 
 impl Filter {
     pub(super) fn apply_ranging(
@@ -143,7 +98,7 @@ impl Filter {
         let is_silent = |mark: &Mark| (now - mark.heard).as_seconds() > FORGOTTEN;
         let marks = self.rangings.marks.iter().flatten();
         if marks.clone().next().is_some() && marks.clone().all(is_silent) {
-            self.rangings.marks = [None; RANGING_MARKS];
+            self.rangings.forget_marks();
             if let Some(judge) = self.judge_now() {
                 carried(Carried::WithRanging).for_each(|own| judge.leave(own));
             }
@@ -179,6 +134,15 @@ impl Filter {
     }
 }
 
+/// Variance of what an attitude error phi of a covariance does to a distance along a line e by an arm a, beyond what is linear, m^2:
+/// e . (phi x (phi x a)) / 2 = phi^T B phi / 2, its mean and its scatter.
+fn bent_distance(attitude: &Matrix3<f64>, line: &Vector3<f64>, arm: &Vector3<f64>) -> f64 {
+    let both = line * arm.transpose();
+    let b = (both + both.transpose()) * 0.5 - Matrix3::from_diagonal_element(line.dot(arm));
+    let spread = b * attitude;
+    (0.5 * spread.trace()).powi(2) + 0.5 * (spread * spread).trace()
+}
+
 /// Whether it can be one.
 fn is_distance(reading: &RangingReading) -> bool {
     reading.distance.abs() < FARTHEST && reading.std > 0.0 && reading.std.is_finite()
@@ -193,7 +157,6 @@ mod tests {
         Body, Ecef, Geodetic, Message, RangingBeam, RangingLine, RangingTarget, RangingTurn,
         Received, earth,
     };
-    use nalgebra::Vector3;
 
     /// A line that runs north, 20 m east of where the filter has the ship.
     fn reading(filter: &Filter, distance: f64) -> RangingReading {

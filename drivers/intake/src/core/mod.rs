@@ -28,8 +28,8 @@ use crate::device::{Device, Heard};
 use crate::event::{Happening, IntakeEvent, Refusal};
 use crate::magnetic::Variation;
 use crate::port::Frame;
+use crate::ranging::DockingAid;
 
-use ranging::DockingAid;
 pub(crate) use sensor::Sensor;
 
 /// A better source must have been valid for this long to be taken back, s.

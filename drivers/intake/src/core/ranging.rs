@@ -3,23 +3,8 @@
 use insd_base::{Message, RangingReading, Source, Span, Stamp};
 
 use super::{Came, Core};
-use crate::decode::HeadDistance;
 use crate::event::Refusal;
-use crate::ranging::RangingSpec;
-use crate::sensor::Pace;
-
-/// One of them, and how often it speaks.
-#[derive(Clone, Debug)]
-pub(super) struct DockingAid {
-    spec: RangingSpec,
-    pace: Pace,
-}
-
-impl DockingAid {
-    pub(super) fn new(spec: RangingSpec) -> Self {
-        DockingAid { spec, pace: Pace::default() }
-    }
-}
+use crate::ranging::{DockingAid, HeadDistance};
 
 impl Core {
     pub(super) fn distance(

@@ -5,7 +5,6 @@ mod heading;
 mod imu;
 mod log;
 mod n2k;
-mod ranging;
 
 use insd_base::Time;
 use insd_base::can::CanFrame;
@@ -13,16 +12,16 @@ use insd_n2k::Message;
 use insd_wire::gnss::{EpochTime, GnssPart, PulseTime};
 use insd_wire::imu::ImuReading;
 use insd_wire::imu::can::{CanImu, CanPart};
-use insd_wire::nmea::{ChecksumPolicy, Frame as NmeaFrame, Pinsd, Position, Sentence};
+use insd_wire::nmea::{ChecksumPolicy, Frame as NmeaFrame, Pinsd, Position, Rls, Sentence};
 
 use crate::config::{Kind, SensorConfig};
 use crate::event::Refusal;
+use crate::ranging::HeadDistance;
 use crate::satellites::RawReading;
 use crate::status::ShownPart;
 
 pub use heading::{HeadingReading, North};
 pub use log::ShipVelocity;
-pub use ranging::HeadDistance;
 
 /// What a frame says.
 #[derive(Clone, Debug, PartialEq)]
@@ -170,8 +169,8 @@ impl Decoder {
             Kind::NmeaGnss | Kind::NmeaPosition => gnss::nmea(&sentence),
             Kind::NmeaLog | Kind::Nortek => self.log.sentence(&sentence)?,
             Kind::Manual => vec![manual(&sentence)],
-            Kind::Ranging => ranging::own(&sentence),
-            Kind::Rls => ranging::rls(&sentence, &self.config)?,
+            Kind::Ranging => distance(&sentence),
+            Kind::Rls => between_targets(&sentence, &self.config)?,
             _ => self.heading.sentence(&sentence, &self.config)?,
         };
         let left_out = usize::from(frame.left_out().count);
@@ -220,4 +219,34 @@ fn manual(sentence: &Sentence) -> Reading {
         }
         _ => Reading::Idle,
     }
+}
+
+/// A distance by the sentence of our own.
+fn distance(sentence: &Sentence) -> Vec<Reading> {
+    let Sentence::Pinsd(Pinsd::Range(told)) = sentence else { return vec![Reading::Idle] };
+    let Some(head) = told.head else { return vec![Reading::Idle] };
+    vec![Reading::Range(HeadDistance {
+        head,
+        distance: told.distance.filter(|_| told.valid),
+        std: told.std.filter(|std| *std > 0.0),
+        age: told.age.unwrap_or(0.0),
+    })]
+}
+
+/// A position and a heading between targets. The heading is that from axis A, and what the configuration adds makes it true; where there is
+/// none, as with a single target, nothing is said of it.
+fn between_targets(sentence: &Sentence, config: &SensorConfig) -> Result<Vec<Reading>, Refusal> {
+    let Sentence::Rls(Rls { a, b, position_valid, bearing, bearing_valid, .. }) = sentence else {
+        return Ok(vec![Reading::Idle]);
+    };
+    use heading::{finished, told};
+    let along = |head: u32, value: Option<f64>| {
+        let distance = value.filter(|_| *position_valid);
+        Reading::Range(HeadDistance { head, distance, std: None, age: 0.0 })
+    };
+    let mut readings = vec![along(1, *a), along(2, *b)];
+    if *bearing_valid && bearing.is_some() {
+        readings.extend(finished(told(*bearing, North::True, true), config)?);
+    }
+    Ok(readings)
 }
