@@ -123,6 +123,7 @@ fn ranges(seconds: f64, count: usize) -> Received {
         let value = transmitter.range(&antenna);
         let constellation = [Constellation::Gps, Constellation::Galileo][index % 2];
         SatelliteRange {
+            offset: Vector3::zeros(),
             satellite: SatelliteId { constellation, number: index as u8 + 1 },
             transmitter,
             elevation,

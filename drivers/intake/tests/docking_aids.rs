@@ -81,7 +81,7 @@ fn two_heads_on_one_line_are_told_apart_and_each_is_as_old_as_it_says() {
     let all = distances(&all);
     let of = |own: u8| all.iter().filter(move |(source, _)| *source == Source::Ranging(own));
     assert_eq!((of(0).count(), of(1).count()), (400, 200));
-    let (_, bow) = of(0).last().unwrap();
+    let (_, bow) = of(0).next_back().unwrap();
     assert_eq!((bow.distance, bow.std, bow.mark), (12.345, 0.02, 7));
     assert_eq!(bow.lever, Body::new(60.0, 11.0, 4.0));
     let (_, stern) = of(1).next().unwrap();

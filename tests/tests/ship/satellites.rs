@@ -9,11 +9,11 @@ use insd_base::{
 };
 use insd_config::VoyageCalendar;
 use insd_engine::{Engine, EngineConfig, Output};
-use insd_gnss::{Context, Noise};
+use insd_gnss::{ArrayRanging, Context, Noise};
 use insd_lab::ranges::{Epochs, RangeMaker};
 use insd_simulator::{RawGnss, Scenario, raw_gnss, simulate};
 use insd_tests::sailing::sail_messages;
-use nalgebra::{SMatrix, Vector2};
+use nalgebra::{SMatrix, Vector2, Vector3};
 
 use crate::figure;
 
@@ -53,7 +53,8 @@ pub(crate) fn epochs(voyage: &Voyage, raw: &RawGnss) -> Epochs {
     Epochs {
         start: calendar.utc(Time::START).to_gps(),
         context: context(raw),
-        rover: raw.antennas[0].iter().cloned().collect(),
+        rover: vec![raw.antennas[0].iter().cloned().collect()],
+        array: ArrayRanging::new(&[Vector3::zeros()], &[0]),
         base: VecDeque::new(),
         masks: Vec::new(),
     }

@@ -1,0 +1,112 @@
+//! Four antennas on one clock: how a ship with a MEMS IMU comes to her heading, and what she says of a wrong installation.
+
+use insd_base::satellites::CompassFault;
+use insd_base::units::{DEG, wrap_pi};
+use insd_base::{Event, Finding, Message, Received, Solution, Truth, Voyage};
+use insd_engine::EngineConfig;
+use insd_gnss::ArrayRanging;
+use insd_lab::ranges::{Epochs, RangeMaker};
+use insd_simulator::{RawGnss, Scenario, raw_gnss, simulate};
+use insd_tests::sailing::{Logbook, sail_messages};
+use nalgebra::Vector3;
+
+use crate::figure;
+use crate::satellites::epochs;
+
+/// The square of the shipped berthing.
+const SQUARE: [[f64; 3]; 4] =
+    [[-5.95, -0.85, -14.0], [-5.95, -0.75, -14.0], [-6.05, -0.75, -14.0], [-6.05, -0.85, -14.0]];
+
+fn berthing() -> Scenario {
+    insd_lab::scenario::find("29", &[]).unwrap().scenario.with_duration(240.0)
+}
+
+fn messages(voyage: &Voyage, raw: &RawGnss, levers: &[[f64; 3]]) -> Vec<Received> {
+    let levers: Vec<Vector3<f64>> = levers.iter().copied().map(Vector3::from).collect();
+    let rover = raw.antennas.iter().take(levers.len());
+    let epochs = Epochs {
+        rover: rover.map(|own| own.iter().cloned().collect()).collect(),
+        array: ArrayRanging::new(&levers, &vec![0; levers.len()]),
+        ..epochs(voyage, raw)
+    };
+    RangeMaker::new(epochs).among(voyage.received())
+}
+
+fn sailed(seed: u64, levers: &[[f64; 3]]) -> (Voyage, Logbook) {
+    let scenario = berthing();
+    let (voyage, raw) = (simulate(&scenario, seed), raw_gnss(&scenario, seed).unwrap());
+    let config = EngineConfig::for_voyage(&voyage.header, 1.0);
+    let log = sail_messages(&config, &messages(&voyage, &raw, levers), 100);
+    (voyage, log)
+}
+
+/// Errors of the heading and their claims after two minutes, every ten seconds, rad.
+fn headings(solutions: &[Solution], truth: &[Truth]) -> Vec<(f64, f64)> {
+    let late = solutions.iter().filter(|own| own.time.as_seconds() > 120.0).step_by(10);
+    let error = |own: &Solution| {
+        let place = truth.binary_search_by_key(&own.time, |truth| truth.time).ok()?;
+        let off = wrap_pi(own.attitude.heading - truth[place].attitude?.heading);
+        Some((off, own.sigma.heading))
+    };
+    late.filter_map(error).collect()
+}
+
+fn rms(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let count = values.clone().count() as f64;
+    (values.map(|x| x * x).sum::<f64>() / count).sqrt()
+}
+
+#[test]
+fn a_mems_ship_with_four_antennas_knows_her_heading_as_well_as_she_claims() {
+    let (mut with, mut without) = (Vec::new(), Vec::new());
+    for seed in 1..=4 {
+        let (voyage, log) = sailed(seed, &SQUARE);
+        assert!(
+            log.events.iter().any(|own| matches!(own, Event::CompassJudged { why_not: None, .. }))
+        );
+        assert!(!log.events.iter().any(|own| matches!(own, Event::InstallationFound { .. })));
+        with.extend(headings(&log.solutions, &voyage.truth));
+        let (voyage, log) = sailed(seed, &SQUARE[..1]);
+        without.extend(headings(&log.solutions, &voyage.truth));
+    }
+    let off = |all: &[(f64, f64)]| rms(all.iter().map(|own| own.0)) / DEG;
+    let in_claims = rms(with.iter().map(|own| own.0 / own.1));
+    let claimed = rms(with.iter().map(|own| own.1)) / DEG;
+    figure!(
+        "heading with four antennas {:.2} deg, {claimed:.2} claimed, {in_claims:.2} sigmas; with one {:.2} deg",
+        off(&with),
+        off(&without)
+    );
+    assert!(off(&with) < 0.8, "{}", off(&with));
+    assert!((0.4..1.6).contains(&in_claims), "{in_claims}");
+}
+
+#[test]
+fn two_antennas_in_each_others_place_are_found_and_turn_nothing() {
+    let mut swapped = SQUARE;
+    swapped.swap(0, 1);
+    let (voyage, log) = sailed(2, &swapped);
+    let is_it = |event: &Event| {
+        let Event::InstallationFound { finding: Finding::Antennas { fault }, .. } = event else {
+            return false;
+        };
+        matches!(fault, CompassFault::Swapped { .. })
+    };
+    assert!(log.events.iter().any(is_it), "{:?}", log.events);
+    for (off, sigma) in headings(&log.solutions, &voyage.truth) {
+        assert!(off.abs() < 4.0 * sigma, "{} of {}", off / DEG, sigma / DEG);
+    }
+}
+
+#[test]
+fn what_antennas_tell_comes_with_the_ranges_of_their_instant() {
+    let scenario = berthing().with_duration(20.0);
+    let (voyage, raw) = (simulate(&scenario, 1), raw_gnss(&scenario, 1).unwrap());
+    let all = messages(&voyage, &raw, &SQUARE);
+    let times = |is_it: &dyn Fn(&Message) -> bool| -> Vec<_> {
+        all.iter().filter(|own| is_it(&own.message)).map(|own| own.message.time()).collect()
+    };
+    let ranges = times(&|message| matches!(message, Message::Ranges(_)));
+    let compass = times(&|message| matches!(message, Message::Compass(_)));
+    assert!(ranges.len() >= 18 && ranges == compass, "{} {}", ranges.len(), compass.len());
+}
