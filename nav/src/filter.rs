@@ -22,7 +22,7 @@ use crate::separate_bias::SeparateBias;
 use crate::solution_sigma::solution_covariance;
 use crate::strapdown;
 use crate::timeline::Estimator;
-use antennas::Antennas;
+use antennas_followed::Antennas;
 use conduct::Conduct;
 use court::Court;
 pub use entry::Judged;
@@ -39,6 +39,7 @@ use state::State;
 
 pub mod ahead;
 mod antennas;
+mod antennas_followed;
 mod bent;
 pub mod checkpoint;
 mod companion;

@@ -1,12 +1,7 @@
 //! A compass of antennas while the heading is still being found: a heading like that of any other compass. What has one takes its phases.
 
-use std::sync::Arc;
-
 use insd_base::satellites::CompassReading;
 use insd_base::{Event, ExternalReference, Message, Received, Time};
-use nalgebra::Matrix3;
-
-use crate::Engine;
 
 /// A heading that is less sure than this tells an alignment nothing, rad, 1-sigma.
 const UNSURE: f64 = 0.1;
@@ -26,7 +21,7 @@ pub(crate) struct Antennas {
 
 impl Antennas {
     /// Takes an epoch. Gives what is news.
-    fn hear(&mut self, reading: &CompassReading) -> Option<Event> {
+    pub(crate) fn hear(&mut self, reading: &CompassReading) -> Option<Event> {
         let time = reading.time;
         let begun = *self.begun.get_or_insert(time);
         match &reading.told {
@@ -45,27 +40,6 @@ impl Antennas {
                 Some(Event::CompassJudged { time, why_not: Some(*why) })
             }
         }
-    }
-}
-
-impl Engine {
-    /// Takes note of what antennas tell.
-    pub(crate) fn hear_antennas(&mut self, reading: &CompassReading) {
-        if let Some(news) = self.antennas.hear(reading) {
-            self.tell(news);
-        }
-    }
-
-    /// What antennas tell as well as it is known how they sit.
-    pub(crate) fn as_well_as_they_sit(&self, received: &Received) -> Received {
-        let mut received = received.clone();
-        if let Message::Compass(reading) = &mut received.message
-            && let Ok(told) = &mut Arc::make_mut(reading).told
-        {
-            let std = self.nav.antennas.axes_std;
-            told.covariance += Matrix3::from_diagonal(&std.component_mul(&std));
-        }
-        received
     }
 }
 
@@ -93,8 +67,11 @@ pub(crate) fn as_heading(received: &Received) -> Received {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::Arc;
+
     use insd_base::Attitude;
     use insd_base::satellites::{CompassPhases, CompassRefusal};
+    use nalgebra::Matrix3;
 
     fn reading(second: u32, std: Option<f64>) -> CompassReading {
         let told = std.map(|std| CompassPhases {

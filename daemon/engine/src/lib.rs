@@ -6,6 +6,7 @@
 
 mod alignment_status;
 mod antennas;
+mod array;
 mod blind;
 mod checkpoint;
 mod checks;

@@ -19,8 +19,9 @@ use mean::MeanAntenna;
 /// Antennas that stand closer together than this are one to ranges, m: what is known of the hull's attitude does not matter.
 const CLOSE: f64 = 2.0;
 
-/// No receiver is better than this share of the variance that is assumed.
-const LEAST_LEVEL: f64 = 0.25;
+/// What is assumed of the noise of phases is worth so many residuals, and those of so many epochs are remembered.
+const ASSUMED: f64 = 100.0;
+const REMEMBERED: f64 = 300.0;
 
 /// Antennas of a hull with a receiver each.
 #[derive(Clone, Debug)]
@@ -36,6 +37,26 @@ pub struct ArrayRanging {
     run: u32,
     is_told: bool,
     faulty: Vec<usize>,
+    scatter: Scatter,
+}
+
+/// How noisy phases are beside what is assumed of them.
+#[derive(Clone, Copy, Debug, Default)]
+struct Scatter {
+    /// Sum of weighed squares of residuals.
+    squares: f64,
+    /// Of how many.
+    count: f64,
+}
+
+impl Scatter {
+    /// Takes an epoch's, with its degrees of freedom: under few satellites that is next to nothing. Gives the variance over that assumed.
+    fn hear(&mut self, (squares, count): (f64, usize)) -> f64 {
+        let kept = 1.0 - 1.0 / REMEMBERED;
+        self.squares = self.squares * kept + squares;
+        self.count = self.count * kept + count as f64;
+        (self.squares + ASSUMED) / (self.count + ASSUMED)
+    }
 }
 
 /// What is made of the epochs of all antennas.
@@ -83,6 +104,7 @@ impl ArrayRanging {
             run: 0,
             is_told: false,
             faulty: Vec::new(),
+            scatter: Scatter::default(),
         }
     }
 
@@ -119,7 +141,11 @@ impl ArrayRanging {
         self.faulty = faults.iter().filter_map(unusable).collect();
         let phases = told.map(|fix| {
             let (attitude, covariance) = fix.attitude().unwrap_or_default();
-            CompassPhases { attitude, covariance, signals: as_noisy(fix.signals, fix.level) }
+            CompassPhases {
+                attitude,
+                covariance,
+                signals: as_noisy(fix.signals, self.scatter.hear(fix.chi_square)),
+            }
         });
         // what is lost for an epoch is found where it was, or at other integers
         if phases.is_ok() && !self.is_told {
@@ -133,7 +159,7 @@ impl ArrayRanging {
 /// Phases as noisy as they have shown to be.
 fn as_noisy(mut signals: Vec<AntennaSignal>, level: f64) -> Vec<AntennaSignal> {
     let phases = signals.iter_mut().flat_map(|signal| &mut signal.phases);
-    phases.for_each(|phase| phase.variance *= level.max(LEAST_LEVEL));
+    phases.for_each(|phase| phase.variance *= level);
     signals
 }
 

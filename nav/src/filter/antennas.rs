@@ -3,8 +3,8 @@
 //! Cycles were told without the filter, so that nothing is counted twice but the phases of the epoch. What reflects goes on for a minute: epochs that are
 //! closer together are no news to that extent.
 
-use insd_base::satellites::{CompassPhases, CompassReading, LineBias};
-use insd_base::{SatelliteId, Source};
+use insd_base::Source;
+use insd_base::satellites::{CompassPhases, CompassReading};
 
 use nalgebra::Matrix3;
 
@@ -17,21 +17,10 @@ use crate::error_state::{
 };
 use crate::report::{Outcome, Report};
 
+/// Variance of what reflects under another sky than before, in that of one epoch.
+const OTHER_SKY: f64 = 2.0;
 /// After so many epochs in a row that contradict the filter its lines are not those of the antennas.
 const CONTRADICTED: u8 = 5;
-
-/// The antennas as the filter follows them.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Antennas {
-    /// Lines that are carried, in the order of their states.
-    lines: Vec<LineBias>,
-    /// Of which run of integers they are.
-    run: Option<u32>,
-    /// Satellites of the epoch before.
-    sky: Vec<SatelliteId>,
-    /// Epochs in a row that contradict the filter.
-    contradicted: u8,
-}
 
 impl Filter {
     pub(super) fn apply_compass(
@@ -89,7 +78,7 @@ impl Filter {
         }
     }
 
-    /// Under another sky reflections are others.
+    /// Under another sky reflections are others, and no news altogether: the ship that reflects is the same. They count as twice as large.
     fn seat_reflections(&mut self, told: &CompassPhases) {
         let mut sky: Vec<_> = told.signals.iter().map(|signal| signal.satellite).collect();
         sky.sort_unstable();
@@ -99,7 +88,7 @@ impl Filter {
         if 3 * stayed < 2 * sky.len().max(before.len()) {
             self.state.nominal.antenna_reflections.fill(0.0);
             for row in 0..ANTENNA_ROWS {
-                self.state.covariance.renew_state(ANTENNA_REFLECTIONS.key(), row, 1.0);
+                self.state.covariance.renew_state(ANTENNA_REFLECTIONS.key(), row, OTHER_SKY);
             }
         }
         self.antennas.sky = sky;

@@ -164,11 +164,9 @@ fn alongside(seed: u64) -> (Vec<f64>, Vec<f64>, Scores) {
 #[test]
 fn two_lasers_on_the_quay_keep_bow_and_stern_within_a_decimetre_across_it_without_any_satellite() {
     let all: Vec<_> = SEEDS.into_par_iter().map(alongside).collect();
-    let of = |errors: fn(&(Vec<f64>, Vec<f64>, Scores)) -> &[f64]| -> Vec<f64> {
-        all.iter().flat_map(|own| errors(own).iter().copied()).collect()
-    };
-    let errors = of(|own| own.0.as_slice());
-    let (with, without) = (percentile_95(&errors), percentile_95(&of(|own| own.1.as_slice())));
+    let errors: Vec<f64> = all.iter().flat_map(|own| own.0.iter().copied()).collect();
+    let alone: Vec<f64> = all.iter().flat_map(|own| own.1.iter().copied()).collect();
+    let (with, without) = (percentile_95(&errors), percentile_95(&alone));
     figure!("across the quay, 95 %: {with:.3} m with lasers, {without:.3} m without");
     let scores: Vec<Scores> = all.into_iter().map(|(.., scores)| scores).collect();
     let components = [Component::North, Component::East, Component::Heading];

@@ -1,11 +1,10 @@
 //! Receivers that together are a compass: their epochs of one instant are taken together.
 
-use insd_base::{SatelliteEpoch, Stamp};
+use insd_base::{Body, SatelliteEpoch, Stamp};
 use insd_gnss::ArrayRanging;
 use nalgebra::Vector3;
 
-use super::Came;
-use crate::config::IntakeConfig;
+use super::came::Came;
 use crate::satellites::EpochOrder;
 
 /// Receivers that sample at the same instant put it apart by less than this, s.
@@ -34,24 +33,17 @@ pub(super) struct Array {
 }
 
 impl Array {
-    /// That of a configuration, if it has one.
-    pub(super) fn of(config: &IntakeConfig) -> Option<Self> {
-        let sensors = config.sensors.iter().enumerate();
-        let own: Vec<_> = sensors.filter(|(_, sensor)| sensor.array).collect();
-        if own.len() < 2 {
-            return None;
-        }
-        let levers: Vec<Vector3<f64>> =
-            own.iter().map(|(_, sensor)| sensor.lever().unwrap_or_default().0).collect();
-        let names: Vec<_> = own.iter().map(|(_, sensor)| sensor.clock.as_deref()).collect();
-        // one that is on no stated clock is on its own
-        let clock = |place: usize| match names[place] {
-            Some(name) => names.iter().position(|other| *other == Some(name)).unwrap_or(place),
+    /// Of sensors, by their numbers, with their antennas from the IMU, body axes, m, and the names of their clocks: one that is on no stated clock is on its own.
+    /// `None` of fewer than two.
+    pub(super) fn new(own: &[(usize, Body, Option<&str>)]) -> Option<Self> {
+        let clock = |place: usize| match own[place].2 {
+            Some(name) => own.iter().position(|other| other.2 == Some(name)).unwrap_or(place),
             None => place,
         };
         let clocks: Vec<usize> = (0..own.len()).map(clock).collect();
-        Some(Self {
-            members: own.iter().map(|(index, _)| *index).collect(),
+        let levers: Vec<Vector3<f64>> = own.iter().map(|(_, lever, _)| lever.0).collect();
+        (own.len() > 1).then(|| Self {
+            members: own.iter().map(|(index, ..)| *index).collect(),
             ranging: ArrayRanging::new(&levers, &clocks),
             come: vec![None; own.len()],
             heard: vec![true; own.len()],
@@ -89,18 +81,12 @@ impl Array {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{Kind, SensorConfig};
     use insd_base::{GpsTime, Span, Time, UtcTime};
 
     fn array(antennas: usize) -> Array {
-        let sensor = |number: usize| SensorConfig {
-            array: true,
-            clock: Some("rack".to_owned()),
-            lever_m: Some([0.1 * number as f64 + 1.0, 0.0, -5.0]),
-            ..SensorConfig::new(&format!("gnss {number}"), "port", Kind::Ubx)
-        };
-        let sensors = (0..antennas).map(sensor).collect();
-        Array::of(&IntakeConfig { sensors, ..IntakeConfig::default() }).unwrap()
+        let lever = |number: usize| Body::new(0.1 * number as f64 + 1.0, 0.0, -5.0);
+        let own: Vec<_> = (0..antennas).map(|at| (at, lever(at), Some("rack"))).collect();
+        Array::new(&own).unwrap()
     }
 
     /// How many of each instant come together when antennas are heard in this order: number, second.

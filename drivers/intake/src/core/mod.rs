@@ -2,6 +2,7 @@
 
 mod array;
 mod base;
+mod came;
 mod gnss;
 mod imu;
 mod ranging;
@@ -17,12 +18,13 @@ use insd_base::{Geodetic, Message, PortId, Received, Source, Span, Stamp, Time};
 use insd_gnss::Turns;
 
 use self::array::Array;
+pub(crate) use self::came::Came;
 use insd_n2k::Name;
 
 use crate::Intaken;
 use crate::choice::{Choice, Chosen, Quantity};
 use crate::clock::{ShipUtc, SystemWatch};
-use crate::config::{IntakeConfig, Role};
+use crate::config::{IntakeConfig, Role, SensorConfig};
 use crate::decode::Reading;
 use crate::device::{Device, Heard};
 use crate::event::{Happening, IntakeEvent, Refusal};
@@ -46,15 +48,6 @@ const QUANTITIES: [Quantity; 6] = [
     Quantity::Position,
 ];
 
-/// When the bytes of what was told came.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Came {
-    /// The first.
-    pub(crate) begun: Time,
-    /// The last.
-    pub(crate) ended: Time,
-}
-
 /// What sensors share.
 #[derive(Clone, Debug)]
 pub(crate) struct Core {
@@ -74,6 +67,14 @@ pub(crate) struct Core {
     ranging: Option<(usize, Time)>,
     /// Docking aids.
     aids: Vec<DockingAid>,
+}
+
+/// The receivers of a configuration that together are a compass.
+fn array(config: &IntakeConfig) -> Option<Array> {
+    let sensors = config.sensors.iter().enumerate().filter(|(_, sensor)| sensor.array);
+    let lever = |sensor: &SensorConfig| sensor.lever().unwrap_or_default();
+    let own = sensors.map(|(index, sensor)| (index, lever(sensor), sensor.clock.as_deref()));
+    Array::new(&own.collect::<Vec<_>>())
 }
 
 impl Core {
@@ -107,7 +108,7 @@ impl Core {
             system: SystemWatch::default(),
             here: None,
             turns: Turns::default(),
-            array: Array::of(config),
+            array: array(config),
             ranging: None,
             aids: config.rangings.iter().cloned().map(DockingAid::new).collect(),
         }

@@ -37,8 +37,6 @@ pub struct CompassFix {
     pub residuals: Vec<CompassResidual>,
     /// Sum of the weighed squares of the residuals, and its degrees of freedom.
     pub chi_square: (f64, usize),
-    /// Variance of the residuals over that assumed, of this and the epochs before, the last ten above all.
-    pub level: f64,
     /// The chance that the integers are wrong, all hypotheses weighed against each other.
     pub doubt: f64,
     /// The chance that rounding finds the integers of an epoch from what is predicted, if its covariance is true.

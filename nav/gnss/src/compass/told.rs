@@ -26,7 +26,6 @@ pub(super) fn told(model: &Model<'_>, outcome: &Outcome, observed: &Observed) ->
         integers: Vec::new(),
         residuals: Vec::new(),
         chi_square: outcome.misfit,
-        level: 1.0,
         doubt: 0.0,
         success: outcome.success,
         satellites: 0,

@@ -190,7 +190,7 @@ impl CompassTracker {
         let commons = freed.commons(model.commons);
         let told = told(&Model { commons: &commons, ..model }, &outcome, observed);
         rejected.extend(told.rejected);
-        Ok(CompassFix { doubt, level: self.level, ..told.fix })
+        Ok(CompassFix { doubt, ..told.fix })
     }
 
     /// What becomes of each hypothesis.

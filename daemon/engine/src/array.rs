@@ -1,0 +1,30 @@
+//! Antennas that are a compass, as they are heard.
+
+use std::sync::Arc;
+
+use insd_base::satellites::CompassReading;
+use insd_base::{Message, Received};
+use nalgebra::Matrix3;
+
+use crate::Engine;
+
+impl Engine {
+    /// Takes note of what antennas tell.
+    pub(crate) fn hear_antennas(&mut self, reading: &CompassReading) {
+        if let Some(news) = self.antennas.hear(reading) {
+            self.tell(news);
+        }
+    }
+
+    /// What antennas tell as well as it is known how they sit.
+    pub(crate) fn as_well_as_they_sit(&self, received: &Received) -> Received {
+        let mut received = received.clone();
+        if let Message::Compass(reading) = &mut received.message
+            && let Ok(told) = &mut Arc::make_mut(reading).told
+        {
+            let std = self.nav.antennas.axes_std;
+            told.covariance += Matrix3::from_diagonal(&std.component_mul(&std));
+        }
+        received
+    }
+}
