@@ -51,9 +51,9 @@ impl Filter {
         self.companion.as_mut().map(Arc::make_mut)
     }
 
-    /// Lets the companion hear what is no range. Gives what he makes of it if he goes on alone.
+    /// Lets the companion hear what is neither range nor phase. Gives what he makes of it if he goes on alone.
     pub(super) fn accompany(&mut self, received: &Received) -> Option<Report> {
-        if matches!(received.message, Message::Ranges(_) | Message::Rtk(_)) {
+        if matches!(received.message, Message::Ranges(_) | Message::Rtk(_) | Message::Compass(_)) {
             return None;
         }
         let mut report = self.companion_mut()?.apply(received);
