@@ -15,3 +15,10 @@ pub(super) struct Antennas {
     /// Epochs in a row that contradict the filter.
     pub(super) contradicted: u8,
 }
+
+impl Antennas {
+    /// Whether any have been heard.
+    pub(super) fn is_followed(&self) -> bool {
+        self.run.is_some()
+    }
+}

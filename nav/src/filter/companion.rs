@@ -84,7 +84,10 @@ impl Filter {
     pub(super) fn claim_both(&mut self) -> Option<Report> {
         let companion = self.companion.as_deref()?;
         let (was_apart, docket) = (self.court.beside.is_some(), companion.docket());
-        let is_apart = self.apart_from(companion).max(self.turned_from(companion)) > APART
+        // who has no antennas finds his heading by himself, and by chance elsewhere more often than the two are apart in place
+        let turned = if self.antennas.is_followed() { PARTED_BY_GNSS } else { APART };
+        let is_apart = self.apart_from(companion) > APART
+            || self.turned_from(companion) > turned
             // who sails on without the receiver knows less and less, which takes nothing back
             || was_apart && docket.leaves_out_gnss()
             // no reflection does that, and the ranges are of the same receiver
