@@ -25,8 +25,14 @@ const SUBFRAME: i64 = 2;
 /// QZSS the subframes of the orbits that hold.
 #[must_use]
 pub fn ubx(raw: &RawGnss, start: GpsTime, port: usize) -> Vec<Sending> {
+    ubx_of(raw, 0, start, port)
+}
+
+/// The same of another antenna, counted from 0.
+#[must_use]
+pub fn ubx_of(raw: &RawGnss, antenna: usize, start: GpsTime, port: usize) -> Vec<Sending> {
     let mut all = Vec::new();
-    for epoch in &raw.antennas[0] {
+    for epoch in &raw.antennas[antenna] {
         let seconds = epoch.tag.since(start).as_seconds();
         let mut send = |late: f64, bytes: Vec<u8>| {
             let at = Time::from_seconds((seconds + late).max(0.0));

@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
 
+mod antennas;
 mod bus;
 mod clocks;
 mod converted;
