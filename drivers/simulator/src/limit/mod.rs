@@ -96,6 +96,13 @@ fn check(scenario: &Scenario) -> Result<(), LimitError> {
         (reference.is_some_and(|r| r.heading_std_deg.is_some()), "a reference of heading"),
         (!at_berth && scenario.gnss.is_none(), "neither a known berth nor GNSS"),
         (scenario.gnss.as_ref().is_some_and(has_faults), "faults of the GNSS"),
+    ];
+    covered(scenario, &refused)
+}
+
+/// Whether none of this is there, nor what no limit covers.
+fn covered(scenario: &Scenario, refused: &[(bool, &'static str)]) -> Result<(), LimitError> {
+    let always = [
         (!scenario.imu.gaps.is_empty(), "gaps in the data of the IMU"),
         (is_perfect(&scenario.imu), "an IMU without errors"),
         (
@@ -103,7 +110,7 @@ fn check(scenario: &Scenario) -> Result<(), LimitError> {
             "headings that count from grid north",
         ),
     ];
-    match refused.into_iter().find(|(is_there, _)| *is_there) {
+    match refused.iter().chain(&always).find(|(is_there, _)| *is_there) {
         Some((_, what)) => Err(LimitError::NotCovered(what)),
         None => Ok(()),
     }

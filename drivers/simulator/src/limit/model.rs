@@ -78,18 +78,24 @@ pub(super) fn initial(spec: &ImuSpec, start: &Start) -> DMatrix<f64> {
     DMatrix::from_diagonal(&sigma.column(0).map(|sigma| sigma * sigma))
 }
 
-/// Spectral density of the white noise that drives the errors: random walks of the sensors, and
-/// 2 sigma^2 / tau of the Gauss-Markov biases.
+/// Spectral density of the white noise that drives the errors.
 pub(super) fn noise(spec: &ImuSpec) -> DMatrix<f64> {
-    let mut density = DMatrix::zeros(STATES, STATES);
+    density(spec, STATES, [VELOCITY, ATTITUDE, GYRO_IN_RUN, ACCEL_IN_RUN])
+}
+
+/// Spectral density of what an IMU of this kind drives so many states with, those of velocity, attitude and the in-run biases of gyros and accelerometers among
+/// them: random walks of the sensors, and 2 sigma^2 / tau of the Gauss-Markov biases.
+pub(super) fn density(spec: &ImuSpec, states: usize, blocks: [Block; 4]) -> DMatrix<f64> {
+    let mut density = DMatrix::zeros(states, states);
     let (gyro, accel) = (&spec.gyro, &spec.accel);
     let markov = |std: f64, time: f64| 2.0 * std * std / time;
-    for (block, value) in [
-        (VELOCITY, accel.random_walk.powi(2)),
-        (ATTITUDE, gyro.random_walk.powi(2)),
-        (GYRO_IN_RUN, markov(gyro.instability_std, gyro.instability_time)),
-        (ACCEL_IN_RUN, markov(accel.instability_std, accel.instability_time)),
-    ] {
+    let values = [
+        accel.random_walk.powi(2),
+        gyro.random_walk.powi(2),
+        markov(gyro.instability_std, gyro.instability_time),
+        markov(accel.instability_std, accel.instability_time),
+    ];
+    for (block, value) in blocks.into_iter().zip(values) {
         block.places().for_each(|place| density[(place, place)] = value);
     }
     density

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::super::block::Block;
 use super::super::covariance::discrete;
-use super::super::model::cross;
+use super::super::model::{cross, density};
 use crate::track::Track;
 
 /// Error of position, north, east, down, m.
@@ -60,18 +60,7 @@ pub(super) fn carried_on(
 }
 
 fn noise(spec: &ImuSpec) -> DMatrix<f64> {
-    let mut density = DMatrix::zeros(INERTIAL, INERTIAL);
-    let (gyro, accel) = (&spec.gyro, &spec.accel);
-    let markov = |std: f64, time: f64| 2.0 * std * std / time;
-    for (block, value) in [
-        (VELOCITY, accel.random_walk.powi(2)),
-        (ATTITUDE, gyro.random_walk.powi(2)),
-        (GYRO_IN_RUN, markov(gyro.instability_std, gyro.instability_time)),
-        (ACCEL_IN_RUN, markov(accel.instability_std, accel.instability_time)),
-    ] {
-        block.places().for_each(|place| density[(place, place)] = value);
-    }
-    density
+    density(spec, INERTIAL, [VELOCITY, ATTITUDE, GYRO_IN_RUN, ACCEL_IN_RUN])
 }
 
 /// dp/dt = v, dv/dt = f x phi - 2 omega_ie x v + C (b + s f), dphi/dt = -omega_ie x phi + C (b + s omega): Groves, 2nd ed., section 14.2.4,

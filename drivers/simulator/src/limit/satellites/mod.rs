@@ -19,8 +19,8 @@ use nalgebra::{DMatrix, Vector3};
 
 use super::covariance::discrete;
 use super::model::cross;
-use super::{LimitError, is_perfect};
-use crate::scenario::{HeadingReference, Raw, Scenario};
+use super::{LimitError, covered};
+use crate::scenario::{Raw, Scenario};
 use crate::sky::{JudgedSegment, Seen, SkyView};
 use crate::track::Track;
 
@@ -75,17 +75,8 @@ fn check(scenario: &Scenario, raw: &Raw) -> Result<(), LimitError> {
         (raw.base.is_some(), "a base"),
         (!raw.fault.is_empty() || !raw.spoof.is_empty(), "faults of satellites"),
         (!raw.antenna_fault.is_empty() || raw.swapped.is_some(), "faults of antennas"),
-        (!scenario.imu.gaps.is_empty(), "gaps in the data of the IMU"),
-        (is_perfect(&scenario.imu), "an IMU without errors"),
-        (
-            scenario.route.heading_reference == HeadingReference::Grid,
-            "headings that count from grid north",
-        ),
     ];
-    match refused.into_iter().find(|(is_there, _)| *is_there) {
-        Some((_, what)) => Err(LimitError::NotCovered(what)),
-        None => Ok(()),
-    }
+    covered(scenario, &refused)
 }
 
 /// What is gathered of a segment.
