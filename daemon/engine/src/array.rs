@@ -16,15 +16,14 @@ impl Engine {
         }
     }
 
-    /// What antennas tell as well as it is known how they sit.
-    pub(crate) fn as_well_as_they_sit(&self, received: &Received) -> Received {
-        let mut received = received.clone();
-        if let Message::Compass(reading) = &mut received.message
-            && let Ok(told) = &mut Arc::make_mut(reading).told
-        {
+    /// What antennas tell as well as it is known how they sit; `None` of another message.
+    pub(crate) fn as_well_as_they_sit(&self, received: &Received) -> Option<Received> {
+        let Message::Compass(reading) = &received.message else { return None };
+        let mut reading = Arc::clone(reading);
+        if let Ok(told) = &mut Arc::make_mut(&mut reading).told {
             let std = self.nav.antennas.axes_std;
             told.covariance += Matrix3::from_diagonal(&std.component_mul(&std));
         }
-        received
+        Some(Received { message: Message::Compass(reading), ..*received })
     }
 }

@@ -399,8 +399,8 @@ impl Engine {
         if let Message::Compass(reading) = &received.message {
             self.hear_antennas(reading);
         }
-        let received = self.as_well_as_they_sit(received);
-        let Some(received) = &self.as_used(&received) else { return };
+        let widened = self.as_well_as_they_sit(received);
+        let Some(received) = &self.as_used(widened.as_ref().unwrap_or(received)) else { return };
         let (checked, faults) = checks::checked(received, self.config.vessel);
         for aid in faults {
             self.reject(received, aid, Rejection::OutOfRange);

@@ -6,10 +6,7 @@ use std::sync::Arc;
 
 use insd_base::satellites::SatelliteEpoch;
 use insd_base::{GpsTime, Message, Received, RtkEpoch, SatelliteId, Source, Time};
-use insd_gnss::{ArrayRanged, ArrayRanging, Context, Ranged, RtkLink, Turns};
-
-/// Receivers that sample at the same instant put it apart by less than this, s.
-const TOGETHER: f64 = 0.02;
+use insd_gnss::{ArrayRanged, ArrayRanging, Context, Ranged, RtkLink, TOGETHER, Turns};
 
 /// What is made of GNSS.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]

@@ -27,6 +27,7 @@ mod told;
 mod tracker;
 
 pub use lines::LineBiases;
+pub use observe::TOGETHER;
 pub use outcome::{
     CompassEpoch, CompassFix, CompassInteger, CompassObjection, CompassRejection, CompassResidual,
 };

@@ -27,7 +27,7 @@ pub use carrier::{CarrierDisplacement, CarrierTracker, PhaseChange};
 pub use compass::{
     AttitudePrior, CompassArray, CompassEpoch, CompassFix, CompassInteger, CompassObjection,
     CompassPose, CompassPrior, CompassRejection, CompassResidual, CompassSettings, CompassShape,
-    CompassTracker, LineBiases,
+    CompassTracker, LineBiases, TOGETHER,
 };
 pub use context::{Context, Delays};
 pub use ephemerides::{Ephemerides, OrbitRefusal};

@@ -1,11 +1,9 @@
 //! Several antennas of one hull: how it stands, by phases whose whole cycles are known.
 //!
-//! Cycles were told without the filter, so that nothing is counted twice but the phases of the epoch. What reflects goes on for a minute: epochs that are
-//! closer together are no news to that extent.
+//! Cycles were told without the filter, so that nothing is counted twice but the phases of the epoch. What reflects goes on for minutes: it is a state.
 
 use insd_base::Source;
 use insd_base::satellites::{CompassPhases, CompassReading};
-
 use nalgebra::Matrix3;
 
 use super::Filter;

@@ -6,7 +6,7 @@
 //! (the second-order term of the measurement: Jazwinski, Stochastic Processes and Filtering Theory, section 9.3).
 
 use insd_base::attitude::skew;
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::Filter;
 use crate::aids::View;
@@ -31,6 +31,19 @@ impl Filter {
     }
 }
 
+/// Variance of what a linear filter leaves out of a distance along a line e by an arm a that an attitude error phi of a covariance turns, m^2:
+/// e . (phi x (phi x a)) / 2 = phi^T B phi / 2, its mean and its scatter (Jazwinski, Stochastic Processes and Filtering Theory, section 9.3).
+pub(super) fn bent_distance(
+    attitude: &Matrix3<f64>,
+    line: &Vector3<f64>,
+    arm: &Vector3<f64>,
+) -> f64 {
+    let both = line * arm.transpose();
+    let b = (both + both.transpose()) * 0.5 - Matrix3::from_diagonal_element(line.dot(arm));
+    let spread = b * attitude;
+    (0.5 * spread.trace()).powi(2) + 0.5 * (spread * spread).trace()
+}
+
 /// Covariance of a x b for independent a and b of mean zero.
 fn of_product(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
     let both = a * b;
@@ -43,7 +56,6 @@ fn of_product(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
-    use nalgebra::Vector3;
 
     #[test]
     fn a_turn_about_down_moves_what_is_ahead_to_starboard() {

@@ -12,6 +12,7 @@ use std::sync::Arc;
 use insd_base::units::wrap_pi;
 use insd_base::{Message, Party, Received, SolutionSigma};
 
+use super::antennas_followed::Antennas;
 use super::rtk_standing::RtkStanding;
 use super::satellites::Satellites;
 use super::{Filter, imu_position};
@@ -38,7 +39,9 @@ impl Filter {
         }
         let mut companion = self.clone();
         companion.end_to_carry(Carried::WithRanges);
+        companion.end_to_carry(Carried::WithAntennas);
         companion.satellites = Satellites::default();
+        companion.antennas = Antennas::default();
         companion.rtk = RtkStanding::default();
         if companion.court.judge.is_none() {
             companion.be_judged();
@@ -64,7 +67,10 @@ impl Filter {
         if companion.docket().has_leapt() && self.satellites.went_on(self.state.time, STEADY) {
             match self.is_borne_out_by(received) {
                 // the next fix tells
-                None => return self.claim_both(),
+                None => {
+                    self.claim_both();
+                    return None;
+                }
                 Some(true) => {
                     self.be_accompanied_anew();
                     return None;
@@ -77,12 +83,13 @@ impl Filter {
             self.go_on_without_ranges(&mut report);
             return Some(report);
         }
-        self.claim_both()
+        self.claim_both();
+        None
     }
 
     /// While the two are apart, or the judge is in doubt, what is claimed covers it.
-    pub(super) fn claim_both(&mut self) -> Option<Report> {
-        let companion = self.companion.as_deref()?;
+    pub(super) fn claim_both(&mut self) {
+        let Some(companion) = self.companion.as_deref() else { return };
         let (was_apart, docket) = (self.court.beside.is_some(), companion.docket());
         // who has no antennas finds his heading by himself, and by chance elsewhere more often than the two are apart in place
         let turned = if self.antennas.is_followed() { PARTED_BY_GNSS } else { APART };
@@ -98,7 +105,6 @@ impl Filter {
         if is_new {
             self.protect();
         }
-        None
     }
 
     /// Whether a fix says that she is where ranges have her; `None` of what is no fix.

@@ -6,6 +6,7 @@ use insd_estimation::Innovation;
 use nalgebra::Matrix3;
 
 use super::Filter;
+use super::bent::bent_distance;
 use super::entry::{CODE_AID, Judged, NO_INNOVATION, PHASE_AID, RATE_AID, enter};
 use super::gnss::SLACK;
 use super::satellites::{Slot, are_most};
@@ -234,7 +235,9 @@ impl Filter {
         let attitude = ATTITUDE.covariance(&self.state.covariance);
         let row = |one: &Sighted<'_>| {
             let mut row = satellite_range::phase(&view, &antenna, *one)?;
-            row.r[(0, 0)] += bent_range(&attitude, &antenna.of_range(&view, one.range), one.range);
+            let antenna = antenna.of_range(&view, one.range);
+            let line = one.range.transmitter.line(&antenna.position);
+            row.r[(0, 0)] += bent_distance(&attitude, &line, &antenna.arm);
             Some(row)
         };
         let Some(mut rows) = Rows::of(seated, row) else { return };
@@ -418,16 +421,6 @@ impl Rows {
         })
         .collect()
     }
-}
-
-/// Variance of what a linear filter leaves out of the lever arm a that an attitude error phi of a covariance turns, along the line e to a satellite, m^2:
-/// e . (phi x (phi x a)) / 2 = phi^T B phi / 2, its mean and its scatter (Jazwinski, Stochastic Processes and Filtering Theory, section 9.3).
-fn bent_range(attitude: &Matrix3<f64>, antenna: &Antenna, range: &SatelliteRange) -> f64 {
-    let (line, arm) = (range.transmitter.line(&antenna.position), antenna.arm);
-    let both = line * arm.transpose();
-    let b = (both + both.transpose()) * 0.5 - Matrix3::from_diagonal_element(line.dot(&arm));
-    let spread = b * attitude;
-    (0.5 * spread.trace()).powi(2) + 0.5 * (spread * spread).trace()
 }
 
 /// The row that lies farthest from what all others let expect of it, if that is a fault: `(S^-1 z)_i / sqrt((S^-1)_ii)`, which is what is left of a row

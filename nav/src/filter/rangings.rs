@@ -5,9 +5,10 @@
 
 use insd_base::{RangingReading, Rejection, Source, Time};
 use insd_estimation::Release;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 use super::Filter;
+use super::bent::bent_distance;
 use super::entry::{Judged, NO_INNOVATION, RANGING_AID, detail, enter};
 use super::ranging_standing::Mark;
 use crate::aids::ranging::{self, RangingPrediction};
@@ -134,15 +135,6 @@ impl Filter {
     }
 }
 
-/// Variance of what an attitude error phi of a covariance does to a distance along a line e by an arm a, beyond what is linear, m^2:
-/// e . (phi x (phi x a)) / 2 = phi^T B phi / 2, its mean and its scatter.
-fn bent_distance(attitude: &Matrix3<f64>, line: &Vector3<f64>, arm: &Vector3<f64>) -> f64 {
-    let both = line * arm.transpose();
-    let b = (both + both.transpose()) * 0.5 - Matrix3::from_diagonal_element(line.dot(arm));
-    let spread = b * attitude;
-    (0.5 * spread.trace()).powi(2) + 0.5 * (spread * spread).trace()
-}
-
 /// Whether it can be one.
 fn is_distance(reading: &RangingReading) -> bool {
     reading.distance.abs() < FARTHEST && reading.std > 0.0 && reading.std.is_finite()
@@ -157,6 +149,7 @@ mod tests {
         Body, Ecef, Geodetic, Message, RangingBeam, RangingLine, RangingTarget, RangingTurn,
         Received, earth,
     };
+    use nalgebra::Vector3;
 
     /// A line that runs north, 20 m east of where the filter has the ship.
     fn reading(filter: &Filter, distance: f64) -> RangingReading {

@@ -1,14 +1,11 @@
 //! Receivers that together are a compass: their epochs of one instant are taken together.
 
 use insd_base::{Body, SatelliteEpoch, Stamp};
-use insd_gnss::ArrayRanging;
+use insd_gnss::{ArrayRanging, TOGETHER};
 use nalgebra::Vector3;
 
 use super::came::Came;
 use crate::satellites::EpochOrder;
-
-/// Receivers that sample at the same instant put it apart by less than this, s.
-const TOGETHER: f64 = 0.02;
 
 /// An epoch as it came.
 #[derive(Clone, Debug)]

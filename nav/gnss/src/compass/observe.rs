@@ -14,7 +14,7 @@ use crate::sight::Sight;
 use crate::signals::{phase_variance, told_code, told_phase};
 
 /// Receivers that sampled further apart than this were not at one place, s.
-const TOGETHER: f64 = 0.02;
+pub const TOGETHER: f64 = 0.02;
 
 /// Where the antennas are, ECEF, m, to ten metres, and how they move, m/s.
 #[derive(Clone, Copy, Debug)]
