@@ -12,6 +12,7 @@ struct Readme;
 
 pub mod alignment;
 pub mod attitude;
+pub mod camera;
 pub mod can;
 pub mod earth;
 pub mod estimates;
@@ -43,6 +44,7 @@ pub use alignment::{
     AlignmentPhase, AlignmentStatus, AttitudeSigma, Forecast, Lack, Limiting, SeaEstimate,
 };
 pub use attitude::Attitude;
+pub use camera::{CameraFrame, CameraModel, ImagePoint, VisualOdometry};
 pub use can::{BusEvent, CanFrame, CanId};
 pub use estimates::{Disturbance, Estimate, Estimates, SeaQuantity};
 pub use events::{

@@ -1,0 +1,110 @@
+//! What a camera tells of a ship's motion: tracks of points at rest, or a visual odometry of another's making.
+
+use nalgebra::{Matrix3, UnitQuaternion, Vector2, Vector3};
+
+use crate::frames::Body;
+use crate::time::Time;
+
+/// How a camera looks at the world and where it sits. Camera axes: `x` right in the image, `y` down, `z` along the optical axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraModel {
+    /// From the IMU, body axes, m.
+    pub lever: Body,
+    /// Turns a vector from camera axes to body axes.
+    pub c_bc: Matrix3<f64>,
+    /// Focal lengths, px: across and down.
+    pub focal: Vector2<f64>,
+    /// Where the optical axis meets the image, px.
+    pub centre: Vector2<f64>,
+    /// Width and height of the image, px.
+    pub size: [u32; 2],
+    /// Error of an image point, 1-sigma of each axis, px.
+    pub pixel_std: f64,
+}
+
+/// A point of the world in one image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImagePoint {
+    /// Its track: the same number is the same point, in an unbroken row of images; a point lost and found is another.
+    pub track: u64,
+    /// Right and down from the image's corner, undistorted, px.
+    pub at: Vector2<f64>,
+}
+
+/// One image, as what is left of it after tracking.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraFrame {
+    /// When the middle of the image was exposed, as far as the camera's clock is right.
+    pub time: Time,
+    /// The points, each track once.
+    pub points: Vec<ImagePoint>,
+}
+
+/// How a camera moved from one image to another, by a visual odometry that knows no scale: `x_from = rotation x_to + translation`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VisualOdometry {
+    /// The later image.
+    pub time: Time,
+    /// The earlier image.
+    pub since: Time,
+    /// Another number is another scale, with no link to the one before.
+    pub map: u32,
+    /// Turns a vector from axes of the later camera to axes of the earlier one.
+    pub rotation: UnitQuaternion<f64>,
+    /// The later camera in axes of the earlier one, true metres times the map's scale.
+    pub translation: Vector3<f64>,
+    /// Error of the rotation, 1-sigma of each axis, rad; errors of steps are independent.
+    pub rotation_std: f64,
+    /// Error of the translation, 1-sigma of each axis, in its own units.
+    pub translation_std: f64,
+}
+
+impl CameraModel {
+    /// Where a point `h` (camera axes, m) is seen, px; `None` behind the camera.
+    #[must_use]
+    pub fn project(&self, h: &Vector3<f64>) -> Option<Vector2<f64>> {
+        (h.z > 0.0).then(|| self.centre + self.focal.component_mul(&(h.xy() / h.z)))
+    }
+
+    /// The direction in which an image point lies: camera axes, a vector with `z` of one.
+    #[must_use]
+    pub fn ray(&self, at: &Vector2<f64>) -> Vector3<f64> {
+        (at - self.centre).component_div(&self.focal).push(1.0)
+    }
+
+    /// Whether a point lies within the image.
+    #[must_use]
+    pub fn sees(&self, at: &Vector2<f64>) -> bool {
+        let within = |v: f64, size: u32| (0.0..=f64::from(size)).contains(&v);
+        within(at.x, self.size[0]) && within(at.y, self.size[1])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera() -> CameraModel {
+        CameraModel {
+            lever: Body::default(),
+            c_bc: Matrix3::identity(),
+            focal: Vector2::new(800.0, 810.0),
+            centre: Vector2::new(640.0, 360.0),
+            size: [1280, 720],
+            pixel_std: 0.5,
+        }
+    }
+
+    #[test]
+    fn a_ray_leads_back_to_the_point_that_was_seen() {
+        let h = Vector3::new(3.0, -2.0, 25.0);
+        let seen = camera().project(&h).unwrap();
+        assert!((camera().ray(&seen) * h.z - h).norm() < 1e-12);
+        assert!(camera().sees(&seen) && !camera().sees(&Vector2::new(-1.0, 3.0)));
+    }
+
+    #[test]
+    fn what_is_behind_a_camera_is_not_seen() {
+        assert_eq!(camera().project(&Vector3::new(0.0, 0.0, -1.0)), None);
+    }
+}
