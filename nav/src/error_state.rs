@@ -184,6 +184,10 @@ declare! {
         first: |_| PHASE_DRIFT,
         process: |_, _| Process::Markov { std: PHASE_DRIFT, time: RANGE_ERROR_TIME },
         correction: Correction::Adds(|nominal| nominal.phase_drifts.as_mut_slice());
+    /// Where the IMU was some seconds before, ECEF, m, constant: a copy of the position as it was then.
+    EARLIER_PLACE: 3, "earlier_place", "m", Ecef, WithRanges,
+        first: |_| 0.0, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.earlier_place.as_mut_slice());
     /// What cables and receivers add to the phases of antennas beside the first, m, random walk.
     ANTENNA_LINES: LINES, "antenna_lines", "m", Scalar, WithAntennas,
         first: |_| LINE_UNKNOWN, process: |_, _| Process::Walk(LINE_WALK),

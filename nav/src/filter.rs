@@ -29,6 +29,7 @@ pub use entry::Judged;
 pub(crate) use entry::NO_INNOVATION;
 use entry::detail;
 use heard::Heard;
+use held::Held;
 use installation::Installation;
 use ranging_standing::Rangings;
 use receiver::Receiver;
@@ -50,6 +51,7 @@ mod estimates;
 mod found_lever;
 mod gnss;
 mod heard;
+mod held;
 mod hidden;
 mod installation;
 mod joined;
@@ -95,6 +97,8 @@ pub struct Filter {
     installation: Installation,
     court: Court,
     satellites: Satellites,
+    /// What is known of the place and not told yet.
+    held: Held,
     /// How far places against a base are believed.
     rtk: RtkStanding,
     /// Several antennas, as they are followed.
@@ -123,6 +127,7 @@ impl Filter {
             installation: Installation::default(),
             court: Court::new(initial.time),
             satellites: Satellites::default(),
+            held: Held::default(),
             rtk: RtkStanding::default(),
             antennas: Antennas::default(),
             rangings: Rangings::default(),
@@ -360,6 +365,7 @@ impl Estimator for Filter {
             Message::Ranges(ranges) => self.apply_ranges(ranges, received.source, &mut report),
             Message::Ranging(told) => self.apply_ranging(told, received.source, &mut report),
         }
+        self.hold_back();
         self.forget_silent_marks();
         self.sources.note(self.state.time, &report, &received.message);
         self.heed();
@@ -373,7 +379,7 @@ impl Estimator for Filter {
         let (sigma, hidden) = self.claims(&view, &acceleration);
         Solution {
             time: self.state.time,
-            position: view.geodetic,
+            position: self.told_place(&view),
             velocity: Ned(v_n),
             attitude: view.attitude(),
             rate: Body(view.rate - turn_of_n),

@@ -72,6 +72,8 @@ pub struct Nominal {
     pub phase_constants: SVector<f64, SATELLITES>,
     /// Its drift, m/s.
     pub phase_drifts: SVector<f64, SATELLITES>,
+    /// By how much the place of some seconds before has been corrected since it was held against earlier ones, ECEF, m.
+    pub earlier_place: Vector3<f64>,
     /// What the line of each antenna adds to its phases, m.
     pub antenna_lines: SVector<f64, LINES>,
     /// How antennas sit otherwise than configured, rotation about body axes, rad.
@@ -117,6 +119,7 @@ impl Nominal {
             reflections: SVector::zeros(),
             phase_constants: SVector::zeros(),
             phase_drifts: SVector::zeros(),
+            earlier_place: Vector3::zeros(),
             antenna_lines: SVector::zeros(),
             antenna_axes: Vector3::zeros(),
             antenna_reflections: SVector::zeros(),

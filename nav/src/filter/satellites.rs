@@ -109,6 +109,11 @@ impl Satellites {
         !std::mem::replace(&mut self.places, true)
     }
 
+    /// Whether they do.
+    pub(super) fn tell_place(&self) -> bool {
+        self.places
+    }
+
     /// A fix has told the place.
     pub(super) fn replaced_by_fix(&mut self) {
         self.places = false;
