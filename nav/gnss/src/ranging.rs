@@ -3,6 +3,7 @@
 
 mod combined;
 mod heard;
+mod place;
 
 use insd_base::satellites::{
     AntennaDisplacement, HeardSatellite, RangeRefusal, SPEED_OF_LIGHT, SatelliteRange,
@@ -19,6 +20,7 @@ use crate::single_point::{NoPosition, SinglePoint};
 use crate::velocity::DopplerVelocity;
 use combined::{Combined, combined_code};
 use heard::Heard;
+use place::Place;
 
 /// What is made of an epoch.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +77,7 @@ pub struct Ranging {
 #[derive(Clone, Copy, Debug)]
 struct Known {
     tag: GpsTime,
-    antenna: Vector3<f64>,
+    place: Place,
     clock: f64,
     drift: f64,
 }
@@ -83,17 +85,18 @@ struct Known {
 impl Ranging {
     /// Takes an epoch. Without a position, known or guessed, nothing can be made of it but the reason why; with one, each satellite counts for itself.
     pub fn take(&mut self, context: &Context, epoch: &SatelliteEpoch, guess: Guess) -> Ranged {
-        let near = guess.antenna.or(self.known.map(|known| known.antenna));
+        let near = guess.antenna.or(self.known.map(|known| known.place.at));
         let point = SinglePoint::solve(context, epoch, near);
         let found = point.as_ref().ok();
-        let antenna = guess.antenna.or(found.map(|point| point.position)).or(near);
+        let place = self.place(epoch.tag, found);
+        let antenna = guess.antenna.or(place.map(|place| place.at));
         let velocity = antenna.and_then(|at| DopplerVelocity::solve(context, epoch, &at));
         let clock = found.zip(velocity.as_ref()).and_then(|(point, velocity)| {
             let (_, clock) = point.clocks.first()?;
             Some((*clock, velocity.clock_drift))
         });
-        if let Some((antenna, (clock, drift))) = antenna.zip(clock) {
-            self.known = Some(Known { tag: epoch.tag, antenna, clock, drift });
+        if let Some((place, (clock, drift))) = place.zip(clock) {
+            self.known = Some(Known { tag: epoch.tag, place, clock, drift });
         }
         let sampled = self.sampled(epoch.tag);
         let moved = antenna.and_then(|at| {
@@ -111,6 +114,13 @@ impl Ranging {
             ranges.extend(range);
         }
         Ranged { sampled, clock, ranges, heard, point, velocity, moved }
+    }
+
+    /// By what was known before and by this epoch.
+    fn place(&self, tag: GpsTime, found: Option<&SinglePoint>) -> Option<Place> {
+        let Some(known) = self.known else { return found.map(Place::of) };
+        let elapsed = tag.since(known.tag).as_seconds();
+        Some(found.map_or(known.place, |point| known.place.then(elapsed, point)))
     }
 
     /// By the clock as it was told last, carried on by its drift.
