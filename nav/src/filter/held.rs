@@ -6,7 +6,7 @@
 //! a clone of the position (Roumeliotis and Burdick, ICRA 2002), and what each measurement moves it by is what is no motion.
 
 use insd_base::{Ecef, Geodetic, SolutionSigma, Time, earth};
-use nalgebra::{Matrix2x3, Vector3};
+use nalgebra::{Matrix2x3, Vector2, Vector3};
 
 use super::Filter;
 use crate::aids::View;
@@ -81,21 +81,12 @@ impl Filter {
         }
     }
 
-    /// A correction of more than may be held back is told at once, and all that was held back with it.
     fn hold_level(&mut self, moved: &Vector3<f64>) {
         let c_ne = self.view().c_ne;
         let level = c_ne.fixed_rows::<2>(0).into_owned();
         let [place, way] = self.level_stds(&level);
-        let most = MOST * place;
-        let moved = level * moved;
-        let mut back = level * self.held.back;
-        if way < KNOWN_WAY {
-            back += moved;
-        }
-        if moved.norm() > most {
-            back.fill(0.0);
-        }
-        self.held.back = level.transpose() * back.cap_magnitude(most);
+        let back = kept(level * self.held.back, level * moved, MOST * place, way < KNOWN_WAY);
+        self.held.back = level.transpose() * back;
     }
 
     /// 1-sigma of the place and of the way since the place of before, both level, m.
@@ -105,5 +96,36 @@ impl Filter {
         let crossed = POSITION.covariance_with(EARLIER_PLACE, p);
         let way = place + EARLIER_PLACE.covariance(p) - crossed - crossed.transpose();
         [place, way].map(|of| (level * of * level.transpose()).trace().max(0.0).sqrt())
+    }
+}
+
+/// What is held back after the place of before was `moved`. A correction of more than may be held back is told at once, and all that was held back with it.
+fn kept(back: Vector2<f64>, moved: Vector2<f64>, most: f64, is_way_known: bool) -> Vector2<f64> {
+    if moved.norm() > most {
+        return Vector2::zeros();
+    }
+    let all = if is_way_known { back + moved } else { back };
+    all.cap_magnitude(most)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_corrections_are_held_back_and_no_more_than_the_place_is_uncertain_by() {
+        let step = Vector2::new(0.0, -0.01);
+        let held = |steps| (0..steps).fold(Vector2::zeros(), |back, _| kept(back, step, 0.5, true));
+        assert!((held(20) - step * 20.0).norm() < 1e-12);
+        assert!((held(200).norm() - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_leap_is_told_at_once_and_a_way_that_nobody_knows_is_not_held_back() {
+        let back = Vector2::new(0.3, 0.0);
+        assert_eq!(kept(back, Vector2::new(0.0, 3.0), 0.5, true), Vector2::zeros());
+        assert_eq!(kept(back, Vector2::new(0.1, 0.0), 0.5, false), back);
+        // satellites are back: the place is good to less than is held
+        assert!((kept(back, Vector2::zeros(), 0.02, true).norm() - 0.02).abs() < 1e-12);
     }
 }
