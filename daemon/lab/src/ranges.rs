@@ -4,9 +4,9 @@ use std::collections::VecDeque;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use insd_base::satellites::SatelliteEpoch;
+use insd_base::satellites::{SatelliteEpoch, SatelliteRanges};
 use insd_base::{GpsTime, Message, Received, RtkEpoch, SatelliteId, Source, Time};
-use insd_gnss::{ArrayRanged, ArrayRanging, Context, Ranged, RtkLink, TOGETHER, Turns};
+use insd_gnss::{ArrayRanged, ArrayRanging, Context, PhaseRates, Ranged, RtkLink, TOGETHER, Turns};
 
 /// What is made of GNSS.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -15,6 +15,9 @@ pub enum GnssUse {
     Loose,
     /// Ranges of each satellite, from raw GNSS.
     Tight,
+    /// What the phases of each satellite change by, as range rates in the middle between two epochs, and the place as fixes tell it at the start: the
+    /// berthing source's own method, beside which ours is held.
+    PhaseRates,
     /// Nothing.
     None,
 }
@@ -77,6 +80,7 @@ pub struct RangeMaker {
     highest: Vec<SatelliteId>,
     turns: Turns,
     ready: VecDeque<Received>,
+    rates: Option<PhaseRates>,
 }
 
 impl RangeMaker {
@@ -89,7 +93,14 @@ impl RangeMaker {
             highest: Vec::new(),
             turns: Turns::default(),
             ready: VecDeque::new(),
+            rates: None,
         }
+    }
+
+    /// The same, with nothing but what phases change by.
+    #[must_use]
+    pub fn as_rates(self) -> Self {
+        RangeMaker { rates: Some(PhaseRates::default()), ..self }
     }
 
     /// How the ship turns matters to phases.
@@ -147,13 +158,23 @@ impl RangeMaker {
             self.take_base();
         }
         let source = told.source;
-        self.ready.push_back(told);
+        let told = self.by_method(told);
+        self.ready.extend(told);
         self.ready.extend(compass.map(|compass| {
             let message = Message::Compass(Arc::new(compass.at(time)));
             Received { receipt, source, message }
         }));
         let rtk = self.link.hear_rover(&self.epochs.context, first, time);
         self.ready.extend(rtk.into_iter().map(|rtk| against(receipt, rtk)));
+    }
+
+    /// Ranges as they are, or as rates.
+    fn by_method(&mut self, received: Received) -> Option<Received> {
+        let (Some(rates), Message::Ranges(told)) = (&mut self.rates, &received.message) else {
+            return Some(received);
+        };
+        let message = Message::Ranges(Arc::new(rates.take(SatelliteRanges::clone(told))?));
+        Some(Received { message, ..received })
     }
 
     fn take_base(&mut self) {

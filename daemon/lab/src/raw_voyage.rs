@@ -42,7 +42,7 @@ impl RawVoyage {
             if gnss.is_some() || !masks.is_empty() {
                 let dir = dir.join("raw").display().to_string();
                 return Err(BadInput(format!(
-                    "{dir}: no a1.obs, which --gnss tight and --mask need"
+                    "{dir}: no a1.obs, which --gnss tight, --gnss phase-rates and --mask need"
                 ))
                 .into());
             }
@@ -65,7 +65,9 @@ impl RawVoyage {
             base: told.unwrap_or_default(),
             masks: masks.to_vec(),
         };
-        Ok(RawVoyage { maker: Some(RangeMaker::new(epochs)), ..own })
+        let maker = RangeMaker::new(epochs);
+        let maker = if gnss == Some(GnssUse::PhaseRates) { maker.as_rates() } else { maker };
+        Ok(RawVoyage { maker: Some(maker), ..own })
     }
 
     /// What is received up to an instant.

@@ -14,6 +14,7 @@ mod ephemerides;
 mod integers;
 mod least_squares;
 pub mod orbit;
+mod phase_rates;
 mod ranging;
 mod rtk;
 mod sight;
@@ -33,6 +34,7 @@ pub use context::{Context, Delays};
 pub use ephemerides::{Ephemerides, OrbitRefusal};
 pub use integers::{IntegerRefusal, IntegerSearch, IntegerVector};
 pub use orbit::SatelliteState;
+pub use phase_rates::PhaseRates;
 pub use ranging::{Guess, Ranged, Ranging};
 pub use rtk::{
     DifferencedRows, DoubleDifferences, PairAmbiguity, PlacedEpoch, RoverPrior, RtkFix, RtkLink,

@@ -107,8 +107,8 @@ fn what_codes_find_of_the_place_is_no_way_that_she_has_made() {
         "beyond her way {way:.3} m, places off by at most {:.2} sigmas",
         off.map(|own| own.1).into_iter().fold(0.0, f64::max)
     );
-    // 0.07 where all that codes find is told at once
-    assert!(way < 0.045, "{off:?}");
+    // 0.051 where all that codes find is told at once
+    assert!(way < 0.04, "{off:?}");
     assert!(off.iter().all(|own| own.1 < 3.0), "{off:?}");
 }
 

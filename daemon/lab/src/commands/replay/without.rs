@@ -37,8 +37,9 @@ impl Without {
         }
         if without.contains(&Without::Raw) {
             return match asked {
-                Some(GnssUse::Tight) => {
-                    Err(BadInput("--without raw leaves nothing for --gnss tight".to_owned()))
+                Some(way @ (GnssUse::Tight | GnssUse::PhaseRates)) => {
+                    let way = if way == GnssUse::Tight { "tight" } else { "phase-rates" };
+                    Err(BadInput(format!("--without raw leaves nothing for --gnss {way}")))
                 }
                 other => Ok(other.or(Some(GnssUse::Loose))),
             };
