@@ -11,6 +11,9 @@ use insd_nav::{Estimator, Increment};
 
 /// What nobody has borne out is claimed to be no surer than this, rad.
 const UNCHECKED: f64 = 2.4 * DEG;
+/// A ship that is faster than this, m/s, over the ground heads where she goes, within this, rad.
+const MAKES_WAY: f64 = 1.5;
+const LEEWAY: f64 = 30.0 * DEG;
 /// A heading known so well, rad, bears out another within so many sigmas;
 const KNOWN: f64 = 1.5 * DEG;
 const BEARS_OUT: f64 = 3.0;
@@ -73,10 +76,15 @@ impl Blind {
     }
 }
 
-/// A solution with a heading that nobody has borne out.
+/// A solution with a heading that nobody has borne out. A ship that makes way goes where she heads, within her leeway: one that does not goes astern, or is
+/// set by a stream, or antennas stand in each other's places, and who cannot tell claims half the angle.
 pub(crate) fn unchecked(solution: Solution) -> Solution {
     let mut sigma = solution.sigma;
-    sigma.heading = sigma.heading.max(UNCHECKED);
+    let way = solution.velocity.0.xy();
+    let drift = wrap_pi(way.y.atan2(way.x) - solution.attitude.heading).abs();
+    let is_odd = way.norm() > MAKES_WAY && drift > LEEWAY;
+    let least = if is_odd { drift / 2.0 } else { UNCHECKED };
+    sigma.heading = sigma.heading.max(least);
     Solution { sigma, ..solution }
 }
 
@@ -94,4 +102,37 @@ pub(crate) fn without_heading(received: &Received) -> Received {
 /// Whether somebody tells a heading.
 pub(crate) fn tells_heading(received: &Received) -> bool {
     matches!(received.message, Message::Reference(told) if told.heading.is_some())
+}
+
+#[cfg(test)]
+mod tests {
+    use insd_base::{Attitude, Body, Geodetic, Judgement, Mode, Ned, Protection, SolutionSigma};
+    use nalgebra::{SVector, Vector3};
+
+    use super::*;
+
+    fn claimed(heading: f64, velocity: [f64; 3]) -> f64 {
+        let solution = Solution {
+            time: Time::START,
+            position: Geodetic::from_degrees(54.0, 10.0, 0.0),
+            velocity: Ned(Vector3::from(velocity)),
+            attitude: Attitude { roll: 0.0, pitch: 0.0, heading: heading * DEG },
+            rate: Body::default(),
+            sigma: SolutionSigma::of(&SVector::repeat(0.01)),
+            mode: Mode::Aided,
+            judgement: Judgement::default(),
+            source: Default::default(),
+            hidden: Protection::default(),
+        };
+        unchecked(solution).sigma.heading / DEG
+    }
+
+    #[test]
+    fn a_heading_that_nobody_bears_out_is_claimed_by_what_the_course_contradicts() {
+        assert!((claimed(10.0, [2.0, 0.0, 0.0]) - 2.4).abs() < 1e-9);
+        assert!((claimed(90.0, [2.0, 0.0, 0.0]) - 45.0).abs() < 1e-9);
+        assert!((claimed(180.0, [3.0, 0.0, 0.0]) - 90.0).abs() < 1e-9);
+        // alongside a ship moves any way
+        assert!((claimed(90.0, [0.5, 0.0, 0.0]) - 2.4).abs() < 1e-9);
+    }
 }

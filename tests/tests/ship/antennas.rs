@@ -41,15 +41,20 @@ fn sailed(seed: u64, levers: &[[f64; 3]]) -> (Voyage, Logbook) {
     (voyage, log)
 }
 
-/// Errors of the heading and their claims after two minutes, every ten seconds, rad.
-fn headings(solutions: &[Solution], truth: &[Truth]) -> Vec<(f64, f64)> {
-    let late = solutions.iter().filter(|own| own.time.as_seconds() > 120.0).step_by(10);
+/// Errors of the heading and their claims after some seconds, every ten, rad.
+fn headings_after(from: f64, solutions: &[Solution], truth: &[Truth]) -> Vec<(f64, f64)> {
+    let late = solutions.iter().filter(|own| own.time.as_seconds() > from).step_by(10);
     let error = |own: &Solution| {
         let place = truth.binary_search_by_key(&own.time, |truth| truth.time).ok()?;
         let off = wrap_pi(own.attitude.heading - truth[place].attitude?.heading);
         Some((off, own.sigma.heading))
     };
     late.filter_map(error).collect()
+}
+
+/// The same after two minutes.
+fn headings(solutions: &[Solution], truth: &[Truth]) -> Vec<(f64, f64)> {
+    headings_after(120.0, solutions, truth)
 }
 
 fn rms(values: impl Iterator<Item = f64> + Clone) -> f64 {
@@ -140,4 +145,16 @@ fn what_antennas_tell_comes_with_the_ranges_of_their_instant() {
     let ranges = times(&|message| matches!(message, Message::Ranges(_)));
     let compass = times(&|message| matches!(message, Message::Compass(_)));
     assert!(ranges.len() >= 18 && ranges == compass, "{} {}", ranges.len(), compass.len());
+}
+
+#[test]
+fn antennas_that_all_stand_one_place_on_are_claimed_by_what_the_course_contradicts() {
+    let mut turned = SQUARE;
+    turned.rotate_left(1);
+    let (voyage, log) = sailed(2, &turned);
+    let all = headings_after(0.0, &log.solutions, &voyage.truth);
+    assert!(all.iter().any(|(off, _)| off.abs() > 60.0 * DEG), "{all:?}");
+    for (off, sigma) in all {
+        assert!(off.abs() < 3.0 * sigma, "{} of {}", off / DEG, sigma / DEG);
+    }
 }
