@@ -56,6 +56,10 @@ pub(crate) enum Purpose {
     RawMultipath,
     RawArc,
     RawScene,
+    CameraScene,
+    CameraTracks,
+    CameraPixels,
+    CameraOdometry,
 }
 
 /// The stream of one purpose in the voyage of one seed.
