@@ -13,7 +13,8 @@ mod tracker;
 mod trouble;
 mod view;
 
-use insd_base::CameraFrame;
+use insd_base::{CameraFrame, ImagePoint, Time, VisualOdometry};
+use nalgebra::Vector3;
 
 use crate::scenario::{Camera, Scenario};
 use crate::sensors::epochs;
@@ -25,6 +26,7 @@ use quay::Quay;
 use tracker::Tracker;
 use trouble::Troubles;
 use view::Rig;
+pub(crate) use view::mounting;
 
 /// What a camera makes of a voyage along `track`; `None` where there is no quay.
 pub(crate) fn footage(
@@ -33,21 +35,59 @@ pub(crate) fn footage(
     track: &Track,
     seed: u64,
 ) -> Option<Footage> {
+    let frame = |time: Time, points: Vec<ImagePoint>, _: &Tracker<'_>| CameraFrame { time, points };
+    let (frames, odometry) = film(scenario, camera, track, seed, frame)?;
+    Some(Footage {
+        spec: FootageSpec::of(camera),
+        frames,
+        odometry,
+        keyframe_interval: camera.keyframe_s,
+    })
+}
+
+/// The points at rest that are tracked in one image: for those who reckon what could be known.
+#[derive(Clone, Debug)]
+pub(crate) struct Sighting {
+    /// When the image was said to be taken, s.
+    pub(crate) t: f64,
+    /// The tracks, and where their points are, ECEF, m.
+    pub(crate) points: Vec<(u64, Vector3<f64>)>,
+}
+
+/// What is tracked in each image of a voyage along `track`, and the steps of its visual odometry; `None` where there is no quay.
+pub(crate) fn sightings(
+    scenario: &Scenario,
+    camera: &Camera,
+    track: &Track,
+    seed: u64,
+) -> Option<(Vec<Sighting>, Vec<VisualOdometry>)> {
+    let sighting = |time: Time, _: Vec<ImagePoint>, tracker: &Tracker<'_>| Sighting {
+        t: time.as_seconds(),
+        points: tracker.at_rest().collect(),
+    };
+    film(scenario, camera, track, seed, sighting)
+}
+
+/// Goes through all images, and keeps of each what `keep` makes of its time, its points and the tracks.
+fn film<T>(
+    scenario: &Scenario,
+    camera: &Camera,
+    track: &Track,
+    seed: u64,
+    keep: impl Fn(Time, Vec<ImagePoint>, &Tracker<'_>) -> T,
+) -> Option<(Vec<T>, Vec<VisualOdometry>)> {
     let duration = scenario.duration();
     let quay = Quay::new(scenario, &camera.quay, track, seed)?;
     let rig = Rig::new(camera, &quay.axes, track);
     let troubles = Troubles::new(camera, &rig, duration);
     let mut tracker = Tracker::new(camera, &quay, seed);
-    let image = |time: insd_base::Time| {
+    let image = |time: Time| {
         let t = time.as_seconds();
-        CameraFrame { time, points: tracker.image(t, &rig.view(t), &troubles.at(t)) }
+        let points = tracker.image(t, &rig.view(t), &troubles.at(t));
+        keep(time, points, &tracker)
     };
-    Some(Footage {
-        spec: FootageSpec::of(camera),
-        frames: epochs(camera.rate_hz, 1, duration).map(image).collect(),
-        odometry: odometry::steps(camera, &rig, &troubles, duration, seed),
-        keyframe_interval: camera.keyframe_s,
-    })
+    let images = epochs(camera.rate_hz, 1, duration).map(image).collect();
+    Some((images, odometry::steps(camera, &rig, &troubles, duration, seed)))
 }
 
 #[cfg(test)]

@@ -47,6 +47,11 @@ impl QuayAxes {
     pub(super) fn place(&self, position: &Vector3<f64>) -> Vector3<f64> {
         self.turn * (position - self.origin)
     }
+
+    /// Where a place in these axes, m, is in ECEF.
+    pub(super) fn ecef(&self, place: &Vector3<f64>) -> Vector3<f64> {
+        self.turn.tr_mul(place) + self.origin
+    }
 }
 
 /// An upright face along the quay that hides what is behind it.

@@ -1,7 +1,7 @@
 //! Tracks as a front end makes them: a point is tracked while it is in view, and is another when it comes again.
 
 use insd_base::ImagePoint;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 use rand_pcg::Pcg64;
 
 use super::quay::Quay;
@@ -66,6 +66,14 @@ impl<'a> Tracker<'a> {
         self.last = tracked.iter().filter_map(|own| self.point(own, t, view, trouble)).collect();
         self.tracked = tracked;
         self.last.clone()
+    }
+
+    /// The tracks of points at rest in the last image, and where those are, ECEF, m.
+    pub(super) fn at_rest(&self) -> impl Iterator<Item = (u64, Vector3<f64>)> + '_ {
+        self.tracked.iter().filter_map(|own| match own.subject {
+            Subject::Fixed(number) => Some((own.id, self.quay.axes.ecef(&self.quay.point(number)))),
+            _ => None,
+        })
     }
 
     /// Ends the tracks of what has left the view, and of some others.

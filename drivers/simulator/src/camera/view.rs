@@ -48,7 +48,7 @@ pub(super) fn told_mounting(camera: &Camera) -> Matrix3<f64> {
 }
 
 /// What it truly is at time `t`, s: with the installer's error, and the knocks that it has had.
-fn mounting(camera: &Camera, t: f64) -> Matrix3<f64> {
+pub(crate) fn mounting(camera: &Camera, t: f64) -> Matrix3<f64> {
     let knocks = camera.fault.iter().filter(|fault| fault.holds(t));
     let turns = [camera.mounting_error_deg].into_iter();
     let turns = turns.chain(knocks.filter_map(|fault| fault.mounting_knocked_deg));

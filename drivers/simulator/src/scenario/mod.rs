@@ -154,6 +154,12 @@ impl Scenario {
         self.berth.as_ref()
     }
 
+    /// Whether she has a camera.
+    #[must_use]
+    pub fn has_camera(&self) -> bool {
+        self.camera.is_some()
+    }
+
     /// Length and beam of the hull, m; the IMU is amidships.
     #[must_use]
     pub fn hull(&self) -> [f64; 2] {

@@ -1,0 +1,257 @@
+//! What a camera tells: points at rest by their tracks, each with its place as a state as long as its track lasts, or the steps of a visual odometry.
+//!
+//! With phi the error of attitude such that the system's axes are (1 - phi x) the true ones, and d the way from the IMU to a point: the point in
+//! camera axes is off by C_cn (df - dp - d x phi). Of a step of the odometry the way w from camera to camera, in axes of the earlier one, is off
+//! by C_cn (dp + l x phi - dp' - l' x phi' - w x phi'), ' the earlier one, l the lever of the camera, and the turn by C_cn (phi' - phi).
+
+use insd_base::earth::c_ne;
+use nalgebra::{Matrix2x3, Matrix3, Vector3};
+
+use super::super::model::cross;
+use super::inertial::{ATTITUDE, POSITION};
+use super::knowledge::Knowledge;
+use crate::camera::{Sighting, mounting, sightings};
+use crate::scenario::{Camera, Scenario};
+use crate::sensors::epochs;
+use crate::track::Track;
+
+/// 1-sigma of the place of a point of which nothing is known, m.
+const POINT: f64 = 1000.0;
+
+/// What of a camera is used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sight {
+    /// Tracks of points.
+    Tracks,
+    /// Steps of a visual odometry.
+    Odometry,
+}
+
+/// The camera of a voyage.
+#[derive(Clone, Debug)]
+pub(super) struct Eyes<'a> {
+    camera: &'a Camera,
+    track: &'a Track,
+    /// When the images, or keyframes, were taken, s.
+    times: Vec<f64>,
+    what: What,
+    /// How many of them have been looked at.
+    done: usize,
+}
+
+#[derive(Clone, Debug)]
+enum What {
+    Tracks(Points),
+    Odometry(Steps),
+}
+
+/// What is seen in each image, and of which track the states of each point are.
+#[derive(Clone, Debug)]
+struct Points {
+    images: Vec<Sighting>,
+    slots: Vec<Option<u64>>,
+}
+
+/// Of each keyframe the map in which the step to it is, where there is one; the last keyframe and its map.
+#[derive(Clone, Debug)]
+struct Steps {
+    maps: Vec<Option<u32>>,
+    last: Option<Pose>,
+    map: Option<u32>,
+}
+
+/// The camera at one instant.
+#[derive(Clone, Copy, Debug)]
+struct Pose {
+    /// Position of the IMU, ECEF, m.
+    position: Vector3<f64>,
+    c_ne: Matrix3<f64>,
+    c_cn: Matrix3<f64>,
+    /// From the IMU, north, east, down, m.
+    lever: Vector3<f64>,
+}
+
+impl<'a> Eyes<'a> {
+    /// The camera of the voyage of a seed along its track; `None` where there is no quay.
+    pub(super) fn new(
+        scenario: &Scenario,
+        camera: &'a Camera,
+        track: &'a Track,
+        seed: u64,
+        sight: Sight,
+    ) -> Option<Self> {
+        let (images, steps) = sightings(scenario, camera, track, seed)?;
+        let (times, what): (Vec<f64>, What) = match sight {
+            Sight::Tracks => {
+                let slots = vec![None; camera.tracks as usize];
+                let times = images.iter().map(|image| image.t).collect();
+                (times, What::Tracks(Points { images, slots }))
+            }
+            Sight::Odometry => {
+                let keyframes: Vec<_> =
+                    epochs(1.0 / camera.keyframe_s, 1, scenario.duration()).collect();
+                let map = |time| {
+                    let step = steps.binary_search_by_key(time, |step| step.time).ok()?;
+                    Some(steps[step].map)
+                };
+                let maps = keyframes.iter().map(map).collect();
+                let times = keyframes.iter().map(|time| time.as_seconds()).collect();
+                (times, What::Odometry(Steps { maps, last: None, map: None }))
+            }
+        };
+        let times = times.into_iter().map(|t| t + camera.time_offset_s).collect();
+        Some(Eyes { camera, track, times, what, done: 0 })
+    }
+
+    /// How many states there are: the places of points, or position and attitude at the last keyframe and the scale.
+    pub(super) fn states(&self) -> usize {
+        match &self.what {
+            What::Tracks(points) => 3 * points.slots.len(),
+            What::Odometry(_) => 7,
+        }
+    }
+
+    /// When what is to be looked at next was taken, up to `to`, s.
+    pub(super) fn until(&self, to: f64) -> impl Iterator<Item = f64> + '_ {
+        self.times[self.done..].iter().copied().take_while(move |t| *t <= to)
+    }
+
+    /// Takes into account what was seen up to `t`, s; the states of the camera begin at `first`.
+    pub(super) fn look(&mut self, t: f64, first: usize, knowledge: &mut Knowledge) {
+        while self.times.get(self.done).is_some_and(|at| *at <= t) {
+            let at = self.times[self.done];
+            let pose = Pose::new(self.camera, self.track, at);
+            match &mut self.what {
+                What::Tracks(points) => {
+                    points.look(self.camera, self.done, &pose, first, knowledge);
+                }
+                What::Odometry(steps) => {
+                    steps.look(self.camera, self.done, pose, first, knowledge);
+                }
+            }
+            self.done += 1;
+        }
+    }
+}
+
+impl Pose {
+    /// The camera in an image that was truly taken at `t`, s.
+    fn new(camera: &Camera, track: &Track, t: f64) -> Self {
+        let ship = track.at(t);
+        let c_ne = c_ne(&ship.point);
+        let c_nb = c_ne * ship.c_eb;
+        Pose {
+            position: ship.position,
+            c_ne,
+            c_cn: (c_nb * mounting(camera, t - camera.time_offset_s)).transpose(),
+            lever: c_nb * Vector3::from(camera.lever_arm_m),
+        }
+    }
+}
+
+impl Points {
+    fn look(
+        &mut self,
+        camera: &Camera,
+        image: usize,
+        pose: &Pose,
+        first: usize,
+        knowledge: &mut Knowledge,
+    ) {
+        let seen = &self.images[image].points;
+        for slot in &mut self.slots {
+            *slot = slot.filter(|own| seen.iter().any(|(track, _)| track == own));
+        }
+        for (track, point) in seen {
+            let known = self.slots.iter().position(|slot| *slot == Some(*track));
+            let slot = known.or_else(|| self.slots.iter().position(Option::is_none));
+            let Some(slot) = slot else { continue };
+            let place = first + 3 * slot;
+            if known.is_none() {
+                self.slots[slot] = Some(*track);
+                (place..place + 3).for_each(|own| knowledge.reset(own, POINT * POINT));
+            }
+            let way = pose.c_ne * (point - pose.position);
+            measure(camera, pose, &way, place, knowledge);
+        }
+    }
+}
+
+/// Both coordinates of a point in the image, whose place is a state from `place` on; `way` to it from the IMU, north, east, down, m.
+fn measure(
+    camera: &Camera,
+    pose: &Pose,
+    way: &Vector3<f64>,
+    place: usize,
+    knowledge: &mut Knowledge,
+) {
+    let h = pose.c_cn * (way - pose.lever);
+    let scale = camera.focal_px / h.z;
+    let image = Matrix2x3::new(scale, 0.0, -scale * h.x / h.z, 0.0, scale, -scale * h.y / h.z);
+    let point = image * pose.c_cn;
+    let turn = point * -cross(way);
+    for row in 0..2 {
+        let own = (0..3).flat_map(|axis| {
+            [
+                (place + axis, point[(row, axis)]),
+                (POSITION.at(axis), -point[(row, axis)]),
+                (ATTITUDE.at(axis), turn[(row, axis)]),
+            ]
+        });
+        knowledge.measure(&own.collect::<Vec<_>>(), camera.pixel_std.powi(2));
+    }
+}
+
+impl Steps {
+    fn look(
+        &mut self,
+        camera: &Camera,
+        keyframe: usize,
+        pose: Pose,
+        first: usize,
+        knowledge: &mut Knowledge,
+    ) {
+        let scale = first + 6;
+        if let (Some(map), Some(before)) = (self.maps[keyframe], self.last) {
+            let walk = camera.log_scale_walk_sqrt_s.powi(2) * camera.keyframe_s;
+            if self.map == Some(map) {
+                knowledge.add_together(&[scale], walk);
+            } else {
+                knowledge.reset(scale, camera.log_scale_std.powi(2));
+            }
+            self.map = Some(map);
+            step(camera, [&before, &pose], first, knowledge);
+        }
+        for axis in 0..3 {
+            knowledge.copy(POSITION.at(axis), first + axis);
+            knowledge.copy(ATTITUDE.at(axis), first + 3 + axis);
+        }
+        self.last = Some(pose);
+    }
+}
+
+/// Turn and way from one keyframe, whose position, attitude and scale are states from `first` on, to the next.
+fn step(camera: &Camera, [before, now]: [&Pose; 2], first: usize, knowledge: &mut Knowledge) {
+    let way = before.c_ne * (now.position - before.position) + now.lever - before.lever;
+    let seen = before.c_cn * way;
+    let std = camera.vo_translation_std_m + camera.vo_translation_std_share * way.norm();
+    let turn = before.c_cn;
+    let lever_now = before.c_cn * cross(&now.lever);
+    let lever_before = -before.c_cn * (cross(&before.lever) + cross(&way));
+    for row in 0..3 {
+        let parts = |from: usize, of: &Matrix3<f64>, sign: f64| {
+            [0, 1, 2].map(|axis| (from + axis, sign * of[(row, axis)]))
+        };
+        let translation = [
+            parts(POSITION.at(0), &turn, 1.0),
+            parts(ATTITUDE.at(0), &lever_now, 1.0),
+            parts(first, &turn, -1.0),
+            parts(first + 3, &lever_before, 1.0),
+        ];
+        let mut translation = translation.concat();
+        translation.push((first + 6, seen[row]));
+        knowledge.measure(&translation, std * std);
+        let rotation = [parts(ATTITUDE.at(0), &turn, -1.0), parts(first + 3, &turn, 1.0)];
+        knowledge.measure(&rotation.concat(), camera.vo_rotation_std_rad.powi(2));
+    }
+}
