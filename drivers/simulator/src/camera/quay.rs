@@ -163,3 +163,20 @@ impl Quay {
             && !self.faces.iter().any(|face| face.hides(&view.place, point))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_face_hides_what_is_behind_it_and_below_its_top() {
+        let face = Face { depth: 30.0, along: [10.0, 20.0], top: 12.0 };
+        let camera = Vector3::new(15.0, -20.0, 12.0);
+        let hides = |x, y, z| face.hides(&camera, &Vector3::new(x, y, z));
+        assert!(hides(15.0, 60.0, 5.0));
+        assert!(!hides(15.0, 60.0, 20.0), "above");
+        assert!(!hides(40.0, 60.0, 5.0), "beside");
+        assert!(!hides(15.0, 30.0, 5.0), "its own");
+        assert!(!hides(15.0, 10.0, 5.0), "before");
+    }
+}
