@@ -74,8 +74,8 @@ pub fn raw_gnss(scenario: &Scenario, seed: u64) -> Option<RawGnss> {
 /// What the camera of a scenario with `[camera]` makes of its voyage; `None` of one without. The voyage itself, [`simulate`], knows nothing of it.
 #[must_use]
 pub fn footage(scenario: &Scenario, seed: u64) -> Option<Footage> {
-    let camera = scenario.camera.as_ref()?;
-    camera::footage(scenario, camera, &Track::new(scenario, seed), seed)
+    let camera = camera::installed(scenario.camera.as_ref()?, seed);
+    camera::footage(scenario, &camera, &Track::new(scenario, seed), seed)
 }
 
 /// The samples of a further IMU of the same kind on the same ship and voyage, `lever` from the first, body

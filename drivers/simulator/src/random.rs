@@ -60,6 +60,7 @@ pub(crate) enum Purpose {
     CameraTracks,
     CameraPixels,
     CameraOdometry,
+    CameraMounting,
 }
 
 /// The stream of one purpose in the voyage of one seed.

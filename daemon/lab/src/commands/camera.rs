@@ -56,3 +56,48 @@ fn odometry(footage: &Footage) -> Result<String, std::fmt::Error> {
     }
     Ok(text)
 }
+
+#[cfg(test)]
+mod tests {
+    use insd_simulator::{Scenario, footage, shipped};
+
+    use super::*;
+
+    fn written() -> (Footage, CameraFiles) {
+        let text = shipped().iter().find(|(file, _)| file.starts_with("30")).unwrap().1;
+        let scenario = Scenario::from_toml(text).unwrap().with_duration(5.0);
+        let footage = footage(&scenario, 1).unwrap();
+        let files = files(&footage).unwrap();
+        (footage, files)
+    }
+
+    #[test]
+    fn each_point_and_each_step_is_a_row() {
+        let (footage, files) = written();
+        let points: usize = footage.frames.iter().map(|frame| frame.points.len()).sum();
+        assert_eq!(files.features.lines().count(), 1 + points);
+        let first = &footage.frames[0].points[0];
+        let row = format!("0.500,{},{:.2},{:.2}", first.track, first.at.x, first.at.y);
+        assert_eq!(files.features.lines().nth(1), Some(row.as_str()));
+        assert_eq!(files.odometry.lines().count(), 1 + footage.odometry.len());
+        let numbers = |row: &str| -> Vec<f64> {
+            row.split(',').map(|field| field.parse().unwrap()).collect()
+        };
+        let row = numbers(files.odometry.lines().nth(1).unwrap());
+        assert_eq!((row.len(), &row[..4]), (13, &[1.0, 0.5, 1.0, 0.0][..]));
+        assert!((row[4..8].iter().map(|part| part * part).sum::<f64>() - 1.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn the_table_has_the_keys_of_the_format() {
+        let table: toml::Table = written().1.table.parse().unwrap();
+        let camera = &table["camera"];
+        assert_eq!(camera["lever_arm_m"].as_array().map(Vec::len), Some(3));
+        assert_eq!(camera["rotation_body_from_camera"][2].as_array().map(Vec::len), Some(3));
+        assert_eq!(camera["k"][0][2].as_float(), Some(640.0));
+        assert_eq!(camera["size_px"][1].as_integer(), Some(720));
+        for key in ["pixel_std", "log_scale_std", "log_scale_walk_sqrt_s"] {
+            assert!(camera[key].as_float().is_some(), "{key}");
+        }
+    }
+}

@@ -5,6 +5,7 @@
 //! ([`tracker`]) last while a point is in view, unless they are lost. What goes wrong is in [`trouble`]. Lenses do not bend anything, shutters do not roll, and the
 //! ship's own hull hides nothing.
 
+mod installation;
 mod odometry;
 mod output;
 mod quay;
@@ -20,6 +21,7 @@ use crate::scenario::{Camera, Scenario};
 use crate::sensors::epochs;
 use crate::track::Track;
 
+pub(crate) use installation::installed;
 pub(crate) use output::truth;
 pub use output::{Footage, FootageSpec, FootageTruth, InjectedCameraFault};
 use quay::Quay;
@@ -28,7 +30,7 @@ use trouble::Troubles;
 use view::Rig;
 pub(crate) use view::mounting;
 
-/// What a camera makes of a voyage along `track`; `None` where there is no quay.
+/// What an installed camera makes of a voyage along `track`; `None` where there is no quay.
 pub(crate) fn footage(
     scenario: &Scenario,
     camera: &Camera,
@@ -54,7 +56,7 @@ pub(crate) struct Sighting {
     pub(crate) points: Vec<(u64, Vector3<f64>)>,
 }
 
-/// What is tracked in each image of a voyage along `track`, and the steps of its visual odometry; `None` where there is no quay.
+/// What an installed camera tracks in each image of a voyage along `track`, and the steps of the visual odometry; `None` where there is no quay.
 pub(crate) fn sightings(
     scenario: &Scenario,
     camera: &Camera,

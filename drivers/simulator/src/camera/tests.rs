@@ -58,7 +58,9 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 /// How far points are from where they are expected, median, px.
 fn off(sets: &[&str]) -> f64 {
-    median(expected_and_seen(sets).iter().map(|(expected, seen)| (expected - seen).norm()).collect())
+    median(
+        expected_and_seen(sets).iter().map(|(expected, seen)| (expected - seen).norm()).collect(),
+    )
 }
 
 #[test]
@@ -89,6 +91,18 @@ fn a_mounting_that_is_not_as_told_turns_the_image_and_a_late_image_is_that_of_a_
     let (late, on_time) = (first(&late.frames[0]), first(&on_time.frames[1]));
     let again = late.iter().filter(|at| on_time.iter().any(|own| (*at - own).norm() < 1e-6));
     assert!(again.count() > 5);
+}
+
+#[test]
+fn errors_of_the_installer_are_drawn_by_the_seed_and_told_to_nobody_on_board() {
+    let scenario = scenario(5.0, &["camera.mounting_std_deg=1", "camera.time_offset_std_s=0.02"]);
+    let truth = |seed| raw_gnss(&scenario, seed).unwrap().truth.camera.unwrap();
+    let errors: Vec<f64> = (1..=20).flat_map(|seed| truth(seed).mounting_error_deg).collect();
+    let mean_square = errors.iter().map(|error| error * error).sum::<f64>() / 60.0;
+    assert!((0.6..1.5).contains(&mean_square), "{mean_square}");
+    assert!((1..=20).all(|seed| (1e-6..0.1).contains(&truth(seed).time_offset_s.abs())));
+    let told = |seed| crate::footage(&scenario, seed).unwrap().spec;
+    assert_eq!(told(1), told(2));
 }
 
 #[test]
@@ -175,7 +189,10 @@ fn what_is_on_the_water_or_on_a_ship_or_nothing_at_all_is_not_at_rest() {
         let (resting, all) =
             (sightings.last().unwrap().points.len(), frames.last().unwrap().points.len());
         let share = 1.0 - resting as f64 / all as f64;
-        assert!(all > 40 && (low - 0.03..=high + 0.03).contains(&share), "{fault}: {share} of {all}");
+        assert!(
+            all > 40 && (low - 0.03..=high + 0.03).contains(&share),
+            "{fault}: {share} of {all}"
+        );
     }
 }
 

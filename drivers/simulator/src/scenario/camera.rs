@@ -93,8 +93,12 @@ pub(crate) struct Camera {
     pub(crate) mismatched: f64,
     /// How the camera is turned from where it is said to look, about forward, starboard and down.
     pub(crate) mounting_error_deg: [f64; 3],
+    /// How well it was turned there besides: 1-sigma of each axis, one draw.
+    pub(crate) mounting_std_deg: f64,
     /// An image was taken so much later than is said.
     pub(crate) time_offset_s: f64,
+    /// How well that is known besides: 1-sigma, one draw.
+    pub(crate) time_offset_std_s: f64,
     /// Interval of the visual odometry's keyframes.
     pub(crate) keyframe_s: f64,
     /// Error of its rotation from keyframe to keyframe, 1-sigma of each axis.
@@ -130,7 +134,9 @@ impl Default for Camera {
             lost_per_s: 0.01,
             mismatched: 0.01,
             mounting_error_deg: [0.0; 3],
+            mounting_std_deg: 0.0,
             time_offset_s: 0.0,
+            time_offset_std_s: 0.0,
             keyframe_s: 0.5,
             vo_rotation_std_rad: 3e-4,
             vo_translation_std_m: 0.01,
@@ -162,6 +168,8 @@ impl Camera {
         faults.positive("camera.keyframe_s", self.keyframe_s);
         for (key, value) in [
             ("pixel_std", self.pixel_std),
+            ("mounting_std_deg", self.mounting_std_deg),
+            ("time_offset_std_s", self.time_offset_std_s),
             ("lost_per_s", self.lost_per_s),
             ("vo_rotation_std_rad", self.vo_rotation_std_rad),
             ("vo_translation_std_m", self.vo_translation_std_m),

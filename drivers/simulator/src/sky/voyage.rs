@@ -52,7 +52,10 @@ pub(crate) fn raw_gnss(
             slips,
             antenna_faults: injected(&raw.antenna_fault, voyage.duration),
             swapped: raw.swapped,
-            camera: scenario.camera.as_ref().map(|own| camera::truth(own, voyage.duration)),
+            camera: scenario
+                .camera
+                .as_ref()
+                .map(|own| camera::truth(&camera::installed(own, seed), voyage.duration)),
         },
     })
 }

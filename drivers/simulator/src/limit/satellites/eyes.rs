@@ -1,10 +1,12 @@
 //! What a camera tells: points at rest by their tracks, each with its place as a state as long as its track lasts, or the steps of a visual odometry.
 //!
 //! With phi the error of attitude such that the system's axes are (1 - phi x) the true ones, and d the way from the IMU to a point: the point in
-//! camera axes is off by C_cn (df - dp - d x phi). Of a step of the odometry the way w from camera to camera, in axes of the earlier one, is off
+//! camera axes is off by C_cn (df - dp - d x phi); with m that of the mounting, likewise, by -C_cb ((C_bn d - l) x m); and, with that of the clock, by how
+//! fast it moves. Of a step of the odometry the way w from camera to camera, in axes of the earlier one, is off
 //! by C_cn (dp + l x phi - dp' - l' x phi' - w x phi'), ' the earlier one, l the lever of the camera, and the turn by C_cn (phi' - phi).
 
 use insd_base::earth::c_ne;
+use insd_base::units::DEG;
 use nalgebra::{Matrix2x3, Matrix3, Vector3};
 
 use super::super::model::cross;
@@ -17,6 +19,11 @@ use crate::track::Track;
 
 /// 1-sigma of the place of a point of which nothing is known, m.
 const POINT: f64 = 1000.0;
+
+/// To both sides of an image its points are looked at to see how fast they move, s.
+const ASIDE: f64 = 0.01;
+/// States before those of points: the turn of the mounting, body axes, rad, and the clock, s.
+const INSTALLED: usize = 4;
 
 /// What of a camera is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,6 +74,7 @@ struct Pose {
     position: Vector3<f64>,
     c_ne: Matrix3<f64>,
     c_cn: Matrix3<f64>,
+    c_nb: Matrix3<f64>,
     /// From the IMU, north, east, down, m.
     lever: Vector3<f64>,
 }
@@ -103,12 +111,19 @@ impl<'a> Eyes<'a> {
         Some(Eyes { camera, track, times, what, done: 0 })
     }
 
-    /// How many states there are: the places of points, or position and attitude at the last keyframe and the scale.
+    /// How many states there are: mounting, clock and the places of points, or position and attitude at the last keyframe and the scale.
     pub(super) fn states(&self) -> usize {
         match &self.what {
-            What::Tracks(points) => 3 * points.slots.len(),
+            What::Tracks(points) => INSTALLED + 3 * points.slots.len(),
             What::Odometry(_) => 7,
         }
+    }
+
+    /// States of which something is known at the start, the first of the camera being `first`, with their 1-sigma.
+    pub(super) fn begin(&self, first: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let (mounting, clock) = (self.camera.mounting_std_deg * DEG, self.camera.time_offset_std_s);
+        let count = if matches!(self.what, What::Tracks(_)) { INSTALLED } else { 0 };
+        (first..).zip([mounting, mounting, mounting, clock]).take(count)
     }
 
     /// When what is to be looked at next was taken, up to `to`, s.
@@ -120,13 +135,14 @@ impl<'a> Eyes<'a> {
     pub(super) fn look(&mut self, t: f64, first: usize, knowledge: &mut Knowledge) {
         while self.times.get(self.done).is_some_and(|at| *at <= t) {
             let at = self.times[self.done];
-            let pose = Pose::new(self.camera, self.track, at);
+            let pose = |t| Pose::new(self.camera, self.track, t);
             match &mut self.what {
                 What::Tracks(points) => {
-                    points.look(self.camera, self.done, &pose, first, knowledge);
+                    let poses = [pose(at - ASIDE), pose(at), pose(at + ASIDE)];
+                    points.look(self.camera, self.done, &poses, first, knowledge);
                 }
                 What::Odometry(steps) => {
-                    steps.look(self.camera, self.done, pose, first, knowledge);
+                    steps.look(self.camera, self.done, pose(at), first, knowledge);
                 }
             }
             self.done += 1;
@@ -144,8 +160,19 @@ impl Pose {
             position: ship.position,
             c_ne,
             c_cn: (c_nb * mounting(camera, t - camera.time_offset_s)).transpose(),
+            c_nb,
             lever: c_nb * Vector3::from(camera.lever_arm_m),
         }
+    }
+
+    /// From the IMU to a place in ECEF axes, north, east, down, m.
+    fn way(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.c_ne * (point - self.position)
+    }
+
+    /// A place in ECEF axes, m, in those of the camera.
+    fn seen(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.c_cn * (self.way(point) - self.lever)
     }
 }
 
@@ -154,7 +181,7 @@ impl Points {
         &mut self,
         camera: &Camera,
         image: usize,
-        pose: &Pose,
+        poses: &[Pose; 3],
         first: usize,
         knowledge: &mut Knowledge,
     ) {
@@ -166,39 +193,43 @@ impl Points {
             let known = self.slots.iter().position(|slot| *slot == Some(*track));
             let slot = known.or_else(|| self.slots.iter().position(Option::is_none));
             let Some(slot) = slot else { continue };
-            let place = first + 3 * slot;
+            let place = first + INSTALLED + 3 * slot;
             if known.is_none() {
                 self.slots[slot] = Some(*track);
                 (place..place + 3).for_each(|own| knowledge.reset(own, POINT * POINT));
             }
-            let way = pose.c_ne * (point - pose.position);
-            measure(camera, pose, &way, place, knowledge);
+            measure(camera, poses, point, [place, first], knowledge);
         }
     }
 }
 
-/// Both coordinates of a point in the image, whose place is a state from `place` on; `way` to it from the IMU, north, east, down, m.
+/// Both coordinates of a point (ECEF, m) in the image, before and after which the camera is looked at, too. Its place is a state from `place` on, mounting and
+/// clock are from `installed` on.
 fn measure(
     camera: &Camera,
-    pose: &Pose,
-    way: &Vector3<f64>,
-    place: usize,
+    [before, pose, after]: &[Pose; 3],
+    point: &Vector3<f64>,
+    [place, installed]: [usize; 2],
     knowledge: &mut Knowledge,
 ) {
-    let h = pose.c_cn * (way - pose.lever);
+    let (way, h) = (pose.way(point), pose.seen(point));
     let scale = camera.focal_px / h.z;
     let image = Matrix2x3::new(scale, 0.0, -scale * h.x / h.z, 0.0, scale, -scale * h.y / h.z);
-    let point = image * pose.c_cn;
-    let turn = point * -cross(way);
+    let moving = image * (after.seen(point) - before.seen(point)) / (2.0 * ASIDE);
+    let to_point = image * pose.c_cn;
+    let turn = to_point * -cross(&way);
+    let mounting = to_point * -cross(&(way - pose.lever)) * pose.c_nb;
     for row in 0..2 {
-        let own = (0..3).flat_map(|axis| {
+        let mut own = vec![(installed + 3, moving[row])];
+        own.extend((0..3).flat_map(|axis| {
             [
-                (place + axis, point[(row, axis)]),
-                (POSITION.at(axis), -point[(row, axis)]),
+                (place + axis, to_point[(row, axis)]),
+                (POSITION.at(axis), -to_point[(row, axis)]),
                 (ATTITUDE.at(axis), turn[(row, axis)]),
+                (installed + axis, mounting[(row, axis)]),
             ]
-        });
-        knowledge.measure(&own.collect::<Vec<_>>(), camera.pixel_std.powi(2));
+        }));
+        knowledge.measure(&own, camera.pixel_std.powi(2));
     }
 }
 

@@ -21,6 +21,7 @@ use nalgebra::{DMatrix, Vector3};
 use super::covariance::discrete;
 use super::model::cross;
 use super::{LimitError, covered};
+use crate::camera::installed;
 use crate::scenario::{Raw, Scenario};
 use crate::sky::{JudgedSegment, Seen, SkyView};
 use crate::track::Track;
@@ -72,7 +73,8 @@ pub fn satellite_limit(scenario: &Scenario, seed: u64) -> Result<Vec<SegmentLimi
     Ok(Analysis::new(scenario, raw, &track, &sky, None).run())
 }
 
-/// The same of a scenario with a camera, by what it tells of a kind. Its mounting and its clock are taken for known, and what is mismatched for found.
+/// The same of a scenario with a camera, by what it tells of a kind. What is mismatched is taken for found; mounting and clock
+/// for known, but for what they are drawn from where tracks are used.
 ///
 /// # Errors
 /// The scenario has no raw GNSS, no camera, or something that is not modelled: see [`LimitError`].
@@ -90,7 +92,8 @@ pub fn camera_limit(
     let track = Track::new(scenario, seed);
     let sky = SkyView::new(scenario, raw, &track, seed)
         .ok_or(LimitError::NotCovered("a start that is no instant"))?;
-    let eyes = Eyes::new(scenario, camera, &track, seed, sight)
+    let camera = installed(camera, seed);
+    let eyes = Eyes::new(scenario, &camera, &track, seed, sight)
         .ok_or(LimitError::NotCovered("no quay"))?;
     Ok(Analysis::new(scenario, raw, &track, &sky, Some(eyes)).run())
 }
@@ -185,6 +188,9 @@ impl<'a> Analysis<'a> {
         let [low, high] = sky.ionosphere_factor;
         set(self.states.factor, (high - low) / 12.0_f64.sqrt());
         set(self.states.water, sky.wet_zenith_std_m);
+        if let Some(eyes) = &self.eyes {
+            eyes.begin(self.states.eyes).for_each(|(place, std)| set(place, std));
+        }
         let omega = omega(raw);
         for own in self.states.satellites() {
             let slow = slow_std(raw);

@@ -76,6 +76,11 @@ fn a_camera_tells_the_way_of_a_minute_without_satellites() {
     assert!(without > 0.5 && steps < without / 2.0, "{without} {steps}");
     assert!(tracks < steps, "{tracks} {steps}");
 
+    let told = camera_limit(&scenario, 1, Sight::Tracks).unwrap()[0].attitude_rms[0];
+    let loose = with(&["camera.mounting_std_deg=1", "camera.time_offset_std_s=0.02"]);
+    let loose = camera_limit(&loose, 1, Sight::Tracks).unwrap()[0].clone();
+    assert!(loose.attitude_rms[0] > told && loose.relative_rms >= tracks, "{loose:?} {told}");
+
     let faulty = with(&["camera.fault=[{ noise = true }]"]);
     let message = camera_limit(&faulty, 1, Sight::Tracks).unwrap_err().to_string();
     assert!(message.contains("faults of the camera"), "{message}");
