@@ -7,11 +7,13 @@ use super::view::{Rig, View};
 use crate::random::uniform;
 use crate::scenario::{Camera, CameraFault};
 
-/// A ship that passes: how fast, how long at least, how high, and how far away at most, m/s and m.
+/// A ship that passes: how fast, how long beside what keeps her in view, how high, and how far away at least and at most, m/s and m.
 const SPEED: f64 = 1.5;
-const LENGTH: [f64; 2] = [40.0, 300.0];
+const LENGTH: f64 = 40.0;
 const HEIGHT: f64 = 10.0;
 const RANGE: [f64; 2] = [8.0, 60.0];
+/// Then comes the next one, s.
+const PASSAGE: f64 = 60.0;
 
 /// A ship that passes: an upright face that moves along itself.
 #[derive(Clone, Copy, Debug)]
@@ -22,13 +24,22 @@ pub(super) struct PassingShip {
     /// Where it goes, m/s.
     pub(super) velocity: Vector3<f64>,
     length: f64,
+    /// When the next one comes, s.
+    end: f64,
 }
 
 impl PassingShip {
-    /// One that is in the middle of the image in the middle of a fault.
-    fn new(fault: &CameraFault, rig: &Rig<'_>, duration: f64) -> Self {
+    /// One after the other as long as a fault lasts in a voyage of `duration`, s.
+    fn all(fault: &CameraFault, rig: &Rig<'_>, duration: f64) -> Vec<Self> {
         let end = fault.t1_s.unwrap_or(duration).min(duration);
-        let at = f64::midpoint(fault.t0_s, end);
+        let count = ((end - fault.t0_s) / PASSAGE).ceil().max(1.0) as u32;
+        let begin = |number: u32| fault.t0_s + f64::from(number) * PASSAGE;
+        (0..count).map(|own| Self::new([begin(own), begin(own + 1).min(end)], rig)).collect()
+    }
+
+    /// One that is in the middle of the image in the middle of a span of time.
+    fn new([begin, end]: [f64; 2], rig: &Rig<'_>) -> Self {
+        let at = f64::midpoint(begin, end);
         let view = rig.view(at);
         let level = |axis: usize| {
             let axis = view.c_qc.column(axis);
@@ -43,7 +54,8 @@ impl PassingShip {
             middle: Vector3::new(middle.x, middle.y, 0.0),
             at,
             velocity: right * SPEED,
-            length: (LENGTH[0] + SPEED * (end - fault.t0_s)).min(LENGTH[1]),
+            length: LENGTH + SPEED * (end - begin),
+            end,
         }
     }
 
@@ -78,14 +90,14 @@ pub(super) struct Trouble<'a> {
 /// All that goes wrong in a voyage.
 #[derive(Clone, Debug)]
 pub(super) struct Troubles {
-    faults: Vec<(CameraFault, Option<PassingShip>)>,
+    faults: Vec<(CameraFault, Vec<PassingShip>)>,
 }
 
 impl Troubles {
     pub(super) fn new(camera: &Camera, rig: &Rig<'_>, duration: f64) -> Self {
         let of = |fault: &CameraFault| {
-            let ship = fault.ship_passing.map(|_| PassingShip::new(fault, rig, duration));
-            (*fault, ship)
+            let ships = fault.ship_passing.map(|_| PassingShip::all(fault, rig, duration));
+            (*fault, ships.unwrap_or_default())
         };
         Troubles { faults: camera.fault.iter().map(of).collect() }
     }
@@ -93,14 +105,15 @@ impl Troubles {
     /// What is wrong at time `t`, s.
     pub(super) fn at(&self, t: f64) -> Trouble<'_> {
         let mut trouble = Trouble::default();
-        for (fault, ship) in self.faults.iter().filter(|(fault, _)| fault.holds(t)) {
+        for (fault, ships) in self.faults.iter().filter(|(fault, _)| fault.holds(t)) {
             trouble.is_blinded |= fault.blinded;
             trouble.is_frozen |= fault.frozen;
             trouble.is_water |= fault.water;
             trouble.is_noise |= fault.noise;
             trouble.drops = trouble.drops.max(fault.wet_lens.unwrap_or(0.0));
             if let Some(share) = fault.ship_passing {
-                (trouble.on_ship, trouble.ship) = (share, ship.as_ref());
+                let now = ships.iter().find(|ship| t < ship.end).or(ships.last());
+                (trouble.on_ship, trouble.ship) = (share, now);
             }
         }
         trouble
