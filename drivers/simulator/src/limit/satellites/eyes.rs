@@ -63,7 +63,7 @@ struct Points {
 #[derive(Clone, Debug)]
 struct Steps {
     maps: Vec<Option<u32>>,
-    last: Option<Pose>,
+    last: Option<Box<Pose>>,
     map: Option<u32>,
 }
 
@@ -243,7 +243,7 @@ impl Steps {
         knowledge: &mut Knowledge,
     ) {
         let scale = first + 6;
-        if let (Some(map), Some(before)) = (self.maps[keyframe], self.last) {
+        if let (Some(map), Some(before)) = (self.maps[keyframe], &self.last) {
             let walk = camera.log_scale_walk_sqrt_s.powi(2) * camera.keyframe_s;
             if self.map == Some(map) {
                 knowledge.add_together(&[scale], walk);
@@ -251,13 +251,13 @@ impl Steps {
                 knowledge.reset(scale, camera.log_scale_std.powi(2));
             }
             self.map = Some(map);
-            step(camera, [&before, &pose], first, knowledge);
+            step(camera, [before, &pose], first, knowledge);
         }
         for axis in 0..3 {
             knowledge.copy(POSITION.at(axis), first + axis);
             knowledge.copy(ATTITUDE.at(axis), first + 3 + axis);
         }
-        self.last = Some(pose);
+        self.last = Some(Box::new(pose));
     }
 }
 
