@@ -35,7 +35,7 @@ use sensors::epochs;
 use track::Track;
 
 pub use camera::{Footage, FootageSpec, FootageTruth, InjectedCameraFault};
-pub use limit::{Limit, LimitError, SegmentLimit, Sight, camera_limit, limit, satellite_limit};
+pub use limit::{CameraUse, Limit, LimitError, SegmentLimit, camera_limit, limit, satellite_limit};
 pub use scenario::{Fault, Override, Scenario, ScenarioBerth, ScenarioError};
 pub use shipped::shipped;
 pub use sky::{

@@ -3,8 +3,8 @@
 use insd_base::units::DEG;
 use insd_config::BadInput;
 use insd_simulator::{
-    JudgedSegment, Limit, LimitError, Override, Scenario, SegmentLimit, Sight, camera_limit, limit,
-    satellite_limit,
+    CameraUse, JudgedSegment, Limit, LimitError, Override, Scenario, SegmentLimit, camera_limit,
+    limit, satellite_limit,
 };
 use serde::Serialize;
 
@@ -25,7 +25,7 @@ pub struct LimitArgs {
     /// Instant, s; may be repeated; 60, 120, 300, 600, 900 and 1800 if not given
     #[arg(long, value_name = "T", value_parser = super::seconds)]
     at: Vec<f64>,
-    /// In place of instants the segments of a scenario with raw GNSS, by satellites, in the sky of this seed
+    /// In place of instants the segments of a scenario with raw GNSS, by satellites and, where there is one, the camera, in the sky of this seed
     #[arg(long, value_name = "SEED", conflicts_with = "at")]
     segments: Option<u64>,
     /// Set a key of the scenario to another value, as start.lat_deg=60; may be repeated
@@ -110,17 +110,17 @@ fn run_segments(args: &LimitArgs, named: &scenario::Named, seed: u64) -> anyhow:
         let limits = limits.map_err(|fault| BadInput(format!("{}: {fault}", named.name)))?;
         Ok(limits.iter().map(SegmentRow::new).collect())
     };
-    let seen = |sight: Sight| {
+    let seen = |by: CameraUse| {
         let has_camera = named.scenario.has_camera();
-        has_camera.then(|| rows(camera_limit(&named.scenario, seed, sight))).transpose()
+        has_camera.then(|| rows(camera_limit(&named.scenario, seed, by))).transpose()
     };
     let report = SegmentsReport {
         scenario: named.name.clone(),
         seed,
         note: "1-sigma; position is horizontal (root of north plus east variance); relative: since the start of the segment",
         segments: rows(satellite_limit(&named.scenario, seed))?,
-        segments_with_camera: seen(Sight::Tracks)?,
-        segments_with_odometry: seen(Sight::Odometry)?,
+        segments_with_camera: seen(CameraUse::Tracks)?,
+        segments_with_odometry: seen(CameraUse::Odometry)?,
     };
     if args.json {
         return Ok(crate::terminal::print(&(serde_json::to_string(&report)? + "\n"))?);

@@ -5,6 +5,7 @@
 //! ([`tracker`]) last while a point is in view, unless they are lost. What goes wrong is in [`trouble`]. Lenses do not bend anything, shutters do not roll, and the
 //! ship's own hull hides nothing.
 
+mod axes;
 mod installation;
 mod odometry;
 mod output;

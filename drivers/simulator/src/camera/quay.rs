@@ -1,12 +1,12 @@
 //! The quay: an upright wall, what lies about behind its edge, and buildings.
 
-use insd_base::earth::{c_ne, ecef};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use rand_pcg::Pcg64;
 
+use super::axes::QuayAxes;
 use super::view::View;
 use crate::random::{Purpose, stream, uniform};
-use crate::scenario::{CameraQuay, Scenario, ScenarioBerth};
+use crate::scenario::{CameraQuay, Scenario};
 use crate::track::{Track, start_of};
 
 /// Points on a bollard, and how high they are above the edge at most, m.
@@ -21,38 +21,6 @@ const WIDTH: [f64; 2] = [12.0, 45.0];
 const BEYOND: f64 = 250.0;
 /// From sample to sample of the ship's way, s.
 const INTERVAL: f64 = 5.0;
-
-/// Axes of the quay: along its edge with the water on the right, landward and up, from the first point of the edge at the water.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct QuayAxes {
-    origin: Vector3<f64>,
-    /// ECEF axes to those of the quay.
-    pub(super) turn: Matrix3<f64>,
-    /// How long the edge is, m.
-    length: f64,
-}
-
-impl QuayAxes {
-    fn new(berth: &ScenarioBerth, water: f64) -> Self {
-        let [from, to] = berth.edge(water);
-        let origin = ecef(&from).0;
-        let way = ecef(&to).0 - origin;
-        let up = -c_ne(&from).row(2).transpose();
-        let along = (way - up * up.dot(&way)).normalize();
-        let rows = [along, up.cross(&along), up].map(|axis| axis.transpose());
-        QuayAxes { origin, turn: Matrix3::from_rows(&rows), length: way.norm() }
-    }
-
-    /// An ECEF position, m, in these axes.
-    pub(super) fn place(&self, position: &Vector3<f64>) -> Vector3<f64> {
-        self.turn * (position - self.origin)
-    }
-
-    /// Where a place in these axes, m, is in ECEF.
-    pub(super) fn ecef(&self, place: &Vector3<f64>) -> Vector3<f64> {
-        self.turn.tr_mul(place) + self.origin
-    }
-}
 
 /// An upright face along the quay that hides what is behind it.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,7 @@ use insd_base::Body;
 use insd_base::units::DEG;
 use nalgebra::{Matrix3, Rotation3, Vector2, Vector3};
 
-use super::quay::QuayAxes;
+use super::axes::QuayAxes;
 use crate::scenario::Camera;
 use crate::track::Track;
 

@@ -27,7 +27,7 @@ const INSTALLED: usize = 4;
 
 /// What of a camera is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sight {
+pub enum CameraUse {
     /// Tracks of points.
     Tracks,
     /// Steps of a visual odometry.
@@ -86,16 +86,16 @@ impl<'a> Eyes<'a> {
         camera: &'a Camera,
         track: &'a Track,
         seed: u64,
-        sight: Sight,
+        by: CameraUse,
     ) -> Option<Self> {
         let (images, steps) = sightings(scenario, camera, track, seed)?;
-        let (times, what): (Vec<f64>, What) = match sight {
-            Sight::Tracks => {
+        let (times, what): (Vec<f64>, What) = match by {
+            CameraUse::Tracks => {
                 let slots = vec![None; camera.tracks as usize];
                 let times = images.iter().map(|image| image.t).collect();
                 (times, What::Tracks(Points { images, slots }))
             }
-            Sight::Odometry => {
+            CameraUse::Odometry => {
                 let keyframes: Vec<_> =
                     epochs(1.0 / camera.keyframe_s, 1, scenario.duration()).collect();
                 let map = |time| {

@@ -26,8 +26,8 @@ use crate::scenario::{Raw, Scenario};
 use crate::sky::{JudgedSegment, Seen, SkyView};
 use crate::track::Track;
 
+pub use eyes::CameraUse;
 use eyes::Eyes;
-pub use eyes::Sight;
 use inertial::{ATTITUDE, POSITION, VELOCITY};
 use knowledge::Knowledge;
 use states::{OfSatellite, States};
@@ -81,7 +81,7 @@ pub fn satellite_limit(scenario: &Scenario, seed: u64) -> Result<Vec<SegmentLimi
 pub fn camera_limit(
     scenario: &Scenario,
     seed: u64,
-    sight: Sight,
+    by: CameraUse,
 ) -> Result<Vec<SegmentLimit>, LimitError> {
     let raw = scenario.raw.as_ref().ok_or(LimitError::NotCovered("no raw GNSS"))?;
     let camera = scenario.camera.as_ref().ok_or(LimitError::NotCovered("no camera"))?;
@@ -93,8 +93,8 @@ pub fn camera_limit(
     let sky = SkyView::new(scenario, raw, &track, seed)
         .ok_or(LimitError::NotCovered("a start that is no instant"))?;
     let camera = installed(camera, seed);
-    let eyes = Eyes::new(scenario, &camera, &track, seed, sight)
-        .ok_or(LimitError::NotCovered("no quay"))?;
+    let eyes =
+        Eyes::new(scenario, &camera, &track, seed, by).ok_or(LimitError::NotCovered("no quay"))?;
     Ok(Analysis::new(scenario, raw, &track, &sky, Some(eyes)).run())
 }
 

@@ -71,20 +71,20 @@ fn a_camera_tells_the_way_of_a_minute_without_satellites() {
     };
     let scenario = with(&[]);
     let without = satellite_limit(&scenario, 1).unwrap()[0].relative_rms;
-    let of = |sight| camera_limit(&scenario, 1, sight).unwrap()[0].relative_rms;
-    let (steps, tracks) = (of(Sight::Odometry), of(Sight::Tracks));
+    let of = |by| camera_limit(&scenario, 1, by).unwrap()[0].relative_rms;
+    let (steps, tracks) = (of(CameraUse::Odometry), of(CameraUse::Tracks));
     assert!(without > 0.5 && steps < without / 2.0, "{without} {steps}");
     assert!(tracks < steps, "{tracks} {steps}");
 
-    let told = camera_limit(&scenario, 1, Sight::Tracks).unwrap()[0].attitude_rms[0];
+    let told = camera_limit(&scenario, 1, CameraUse::Tracks).unwrap()[0].attitude_rms[0];
     let loose = with(&["camera.mounting_std_deg=1", "camera.time_offset_std_s=0.02"]);
-    let loose = camera_limit(&loose, 1, Sight::Tracks).unwrap()[0].clone();
+    let loose = camera_limit(&loose, 1, CameraUse::Tracks).unwrap()[0].clone();
     assert!(loose.attitude_rms[0] > told && loose.relative_rms >= tracks, "{loose:?} {told}");
 
     let faulty = with(&["camera.fault=[{ noise = true }]"]);
-    let message = camera_limit(&faulty, 1, Sight::Tracks).unwrap_err().to_string();
+    let message = camera_limit(&faulty, 1, CameraUse::Tracks).unwrap_err().to_string();
     assert!(message.contains("faults of the camera"), "{message}");
     let blind = Scenario::from_toml(shipped()[28].1).unwrap();
-    let message = camera_limit(&blind, 1, Sight::Tracks).unwrap_err().to_string();
+    let message = camera_limit(&blind, 1, CameraUse::Tracks).unwrap_err().to_string();
     assert!(message.contains("no camera"), "{message}");
 }
