@@ -9,6 +9,7 @@
 //! those derivatives. Of the navigator nothing but the vocabulary of `insd-base` is shared, so an
 //! error in its mechanisation cannot hide here as well.
 
+mod camera;
 pub mod feed;
 pub mod lies;
 mod limit;
@@ -33,7 +34,8 @@ use scenario::{Gnss, Log};
 use sensors::epochs;
 use track::Track;
 
-pub use limit::{Limit, LimitError, SegmentLimit, limit, satellite_limit};
+pub use camera::{Footage, FootageSpec, FootageTruth, InjectedCameraFault};
+pub use limit::{CameraUse, Limit, LimitError, SegmentLimit, camera_limit, limit, satellite_limit};
 pub use scenario::{Fault, Override, Scenario, ScenarioBerth, ScenarioError};
 pub use shipped::shipped;
 pub use sky::{
@@ -67,6 +69,13 @@ pub fn simulate(scenario: &Scenario, seed: u64) -> Voyage {
 pub fn raw_gnss(scenario: &Scenario, seed: u64) -> Option<RawGnss> {
     let raw = scenario.raw.as_ref()?;
     sky::raw_gnss(scenario, raw, &Track::new(scenario, seed), seed)
+}
+
+/// What the camera of a scenario with `[camera]` makes of its voyage; `None` of one without. The voyage itself, [`simulate`], knows nothing of it.
+#[must_use]
+pub fn footage(scenario: &Scenario, seed: u64) -> Option<Footage> {
+    let camera = camera::installed(scenario.camera.as_ref()?, seed);
+    camera::footage(scenario, &camera, &Track::new(scenario, seed), seed)
 }
 
 /// The samples of a further IMU of the same kind on the same ship and voyage, `lever` from the first, body

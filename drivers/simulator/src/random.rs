@@ -56,6 +56,11 @@ pub(crate) enum Purpose {
     RawMultipath,
     RawArc,
     RawScene,
+    CameraScene,
+    CameraTracks,
+    CameraPixels,
+    CameraOdometry,
+    CameraMounting,
 }
 
 /// The stream of one purpose in the voyage of one seed.

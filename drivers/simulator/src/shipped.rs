@@ -39,5 +39,6 @@ pub fn shipped() -> &'static [(&'static str, &'static str)] {
         "27-satellite-faults.toml",
         "28-spoofer.toml",
         "29-berthing-4ant.toml",
+        "30-berthing-camera.toml",
     ]
 }

@@ -1,7 +1,7 @@
 //! Voyages as directories of CSV files: the exchange format for recordings and simulations.
 //!
 //! [`VoyageReader`] streams the sensor messages of a directory in order of receipt and in constant
-//! memory; [`write_voyage`] makes such a directory, [`write_raw`] adds raw GNSS; [`NavWriter`] writes the answer of a replay,
+//! memory; [`write_voyage`] makes such a directory, [`write_raw`] adds raw GNSS, [`write_camera`] a camera; [`NavWriter`] writes the answer of a replay,
 //! `nav.csv`. Files may be compressed (`NAME.csv.zst`).
 //!
 //! No input makes this module panic. Faults come in two kinds:
@@ -14,6 +14,7 @@
 //!   column ([`FileReport`]). When more than 100 rows and more than 10 % of a file are faulty, that
 //!   is an error too. So is a row of `nav.csv` that says of its integrity what the format does not know.
 
+mod camera_files;
 mod error;
 mod fields;
 mod header;
@@ -32,6 +33,7 @@ mod stream;
 mod table;
 mod writer;
 
+pub use camera_files::{CameraFiles, write_camera};
 pub use error::RecordingError;
 pub use header::read_header;
 pub use lines::MAX_LINE;

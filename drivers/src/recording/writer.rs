@@ -27,7 +27,7 @@ const DELTA_VELOCITY: usize = 11;
 /// zstd's own default.
 const LEVEL: i32 = 3;
 
-/// How the large files, `imu.csv`, `truth.csv` and those of raw GNSS, are written.
+/// How the large files, `imu.csv`, `truth.csv`, those of raw GNSS and of a camera, are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Compression {
     /// As text.

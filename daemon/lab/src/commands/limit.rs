@@ -3,7 +3,8 @@
 use insd_base::units::DEG;
 use insd_config::BadInput;
 use insd_simulator::{
-    JudgedSegment, Limit, Override, Scenario, SegmentLimit, limit, satellite_limit,
+    CameraUse, JudgedSegment, Limit, LimitError, Override, Scenario, SegmentLimit, camera_limit,
+    limit, satellite_limit,
 };
 use serde::Serialize;
 
@@ -24,7 +25,7 @@ pub struct LimitArgs {
     /// Instant, s; may be repeated; 60, 120, 300, 600, 900 and 1800 if not given
     #[arg(long, value_name = "T", value_parser = super::seconds)]
     at: Vec<f64>,
-    /// In place of instants the segments of a scenario with raw GNSS, by satellites, in the sky of this seed
+    /// In place of instants the segments of a scenario with raw GNSS, by satellites and, where there is one, the camera, in the sky of this seed
     #[arg(long, value_name = "SEED", conflicts_with = "at")]
     segments: Option<u64>,
     /// Set a key of the scenario to another value, as start.lat_deg=60; may be repeated
@@ -82,6 +83,12 @@ struct SegmentsReport {
     seed: u64,
     note: &'static str,
     segments: Vec<SegmentRow>,
+    /// By tracks of points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    segments_with_camera: Option<Vec<SegmentRow>>,
+    /// By the steps of a visual odometry.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    segments_with_odometry: Option<Vec<SegmentRow>>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -99,19 +106,41 @@ struct SegmentRow {
 }
 
 fn run_segments(args: &LimitArgs, named: &scenario::Named, seed: u64) -> anyhow::Result<()> {
-    let limits = satellite_limit(&named.scenario, seed)
-        .map_err(|fault| BadInput(format!("{}: {fault}", named.name)))?;
+    let rows = |limits: Result<Vec<SegmentLimit>, LimitError>| -> anyhow::Result<Vec<SegmentRow>> {
+        let limits = limits.map_err(|fault| BadInput(format!("{}: {fault}", named.name)))?;
+        Ok(limits.iter().map(SegmentRow::new).collect())
+    };
+    let seen = |by: CameraUse| {
+        let has_camera = named.scenario.has_camera();
+        has_camera.then(|| rows(camera_limit(&named.scenario, seed, by))).transpose()
+    };
     let report = SegmentsReport {
         scenario: named.name.clone(),
         seed,
         note: "1-sigma; position is horizontal (root of north plus east variance); relative: since the start of the segment",
-        segments: limits.iter().map(SegmentRow::new).collect(),
+        segments: rows(satellite_limit(&named.scenario, seed))?,
+        segments_with_camera: seen(CameraUse::Tracks)?,
+        segments_with_odometry: seen(CameraUse::Odometry)?,
     };
     if args.json {
         return Ok(crate::terminal::print(&(serde_json::to_string(&report)? + "\n"))?);
     }
-    let head = format!("{}, seed {seed}: 1-sigma of the optimal filter\n\n", report.scenario);
-    Ok(crate::terminal::print(&(head + &segment_table(&report.segments).to_string()))?)
+    Ok(crate::terminal::print(&segment_text(&report))?)
+}
+
+fn segment_text(report: &SegmentsReport) -> String {
+    let SegmentsReport { scenario, seed, segments, .. } = report;
+    let table = segment_table(segments);
+    let mut text = format!("{scenario}, seed {seed}: 1-sigma of the optimal filter\n\n{table}");
+    for (what, rows) in [
+        ("with the camera, by tracks of points", &report.segments_with_camera),
+        ("with the camera, by the steps of its visual odometry", &report.segments_with_odometry),
+    ] {
+        if let Some(rows) = rows {
+            text += &format!("\n{what}\n\n{}", segment_table(rows));
+        }
+    }
+    text
 }
 
 impl SegmentRow {

@@ -1,6 +1,7 @@
 //! One command, one file.
 
 pub mod alignment;
+mod camera;
 pub mod campaign;
 pub mod convert;
 pub mod evaluate;

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::Context;
-use insd_drivers::recording::{Compression, write_raw, write_voyage};
-use insd_simulator::{Override, raw_gnss, simulate};
+use insd_drivers::recording::{Compression, write_camera, write_raw, write_voyage};
+use insd_simulator::{Override, footage, raw_gnss, simulate};
 
+use super::camera;
 use super::raw_gnss::files;
 use crate::scenario;
 
@@ -27,7 +28,7 @@ pub struct SimulateArgs {
     /// Set a key of the scenario to another value, as start.lat_deg=60; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     sets: Vec<Override>,
-    /// Compress imu.csv, truth.csv and raw GNSS
+    /// Compress imu.csv, truth.csv, raw GNSS and what a camera tells
     #[arg(long)]
     compress: bool,
 }
@@ -46,9 +47,13 @@ pub fn run(args: &SimulateArgs) -> anyhow::Result<()> {
     write_voyage(out, &voyage, compression).context("cannot write the voyage")?;
     let raw = raw_gnss(&scenario.scenario, *seed).map(|raw| files(&raw)).transpose()?;
     write_raw(out, raw.as_ref(), compression).context("cannot write the raw GNSS")?;
+    let footage = footage(&scenario.scenario, *seed);
+    let seen = footage.as_ref().map(camera::files).transpose()?;
+    write_camera(out, seen.as_ref(), compression).context("cannot write the camera's files")?;
     let antennas = raw.map(|raw| format!(", {} antennas raw", raw.antennas.len()));
+    let images = footage.map(|footage| format!(", {} images", footage.frames.len()));
     eprintln!(
-        "{}, seed {}: {} imu, {} gnss, {} log, {} reference, {} truth rows{} in {}",
+        "{}, seed {}: {} imu, {} gnss, {} log, {} reference, {} truth rows{}{} in {}",
         scenario.name,
         seed,
         voyage.imu.len(),
@@ -57,6 +62,7 @@ pub fn run(args: &SimulateArgs) -> anyhow::Result<()> {
         voyage.reference.len(),
         voyage.truth.len(),
         antennas.unwrap_or_default(),
+        images.unwrap_or_default(),
         out.display()
     );
     Ok(())

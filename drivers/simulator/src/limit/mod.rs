@@ -22,7 +22,7 @@ use crate::scenario::{Gnss, HeadingReference, Imu, Scenario};
 
 use aid::{Berth, Fixes};
 use covariance::Covariance;
-pub use satellites::{SegmentLimit, satellite_limit};
+pub use satellites::{CameraUse, SegmentLimit, camera_limit, satellite_limit};
 use way::Way;
 
 /// The 1-sigma of the optimal filter at one instant.

@@ -46,6 +46,25 @@ impl ScenarioBerth {
         &self.name
     }
 
+    /// Two points of the edge of the quay with the water on the right, looking from the first to the second, at a height above the ellipsoid, m.
+    pub(crate) fn edge(&self, height: f64) -> [Geodetic; 2] {
+        let [from, to] =
+            [self.from_deg, self.to_deg].map(|[lat, lon]| Geodetic::from_degrees(lat, lon, height));
+        match self.water {
+            Water::Right => [from, to],
+            Water::Left => [to, from],
+        }
+    }
+
+    /// Bollards, from the first of these points, m, when the edge is `length`, m.
+    pub(crate) fn bollards(&self, length: f64) -> impl Iterator<Item = f64> + '_ {
+        let from_first = move |at: &f64| match self.water {
+            Water::Right => *at,
+            Water::Left => length - at,
+        };
+        self.bollards_m.iter().map(from_first)
+    }
+
     pub(super) fn check(&self, faults: &mut Faults) {
         for (key, [lat, lon]) in [("from_deg", self.from_deg), ("to_deg", self.to_deg)] {
             faults.range(format!("berth.{key}[0]"), lat, -90.0, 90.0);

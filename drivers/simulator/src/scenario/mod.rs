@@ -4,6 +4,7 @@
 //! once, here, and turned into SI where the simulation takes them up.
 
 mod berth;
+mod camera;
 mod fault;
 mod gnss;
 mod imu;
@@ -22,6 +23,7 @@ use serde::Deserialize;
 use fault::Faults;
 
 pub use berth::ScenarioBerth;
+pub(crate) use camera::{Camera, CameraFault, CameraQuay};
 pub use fault::{Fault, ScenarioError};
 pub(crate) use gnss::{Gnss, GnssGrade, GnssNoise, StdFault};
 pub(crate) use imu::{Imu, Vibration};
@@ -71,6 +73,8 @@ pub struct Scenario {
     pub(crate) gnss: Option<Gnss>,
     /// Raw GNSS.
     pub(crate) raw: Option<Raw>,
+    /// Camera.
+    pub(crate) camera: Option<Camera>,
     /// Velocity log.
     pub(crate) log: Option<Log>,
     /// Current of the water, seen by a log that measures against it.
@@ -150,6 +154,12 @@ impl Scenario {
         self.berth.as_ref()
     }
 
+    /// Whether she has a camera.
+    #[must_use]
+    pub fn has_camera(&self) -> bool {
+        self.camera.is_some()
+    }
+
     /// Length and beam of the hull, m; the IMU is amidships.
     #[must_use]
     pub fn hull(&self) -> [f64; 2] {
@@ -198,6 +208,12 @@ impl Scenario {
         }
         if let Some(raw) = &self.raw {
             raw_check::check(raw, &mut faults);
+        }
+        if let Some(camera) = &self.camera {
+            camera.check(&mut faults);
+            if self.berth.is_none() {
+                faults.add("camera", "expected a [berth], whose quay it sees");
+            }
         }
         if let Some(log) = &self.log {
             log.check(&mut faults);

@@ -3,6 +3,8 @@
 use insd_base::satellites::SatelliteId;
 use serde::{Serialize, Serializer};
 
+use crate::camera::FootageTruth;
+
 fn name<S: Serializer>(satellite: &SatelliteId, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_str(satellite)
 }
@@ -129,4 +131,7 @@ pub struct RawTruth {
     /// Two antennas of which each is told to be where the other is.
     #[serde(serialize_with = "antennas", skip_serializing_if = "Option::is_none")]
     pub swapped: Option<[usize; 2]>,
+    /// What was done to the camera, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<FootageTruth>,
 }

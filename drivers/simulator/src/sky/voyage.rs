@@ -17,6 +17,7 @@ use super::records::{IONOSPHERE, records, reference_before};
 use super::satellite::{Departure, Satellite};
 use super::scene::Scene;
 use super::truth::{InjectedSlip, RawTruth};
+use crate::camera;
 use crate::feed::Calendar;
 use crate::scenario::{Raw, RawBase, Scenario};
 use crate::sensors::epochs;
@@ -51,6 +52,10 @@ pub(crate) fn raw_gnss(
             slips,
             antenna_faults: injected(&raw.antenna_fault, voyage.duration),
             swapped: raw.swapped,
+            camera: scenario
+                .camera
+                .as_ref()
+                .map(|own| camera::truth(&camera::installed(own, seed), voyage.duration)),
         },
     })
 }

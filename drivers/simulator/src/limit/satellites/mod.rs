@@ -6,6 +6,7 @@
 //! satellite and antenna, orbits, clocks of satellites and the air. Smooth errors, there sums of a few sinusoids, are damped oscillators.
 //! Integers between antennas are taken for known and slips for found; fixes of the receiver, which are of the same signals, add nothing.
 
+mod eyes;
 mod inertial;
 mod knowledge;
 mod states;
@@ -20,16 +21,21 @@ use nalgebra::{DMatrix, Vector3};
 use super::covariance::discrete;
 use super::model::cross;
 use super::{LimitError, covered};
+use crate::camera::installed;
 use crate::scenario::{Raw, Scenario};
 use crate::sky::{JudgedSegment, Seen, SkyView};
 use crate::track::Track;
 
+pub use eyes::CameraUse;
+use eyes::Eyes;
 use inertial::{ATTITUDE, POSITION, VELOCITY};
 use knowledge::Knowledge;
 use states::{OfSatellite, States};
 
 /// Damping of what stands for smooth errors.
 const DAMPING: f64 = 0.2;
+/// What is so near is taken together, s.
+const SAME: f64 = 1e-6;
 /// 1-sigma of cycles of which nothing is known, m.
 const CYCLES: f64 = 100.0;
 /// Of a clock's bias and drift, m and m/s.
@@ -64,7 +70,32 @@ pub fn satellite_limit(scenario: &Scenario, seed: u64) -> Result<Vec<SegmentLimi
     let track = Track::new(scenario, seed);
     let sky = SkyView::new(scenario, raw, &track, seed)
         .ok_or(LimitError::NotCovered("a start that is no instant"))?;
-    Ok(Analysis::new(scenario, raw, &track, &sky).run())
+    Ok(Analysis::new(scenario, raw, &track, &sky, None).run())
+}
+
+/// The same of a scenario with a camera, by what it tells of a kind. What is mismatched is taken for found; mounting and clock
+/// for known, but for what they are drawn from where tracks are used.
+///
+/// # Errors
+/// The scenario has no raw GNSS, no camera, or something that is not modelled: see [`LimitError`].
+pub fn camera_limit(
+    scenario: &Scenario,
+    seed: u64,
+    by: CameraUse,
+) -> Result<Vec<SegmentLimit>, LimitError> {
+    let raw = scenario.raw.as_ref().ok_or(LimitError::NotCovered("no raw GNSS"))?;
+    let camera = scenario.camera.as_ref().ok_or(LimitError::NotCovered("no camera"))?;
+    check(scenario, raw)?;
+    if !camera.fault.is_empty() {
+        return Err(LimitError::NotCovered("faults of the camera"));
+    }
+    let track = Track::new(scenario, seed);
+    let sky = SkyView::new(scenario, raw, &track, seed)
+        .ok_or(LimitError::NotCovered("a start that is no instant"))?;
+    let camera = installed(camera, seed);
+    let eyes =
+        Eyes::new(scenario, &camera, &track, seed, by).ok_or(LimitError::NotCovered("no quay"))?;
+    Ok(Analysis::new(scenario, raw, &track, &sky, Some(eyes)).run())
 }
 
 fn check(scenario: &Scenario, raw: &Raw) -> Result<(), LimitError> {
@@ -102,14 +133,25 @@ struct Analysis<'a> {
     interval: f64,
     count: usize,
     heard: BTreeSet<SatelliteId>,
+    eyes: Option<Eyes<'a>>,
 }
 
 impl<'a> Analysis<'a> {
-    fn new(scenario: &Scenario, raw: &'a Raw, track: &'a Track, sky: &'a SkyView<'a>) -> Self {
+    fn new(
+        scenario: &Scenario,
+        raw: &'a Raw,
+        track: &'a Track,
+        sky: &'a SkyView<'a>,
+        eyes: Option<Eyes<'a>>,
+    ) -> Self {
         let interval = 1.0 / raw.rate_hz;
         let count = (scenario.duration() * raw.rate_hz) as usize;
         let all = (1..=count).flat_map(|epoch| sky.at(epoch as f64 * interval));
-        let states = States::new(raw, &all.map(|seen| seen.id).collect());
+        let states = States::new(
+            raw,
+            &all.map(|seen| seen.id).collect(),
+            eyes.as_ref().map_or(0, Eyes::states),
+        );
         let spec = scenario.imu.simulated();
         let mut own = Analysis {
             knowledge: Knowledge::new(states.size()),
@@ -122,6 +164,7 @@ impl<'a> Analysis<'a> {
             states,
             interval,
             count,
+            eyes,
         };
         own.begin();
         own
@@ -145,6 +188,9 @@ impl<'a> Analysis<'a> {
         let [low, high] = sky.ionosphere_factor;
         set(self.states.factor, (high - low) / 12.0_f64.sqrt());
         set(self.states.water, sky.wet_zenith_std_m);
+        if let Some(eyes) = &self.eyes {
+            eyes.begin(self.states.eyes).for_each(|(place, std)| set(place, std));
+        }
         let omega = omega(raw);
         for own in self.states.satellites() {
             let slow = slow_std(raw);
@@ -177,12 +223,26 @@ impl<'a> Analysis<'a> {
         segments.into_iter().zip(sums).map(|(own, sums)| sums.limit(own)).collect()
     }
 
-    fn predict(&mut self, from: f64, to: f64) {
-        let middle = (from + to) / 2.0;
-        for part in [[from, middle], [middle, to]] {
-            let (phi, added) = inertial::carried_on(&self.spec, self.track, part);
+    /// Carries the inertial system on, from image to image where there is a camera.
+    fn sail(&mut self, from: f64, to: f64) {
+        let mut stops = vec![(from + to) / 2.0, to];
+        stops.extend(self.eyes.iter().flat_map(|eyes| eyes.until(to)));
+        stops.sort_by(f64::total_cmp);
+        stops.dedup_by(|late, early| *late - *early < SAME);
+        let mut begin = from;
+        for stop in stops {
+            let (phi, added) = inertial::carried_on(&self.spec, self.track, [begin, stop]);
             self.knowledge.carry(0, &phi, &added);
+            if let Some(eyes) = &mut self.eyes {
+                eyes.look(stop + SAME, self.states.eyes, &mut self.knowledge);
+            }
+            begin = stop;
         }
+    }
+
+    // an image has to do with the ship and what it shows alone, so that it may come before all else is carried on
+    fn predict(&mut self, from: f64, to: f64) {
+        self.sail(from, to);
         let [clock, slow, ionosphere] = &self.smooth;
         for place in self.states.clocks() {
             self.knowledge.carry(place, &clock.0, &clock.1);

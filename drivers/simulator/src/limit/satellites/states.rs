@@ -37,12 +37,14 @@ pub(super) struct States {
     /// Factor of the ionosphere.
     pub(super) factor: usize,
     satellites: BTreeMap<SatelliteId, OfSatellite>,
+    /// The first of those of a camera.
+    pub(super) eyes: usize,
     size: usize,
 }
 
 impl States {
-    /// Those of the receivers of a scenario that hear these satellites.
-    pub(super) fn new(raw: &Raw, satellites: &BTreeSet<SatelliteId>) -> Self {
+    /// Those of the receivers of a scenario that hear these satellites, and so many of a camera.
+    pub(super) fn new(raw: &Raw, satellites: &BTreeSet<SatelliteId>, eyes: usize) -> Self {
         let antennas = raw.antennas_m.len();
         let own = |index: usize| !raw.common_clock.contains(&(index + 1));
         let shared = raw.common_clock.iter().min().map(|first| first - 1);
@@ -77,7 +79,18 @@ impl States {
         };
         let satellites = satellites.iter().map(of).collect();
         let clock_of = (0..antennas).map(|index| clock(index).unwrap_or(0)).collect();
-        States { begin, clocks, clock_of, offsets, lines, water, factor, satellites, size: next }
+        States {
+            begin,
+            clocks,
+            clock_of,
+            offsets,
+            lines,
+            water,
+            factor,
+            satellites,
+            eyes: next,
+            size: next + eyes,
+        }
     }
 
     /// How many there are.

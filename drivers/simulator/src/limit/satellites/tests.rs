@@ -53,3 +53,38 @@ fn what_is_not_modelled_gives_no_number() {
         assert!(message.contains(told), "{number} {sets:?}: {message}");
     }
 }
+
+#[test]
+fn a_camera_tells_the_way_of_a_minute_without_satellites() {
+    let text = shipped().iter().find(|(file, _)| file.starts_with("30")).unwrap().1;
+    let sets = [
+        "raw.antennas_m=[[-5.95, -0.85, -14.0]]",
+        "raw.common_clock=[]",
+        "raw.sky.constellations=G",
+        "raw.segment=[{ t0_s = 60.0, t1_s = 100.0, label = \"0\", satellites = 0 }]",
+        "camera.tracks=20",
+    ];
+    let with = |more: &[&str]| {
+        let sets = sets.iter().chain(more).map(|set| set.parse().unwrap());
+        let sets: Vec<Override> = sets.collect();
+        Scenario::with_overrides(text, &sets).unwrap().with_duration(100.0)
+    };
+    let scenario = with(&[]);
+    let without = satellite_limit(&scenario, 1).unwrap()[0].relative_rms;
+    let of = |by| camera_limit(&scenario, 1, by).unwrap()[0].relative_rms;
+    let (steps, tracks) = (of(CameraUse::Odometry), of(CameraUse::Tracks));
+    assert!(without > 0.5 && steps < without / 2.0, "{without} {steps}");
+    assert!(tracks < steps, "{tracks} {steps}");
+
+    let told = camera_limit(&scenario, 1, CameraUse::Tracks).unwrap()[0].attitude_rms[0];
+    let loose = with(&["camera.mounting_std_deg=1", "camera.time_offset_std_s=0.02"]);
+    let loose = camera_limit(&loose, 1, CameraUse::Tracks).unwrap()[0].clone();
+    assert!(loose.attitude_rms[0] > told && loose.relative_rms >= tracks, "{loose:?} {told}");
+
+    let faulty = with(&["camera.fault=[{ noise = true }]"]);
+    let message = camera_limit(&faulty, 1, CameraUse::Tracks).unwrap_err().to_string();
+    assert!(message.contains("faults of the camera"), "{message}");
+    let blind = Scenario::from_toml(shipped()[28].1).unwrap();
+    let message = camera_limit(&blind, 1, CameraUse::Tracks).unwrap_err().to_string();
+    assert!(message.contains("no camera"), "{message}");
+}
