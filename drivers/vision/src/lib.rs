@@ -4,7 +4,7 @@
 //! with its reason ([`BadImage`]) and changes nothing. Image points are counted as OpenCV does: the middle of the first pixel is (0, 0).
 
 mod attitude;
-
+mod calibration;
 mod corners;
 mod flow;
 mod front_end;
@@ -15,7 +15,7 @@ mod quality;
 mod two_view;
 
 pub use attitude::CameraAttitude;
-
+pub use calibration::{CalibrationFault, read_calibration};
 pub use front_end::{FrontEnd, FrontEndConfig, Hints, Lost, SeenTrack, Tracked, Trust};
 pub use image::{BadImage, ImageCounts, Picture};
 pub use lens::{CameraCalibration, Lens};
