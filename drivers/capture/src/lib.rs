@@ -8,6 +8,7 @@ mod fault;
 mod folder;
 mod image_file;
 mod live;
+mod one_core;
 mod sketch;
 
 pub use child::{PipedSource, start_child};
@@ -16,4 +17,5 @@ pub use fault::CaptureFault;
 pub use folder::{ImageFolder, TimedImage};
 pub use image_file::{GreyImage, read_image};
 pub use live::LiveCamera;
+pub use one_core::on_one_core;
 pub use sketch::Sketch;

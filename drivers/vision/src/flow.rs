@@ -22,7 +22,6 @@ const LAST_STEP: f32 = 0.01;
 const STEPS: usize = 20;
 
 /// An image, halved some times, with the gradients of each.
-#[derive(Clone)]
 pub(crate) struct Pyramid {
     levels: Vec<Image<f32, 1>>,
     across: Vec<Image<f32, 1>>,
@@ -75,11 +74,6 @@ impl Pyramid {
     }
 }
 
-/// Carries points from one image to another and back.
-pub(crate) struct Flow {
-    forward: PyrLKPrecomputed,
-}
-
 /// What became of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Found {
@@ -88,57 +82,62 @@ pub(crate) struct Found {
     pub(crate) error: f32,
 }
 
-impl Flow {
-    /// Between two images of one size.
-    pub(crate) fn between(from: Pyramid, to: &Pyramid) -> Self {
-        let forward = PyrLKPrecomputed {
-            prev_pyr: from.levels,
-            next_pyr: to.levels.clone(),
-            grad_x_pyr: from.across,
-            grad_y_pyr: from.down,
-        };
-        Flow { forward }
-    }
+/// Where points of one image are in another, looked for at `seeds`; the way back begins at `back` of what was found. `None` for one that
+/// is nowhere to be found. With them the pyramid of the other image.
+pub(crate) fn carry(
+    from: Pyramid,
+    to: Pyramid,
+    points: &[Pixel],
+    seeds: &[Pixel],
+    back: impl Fn(&Pixel) -> Pixel,
+) -> (Vec<Option<Found>>, Pyramid) {
+    let forward = PyrLKPrecomputed {
+        prev_pyr: from.levels,
+        next_pyr: to.levels,
+        grad_x_pyr: from.across,
+        grad_y_pyr: from.down,
+    };
+    let there = flow(&forward, points, seeds);
+    let backward = PyrLKPrecomputed {
+        prev_pyr: forward.next_pyr,
+        next_pyr: forward.prev_pyr,
+        grad_x_pyr: to.across,
+        grad_y_pyr: to.down,
+    };
+    let arrived: Vec<Pixel> =
+        there.iter().zip(seeds).map(|(at, seed)| at.unwrap_or(*seed)).collect();
+    let seeds: Vec<Pixel> = arrived.iter().map(back).collect();
+    let again = flow(&backward, &arrived, &seeds);
+    let found = |i: usize| {
+        let (at, back) = (there[i]?, again[i]?);
+        let error = (back[0] - points[i][0]).hypot(back[1] - points[i][1]);
+        error.is_finite().then_some(Found { at, error })
+    };
+    let pyramid = Pyramid {
+        levels: backward.prev_pyr,
+        across: backward.grad_x_pyr,
+        down: backward.grad_y_pyr,
+    };
+    ((0..points.len()).map(found).collect(), pyramid)
+}
 
-    /// Where points are now, looked for at `seeds`; the way back begins at `back` of what was found. `None` where it is nowhere to be found.
-    pub(crate) fn carry(
-        self,
-        to: &Pyramid,
-        from: &[Pixel],
-        seeds: &[Pixel],
-        back: impl Fn(&Pixel) -> Pixel,
-    ) -> Vec<Option<Found>> {
-        let settings = PyrLKParams {
-            max_level: HALVINGS,
-            max_iter: STEPS,
-            epsilon: LAST_STEP,
-            min_eigen_threshold: MIN_EIGENVALUE,
-            use_initial_flow: true,
-            ..PyrLKParams::default()
-        };
-        let there =
-            calc_optical_flow_pyr_lk_with_precomputed(&self.forward, from, Some(seeds), &settings);
-        let Ok(there) = there else { return vec![None; from.len()] };
-        let backward = PyrLKPrecomputed {
-            prev_pyr: self.forward.next_pyr,
-            next_pyr: self.forward.prev_pyr,
-            grad_x_pyr: to.across.clone(),
-            grad_y_pyr: to.down.clone(),
-        };
-        let seeds: Vec<Pixel> = there.next_pts.iter().map(back).collect();
-        let again = calc_optical_flow_pyr_lk_with_precomputed(
-            &backward,
-            &there.next_pts,
-            Some(&seeds),
-            &settings,
-        );
-        let Ok(again) = again else { return vec![None; from.len()] };
-        let found = |i: usize| {
-            let (at, back) = (there.next_pts[i], again.next_pts[i]);
-            let error = (back[0] - from[i][0]).hypot(back[1] - from[i][1]);
-            let is_there = there.status[i] == 1 && again.status[i] == 1;
-            (is_there && error.is_finite()).then_some(Found { at, error })
-        };
-        (0..from.len()).map(found).collect()
-    }
+/// Where points are in the next image.
+fn flow(images: &PyrLKPrecomputed, points: &[Pixel], seeds: &[Pixel]) -> Vec<Option<Pixel>> {
+    let settings = PyrLKParams {
+        max_level: HALVINGS,
+        max_iter: STEPS,
+        epsilon: LAST_STEP,
+        min_eigen_threshold: MIN_EIGENVALUE,
+        use_initial_flow: true,
+        ..PyrLKParams::default()
+    };
+    let result = calc_optical_flow_pyr_lk_with_precomputed(images, points, Some(seeds), &settings);
+    // it fails for images of different sizes, of which there are none here
+    let Ok(result) = result else { return vec![None; points.len()] };
+    result
+        .next_pts
+        .iter()
+        .zip(&result.status)
+        .map(|(at, status)| (*status == 1).then_some(*at))
+        .collect()
 }

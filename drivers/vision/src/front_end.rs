@@ -7,7 +7,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use crate::corners::Grid;
-use crate::flow::{Flow, Found, Pixel, Pyramid};
+use crate::flow::{Found, Pixel, Pyramid, carry};
 use crate::image::{BadImage, Entrance, Entry, ImageCounts, Picture};
 use crate::lens::CameraCalibration;
 use crate::mask::ImageMask;
@@ -204,9 +204,10 @@ impl FrontEnd {
         }
         // the size was looked at, so that the pyramid cannot fail
         let pyramid = Pyramid::of(image).map_err(|_| BadImage::WrongSize)?;
-        let lost = self.follow(&pyramid, hints);
-        self.replenish(image, &pyramid, hints).map_err(|_| BadImage::WrongSize)?;
+        let (lost, pyramid) = self.follow(pyramid, hints);
+        let filled = self.replenish(image, &pyramid, hints);
         self.before = Some(pyramid);
+        filled.map_err(|_| BadImage::WrongSize)?;
         self.newest = Some(image.time);
         let trust = self.judge(image.time, &lost);
         let points = if trust == Trust::Sees { self.points() } else { Vec::new() };
@@ -222,15 +223,15 @@ impl FrontEnd {
     }
 
     /// Carries the tracks on and drops those that fail a check.
-    fn follow(&mut self, pyramid: &Pyramid, hints: &Hints) -> Lost {
+    fn follow(&mut self, pyramid: Pyramid, hints: &Hints) -> (Lost, Pyramid) {
         let mut lost = Lost { sought: self.tracks.len(), ..Lost::default() };
-        let Some(before) = self.before.take() else { return lost };
+        let Some(before) = self.before.take() else { return (lost, pyramid) };
         let from: Vec<Pixel> = self.tracks.iter().map(|track| track.at).collect();
         let turn = hints.rotation.unwrap_or_default();
         let (ahead, back) =
             (|at: &Pixel| self.turned(at, &turn), |at: &Pixel| self.turned(at, &turn.inverse()));
         let seeds: Vec<Pixel> = from.iter().map(ahead).collect();
-        let found = Flow::between(before, pyramid).carry(pyramid, &from, &seeds, back);
+        let (found, pyramid) = carry(before, pyramid, &from, &seeds, back);
         let there: Vec<Option<Found>> =
             found.into_iter().map(|f| f.filter(|f| self.is_inside(&f.at))).collect();
         let limit = self.config.forward_backward_px as f32;
@@ -247,7 +248,7 @@ impl FrontEnd {
         });
         self.tracks = self.allowed(kept.collect(), hints);
         lost.masked = good.len() - lost.epipolar - self.tracks.len();
-        lost
+        (lost, pyramid)
     }
 
     /// Where a point at infinity goes when the camera turns; where it was if it leaves what the lens shows.

@@ -1,0 +1,114 @@
+//! What a camera saw, in words and numbers.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use insd_vision::{ImageCounts, ImageQuality, Lost, Tracked, Trust};
+
+/// Sums over images.
+#[derive(Debug, Default)]
+pub(super) struct Summary {
+    points: Vec<usize>,
+    /// Images that each track was in.
+    lengths: BTreeMap<u64, u32>,
+    lost: Lost,
+    quality: Vec<ImageQuality>,
+    doubtful: usize,
+}
+
+impl Summary {
+    pub(super) fn add(&mut self, tracked: &Tracked) {
+        self.points.push(tracked.seen.len());
+        self.lengths.extend(tracked.seen.iter().map(|track| (track.id, track.length)));
+        let (all, new) = (&mut self.lost, &tracked.lost);
+        all.sought += new.sought;
+        all.gone += new.gone;
+        all.backward += new.backward;
+        all.epipolar += new.epipolar;
+        all.masked += new.masked;
+        self.quality.push(tracked.quality);
+        self.doubtful += usize::from(tracked.trust == Trust::Doubtful);
+    }
+
+    /// A few lines.
+    pub(super) fn text(&self, counts: &ImageCounts, dropped: u64) -> String {
+        let mut text = images(counts, dropped);
+        if self.points.is_empty() {
+            return text + "nothing seen\n";
+        }
+        let lengths: Vec<u32> = self.lengths.values().copied().collect();
+        let longest = lengths.iter().max().copied().unwrap_or_default();
+        let (points, length) = (median(&self.points), median(&lengths));
+        let lost = &self.lost;
+        let share = |count: usize| 100.0 * count as f64 / lost.sought.max(1) as f64;
+        let refused = 100.0 * lost.refused_share();
+        // writing into a text does not fail
+        let _ = writeln!(
+            text,
+            "tracks    {points} in an image, each in {length} images (medians), the longest in {longest}"
+        );
+        let _ = writeln!(
+            text,
+            "lost      {:.1} % of the points of the image before were not found again, {:.1} % were on water, own ship or each other",
+            share(lost.gone),
+            share(lost.masked)
+        );
+        let _ = writeln!(
+            text,
+            "refused   {refused:.1} % of those found again: {} the way back led elsewhere, {} did not move with the world",
+            lost.backward, lost.epipolar
+        );
+        text + &self.light()
+    }
+
+    fn light(&self) -> String {
+        let of = |measure: fn(&ImageQuality) -> f64| {
+            median_of(self.quality.iter().map(measure).collect())
+        };
+        let count = |is: fn(&ImageQuality) -> bool| {
+            self.quality.iter().filter(|quality| is(quality)).count()
+        };
+        let images = self.quality.len();
+        format!(
+            "sharpness {:.0} (variance of the Laplacian, median); {} of {images} images blurred\n\
+             exposure  mean {:.0}, saturated {:.2} %, black {:.2} % (medians); {} badly exposed, {} by night\n\
+             doubtful  {} of {images} images\n",
+            of(|quality| quality.sharpness),
+            count(ImageQuality::is_blurred),
+            of(|quality| quality.mean),
+            100.0 * of(|quality| quality.saturated),
+            100.0 * of(|quality| quality.black),
+            count(ImageQuality::is_badly_exposed),
+            count(ImageQuality::is_night),
+            self.doubtful,
+        )
+    }
+}
+
+fn images(counts: &ImageCounts, dropped: u64) -> String {
+    let mut text = format!("images    {} used", counts.used);
+    for (reason, count) in &counts.refused {
+        let _ = write!(text, ", {count} {}", reason.text());
+    }
+    if counts.clock_set_back > 0 {
+        let _ = write!(text, ", clock set back {} times", counts.clock_set_back);
+    }
+    if dropped > 0 {
+        let _ = write!(text, ", {dropped} dropped for want of time");
+    }
+    text + "\n"
+}
+
+fn median<T: Copy + Ord>(values: &[T]) -> T
+where
+    T: Default,
+{
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable();
+    sorted.get(sorted.len() / 2).copied().unwrap_or_default()
+}
+
+fn median_of(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or_default()
+}
