@@ -36,16 +36,15 @@ impl Summary {
         if self.points.is_empty() {
             return text + "nothing seen\n";
         }
-        let lengths: Vec<u32> = self.lengths.values().copied().collect();
-        let longest = lengths.iter().max().copied().unwrap_or_default();
-        let (points, length) = (median(&self.points), median(&lengths));
+        let longest = self.lengths.values().max().copied().unwrap_or_default();
+        let (points, length) = (median(&self.points), self.length());
         let lost = &self.lost;
         let share = |count: usize| 100.0 * count as f64 / lost.sought.max(1) as f64;
         let refused = 100.0 * lost.refused_share();
         // writing into a text does not fail
         let _ = writeln!(
             text,
-            "tracks    {points} in an image, each in {length} images (medians), the longest in {longest}"
+            "tracks    {points} in an image, in {length} images each (medians over all points), the longest in {longest}"
         );
         let _ = writeln!(
             text,
@@ -59,6 +58,19 @@ impl Summary {
             lost.backward, lost.epipolar
         );
         text + &self.light()
+    }
+
+    /// Images that the track of a point is in, median over all points of all images.
+    fn length(&self) -> u32 {
+        let mut lengths: Vec<u32> = self.lengths.values().copied().collect();
+        lengths.sort_unstable();
+        let points: u64 = lengths.iter().map(|length| u64::from(*length)).sum();
+        let mut before = 0;
+        let reaches_half = |length: &u32| {
+            before += u64::from(*length);
+            2 * before >= points
+        };
+        lengths.into_iter().find(reaches_half).unwrap_or_default()
     }
 
     fn light(&self) -> String {
@@ -99,10 +111,7 @@ fn images(counts: &ImageCounts, dropped: u64) -> String {
     text + "\n"
 }
 
-fn median<T: Copy + Ord>(values: &[T]) -> T
-where
-    T: Default,
-{
+fn median(values: &[usize]) -> usize {
     let mut sorted = values.to_vec();
     sorted.sort_unstable();
     sorted.get(sorted.len() / 2).copied().unwrap_or_default()
@@ -111,4 +120,22 @@ where
 fn median_of(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_track_counts_by_its_points() {
+        // ten points of ten tracks that were lost at once, and thirty of one that was not
+        let lengths = (0..10).map(|id| (id, 1)).chain([(10, 30)]).collect();
+        assert_eq!(Summary { lengths, ..Summary::default() }.length(), 30);
+    }
+
+    #[test]
+    fn nothing_seen_is_told() {
+        let text = Summary::default().text(&ImageCounts::default(), 3);
+        assert_eq!(text, "images    0 used, 3 dropped for want of time\nnothing seen\n");
+    }
 }

@@ -47,7 +47,7 @@ impl Node {
     /// All numbers of a list, of lists of lists, or of a text with spaces between them.
     pub(crate) fn numbers(&self, name: &str) -> Result<Vec<f64>, Reason> {
         match &self.value {
-            Value::Text(text) => {
+            Value::Text(text) if !text.is_empty() => {
                 text.split_whitespace().map(|word| self.number_of(name, word)).collect()
             }
             Value::List(items) => {
@@ -55,7 +55,7 @@ impl Node {
                     items.iter().map(|item| item.numbers(name)).collect();
                 Ok(parts?.concat())
             }
-            Value::Map(_) => Err(Reason::new(self.line, name, "wants numbers")),
+            Value::Text(_) | Value::Map(_) => Err(Reason::new(self.line, name, "wants numbers")),
         }
     }
 

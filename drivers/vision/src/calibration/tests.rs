@@ -134,6 +134,12 @@ fn what_is_wrong_is_told_with_line_and_field() {
         ),
         (kalibr("370.5, ", ""), "camera:11: intrinsics: wants 4 numbers, has 3"),
         (
+            told(
+                "image_width: 9\nimage_height: 9\ncamera_matrix: [9, 0, 4, 0, 9, 4, 0, 0, 1]\ndistortion_coefficients:\n",
+            ),
+            "camera:4: distortion_coefficients: wants numbers",
+        ),
+        (
             told("width: 3\n"),
             "camera:1: camera_matrix: neither this (OpenCV, ROS) nor cam0 (Kalibr) is there",
         ),
