@@ -3,7 +3,7 @@
 
 use anyhow::Context;
 use insd_base::Time;
-use insd_vision::{CameraCalibration, FrontEnd, FrontEndConfig, Hints, Lens, Picture};
+use insd_vision::{CameraCalibration, CameraImage, FrontEnd, FrontEndConfig, Hints, Lens};
 use nalgebra::{Rotation3, Vector2};
 use rustix::time::{ClockId, clock_gettime};
 
@@ -23,7 +23,7 @@ fn main() -> anyhow::Result<()> {
     let (mut tracks, mut kept) = (0, 0);
     let start = processor_seconds();
     for (i, pixels) in images.iter().enumerate() {
-        let picture = Picture { time: Time::from_seconds(i as f64 / 10.0), size: SIZE, pixels };
+        let picture = CameraImage { time: Time::from_seconds(i as f64 / 10.0), size: SIZE, pixels };
         let seen = eyes.take(&picture, &known).map_err(|reason| anyhow::anyhow!(reason.text()))?;
         tracks += seen.seen.len();
         kept += seen.seen.iter().filter(|track| track.length > 1).count();

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use insd_base::Time;
 use insd_capture::read_image;
-use insd_vision::{CameraCalibration, FrontEnd, FrontEndConfig, Hints, Lens, Picture};
+use insd_vision::{CameraCalibration, CameraImage, FrontEnd, FrontEndConfig, Hints, Lens};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector2, Vector3};
 
 fn main() -> anyhow::Result<()> {
@@ -24,7 +24,7 @@ fn main() -> anyhow::Result<()> {
     for (i, file) in files.iter().enumerate() {
         let image = read_image(file)?;
         let time = Time::from_seconds(i as f64 / 10.0);
-        let seen = eyes.take(&Picture { time, size, pixels: &image.pixels }, &Hints::default());
+        let seen = eyes.take(&CameraImage { time, size, pixels: &image.pixels }, &Hints::default());
         let Some(seen) = seen.ok().filter(|_| i > 0) else { continue };
         let true_step = truth[i - 1].inverse() * truth[i];
         let length = true_step.translation.vector.norm();

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::vec;
 
 use insd_base::Time;
-use insd_vision::Picture;
+use insd_vision::CameraImage;
 
 use crate::fault::CaptureFault;
 use crate::image_file::read_image;
@@ -23,8 +23,8 @@ pub struct TimedImage {
 impl TimedImage {
     /// As the front end takes it.
     #[must_use]
-    pub fn picture(&self) -> Picture<'_> {
-        Picture { time: self.time, size: self.size, pixels: &self.pixels }
+    pub fn picture(&self) -> CameraImage<'_> {
+        CameraImage { time: self.time, size: self.size, pixels: &self.pixels }
     }
 }
 

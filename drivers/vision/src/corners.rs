@@ -4,7 +4,7 @@ use kornia_image::{Image, ImageError, ImageSize};
 use kornia_imgproc::features::fast_detect_rows_u8_serial;
 
 use crate::flow::{Pixel, Pyramid};
-use crate::image::Picture;
+use crate::image::CameraImage;
 
 /// How an image is cut into cells, and how many points each may have.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +29,7 @@ impl Grid {
     /// Corners for the cells that have too few of `taken`, the best of each first, where `allows` lets them be.
     pub(crate) fn fill(
         &self,
-        image: &Picture<'_>,
+        image: &CameraImage<'_>,
         pyramid: &Pyramid,
         taken: &[Pixel],
         allows: impl Fn(&Pixel) -> bool,
@@ -75,7 +75,7 @@ impl Grid {
     /// All corners of the cells that want some, with their contrast.
     fn candidates(
         &self,
-        image: &Picture<'_>,
+        image: &CameraImage<'_>,
         wanting: &[usize],
     ) -> Result<Vec<Vec<(Pixel, f32)>>, ImageError> {
         let [width, height] = image.size.map(|side| side as usize);

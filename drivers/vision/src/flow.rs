@@ -7,7 +7,7 @@ use kornia_imgproc::optical_flow_pyr_lk::{
 };
 use kornia_imgproc::pyramid::pyrdown_f32;
 
-use crate::image::Picture;
+use crate::image::CameraImage;
 
 /// A point of an image, px.
 pub(crate) type Pixel = [f32; 2];
@@ -30,7 +30,7 @@ pub(crate) struct Pyramid {
 
 impl Pyramid {
     /// Of an image whose size is right.
-    pub(crate) fn of(image: &Picture<'_>) -> Result<Self, ImageError> {
+    pub(crate) fn of(image: &CameraImage<'_>) -> Result<Self, ImageError> {
         let [width, height] = image.size.map(|side| side as usize);
         let grey = image.pixels.iter().map(|&pixel| f32::from(pixel) / 255.0).collect();
         let mut levels = vec![Image::new(ImageSize { width, height }, grey)?];

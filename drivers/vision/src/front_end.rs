@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 
 use crate::corners::Grid;
 use crate::flow::{Found, Pixel, Pyramid, carry};
-use crate::image::{BadImage, Entrance, Entry, ImageCounts, Picture};
+use crate::image::{BadImage, CameraImage, Entrance, Entry, ImageCounts};
 use crate::lens::CameraCalibration;
 use crate::mask::ImageMask;
 use crate::quality::ImageQuality;
@@ -61,7 +61,7 @@ pub struct Hints {
 
 /// Whether the eyes see.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Trust {
+pub enum Eyesight {
     /// They do.
     Sees,
     /// For two seconds there were too few points, or most were refused, or the picture stood still.
@@ -119,7 +119,7 @@ pub struct Tracked {
     /// Sharpness and exposure.
     pub quality: ImageQuality,
     /// Whether the camera is believed.
-    pub trust: Trust,
+    pub sight: Eyesight,
 }
 
 /// Fewer points that go on, and the camera is doubtful.
@@ -196,7 +196,7 @@ impl FrontEnd {
     ///
     /// # Errors
     /// The image is not usable, and nothing has changed but its count.
-    pub fn take(&mut self, image: &Picture<'_>, hints: &Hints) -> Result<Tracked, BadImage> {
+    pub fn take(&mut self, image: &CameraImage<'_>, hints: &Hints) -> Result<Tracked, BadImage> {
         let entry = self.entrance.admit(image, self.config.longest_gap)?;
         let quality = ImageQuality::of(image);
         if entry == Entry::Begins {
@@ -209,10 +209,10 @@ impl FrontEnd {
         self.before = Some(pyramid);
         filled.map_err(|_| BadImage::WrongSize)?;
         self.newest = Some(image.time);
-        let trust = self.judge(image.time, &lost);
-        let points = if trust == Trust::Sees { self.points() } else { Vec::new() };
+        let sight = self.judge(image.time, &lost);
+        let points = if sight == Eyesight::Sees { self.points() } else { Vec::new() };
         let frame = CameraFrame { time: image.time, points };
-        Ok(Tracked { frame, seen: self.tracks.clone(), lost, quality, trust })
+        Ok(Tracked { frame, seen: self.tracks.clone(), lost, quality, sight })
     }
 
     fn begin_anew(&mut self) {
@@ -310,7 +310,7 @@ impl FrontEnd {
 
     fn replenish(
         &mut self,
-        image: &Picture<'_>,
+        image: &CameraImage<'_>,
         pyramid: &Pyramid,
         hints: &Hints,
     ) -> Result<(), ImageError> {
@@ -327,14 +327,14 @@ impl FrontEnd {
         Ok(())
     }
 
-    fn judge(&mut self, now: Time, lost: &Lost) -> Trust {
+    fn judge(&mut self, now: Time, lost: &Lost) -> Eyesight {
         let poor = lost.kept() < FEWEST || lost.refused_share() > REFUSED;
         if !poor {
             self.doubtful_since = None;
-            return Trust::Sees;
+            return Eyesight::Sees;
         }
         let since = *self.doubtful_since.get_or_insert(now);
-        if (now - since).as_seconds() < PATIENCE { Trust::Sees } else { Trust::Doubtful }
+        if (now - since).as_seconds() < PATIENCE { Eyesight::Sees } else { Eyesight::Doubtful }
     }
 
     fn points(&self) -> Vec<ImagePoint> {

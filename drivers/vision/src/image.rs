@@ -6,7 +6,7 @@ use insd_base::{Span, Time};
 
 /// An image: grey, 8 bits, row by row from the top.
 #[derive(Clone, Copy, Debug)]
-pub struct Picture<'a> {
+pub struct CameraImage<'a> {
     /// When it was exposed, as far as the camera's clock is right.
     pub time: Time,
     /// Width and height as it says, px.
@@ -97,7 +97,7 @@ impl Entrance {
     /// Whether an image may go on; counted.
     pub(crate) fn admit(
         &mut self,
-        image: &Picture<'_>,
+        image: &CameraImage<'_>,
         longest_gap: Span,
     ) -> Result<Entry, BadImage> {
         let verdict = self.judge(image, longest_gap);
@@ -113,7 +113,7 @@ impl Entrance {
         self.repeated_since.map_or(Span::ZERO, |since| now - since)
     }
 
-    fn judge(&mut self, image: &Picture<'_>, longest_gap: Span) -> Result<Entry, BadImage> {
+    fn judge(&mut self, image: &CameraImage<'_>, longest_gap: Span) -> Result<Entry, BadImage> {
         if image.size != self.size {
             return Err(BadImage::WrongSize);
         }

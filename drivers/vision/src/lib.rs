@@ -1,6 +1,6 @@
 //! Tracks of points out of a camera's images, and the calibration of its lens.
 //!
-//! Pure: images with their times come in ([`Picture`]), what is left of each is a `CameraFrame` ([`FrontEnd`]). A bad image is counted
+//! Pure: images with their times come in ([`CameraImage`]), what is left of each is a `CameraFrame` ([`FrontEnd`]). A bad image is counted
 //! with its reason ([`BadImage`]) and changes nothing. Image points are counted as OpenCV does: the middle of the first pixel is (0, 0).
 
 mod attitude;
@@ -16,8 +16,8 @@ mod two_view;
 
 pub use attitude::CameraAttitude;
 pub use calibration::{CalibrationFault, read_calibration};
-pub use front_end::{FrontEnd, FrontEndConfig, Hints, Lost, SeenTrack, Tracked, Trust};
-pub use image::{BadImage, ImageCounts, Picture};
+pub use front_end::{Eyesight, FrontEnd, FrontEndConfig, Hints, Lost, SeenTrack, Tracked};
+pub use image::{BadImage, CameraImage, ImageCounts};
 pub use lens::{CameraCalibration, Lens};
 pub use mask::{ImageMask, Polygon};
 pub use quality::ImageQuality;

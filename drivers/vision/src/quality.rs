@@ -1,6 +1,6 @@
 //! What can be told of an image without looking at what it shows: sharpness and exposure.
 
-use crate::image::Picture;
+use crate::image::CameraImage;
 
 /// Measures of one image.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,7 +25,7 @@ const LOST: f64 = 0.5;
 impl ImageQuality {
     /// Of an image whose size is right; images of fewer than 3 x 3 pixels have no sharpness.
     #[must_use]
-    pub fn of(image: &Picture<'_>) -> Self {
+    pub fn of(image: &CameraImage<'_>) -> Self {
         let [width, height] = image.size.map(|side| side as usize);
         let mut levels = [0_u64; 256];
         for &pixel in image.pixels {
@@ -103,7 +103,7 @@ mod tests {
     use super::*;
 
     fn of(pixels: &[u8], size: [u32; 2]) -> ImageQuality {
-        ImageQuality::of(&Picture { time: Time::START, size, pixels })
+        ImageQuality::of(&CameraImage { time: Time::START, size, pixels })
     }
 
     #[test]

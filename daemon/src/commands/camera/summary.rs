@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use insd_vision::{ImageCounts, ImageQuality, Lost, Tracked, Trust};
+use insd_vision::{Eyesight, ImageCounts, ImageQuality, Lost, Tracked};
 
 /// Sums over images.
 #[derive(Debug, Default)]
@@ -27,7 +27,7 @@ impl Summary {
         all.epipolar += new.epipolar;
         all.masked += new.masked;
         self.quality.push(tracked.quality);
-        self.doubtful += usize::from(tracked.trust == Trust::Doubtful);
+        self.doubtful += usize::from(tracked.sight == Eyesight::Doubtful);
     }
 
     /// A few lines.

@@ -1,7 +1,7 @@
 //! Bad input: told, counted, and nothing else disturbed.
 
 use insd_vision::{
-    BadImage, FrontEnd, FrontEndConfig, Hints, ImageMask, Lens, Picture, Tracked, Trust,
+    BadImage, CameraImage, Eyesight, FrontEnd, FrontEndConfig, Hints, ImageMask, Lens, Tracked,
 };
 use nalgebra::{Vector2, Vector3};
 use rand::{Rng, SeedableRng};
@@ -30,8 +30,10 @@ fn each_kind_of_bad_image_is_counted_and_tracks_go_on() {
     let mut eyes = eyes();
     let first = take(&mut eyes, 0.0, &images[0]).unwrap();
     let torn = &images[1][..40_000];
-    let small =
-        Picture { size: [160, 120], ..picture(&camera(Lens::STRAIGHT), 0.1, &images[1][..19_200]) };
+    let small = CameraImage {
+        size: [160, 120],
+        ..picture(&camera(Lens::STRAIGHT), 0.1, &images[1][..19_200])
+    };
     assert_eq!(take(&mut eyes, 0.1, torn), Err(BadImage::Torn));
     assert_eq!(eyes.take(&small, &Hints::default()), Err(BadImage::WrongSize));
     assert_eq!(take(&mut eyes, 0.0, &images[1]), Err(BadImage::TimeStoodStill));
@@ -83,7 +85,7 @@ fn noise_yields_no_tracks_that_are_believed() {
         long += seen.seen.iter().filter(|track| track.length == 4).count();
         started += seen.seen.iter().filter(|track| track.length == 1).count();
         if i > 20 {
-            assert!(seen.trust == Trust::Doubtful && seen.frame.points.is_empty());
+            assert!(seen.sight == Eyesight::Doubtful && seen.frame.points.is_empty());
         }
     }
     assert!(long * 100 < started, "{long} of {started} lived for four images");
@@ -93,14 +95,17 @@ fn noise_yields_no_tracks_that_are_believed() {
 fn a_camera_that_is_covered_is_doubtful_after_two_seconds_and_sees_again_when_it_is_not() {
     let images = images(40);
     let mut eyes = eyes();
-    let mut trusts = Vec::new();
+    let mut sights = Vec::new();
     for (i, pixels) in images.iter().enumerate() {
         // dark, with the flicker of its last bit
         let covered: Vec<u8> = pixels.iter().map(|p| 20 + p % 2).collect();
         let shown = if (5..32).contains(&i) { &covered } else { pixels };
-        trusts.push(take(&mut eyes, i as f64 / 10.0, shown).unwrap().trust);
+        sights.push(take(&mut eyes, i as f64 / 10.0, shown).unwrap().sight);
     }
-    assert_eq!((trusts[20], trusts[30], trusts[39]), (Trust::Sees, Trust::Doubtful, Trust::Sees));
+    assert_eq!(
+        (sights[20], sights[30], sights[39]),
+        (Eyesight::Sees, Eyesight::Doubtful, Eyesight::Sees)
+    );
 }
 
 #[test]

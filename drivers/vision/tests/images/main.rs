@@ -7,7 +7,7 @@ mod scene;
 
 use std::collections::BTreeMap;
 
-use insd_vision::{CameraCalibration, FrontEnd, FrontEndConfig, Hints, Lens, Tracked, Trust};
+use insd_vision::{CameraCalibration, Eyesight, FrontEnd, FrontEndConfig, Hints, Lens, Tracked};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -68,7 +68,7 @@ fn assert_well_followed(camera: &CameraCalibration, gyro: bool) {
     println!("{} steps, median {median:.3} px, wrong {:.2} %", errors.len(), 100.0 * wrong);
     assert!(errors.len() > 24 * 100, "{} steps", errors.len());
     assert!(median < 0.05 && wrong < 0.01, "median {median} px, {wrong} wrong");
-    assert!(seen.iter().all(|tracked| tracked.trust == Trust::Sees));
+    assert!(seen.iter().all(|tracked| tracked.sight == Eyesight::Sees));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! A wall of texture, seen by a pinhole that turns and moves: images with a truth.
 
 use insd_base::Time;
-use insd_vision::{CameraCalibration, Lens, Picture};
+use insd_vision::{CameraCalibration, CameraImage, Lens};
 use nalgebra::{Isometry3, Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -106,6 +106,6 @@ pub(crate) fn carried(
 }
 
 /// An image of these pixels at a time, s.
-pub(crate) fn picture<'a>(camera: &CameraCalibration, t: f64, pixels: &'a [u8]) -> Picture<'a> {
-    Picture { time: Time::from_seconds(t), size: camera.size, pixels }
+pub(crate) fn picture<'a>(camera: &CameraCalibration, t: f64, pixels: &'a [u8]) -> CameraImage<'a> {
+    CameraImage { time: Time::from_seconds(t), size: camera.size, pixels }
 }
