@@ -80,3 +80,33 @@ impl CameraOptions {
         Rotation3::from_euler_angles(roll, pitch, yaw) * Rotation3::from_matrix_unchecked(ahead)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+
+    #[test]
+    fn a_camera_that_is_turned_to_starboard_and_up_looks_there() {
+        let options = CameraOptions {
+            calibration: PathBuf::new(),
+            attitude: None,
+            mounting_deg: [0.0, 10.0, 90.0],
+            quay_px: Vec::new(),
+            own_ship_px: Vec::new(),
+        };
+        // forward, starboard, down
+        let (sin, cos) = 10.0_f64.to_radians().sin_cos();
+        assert!((options.c_bc() * Vector3::z() - Vector3::new(0.0, cos, -sin)).norm() < 1e-12);
+        assert!((options.c_bc() * Vector3::x() - Vector3::new(-1.0, 0.0, 0.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn a_polygon_has_three_corners_at_least() {
+        assert_eq!(polygon("1,2, 3,4,5,6").map(|corners| corners.0.len()), Ok(3));
+        for wrong in ["1,2,3,4", "1,2,3,4,5,6,7", "1,2,3,4,5,x", ""] {
+            assert!(polygon(wrong).is_err(), "{wrong}");
+        }
+    }
+}
