@@ -13,6 +13,7 @@ demo *options:
 # all tests of all crates
 test *options:
     cargo test --workspace {{options}}
+    cargo test -p insd --features vision --test camera {{options}}
 
 # tests that need a kernel of their own, see tests/vm/README.md
 vm *options:
@@ -34,6 +35,7 @@ vm-service:
 lint:
     cargo fmt --all --check
     cargo clippy --workspace --all-targets -- -D warnings
+    cargo clippy -p insd --features vision --all-targets -- -D warnings
 
 # known weaknesses, licences and sources of all crates; needs `cargo install cargo-deny@0.20.2 --locked`
 deny *checks:

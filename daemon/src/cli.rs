@@ -13,6 +13,8 @@ use insd_lab::commands::{
 use insd_lab::demo;
 
 use crate::clock::HostClock;
+#[cfg(feature = "vision")]
+use crate::commands::camera;
 use crate::commands::{check_config, doctor, example_config, generate, monitor, ports, run, sniff};
 use crate::logging::Log;
 use crate::run::open_demo;
@@ -68,6 +70,9 @@ enum Command {
     Ports(ports::PortsArgs),
     /// Listen to ports and tell what comes: formats, rates, damage, what may be wrong
     Sniff(sniff::SniffArgs),
+    /// Look through a camera: how well points are followed, and tracks for a recording
+    #[cfg(feature = "vision")]
+    Camera(camera::CameraArgs),
     /// Write manual pages or completions for shells
     #[command(hide = true)]
     Generate(generate::GenerateArgs),
@@ -89,6 +94,8 @@ impl Cli {
         match self.command {
             Command::Run(args) => run::run(&args, log),
             Command::Monitor(args) => monitor::run(&args),
+            #[cfg(feature = "vision")]
+            Command::Camera(args) => camera::run(&args),
             Command::Convert(args) => convert::run(&args),
             Command::Demo(args) => {
                 let open = |config: &Config, text: &str| open_demo(config, text, log);

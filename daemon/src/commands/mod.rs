@@ -1,5 +1,7 @@
 //! One command, one file.
 
+#[cfg(feature = "vision")]
+pub mod camera;
 pub mod check_config;
 pub mod doctor;
 pub mod example_config;
