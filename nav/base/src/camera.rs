@@ -27,7 +27,7 @@ pub struct CameraModel {
 pub struct ImagePoint {
     /// Its track: the same number is the same point, in an unbroken row of images; a point lost and found is another.
     pub track: u64,
-    /// Right and down from the image's corner, undistorted, px.
+    /// Right and down, undistorted, px, counted as [`CameraModel::centre`] is: with calibrations of OpenCV from the middle of the first pixel.
     pub at: Vector2<f64>,
 }
 
