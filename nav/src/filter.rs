@@ -53,6 +53,7 @@ mod gnss;
 mod heard;
 mod held;
 mod hidden;
+mod holding;
 mod installation;
 mod joined;
 pub mod judged;
