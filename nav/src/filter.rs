@@ -23,6 +23,7 @@ use crate::solution_sigma::solution_covariance;
 use crate::strapdown;
 use crate::timeline::Estimator;
 use antennas_followed::Antennas;
+use camera::Camera;
 use conduct::Conduct;
 use court::Court;
 pub use entry::Judged;
@@ -41,6 +42,8 @@ pub mod ahead;
 mod antennas;
 mod antennas_followed;
 mod bent;
+mod camera;
+mod camera_standing;
 pub mod checkpoint;
 mod companion;
 mod conduct;
@@ -53,6 +56,7 @@ mod heard;
 mod hidden;
 mod installation;
 mod joined;
+mod landmarks;
 pub mod judged;
 mod leaps;
 mod level;
@@ -101,6 +105,8 @@ pub struct Filter {
     antennas: Antennas,
     /// Docking aids, and what they measure to.
     rangings: Rangings,
+    /// What a camera sees.
+    camera: Arc<Camera>,
     /// What was used when.
     sources: Sources,
     /// While there are ranges, the same ship without them.
@@ -126,6 +132,7 @@ impl Filter {
             rtk: RtkStanding::default(),
             antennas: Antennas::default(),
             rangings: Rangings::default(),
+            camera: Arc::default(),
             sources: Sources::default(),
             companion: None,
             navigating: false,
@@ -359,8 +366,11 @@ impl Estimator for Filter {
             Message::Reference(r) => self.apply_reference(r, received.source, &mut report),
             Message::Ranges(ranges) => self.apply_ranges(ranges, received.source, &mut report),
             Message::Ranging(told) => self.apply_ranging(told, received.source, &mut report),
+            Message::Camera(frame) => self.apply_camera(frame, received.source, &mut report),
+            Message::VisualOdometry(_) => {}
         }
         self.forget_silent_marks();
+        self.forget_silent_camera();
         self.sources.note(self.state.time, &report, &received.message);
         self.heed();
         report

@@ -23,9 +23,11 @@
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
+use insd_estimation::Key;
+
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, CURRENT, Covariance, Errors, GYRO_BIAS, GYRO_DRIFT,
-    POSITION, VELOCITY,
+    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, CAMERA_POSES, CURRENT, Covariance, Errors, GYRO_BIAS,
+    GYRO_DRIFT, LANDMARK_POINTS, LANDMARKS, POSE_STATES, POSES, POSITION, VELOCITY,
 };
 
 /// Turns the covariance of the biases from one estimate of the attitude, C_eb, to another.
@@ -57,6 +59,31 @@ pub fn keep_course_unknown(
     ATTITUDE.add_to(VELOCITY, p, &-velocity.cross_matrix());
     let across = Vector2::new(-current.y, current.x) * down.transpose();
     ATTITUDE.add_to(CURRENT, p, &across);
+}
+
+/// Keeps a turn of ship and scene together unknown when a camera corrects places and velocity by `error`, which the covariance has absorbed:
+/// an error phi of the attitude goes together with dp = phi x p of each place, and is seen as little after a correction of p as before.
+pub fn keep_scene_unknown(p: &mut Covariance, error: &Errors) {
+    let layout = p.layout().clone();
+    let Some(attitude) = layout.start(ATTITUDE.key()) else { return };
+    let places = |key: Key, count: usize, apart: usize| {
+        let start = layout.start(key);
+        (0..count).filter_map(move |index| Some(start? + apart * index))
+    };
+    let moved = places(POSITION.key(), 1, 3)
+        .chain(places(VELOCITY.key(), 1, 3))
+        .chain(places(POSES.key(), CAMERA_POSES, POSE_STATES))
+        .chain(places(LANDMARK_POINTS.key(), LANDMARKS, 3));
+    let matrix = p.matrix_mut();
+    for start in moved {
+        let by = -error.values().fixed_rows::<3>(start).cross_matrix();
+        let more = by * matrix.fixed_rows::<3>(attitude);
+        let mut rows = matrix.fixed_rows_mut::<3>(start);
+        rows += more;
+        let more = matrix.fixed_columns::<3>(attitude) * by.transpose();
+        let mut columns = matrix.fixed_columns_mut::<3>(start);
+        columns += more;
+    }
 }
 
 #[cfg(test)]

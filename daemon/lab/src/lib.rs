@@ -11,6 +11,8 @@ pub mod pty;
 pub mod ranges;
 pub mod raw_receivers;
 pub mod raw_run;
+mod camera_table;
+mod camera_voyage;
 mod raw_table;
 mod raw_voyage;
 pub mod report;

@@ -14,6 +14,7 @@
 //!   column ([`FileReport`]). When more than 100 rows and more than 10 % of a file are faulty, that
 //!   is an error too. So is a row of `nav.csv` that says of its integrity what the format does not know.
 
+mod camera;
 mod error;
 mod fields;
 mod header;
@@ -32,6 +33,7 @@ mod stream;
 mod table;
 mod writer;
 
+pub use camera::{ImageReader, OdometryReader};
 pub use error::RecordingError;
 pub use header::read_header;
 pub use lines::MAX_LINE;

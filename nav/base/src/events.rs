@@ -6,6 +6,7 @@ use std::fmt;
 use crate::installation::Finding;
 use crate::messages::Source;
 use crate::party::{ReceiverChange, Stands};
+use crate::camera::CameraTurn;
 use crate::ranging::RangingTurn;
 use crate::satellites::{CompassRefusal, RtkSilence, RtkTurn, SatelliteId};
 use crate::solution::{Mode, SolutionSource};
@@ -367,6 +368,13 @@ pub enum Event {
         ranging: u8,
         /// How.
         turn: RangingTurn,
+    },
+    /// A camera is believed otherwise than before.
+    CameraJudged {
+        /// When.
+        time: Time,
+        /// How.
+        turn: CameraTurn,
     },
     /// The best source of the solution is another one.
     SourceChanged {

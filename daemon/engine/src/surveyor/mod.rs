@@ -217,7 +217,9 @@ impl Surveyor {
             | Message::Ranges(_)
             | Message::Base(_)
             | Message::Rtk(_)
-            | Message::Ranging(_) => {}
+            | Message::Ranging(_)
+            | Message::Camera(_)
+            | Message::VisualOdometry(_) => {}
         }
     }
 

@@ -55,7 +55,10 @@ impl DemoSensor {
             | Message::Rtk(_)
             | Message::Compass(_) => DemoSensor::Gnss,
             Message::Log(_) => DemoSensor::Log,
-            Message::Reference(_) | Message::Ranging(_) => DemoSensor::Reference,
+            Message::Reference(_)
+            | Message::Ranging(_)
+            | Message::Camera(_)
+            | Message::VisualOdometry(_) => DemoSensor::Reference,
         }
     }
 }

@@ -38,6 +38,7 @@ fn read(dir: &Path) -> anyhow::Result<Voyage> {
             // no file of a voyage holds them
             Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {}
             Message::Compass(_) | Message::Ranging(_) => {}
+            Message::Camera(_) | Message::VisualOdometry(_) => {}
         }
     }
     Ok(voyage)

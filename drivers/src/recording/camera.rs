@@ -1,0 +1,206 @@
+//! What a camera tells of a voyage: `features.csv`, points of images, and `vo.csv`, steps of a visual odometry.
+
+use std::path::Path;
+
+use insd_base::{CameraFrame, ImagePoint, Time, VisualOdometry};
+use nalgebra::{Quaternion, UnitQuaternion, Vector2, Vector3};
+
+use super::error::RecordingError;
+use super::fields::Fields;
+use super::input;
+use super::report::{BadRow, FileReport, RowFault};
+use super::table::{Row, Table};
+
+/// An image of more points than this is cut: a file whose time stands still is no image.
+const MOST_POINTS: usize = 4096;
+
+/// A point of an image.
+struct PointRow {
+    time: Time,
+    point: ImagePoint,
+}
+
+impl Row for PointRow {
+    const COLUMNS: &'static [&'static str] = &["t_s", "id", "u_px", "v_px"];
+    const OPTIONAL: &'static [&'static [&'static str]] = &[];
+
+    fn parse(fields: &Fields<'_>) -> Result<Self, BadRow> {
+        let time = fields.time(0)?;
+        let track = whole(fields, 1)?;
+        let at = Vector2::new(fields.required(2)?, fields.required(3)?);
+        Ok(PointRow { time, point: ImagePoint { track, at } })
+    }
+
+    fn time(&self) -> Time {
+        self.time
+    }
+}
+
+impl Row for VisualOdometry {
+    const COLUMNS: &'static [&'static str] = &[
+        "t_s",
+        "t_prev_s",
+        "map",
+        "qw",
+        "qx",
+        "qy",
+        "qz",
+        "tx",
+        "ty",
+        "tz",
+        "std_rot_rad",
+        "std_trans",
+    ];
+    const OPTIONAL: &'static [&'static [&'static str]] = &[];
+
+    fn parse(fields: &Fields<'_>) -> Result<Self, BadRow> {
+        let (time, since) = (fields.time(0)?, fields.time(1)?);
+        let map = u32::try_from(whole(fields, 2)?);
+        let field = |column| fields.required(column);
+        let turn = Quaternion::new(field(3)?, field(4)?, field(5)?, field(6)?);
+        let rotation = UnitQuaternion::try_new(turn, 0.5);
+        Ok(VisualOdometry {
+            time,
+            since,
+            map: map.map_err(|_| fields.bad(2, RowFault::OutOfRange))?,
+            rotation: rotation.ok_or_else(|| fields.bad(3, RowFault::OutOfRange))?,
+            translation: Vector3::new(field(7)?, field(8)?, field(9)?),
+            rotation_std: field(10)?,
+            translation_std: field(11)?,
+        })
+    }
+
+    fn time(&self) -> Time {
+        self.time
+    }
+}
+
+/// A whole number that is not negative.
+fn whole(fields: &Fields<'_>, column: usize) -> Result<u64, BadRow> {
+    let value = fields.required(column)?;
+    let is_whole = value >= 0.0 && value.fract() == 0.0 && value < 9e15;
+    if is_whole { Ok(value as u64) } else { Err(fields.bad(column, RowFault::OutOfRange)) }
+}
+
+/// The images of a voyage, one after another, in constant memory.
+pub struct ImageReader {
+    table: Table<PointRow>,
+    next: Option<PointRow>,
+}
+
+impl ImageReader {
+    /// Opens `features.csv`, plain or compressed; `None` where there is none.
+    ///
+    /// # Errors
+    /// It cannot be read, or lacks a column.
+    pub fn open(dir: &Path) -> Result<Option<Self>, RecordingError> {
+        let Some(path) = input::find(dir, "features.csv") else { return Ok(None) };
+        let mut table = Table::open(&path)?;
+        let next = table.next_row()?.map(|(row, _)| row);
+        Ok(Some(ImageReader { table, next }))
+    }
+
+    /// When the next image was taken.
+    #[must_use]
+    pub fn time(&self) -> Option<Time> {
+        self.next.as_ref().map(|row| row.time)
+    }
+
+    /// The next image: rows of one time in a row.
+    ///
+    /// # Errors
+    /// The file cannot be read on, or most of it is faulty.
+    pub fn next_frame(&mut self) -> Result<Option<CameraFrame>, RecordingError> {
+        let Some(first) = self.next.take() else { return Ok(None) };
+        let mut frame = CameraFrame { time: first.time, points: vec![first.point] };
+        while let Some((row, _)) = self.table.next_row()? {
+            if row.time != frame.time {
+                self.next = Some(row);
+                break;
+            }
+            if frame.points.len() < MOST_POINTS {
+                frame.points.push(row.point);
+            }
+        }
+        Ok(Some(frame))
+    }
+
+    /// What was read and skipped so far.
+    #[must_use]
+    pub fn report(&self) -> &FileReport {
+        self.table.report()
+    }
+}
+
+/// The steps of a visual odometry of a voyage.
+pub struct OdometryReader {
+    table: Table<VisualOdometry>,
+    next: Option<VisualOdometry>,
+}
+
+impl OdometryReader {
+    /// Opens `vo.csv`, plain or compressed; `None` where there is none.
+    ///
+    /// # Errors
+    /// It cannot be read, or lacks a column.
+    pub fn open(dir: &Path) -> Result<Option<Self>, RecordingError> {
+        let Some(path) = input::find(dir, "vo.csv") else { return Ok(None) };
+        let mut table = Table::open(&path)?;
+        let next = table.next_row()?.map(|(row, _)| row);
+        Ok(Some(OdometryReader { table, next }))
+    }
+
+    /// When the next step ends.
+    #[must_use]
+    pub fn time(&self) -> Option<Time> {
+        self.next.as_ref().map(|step| step.time)
+    }
+
+    /// The next step.
+    ///
+    /// # Errors
+    /// The file cannot be read on, or most of it is faulty.
+    pub fn next_step(&mut self) -> Result<Option<VisualOdometry>, RecordingError> {
+        let following = self.table.next_row()?.map(|(row, _)| row);
+        Ok(std::mem::replace(&mut self.next, following))
+    }
+
+    /// What was read and skipped so far.
+    #[must_use]
+    pub fn report(&self) -> &FileReport {
+        self.table.report()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_one_time_are_an_image_and_a_bad_one_is_told_with_its_place() {
+        let desk = tempfile::tempdir().unwrap();
+        let text = "t_s,id,u_px,v_px\n1.0,7,10.5,20.5\n1.0,8,30,wet\n1.0,9,50,60\n1.5,7,11,21\n";
+        std::fs::write(desk.path().join("features.csv"), text).unwrap();
+        let mut reader = ImageReader::open(desk.path()).unwrap().unwrap();
+        let frame = reader.next_frame().unwrap().unwrap();
+        let tracks: Vec<u64> = frame.points.iter().map(|point| point.track).collect();
+        assert_eq!((frame.time, tracks), (Time::from_seconds(1.0), vec![7, 9]));
+        assert_eq!(reader.time(), Some(Time::from_seconds(1.5)));
+        assert_eq!(reader.next_frame().unwrap().unwrap().points.len(), 1);
+        assert_eq!(reader.next_frame().unwrap(), None);
+        let report = reader.report().to_string();
+        assert!(report.contains("features.csv") && report.contains("v_px"), "{report}");
+    }
+
+    #[test]
+    fn a_step_has_a_rotation_that_is_one() {
+        let desk = tempfile::tempdir().unwrap();
+        let head = "t_s,t_prev_s,keyframe,map,qw,qx,qy,qz,tx,ty,tz,std_rot_rad,std_trans";
+        let text = format!("{head}\n1.0,0.5,1,0,1,0,0,0,0.1,0,0.2,0.0003,0.02\n1.5,1.0,2,0,0,0,0,0,0.1,0,0.2,0.0003,0.02\n");
+        std::fs::write(desk.path().join("vo.csv"), text).unwrap();
+        let mut reader = OdometryReader::open(desk.path()).unwrap().unwrap();
+        assert_eq!(reader.next_step().unwrap().unwrap().since, Time::from_seconds(0.5));
+        assert_eq!(reader.next_step().unwrap(), None);
+        assert!(reader.report().to_string().contains("qw"), "{}", reader.report());
+    }
+}

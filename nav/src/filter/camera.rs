@@ -1,0 +1,267 @@
+//! A camera: images come, poses are cloned, tracks are used when they end or when the oldest pose leaves.
+//!
+//! Points are taken to be at rest. What contradicts that is refused track by track, and a camera of which most is refused is not used at all.
+
+use std::sync::Arc;
+
+use insd_base::{CameraFrame, CameraTurn, ImagePoint, Rejection, Source};
+use nalgebra::DMatrix;
+
+use super::Filter;
+use super::camera_standing::{CameraStanding, FEWEST_POINTS};
+use super::entry::{CAMERA_AID, Judged, NO_INNOVATION, enter};
+use super::landmarks::Landmark;
+use crate::camera::sight::{Eye, Pose};
+use crate::camera::track::{AXES_AT, COLUMNS, DELAY_AT, Rows, Told, pose_now, told};
+use crate::camera::triangulation::FEWEST;
+use crate::camera::window::{Keyframe, Leaving, Track, Window};
+use crate::declaration::{Carried, carried};
+use crate::error_state::{
+    ATTITUDE, CAMERA_AXES, CAMERA_DELAY, Errors, Innovation, Jacobian, LANDMARKS,
+    POSE_STATES, POSES, POSITION, Weighed,
+};
+use crate::report::{Outcome, Report};
+use crate::symmetry::keep_scene_unknown;
+
+/// After so long without an image, s, what was seen before is not linked with what is seen now.
+const BROKEN: f64 = 5.0;
+/// After so long, s, a camera has no states any more.
+const SILENT: f64 = 60.0;
+
+/// What is remembered of a camera.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Camera {
+    pub(super) window: Window,
+    pub(super) landmarks: [Option<Landmark>; LANDMARKS],
+    pub(super) standing: CameraStanding,
+    last: Option<Arc<CameraFrame>>,
+}
+
+/// How many points or tracks were asked, and how many contradicted; and whether anything was used.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Tally {
+    pub(super) asked: usize,
+    pub(super) refused: usize,
+    pub(super) is_used: bool,
+}
+
+impl Filter {
+    pub(super) fn apply_camera(
+        &mut self,
+        frame: &Arc<CameraFrame>,
+        source: Source,
+        report: &mut Report,
+    ) {
+        let outcome = match self.look_at(frame, report) {
+            Ok(tally) if tally.is_used => Outcome::Accepted,
+            Ok(tally) if tally.refused > 0 => Outcome::Rejected(Rejection::ChiSquare),
+            // a track tells when it ends
+            Ok(_) => return,
+            Err(reason) => Outcome::Rejected(reason),
+        };
+        let judged = Judged { outcome, log_likelihood: 0.0, innovation: NO_INNOVATION };
+        enter(report, frame.time, source, CAMERA_AID, &judged);
+    }
+
+    fn look_at(
+        &mut self,
+        frame: &Arc<CameraFrame>,
+        report: &mut Report,
+    ) -> Result<Tally, Rejection> {
+        let Some(aid) = self.config.camera else { return Err(Rejection::NotUsable) };
+        if !self.navigating || self.state.is_moored() {
+            self.forget_camera();
+            return Err(Rejection::NotUsable);
+        }
+        let points = seen_by(&aid.model, frame)?;
+        self.begin_to_see(frame)?;
+        let eye = Eye::new(
+            &aid.model,
+            &self.state.nominal.camera_axes,
+            self.state.nominal.camera_delay,
+        );
+        let mut tally = Tally::default();
+        let is_lit = points.len() >= FEWEST_POINTS;
+        self.see_landmarks(&eye, &points, &mut tally);
+        self.use_tracks(&eye, &points, &mut tally);
+        let now = self.state.time;
+        let turn = self.camera_mut().standing.hear(now, is_lit, &tally);
+        if turn == Some(CameraTurn::Doubtful) {
+            self.begin_scene_anew();
+        }
+        report.camera.extend(turn.map(|turn| (now, turn)));
+        Ok(tally)
+    }
+
+    pub(super) fn camera_mut(&mut self) -> &mut Camera {
+        Arc::make_mut(&mut self.camera)
+    }
+
+    /// Its states join with the first image; where it was not heard for a while, or the estimate has become another, what it sees is new.
+    fn begin_to_see(&mut self, frame: &Arc<CameraFrame>) -> Result<(), Rejection> {
+        let last = self.camera_mut().last.replace(Arc::clone(frame));
+        let gap = last.as_ref().map(|last| (frame.time - last.time).as_seconds());
+        if !self.state.covariance.has(POSES) {
+            self.forget_camera();
+            self.camera_mut().last = Some(Arc::clone(frame));
+            let config = self.config;
+            carried(Carried::WithCamera)
+                .for_each(|own| own.join(&mut self.state.covariance, &config));
+        } else if gap.is_some_and(|gap| gap > BROKEN) {
+            self.begin_scene_anew();
+        }
+        let is_frozen = last.is_some_and(|last| !frame.points.is_empty() && last.points == frame.points);
+        if is_frozen { Err(Rejection::Frozen) } else { Ok(()) }
+    }
+
+    /// Once no camera is heard for a while its states are not carried any longer.
+    pub(super) fn forget_silent_camera(&mut self) {
+        let heard = self.camera.last.as_ref().map(|frame| frame.time);
+        if heard.is_some_and(|heard| (self.state.time - heard).as_seconds() > SILENT) {
+            self.forget_camera();
+        }
+    }
+
+    /// Nothing that was seen so far is linked with what will be.
+    fn begin_scene_anew(&mut self) {
+        let camera = self.camera_mut();
+        camera.window = Window::default();
+        for slot in 0..LANDMARKS {
+            self.drop_landmark(slot);
+        }
+    }
+
+    pub(super) fn forget_camera(&mut self) {
+        if self.camera.last.is_some() || self.state.covariance.has(POSES) {
+            self.camera = Arc::default();
+            self.end_to_carry(Carried::WithCamera);
+        }
+    }
+
+    /// Uses tracks that have ended, and those that were seen from a pose that leaves; then the pose of this image joins.
+    fn use_tracks(&mut self, eye: &Eye, points: &[ImagePoint], tally: &mut Tally) {
+        let leaving = self.camera.window.gives_way();
+        let window = &mut self.camera_mut().window;
+        for track in &mut window.tracks {
+            track.is_in_sight = points.iter().any(|point| point.track == track.id);
+        }
+        let (due, kept): (Vec<Track>, Vec<Track>) =
+            std::mem::take(&mut window.tracks).into_iter().partition(|track| is_due(track, leaving));
+        window.tracks = kept;
+        window.tracks.retain(|track| track.is_in_sight);
+        let good = self.use_due(eye, &due, tally);
+        self.promote(eye, &good, &due);
+        let landmarks = self.camera.landmarks;
+        let is_landmark = |id: u64| landmarks.iter().flatten().any(|own| own.id == id);
+        let again = due.into_iter().filter(|own| own.is_in_sight && !is_landmark(own.id));
+        let window = &mut self.camera_mut().window;
+        window.tracks.extend(again.map(|track| Track { seen: Vec::new(), ..track }));
+        if let Some(Leaving::Newest(slot) | Leaving::Oldest(slot)) = leaving {
+            window.leave(slot);
+        }
+        self.keep_pose(points);
+    }
+
+    /// Clones the pose of now.
+    fn keep_pose(&mut self, points: &[ImagePoint]) {
+        let (time, first) = (self.state.time, Pose::of(&self.view()));
+        let Some(slot) = self.camera.window.free() else { return };
+        let at = POSE_STATES * slot;
+        let covariance = &mut self.state.covariance;
+        covariance.clone_into(POSITION, POSES.key(), at);
+        covariance.clone_into(ATTITUDE, POSES.key(), at + 3);
+        self.state.nominal.poses.fixed_rows_mut::<POSE_STATES>(at).fill(0.0);
+        let camera = self.camera_mut();
+        camera.window.poses.push(Keyframe { slot, time, first });
+        let landmarks = camera.landmarks;
+        let is_landmark = |id: u64| landmarks.iter().flatten().any(|own| own.id == id);
+        camera.window.see(slot, points.iter().filter(|point| !is_landmark(point.track)));
+    }
+
+    /// Uses tracks that agree; returns which did.
+    fn use_due(&mut self, eye: &Eye, due: &[Track], tally: &mut Tally) -> Vec<u64> {
+        let all: Vec<Told> = due.iter().filter_map(|track| self.told(eye, track)).collect();
+        let columns = self.track_covariance();
+        let agrees = |told: &&Told| {
+            let rows = told.of_poses.z.len();
+            let square = told.of_poses.square(&columns);
+            square.is_some_and(|square| square < self.gate.limit(rows))
+        };
+        let good: Vec<&Told> = all.iter().filter(agrees).collect();
+        tally.asked += all.len();
+        tally.refused += all.len() - good.len();
+        // where most contradict, the others agree by chance
+        if good.is_empty() || 2 * good.len() <= all.len() || self.camera.standing.is_doubted() {
+            return Vec::new();
+        }
+        let rows = Rows::compressed(good.iter().map(|told| &told.of_poses));
+        if let Some(weighed) = innovation(&rows).weigh(&self.state.covariance) {
+            self.absorb_sight(&weighed);
+            tally.is_used = true;
+        }
+        good.iter().map(|told| told.id).collect()
+    }
+
+    /// What a track tells of the poses as they are estimated now.
+    pub(super) fn told(&self, eye: &Eye, track: &Track) -> Option<Told> {
+        let corrections = self.state.nominal.poses.as_slice();
+        let pose = |slot: usize| Some(pose_now(self.camera.window.pose(slot)?, corrections));
+        told(eye, track, pose)
+    }
+
+    /// Indices of the columns of what tracks tell, among all states.
+    pub(super) fn track_states(&self) -> Vec<usize> {
+        let layout = self.state.covariance.layout();
+        let start = |key| layout.start(key).unwrap_or_default();
+        let poses = start(POSES.key());
+        let (axes, delay) = (start(CAMERA_AXES.key()), start(CAMERA_DELAY.key()));
+        (poses..poses + AXES_AT).chain(axes..axes + 3).chain([delay]).collect()
+    }
+
+    fn track_covariance(&self) -> DMatrix<f64> {
+        let states = self.track_states();
+        let p = self.state.covariance.matrix();
+        DMatrix::from_fn(COLUMNS, COLUMNS, |i, j| p[(states[i], states[j])])
+    }
+
+    /// Brings in what a camera sees. It sees no place on the Earth and no north, and where the antenna sits is nothing to it.
+    pub(super) fn absorb_sight(&mut self, weighed: &Weighed) {
+        let error: Errors = self.state.absorb(weighed);
+        keep_scene_unknown(&mut self.state.covariance, &error);
+        self.court.owed += &error;
+    }
+}
+
+/// The points of an image that a camera can have seen, each track once; most of another camera's are not.
+fn seen_by(
+    model: &insd_base::CameraModel,
+    frame: &CameraFrame,
+) -> Result<Vec<ImagePoint>, Rejection> {
+    let sound = frame.points.iter().filter(|point| model.sees(&point.at));
+    let mut points: Vec<ImagePoint> = sound.copied().collect();
+    if 2 * points.len() < frame.points.len() {
+        return Err(Rejection::OutOfRange);
+    }
+    points.sort_by_key(|point| point.track);
+    points.dedup_by_key(|point| point.track);
+    Ok(points)
+}
+
+/// Whether a track is to be used now.
+fn is_due(track: &Track, leaving: Option<Leaving>) -> bool {
+    let is_leaving = match leaving {
+        Some(Leaving::Oldest(oldest)) => track.seen.iter().any(|(slot, _)| *slot == oldest),
+        _ => false,
+    };
+    track.seen.len() >= FEWEST && (!track.is_in_sight || is_leaving)
+}
+
+fn innovation(rows: &Rows) -> Innovation {
+    let count = rows.z.len();
+    let mut h = Jacobian::none(count);
+    h.set_columns(POSES.key(), &rows.h.columns(0, AXES_AT).into_owned());
+    h.set_columns(CAMERA_AXES.key(), &rows.h.columns(AXES_AT, 3).into_owned());
+    h.set_columns(CAMERA_DELAY.key(), &rows.h.columns(DELAY_AT, 1).into_owned());
+    Innovation { z: rows.z.clone(), h, r: DMatrix::identity(count, count) }
+}
+
