@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use insd_base::{CameraFrame, CameraTurn, ImagePoint, Rejection, Source};
+use insd_base::{CameraFrame, CameraModel, CameraTurn, ImagePoint, Rejection, Source};
 use nalgebra::DMatrix;
 
 use super::Filter;
@@ -75,11 +75,7 @@ impl Filter {
         }
         let points = seen_by(&aid.model, frame)?;
         self.begin_to_see(frame)?;
-        let eye = Eye::new(
-            &aid.model,
-            &self.state.nominal.camera_axes,
-            self.state.nominal.camera_delay,
-        );
+        let eye = self.eye(&aid.model);
         let mut tally = Tally::default();
         let is_lit = points.len() >= FEWEST_POINTS;
         self.see_landmarks(&eye, &points, &mut tally);
@@ -91,6 +87,19 @@ impl Filter {
         }
         report.camera.extend(turn.map(|turn| (now, turn)));
         Ok(tally)
+    }
+
+    /// The camera as it is estimated to sit. What a linear filter leaves out of an unsure turn of it is like noise of its points: half the square of
+    /// the turn, and all of it, as it is the same for all of them.
+    fn eye(&self, model: &CameraModel) -> Eye {
+        let (p, nominal) = (&self.state.covariance, &self.state.nominal);
+        let c_eb = nominal.c_eb();
+        let (axes, attitude) = (CAMERA_AXES.covariance_in(p, &c_eb), ATTITUDE.covariance(p));
+        let both = c_eb * CAMERA_AXES.covariance_with(ATTITUDE, p);
+        let turn = (axes + attitude + both + both.transpose()).trace().max(0.0);
+        let bent = model.focal.max() * turn;
+        let model = CameraModel { pixel_std: model.pixel_std.hypot(bent), ..*model };
+        Eye::new(&model, &nominal.camera_axes, nominal.camera_delay)
     }
 
     pub(super) fn camera_mut(&mut self) -> &mut Camera {
@@ -227,14 +236,15 @@ impl Filter {
     /// Brings in what a camera sees. It sees no place on the Earth and no north, and where the antenna sits is nothing to it.
     pub(super) fn absorb_sight(&mut self, weighed: &Weighed) {
         let error: Errors = self.state.absorb(weighed);
-        keep_scene_unknown(&mut self.state.covariance, &error);
+        let c_eb = self.state.nominal.c_eb();
+        keep_scene_unknown(&mut self.state.covariance, &error, &c_eb);
         self.court.owed += &error;
     }
 }
 
 /// The points of an image that a camera can have seen, each track once; most of another camera's are not.
 fn seen_by(
-    model: &insd_base::CameraModel,
+    model: &CameraModel,
     frame: &CameraFrame,
 ) -> Result<Vec<ImagePoint>, Rejection> {
     let sound = frame.points.iter().filter(|point| model.sees(&point.at));
