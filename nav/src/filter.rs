@@ -330,6 +330,7 @@ impl Estimator for Filter {
         self.court.note(&step, increment);
         if self.state.is_due() {
             self.settle();
+            self.forget_silent_camera();
         }
         self.hold_to_wheels();
         self.look_at_pace();
@@ -370,7 +371,6 @@ impl Estimator for Filter {
             Message::VisualOdometry(_) => {}
         }
         self.forget_silent_marks();
-        self.forget_silent_camera();
         self.sources.note(self.state.time, &report, &received.message);
         self.heed();
         report

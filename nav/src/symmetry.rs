@@ -66,6 +66,9 @@ pub fn keep_course_unknown(
 /// as little after a correction of p as before. A turn of the ship alone, about a camera that stays, changes no place.
 pub fn keep_scene_unknown(p: &mut Covariance, error: &Errors, c_eb: &Matrix3<f64>) {
     let layout = p.layout().clone();
+    if error.layout() != &layout {
+        return;
+    }
     let axes = layout.start(CAMERA_AXES.key());
     let Some((attitude, axes)) = layout.start(ATTITUDE.key()).zip(axes) else { return };
     let places = |key: Key, count: usize, apart: usize| {

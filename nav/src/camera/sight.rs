@@ -69,6 +69,7 @@ pub struct Eye {
     c_bc: Matrix3<f64>,
     /// What a change of the rotation vector turns it by.
     by_axes: Matrix3<f64>,
+    axes: Vector3<f64>,
     delay: f64,
 }
 
@@ -92,9 +93,17 @@ impl Eye {
     #[must_use]
     pub fn new(model: &CameraModel, axes: &Vector3<f64>, delay: f64) -> Self {
         let c_bc = Rotation3::new(*axes).into_inner() * model.c_bc;
-        // Exp(m + dm) = Exp(J dm) Exp(m), to the second order (Barfoot, State Estimation for Robotics, eq. (7.77))
-        let by_axes = Matrix3::identity() + skew(axes) * 0.5 + skew(axes) * skew(axes) / 6.0;
-        Eye { model: *model, c_bc, by_axes, delay }
+        let by_axes = left_jacobian(axes);
+        Eye { model: *model, c_bc, by_axes, axes: *axes, delay }
+    }
+
+    /// The same that sits otherwise still, and is later still.
+    #[must_use]
+    pub fn moved(&self, axes: &Vector3<f64>, delay: f64) -> Self {
+        let axes = self.axes + axes;
+        let straight = Rotation3::new(self.axes).into_inner().transpose() * self.c_bc;
+        let c_bc = Rotation3::new(axes).into_inner() * straight;
+        Eye { c_bc, by_axes: left_jacobian(&axes), axes, delay: self.delay + delay, ..*self }
     }
 
     /// The camera itself.
@@ -135,6 +144,12 @@ impl Eye {
             by_delay: by_attitude * taken.rate - by_point * taken.velocity,
         })
     }
+}
+
+/// Exp(m + dm) = Exp(J dm) Exp(m): J to the second order (Barfoot, State Estimation for Robotics, eq. (7.77)).
+fn left_jacobian(rotation: &Vector3<f64>) -> Matrix3<f64> {
+    let turn = skew(rotation);
+    Matrix3::identity() + turn * 0.5 + turn * turn / 6.0
 }
 
 /// Derivative of an image point, px, by the point in camera axes.

@@ -3,10 +3,10 @@
 //! r = H_x dx + H_f df + n. With the left null space N of H_f, N^T r = N^T H_x dx + N^T n tells of the poses alone (Mourikis and Roumeliotis 2007,
 //! eqs. (20)-(24)); the three other rows tell where the point is. Rows of many tracks are as good as R of their QR (eqs. (26)-(29)).
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
 
 use super::sight::{Eye, Pose, Sight};
-use super::triangulation::{Placed, Triangulated, triangulate};
+use super::triangulation::{Placed, Triangulated, Unfound, triangulate};
 use super::window::{Keyframe, Track};
 use crate::error_state::{CAMERA_POSES, POSE_STATES};
 
@@ -41,13 +41,19 @@ pub struct Told {
     pub by_point: Matrix3<f64>,
 }
 
-/// What a track tells whose poses, as they are estimated now, `pose` gives; `None` where that is nothing.
-#[must_use]
-pub fn told(eye: &Eye, track: &Track, pose: impl Fn(usize) -> Option<Pose>) -> Option<Told> {
+/// What a track tells whose poses, as they are estimated now, `pose` gives.
+///
+/// # Errors
+/// Why that is nothing.
+pub fn told(
+    eye: &Eye,
+    track: &Track,
+    pose: impl Fn(usize) -> Option<Pose>,
+) -> Result<Told, Unfound> {
     let poses: Vec<(usize, Pose)> =
         track.seen.iter().filter_map(|(slot, _)| Some((*slot, pose(*slot)?))).collect();
     if poses.len() != track.seen.len() {
-        return None;
+        return Err(Unfound::Untold);
     }
     let placed = poses.iter().zip(&track.seen).map(|((_, pose), (_, at))| {
         let (centre, c_ce) = eye.placed(pose);
@@ -59,14 +65,18 @@ pub fn told(eye: &Eye, track: &Track, pose: impl Fn(usize) -> Option<Pose>) -> O
         let (slot, pose) = &poses[*index];
         Some((*slot, track.seen[*index].1, eye.sight(pose, &found.point)?))
     });
-    let sights: Vec<(usize, nalgebra::Vector2<f64>, Sight)> = sights.collect::<Option<_>>()?;
-    Some(projected(eye, track.id, &sights, found))
+    let sights: Option<Vec<Sighting>> = sights.collect();
+    let sights = sights.ok_or(Unfound::Untold)?;
+    Ok(projected(eye, track.id, &sights, found))
 }
+
+/// From which pose a point was seen where, and what was expected.
+type Sighting = (usize, Vector2<f64>, Sight);
 
 fn projected(
     eye: &Eye,
     id: u64,
-    sights: &[(usize, nalgebra::Vector2<f64>, Sight)],
+    sights: &[Sighting],
     found: Triangulated,
 ) -> Told {
     let rows = 2 * sights.len();
@@ -100,6 +110,13 @@ fn projected(
 }
 
 impl Rows {
+    /// The same as an innovation of an estimate that is off from it by errors of the columns.
+    #[must_use]
+    pub fn beyond(mut self, errors: &DVector<f64>) -> Self {
+        self.z += &self.h * errors;
+        self
+    }
+
     /// Normalised square of the innovation, with this covariance of the columns.
     #[must_use]
     pub fn square(&self, covariance: &DMatrix<f64>) -> Option<f64> {

@@ -37,24 +37,37 @@ pub struct Triangulated {
     pub parallax: f64,
 }
 
-/// Triangulates; `None` where that cannot be done well.
-#[must_use]
-pub fn triangulate(model: &CameraModel, seen: &[Placed]) -> Option<Triangulated> {
+/// Why a point is not anywhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unfound {
+    /// It was seen from too few places, or from places too near to each other.
+    Untold,
+    /// Nothing at rest is seen so.
+    Contradictory,
+}
+
+/// Triangulates.
+///
+/// # Errors
+/// Why that cannot be done well.
+pub fn triangulate(model: &CameraModel, seen: &[Placed]) -> Result<Triangulated, Unfound> {
     let mut by: Vec<usize> = (0..seen.len()).collect();
     // one mismatch in a track is common, two are not
     for _ in 0..3 {
         if by.len() < FEWEST {
-            return None;
+            break;
         }
         let own: Vec<Placed> = by.iter().map(|index| seen[*index]).collect();
-        let found = improved(model, &own, first_guess(model, &own)?)?;
+        let guess = first_guess(model, &own).ok_or(Unfound::Untold)?;
+        let found = improved(model, &own, guess).ok_or(Unfound::Contradictory)?;
         let Some(worst) = mismatch(model, &own, &found) else {
             let parallax = parallax(model, &own);
-            return is_sound(&own, &found, parallax).then_some(Triangulated { point: found, by, parallax });
+            let is_sound = is_sound(&own, &found, parallax);
+            return is_sound.then_some(Triangulated { point: found, by, parallax }).ok_or(Unfound::Untold);
         };
         by.remove(worst);
     }
-    None
+    Err(if by.len() < seen.len() { Unfound::Contradictory } else { Unfound::Untold })
 }
 
 /// The point nearest to all rays: sum (I - d d^T) f = sum (I - d d^T) c.
@@ -178,6 +191,8 @@ mod tests {
     #[test]
     fn what_was_seen_from_one_place_is_not_anywhere() {
         let (_, seen) = seen(&[(0.0, 0.0); 6], 0.001);
-        assert_eq!(triangulate(&model(), &seen), None);
+        assert_eq!(triangulate(&model(), &seen), Err(Unfound::Untold));
+        let (_, seen) = super::tests::seen(&[(0.0, 0.0), (90.0, 0.0), (0.0, -70.0), (50.0, 90.0), (-80.0, 40.0)], 0.5);
+        assert_eq!(triangulate(&model(), &seen), Err(Unfound::Contradictory));
     }
 }

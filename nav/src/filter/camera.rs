@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use insd_base::{CameraFrame, CameraModel, CameraTurn, ImagePoint, Rejection, Source};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::Filter;
 use super::camera_standing::{CameraStanding, FEWEST_POINTS};
@@ -13,11 +13,11 @@ use super::entry::{CAMERA_AID, Judged, NO_INNOVATION, enter};
 use super::landmarks::Landmark;
 use crate::camera::sight::{Eye, Pose};
 use crate::camera::track::{AXES_AT, COLUMNS, DELAY_AT, Rows, Told, pose_now, told};
-use crate::camera::triangulation::FEWEST;
+use crate::camera::triangulation::{FEWEST, Unfound};
 use crate::camera::window::{Keyframe, Leaving, Track, Window};
 use crate::declaration::{Carried, carried};
 use crate::error_state::{
-    ATTITUDE, CAMERA_AXES, CAMERA_DELAY, Errors, Innovation, Jacobian, LANDMARKS,
+    ATTITUDE, CAMERA_AXES, CAMERA_DELAY, CAMERA_POSES, Errors, Innovation, Jacobian, LANDMARKS,
     POSE_STATES, POSES, POSITION, Weighed,
 };
 use crate::report::{Outcome, Report};
@@ -25,6 +25,10 @@ use crate::symmetry::keep_scene_unknown;
 
 /// After so long without an image, s, what was seen before is not linked with what is seen now.
 const BROKEN: f64 = 5.0;
+/// Looks at tracks again and again at most, and what is worth another look: poses that move so far, m, or a camera that turns so far, rad.
+const ITERATIONS: usize = 5;
+const FAR: f64 = 0.01;
+const FAR_TURNED: f64 = 5e-4;
 /// After so long, s, a camera has no states any more.
 const SILENT: f64 = 60.0;
 
@@ -75,11 +79,10 @@ impl Filter {
         }
         let points = seen_by(&aid.model, frame)?;
         self.begin_to_see(frame)?;
-        let eye = self.eye(&aid.model);
         let mut tally = Tally::default();
         let is_lit = points.len() >= FEWEST_POINTS;
-        self.see_landmarks(&eye, &points, &mut tally);
-        self.use_tracks(&eye, &points, &mut tally);
+        self.see_landmarks(&self.eye(&aid.model), &points, &mut tally);
+        self.use_tracks(&aid.model, &points, &mut tally);
         let now = self.state.time;
         let turn = self.camera_mut().standing.hear(now, is_lit, &tally);
         if turn == Some(CameraTurn::Doubtful) {
@@ -148,7 +151,7 @@ impl Filter {
     }
 
     /// Uses tracks that have ended, and those that were seen from a pose that leaves; then the pose of this image joins.
-    fn use_tracks(&mut self, eye: &Eye, points: &[ImagePoint], tally: &mut Tally) {
+    fn use_tracks(&mut self, model: &CameraModel, points: &[ImagePoint], tally: &mut Tally) {
         let leaving = self.camera.window.gives_way();
         let window = &mut self.camera_mut().window;
         for track in &mut window.tracks {
@@ -158,8 +161,9 @@ impl Filter {
             std::mem::take(&mut window.tracks).into_iter().partition(|track| is_due(track, leaving));
         window.tracks = kept;
         window.tracks.retain(|track| track.is_in_sight);
-        let good = self.use_due(eye, &due, tally);
-        self.promote(eye, &good, &due);
+        let good = self.use_due(&self.eye(model), &due, tally);
+        // which may sit otherwise than before
+        self.promote(&self.eye(model), &good, &due);
         let landmarks = self.camera.landmarks;
         let is_landmark = |id: u64| landmarks.iter().flatten().any(|own| own.id == id);
         let again = due.into_iter().filter(|own| own.is_in_sight && !is_landmark(own.id));
@@ -189,7 +193,11 @@ impl Filter {
 
     /// Uses tracks that agree; returns which did.
     fn use_due(&mut self, eye: &Eye, due: &[Track], tally: &mut Tally) -> Vec<u64> {
-        let all: Vec<Told> = due.iter().filter_map(|track| self.told(eye, track)).collect();
+        let none = Errors::none();
+        let all: Vec<_> = due.iter().map(|track| self.told(eye, track, &none)).collect();
+        let is_lost = |told: &&Result<Told, Unfound>| **told == Err(Unfound::Contradictory);
+        let lost = all.iter().filter(is_lost).count();
+        let all: Vec<Told> = all.into_iter().flatten().collect();
         let columns = self.track_covariance();
         let agrees = |told: &&Told| {
             let rows = told.of_poses.z.len();
@@ -197,25 +205,59 @@ impl Filter {
             square.is_some_and(|square| square < self.gate.limit(rows))
         };
         let good: Vec<&Told> = all.iter().filter(agrees).collect();
-        tally.asked += all.len();
-        tally.refused += all.len() - good.len();
+        let asked = all.len() + lost;
+        tally.asked += asked;
+        tally.refused += asked - good.len();
         // where most contradict, the others agree by chance
-        if good.is_empty() || 2 * good.len() <= all.len() || self.camera.standing.is_doubted() {
+        if good.is_empty() || 2 * good.len() <= asked || self.camera.standing.is_doubted() {
             return Vec::new();
         }
         let rows = Rows::compressed(good.iter().map(|told| &told.of_poses));
-        if let Some(weighed) = innovation(&rows).weigh(&self.state.covariance) {
-            self.absorb_sight(&weighed);
-            tally.is_used = true;
-        }
-        good.iter().map(|told| told.id).collect()
+        let good: Vec<u64> = good.iter().map(|told| told.id).collect();
+        let due: Vec<&Track> = due.iter().filter(|track| good.contains(&track.id)).collect();
+        tally.is_used = self.absorb_tracks(eye, &due, rows).is_some();
+        good
     }
 
-    /// What a track tells of the poses as they are estimated now.
-    pub(super) fn told(&self, eye: &Eye, track: &Track) -> Option<Told> {
-        let corrections = self.state.nominal.poses.as_slice();
-        let pose = |slot: usize| Some(pose_now(self.camera.window.pose(slot)?, corrections));
-        told(eye, track, pose)
+    /// Brings in what tracks tell. Where it moves poses and camera so far that they would see their points otherwise, it is looked at from there again:
+    /// the iterated filter (Bell and Cathey, IEEE Trans. Automatic Control 38 (1993)).
+    fn absorb_tracks(&mut self, eye: &Eye, due: &[&Track], first: Rows) -> Option<()> {
+        let (mut rows, mut error) = (first, Errors::none());
+        let c_eb = self.state.nominal.c_eb();
+        for _ in 0..ITERATIONS {
+            let mut covariance = self.state.covariance.clone();
+            keep_scene_unknown(&mut covariance, &error, &c_eb);
+            let found = innovation(&rows).weigh(&covariance)?.update(&mut covariance);
+            let mut step = found.clone();
+            step -= &error;
+            error = found;
+            if !is_far(&step) {
+                keep_scene_unknown(&mut covariance, &step, &c_eb);
+                self.state.covariance = covariance;
+                self.state.take_on(&error);
+                self.court.owed += &error;
+                return Some(());
+            }
+            let moved = due.iter().map(|track| self.told(eye, track, &error));
+            let moved: Vec<Told> = moved.flatten().collect();
+            let columns = self.columns_of(&error);
+            let all: Vec<Rows> = moved.into_iter().map(|told| told.of_poses.beyond(&columns)).collect();
+            rows = Rows::compressed(all.iter());
+        }
+        None
+    }
+
+    fn columns_of(&self, error: &Errors) -> DVector<f64> {
+        let states = self.track_states();
+        DVector::from_fn(COLUMNS, |column, _| error.values()[states[column]])
+    }
+
+    /// What a track tells of the poses as they are estimated now, or after an error was taken on.
+    pub(super) fn told(&self, eye: &Eye, track: &Track, error: &Errors) -> Result<Told, Unfound> {
+        let corrections = self.state.nominal.poses + error.of(POSES);
+        let eye = eye.moved(&error.of(CAMERA_AXES), error.of(CAMERA_DELAY).x);
+        let pose = |slot: usize| Some(pose_now(self.camera.window.pose(slot)?, corrections.as_slice()));
+        told(&eye, track, pose)
     }
 
     /// Indices of the columns of what tracks tell, among all states.
@@ -233,7 +275,7 @@ impl Filter {
         DMatrix::from_fn(COLUMNS, COLUMNS, |i, j| p[(states[i], states[j])])
     }
 
-    /// Brings in what a camera sees. It sees no place on the Earth and no north, and where the antenna sits is nothing to it.
+    /// Brings in how landmarks are seen. A camera sees no place on the Earth and no north, and where the antenna sits is nothing to it.
     pub(super) fn absorb_sight(&mut self, weighed: &Weighed) {
         let error: Errors = self.state.absorb(weighed);
         let c_eb = self.state.nominal.c_eb();
@@ -264,6 +306,14 @@ fn is_due(track: &Track, leaving: Option<Leaving>) -> bool {
         _ => false,
     };
     track.seen.len() >= FEWEST && (!track.is_in_sight || is_leaving)
+}
+
+/// Whether points would be seen otherwise after such an error was taken on.
+fn is_far(error: &Errors) -> bool {
+    let poses = error.of(POSES);
+    let own = |slot: usize| poses.fixed_rows::<3>(POSE_STATES * slot).into_owned();
+    let moved = (1..CAMERA_POSES).map(|slot| (own(slot) - own(0)).norm());
+    moved.fold(0.0, f64::max) > FAR || error.of(CAMERA_AXES).norm() > FAR_TURNED
 }
 
 fn innovation(rows: &Rows) -> Innovation {

@@ -12,7 +12,7 @@ use crate::camera::sight::{Eye, Pose};
 use crate::camera::track::landmark_now;
 use crate::camera::window::Track;
 use crate::error_state::{
-    ATTITUDE, CAMERA_AXES, CAMERA_DELAY, Innovation, Jacobian, LANDMARK_POINTS, LANDMARKS,
+    ATTITUDE, CAMERA_AXES, CAMERA_DELAY, Errors, Innovation, Jacobian, LANDMARK_POINTS, LANDMARKS,
     POSITION,
 };
 
@@ -125,7 +125,7 @@ impl Filter {
 
     fn promote_to(&mut self, eye: &Eye, track: &Track, slot: usize) {
         // the poses have been corrected since
-        let Some(told) = self.told(eye, track) else { return };
+        let Ok(told) = self.told(eye, track, &Errors::none()) else { return };
         let Some(inverse) = told.by_point.try_inverse() else { return };
         if told.found.parallax < PARALLAX {
             return;
