@@ -14,7 +14,7 @@ use crate::protection::RiskModel;
 pub const COARSE_GYRO: f64 = 1.0 * DEG_PER_HOUR;
 
 /// How well a camera sits as configured where nobody says, 1-sigma, rad, and its stamps are right, 1-sigma, s.
-const CAMERA_AXES_STD: f64 = 0.5 * DEG;
+const CAMERA_AXES_STD: f64 = 1.0 * DEG;
 const CAMERA_DELAY_STD: f64 = 0.02;
 
 /// A berth taken from a chart is off by so much, 1-sigma, m.
@@ -161,7 +161,7 @@ pub struct CameraAid {
 }
 
 impl CameraAid {
-    /// One that was put up with a rule and a level, and whose images are stamped by who receives them.
+    /// One that was put up by eye, and whose images are stamped by who receives them.
     #[must_use]
     pub fn new(model: CameraModel) -> Self {
         CameraAid { model, axes_std: CAMERA_AXES_STD, delay_std: CAMERA_DELAY_STD }

@@ -52,11 +52,8 @@ pub enum Unfound {
 /// Why that cannot be done well.
 pub fn triangulate(model: &CameraModel, seen: &[Placed]) -> Result<Triangulated, Unfound> {
     let mut by: Vec<usize> = (0..seen.len()).collect();
-    // one mismatch in a track is common, two are not
-    for _ in 0..3 {
-        if by.len() < FEWEST {
-            break;
-        }
+    // where as many contradict as agree nobody knows which are right
+    while by.len() >= FEWEST && 2 * by.len() > seen.len() {
         let own: Vec<Placed> = by.iter().map(|index| seen[*index]).collect();
         let guess = first_guess(model, &own).ok_or(Unfound::Untold)?;
         let found = improved(model, &own, guess).ok_or(Unfound::Contradictory)?;

@@ -208,8 +208,8 @@ impl Filter {
         let asked = all.len() + lost;
         tally.asked += asked;
         tally.refused += asked - good.len();
-        // where most contradict, the others agree by chance
-        if good.is_empty() || 2 * good.len() <= asked || self.camera.standing.is_doubted() {
+        // where so many contradict, the others agree by chance
+        if good.is_empty() || 3 * good.len() <= asked || self.camera.standing.is_doubted() {
             return Vec::new();
         }
         let rows = Rows::compressed(good.iter().map(|told| &told.of_poses));

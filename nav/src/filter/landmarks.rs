@@ -17,7 +17,9 @@ use crate::error_state::{
 };
 
 /// Rays to a landmark differ by as much at least when it becomes one, rad.
-const PARALLAX: f64 = 1.5 * std::f64::consts::PI / 180.0;
+const PARALLAX: f64 = 2.0 * std::f64::consts::PI / 180.0;
+/// A camera of which it is less sure how it sits, 1-sigma, rad, has none: a point is held for longer than its first look is right to the first order.
+const UNSURE: f64 = 0.004;
 /// One that contradicts so often in a row is not at rest.
 const MOVES: u8 = 4;
 
@@ -64,7 +66,7 @@ impl Filter {
         tally.asked += slots.len();
         tally.refused += slots.len() - good.len();
         self.note_contradictions(&slots, &good);
-        if 2 * good.len() <= slots.len() || self.camera.standing.is_doubted() {
+        if 3 * good.len() <= slots.len() || self.camera.standing.is_doubted() {
             return;
         }
         let rows: Vec<usize> = good.iter().flat_map(|index| [2 * index, 2 * index + 1]).collect();
@@ -117,6 +119,9 @@ impl Filter {
 
     /// Points of tracks that agreed and are still in sight become landmarks, as long as there are places.
     pub(super) fn promote(&mut self, eye: &Eye, good: &[u64], due: &[Track]) {
+        if CAMERA_AXES.std(&self.state.covariance) > UNSURE {
+            return;
+        }
         for track in due.iter().filter(|track| track.is_in_sight && good.contains(&track.id)) {
             let Some(slot) = self.camera.landmarks.iter().position(Option::is_none) else { return };
             self.promote_to(eye, track, slot);
