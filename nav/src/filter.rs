@@ -56,8 +56,8 @@ mod heard;
 mod hidden;
 mod installation;
 mod joined;
-mod landmarks;
 pub mod judged;
+mod landmarks;
 mod leaps;
 mod level;
 mod mending;
@@ -368,7 +368,6 @@ impl Estimator for Filter {
             Message::Ranges(ranges) => self.apply_ranges(ranges, received.source, &mut report),
             Message::Ranging(told) => self.apply_ranging(told, received.source, &mut report),
             Message::Camera(frame) => self.apply_camera(frame, received.source, &mut report),
-            Message::VisualOdometry(_) => {}
         }
         self.forget_silent_marks();
         self.sources.note(self.state.time, &report, &received.message);

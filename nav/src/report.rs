@@ -1,7 +1,8 @@
 //! What the filter did with a measurement.
 
 use insd_base::{
-    CameraTurn, RangingTurn, Rejection, RtkSilence, RtkTurn, SatelliteId, SatelliteInnovation, Source, Time,
+    CameraTurn, RangingTurn, Rejection, RtkSilence, RtkTurn, SatelliteId, SatelliteInnovation,
+    Source, Time,
 };
 
 /// Whether a quantity was used.

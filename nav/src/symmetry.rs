@@ -26,8 +26,8 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use insd_estimation::Key;
 
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, CAMERA_AXES, CAMERA_POSES, CURRENT, Covariance, Errors, GYRO_BIAS,
-    GYRO_DRIFT, LANDMARK_POINTS, LANDMARKS, POSE_STATES, POSES, POSITION, VELOCITY,
+    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, CAMERA_AXES, CAMERA_POSES, CURRENT, Covariance, Errors,
+    GYRO_BIAS, GYRO_DRIFT, LANDMARK_POINTS, LANDMARKS, POSE_STATES, POSES, POSITION, VELOCITY,
 };
 
 /// Turns the covariance of the biases from one estimate of the attitude, C_eb, to another.

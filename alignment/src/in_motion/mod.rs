@@ -350,8 +350,7 @@ impl Estimator for EightState {
             | Message::Rtk(_)
             | Message::Compass(_)
             | Message::Ranging(_)
-            | Message::Camera(_)
-            | Message::VisualOdometry(_) => Report::default(),
+            | Message::Camera(_) => Report::default(),
             Message::Ranges(ranges) => self.ranges(ranges, received.source),
             Message::Gnss(fix) => self.gnss(fix, received.source),
             Message::Log(log) => self.log(log, received.source),

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use insd_base::{Body, CameraModel};
 use insd_base::units::DEG;
+use insd_base::{Body, CameraModel};
 use insd_config::BadInput;
 use insd_nav::config::CameraAid;
 use nalgebra::{Matrix3, Vector2};
@@ -36,8 +36,8 @@ struct CameraTable {
 pub(crate) fn read(dir: &Path) -> anyhow::Result<Option<CameraAid>> {
     let path = dir.join("voyage.toml");
     let text = fs::read_to_string(&path)?;
-    let file: File = toml::from_str(&text)
-        .map_err(|error| BadInput(format!("{}: {error}", path.display())))?;
+    let file: File =
+        toml::from_str(&text).map_err(|error| BadInput(format!("{}: {error}", path.display())))?;
     let Some(table) = file.camera else { return Ok(None) };
     table.aid().map(Some).map_err(|(key, expected)| {
         BadInput(format!("{}: camera.{key}: {expected}", path.display())).into()
@@ -52,12 +52,18 @@ impl CameraTable {
         let is_rotation = (c_bc.transpose() * c_bc - Matrix3::identity()).amax() < 1e-3
             && c_bc.determinant() > 0.0;
         if !is_rotation {
-            return Err(("rotation_body_from_camera", "expected a rotation, rows of three numbers"));
+            return Err((
+                "rotation_body_from_camera",
+                "expected a rotation, rows of three numbers",
+            ));
         }
         let k = rows(&self.k);
         let is_upright = k[(0, 0)] > 0.0 && k[(1, 1)] > 0.0 && k.iter().all(|x| x.is_finite());
         if !is_upright {
-            return Err(("k", "expected [[fx, 0, cx], [0, fy, cy], [0, 0, 1]] with fx and fy above zero"));
+            return Err((
+                "k",
+                "expected [[fx, 0, cx], [0, fy, cy], [0, 0, 1]] with fx and fy above zero",
+            ));
         }
         if self.size_px.contains(&0) {
             return Err(("size_px", "expected width and height, above zero"));

@@ -4,6 +4,8 @@
 
 #![warn(clippy::print_stdout)] // it panics when the reader has gone: `terminal::print` does not
 
+mod camera_table;
+mod camera_voyage;
 pub mod commands;
 pub mod demo;
 pub mod evaluation;
@@ -11,8 +13,6 @@ pub mod pty;
 pub mod ranges;
 pub mod raw_receivers;
 pub mod raw_run;
-mod camera_table;
-mod camera_voyage;
 mod raw_table;
 mod raw_voyage;
 pub mod report;

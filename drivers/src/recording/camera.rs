@@ -1,9 +1,9 @@
-//! What a camera tells of a voyage: `features.csv`, points of images, and `vo.csv`, steps of a visual odometry.
+//! What a camera has seen on a voyage: `features.csv`, points of images.
 
 use std::path::Path;
 
-use insd_base::{CameraFrame, ImagePoint, Time, VisualOdometry};
-use nalgebra::{Quaternion, UnitQuaternion, Vector2, Vector3};
+use insd_base::{CameraFrame, ImagePoint, Time};
+use nalgebra::Vector2;
 
 use super::error::RecordingError;
 use super::fields::Fields;
@@ -29,45 +29,6 @@ impl Row for PointRow {
         let track = whole(fields, 1)?;
         let at = Vector2::new(fields.required(2)?, fields.required(3)?);
         Ok(PointRow { time, point: ImagePoint { track, at } })
-    }
-
-    fn time(&self) -> Time {
-        self.time
-    }
-}
-
-impl Row for VisualOdometry {
-    const COLUMNS: &'static [&'static str] = &[
-        "t_s",
-        "t_prev_s",
-        "map",
-        "qw",
-        "qx",
-        "qy",
-        "qz",
-        "tx",
-        "ty",
-        "tz",
-        "std_rot_rad",
-        "std_trans",
-    ];
-    const OPTIONAL: &'static [&'static [&'static str]] = &[];
-
-    fn parse(fields: &Fields<'_>) -> Result<Self, BadRow> {
-        let (time, since) = (fields.time(0)?, fields.time(1)?);
-        let map = u32::try_from(whole(fields, 2)?);
-        let field = |column| fields.required(column);
-        let turn = Quaternion::new(field(3)?, field(4)?, field(5)?, field(6)?);
-        let rotation = UnitQuaternion::try_new(turn, 0.5);
-        Ok(VisualOdometry {
-            time,
-            since,
-            map: map.map_err(|_| fields.bad(2, RowFault::OutOfRange))?,
-            rotation: rotation.ok_or_else(|| fields.bad(3, RowFault::OutOfRange))?,
-            translation: Vector3::new(field(7)?, field(8)?, field(9)?),
-            rotation_std: field(10)?,
-            translation_std: field(11)?,
-        })
     }
 
     fn time(&self) -> Time {
@@ -132,46 +93,6 @@ impl ImageReader {
     }
 }
 
-/// The steps of a visual odometry of a voyage.
-pub struct OdometryReader {
-    table: Table<VisualOdometry>,
-    next: Option<VisualOdometry>,
-}
-
-impl OdometryReader {
-    /// Opens `vo.csv`, plain or compressed; `None` where there is none.
-    ///
-    /// # Errors
-    /// It cannot be read, or lacks a column.
-    pub fn open(dir: &Path) -> Result<Option<Self>, RecordingError> {
-        let Some(path) = input::find(dir, "vo.csv") else { return Ok(None) };
-        let mut table = Table::open(&path)?;
-        let next = table.next_row()?.map(|(row, _)| row);
-        Ok(Some(OdometryReader { table, next }))
-    }
-
-    /// When the next step ends.
-    #[must_use]
-    pub fn time(&self) -> Option<Time> {
-        self.next.as_ref().map(|step| step.time)
-    }
-
-    /// The next step.
-    ///
-    /// # Errors
-    /// The file cannot be read on, or most of it is faulty.
-    pub fn next_step(&mut self) -> Result<Option<VisualOdometry>, RecordingError> {
-        let following = self.table.next_row()?.map(|(row, _)| row);
-        Ok(std::mem::replace(&mut self.next, following))
-    }
-
-    /// What was read and skipped so far.
-    #[must_use]
-    pub fn report(&self) -> &FileReport {
-        self.table.report()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -190,17 +111,5 @@ mod tests {
         assert_eq!(reader.next_frame().unwrap(), None);
         let report = reader.report().to_string();
         assert!(report.contains("features.csv") && report.contains("v_px"), "{report}");
-    }
-
-    #[test]
-    fn a_step_has_a_rotation_that_is_one() {
-        let desk = tempfile::tempdir().unwrap();
-        let head = "t_s,t_prev_s,keyframe,map,qw,qx,qy,qz,tx,ty,tz,std_rot_rad,std_trans";
-        let text = format!("{head}\n1.0,0.5,1,0,1,0,0,0,0.1,0,0.2,0.0003,0.02\n1.5,1.0,2,0,0,0,0,0,0.1,0,0.2,0.0003,0.02\n");
-        std::fs::write(desk.path().join("vo.csv"), text).unwrap();
-        let mut reader = OdometryReader::open(desk.path()).unwrap().unwrap();
-        assert_eq!(reader.next_step().unwrap().unwrap().since, Time::from_seconds(0.5));
-        assert_eq!(reader.next_step().unwrap(), None);
-        assert!(reader.report().to_string().contains("qw"), "{}", reader.report());
     }
 }

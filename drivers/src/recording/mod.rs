@@ -33,7 +33,7 @@ mod stream;
 mod table;
 mod writer;
 
-pub use camera::{ImageReader, OdometryReader};
+pub use camera::ImageReader;
 pub use error::RecordingError;
 pub use header::read_header;
 pub use lines::MAX_LINE;

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use crate::camera::CameraTurn;
 use crate::installation::Finding;
 use crate::messages::Source;
 use crate::party::{ReceiverChange, Stands};
-use crate::camera::CameraTurn;
 use crate::ranging::RangingTurn;
 use crate::satellites::{CompassRefusal, RtkSilence, RtkTurn, SatelliteId};
 use crate::solution::{Mode, SolutionSource};

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use crate::camera::{CameraFrame, VisualOdometry};
+use crate::camera::CameraFrame;
 use crate::frames::{Body, Geodetic, Ned};
 use crate::gnss::GnssFix;
 use crate::ranging::RangingReading;
@@ -134,8 +134,6 @@ pub enum Message {
     Ranging(RangingReading),
     /// Points in an image of a camera.
     Camera(Arc<CameraFrame>),
-    /// How a camera moved, by a visual odometry of another's making.
-    VisualOdometry(VisualOdometry),
 }
 
 impl Message {
@@ -153,7 +151,6 @@ impl Message {
             Message::Compass(m) => m.time,
             Message::Ranging(m) => m.time,
             Message::Camera(m) => m.time,
-            Message::VisualOdometry(m) => m.time,
         }
     }
 }

@@ -135,7 +135,8 @@ impl Eye {
         let by_attitude = by_point * skew(&away);
         let mut by_pose = SMatrix::<f64, 2, POSE_STATES>::zeros();
         by_pose.fixed_columns_mut::<3>(0).copy_from(&-by_point);
-        by_pose.fixed_columns_mut::<3>(3).copy_from(&by_attitude);
+        let meanwhile = Rotation3::new(taken.rate * self.delay);
+        by_pose.fixed_columns_mut::<3>(3).copy_from(&(by_attitude * meanwhile.matrix()));
         Some(Sight {
             at,
             by_pose,
@@ -196,26 +197,33 @@ pub(crate) mod tests {
         let (centre, c_ce) = eye.placed(&pose());
         let point = centre + c_ce.tr_mul(&Vector3::new(4.0, -3.0, 30.0));
         let sight = eye.sight(&pose(), &point).unwrap();
-        let step = 1e-5;
+        let step = 1e-4;
+        let slope = |seen: &dyn Fn(f64) -> Sight| (seen(step).at - seen(-step).at) / (2.0 * step);
         for column in 0..POSE_STATES {
-            let mut by = SVector::<f64, POSE_STATES>::zeros();
-            by[column] = step;
-            let moved = eye.sight(&pose().corrected(&by), &point).unwrap();
-            let slope = (moved.at - sight.at) / step;
-            assert!((slope - sight.by_pose.column(column)).norm() < 2e-2, "{column}: {slope}");
+            let own = slope(&|by| {
+                let mut error = SVector::<f64, POSE_STATES>::zeros();
+                error[column] = by;
+                eye.sight(&pose().corrected(&error), &point).unwrap()
+            });
+            assert!((own - sight.by_pose.column(column)).norm() < 2e-2, "{column}: {own}");
         }
-        for column in 0..3 {
-            let mut by = Vector3::zeros();
-            by[column] = step;
-            let slope = (eye.sight(&pose(), &(point + by)).unwrap().at - sight.at) / step;
-            assert!((slope - sight.by_point.column(column)).norm() < 1e-3);
-            let turned = Eye::new(&model(), &(axes + by), delay);
-            let slope = (turned.sight(&pose(), &point).unwrap().at - sight.at) / step;
-            assert!((slope - sight.by_axes.column(column)).norm() < 0.05, "{column}: {slope}");
+        let along = |axis: usize, by: f64| {
+            let mut error = Vector3::zeros();
+            error[axis] = by;
+            error
+        };
+        for axis in 0..3 {
+            let own = slope(&|by| eye.sight(&pose(), &(point + along(axis, by))).unwrap());
+            assert!((own - sight.by_point.column(axis)).norm() < 2e-2, "{axis}: {own}");
+            let own = slope(&|by| {
+                let eye = Eye::new(&model(), &(axes + along(axis, by)), delay);
+                eye.sight(&pose(), &point).unwrap()
+            });
+            assert!((own - sight.by_axes.column(axis)).norm() < 2e-2, "{axis}: {own}");
         }
-        let late = Eye::new(&model(), &axes, delay + step);
-        let slope = (late.sight(&pose(), &point).unwrap().at - sight.at) / step;
-        assert!((slope - sight.by_delay).norm() < 2e-2, "{slope} {}", sight.by_delay);
+        let late = |by: f64| Eye::new(&model(), &axes, delay + by).sight(&pose(), &point).unwrap();
+        let own = slope(&late);
+        assert!((own - sight.by_delay).norm() < 2e-2, "{own} {}", sight.by_delay);
     }
 
     #[test]

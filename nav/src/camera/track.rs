@@ -73,12 +73,7 @@ pub fn told(
 /// From which pose a point was seen where, and what was expected.
 type Sighting = (usize, Vector2<f64>, Sight);
 
-fn projected(
-    eye: &Eye,
-    id: u64,
-    sights: &[Sighting],
-    found: Triangulated,
-) -> Told {
+fn projected(eye: &Eye, id: u64, sights: &[Sighting], found: Triangulated) -> Told {
     let rows = 2 * sights.len();
     let by = 1.0 / eye.model().pixel_std;
     let mut by_point = DMatrix::zeros(rows, 3);

@@ -122,7 +122,8 @@ impl Filter {
         } else if gap.is_some_and(|gap| gap > BROKEN) {
             self.begin_scene_anew();
         }
-        let is_frozen = last.is_some_and(|last| !frame.points.is_empty() && last.points == frame.points);
+        let is_frozen =
+            last.is_some_and(|last| !frame.points.is_empty() && last.points == frame.points);
         if is_frozen { Err(Rejection::Frozen) } else { Ok(()) }
     }
 
@@ -157,8 +158,9 @@ impl Filter {
         for track in &mut window.tracks {
             track.is_in_sight = points.iter().any(|point| point.track == track.id);
         }
-        let (due, kept): (Vec<Track>, Vec<Track>) =
-            std::mem::take(&mut window.tracks).into_iter().partition(|track| is_due(track, leaving));
+        let (due, kept): (Vec<Track>, Vec<Track>) = std::mem::take(&mut window.tracks)
+            .into_iter()
+            .partition(|track| is_due(track, leaving));
         window.tracks = kept;
         window.tracks.retain(|track| track.is_in_sight);
         let good = self.use_due(&self.eye(model), &due, tally);
@@ -241,7 +243,8 @@ impl Filter {
             let moved = due.iter().map(|track| self.told(eye, track, &error));
             let moved: Vec<Told> = moved.flatten().collect();
             let columns = self.columns_of(&error);
-            let all: Vec<Rows> = moved.into_iter().map(|told| told.of_poses.beyond(&columns)).collect();
+            let all: Vec<Rows> =
+                moved.into_iter().map(|told| told.of_poses.beyond(&columns)).collect();
             rows = Rows::compressed(all.iter());
         }
         None
@@ -256,7 +259,8 @@ impl Filter {
     pub(super) fn told(&self, eye: &Eye, track: &Track, error: &Errors) -> Result<Told, Unfound> {
         let corrections = self.state.nominal.poses + error.of(POSES);
         let eye = eye.moved(&error.of(CAMERA_AXES), error.of(CAMERA_DELAY).x);
-        let pose = |slot: usize| Some(pose_now(self.camera.window.pose(slot)?, corrections.as_slice()));
+        let pose =
+            |slot: usize| Some(pose_now(self.camera.window.pose(slot)?, corrections.as_slice()));
         told(&eye, track, pose)
     }
 
@@ -285,10 +289,7 @@ impl Filter {
 }
 
 /// The points of an image that a camera can have seen, each track once; most of another camera's are not.
-fn seen_by(
-    model: &CameraModel,
-    frame: &CameraFrame,
-) -> Result<Vec<ImagePoint>, Rejection> {
+fn seen_by(model: &CameraModel, frame: &CameraFrame) -> Result<Vec<ImagePoint>, Rejection> {
     let sound = frame.points.iter().filter(|point| model.sees(&point.at));
     let mut points: Vec<ImagePoint> = sound.copied().collect();
     if 2 * points.len() < frame.points.len() {
@@ -324,4 +325,3 @@ fn innovation(rows: &Rows) -> Innovation {
     h.set_columns(CAMERA_DELAY.key(), &rows.h.columns(DELAY_AT, 1).into_owned());
     Innovation { z: rows.z.clone(), h, r: DMatrix::identity(count, count) }
 }
-

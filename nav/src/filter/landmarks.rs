@@ -17,7 +17,7 @@ use crate::error_state::{
 };
 
 /// Rays to a landmark differ by as much at least when it becomes one, rad.
-const PARALLAX: f64 = 2.0 * std::f64::consts::PI / 180.0;
+const PARALLAX: f64 = 1.5 * std::f64::consts::PI / 180.0;
 /// A camera of which it is less sure how it sits, 1-sigma, rad, has none: a point is held for longer than its first look is right to the first order.
 const UNSURE: f64 = 0.004;
 /// One that contradicts so often in a row is not at rest.
@@ -105,7 +105,11 @@ impl Filter {
             .with(CAMERA_DELAY, &sight.by_delay)
             .with(LANDMARK_POINTS, &by_points);
         let variance = eye.model().pixel_std * eye.model().pixel_std;
-        Some(Innovation::new(&(at - sight.at), h, &SMatrix::<f64, 2, 2>::from_diagonal_element(variance)))
+        Some(Innovation::new(
+            &(at - sight.at),
+            h,
+            &SMatrix::<f64, 2, 2>::from_diagonal_element(variance),
+        ))
     }
 
     /// What was seen of it is not linked with what is seen later.
@@ -156,7 +160,6 @@ impl Filter {
         self.state.nominal.landmarks.fixed_rows_mut::<3>(3 * slot).fill(0.0);
         let z = Vector3::from_column_slice(told.of_point.z.as_slice());
         let first = told.found.point + inverse * z;
-        self.camera_mut().landmarks[slot] =
-            Some(Landmark { id: track.id, first, contradicted: 0 });
+        self.camera_mut().landmarks[slot] = Some(Landmark { id: track.id, first, contradicted: 0 });
     }
 }

@@ -1,17 +1,11 @@
 //! A ship that has nothing but an IMU and a camera, along a quay: what the camera tells, and what it must not seem to tell.
 
-mod dbg;
 mod scene;
 
 use insd_nav::error_state::{ATTITUDE, CAMERA_AXES, POSITION, VELOCITY};
 use insd_nav::timeline::Estimator;
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use nalgebra::{SMatrix, SVector, Vector3};
 use scene::{Scene, Trouble};
-
-/// Horizontal axes and down at the ship, from ECEF.
-fn to_ned(scene: &Scene) -> Matrix3<f64> {
-    scene.filter().view().c_ne
-}
 
 /// Mean of the normalised squares of position, velocity and attitude, per degree of freedom.
 fn nees(scene: &Scene) -> f64 {
@@ -26,27 +20,19 @@ fn nees(scene: &Scene) -> f64 {
             p.fixed_view_mut::<3, 3>(3 * i, 3 * j).copy_from(&own);
         }
     }
-    e.dot(&p.cholesky().expect("a covariance").solve(&e)) / 9.0
+    e.dot(&p.cholesky().unwrap().solve(&e)) / 9.0
 }
 
 #[test]
 fn what_is_claimed_is_what_is_found_over_many_seeds() {
     let (mut sum, mut count) = (0.0, 0.0);
     let mut axes = 0.0;
-    let mut by = [[0.0; 4]; 8];
     let seeds = 12;
     for seed in 0..seeds {
         let mut scene = Scene::new(seed, Trouble::Usual);
         for second in 1..=40 {
             scene.sail(1.0);
             if second % 5 == 0 {
-                let filter = scene.filter();
-                let error = filter.nominal().error_to(scene.truth());
-                for (i, b) in [POSITION, VELOCITY, ATTITUDE, CAMERA_AXES].iter().enumerate() {
-                    let mut e = error.of(*b);
-                    if i == 3 { e = e + scene.axes(); }
-                    by[second / 5 - 1][i] += e.dot(&b.covariance(filter.covariance()).cholesky().unwrap().solve(&e)) / 3.0 / 12.0;
-                }
                 sum += nees(&scene);
                 count += 1.0;
             }
@@ -54,9 +40,8 @@ fn what_is_claimed_is_what_is_found_over_many_seeds() {
         let error = scene.filter().nominal().error_to(scene.truth());
         let own = CAMERA_AXES.covariance(scene.filter().covariance());
         let off = scene.axes() + error.of(CAMERA_AXES);
-        axes += off.dot(&own.cholesky().expect("a covariance").solve(&off)) / 3.0;
+        axes += off.dot(&own.cholesky().unwrap().solve(&off)) / 3.0;
     }
-    println!("{by:.2?}");
     let (nees, axes) = (sum / count, axes / f64::from(seeds as u32));
     assert!((0.7..1.5).contains(&nees), "{nees}");
     assert!((0.4..1.8).contains(&axes), "how it sits: {axes}");
@@ -79,7 +64,7 @@ fn a_camera_holds_a_ship_that_has_nothing_else() {
 fn neither_north_nor_the_place_on_the_earth_is_learnt_by_looking() {
     let mut scene = Scene::new(1, Trouble::Usual);
     let of = |scene: &Scene| {
-        let (p, c_ne) = (scene.filter().covariance(), to_ned(scene));
+        let (p, c_ne) = (scene.filter().covariance(), scene.filter().view().c_ne);
         let place = POSITION.covariance_in(p, &c_ne).diagonal().map(f64::sqrt);
         let turn = ATTITUDE.covariance_in(p, &c_ne).diagonal().map(f64::sqrt);
         Vector3::new(place.x, place.y, turn.z)
@@ -99,8 +84,8 @@ fn a_stream_of_noise_moves_nobody() {
     blind.sail(20.0);
     noisy.sail(20.0);
     let apart = blind.filter().nominal().position - noisy.filter().nominal().position;
-    assert!(apart.norm() < 0.02 * blind.off().norm().max(1.0), "{}", apart.norm());
-    assert!(noisy.refused() > 10 && blind.refused() == 0);
+    assert_eq!(apart.norm(), 0.0);
+    assert!(noisy.refused() > 4, "{}", noisy.refused());
 }
 
 #[test]

@@ -28,7 +28,7 @@ const VELOCITY_WALK: f64 = 1e-3;
 
 /// What is out of the ordinary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Trouble {
+pub(crate) enum Trouble {
     /// One point of a hundred is a mismatch, one track of ten a ship that passes.
     Usual,
     /// No image at all.
@@ -39,7 +39,8 @@ pub enum Trouble {
     Frozen,
 }
 
-pub struct Scene {
+/// All of it.
+pub(crate) struct Scene {
     truth: Nominal,
     filter: Filter,
     gravity: LocalGravity,
@@ -55,6 +56,8 @@ pub struct Scene {
     steps: u64,
     refused: u32,
     rng: Pcg64,
+    /// Of what is seen: blind or not, the IMU measures the same.
+    seen: Pcg64,
 }
 
 fn spec() -> ImuSpec {
@@ -96,7 +99,7 @@ fn velocity(c_en: &Matrix3<f64>, t: f64) -> Vector3<f64> {
 }
 
 impl Scene {
-    pub fn new(seed: u64, trouble: Trouble) -> Self {
+    pub(crate) fn new(seed: u64, trouble: Trouble) -> Self {
         let mut rng = Pcg64::seed_from_u64(seed);
         let mut draw = |std: f64| {
             let one = |_, _| -> f64 { StandardNormal.sample(&mut rng) };
@@ -148,37 +151,38 @@ impl Scene {
             steps: 0,
             refused: 0,
             rng,
+            seen: Pcg64::seed_from_u64(1000 + seed),
         }
     }
 
-    pub fn filter(&self) -> &Filter {
+    pub(crate) fn filter(&self) -> &Filter {
         &self.filter
     }
 
-    pub fn truth(&self) -> &Nominal {
+    pub(crate) fn truth(&self) -> &Nominal {
         &self.truth
     }
 
-    pub fn axes(&self) -> Vector3<f64> {
+    pub(crate) fn axes(&self) -> Vector3<f64> {
         self.axes
     }
 
     /// Images that were refused.
-    pub fn refused(&self) -> u32 {
+    pub(crate) fn refused(&self) -> u32 {
         self.refused
     }
 
-    pub fn be_blind(&mut self) {
+    pub(crate) fn be_blind(&mut self) {
         self.trouble = Trouble::Blind;
     }
 
     /// By how much the estimate is off, ECEF, m.
-    pub fn off(&self) -> Vector3<f64> {
+    pub(crate) fn off(&self) -> Vector3<f64> {
         self.truth.position - self.filter.nominal().position
     }
 
     /// Sails on for so long, s.
-    pub fn sail(&mut self, duration: f64) {
+    pub(crate) fn sail(&mut self, duration: f64) {
         for _ in 0..(duration / STEP).round() as u64 {
             self.step();
         }
@@ -219,7 +223,7 @@ impl Scene {
         increment.velocity += self.bias[1] * STEP + self.draw(VELOCITY_WALK * STEP.sqrt());
         self.filter.advance(&increment);
         self.steps += 1;
-        if self.steps % IMAGE == 0 {
+        if self.steps.is_multiple_of(IMAGE) {
             self.look(Time::from_seconds(to), rate);
         }
     }
@@ -249,25 +253,28 @@ impl Scene {
             velocity: self.truth.velocity,
             rate: self.truth.attitude * rate,
         };
+        let way = self.truth.velocity.normalize();
+        let across = (way + way.cross(&self.truth.position.normalize())).normalize();
         let mut points = Vec::new();
         for index in 0..POINTS {
-            // every tenth is aboard a ship that passes
-            let passing = if index % 10 == 0 { 0.3 * time.as_seconds() } else { 0.0 };
-            let point = self.points[index] + Vector3::new(0.0, 0.0, 0.0 * passing);
+            // every tenth is aboard a ship that passes, not in the direction of one's own way: that is like being nearer
+            let passing = if index % 10 == 0 { 1.5 * time.as_seconds() } else { 0.0 };
+            let point = self.points[index] + across * passing;
             let at = eye.sight(&pose, &point).map(|sight| sight.at);
             let at = at.filter(|at| self.model.sees(at) && points.len() < 40);
             let (was_seen, visits) = self.visits[index];
             self.visits[index] = (at.is_some(), visits + u64::from(at.is_some() && !was_seen));
             let Some(at) = at else { continue };
-            let is_mismatch = self.trouble == Trouble::Noise || self.rng.random_bool(0.01);
+            let is_mismatch = self.trouble == Trouble::Noise || self.seen.random_bool(0.01);
             let at = if is_mismatch {
                 let within = |size: u32| 0.0..f64::from(size);
                 Vector2::new(
-                    self.rng.random_range(within(self.model.size[0])),
-                    self.rng.random_range(within(self.model.size[1])),
+                    self.seen.random_range(within(self.model.size[0])),
+                    self.seen.random_range(within(self.model.size[1])),
                 )
             } else {
-                at + self.draw(self.model.pixel_std).xy()
+                at + Vector2::from_fn(|_, _| -> f64 { StandardNormal.sample(&mut self.seen) })
+                    * self.model.pixel_std
             };
             let track = index as u64 + 1000 * self.visits[index].1;
             points.push(ImagePoint { track, at });

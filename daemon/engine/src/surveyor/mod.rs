@@ -218,8 +218,7 @@ impl Surveyor {
             | Message::Base(_)
             | Message::Rtk(_)
             | Message::Ranging(_)
-            | Message::Camera(_)
-            | Message::VisualOdometry(_) => {}
+            | Message::Camera(_) => {}
         }
     }
 

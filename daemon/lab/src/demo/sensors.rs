@@ -55,10 +55,9 @@ impl DemoSensor {
             | Message::Rtk(_)
             | Message::Compass(_) => DemoSensor::Gnss,
             Message::Log(_) => DemoSensor::Log,
-            Message::Reference(_)
-            | Message::Ranging(_)
-            | Message::Camera(_)
-            | Message::VisualOdometry(_) => DemoSensor::Reference,
+            Message::Reference(_) | Message::Ranging(_) | Message::Camera(_) => {
+                DemoSensor::Reference
+            }
         }
     }
 }
