@@ -23,7 +23,7 @@ use crate::solution_sigma::solution_covariance;
 use crate::strapdown;
 use crate::timeline::Estimator;
 use antennas_followed::Antennas;
-use camera::Camera;
+use camera_standing::Camera;
 use conduct::Conduct;
 use court::Court;
 pub use entry::Judged;

@@ -5,6 +5,9 @@ use std::sync::Arc;
 
 use insd_base::{Message, Received, Source, Time};
 use insd_drivers::recording::{FileReport, ImageReader};
+use insd_engine::Engine;
+
+use crate::commands::SensorOutage;
 
 /// The messages of a camera, in the order in which they are received.
 #[derive(Default)]
@@ -23,10 +26,7 @@ impl CameraVoyage {
     }
 
     /// What is received next, if that is up to an instant.
-    ///
-    /// # Errors
-    /// A file cannot be read on.
-    pub(crate) fn next_until(&mut self, receipt: Time) -> anyhow::Result<Option<Received>> {
+    fn next_until(&mut self, receipt: Time) -> anyhow::Result<Option<Received>> {
         let Some(images) = &mut self.images else { return Ok(None) };
         if images.time().is_none_or(|time| time > receipt) {
             return Ok(None);
@@ -36,6 +36,27 @@ impl CameraVoyage {
         self.last = Some(receipt);
         let message = Message::Camera(Arc::new(frame));
         Ok(Some(Received { receipt, source: Source::Camera(0), message }))
+    }
+
+    /// Passes on what is received up to an instant, but for outages; returns how many messages these drop.
+    ///
+    /// # Errors
+    /// A file cannot be read on.
+    pub(crate) fn pass_on(
+        &mut self,
+        receipt: Time,
+        engine: &mut Engine,
+        outages: &[SensorOutage],
+    ) -> anyhow::Result<u64> {
+        let mut dropped = 0;
+        while let Some(image) = self.next_until(receipt)? {
+            if outages.iter().any(|outage| outage.drops(&image)) {
+                dropped += 1;
+            } else {
+                engine.handle(&image);
+            }
+        }
+        Ok(dropped)
     }
 
     /// What was read and skipped.

@@ -75,7 +75,7 @@ pub struct Eye {
 
 /// Where a point is seen, px, and the derivatives of that.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sight {
+pub struct PointSight {
     /// Right and down, px.
     pub at: Vector2<f64>,
     /// By position and attitude of the IMU.
@@ -122,7 +122,7 @@ impl Eye {
 
     /// How a point is seen; `None` where it is not before the camera.
     #[must_use]
-    pub fn sight(&self, pose: &Pose, point: &Vector3<f64>) -> Option<Sight> {
+    pub fn sight(&self, pose: &Pose, point: &Vector3<f64>) -> Option<PointSight> {
         let taken = pose.later(self.delay);
         let c_be = taken.attitude.to_rotation_matrix().into_inner().transpose();
         let away = point - taken.position;
@@ -137,7 +137,7 @@ impl Eye {
         by_pose.fixed_columns_mut::<3>(0).copy_from(&-by_point);
         let meanwhile = Rotation3::new(taken.rate * self.delay);
         by_pose.fixed_columns_mut::<3>(3).copy_from(&(by_attitude * meanwhile.matrix()));
-        Some(Sight {
+        Some(PointSight {
             at,
             by_pose,
             by_point,
@@ -198,7 +198,8 @@ pub(crate) mod tests {
         let point = centre + c_ce.tr_mul(&Vector3::new(4.0, -3.0, 30.0));
         let sight = eye.sight(&pose(), &point).unwrap();
         let step = 1e-4;
-        let slope = |seen: &dyn Fn(f64) -> Sight| (seen(step).at - seen(-step).at) / (2.0 * step);
+        let slope =
+            |seen: &dyn Fn(f64) -> PointSight| (seen(step).at - seen(-step).at) / (2.0 * step);
         for column in 0..POSE_STATES {
             let own = slope(&|by| {
                 let mut error = SVector::<f64, POSE_STATES>::zeros();

@@ -1,11 +1,11 @@
 //! What a track tells of the poses from which it was seen.
 //!
 //! r = H_x dx + H_f df + n. With the left null space N of H_f, N^T r = N^T H_x dx + N^T n tells of the poses alone (Mourikis and Roumeliotis 2007,
-//! eqs. (20)-(24)); the three other rows tell where the point is. Rows of many tracks are as good as R of their QR (eqs. (26)-(29)).
+//! eqs. (20)-(24)); the three other rows tell where the point is. TrackRows of many tracks are as good as R of their QR (eqs. (26)-(29)).
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
 
-use super::sight::{Eye, Pose, Sight};
+use super::sight::{Eye, PointSight, Pose};
 use super::triangulation::{Placed, Triangulated, Unfound, triangulate};
 use super::window::{Keyframe, Track};
 use crate::error_state::{CAMERA_POSES, POSE_STATES};
@@ -17,9 +17,9 @@ pub const AXES_AT: usize = POSE_STATES * CAMERA_POSES;
 /// The delay.
 pub const DELAY_AT: usize = AXES_AT + 3;
 
-/// Rows in units of the sigma of an image point.
+/// TrackRows in units of the sigma of an image point.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rows {
+pub struct TrackRows {
     /// Measured less predicted.
     pub z: DVector<f64>,
     /// By [`COLUMNS`].
@@ -28,15 +28,15 @@ pub struct Rows {
 
 /// What a track tells.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Told {
+pub struct TrackTold {
     /// Which track.
     pub id: u64,
     /// Where its point is.
     pub found: Triangulated,
     /// Of the poses alone.
-    pub of_poses: Rows,
+    pub of_poses: TrackRows,
     /// Of the point, three rows: `of_point.z = of_point.h x + by_point df`.
-    pub of_point: Rows,
+    pub of_point: TrackRows,
     /// Upper triangular.
     pub by_point: Matrix3<f64>,
 }
@@ -49,7 +49,7 @@ pub fn told(
     eye: &Eye,
     track: &Track,
     pose: impl Fn(usize) -> Option<Pose>,
-) -> Result<Told, Unfound> {
+) -> Result<TrackTold, Unfound> {
     let poses: Vec<(usize, Pose)> =
         track.seen.iter().filter_map(|(slot, _)| Some((*slot, pose(*slot)?))).collect();
     if poses.len() != track.seen.len() {
@@ -71,9 +71,9 @@ pub fn told(
 }
 
 /// From which pose a point was seen where, and what was expected.
-type Sighting = (usize, Vector2<f64>, Sight);
+type Sighting = (usize, Vector2<f64>, PointSight);
 
-fn projected(eye: &Eye, id: u64, sights: &[Sighting], found: Triangulated) -> Told {
+fn projected(eye: &Eye, id: u64, sights: &[Sighting], found: Triangulated) -> TrackTold {
     let rows = 2 * sights.len();
     let by = 1.0 / eye.model().pixel_std;
     let mut by_point = DMatrix::zeros(rows, 3);
@@ -90,12 +90,12 @@ fn projected(eye: &Eye, id: u64, sights: &[Sighting], found: Triangulated) -> To
     }
     let qr = by_point.qr();
     qr.q_tr_mul(&mut all);
-    let part = |first: usize, count: usize| Rows {
+    let part = |first: usize, count: usize| TrackRows {
         z: all.view((first, COLUMNS), (count, 1)).column(0).into_owned(),
         h: all.view((first, 0), (count, COLUMNS)).into_owned(),
     };
     let r = qr.r();
-    Told {
+    TrackTold {
         id,
         found,
         of_poses: part(3, rows - 3),
@@ -104,7 +104,7 @@ fn projected(eye: &Eye, id: u64, sights: &[Sighting], found: Triangulated) -> To
     }
 }
 
-impl Rows {
+impl TrackRows {
     /// The same as an innovation of an estimate that is off from it by errors of the columns.
     #[must_use]
     pub fn beyond(mut self, errors: &DVector<f64>) -> Self {
@@ -125,7 +125,7 @@ impl Rows {
 
     /// All below each other, and no more of them than columns.
     #[must_use]
-    pub fn compressed<'a>(all: impl Iterator<Item = &'a Rows> + Clone) -> Self {
+    pub fn compressed<'a>(all: impl Iterator<Item = &'a TrackRows> + Clone) -> Self {
         let rows = all.clone().map(|own| own.z.len()).sum();
         let mut stack = DMatrix::zeros(rows, COLUMNS);
         let mut z = DVector::zeros(rows);
@@ -137,11 +137,11 @@ impl Rows {
             first += count;
         }
         if rows <= COLUMNS {
-            return Rows { z, h: stack };
+            return TrackRows { z, h: stack };
         }
         let qr = stack.qr();
         qr.q_tr_mul(&mut z);
-        Rows { z: z.rows(0, COLUMNS).into_owned(), h: qr.r() }
+        TrackRows { z: z.rows(0, COLUMNS).into_owned(), h: qr.r() }
     }
 }
 

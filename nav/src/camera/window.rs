@@ -36,14 +36,14 @@ pub struct Track {
 
 /// Poses and tracks.
 #[derive(Clone, Debug, Default)]
-pub struct Window {
+pub struct PoseWindow {
     /// In order of time.
     pub poses: Vec<Keyframe>,
     /// Of no particular order but the same in each replay.
     pub tracks: Vec<Track>,
 }
 
-impl Window {
+impl PoseWindow {
     /// The pose of a place.
     #[must_use]
     pub fn pose(&self, slot: usize) -> Option<&Keyframe> {

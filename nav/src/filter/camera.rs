@@ -8,13 +8,12 @@ use insd_base::{CameraFrame, CameraModel, CameraTurn, ImagePoint, Rejection, Sou
 use nalgebra::{DMatrix, DVector};
 
 use super::Filter;
-use super::camera_standing::{CameraStanding, FEWEST_POINTS};
+use super::camera_standing::{Camera, FEWEST_POINTS, Tally};
 use super::entry::{CAMERA_AID, Judged, NO_INNOVATION, enter};
-use super::landmarks::Landmark;
 use crate::camera::sight::{Eye, Pose};
-use crate::camera::track::{AXES_AT, COLUMNS, DELAY_AT, Rows, Told, pose_now, told};
+use crate::camera::track::{AXES_AT, COLUMNS, DELAY_AT, TrackRows, TrackTold, pose_now, told};
 use crate::camera::triangulation::{FEWEST, Unfound};
-use crate::camera::window::{Keyframe, Leaving, Track, Window};
+use crate::camera::window::{Keyframe, Leaving, PoseWindow, Track};
 use crate::declaration::{Carried, carried};
 use crate::error_state::{
     ATTITUDE, CAMERA_AXES, CAMERA_DELAY, CAMERA_POSES, Errors, Innovation, Jacobian, LANDMARKS,
@@ -31,23 +30,6 @@ const FAR: f64 = 0.01;
 const FAR_TURNED: f64 = 5e-4;
 /// After so long, s, a camera has no states any more.
 const SILENT: f64 = 60.0;
-
-/// What is remembered of a camera.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Camera {
-    pub(super) window: Window,
-    pub(super) landmarks: [Option<Landmark>; LANDMARKS],
-    pub(super) standing: CameraStanding,
-    last: Option<Arc<CameraFrame>>,
-}
-
-/// How many points or tracks were asked, and how many contradicted; and whether anything was used.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Tally {
-    pub(super) asked: usize,
-    pub(super) refused: usize,
-    pub(super) is_used: bool,
-}
 
 impl Filter {
     pub(super) fn apply_camera(
@@ -138,7 +120,7 @@ impl Filter {
     /// Nothing that was seen so far is linked with what will be.
     fn begin_scene_anew(&mut self) {
         let camera = self.camera_mut();
-        camera.window = Window::default();
+        camera.window = PoseWindow::default();
         for slot in 0..LANDMARKS {
             self.drop_landmark(slot);
         }
@@ -197,16 +179,16 @@ impl Filter {
     fn use_due(&mut self, eye: &Eye, due: &[Track], tally: &mut Tally) -> Vec<u64> {
         let none = Errors::none();
         let all: Vec<_> = due.iter().map(|track| self.told(eye, track, &none)).collect();
-        let is_lost = |told: &&Result<Told, Unfound>| **told == Err(Unfound::Contradictory);
+        let is_lost = |told: &&Result<TrackTold, Unfound>| **told == Err(Unfound::Contradictory);
         let lost = all.iter().filter(is_lost).count();
-        let all: Vec<Told> = all.into_iter().flatten().collect();
+        let all: Vec<TrackTold> = all.into_iter().flatten().collect();
         let columns = self.track_covariance();
-        let agrees = |told: &&Told| {
+        let agrees = |told: &&TrackTold| {
             let rows = told.of_poses.z.len();
             let square = told.of_poses.square(&columns);
             square.is_some_and(|square| square < self.gate.limit(rows))
         };
-        let good: Vec<&Told> = all.iter().filter(agrees).collect();
+        let good: Vec<&TrackTold> = all.iter().filter(agrees).collect();
         let asked = all.len() + lost;
         tally.asked += asked;
         tally.refused += asked - good.len();
@@ -214,7 +196,7 @@ impl Filter {
         if good.is_empty() || 3 * good.len() <= asked || self.camera.standing.is_doubted() {
             return Vec::new();
         }
-        let rows = Rows::compressed(good.iter().map(|told| &told.of_poses));
+        let rows = TrackRows::compressed(good.iter().map(|told| &told.of_poses));
         let good: Vec<u64> = good.iter().map(|told| told.id).collect();
         let due: Vec<&Track> = due.iter().filter(|track| good.contains(&track.id)).collect();
         tally.is_used = self.absorb_tracks(eye, &due, rows).is_some();
@@ -223,7 +205,7 @@ impl Filter {
 
     /// Brings in what tracks tell. Where it moves poses and camera so far that they would see their points otherwise, it is looked at from there again:
     /// the iterated filter (Bell and Cathey, IEEE Trans. Automatic Control 38 (1993)).
-    fn absorb_tracks(&mut self, eye: &Eye, due: &[&Track], first: Rows) -> Option<()> {
+    fn absorb_tracks(&mut self, eye: &Eye, due: &[&Track], first: TrackRows) -> Option<()> {
         let (mut rows, mut error) = (first, Errors::none());
         let c_eb = self.state.nominal.c_eb();
         for _ in 0..ITERATIONS {
@@ -241,11 +223,11 @@ impl Filter {
                 return Some(());
             }
             let moved = due.iter().map(|track| self.told(eye, track, &error));
-            let moved: Vec<Told> = moved.flatten().collect();
+            let moved: Vec<TrackTold> = moved.flatten().collect();
             let columns = self.columns_of(&error);
-            let all: Vec<Rows> =
+            let all: Vec<TrackRows> =
                 moved.into_iter().map(|told| told.of_poses.beyond(&columns)).collect();
-            rows = Rows::compressed(all.iter());
+            rows = TrackRows::compressed(all.iter());
         }
         None
     }
@@ -256,7 +238,12 @@ impl Filter {
     }
 
     /// What a track tells of the poses as they are estimated now, or after an error was taken on.
-    pub(super) fn told(&self, eye: &Eye, track: &Track, error: &Errors) -> Result<Told, Unfound> {
+    pub(super) fn told(
+        &self,
+        eye: &Eye,
+        track: &Track,
+        error: &Errors,
+    ) -> Result<TrackTold, Unfound> {
         let corrections = self.state.nominal.poses + error.of(POSES);
         let eye = eye.moved(&error.of(CAMERA_AXES), error.of(CAMERA_DELAY).x);
         let pose =
@@ -317,7 +304,7 @@ fn is_far(error: &Errors) -> bool {
     moved.fold(0.0, f64::max) > FAR || error.of(CAMERA_AXES).norm() > FAR_TURNED
 }
 
-fn innovation(rows: &Rows) -> Innovation {
+fn innovation(rows: &TrackRows) -> Innovation {
     let count = rows.z.len();
     let mut h = Jacobian::none(count);
     h.set_columns(POSES.key(), &rows.h.columns(0, AXES_AT).into_owned());

@@ -1,13 +1,46 @@
-//! How far a camera is believed.
+//! What is remembered of a camera, and how far it is believed.
 
-use insd_base::{CameraTurn, Time};
+use std::sync::Arc;
 
-use super::camera::Tally;
+use insd_base::{CameraFrame, CameraTurn, Time};
+use nalgebra::Vector3;
+
+use crate::camera::window::PoseWindow;
+use crate::error_state::LANDMARKS;
 
 /// An image of fewer points tells too little to be trusted.
 pub(super) const FEWEST_POINTS: usize = 15;
 /// It is doubtful, and believed again, after so long, s.
 const LASTS: f64 = 2.0;
+
+/// What is remembered of a camera.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Camera {
+    pub(super) window: PoseWindow,
+    pub(super) landmarks: [Option<Landmark>; LANDMARKS],
+    pub(super) standing: CameraStanding,
+    /// The newest image.
+    pub(super) last: Option<Arc<CameraFrame>>,
+}
+
+/// How many points or tracks were asked, and how many contradicted; and whether anything was used.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Tally {
+    pub(super) asked: usize,
+    pub(super) refused: usize,
+    pub(super) is_used: bool,
+}
+
+/// A point of the world that is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Landmark {
+    /// Its track.
+    pub(super) id: u64,
+    /// As it was first estimated, ECEF, m.
+    pub(super) first: Vector3<f64>,
+    /// How often in a row it was seen where it cannot be.
+    pub(super) contradicted: u8,
+}
 
 /// How far one is believed.
 #[derive(Clone, Copy, Debug, Default)]

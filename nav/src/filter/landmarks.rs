@@ -7,7 +7,7 @@ use insd_base::ImagePoint;
 use nalgebra::{DMatrix, SMatrix, Vector2, Vector3};
 
 use super::Filter;
-use super::camera::Tally;
+use super::camera_standing::{Landmark, Tally};
 use crate::camera::sight::{Eye, Pose};
 use crate::camera::track::landmark_now;
 use crate::camera::window::Track;
@@ -22,17 +22,6 @@ const PARALLAX: f64 = 1.5 * std::f64::consts::PI / 180.0;
 const UNSURE: f64 = 0.004;
 /// One that contradicts so often in a row is not at rest.
 const MOVES: u8 = 4;
-
-/// A point of the world that is held.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Landmark {
-    /// Its track.
-    pub(super) id: u64,
-    /// As it was first estimated, ECEF, m.
-    pub(super) first: Vector3<f64>,
-    /// How often in a row it was seen where it cannot be.
-    pub(super) contradicted: u8,
-}
 
 impl Filter {
     /// Uses those that are in sight; the others are not landmarks any longer.

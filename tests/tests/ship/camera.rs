@@ -129,7 +129,9 @@ fn a_camera_holds_a_ship_alongside_without_satellites_and_log() {
     };
     let (with, without) = (rms(|own| own.0.0), rms(|own| own.1.0));
     let nees = all.iter().map(|own| own.0.1).sum::<f64>() / all.len() as f64;
-    figure!("a minute without satellites: {with:.3} m with a camera, {without:.3} m without; NEES {nees:.2}");
+    figure!(
+        "a minute without satellites: {with:.3} m with a camera, {without:.3} m without; NEES {nees:.2}"
+    );
     assert!(with < 0.15 && with < 0.3 * without, "{with} {without}");
     assert!(nees < 1.5, "{nees}");
 }

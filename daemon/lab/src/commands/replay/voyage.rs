@@ -28,11 +28,10 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     config.alignment = args.alignment.config();
     let table = RawTable::read(&args.dir)?;
     config.models.ranges = table.model();
-    let mut camera = CameraVoyage::default();
-    if !args.without.contains(&Without::Camera) {
-        config.models.camera = camera_table::read(&args.dir)?;
-        camera = CameraVoyage::open(&args.dir)?;
-    }
+    let has_camera = !args.without.contains(&Without::Camera);
+    let mut camera =
+        if has_camera { CameraVoyage::open(&args.dir)? } else { CameraVoyage::default() };
+    config.models.camera = if has_camera { camera_table::read(&args.dir)? } else { None };
     config.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
     let mut ports = Ports::of(args, &reader.header().start_utc)?;
     config.points = ports.as_ref().map(|ports| ports.levers.clone()).unwrap_or_default();
@@ -52,13 +51,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
             engine.handle(&ranges);
             sink.look(&engine).context("cannot write the sky")?;
         }
-        while let Some(image) = camera.next_until(received.receipt)? {
-            if args.outages.iter().any(|outage| outage.drops(&image)) {
-                dropped += 1;
-                continue;
-            }
-            engine.handle(&image);
-        }
+        dropped += camera.pass_on(received.receipt, &mut engine, &args.outages)?;
         raw.hear(&received);
         if raw.replaces(&received) || Without::drops(&args.without, &received) {
             continue;
