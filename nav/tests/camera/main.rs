@@ -1,5 +1,7 @@
 //! A ship that has nothing but an IMU and a camera, along a quay: what the camera tells, and what it must not seem to tell.
 
+#![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
+
 mod scene;
 
 use insd_nav::error_state::{ATTITUDE, CAMERA_AXES, POSITION, VELOCITY};
