@@ -109,7 +109,9 @@ mod tests {
         assert_eq!(reader.time(), Some(Time::from_seconds(1.5)));
         assert_eq!(reader.next_frame().unwrap().unwrap().points.len(), 1);
         assert_eq!(reader.next_frame().unwrap(), None);
-        let report = reader.report().to_string();
-        assert!(report.contains("features.csv") && report.contains("v_px"), "{report}");
+        let report = reader.report();
+        let told = report.examples[0].to_string();
+        assert!(report.file == "features.csv" && told.starts_with("3:"), "{told}");
+        assert!(told.contains("v_px"), "{told}");
     }
 }
