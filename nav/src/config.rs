@@ -1,7 +1,7 @@
 //! What the filter assumes of sensors and sea beyond the IMU's data sheet.
 
 use insd_base::units::{DEG, DEG_PER_HOUR};
-use insd_base::{Body, ImuSpec, LeverArms, VesselKind};
+use insd_base::{Body, CameraModel, ImuSpec, LeverArms, VesselKind};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::disturbance::{PrefilterConfig, WhiteningConfig};
@@ -12,6 +12,10 @@ use crate::protection::RiskModel;
 /// Gyros with a larger turn-on bias than this, rad/s, are coarse: they do not find north on their own, and are no judges
 /// of a receiver.
 pub const COARSE_GYRO: f64 = 1.0 * DEG_PER_HOUR;
+
+/// How well a camera sits as configured where nobody says, 1-sigma, rad, and its stamps are right, 1-sigma, s.
+const CAMERA_AXES_STD: f64 = 1.0 * DEG;
+const CAMERA_DELAY_STD: f64 = 0.02;
 
 /// A berth taken from a chart is off by so much, 1-sigma, m.
 const MISPLACED: f64 = 10.0;
@@ -139,8 +143,29 @@ pub struct Models {
     pub ranges: RangeModel,
     /// Antennas that are a compass.
     pub antennas: AntennaModel,
+    /// A camera, if there is one.
+    pub camera: Option<CameraAid>,
     /// The risk of protection levels.
     pub risk: RiskModel,
+}
+
+/// A camera, and how well it is known how it sits and when its images are taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraAid {
+    /// How it looks at the world.
+    pub model: CameraModel,
+    /// Small rotations about body axes by which it sits otherwise, 1-sigma, rad.
+    pub axes_std: f64,
+    /// By how much its images are taken later than they are stamped, 1-sigma, s.
+    pub delay_std: f64,
+}
+
+impl CameraAid {
+    /// One that was put up by eye, and whose images are stamped by who receives them.
+    #[must_use]
+    pub fn new(model: CameraModel) -> Self {
+        CameraAid { model, axes_std: CAMERA_AXES_STD, delay_std: CAMERA_DELAY_STD }
+    }
 }
 
 /// The receiver that ranges of satellites come from.
@@ -260,6 +285,8 @@ pub struct NavConfig {
     pub ranges: RangeModel,
     /// Antennas that are a compass.
     pub antennas: AntennaModel,
+    /// A camera, if there is one.
+    pub camera: Option<CameraAid>,
     /// The risk of protection levels.
     pub risk: RiskModel,
     /// Longest interval between propagations of the covariance, s.
@@ -295,6 +322,7 @@ impl NavConfig {
             whitening: models.whitening,
             ranges: models.ranges,
             antennas: models.antennas,
+            camera: models.camera,
             risk: models.risk,
             covariance_interval: 0.1,
             docket: Docket::default(),

@@ -65,6 +65,8 @@ pub enum Carried {
     WithAntennas,
     /// From the first reading of a docking aid on, while any is heard.
     WithRanging,
+    /// From the first image of a camera on, while it is heard.
+    WithCamera,
     /// While the ship is held at her berth.
     AtBerth,
 }

@@ -47,6 +47,15 @@ pub const RANGING_MARKS: usize = 4;
 /// How long their surveys, and the zeros of their instruments, go on to be off by the same, s.
 const SURVEY_TIME: f64 = 7200.0;
 
+/// Poses at times of images that are held at once.
+pub const CAMERA_POSES: usize = 10;
+/// States of one of them: position and attitude.
+pub const POSE_STATES: usize = 6;
+/// Points of the world that a camera sees, and that are held at once.
+pub const LANDMARKS: usize = 16;
+/// By what the delay of a camera wanders, s per root of a second.
+const CAMERA_DELAY_WALK: f64 = 1e-5;
+
 /// 1-sigma of the mean height before anything is known of it, m.
 pub(crate) const SEA_LEVEL_UNKNOWN: f64 = 30.0;
 
@@ -205,6 +214,24 @@ declare! {
     RANGING_ERRORS: 3 * RANGING_MARKS, "ranging_errors", "sigma", Scalar, WithRanging,
         first: |_| 1.0, process: |_, _| Process::of_sigmas(SURVEY_TIME),
         correction: Correction::Adds(|nominal| nominal.ranging_errors.as_mut_slice());
+    /// Position, ECEF, m, and attitude, small rotation in ECEF axes, rad, at times of images ([`crate::camera`]).
+    POSES: POSE_STATES * CAMERA_POSES, "poses", "m, rad", Ecef, WithCamera,
+        first: |_| 0.0, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.poses.as_mut_slice());
+    /// Points of the world that a camera sees, ECEF, m.
+    LANDMARK_POINTS: 3 * LANDMARKS, "landmarks", "m", Ecef, WithCamera,
+        first: |_| 0.0, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.landmarks.as_mut_slice());
+    /// How a camera sits otherwise than configured, small rotation about body axes, rad, constant.
+    CAMERA_AXES: 3, "camera_axes", "rad", Body, WithCamera,
+        first: |config| config.camera.map_or(0.0, |camera| camera.axes_std),
+        process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.camera_axes.as_mut_slice());
+    /// By how much images were taken later than they are stamped, s, random walk.
+    CAMERA_DELAY: 1, "camera_delay", "s", Scalar, WithCamera,
+        first: |config| config.camera.map_or(0.0, |camera| camera.delay_std),
+        process: |_, _| Process::Walk(CAMERA_DELAY_WALK),
+        correction: Correction::Adds(|nominal| from_mut(&mut nominal.camera_delay));
     /// Mean place of a moored ship from her named berth, north and east, m, constant but for shifts.
     BERTH_OFFSET: 2, "berth_offset", "m", ComputedNed, AtBerth,
         first: |_| 0.0, process: |_, _| Process::Constant,

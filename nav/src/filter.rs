@@ -23,6 +23,7 @@ use crate::solution_sigma::solution_covariance;
 use crate::strapdown;
 use crate::timeline::Estimator;
 use antennas_followed::Antennas;
+use camera_standing::Camera;
 use conduct::Conduct;
 use court::Court;
 pub use entry::Judged;
@@ -42,6 +43,8 @@ pub mod ahead;
 mod antennas;
 mod antennas_followed;
 mod bent;
+mod camera;
+mod camera_standing;
 pub mod checkpoint;
 mod companion;
 mod conduct;
@@ -57,6 +60,7 @@ mod holding;
 mod installation;
 mod joined;
 pub mod judged;
+mod landmarks;
 mod leaps;
 mod level;
 mod mending;
@@ -106,6 +110,8 @@ pub struct Filter {
     antennas: Antennas,
     /// Docking aids, and what they measure to.
     rangings: Rangings,
+    /// What a camera sees.
+    camera: Arc<Camera>,
     /// What was used when.
     sources: Sources,
     /// While there are ranges, the same ship without them.
@@ -132,6 +138,7 @@ impl Filter {
             rtk: RtkStanding::default(),
             antennas: Antennas::default(),
             rangings: Rangings::default(),
+            camera: Arc::default(),
             sources: Sources::default(),
             companion: None,
             navigating: false,
@@ -329,6 +336,7 @@ impl Estimator for Filter {
         self.court.note(&step, increment);
         if self.state.is_due() {
             self.settle();
+            self.forget_silent_camera();
         }
         self.hold_to_wheels();
         self.look_at_pace();
@@ -365,6 +373,7 @@ impl Estimator for Filter {
             Message::Reference(r) => self.apply_reference(r, received.source, &mut report),
             Message::Ranges(ranges) => self.apply_ranges(ranges, received.source, &mut report),
             Message::Ranging(told) => self.apply_ranging(told, received.source, &mut report),
+            Message::Camera(frame) => self.apply_camera(frame, received.source, &mut report),
         }
         self.hold_back();
         self.forget_silent_marks();

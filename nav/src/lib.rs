@@ -11,6 +11,7 @@ pub mod angular_rate;
 pub mod antenna;
 pub mod berth;
 pub mod bridging;
+pub mod camera;
 pub mod config;
 pub mod dating;
 pub mod declaration;

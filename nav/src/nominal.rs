@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::declaration::{declaration, no_errors};
 use crate::error_state::{
-    ANTENNA_ROWS, ATTITUDE, DECLARATIONS, Errors, LINES, POSITION, RANGING_MARKS, SATELLITES,
+    ANTENNA_ROWS, ATTITUDE, CAMERA_POSES, DECLARATIONS, Errors, LANDMARKS, LINES, POSE_STATES,
+    POSITION, RANGING_MARKS, SATELLITES,
 };
 
 /// Estimated values of everything in the error state; units and axes as stated there.
@@ -82,6 +83,14 @@ pub struct Nominal {
     pub antenna_reflections: SVector<f64, ANTENNA_ROWS>,
     /// What the survey of each mark of docking aids is off by, sigmas.
     pub ranging_errors: SVector<f64, { 3 * RANGING_MARKS }>,
+    /// By what each pose at the time of an image was corrected since it was first estimated, m and rad, ECEF axes.
+    pub poses: SVector<f64, { POSE_STATES * CAMERA_POSES }>,
+    /// The same of each landmark, m.
+    pub landmarks: SVector<f64, { 3 * LANDMARKS }>,
+    /// How a camera sits otherwise than configured, rotation about body axes, rad.
+    pub camera_axes: Vector3<f64>,
+    /// By how much images were taken later than they are stamped, s.
+    pub camera_delay: f64,
 }
 
 impl Nominal {
@@ -124,6 +133,10 @@ impl Nominal {
             antenna_axes: Vector3::zeros(),
             antenna_reflections: SVector::zeros(),
             ranging_errors: SVector::zeros(),
+            poses: SVector::zeros(),
+            landmarks: SVector::zeros(),
+            camera_axes: Vector3::zeros(),
+            camera_delay: 0.0,
         }
     }
 

@@ -1,7 +1,8 @@
 //! What the filter did with a measurement.
 
 use insd_base::{
-    RangingTurn, Rejection, RtkSilence, RtkTurn, SatelliteId, SatelliteInnovation, Source, Time,
+    CameraTurn, RangingTurn, Rejection, RtkSilence, RtkTurn, SatelliteId, SatelliteInnovation,
+    Source, Time,
 };
 
 /// Whether a quantity was used.
@@ -48,6 +49,8 @@ pub struct Report {
     pub rtk: Vec<(Time, RtkTurn)>,
     /// Docking aids, by their number, that are believed otherwise from now on.
     pub rangings: Vec<(Time, u8, RangingTurn)>,
+    /// The camera is believed otherwise from now on.
+    pub camera: Vec<(Time, CameraTurn)>,
     /// What an epoch against a base came to: a place that is used, or why there is none.
     pub against_base: Option<Result<(), RtkSilence>>,
 }

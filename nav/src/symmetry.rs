@@ -23,15 +23,17 @@
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
+use insd_estimation::Key;
+
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, CURRENT, Covariance, Errors, GYRO_BIAS, GYRO_DRIFT,
-    POSITION, VELOCITY,
+    ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, CAMERA_AXES, CAMERA_POSES, CURRENT, Covariance, Errors,
+    GYRO_BIAS, GYRO_DRIFT, LANDMARK_POINTS, LANDMARKS, POSE_STATES, POSES, POSITION, VELOCITY,
 };
 
 /// Turns the covariance of the biases from one estimate of the attitude, C_eb, to another.
 pub fn turn_biases(p: &mut Covariance, from: &Matrix3<f64>, to: &Matrix3<f64>) {
     let turn = to.transpose() * from;
-    for block in [GYRO_BIAS, GYRO_DRIFT, ACCEL_BIAS, ACCEL_DRIFT] {
+    for block in [GYRO_BIAS, GYRO_DRIFT, ACCEL_BIAS, ACCEL_DRIFT, CAMERA_AXES] {
         block.transform(p, &turn);
     }
 }
@@ -57,6 +59,39 @@ pub fn keep_course_unknown(
     ATTITUDE.add_to(VELOCITY, p, &-velocity.cross_matrix());
     let across = Vector2::new(-current.y, current.x) * down.transpose();
     ATTITUDE.add_to(CURRENT, p, &across);
+}
+
+/// Keeps a turn of camera and scene together unknown when a camera corrects places and velocity by `error`, which the covariance has absorbed:
+/// an error of the camera's attitude, phi + C_eb m with m that of how it sits, goes together with dp = (phi + C_eb m) x p of each place, and is seen
+/// as little after a correction of p as before. A turn of the ship alone, about a camera that stays, changes no place.
+pub fn keep_scene_unknown(p: &mut Covariance, error: &Errors, c_eb: &Matrix3<f64>) {
+    let layout = p.layout().clone();
+    if error.layout() != &layout {
+        return;
+    }
+    let axes = layout.start(CAMERA_AXES.key());
+    let Some((attitude, axes)) = layout.start(ATTITUDE.key()).zip(axes) else { return };
+    let places = |key: Key, count: usize, apart: usize| {
+        let start = layout.start(key);
+        (0..count).filter_map(move |index| Some(start? + apart * index))
+    };
+    let moved = places(POSITION.key(), 1, 3)
+        .chain(places(VELOCITY.key(), 1, 3))
+        .chain(places(POSES.key(), CAMERA_POSES, POSE_STATES))
+        .chain(places(LANDMARK_POINTS.key(), LANDMARKS, 3));
+    let matrix = p.matrix_mut();
+    for start in moved {
+        let by = -error.values().fixed_rows::<3>(start).cross_matrix();
+        let turn = matrix.fixed_rows::<3>(attitude) + c_eb * matrix.fixed_rows::<3>(axes);
+        let more = by * turn;
+        let mut rows = matrix.fixed_rows_mut::<3>(start);
+        rows += more;
+        let columns = matrix.fixed_columns::<3>(axes) * c_eb.transpose();
+        let turn = matrix.fixed_columns::<3>(attitude) + columns;
+        let more = turn * by.transpose();
+        let mut columns = matrix.fixed_columns_mut::<3>(start);
+        columns += more;
+    }
 }
 
 #[cfg(test)]

@@ -169,5 +169,6 @@ fn rank(source: Source) -> u8 {
         Source::Reference(_) => 3,
         Source::Base(_) => 4,
         Source::Ranging(_) => 5,
+        Source::Camera(_) => 6,
     }
 }

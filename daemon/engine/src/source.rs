@@ -37,5 +37,8 @@ impl Engine {
         for (time, ranging, turn) in report.rangings.iter().copied() {
             self.tell(Event::RangingJudged { time, ranging, turn });
         }
+        for (time, turn) in report.camera.iter().copied() {
+            self.tell(Event::CameraJudged { time, turn });
+        }
     }
 }

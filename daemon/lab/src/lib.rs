@@ -4,6 +4,8 @@
 
 #![warn(clippy::print_stdout)] // it panics when the reader has gone: `terminal::print` does not
 
+mod camera_table;
+mod camera_voyage;
 pub mod commands;
 pub mod demo;
 pub mod evaluation;

@@ -119,6 +119,7 @@ fn tell_engine(event: &Event) {
         Event::PositionReset { .. }
         | Event::RtkJudged { .. }
         | Event::RangingJudged { .. }
+        | Event::CameraJudged { .. }
         | Event::StoredStateDropped { .. } => {
             let (what, text) = words::engine(event);
             tracing::warn!("{what}: {}", text.unwrap_or_default());

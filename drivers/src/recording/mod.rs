@@ -14,6 +14,7 @@
 //!   column ([`FileReport`]). When more than 100 rows and more than 10 % of a file are faulty, that
 //!   is an error too. So is a row of `nav.csv` that says of its integrity what the format does not know.
 
+mod camera;
 mod camera_files;
 mod error;
 mod fields;
@@ -33,6 +34,7 @@ mod stream;
 mod table;
 mod writer;
 
+pub use camera::ImageReader;
 pub use camera_files::{CameraFiles, write_camera};
 pub use error::RecordingError;
 pub use header::read_header;

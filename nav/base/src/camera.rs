@@ -1,5 +1,7 @@
 //! What a camera tells of a ship's motion: tracks of points at rest, or a visual odometry of another's making.
 
+use std::fmt;
+
 use nalgebra::{Matrix3, UnitQuaternion, Vector2, Vector3};
 
 use crate::frames::Body;
@@ -57,6 +59,37 @@ pub struct VisualOdometry {
     pub rotation_std: f64,
     /// Error of the translation, 1-sigma of each axis, in its own units.
     pub translation_std: f64,
+}
+
+/// How far a camera is believed, where that changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum CameraTurn {
+    /// Most of what it sees moves otherwise than the world does, or there is hardly anything to see: it is not used.
+    Doubtful,
+    /// What it sees agrees with the ship again, and is used.
+    Agrees,
+}
+
+impl CameraTurn {
+    /// A word for tables.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Doubtful => "doubtful",
+            Self::Agrees => "agrees",
+        }
+    }
+}
+
+impl fmt::Display for CameraTurn {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Doubtful => {
+                "it is not used: it sees too little, or what it sees is not at rest; the lens may be wet, or it sits otherwise than configured"
+            }
+            Self::Agrees => "what it sees agrees with the ship, and is used",
+        })
+    }
 }
 
 impl CameraModel {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use crate::camera::CameraTurn;
 use crate::installation::Finding;
 use crate::messages::Source;
 use crate::party::{ReceiverChange, Stands};
@@ -367,6 +368,13 @@ pub enum Event {
         ranging: u8,
         /// How.
         turn: RangingTurn,
+    },
+    /// A camera is believed otherwise than before.
+    CameraJudged {
+        /// When.
+        time: Time,
+        /// How.
+        turn: CameraTurn,
     },
     /// The best source of the solution is another one.
     SourceChanged {

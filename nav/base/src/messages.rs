@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use crate::camera::CameraFrame;
 use crate::frames::{Body, Geodetic, Ned};
 use crate::gnss::GnssFix;
 use crate::ranging::RangingReading;
@@ -90,10 +91,12 @@ pub enum Source {
     Base(u8),
     /// Docking aid.
     Ranging(u8),
+    /// Camera.
+    Camera(u8),
 }
 
 impl Source {
-    /// Short name for tables and events: `imu`, `gnss`, `log`, `reference`, `base`, `ranging`.
+    /// Short name for tables and events: `imu`, `gnss`, `log`, `reference`, `base`, `ranging`, `camera`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -103,6 +106,7 @@ impl Source {
             Source::Reference(_) => "reference",
             Source::Base(_) => "base",
             Source::Ranging(_) => "ranging",
+            Source::Camera(_) => "camera",
         }
     }
 }
@@ -128,6 +132,8 @@ pub enum Message {
     Compass(Arc<CompassReading>),
     /// Distance of a docking aid.
     Ranging(RangingReading),
+    /// Points in an image of a camera.
+    Camera(Arc<CameraFrame>),
 }
 
 impl Message {
@@ -144,6 +150,7 @@ impl Message {
             Message::Rtk(m) => m.time,
             Message::Compass(m) => m.time,
             Message::Ranging(m) => m.time,
+            Message::Camera(m) => m.time,
         }
     }
 }

@@ -105,6 +105,31 @@ impl Covariance {
         self.p.fixed_rows_mut::<W>(to).copy_from(&rows);
     }
 
+    /// The same into some states of a block that is there, from `first` of its states on: what they were is forgotten.
+    pub fn clone_into<const W: usize>(&mut self, original: Block<W>, copy: Key, first: usize) {
+        let (from, to) = (self.layout.start(original.key()), self.layout.place(copy));
+        let Some((from, to)) = from.zip(to.filter(|to| first + W <= to.width)) else { return };
+        let to = to.start + first;
+        let columns = self.p.fixed_columns::<W>(from).into_owned();
+        self.p.fixed_columns_mut::<W>(to).copy_from(&columns);
+        let rows = self.p.fixed_rows::<W>(from).into_owned();
+        self.p.fixed_rows_mut::<W>(to).copy_from(&rows);
+    }
+
+    /// Some states of a block, from `first` of them on, are known otherwise: `cross` is their covariance with all states, a row for each of
+    /// them, `own` that among themselves.
+    pub fn replace(&mut self, key: Key, first: usize, cross: &DMatrix<f64>, own: &DMatrix<f64>) {
+        let count = cross.nrows();
+        let Some(place) = self.layout.place(key).filter(|place| first + count <= place.width)
+        else {
+            return;
+        };
+        let at = place.start + first;
+        self.p.rows_mut(at, count).copy_from(cross);
+        self.p.columns_mut(at, count).copy_from(&cross.transpose());
+        self.p.view_mut((at, at), (count, count)).copy_from(&((own + own.transpose()) * 0.5));
+    }
+
     fn append(&mut self, key: Key, width: usize) {
         self.layout = self.layout.with(key, width);
         let states = self.layout.states();

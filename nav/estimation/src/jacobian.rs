@@ -70,6 +70,13 @@ impl Jacobian {
         }
     }
 
+    /// Sets all rows of a block whose width is known at run time: a column for each of its states.
+    pub fn set_columns(&mut self, key: Key, columns: &DMatrix<f64>) {
+        debug_assert_eq!(columns.nrows(), self.rows);
+        let at = self.make(key, columns.ncols());
+        self.values[at..at + columns.len()].copy_from_slice(columns.as_slice());
+    }
+
     /// What a block's columns are; zero if it does not depend on it.
     #[must_use]
     pub fn of<const W: usize>(&self, block: Block<W>) -> DMatrix<f64> {

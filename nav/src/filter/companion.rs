@@ -40,6 +40,7 @@ impl Filter {
         let mut companion = self.clone();
         companion.end_to_carry(Carried::WithRanges);
         companion.end_to_carry(Carried::WithAntennas);
+        companion.forget_camera();
         companion.satellites = Satellites::default();
         companion.antennas = Antennas::default();
         companion.rtk = RtkStanding::default();
@@ -56,7 +57,11 @@ impl Filter {
 
     /// Lets the companion hear what is neither range nor phase. Gives what he makes of it if he goes on alone.
     pub(super) fn accompany(&mut self, received: &Received) -> Option<Report> {
-        if matches!(received.message, Message::Ranges(_) | Message::Rtk(_) | Message::Compass(_)) {
+        let is_unheard = matches!(
+            received.message,
+            Message::Ranges(_) | Message::Rtk(_) | Message::Compass(_) | Message::Camera(_)
+        );
+        if is_unheard {
             return None;
         }
         let mut report = self.companion_mut()?.apply(received);

@@ -16,6 +16,9 @@ pub(super) const COMPASS_AID: &str = "antenna_phases";
 /// That of docking aids.
 pub(super) const RANGING_AID: &str = "ranging";
 
+/// That of a camera.
+pub(super) const CAMERA_AID: &str = "camera";
+
 /// What the gates said of an innovation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judged {

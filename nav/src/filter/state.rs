@@ -157,10 +157,16 @@ impl State {
     /// Brings in an innovation that was weighed with its covariance; returns the error that was found.
     pub(super) fn absorb(&mut self, weighed: &Weighed) -> Errors {
         let error = weighed.update(&mut self.covariance);
-        self.correct(&error);
+        self.take_on(&error);
+        error
+    }
+
+    /// Takes on an error that the covariance has absorbed.
+    pub(super) fn take_on(&mut self, error: &Errors) {
+        self.correct(error);
         if self.is_moored() {
             let down = -self.nominal.position.normalize();
-            keep_turn_unknown(&mut self.covariance, &error, &down);
+            keep_turn_unknown(&mut self.covariance, error, &down);
         }
         self.turned += error.of(ATTITUDE);
         if self.turned.norm() > TURN {
@@ -170,7 +176,6 @@ impl State {
             turn_biases(&mut self.covariance, &axes(before), &axes(now));
             self.turned = Vector3::zeros();
         }
-        error
     }
 
     /// Velocity, ECEF axes, and current, north and east, m/s.

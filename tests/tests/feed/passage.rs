@@ -170,6 +170,7 @@ fn kind(source: Source) -> usize {
         Source::Reference(_) => 3,
         Source::Base(_) => 4,
         Source::Ranging(_) => 5,
+        Source::Camera(_) => 6,
     }
 }
 

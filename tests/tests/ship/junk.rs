@@ -90,6 +90,10 @@ fn restamp(received: &mut Received, off: f64) {
         Message::Reference(m) => m.time = m.time + span,
         Message::Rtk(m) => m.time = m.time + span,
         Message::Ranging(m) => m.time = m.time + span,
+        Message::Camera(m) => {
+            let frame = Arc::make_mut(m);
+            frame.time = frame.time + span;
+        }
         Message::Base(m) => {
             let base = Arc::make_mut(m);
             base.time = base.time + span;
@@ -144,6 +148,9 @@ fn spoil(received: &mut Received, field: u8, value: f64) {
         }
         Message::Ranging(m) if field & 4 == 0 => m.distance = value,
         Message::Ranging(m) => m.std = value,
+        Message::Camera(m) => {
+            Arc::make_mut(m).points.iter_mut().for_each(|point| point.at[axis % 2] = value);
+        }
     }
 }
 

@@ -7,6 +7,7 @@
 mod antennas;
 mod arrivals;
 mod berth;
+mod camera;
 mod consistency;
 mod faults;
 mod identity;

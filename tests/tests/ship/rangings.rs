@@ -20,11 +20,11 @@ const SIDE: [[f64; 3]; 2] = [[60.0, 11.0, 4.0], [-58.0, 11.0, 4.0]];
 const WHITE: f64 = 0.03;
 const SURVEY: f64 = 0.03;
 /// Satellites are gone from and to, s: she comes sideways to the quay and stops.
-const GONE: [f64; 2] = [600.0, 660.0];
+pub(crate) const GONE: [f64; 2] = [600.0, 660.0];
 const SEEDS: std::ops::RangeInclusive<u64> = 1..=24;
 
 /// The shipped berthing with a MEMS IMU, to a quay that runs east.
-fn berthing() -> Scenario {
+pub(crate) fn berthing() -> Scenario {
     let gone = format!(
         "grade = \"rtk\"\nrate_hz = 5.0\n[[gnss.outages]]\nwhen = {{ at_s = [{}] }}\nduration_s = {}\n",
         GONE[0],
@@ -41,24 +41,24 @@ fn berthing() -> Scenario {
 }
 
 /// Normal numbers that are the same for a seed (Marsaglia's xorshift; Box and Muller).
-struct Dice(u64);
+pub(crate) struct Dice(u64);
 
 impl Dice {
     /// What comes first of a small seed is small.
-    fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         let mut dice = Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15));
         (0..20).for_each(|_| _ = dice.uniform());
         dice
     }
 
-    fn uniform(&mut self) -> f64 {
+    pub(crate) fn uniform(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
         ((self.0 >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
     }
 
-    fn normal(&mut self) -> f64 {
+    pub(crate) fn normal(&mut self) -> f64 {
         let (a, b) = (self.uniform(), self.uniform());
         (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
     }

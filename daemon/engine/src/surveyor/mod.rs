@@ -217,7 +217,8 @@ impl Surveyor {
             | Message::Ranges(_)
             | Message::Base(_)
             | Message::Rtk(_)
-            | Message::Ranging(_) => {}
+            | Message::Ranging(_)
+            | Message::Camera(_) => {}
         }
     }
 

@@ -164,6 +164,7 @@ fn shifted(received: &Received, by: Span) -> Received {
         Message::Rtk(m) => &mut m.time,
         Message::Compass(m) => &mut Arc::make_mut(m).time,
         Message::Ranging(m) => &mut m.time,
+        Message::Camera(m) => &mut Arc::make_mut(m).time,
     };
     *time = *time + by;
     moved

@@ -26,13 +26,13 @@ impl FromStr for SensorOutage {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let expected = || {
-            "expected SENSOR:FROM..TO with SENSOR one of imu, gnss, log, reference and FROM < TO \
+            "expected SENSOR:FROM..TO with SENSOR one of imu, gnss, log, reference, camera and FROM < TO \
              in seconds, for example gnss:600..900"
                 .to_owned()
         };
         let (name, span) = text.split_once(':').ok_or_else(expected)?;
         let (from, to) = span.split_once("..").ok_or_else(expected)?;
-        let names = ["imu", "gnss", "log", "reference"];
+        let names = ["imu", "gnss", "log", "reference", "camera"];
         let sensor = names.into_iter().find(|sensor| *sensor == name).ok_or_else(expected)?;
         let instant = |text| super::seconds(text).map(Time::from_seconds).map_err(|_| expected());
         let (from, to) = (instant(from)?, instant(to)?);

@@ -72,6 +72,7 @@ pub fn event(event: &Event) -> String {
         Event::RangingJudged { ranging, turn, .. } => {
             format!("Docking aid {}: {turn}", ranging + 1)
         }
+        Event::CameraJudged { turn, .. } => format!("Camera: {turn}"),
         Event::SourceChanged { to, .. } => format!("Best source {}", to.as_str()),
         Event::PositionReset { .. } => "Position set anew".to_owned(),
         Event::StoredStateUsed { .. } => "Stored heading confirmed".to_owned(),

@@ -55,7 +55,9 @@ impl DemoSensor {
             | Message::Rtk(_)
             | Message::Compass(_) => DemoSensor::Gnss,
             Message::Log(_) => DemoSensor::Log,
-            Message::Reference(_) | Message::Ranging(_) => DemoSensor::Reference,
+            Message::Reference(_) | Message::Ranging(_) | Message::Camera(_) => {
+                DemoSensor::Reference
+            }
         }
     }
 }

@@ -64,7 +64,7 @@ const DIALECTS: [Dialect; 6] = [
 const END: f64 = 3.2e9;
 
 /// What passed, by the kind of message: IMU, GNSS, log, reference, ranges, bases.
-pub(crate) type Passed = [usize; 9];
+pub(crate) type Passed = [usize; 10];
 
 /// Lets everything arrive that the bytes say, and looks at what is passed on.
 pub(crate) fn everything(bytes: &[u8]) -> Passed {
@@ -222,6 +222,10 @@ fn is_sane(message: &Message) -> usize {
         Message::Ranging(reading) => {
             finite(&[Some(reading.distance), Some(reading.std)]);
             8
+        }
+        Message::Camera(frame) => {
+            frame.points.iter().for_each(|point| finite(&[Some(point.at.norm())]));
+            9
         }
         Message::Ranges(ranges) => {
             let codes = ranges.ranges.iter().filter_map(|range| range.code);

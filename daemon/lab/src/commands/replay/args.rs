@@ -33,7 +33,7 @@ pub struct ReplayArgs {
     /// For a raw recording that spans restarts of the program: which run, from 1
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(super) run: u32,
-    /// Take a sensor (imu, gnss, log, reference) away while FROM <= t_s < TO; may be repeated
+    /// Take a sensor (imu, gnss, log, reference, camera) away while FROM <= t_s < TO; may be repeated
     #[arg(long = "outage", value_name = "SENSOR:FROM..TO")]
     pub(super) outages: Vec<SensorOutage>,
     /// What raw GNSS is made of: a fix of each epoch, or ranges; `none` leaves GNSS out [default: tight where raw GNSS is there]
@@ -43,7 +43,7 @@ pub struct ReplayArgs {
     /// is less than four; may be repeated
     #[arg(long = "mask", value_name = "FROM..TO:N")]
     pub(super) masks: Vec<SatelliteMask>,
-    /// Leave out what is named, between commas, to see what it gives; of learning and camera there is nothing yet
+    /// Leave out what is named, between commas, to see what it gives; of learning there is nothing yet
     #[arg(long, value_name = "WHAT", value_enum, value_delimiter = ',')]
     pub(super) without: Vec<Without>,
     #[command(flatten)]

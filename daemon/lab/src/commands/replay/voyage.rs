@@ -13,6 +13,8 @@ use super::args::ReplayArgs;
 use super::sent::Sent;
 use super::sink::Sink;
 use super::without::Without;
+use crate::camera_table;
+use crate::camera_voyage::CameraVoyage;
 use crate::raw_table::RawTable;
 use crate::raw_voyage::RawVoyage;
 
@@ -26,6 +28,10 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     config.alignment = args.alignment.config();
     let table = RawTable::read(&args.dir)?;
     config.models.ranges = table.model();
+    let has_camera = !args.without.contains(&Without::Camera);
+    let mut camera =
+        if has_camera { CameraVoyage::open(&args.dir)? } else { CameraVoyage::default() };
+    config.models.camera = if has_camera { camera_table::read(&args.dir)? } else { None };
     config.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
     let mut ports = Ports::of(args, &reader.header().start_utc)?;
     config.points = ports.as_ref().map(|ports| ports.levers.clone()).unwrap_or_default();
@@ -45,6 +51,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
             engine.handle(&ranges);
             sink.look(&engine).context("cannot write the sky")?;
         }
+        dropped += camera.pass_on(received.receipt, &mut engine, &args.outages)?;
         raw.hear(&received);
         if raw.replaces(&received) || Without::drops(&args.without, &received) {
             continue;
@@ -62,7 +69,8 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         ports.iter_mut().try_for_each(|ports| ports.speak(&engine, &received))?;
     }
     ports.map_or(Ok(()), |ports| ports.sent.finish())?;
-    eprint!("{}", sink.summary(engine.counts(), dropped, reader.skipped()));
+    let files = reader.skipped().into_iter().chain(camera.report()).collect();
+    eprint!("{}", sink.summary(engine.counts(), dropped, files));
     sink.finish()?;
     match &args.save_state {
         Some(path) => save(path, &engine, &reader.header().start_utc),

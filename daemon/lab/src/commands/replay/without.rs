@@ -10,7 +10,7 @@ use crate::ranges::GnssUse;
 pub(super) enum Without {
     /// What was learnt before the voyage; nothing is yet.
     Learning,
-    /// Pictures and what was made of them; nothing of them is used yet.
+    /// Images of a camera and what was made of them.
     Camera,
     /// The folder `raw/`, as if it were not there.
     Raw,

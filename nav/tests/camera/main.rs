@@ -1,0 +1,111 @@
+//! A ship that has nothing but an IMU and a camera, along a quay: what the camera tells, and what it must not seem to tell.
+
+#![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
+
+mod scene;
+
+use insd_nav::error_state::{ATTITUDE, CAMERA_AXES, POSITION, VELOCITY};
+use insd_nav::timeline::Estimator;
+use nalgebra::{SMatrix, SVector, Vector3};
+use scene::{Scene, Trouble};
+
+/// Mean of the normalised squares of position, velocity and attitude, per degree of freedom.
+fn nees(scene: &Scene) -> f64 {
+    let filter = scene.filter();
+    let error = filter.nominal().error_to(scene.truth());
+    let (mut e, mut p) = (SVector::<f64, 9>::zeros(), SMatrix::<f64, 9, 9>::zeros());
+    let blocks = [POSITION, VELOCITY, ATTITUDE];
+    for (i, row) in blocks.iter().enumerate() {
+        e.fixed_rows_mut::<3>(3 * i).copy_from(&error.of(*row));
+        for (j, column) in blocks.iter().enumerate() {
+            let own = row.covariance_with(*column, filter.covariance());
+            p.fixed_view_mut::<3, 3>(3 * i, 3 * j).copy_from(&own);
+        }
+    }
+    e.dot(&p.cholesky().unwrap().solve(&e)) / 9.0
+}
+
+#[test]
+fn what_is_claimed_is_what_is_found_over_many_seeds() {
+    let (mut sum, mut count) = (0.0, 0.0);
+    let mut axes = 0.0;
+    let seeds = 12;
+    for seed in 0..seeds {
+        let mut scene = Scene::new(seed, Trouble::Usual);
+        for second in 1..=40 {
+            scene.sail(1.0);
+            if second % 5 == 0 {
+                sum += nees(&scene);
+                count += 1.0;
+            }
+        }
+        let error = scene.filter().nominal().error_to(scene.truth());
+        let own = CAMERA_AXES.covariance(scene.filter().covariance());
+        let off = scene.axes() + error.of(CAMERA_AXES);
+        axes += off.dot(&own.cholesky().unwrap().solve(&off)) / 3.0;
+    }
+    let (nees, axes) = (sum / count, axes / f64::from(seeds as u32));
+    assert!((0.7..1.5).contains(&nees), "{nees}");
+    assert!((0.4..1.8).contains(&axes), "how it sits: {axes}");
+}
+
+#[test]
+fn a_camera_holds_a_ship_that_has_nothing_else() {
+    let way = |trouble| {
+        let mut scene = Scene::new(3, trouble);
+        scene.sail(5.0);
+        let before = scene.off();
+        scene.sail(55.0);
+        (scene.off() - before).norm()
+    };
+    let (with, without) = (way(Trouble::Usual), way(Trouble::Blind));
+    assert!(with < 0.1 * without, "{with} and {without} m");
+}
+
+#[test]
+fn neither_north_nor_the_place_on_the_earth_is_learnt_by_looking() {
+    let mut scene = Scene::new(1, Trouble::Usual);
+    let of = |scene: &Scene| {
+        let (p, c_ne) = (scene.filter().covariance(), scene.filter().view().c_ne);
+        let place = POSITION.covariance_in(p, &c_ne).diagonal().map(f64::sqrt);
+        let turn = ATTITUDE.covariance_in(p, &c_ne).diagonal().map(f64::sqrt);
+        Vector3::new(place.x, place.y, turn.z)
+    };
+    scene.sail(0.2);
+    let before = of(&scene);
+    scene.sail(60.0);
+    let after = of(&scene);
+    for axis in 0..3 {
+        assert!(after[axis] > 0.995 * before[axis], "{axis}: {before} {after}");
+    }
+}
+
+#[test]
+fn a_stream_of_noise_moves_nobody() {
+    let (mut blind, mut noisy) = (Scene::new(5, Trouble::Blind), Scene::new(5, Trouble::Noise));
+    blind.sail(20.0);
+    noisy.sail(20.0);
+    let apart = blind.filter().nominal().position - noisy.filter().nominal().position;
+    assert_eq!(apart.norm(), 0.0);
+    assert!(noisy.refused() > 4, "{}", noisy.refused());
+}
+
+#[test]
+fn the_same_image_again_and_again_tells_nothing() {
+    let mut scene = Scene::new(7, Trouble::Frozen);
+    scene.sail(20.0);
+    assert!(scene.refused() > 20, "{}", scene.refused());
+    assert!(scene.filter().solution().position.height.is_finite());
+}
+
+#[test]
+fn states_of_a_camera_leave_a_minute_after_it() {
+    let mut scene = Scene::new(2, Trouble::Usual);
+    let before = scene.filter().covariance().states();
+    scene.sail(3.0);
+    let with = scene.filter().covariance().states();
+    assert!(with > before);
+    scene.be_blind();
+    scene.sail(70.0);
+    assert_eq!(scene.filter().covariance().states(), before);
+}
