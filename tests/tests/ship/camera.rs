@@ -123,12 +123,10 @@ fn a_camera_holds_a_ship_alongside_without_satellites_and_log() {
         (astray(&voyage, images), astray(&voyage, Vec::new()))
     };
     let all: Vec<_> = (1..9).into_par_iter().map(sailed).collect();
-    let rms = |pick: fn(&((f64, f64), (f64, f64))) -> f64| {
-        let square: f64 = all.iter().map(|own| pick(own).powi(2)).sum();
-        (square / all.len() as f64).sqrt()
-    };
-    let (with, without) = (rms(|own| own.0.0), rms(|own| own.1.0));
-    let nees = all.iter().map(|own| own.0.1).sum::<f64>() / all.len() as f64;
+    let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / all.len() as f64;
+    let with = mean(&mut all.iter().map(|own| own.0.0.powi(2))).sqrt();
+    let without = mean(&mut all.iter().map(|own| own.1.0.powi(2))).sqrt();
+    let nees = mean(&mut all.iter().map(|own| own.0.1));
     figure!(
         "a minute without satellites: {with:.3} m with a camera, {without:.3} m without; NEES {nees:.2}"
     );
