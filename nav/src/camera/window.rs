@@ -1,14 +1,14 @@
 //! Poses at times of images: which are kept, and what was seen from them.
 
-use insd_base::{ImagePoint, Time};
+use insd_base::{CameraModel, ImagePoint, Time};
 use nalgebra::Vector2;
 
 use super::sight::Pose;
 use crate::error_state::CAMERA_POSES;
 
-/// A pose is another one where the ship has moved so far, m, or turned so far, rad, or so much time has passed, s; and not before so much has, s.
-const MOVED: f64 = 0.3;
-const TURNED: f64 = 2.0 * std::f64::consts::PI / 180.0;
+/// A pose is another one from which points are seen from another side, by so much, rad, or so much time after, s; and not before so much has passed, s.
+/// Poses that are closer say the same again, in the place of others that would tell how far a point is.
+const PARALLAX: f64 = 0.03;
 const PASSED: f64 = 2.0;
 const SOON: f64 = 0.4;
 
@@ -69,18 +69,31 @@ impl PoseWindow {
 
     /// Which pose gives way to a new one: the newest where that is too near to the one before it, else the oldest where all places are taken.
     #[must_use]
-    pub fn gives_way(&self) -> Option<Leaving> {
+    pub fn gives_way(&self, model: &CameraModel) -> Option<Leaving> {
         if let [.., before, newest] = self.poses.as_slice() {
-            let way = (newest.first.position - before.first.position).norm();
-            let turn = newest.first.attitude.angle_to(&before.first.attitude);
             let passed = (newest.time - before.time).as_seconds();
-            let is_other = way > MOVED || turn > TURNED || passed > PASSED;
+            let is_other = passed > PASSED || self.parallax(model, [before, newest]) > PARALLAX;
             if !is_other || passed < SOON {
                 return Some(Leaving::Newest(newest.slot));
             }
         }
         let oldest = self.poses.first().filter(|_| self.poses.len() == CAMERA_POSES);
         oldest.map(|oldest| Leaving::Oldest(oldest.slot))
+    }
+
+    /// By how much two poses see the middle one of the points that both saw in another direction over the Earth, rad; zero where there are none.
+    fn parallax(&self, model: &CameraModel, poses: [&Keyframe; 2]) -> f64 {
+        let ray = |track: &Track, pose: &Keyframe| {
+            let (_, at) = track.seen.iter().find(|(own, _)| *own == pose.slot)?;
+            Some(pose.first.attitude * (model.c_bc * model.ray(at)))
+        };
+        let between = |track: &Track| {
+            let [one, other] = poses.map(|pose| ray(track, pose));
+            Some(one?.angle(&other?))
+        };
+        let mut all: Vec<f64> = self.tracks.iter().filter_map(between).collect();
+        all.sort_by(f64::total_cmp);
+        all.get(all.len() / 2).copied().unwrap_or_default()
     }
 
     /// A place that no pose has.

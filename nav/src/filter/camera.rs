@@ -135,7 +135,7 @@ impl Filter {
 
     /// Uses tracks that have ended, and those that were seen from a pose that leaves; then the pose of this image joins.
     fn use_tracks(&mut self, model: &CameraModel, points: &[ImagePoint], tally: &mut Tally) {
-        let leaving = self.camera.window.gives_way();
+        let leaving = self.camera.window.gives_way(model);
         let window = &mut self.camera_mut().window;
         for track in &mut window.tracks {
             track.is_in_sight = points.iter().any(|point| point.track == track.id);
