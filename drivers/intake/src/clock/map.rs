@@ -17,6 +17,8 @@ const BIN: i64 = 1_000_000_000;
 /// least of a single one is no least delay.
 const MANY: u32 = 50;
 const LONGEST_BIN: i64 = 10 * BIN;
+/// The first one is over after this, if it has as many for its length: nothing is known of any sample until then.
+const FIRST_BIN: i64 = BIN / 2;
 /// Time over which the map slews to the filter's line, s.
 const SLEW: f64 = 10.0;
 /// The map never slews faster than this beside the drift.
@@ -155,8 +157,17 @@ impl ClockMap {
 
     fn is_full(&self, bin: &Bin, foreign: i64) -> bool {
         let length = foreign.saturating_sub(bin.start).saturating_abs();
-        let few = self.observed == Observed::Receipts && self.bins >= YOUNG && bin.count < MANY;
-        length >= if few { LONGEST_BIN } else { BIN }
+        let of_receipts = self.observed == Observed::Receipts;
+        let few = of_receipts && self.bins >= YOUNG && bin.count < MANY;
+        let is_soon = of_receipts && self.bins == 0 && 2 * bin.count >= MANY;
+        length
+            >= if few {
+                LONGEST_BIN
+            } else if is_soon {
+                FIRST_BIN
+            } else {
+                BIN
+            }
     }
 
     /// The computer's time of a foreign one; `None` before the first bin is full.
