@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use insd_base::satellites::{SatelliteEpoch, SatelliteRanges};
+use insd_base::satellites::SatelliteEpoch;
 use insd_base::{GpsTime, Message, Received, RtkEpoch, SatelliteId, Source, Time};
 use insd_gnss::{ArrayRanged, ArrayRanging, Context, PhaseRates, Ranged, RtkLink, TOGETHER, Turns};
 
@@ -173,7 +173,7 @@ impl RangeMaker {
         let (Some(rates), Message::Ranges(told)) = (&mut self.rates, &received.message) else {
             return Some(received);
         };
-        let message = Message::Ranges(Arc::new(rates.take(SatelliteRanges::clone(told))?));
+        let message = Message::Ranges(Arc::new(rates.take(told)?));
         Some(Received { message, ..received })
     }
 

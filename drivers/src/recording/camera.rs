@@ -14,6 +14,17 @@ use super::table::{Row, Table};
 /// An image of more points than this is cut: a file whose time stands still is no image.
 const MOST_POINTS: usize = 4096;
 
+/// Head of `features.csv`.
+pub const FEATURES_HEAD: &str = "t_s,id,u_px,v_px";
+
+/// Rows of `features.csv` for one image: seconds to 3 decimals, pixels to 2.
+#[must_use]
+pub fn feature_rows(frame: &CameraFrame) -> String {
+    let t = frame.time.as_seconds();
+    let row = |p: &ImagePoint| format!("{t:.3},{},{:.2},{:.2}\n", p.track, p.at.x, p.at.y);
+    frame.points.iter().map(row).collect()
+}
+
 /// A point of an image.
 struct PointRow {
     time: Time,

@@ -34,7 +34,7 @@ mod stream;
 mod table;
 mod writer;
 
-pub use camera::ImageReader;
+pub use camera::{FEATURES_HEAD, ImageReader, feature_rows};
 pub use camera_files::{CameraFiles, write_camera};
 pub use error::RecordingError;
 pub use header::read_header;

@@ -1,5 +1,6 @@
 //! From the attitude of a ship to what it means for her camera.
 
+use insd_base::Attitude;
 use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
 
 /// How a camera is held in the world at one instant.
@@ -10,10 +11,10 @@ pub struct CameraAttitude {
 }
 
 impl CameraAttitude {
-    /// Of a ship's attitude (rad) and the camera's mounting: `c_bc` from camera axes to body axes.
+    /// Of a ship's attitude and the camera's mounting: `c_bc` from camera axes to body axes.
     #[must_use]
-    pub fn new(roll: f64, pitch: f64, heading: f64, c_bc: &Rotation3<f64>) -> Self {
-        let c_nb = Rotation3::from_euler_angles(roll, pitch, heading);
+    pub fn new(ship: &Attitude, c_bc: &Rotation3<f64>) -> Self {
+        let c_nb = Rotation3::from_matrix_unchecked(ship.c_nb());
         CameraAttitude { c_nc: UnitQuaternion::from_rotation_matrix(&(c_nb * c_bc)) }
     }
 
@@ -48,17 +49,21 @@ mod tests {
         Rotation3::from_matrix_unchecked(Matrix3::new(0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0))
     }
 
+    fn held(pitch: f64, heading: f64) -> CameraAttitude {
+        CameraAttitude::new(&Attitude { roll: 0.0, pitch, heading }, &ahead())
+    }
+
     #[test]
     fn a_bow_that_rises_moves_the_horizon_down_in_the_image() {
-        let down = CameraAttitude::new(0.0, 0.1, 1.0, &ahead()).down();
+        let down = held(0.1, 1.0).down();
         // what is level ahead lies where ray . down = 0: at y / z = -z/y of the vertical
         assert!(-down.z / down.y > 0.09);
     }
 
     #[test]
     fn a_turn_to_starboard_moves_the_world_to_the_left() {
-        let before = CameraAttitude::new(0.0, 0.0, 0.0, &ahead());
-        let after = CameraAttitude::new(0.0, 0.0, 0.02, &ahead());
+        let before = held(0.0, 0.0);
+        let after = held(0.0, 0.02);
         let seen = after.since(&before) * Vector3::z();
         assert!((seen.x + 0.02).abs() < 1e-4 && seen.y.abs() < 1e-12);
         let halfway = before.towards(&after, 0.5).since(&before) * Vector3::z();

@@ -22,15 +22,3 @@ pub use lens::{CameraCalibration, Lens};
 pub use mask::{ImageMask, Polygon};
 pub use quality::ImageQuality;
 pub use two_view::{RayPair, TwoView};
-
-/// Head of a file of tracks (`features.csv`).
-pub const FEATURES_HEAD: &str = "t_s,id,u_px,v_px";
-
-/// Rows of a file of tracks for one image: seconds to 3 decimals, pixels to 2.
-#[must_use]
-pub fn feature_rows(frame: &insd_base::CameraFrame) -> String {
-    let t = frame.time.as_seconds();
-    let row =
-        |p: &insd_base::ImagePoint| format!("{t:.3},{},{:.2},{:.2}\n", p.track, p.at.x, p.at.y);
-    frame.points.iter().map(row).collect()
-}

@@ -91,18 +91,13 @@ impl Covariance {
     /// A block joins as it is at this moment, and stays so: as another instance, with all that the original has to do with
     /// the rest and with itself (stochastic cloning: Roumeliotis and Burdick, ICRA 2002, eq. (8)).
     pub fn clone_block<const W: usize>(&mut self, original: Block<W>, copy: Block<W>) {
-        let Some(from) = self.layout.start(original.key()) else { return };
-        if original == copy {
+        if original == copy || !self.has(original) {
             return;
         }
         if !self.has(copy) {
             self.append(copy.key(), W);
         }
-        let Some(to) = self.layout.start(copy.key()) else { return };
-        let columns = self.p.fixed_columns::<W>(from).into_owned();
-        self.p.fixed_columns_mut::<W>(to).copy_from(&columns);
-        let rows = self.p.fixed_rows::<W>(from).into_owned();
-        self.p.fixed_rows_mut::<W>(to).copy_from(&rows);
+        self.clone_into(original, copy.key(), 0);
     }
 
     /// The same into some states of a block that is there, from `first` of its states on: what they were is forgotten.

@@ -17,7 +17,7 @@ pub struct PhaseRates {
 
 impl PhaseRates {
     /// The rates between the epoch before and this one, at the instant in the middle. `None` of the first one, and after a gap.
-    pub fn take(&mut self, told: SatelliteRanges) -> Option<SatelliteRanges> {
+    pub fn take(&mut self, told: &SatelliteRanges) -> Option<SatelliteRanges> {
         let before = self.before.replace(told.clone())?;
         let lasted = told.time - before.time;
         let seconds = lasted.as_seconds();
@@ -30,7 +30,8 @@ impl PhaseRates {
         };
         let ranges = told.ranges.iter().filter_map(rate).collect();
         let time = before.time + Span::from_nanos(lasted.as_nanos() / 2);
-        Some(SatelliteRanges { time, clock: None, ranges, displacement: None, heard: told.heard })
+        let heard = told.heard.clone();
+        Some(SatelliteRanges { time, clock: None, ranges, displacement: None, heard })
     }
 }
 
@@ -89,8 +90,8 @@ mod tests {
     #[test]
     fn a_phase_tells_the_rate_of_half_a_second_before() {
         let mut rates = PhaseRates::default();
-        assert!(rates.take(told(10.0, 1)).is_none());
-        let told = rates.take(told(11.0, 1)).unwrap();
+        assert!(rates.take(&told(10.0, 1)).is_none());
+        let told = rates.take(&told(11.0, 1)).unwrap();
         assert_eq!(told.time, Time::from_seconds(10.5));
         let [range] = &told.ranges[..] else { panic!("{:?}", told.ranges) };
         let rate = range.rate.unwrap();
@@ -102,8 +103,8 @@ mod tests {
     #[test]
     fn over_a_slip_and_over_a_gap_there_is_no_rate() {
         let mut rates = PhaseRates::default();
-        rates.take(told(10.0, 1));
-        assert!(rates.take(told(11.0, 2)).unwrap().ranges.is_empty());
-        assert!(rates.take(told(20.0, 2)).is_none());
+        rates.take(&told(10.0, 1));
+        assert!(rates.take(&told(11.0, 2)).unwrap().ranges.is_empty());
+        assert!(rates.take(&told(20.0, 2)).is_none());
     }
 }

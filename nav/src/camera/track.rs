@@ -1,7 +1,7 @@
 //! What a track tells of the poses from which it was seen.
 //!
 //! r = H_x dx + H_f df + n. With the left null space N of H_f, N^T r = N^T H_x dx + N^T n tells of the poses alone (Mourikis and Roumeliotis 2007,
-//! eqs. (20)-(24)); the three other rows tell where the point is. TrackRows of many tracks are as good as R of their QR (eqs. (26)-(29)).
+//! eqs. (20)-(24)); the three other rows tell where the point is. Rows of many tracks are as good as R of their QR (eqs. (26)-(29)).
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
 
@@ -17,7 +17,7 @@ pub const AXES_AT: usize = POSE_STATES * CAMERA_POSES;
 /// The delay.
 pub const DELAY_AT: usize = AXES_AT + 3;
 
-/// TrackRows in units of the sigma of an image point.
+/// Rows in units of the sigma of an image point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrackRows {
     /// Measured less predicted.

@@ -34,9 +34,9 @@ impl Filter {
     }
 
     /// What is claimed with what is held back.
-    pub(super) fn with_held(&self, sigma: SolutionSigma) -> SolutionSigma {
+    pub(super) fn with_held(&self, view: &View, sigma: SolutionSigma) -> SolutionSigma {
         let mut all = sigma;
-        let back = self.view().c_ne * self.held.back;
+        let back = view.c_ne * self.held.back;
         all.position.0 = sigma.position.0.zip_map(&back, f64::hypot);
         all
     }

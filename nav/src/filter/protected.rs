@@ -75,7 +75,7 @@ impl Filter {
     /// 1-sigma where nothing is made of fixes beside ranges.
     fn sigma_of_one(&self, view: &View, acceleration: &Vector3<f64>) -> SolutionSigma {
         let own = solution_sigma(view, acceleration, &self.dating(), &self.state.covariance);
-        let own = self.with_held(self.with_base_error(own));
+        let own = self.with_held(view, self.with_base_error(own));
         self.court.covered.map_or(own, |covered| own.greatest(&covered))
     }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use insd_base::VisualOdometry;
-use insd_drivers::recording::CameraFiles;
+use insd_drivers::recording::{CameraFiles, FEATURES_HEAD, feature_rows};
 use insd_simulator::{Footage, FootageSpec};
 use serde::Serialize;
 
@@ -19,21 +19,15 @@ struct Tables<'a> {
 /// Something in it cannot be written as TOML.
 pub(super) fn files(footage: &Footage) -> anyhow::Result<CameraFiles> {
     Ok(CameraFiles {
-        features: features(footage)?,
+        features: features(footage),
         odometry: odometry(footage)?,
         table: toml::to_string(&Tables { camera: &footage.spec })?,
     })
 }
 
-fn features(footage: &Footage) -> Result<String, std::fmt::Error> {
-    let mut text = "t_s,id,u_px,v_px\n".to_owned();
-    for frame in &footage.frames {
-        let t = frame.time.as_seconds();
-        for point in &frame.points {
-            writeln!(text, "{t:.3},{},{:.2},{:.2}", point.track, point.at.x, point.at.y)?;
-        }
-    }
-    Ok(text)
+fn features(footage: &Footage) -> String {
+    let rows: String = footage.frames.iter().map(feature_rows).collect();
+    format!("{FEATURES_HEAD}\n{rows}")
 }
 
 fn odometry(footage: &Footage) -> Result<String, std::fmt::Error> {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use insd_base::Time;
+use insd_base::{Attitude, Time};
 use insd_config::BadInput;
 use insd_vision::{CameraAttitude, Hints};
 use nalgebra::Rotation3;
@@ -44,7 +44,8 @@ impl Attitudes {
                 .into());
             };
             let [roll, pitch, heading] = [roll, pitch, heading].map(f64::to_radians);
-            rows.push((Time::from_seconds(t), CameraAttitude::new(roll, pitch, heading, c_bc)));
+            let ship = Attitude { roll, pitch, heading };
+            rows.push((Time::from_seconds(t), CameraAttitude::new(&ship, c_bc)));
         }
         rows.sort_by_key(|(time, _)| *time);
         Ok(Attitudes { rows })

@@ -3,12 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use insd_capture::{Sketch, TimedImage, on_one_core};
+use insd_capture::{Sketch, TimedImage};
 use insd_lab::terminal::print;
 use insd_vision::{CameraCalibration, Hints, Tracked};
 use nalgebra::{Unit, Vector3};
 
-use super::attitude::Attitudes;
 use super::options::CameraOptions;
 use super::source::SourceOptions;
 use super::summary::Summary;
@@ -42,21 +41,13 @@ struct Scene {
 /// Runs the command.
 pub(super) fn run(args: &CheckArgs) -> anyhow::Result<()> {
     let camera = args.camera.camera()?;
-    let mut eyes = args.camera.front_end(&camera)?;
-    let attitudes =
-        args.camera.attitude.as_deref().map(|path| Attitudes::read(path, &args.camera.c_bc()));
-    let attitudes = attitudes.transpose()?.unwrap_or_default();
     let (mut summary, mut scene) = (Summary::default(), Scene::default());
-    let dropped = on_one_core(|| {
-        args.source.for_each(camera.size, |image| {
-            let hints = attitudes.hints(image.time, eyes.newest());
-            if let Ok(tracked) = eyes.take(&image.picture(), &hints) {
-                summary.add(&tracked);
-                scene.add(image, &tracked, &hints);
-            }
-        })
-    })?;
-    print(&summary.text(eyes.counts(), dropped))?;
+    let seen = |image: TimedImage, tracked: &Tracked, hints: &Hints| {
+        summary.add(tracked);
+        scene.add(image, tracked, hints);
+    };
+    let (counts, dropped) = args.source.follow(&args.camera, &camera, seen)?;
+    print(&summary.text(&counts, dropped))?;
     if let (Some(path), Some(image)) = (&args.picture, &scene.image) {
         scene.draw(&camera, image).write(path)?;
     }

@@ -10,6 +10,8 @@ use insd_vision::{
 };
 use nalgebra::{Matrix3, Rotation3, Vector2};
 
+use super::attitude::Attitudes;
+
 /// The camera and how it is mounted.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct CameraOptions {
@@ -18,7 +20,7 @@ pub(super) struct CameraOptions {
     calibration: PathBuf,
     /// Attitude of the ship: any table with t_s, roll_deg, pitch_deg and heading_deg, as a replay writes it
     #[arg(long, value_name = "CSV")]
-    pub(super) attitude: Option<PathBuf>,
+    attitude: Option<PathBuf>,
     /// How the camera is turned from one that looks ahead and level: clockwise, up, to starboard
     #[arg(long, value_name = "ROLL,PITCH,YAW", default_value = "0,0,0", allow_hyphen_values = true, value_parser = angles)]
     mounting_deg: [f64; 3],
@@ -59,6 +61,12 @@ impl CameraOptions {
         Ok(read_calibration(&place, &text).map_err(|fault| BadInput(fault.to_string()))?)
     }
 
+    /// Attitudes of the camera, where there is a table.
+    pub(super) fn attitudes(&self) -> anyhow::Result<Attitudes> {
+        let read = |path: &PathBuf| Attitudes::read(path, &self.c_bc());
+        Ok(self.attitude.as_ref().map(read).transpose()?.unwrap_or_default())
+    }
+
     /// Eyes for this camera.
     pub(super) fn front_end(&self, camera: &CameraCalibration) -> anyhow::Result<FrontEnd> {
         let [width, height] = camera.size;
@@ -74,7 +82,7 @@ impl CameraOptions {
     }
 
     /// From camera axes (x right, y down, z ahead) to body axes.
-    pub(super) fn c_bc(&self) -> Rotation3<f64> {
+    fn c_bc(&self) -> Rotation3<f64> {
         let ahead = Matrix3::new(0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0);
         let [roll, pitch, yaw] = self.mounting_deg.map(f64::to_radians);
         Rotation3::from_euler_angles(roll, pitch, yaw) * Rotation3::from_matrix_unchecked(ahead)

@@ -5,9 +5,13 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use insd_capture::{
-    CaptureFault, ImageFolder, LiveCamera, PipedSource, TimedImage, start_child, start_device,
+    CaptureFault, ImageFolder, LiveCamera, PipedSource, TimedImage, on_one_core, start_child,
+    start_device,
 };
 use insd_config::BadInput;
+use insd_vision::{CameraCalibration, Hints, ImageCounts, Tracked};
+
+use super::options::CameraOptions;
 
 use crate::clock::{Clock, HostClock};
 
@@ -30,11 +34,7 @@ const PATIENCE: Duration = Duration::from_millis(200);
 
 impl SourceOptions {
     /// Hands over image by image; those that cannot be read are told. The number of images that nobody had time for.
-    pub(super) fn for_each(
-        &self,
-        size: [u32; 2],
-        mut take: impl FnMut(TimedImage),
-    ) -> anyhow::Result<u64> {
+    fn for_each(&self, size: [u32; 2], mut take: impl FnMut(TimedImage)) -> anyhow::Result<u64> {
         let host = HostClock::start();
         let now = move || host.now().monotonic;
         let live = match (&self.source, &self.pipe) {
@@ -56,6 +56,27 @@ impl SourceOptions {
             }
         };
         Ok(self.watch(&live, take))
+    }
+
+    /// Follows points from image to image; `seen` is given each image that was used. The images by what became of them, and the number of those that
+    /// nobody had time for.
+    pub(super) fn follow(
+        &self,
+        options: &CameraOptions,
+        camera: &CameraCalibration,
+        mut seen: impl FnMut(TimedImage, &Tracked, &Hints) + Send,
+    ) -> anyhow::Result<(ImageCounts, u64)> {
+        let mut eyes = options.front_end(camera)?;
+        let attitudes = options.attitudes()?;
+        let dropped = on_one_core(|| {
+            self.for_each(camera.size, |image| {
+                let hints = attitudes.hints(image.time, eyes.newest());
+                if let Ok(tracked) = eyes.take(&image.picture(), &hints) {
+                    seen(image, &tracked, &hints);
+                }
+            })
+        })?;
+        Ok((eyes.counts().clone(), dropped))
     }
 
     fn watch(&self, live: &LiveCamera, mut take: impl FnMut(TimedImage)) -> u64 {

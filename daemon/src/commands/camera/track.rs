@@ -4,10 +4,10 @@ use std::fs;
 use std::path::PathBuf;
 
 use anyhow::Context;
-use insd_capture::on_one_core;
-use insd_vision::{FEATURES_HEAD, feature_rows};
+use insd_capture::TimedImage;
+use insd_drivers::recording::{FEATURES_HEAD, feature_rows};
+use insd_vision::{Hints, Tracked};
 
-use super::attitude::Attitudes;
 use super::options::CameraOptions;
 use super::source::SourceOptions;
 
@@ -26,21 +26,13 @@ pub(super) struct TrackArgs {
 /// Runs the command.
 pub(super) fn run(args: &TrackArgs) -> anyhow::Result<()> {
     let camera = args.camera.camera()?;
-    let mut eyes = args.camera.front_end(&camera)?;
-    let attitudes =
-        args.camera.attitude.as_deref().map(|path| Attitudes::read(path, &args.camera.c_bc()));
-    let attitudes = attitudes.transpose()?.unwrap_or_default();
     let mut table = format!("{FEATURES_HEAD}\n");
-    on_one_core(|| {
-        args.source.for_each(camera.size, |image| {
-            let hints = attitudes.hints(image.time, eyes.newest());
-            if let Ok(tracked) = eyes.take(&image.picture(), &hints) {
-                table.push_str(&feature_rows(&tracked.frame));
-            }
-        })
-    })?;
+    let seen = |_: TimedImage, tracked: &Tracked, _: &Hints| {
+        table.push_str(&feature_rows(&tracked.frame));
+    };
+    let (counts, _) = args.source.follow(&args.camera, &camera, seen)?;
     fs::write(&args.out, table).with_context(|| args.out.display().to_string())?;
-    for (reason, count) in &eyes.counts().refused {
+    for (reason, count) in &counts.refused {
         eprintln!("insd: {count} images not used: {}", reason.text());
     }
     Ok(())

@@ -10,9 +10,6 @@ use crate::random::{Purpose, normal, normal3, stream, uniform};
 use crate::scenario::Camera;
 use crate::sensors::epochs;
 
-/// A wet lens makes errors so many times as large.
-const BLUR: f64 = 4.0;
-
 /// A map with its scale.
 #[derive(Debug)]
 struct Maps<'a> {
@@ -81,7 +78,7 @@ impl Maps<'_> {
         } else {
             moved(&before, &now, trouble, (time - since).as_seconds())
         };
-        let blur = if trouble.drops > 0.0 { BLUR } else { 1.0 };
+        let blur = trouble.blur();
         let rotation_std = camera.vo_rotation_std_rad;
         let std = camera.vo_translation_std_m + camera.vo_translation_std_share * way.norm();
         let turn = Rotation3::new(normal3(&mut self.rng) * (rotation_std * blur));

@@ -72,12 +72,8 @@ impl Quay {
         let mut rng = stream(seed, Purpose::CameraScene);
         quay.build_edge(spec, along, &mut rng);
         for at in berth.bollards(axes.length) {
-            quay.strew(
-                BOLLARD.0,
-                [[at, at + 0.5], [0.5, 1.0], [0.0, BOLLARD.1]].map(|own| own),
-                spec.edge_m,
-                &mut rng,
-            );
+            let (count, height) = BOLLARD;
+            quay.strew(count, [[at, at + 0.5], [0.5, 1.0], [0.0, height]], spec.edge_m, &mut rng);
         }
         quay.build_behind(spec, along, &mut rng);
         Some(quay)

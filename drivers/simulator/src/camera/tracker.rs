@@ -13,8 +13,6 @@ use crate::scenario::Camera;
 
 /// How far off a mismatch is at most, each axis, px.
 const MISMATCH: f64 = 40.0;
-/// Noise through a wet lens is so many times as large.
-const BLUR: f64 = 4.0;
 
 /// A track.
 #[derive(Clone, Copy, Debug)]
@@ -136,8 +134,8 @@ impl<'a> Tracker<'a> {
     ) -> Option<ImagePoint> {
         let rng = &mut self.pixels;
         let true_place = own.subject.place(t, view, self.quay, rng)?;
-        let is_blurred = trouble.drops > 0.0 && !own.subject.is_on_lens();
-        let std = self.camera.pixel_std * if is_blurred { BLUR } else { 1.0 };
+        let blur = if own.subject.is_on_lens() { 1.0 } else { trouble.blur() };
+        let std = self.camera.pixel_std * blur;
         let noise = Vector2::new(normal(rng), normal(rng)) * std;
         let is_mismatch = uniform(rng, 0.0, 1.0) < self.camera.mismatched;
         let off =

@@ -15,6 +15,9 @@ const RANGE: [f64; 2] = [8.0, 60.0];
 /// Then comes the next one, s.
 const PASSAGE: f64 = 60.0;
 
+/// A wet lens makes errors so many times as large.
+const BLUR: f64 = 4.0;
+
 /// A ship that passes: an upright face that moves along itself.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PassingShip {
@@ -85,6 +88,13 @@ pub(super) struct Trouble<'a> {
     /// Which share of the points are on a ship that passes.
     pub(super) on_ship: f64,
     pub(super) ship: Option<&'a PassingShip>,
+}
+
+impl Trouble<'_> {
+    /// How many times as large errors are as through a dry lens.
+    pub(super) fn blur(&self) -> f64 {
+        if self.drops > 0.0 { BLUR } else { 1.0 }
+    }
 }
 
 /// All that goes wrong in a voyage.

@@ -65,12 +65,7 @@ pub struct SegmentLimit {
 /// # Errors
 /// The scenario has no raw GNSS, or something that is not modelled: see [`LimitError`].
 pub fn satellite_limit(scenario: &Scenario, seed: u64) -> Result<Vec<SegmentLimit>, LimitError> {
-    let raw = scenario.raw.as_ref().ok_or(LimitError::NotCovered("no raw GNSS"))?;
-    check(scenario, raw)?;
-    let track = Track::new(scenario, seed);
-    let sky = SkyView::new(scenario, raw, &track, seed)
-        .ok_or(LimitError::NotCovered("a start that is no instant"))?;
-    Ok(Analysis::new(scenario, raw, &track, &sky, None).run())
+    analysed(scenario, seed, None)
 }
 
 /// The same of a scenario with a camera, by what it tells of a kind. What is mismatched is taken for found; mounting and clock
@@ -83,19 +78,29 @@ pub fn camera_limit(
     seed: u64,
     by: CameraUse,
 ) -> Result<Vec<SegmentLimit>, LimitError> {
+    analysed(scenario, seed, Some(by))
+}
+
+fn analysed(
+    scenario: &Scenario,
+    seed: u64,
+    by: Option<CameraUse>,
+) -> Result<Vec<SegmentLimit>, LimitError> {
     let raw = scenario.raw.as_ref().ok_or(LimitError::NotCovered("no raw GNSS"))?;
-    let camera = scenario.camera.as_ref().ok_or(LimitError::NotCovered("no camera"))?;
+    let camera = || scenario.camera.as_ref().ok_or(LimitError::NotCovered("no camera"));
+    let camera = by.map(|_| camera()).transpose()?;
     check(scenario, raw)?;
-    if !camera.fault.is_empty() {
+    if camera.is_some_and(|camera| !camera.fault.is_empty()) {
         return Err(LimitError::NotCovered("faults of the camera"));
     }
     let track = Track::new(scenario, seed);
     let sky = SkyView::new(scenario, raw, &track, seed)
         .ok_or(LimitError::NotCovered("a start that is no instant"))?;
-    let camera = installed(camera, seed);
-    let eyes =
-        Eyes::new(scenario, &camera, &track, seed, by).ok_or(LimitError::NotCovered("no quay"))?;
-    Ok(Analysis::new(scenario, raw, &track, &sky, Some(eyes)).run())
+    let camera = camera.map(|camera| installed(camera, seed));
+    let eyes = camera.as_ref().zip(by).map(|(camera, by)| {
+        Eyes::new(scenario, camera, &track, seed, by).ok_or(LimitError::NotCovered("no quay"))
+    });
+    Ok(Analysis::new(scenario, raw, &track, &sky, eyes.transpose()?).run())
 }
 
 fn check(scenario: &Scenario, raw: &Raw) -> Result<(), LimitError> {
