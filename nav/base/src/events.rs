@@ -63,7 +63,10 @@ impl Rejection {
 }
 
 /// Why a state that was stored at the last shutdown is not believed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum StoredDoubt {
     /// The IMU is not the one that it was stored with, by its error model.
     OtherImu,

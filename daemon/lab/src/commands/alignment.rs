@@ -22,6 +22,13 @@ pub struct AlignmentArgs {
 }
 
 impl AlignmentArgs {
+    /// As it is written on the command line.
+    pub(super) fn words(&self) -> String {
+        let [moored, in_motion] = [self.moored.as_str(), self.in_motion.as_str()];
+        let same = if self.same_power_up { " --same-power-up" } else { "" };
+        format!("--alignment {moored} --in-motion {in_motion}{same}")
+    }
+
     /// As the engine takes it.
     #[must_use]
     pub fn config(&self) -> AlignmentConfig {

@@ -1,5 +1,6 @@
 //! `--outage SENSOR:FROM..TO`: a sensor taken away for a while.
 
+use std::fmt;
 use std::str::FromStr;
 
 use insd_base::{Received, Time};
@@ -18,6 +19,13 @@ impl SensorOutage {
     pub fn drops(&self, received: &Received) -> bool {
         let time = received.message.time();
         received.source.name() == self.sensor && self.from <= time && time < self.to
+    }
+}
+
+impl fmt::Display for SensorOutage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [from, to] = [self.from, self.to].map(Time::as_seconds);
+        write!(f, "{}:{from}..{to}", self.sensor)
     }
 }
 

@@ -1,18 +1,17 @@
 //! When the heading is good enough, in truth and by its claim, and where the claim is worst.
 
-use insd_base::AlignmentStatus;
 use insd_base::units::DEG;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::alignment::RunAlignment;
 use super::component::Component;
 use super::errors::{EpochError, normalised};
-use super::promises::{self, PromiseEstimates};
+use super::promises::{self, Promise, PromiseEstimates};
 use super::statistics::quantile;
 use crate::table::{Align, Table, significant};
 
 /// The largest error of the heading in terms of its claimed sigma, of one run.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WorstHeading {
     /// |error| / sigma.
     pub ratio: f64,
@@ -75,13 +74,13 @@ pub fn worst_heading(epochs: &[EpochError]) -> Option<WorstHeading> {
 pub(super) fn together(
     bar: f64,
     runs: &[RunAlignment],
-    statuses: &[Vec<AlignmentStatus>],
+    said: &[Vec<Option<Promise>>],
 ) -> AlignedEstimates {
     AlignedEstimates {
         bar_deg: bar / DEG,
         error: times(runs.iter().map(|run| run.error)),
         claim: times(runs.iter().map(|run| run.claim)),
-        promises: promises::together(runs, statuses),
+        promises: promises::together(runs, said),
         claim_2_deg: times(runs.iter().map(|run| run.first[0])),
         claim_1_deg: times(runs.iter().map(|run| run.first[1])),
     }

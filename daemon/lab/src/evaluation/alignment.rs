@@ -1,6 +1,7 @@
 //! When one run was aligned, in truth and by its claim.
 
 use insd_base::units::DEG;
+use serde::{Deserialize, Serialize};
 
 use super::component::Component;
 use super::errors::EpochError;
@@ -9,7 +10,7 @@ use super::errors::EpochError;
 const FIRST_CLAIMS: [f64; 2] = [2.0 * DEG, 1.0 * DEG];
 
 /// When one run was aligned, s; `None` if it never was.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RunAlignment {
     /// From when on the error of the heading stays below the bar.
     pub error: Option<f64>,

@@ -1,21 +1,20 @@
 //! The report of `insd campaign`: one scenario over many seeds.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
+use std::ops::Range;
 
-use insd_base::AlignmentStatus;
-use insd_base::alignment::{ACCURACY, heading_target};
-use insd_simulator::{LimitError, Scenario, limit};
 use serde::Serialize;
 
 use super::aligned::{self, AlignedEstimates, WorstHeading, WorstRun};
-use super::alignment::{RunAlignment, alignment};
+use super::alignment::RunAlignment;
+use super::component::Unit;
 use super::drift::Drift;
-use super::errors::{EpochError, VoyageErrors};
 use super::instants::{self, AlignmentMoment, Instant, InstantEstimates};
 use super::interval::{MeanOfRuns, shown};
 use super::promises;
-use super::report::{row_order, summaries};
+use super::report::row_order;
+use super::run::{Run, Yardstick};
 use super::statistics::{Summary, quantile};
 use super::stored::{self, StoredEstimates, StoredFate};
 use crate::table::{Align, Table, significant};
@@ -23,64 +22,11 @@ use crate::table::{Align, Table, significant};
 /// Outages of different runs that start within this of each other are the same one, s.
 const SAME_OUTAGE: f64 = 30.0;
 
-/// The scores of one seed.
-#[derive(Clone, Debug)]
-pub struct Run {
-    /// Seed.
-    pub seed: u64,
-    /// Epochs compared.
-    pub epochs: u64,
-    /// Figures by component, as in [`super::ErrorReport`].
-    pub components: BTreeMap<&'static str, Option<Summary>>,
-    /// Errors in each stretch without GNSS.
-    pub outages: Vec<Drift>,
-    /// The boldest claim of the heading.
-    pub worst_heading: Option<WorstHeading>,
-    /// At each of the instants of the yardstick.
-    pub moments: Vec<Option<AlignmentMoment>>,
-    /// When the heading was good.
-    pub alignment: RunAlignment,
-    /// What the alignment said of itself.
-    pub statuses: Vec<AlignmentStatus>,
-    /// What became of the stored state, if it was to start from one.
-    pub stored: Option<StoredFate>,
-}
-
-/// What the heading is held against, beside its own claims.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Yardstick {
-    /// Instants in order of time, with the limits there.
-    pub instants: Vec<Instant>,
-    /// Why there are no limits, if there are none.
-    pub no_limit: Option<String>,
-    /// The heading that counts as aligned, rad.
-    pub bar: f64,
-}
-
-impl Yardstick {
-    /// That of a scenario at some instants, s, in order of time; without limits where they do not cover the scenario.
-    ///
-    /// # Errors
-    /// The limit cannot be computed for another reason.
-    pub fn of(scenario: &Scenario, at: &[f64]) -> Result<Self, LimitError> {
-        let (limits, no_limit) = match limit(scenario, at) {
-            Ok(limits) => (limits.iter().map(|limit| Some(limit.heading)).collect(), None),
-            Err(fault @ LimitError::NotCovered(_)) => {
-                (vec![None; at.len()], Some(fault.to_string()))
-            }
-            Err(fault) => return Err(fault),
-        };
-        let instants = at.iter().zip(limits).map(|(at, limit)| Instant { at: *at, limit });
-        let bar = heading_target(ACCURACY, scenario.start_latitude());
-        Ok(Yardstick { instants: instants.collect(), no_limit, bar })
-    }
-}
-
 /// One component over all seeds.
 #[derive(Clone, Debug, Serialize)]
 pub struct ComponentEstimates {
     /// Unit of `rms` and `mean_sigma`.
-    pub unit: &'static str,
+    pub unit: Unit,
     /// Runs with figures of this component.
     pub runs: usize,
     /// Root mean square error.
@@ -125,6 +71,8 @@ pub struct CampaignReport {
     pub seeds: Vec<u64>,
     /// Seeds without a single epoch to compare: the engine never gave a solution.
     pub silent_seeds: Vec<u64>,
+    /// Seeds of the campaign that are not among these runs.
+    pub missing_seeds: Vec<u64>,
     /// Epochs compared, all runs together.
     pub epochs: u64,
     /// Estimates by component, as in [`super::ErrorReport`]; null where no run has figures.
@@ -143,47 +91,6 @@ pub struct CampaignReport {
     pub stored: Option<StoredEstimates>,
 }
 
-impl Run {
-    /// The scores of a comparison.
-    #[must_use]
-    pub fn new(seed: u64, errors: &VoyageErrors, outages: Vec<Drift>) -> Self {
-        let epochs = errors.epochs.len() as u64;
-        Run {
-            seed,
-            epochs,
-            components: summaries(errors),
-            outages,
-            worst_heading: aligned::worst_heading(&errors.epochs),
-            moments: Vec::new(),
-            alignment: RunAlignment::default(),
-            statuses: Vec::new(),
-            stored: None,
-        }
-    }
-
-    /// The same with what the alignment said of itself.
-    #[must_use]
-    pub fn telling(self, statuses: Vec<AlignmentStatus>) -> Self {
-        Run { statuses, ..self }
-    }
-
-    /// The same with what became of its stored state.
-    #[must_use]
-    pub fn started_from(self, stored: Option<StoredFate>) -> Self {
-        Run { stored, ..self }
-    }
-
-    /// The same with the heading held against a yardstick at all of its epochs, in order of time.
-    #[must_use]
-    pub fn measured(self, epochs: &[EpochError], yardstick: &Yardstick) -> Self {
-        Run {
-            moments: instants::moments(epochs, &yardstick.instants),
-            alignment: alignment(epochs, yardstick.bar),
-            ..self
-        }
-    }
-}
-
 impl CampaignReport {
     /// Puts the runs together, all measured with the same yardstick if there is one. The result does
     /// not depend on their order.
@@ -191,7 +98,7 @@ impl CampaignReport {
     pub fn new(scenario: &str, mut runs: Vec<Run>, yardstick: Option<&Yardstick>) -> Self {
         runs.sort_by_key(|run| run.seed);
         let alignments: Vec<RunAlignment> = runs.iter().map(|run| run.alignment).collect();
-        let statuses: Vec<_> = runs.iter_mut().map(|r| std::mem::take(&mut r.statuses)).collect();
+        let said: Vec<_> = runs.iter_mut().map(|r| std::mem::take(&mut r.promises)).collect();
         let fates: Vec<StoredFate> = runs.iter().filter_map(|run| run.stored).collect();
         let (heard, silent): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(|r| r.epochs > 0);
         let names = row_order().into_iter();
@@ -199,15 +106,32 @@ impl CampaignReport {
             scenario: scenario.to_owned(),
             seeds: heard.iter().map(|run| run.seed).collect(),
             silent_seeds: silent.iter().map(|run| run.seed).collect(),
+            missing_seeds: Vec::new(),
             epochs: heard.iter().map(|run| run.epochs).sum(),
             components: names.map(|name| (name, component(&heard, name))).collect(),
             outages: same_outages(&heard).iter().filter_map(|drifts| outage(drifts)).collect(),
             worst_heading: worst_run(&heard),
             instants: yardstick.map_or_else(Vec::new, |yardstick| at_instants(&heard, yardstick)),
             no_limit: yardstick.and_then(|yardstick| yardstick.no_limit.clone()),
-            aligned: yardstick.map(|y| aligned::together(y.bar, &alignments, &statuses)),
+            aligned: yardstick.map(|y| aligned::together(y.bar, &alignments, &said)),
             stored: stored::together(&fates),
         }
+    }
+}
+
+impl CampaignReport {
+    /// The same as a part of a campaign over these seeds.
+    #[must_use]
+    pub fn out_of(self, seeds: Range<u64>) -> Self {
+        let there: BTreeSet<&u64> = self.seeds.iter().chain(&self.silent_seeds).collect();
+        let missing_seeds = seeds.filter(|seed| !there.contains(seed)).collect();
+        CampaignReport { missing_seeds, ..self }
+    }
+
+    /// Whether there were voyages and none gave a solution.
+    #[must_use]
+    pub fn is_silent(&self) -> bool {
+        self.seeds.is_empty() && !self.silent_seeds.is_empty()
     }
 }
 
@@ -300,6 +224,10 @@ impl fmt::Display for CampaignReport {
         if !self.silent_seeds.is_empty() {
             writeln!(f, "\nno solution to compare with seeds {:?}", self.silent_seeds)?;
         }
+        if !self.missing_seeds.is_empty() {
+            let (count, which) = (self.missing_seeds.len(), ranges(&self.missing_seeds));
+            writeln!(f, "\n{count} seeds of the campaign are missing: {which}")?;
+        }
         Ok(())
     }
 }
@@ -326,6 +254,16 @@ impl CampaignReport {
     }
 }
 
+/// Sorted seeds in short: `3, 7..12`, where the last of a range is left out as on the command line.
+fn ranges(seeds: &[u64]) -> String {
+    let runs = seeds.chunk_by(|a, b| a + 1 == *b);
+    let text = |run: &[u64]| match run {
+        [first, .., last] => format!("{first}..{}", last + 1),
+        _ => run.iter().map(u64::to_string).collect(),
+    };
+    runs.map(text).collect::<Vec<_>>().join(", ")
+}
+
 fn component_table(components: &BTreeMap<&'static str, Option<ComponentEstimates>>) -> Table {
     let names = ["RMS", "claimed σ", "NEES", "≤1σ %", "≤2σ %", "≤3σ %"];
     let mut columns = vec![("error", Align::Left), ("unit", Align::Left)];
@@ -346,7 +284,7 @@ fn cells(estimates: &ComponentEstimates) -> Vec<String> {
     let percent = |share: &MeanOfRuns| shown(share, |share| format!("{:.1}", 100.0 * share));
     let number = |estimate: &MeanOfRuns| shown(estimate, |value| significant(value, 3));
     vec![
-        estimates.unit.to_owned(),
+        estimates.unit.to_string(),
         number(&estimates.rms),
         significant(estimates.mean_sigma.mean, 3),
         number(&estimates.nees),
@@ -380,7 +318,7 @@ fn outage_table(outages: &[OutageEstimates]) -> Table {
 
 #[cfg(test)]
 mod tests {
-    use super::super::errors::errors;
+    use super::super::errors::{VoyageErrors, errors};
     use super::super::testing::{solution, truth};
     use super::*;
     use insd_base::Geodetic;

@@ -1,6 +1,41 @@
 //! The components of a solution, by name.
 
 use std::f64::consts::PI;
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// Unit of a component as people read it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Unit {
+    /// Metres.
+    #[serde(rename = "m")]
+    Metre,
+    /// Metres per second.
+    #[serde(rename = "m/s")]
+    MetrePerSecond,
+    /// Degrees.
+    #[serde(rename = "deg")]
+    Degree,
+}
+
+impl Unit {
+    /// As it is written.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Unit::Metre => "m",
+            Unit::MetrePerSecond => "m/s",
+            Unit::Degree => "deg",
+        }
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
 
 /// One component of position, velocity or attitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -57,18 +92,20 @@ impl Component {
 
     /// Unit in which people read it.
     #[must_use]
-    pub fn unit(self) -> &'static str {
+    pub fn unit(self) -> Unit {
         match self {
-            Component::North | Component::East | Component::Down => "m",
-            Component::VelocityNorth | Component::VelocityEast | Component::VelocityDown => "m/s",
-            Component::Roll | Component::Pitch | Component::Heading => "deg",
+            Component::North | Component::East | Component::Down => Unit::Metre,
+            Component::VelocityNorth | Component::VelocityEast | Component::VelocityDown => {
+                Unit::MetrePerSecond
+            }
+            Component::Roll | Component::Pitch | Component::Heading => Unit::Degree,
         }
     }
 
     /// Multiplies an SI value to bring it to [`Component::unit`].
     #[must_use]
     pub fn scale(self) -> f64 {
-        if self.unit() == "deg" { 180.0 / PI } else { 1.0 }
+        if self.unit() == Unit::Degree { 180.0 / PI } else { 1.0 }
     }
 
     /// Place in the arrays of [`super::EpochError`].

@@ -1,7 +1,7 @@
 //! What a stretch without GNSS costs.
 
 use insd_base::{Mode, Solution, Span, Time};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::component::Component;
 use super::errors::EpochError;
@@ -21,7 +21,7 @@ pub struct Outage {
 }
 
 /// Errors in and at the end of an outage.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Drift {
     /// First epoch without GNSS, s.
     pub start_s: f64,

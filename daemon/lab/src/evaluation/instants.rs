@@ -1,7 +1,7 @@
 //! Roll, pitch and heading of many runs at given instants, beside the limit.
 
 use insd_base::Time;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::component::Component;
 use super::errors::{EpochError, normalised};
@@ -15,7 +15,7 @@ const ANGLES: [Component; 3] = [Component::Roll, Component::Pitch, Component::He
 const NEAR: f64 = 1.0;
 
 /// Error and claim of one run at the epoch nearest to an instant: roll, pitch, heading, rad.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AlignmentMoment {
     /// Errors.
     pub error: [f64; 3],
@@ -24,7 +24,7 @@ pub struct AlignmentMoment {
 }
 
 /// The optimal filter's 1-sigma of the heading at an instant; `None` where it is not known.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Instant {
     /// Instant, s.
     pub at: f64,

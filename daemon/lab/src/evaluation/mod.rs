@@ -19,27 +19,30 @@ pub mod plot;
 mod promises;
 mod report;
 mod rows;
+mod run;
 mod series;
 mod sky;
 mod stanford;
 mod statistics;
 mod stored;
+mod unknown;
 
 pub use aligned::{AlignedEstimates, Times, WorstHeading, WorstRun, worst_heading};
 pub use alignment::{RunAlignment, alignment};
 pub use alignment_log::AlignmentRow;
 pub use by_satellites::{WithSatellites, by_satellites};
-pub use campaign::{CampaignReport, ComponentEstimates, OutageEstimates, Run, Yardstick};
-pub use component::Component;
+pub use campaign::{CampaignReport, ComponentEstimates, OutageEstimates};
+pub use component::{Component, Unit};
 pub use drift::{Drift, Outage, drifts, outages};
 pub use errors::{EpochError, EpochsLeftOut, VoyageErrors, errors, normalised};
 pub use evidence::{Evidence, Exclusion, FaultsTold, Pieces, Share, Use, Worst};
 pub use innovation::InnovationRow;
 pub use instants::{AlignmentMoment, Instant, InstantEstimates, moments};
 pub use interval::MeanOfRuns;
-pub use promises::PromiseEstimates;
+pub use promises::{Promise, PromiseEstimates};
 pub use report::ErrorReport;
 pub use rows::{RowWriter, read_rows};
+pub use run::{Run, Yardstick};
 pub use sky::SkyRow;
 pub use stanford::{
     AlertLimit, IntegrityReport, LevelsOfAxis, StanfordClass, StanfordPoint, Tally,

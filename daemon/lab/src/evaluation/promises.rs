@@ -1,7 +1,7 @@
 //! What the alignment foresaw, held against what came of it.
 
 use insd_base::{AlignmentStatus, Forecast, Time};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::alignment::RunAlignment;
 use super::statistics::quantile;
@@ -33,22 +33,53 @@ pub struct PromiseEstimates {
     pub best_deg: Option<f64>,
 }
 
+/// A forecast of one run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Promise {
+    /// When it was made, s.
+    pub said_s: f64,
+    /// The time that it named, s.
+    pub ready_s: Option<f64>,
+    /// The 1-sigma, rad, that it called the best if it called the bar out of reach.
+    pub best: Option<f64>,
+}
+
+impl Promise {
+    fn of(status: &AlignmentStatus) -> Self {
+        Promise {
+            said_s: status.time.as_seconds(),
+            ready_s: status.ready.ready_at().map(Time::as_seconds),
+            best: match status.ready {
+                Forecast::Unreachable { best, .. } => Some(best),
+                _ => None,
+            },
+        }
+    }
+}
+
+/// The forecasts of one run as they stood at the first status at or after each of the instants.
+#[must_use]
+pub(super) fn promises(said: &[AlignmentStatus]) -> Vec<Option<Promise>> {
+    let at = |at: f64| said.iter().find(|status| status.time >= Time::from_seconds(at));
+    AT.into_iter().map(|instant| at(instant).map(Promise::of)).collect()
+}
+
 /// What became of one forecast.
 struct Outcome {
-    forecast: Forecast,
+    promise: Promise,
     actual: Option<f64>,
 }
 
 impl Outcome {
     /// Named over actual time.
     fn ratio(&self) -> Option<f64> {
-        Some(self.forecast.ready_at()?.as_seconds() / self.actual?)
+        Some(self.promise.ready_s? / self.actual?)
     }
 
     fn is_right(&self) -> bool {
-        match self.forecast {
-            Forecast::Unreachable { .. } => self.actual.is_none(),
-            _ => self.ratio().is_some_and(|ratio| (ratio - 1.0).abs() <= GOOD),
+        match self.promise.best {
+            Some(_) => self.actual.is_none(),
+            None => self.ratio().is_some_and(|ratio| (ratio - 1.0).abs() <= GOOD),
         }
     }
 }
@@ -57,35 +88,32 @@ impl Outcome {
 /// run said anything.
 pub(super) fn together(
     runs: &[RunAlignment],
-    statuses: &[Vec<AlignmentStatus>],
+    said: &[Vec<Option<Promise>>],
 ) -> Vec<PromiseEstimates> {
-    let at = |at: f64| {
-        let pairs = runs.iter().zip(statuses);
+    let at = |(index, at): (usize, f64)| {
+        let promised = |said: &Vec<Option<Promise>>| said.get(index).copied().flatten();
+        let pairs = runs.iter().zip(said);
         let outcomes: Vec<Outcome> =
-            pairs.filter_map(|(run, said)| outcome(run, said, at)).collect();
+            pairs.filter_map(|(run, said)| outcome(run, promised(said)?)).collect();
         (!outcomes.is_empty()).then(|| estimates(at, &outcomes))
     };
-    AT.into_iter().filter_map(at).collect()
+    AT.into_iter().enumerate().filter_map(at).collect()
 }
 
-/// The forecast as it stood at the first status at or after an instant.
-fn outcome(run: &RunAlignment, said: &[AlignmentStatus], at: f64) -> Option<Outcome> {
-    let status = said.iter().find(|status| status.time >= Time::from_seconds(at))?;
-    let open = run.claim.is_none_or(|claim| claim > status.time.as_seconds());
-    open.then_some(Outcome { forecast: status.ready, actual: run.claim })
+/// A forecast that was made before the claim was below the bar.
+fn outcome(run: &RunAlignment, promise: Promise) -> Option<Outcome> {
+    let open = run.claim.is_none_or(|claim| claim > promise.said_s);
+    open.then_some(Outcome { promise, actual: run.claim })
 }
 
 fn estimates(at_s: f64, outcomes: &[Outcome]) -> PromiseEstimates {
     let count = |is: fn(&Outcome) -> bool| outcomes.iter().filter(|o| is(o)).count();
-    let best = |outcome: &Outcome| match outcome.forecast {
-        Forecast::Unreachable { best, .. } => Some(best.to_degrees()),
-        _ => None,
-    };
+    let best = |outcome: &Outcome| outcome.promise.best.map(f64::to_degrees);
     PromiseEstimates {
         at_s,
         runs: outcomes.len(),
-        named: count(|o| o.forecast.ready_at().is_some()),
-        unreachable: count(|o| matches!(o.forecast, Forecast::Unreachable { .. })),
+        named: count(|o| o.promise.ready_s.is_some()),
+        unreachable: count(|o| o.promise.best.is_some()),
         right: Some(count(Outcome::is_right) as f64 / outcomes.len() as f64),
         median_ratio: median(outcomes.iter().filter_map(Outcome::ratio)),
         best_deg: median(outcomes.iter().filter_map(best)),
@@ -151,7 +179,8 @@ mod tests {
             at_120.map(|ready| vec![said(60.0, named(900.0)), said(121.0, ready)]).to_vec();
         statuses
             .push(vec![said(121.0, Forecast::Unreachable { best: 1.0, limiting: Limiting::Sea })]);
-        let found = together(&runs, &statuses);
+        let said: Vec<_> = statuses.iter().map(|said| promises(said)).collect();
+        let found = together(&runs, &said);
         assert_eq!(found.len(), 2, "nothing was said after 121 s");
         let at_120 = found[1];
         assert_eq!((at_120.runs, at_120.named, at_120.unreachable), (4, 2, 1));
@@ -162,7 +191,8 @@ mod tests {
     fn to_say_never_is_right_where_it_never_was() {
         let ready =
             Forecast::Unreachable { best: 2.0_f64.to_radians(), limiting: Limiting::GyroBias };
-        let found = together(&[RunAlignment::default()], &[vec![said(240.0, ready)]]);
+        let never = promises(&[said(240.0, ready)]);
+        let found = together(&[RunAlignment::default()], &[never]);
         assert!(found.iter().all(|row| row.right == Some(1.0)), "{found:?}");
         assert!((found[0].best_deg.unwrap() - 2.0).abs() < 1e-9);
         assert!(together(&[RunAlignment::default()], &[vec![]]).is_empty());

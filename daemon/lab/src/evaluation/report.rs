@@ -127,7 +127,7 @@ impl ErrorReport {
 
 fn cells(summary: &Summary) -> Vec<String> {
     let percent = |share: f64| format!("{:.1}", 100.0 * share);
-    let mut cells = vec![summary.unit.to_owned()];
+    let mut cells = vec![summary.unit.to_string()];
     let lengths = [summary.rms, summary.p95, summary.max, summary.mean, summary.mean_sigma];
     cells.extend(lengths.map(|length| significant(length, 4)));
     cells.push(significant(summary.nees, 3));

@@ -1,9 +1,10 @@
 //! Figures of one component: how large its errors are, and whether its claims are honest.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::component::Component;
+use super::component::{Component, Unit};
 use super::errors::{EpochError, normalised};
+use super::unknown;
 
 /// Squared radii within which a consistent error lies in 68.27, 95.45 and 99.73 % of cases, for one
 /// degree of freedom.
@@ -12,10 +13,10 @@ const ONE_DIMENSION: [f64; 3] = [1.0, 4.0, 9.0];
 const TWO_DIMENSIONS: [f64; 3] = [2.295_749, 6.180_074, 11.829_158];
 
 /// Errors and claims of one component over all epochs, in the unit people read.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Unit of the lengths below.
-    pub unit: &'static str,
+    pub unit: Unit,
     /// Epochs with an error.
     pub count: u64,
     /// Epochs where truth does not know the component.
@@ -31,17 +32,22 @@ pub struct Summary {
     /// Largest error.
     pub max: f64,
     /// Mean claimed 1-sigma.
+    #[serde(deserialize_with = "unknown::number")]
     pub mean_sigma: f64,
     /// Normalised estimation error squared per degree of freedom: mean of (error / sigma)^2, 1 for
     /// honest claims, more for boasts. Bar-Shalom, Li and Kirubarajan, Estimation with Applications
     /// to Tracking and Navigation, section 5.4.2.
+    #[serde(deserialize_with = "unknown::number")]
     pub nees: f64,
     /// Share of errors within the claimed 1-sigma: 0.6827 for honest claims. For the horizontal
     /// position within the ellipse that should hold as many.
+    #[serde(deserialize_with = "unknown::number")]
     pub coverage_1sigma: f64,
     /// Share within 2 sigma: 0.9545.
+    #[serde(deserialize_with = "unknown::number")]
     pub coverage_2sigma: f64,
     /// Share within 3 sigma: 0.9973.
+    #[serde(deserialize_with = "unknown::number")]
     pub coverage_3sigma: f64,
 }
 
@@ -79,12 +85,12 @@ pub fn summarise_horizontal(epochs: &[EpochError]) -> Option<Summary> {
         })
     };
     let observed: Vec<Observation> = epochs.iter().filter_map(observe).collect();
-    figures(&observed, "m", epochs.len() - observed.len(), TWO_DIMENSIONS, 2.0)
+    figures(&observed, Unit::Metre, epochs.len() - observed.len(), TWO_DIMENSIONS, 2.0)
 }
 
 fn figures(
     observed: &[Observation],
-    unit: &'static str,
+    unit: Unit,
     missing: usize,
     radii_sq: [f64; 3],
     freedom: f64,

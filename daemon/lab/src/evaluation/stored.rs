@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 
 use insd_base::{Event, StoredDoubt, Time};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::aligned::{Times, times};
 use crate::table::{Align, Table, significant};
 
 /// What became of the stored state of one voyage.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum StoredFate {
     /// There was none: the first voyage ended unaligned or away from her berth.
     Missing,

@@ -106,7 +106,7 @@ pub(super) fn error(errors: &VoyageErrors, component: Component, axis: TimeAxis)
     }
     let limit = limit(&points);
     let plots = curves(&points, -limit, limit);
-    let (name, unit) = (component.name().replace('_', " "), component.unit());
+    let (name, unit) = (component.name().replace('_', " "), component.unit().as_str());
     let kind = if unit == "m" { "position " } else { "" };
     let title = title(&format!("{kind}{name}"), unit, &points);
     let layout = axis.layout(&plots, &title, (-limit, limit)).with_y_label(unit);

@@ -1,0 +1,204 @@
+//! The file of runs: JSON, a line for what the campaign is (one for each variation of a sweep) and a line for each voyage.
+//!
+//! A line is written at once when its voyage is done, so that a job that is killed loses no more than the voyages it was at.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{BufRead as _, BufReader, Seek as _, Write as _};
+use std::path::{Path, PathBuf};
+
+use insd_config::BadInput;
+use serde::{Deserialize, Serialize};
+
+use super::declared::Declared;
+use crate::evaluation::Run;
+
+/// One line. Its own names come first, so that people can read it.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+enum Line {
+    /// What the campaign is.
+    Campaign {
+        /// One variation of it.
+        campaign: Declared,
+    },
+    /// A voyage.
+    Run {
+        /// Of which campaign.
+        id: String,
+        /// Its scores.
+        run: Run,
+    },
+}
+
+/// What stands in a file of runs.
+#[derive(Debug, Default)]
+pub(super) struct Kept {
+    /// What the campaign is, one for each variation.
+    pub(super) declared: Vec<Declared>,
+    /// The line and the run of each seed, by the campaign's id.
+    pub(super) runs: BTreeMap<String, BTreeMap<u64, (usize, Run)>>,
+}
+
+impl Kept {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// What is wrong with it, with file and line.
+    pub(super) fn read(path: &Path) -> anyhow::Result<Self> {
+        let file =
+            File::open(path).map_err(|fault| BadInput(format!("{}: {fault}", path.display())))?;
+        let mut kept = Kept::default();
+        for (index, line) in BufReader::new(file).lines().enumerate() {
+            let said = line
+                .map_err(|fault| fault.to_string())
+                .and_then(|line| kept.take(index + 1, &line));
+            said.map_err(|fault| BadInput(format!("{}:{}: {fault}", path.display(), index + 1)))?;
+        }
+        Ok(kept)
+    }
+
+    fn take(&mut self, number: usize, line: &str) -> Result<(), String> {
+        let read = serde_json::from_str(line);
+        match read.map_err(|fault| format!("no line of a campaign's runs: {fault}"))? {
+            Line::Campaign { campaign } if self.declared.contains(&campaign) => Ok(()),
+            Line::Campaign { campaign } => {
+                self.declared.push(campaign);
+                Ok(())
+            }
+            Line::Run { id, run } => self.take_run(number, id, run),
+        }
+    }
+
+    fn take_run(&mut self, number: usize, id: String, run: Run) -> Result<(), String> {
+        let seed = run.seed;
+        let of = self.declared.iter().find(|declared| declared.id == id);
+        let of = of.ok_or_else(|| format!("no line before it says what campaign {id} is"))?;
+        if !of.seeds().contains(&seed) {
+            return Err(format!("seed {seed} is not one of {}..{}", of.from_seed, of.to_seed));
+        }
+        match self.runs.entry(id).or_default().insert(seed, (number, run)) {
+            None => Ok(()),
+            Some((before, _)) => Err(format!("seed {seed} stands in line {before} already")),
+        }
+    }
+
+    /// The seeds that are there of a variation.
+    pub(super) fn seeds(&self, of: &Declared) -> BTreeSet<u64> {
+        self.runs.get(&of.id).map(|runs| runs.keys().copied().collect()).unwrap_or_default()
+    }
+
+    /// Adds a run that was just sailed.
+    pub(super) fn add(&mut self, of: &Declared, run: Run) {
+        self.runs.entry(of.id.clone()).or_default().insert(run.seed, (0, run));
+    }
+
+    /// The runs of a variation, in order of their seeds.
+    pub(super) fn take_runs(&mut self, of: &Declared) -> Vec<Run> {
+        let runs = self.runs.remove(&of.id).unwrap_or_default();
+        runs.into_values().map(|(_, run)| run).collect()
+    }
+}
+
+/// A file of runs that is written to.
+#[derive(Debug)]
+pub(super) struct Keeper {
+    path: PathBuf,
+    file: File,
+}
+
+impl Keeper {
+    /// Makes a file and says what the campaign is.
+    ///
+    /// # Errors
+    /// It is there already, or cannot be written.
+    pub(super) fn create(path: &Path, declared: &[Declared]) -> anyhow::Result<Self> {
+        let made = OpenOptions::new().append(true).create_new(true).open(path);
+        let file = made.map_err(|fault| match fault.kind() {
+            std::io::ErrorKind::AlreadyExists => {
+                BadInput(format!("{} is there already: --resume goes on with it", path.display()))
+            }
+            _ => BadInput(format!("{}: {fault}", path.display())),
+        })?;
+        let mut keeper = Keeper { path: path.to_owned(), file };
+        keeper.lock()?;
+        declared.iter().try_for_each(|declared| keeper.declare(declared))?;
+        Ok(keeper)
+    }
+
+    /// Goes on with a file; makes it if there is none. A last line that was cut off is taken away and told.
+    ///
+    /// # Errors
+    /// It is not of this campaign, somebody else writes to it, or it cannot be read or written.
+    pub(super) fn resume(path: &Path, declared: &[Declared]) -> anyhow::Result<(Self, Kept)> {
+        if !path.exists() {
+            return Ok((Self::create(path, declared)?, Kept::default()));
+        }
+        let opened = OpenOptions::new().read(true).append(true).open(path);
+        let file = opened.map_err(|fault| BadInput(format!("{}: {fault}", path.display())))?;
+        let mut keeper = Keeper { path: path.to_owned(), file };
+        keeper.lock()?;
+        keeper.drop_torn_line()?;
+        let kept = Kept::read(path)?;
+        for own in declared {
+            match kept.declared.iter().find(|there| there.sweep == own.sweep) {
+                Some(there) => own.is_same(there, "this campaign", &path.display().to_string())?,
+                None => keeper.declare(own)?,
+            }
+        }
+        Ok((keeper, kept))
+    }
+
+    fn lock(&self) -> anyhow::Result<()> {
+        match self.file.try_lock() {
+            Ok(()) => Ok(()),
+            Err(TryLockError::WouldBlock) => {
+                let path = self.path.display();
+                Err(BadInput(format!("{path}: another campaign writes to it")).into())
+            }
+            // a file system without locks is no reason not to write
+            Err(TryLockError::Error(_)) => Ok(()),
+        }
+    }
+
+    fn drop_torn_line(&mut self) -> anyhow::Result<()> {
+        let content = std::fs::read(&self.path)?;
+        let whole = content.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+        if whole < content.len() {
+            eprintln!("{}: the last line was cut off and is left out", self.path.display());
+            self.file.set_len(whole as u64)?;
+            self.file.seek(std::io::SeekFrom::End(0))?;
+        }
+        Ok(())
+    }
+
+    fn declare(&mut self, declared: &Declared) -> anyhow::Result<()> {
+        self.write(&Line::Campaign { campaign: declared.clone() })
+    }
+
+    /// Writes a run.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub(super) fn keep(&mut self, of: &Declared, run: &Run) -> anyhow::Result<()> {
+        self.write(&Line::Run { id: of.id.clone(), run: run.clone() })
+    }
+
+    /// Writes all runs, in order of variations and seeds.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub(super) fn keep_all(&mut self, kept: &Kept) -> anyhow::Result<()> {
+        for declared in &kept.declared {
+            let runs = kept.runs.get(&declared.id).into_iter().flatten();
+            runs.map(|(_, (_, run))| run).try_for_each(|run| self.keep(declared, run))?;
+        }
+        Ok(())
+    }
+
+    fn write(&mut self, line: &Line) -> anyhow::Result<()> {
+        let text = serde_json::to_string(line)? + "\n";
+        let written = self.file.write_all(text.as_bytes()).and_then(|()| self.file.flush());
+        written.map_err(|fault| anyhow::anyhow!("{}: {fault}", self.path.display()))
+    }
+}

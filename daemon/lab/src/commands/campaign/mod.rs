@@ -1,0 +1,252 @@
+//! `insd campaign`: one scenario with many seeds, in parallel, on one computer or on many.
+
+mod declared;
+mod kept;
+mod merge;
+mod sail;
+mod shard;
+mod sweep;
+
+use std::ops::Range;
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use insd_config::BadInput;
+use insd_simulator::Override;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+
+use self::declared::Declared;
+use self::kept::{Keeper, Kept};
+use self::shard::{Shard, Share};
+use self::sweep::Sweep;
+use super::alignment::AlignmentArgs;
+use super::outage::SensorOutage;
+use super::{limit as limits, stored_start};
+use crate::evaluation::{CampaignReport, Run, Yardstick};
+use crate::scenario;
+
+/// Options of `insd campaign`.
+///
+/// Each figure is a mean over seeds with its 95 % confidence interval over seeds.
+#[derive(Clone, Debug, clap::Args)]
+pub struct CampaignArgs {
+    /// Scenario file, or name or number of a shipped scenario
+    #[arg(required_unless_present = "merge")]
+    scenario: Option<String>,
+    /// Seeds A to B, B left out
+    #[arg(long, value_name = "A..B", value_parser = seeds, required_unless_present = "merge")]
+    seeds: Option<Range<u64>>,
+    /// Leave out what is before this time, s
+    #[arg(long, value_name = "T", value_parser = super::seconds)]
+    from: Option<f64>,
+    /// Score roll, pitch and heading at this instant, s, beside the limit of the optimal filter; may be
+    /// repeated; for a moored scenario 60, 120, 300, 600, 900 and 1800 if not given
+    #[arg(long, value_name = "T", value_parser = super::seconds)]
+    at: Vec<f64>,
+    /// Set a key of the scenario to another value, as start.lat_deg=60; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<Override>,
+    /// Sail all seeds with each of several values of a key, as sea.state=3,5; may be repeated
+    #[arg(long = "sweep", value_name = "KEY=A,B,C")]
+    sweeps: Vec<Sweep>,
+    #[command(flatten)]
+    alignment: AlignmentArgs,
+    /// Start each voyage from the state that an earlier one from the same berth stored, the ship having
+    /// been turned by DEG since (0 if not given)
+    #[arg(long, value_name = "DEG", num_args = 0..=1, default_missing_value = "0",
+        allow_hyphen_values = true, value_parser = stored_start::turn)]
+    stored: Option<f64>,
+    /// Print JSON instead of a table; a list where keys are swept
+    #[arg(long)]
+    json: bool,
+    /// Solutions per second that are compared
+    #[arg(long, value_name = "HZ", default_value_t = 1.0, value_parser = super::rate)]
+    rate: f64,
+    /// Take a sensor (imu, gnss, log, reference, camera) away while FROM <= t_s < TO; may be repeated
+    #[arg(long = "outage", value_name = "SENSOR:FROM..TO")]
+    outages: Vec<SensorOutage>,
+    /// Voyages at once; if not given SLURM_CPUS_PER_TASK, or what the system grants of its processors
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+    /// Write a line of JSON with the scores of each voyage as soon as it is done
+    #[arg(long, value_name = "FILE")]
+    runs: Option<PathBuf>,
+    /// Go on with the file of --runs: what is in it is not sailed again
+    #[arg(long, requires = "runs", conflicts_with = "merge")]
+    resume: bool,
+    /// Sail every Nth voyage only, from the Kth on (0 to N - 1); auto takes K and N from Slurm, auto/N takes K
+    /// from Slurm or Kubernetes
+    #[arg(long, value_name = "K/N", conflicts_with = "merge")]
+    shard: Option<Share>,
+    /// Sail nothing: put the runs of these files together
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["scenario", "seeds"])]
+    merge: Vec<PathBuf>,
+}
+
+impl CampaignArgs {
+    /// The options that change what comes out, as they are written.
+    fn words(&self) -> String {
+        let mut words = vec![self.alignment.words(), format!("--rate {}", self.rate)];
+        words.extend(self.from.map(|from| format!("--from {from}")));
+        words.extend(self.at.iter().map(|at| format!("--at {at}")));
+        words.extend(self.stored.map(|turned| format!("--stored {turned}")));
+        words.extend(self.outages.iter().map(|outage| format!("--outage {outage}")));
+        words.join(" ")
+    }
+}
+
+/// One scenario of a campaign with all that is set in it.
+struct Variation {
+    named: scenario::Named,
+    declared: Declared,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// The scenario or a file of runs is faulty, or no seed gave a solution.
+pub fn run(args: &CampaignArgs) -> anyhow::Result<()> {
+    let is_merged = !args.merge.is_empty();
+    let mut kept = if is_merged { merge::merge(&args.merge)? } else { sail(args)? };
+    if let (true, Some(path)) = (is_merged, &args.runs) {
+        let mut keeper = Keeper::create(path, &kept.declared)?;
+        keeper.keep_all(&kept)?;
+    }
+    let declared = std::mem::take(&mut kept.declared);
+    let report = |declared: &Declared| {
+        let runs = kept.take_runs(declared);
+        let yardstick = declared.yardstick.as_ref();
+        CampaignReport::new(&declared.scenario, runs, yardstick).out_of(declared.seeds())
+    };
+    let reports: Vec<CampaignReport> = declared.iter().map(report).collect();
+    crate::terminal::print(&text(&reports, args.json)?)?;
+    match reports.iter().find(|report| report.is_silent()) {
+        Some(silent) => {
+            Err(BadInput(format!("{}: no seed gave a solution", silent.scenario)).into())
+        }
+        None => Ok(()),
+    }
+}
+
+fn text(reports: &[CampaignReport], as_json: bool) -> anyhow::Result<String> {
+    Ok(match reports {
+        [only] if as_json => serde_json::to_string_pretty(only)? + "\n",
+        several if as_json => serde_json::to_string_pretty(several)? + "\n",
+        several => several.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
+    })
+}
+
+/// Sails what belongs to this shard and is not in the file of runs yet.
+fn sail(args: &CampaignArgs) -> anyhow::Result<Kept> {
+    let seeds = args.seeds.clone().unwrap_or_default();
+    let variations = variations(args, &seeds)?;
+    let declared: Vec<Declared> = variations.iter().map(|own| own.declared.clone()).collect();
+    let (keeper, mut kept) = keeper(args, &declared)?;
+    let open = open_voyages(&declared, &seeds, shard(args)?, &kept);
+    let bar = progress_bar(open.len() as u64)?;
+    let keeper = Mutex::new(keeper);
+    let score = |(index, seed): (usize, u64)| {
+        let Variation { named, declared } = &variations[index];
+        let run = sail::run_seed(&named.scenario, seed, declared.yardstick.as_ref(), args);
+        if let Some(keeper) = keeper.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+            keeper.keep(declared, &run)?;
+        }
+        bar.inc(1);
+        Ok((index, run))
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs(args)).build()?;
+    let sailed: anyhow::Result<Vec<(usize, Run)>> =
+        pool.install(|| open.into_par_iter().map(score).collect());
+    bar.finish_and_clear();
+    sailed?.into_iter().for_each(|(index, run)| kept.add(&declared[index], run));
+    kept.declared = declared;
+    Ok(kept)
+}
+
+fn keeper(args: &CampaignArgs, declared: &[Declared]) -> anyhow::Result<(Option<Keeper>, Kept)> {
+    match &args.runs {
+        Some(path) if args.resume => {
+            Keeper::resume(path, declared).map(|(keeper, kept)| (Some(keeper), kept))
+        }
+        Some(path) => Ok((Some(Keeper::create(path, declared)?), Kept::default())),
+        None => Ok((None, Kept::default())),
+    }
+}
+
+/// The voyages of a shard, as variation and seed, without those that are kept.
+fn open_voyages(
+    declared: &[Declared],
+    seeds: &Range<u64>,
+    shard: Shard,
+    kept: &Kept,
+) -> Vec<(usize, u64)> {
+    let done: Vec<_> = declared.iter().map(|declared| kept.seeds(declared)).collect();
+    let all = (0..declared.len()).flat_map(|index| seeds.clone().map(move |seed| (index, seed)));
+    let own = all.enumerate().filter(|(number, _)| shard.holds(*number));
+    own.map(|(_, voyage)| voyage).filter(|(index, seed)| !done[*index].contains(seed)).collect()
+}
+
+fn shard(args: &CampaignArgs) -> anyhow::Result<Shard> {
+    let Some(share) = args.shard else { return Ok(Shard::ALL) };
+    Ok(share.resolve(|name| std::env::var(name).ok()).map_err(BadInput)?)
+}
+
+/// Voyages at once; 0 for what the system grants.
+fn jobs(args: &CampaignArgs) -> usize {
+    let granted = || std::env::var("SLURM_CPUS_PER_TASK").ok()?.parse().ok();
+    args.jobs.or_else(granted).unwrap_or(0)
+}
+
+fn variations(args: &CampaignArgs, seeds: &Range<u64>) -> anyhow::Result<Vec<Variation>> {
+    let word = args.scenario.as_deref().unwrap_or_default();
+    let variation = |swept: Vec<Override>| {
+        let named = scenario::find(word, &[args.sets.as_slice(), &swept].concat())?;
+        let yardstick = yardstick(&named, &args.at)?;
+        let swept = swept.iter().map(ToString::to_string).collect();
+        let declared = Declared::of(&named, swept, seeds, args, yardstick);
+        Ok(Variation { named, declared })
+    };
+    sweep::variations(&args.sweeps).into_iter().map(variation).collect()
+}
+
+fn progress_bar(length: u64) -> anyhow::Result<ProgressBar> {
+    let style = "{wide_bar:.cyan/blue} {pos}/{len} voyages, {elapsed} gone, {eta} to go";
+    Ok(ProgressBar::new(length).with_style(ProgressStyle::with_template(style)?))
+}
+
+/// What the heading is held against, if instants are asked for or the ship is moored.
+fn yardstick(scenario: &scenario::Named, at: &[f64]) -> anyhow::Result<Option<Yardstick>> {
+    let (name, scenario) = (&scenario.name, &scenario.scenario);
+    if at.is_empty() && !scenario.is_moored() {
+        return Ok(None);
+    }
+    let mut at = if at.is_empty() { limits::instants(scenario) } else { at.to_vec() };
+    at.sort_by(f64::total_cmp);
+    match Yardstick::of(scenario, &at) {
+        Ok(yardstick) => Ok(Some(yardstick)),
+        Err(fault) => Err(BadInput(format!("{name}: {fault}")).into()),
+    }
+}
+
+/// `A..B` as a range that is not empty.
+fn seeds(text: &str) -> Result<Range<u64>, String> {
+    let parsed = text.split_once("..").and_then(|(from, to)| {
+        let (from, to): (u64, u64) = (from.parse().ok()?, to.parse().ok()?);
+        (from < to && to - from <= 1_000_000).then_some(from..to)
+    });
+    parsed.ok_or_else(|| "expected A..B with A < B, for example 0..40".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seeds_are_half_open_and_never_empty() {
+        assert_eq!(seeds("3..5"), Ok(3..5));
+        for text in ["3", "5..5", "5..3", "a..b", "0..99999999999", "-1..2"] {
+            assert!(seeds(text).is_err(), "{text}");
+        }
+    }
+}
