@@ -33,6 +33,7 @@ pub mod satellites;
 pub mod sea_fit;
 pub mod sensor;
 pub mod solution;
+mod stored_doubt;
 pub mod time;
 pub mod units;
 pub mod utc;
@@ -49,7 +50,7 @@ pub use can::{BusEvent, CanFrame, CanId};
 pub use estimates::{Disturbance, Estimate, Estimates, SeaQuantity};
 pub use events::{
     AidInnovation, Counts, Event, ModeReason, Rejection, ResumeDoubt, SatelliteInnovation,
-    SourceReason, StoredDoubt,
+    SourceReason,
 };
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
@@ -73,6 +74,7 @@ pub use satellites::{
 pub use sea_fit::{Residual, SeaFit, SeenResidual};
 pub use sensor::{ImuSpec, LeverArms, Triad};
 pub use solution::{Mode, Protection, Solution, SolutionSigma, SolutionSource};
+pub use stored_doubt::StoredDoubt;
 pub use time::{Span, Time};
 pub use utc::{GpsTime, UtcTime};
 pub use utm::Utm;

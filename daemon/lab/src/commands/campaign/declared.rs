@@ -5,7 +5,7 @@ use std::ops::Range;
 use insd_config::BadInput;
 use serde::{Deserialize, Serialize};
 
-use super::CampaignArgs;
+use super::args::CampaignArgs;
 use crate::evaluation::Yardstick;
 use crate::scenario;
 

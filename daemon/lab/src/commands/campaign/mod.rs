@@ -1,5 +1,6 @@
 //! `insd campaign`: one scenario with many seeds, in parallel, on one computer or on many.
 
+mod args;
 mod declared;
 mod kept;
 mod merge;
@@ -8,7 +9,6 @@ mod shard;
 mod sweep;
 
 use std::ops::Range;
-use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -16,85 +16,13 @@ use insd_config::BadInput;
 use insd_simulator::Override;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
+pub use self::args::CampaignArgs;
 use self::declared::Declared;
 use self::kept::{Keeper, Kept};
-use self::shard::{Shard, Share};
-use self::sweep::Sweep;
-use super::alignment::AlignmentArgs;
-use super::outage::SensorOutage;
-use super::{limit as limits, stored_start};
+use self::shard::Shard;
+use super::limit as limits;
 use crate::evaluation::{CampaignReport, Run, Yardstick};
 use crate::scenario;
-
-/// Options of `insd campaign`.
-///
-/// Each figure is a mean over seeds with its 95 % confidence interval over seeds.
-#[derive(Clone, Debug, clap::Args)]
-pub struct CampaignArgs {
-    /// Scenario file, or name or number of a shipped scenario
-    #[arg(required_unless_present = "merge")]
-    scenario: Option<String>,
-    /// Seeds A to B, B left out
-    #[arg(long, value_name = "A..B", value_parser = seeds, required_unless_present = "merge")]
-    seeds: Option<Range<u64>>,
-    /// Leave out what is before this time, s
-    #[arg(long, value_name = "T", value_parser = super::seconds)]
-    from: Option<f64>,
-    /// Score roll, pitch and heading at this instant, s, beside the limit of the optimal filter; may be
-    /// repeated; for a moored scenario 60, 120, 300, 600, 900 and 1800 if not given
-    #[arg(long, value_name = "T", value_parser = super::seconds)]
-    at: Vec<f64>,
-    /// Set a key of the scenario to another value, as start.lat_deg=60; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    sets: Vec<Override>,
-    /// Sail all seeds with each of several values of a key, as sea.state=3,5; may be repeated
-    #[arg(long = "sweep", value_name = "KEY=A,B,C")]
-    sweeps: Vec<Sweep>,
-    #[command(flatten)]
-    alignment: AlignmentArgs,
-    /// Start each voyage from the state that an earlier one from the same berth stored, the ship having
-    /// been turned by DEG since (0 if not given)
-    #[arg(long, value_name = "DEG", num_args = 0..=1, default_missing_value = "0",
-        allow_hyphen_values = true, value_parser = stored_start::turn)]
-    stored: Option<f64>,
-    /// Print JSON instead of a table; a list where keys are swept
-    #[arg(long)]
-    json: bool,
-    /// Solutions per second that are compared
-    #[arg(long, value_name = "HZ", default_value_t = 1.0, value_parser = super::rate)]
-    rate: f64,
-    /// Take a sensor (imu, gnss, log, reference, camera) away while FROM <= t_s < TO; may be repeated
-    #[arg(long = "outage", value_name = "SENSOR:FROM..TO")]
-    outages: Vec<SensorOutage>,
-    /// Voyages at once; if not given SLURM_CPUS_PER_TASK, or what the system grants of its processors
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
-    /// Write a line of JSON with the scores of each voyage as soon as it is done
-    #[arg(long, value_name = "FILE")]
-    runs: Option<PathBuf>,
-    /// Go on with the file of --runs: what is in it is not sailed again
-    #[arg(long, requires = "runs", conflicts_with = "merge")]
-    resume: bool,
-    /// Sail every Nth voyage only, from the Kth on (0 to N - 1); auto takes K and N from Slurm, auto/N takes K
-    /// from Slurm or Kubernetes
-    #[arg(long, value_name = "K/N", conflicts_with = "merge")]
-    shard: Option<Share>,
-    /// Sail nothing: put the runs of these files together
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["scenario", "seeds"])]
-    merge: Vec<PathBuf>,
-}
-
-impl CampaignArgs {
-    /// The options that change what comes out, as they are written.
-    fn words(&self) -> String {
-        let mut words = vec![self.alignment.words(), format!("--rate {}", self.rate)];
-        words.extend(self.from.map(|from| format!("--from {from}")));
-        words.extend(self.at.iter().map(|at| format!("--at {at}")));
-        words.extend(self.stored.map(|turned| format!("--stored {turned}")));
-        words.extend(self.outages.iter().map(|outage| format!("--outage {outage}")));
-        words.join(" ")
-    }
-}
 
 /// One scenario of a campaign with all that is set in it.
 struct Variation {
@@ -226,27 +154,5 @@ fn yardstick(scenario: &scenario::Named, at: &[f64]) -> anyhow::Result<Option<Ya
     match Yardstick::of(scenario, &at) {
         Ok(yardstick) => Ok(Some(yardstick)),
         Err(fault) => Err(BadInput(format!("{name}: {fault}")).into()),
-    }
-}
-
-/// `A..B` as a range that is not empty.
-fn seeds(text: &str) -> Result<Range<u64>, String> {
-    let parsed = text.split_once("..").and_then(|(from, to)| {
-        let (from, to): (u64, u64) = (from.parse().ok()?, to.parse().ok()?);
-        (from < to && to - from <= 1_000_000).then_some(from..to)
-    });
-    parsed.ok_or_else(|| "expected A..B with A < B, for example 0..40".to_owned())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn seeds_are_half_open_and_never_empty() {
-        assert_eq!(seeds("3..5"), Ok(3..5));
-        for text in ["3", "5..5", "5..3", "a..b", "0..99999999999", "-1..2"] {
-            assert!(seeds(text).is_err(), "{text}");
-        }
     }
 }

@@ -5,7 +5,7 @@ use insd_engine::{Engine, EngineConfig, Output};
 use insd_simulator::{Scenario, simulate};
 
 use super::super::stored_start;
-use super::CampaignArgs;
+use super::args::CampaignArgs;
 use crate::evaluation::{Run, StoredFate, Yardstick, drifts, errors, outages};
 
 /// The scores of a seed.
