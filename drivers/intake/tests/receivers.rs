@@ -1,12 +1,17 @@
 //! Two receivers: both pass, ranked by the choice.
 
-#![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
+#![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
 
-use insd_base::{Arrival, Body, Input, Message, PortId, Source, Stamp, Time, UtcTime};
+use insd_base::{
+    Arrival, Body, FixQuality, GnssFix, Input, Message, PortId, Source, Stamp, Time, UtcTime,
+};
 use insd_intake::config::{IntakeConfig, Kind, PortSpec, SensorConfig};
 use insd_intake::event::Refusal;
 use insd_intake::port::Link;
 use insd_intake::{Intake, Intaken};
+use insd_wire::gnss::ubx::{
+    Carrier, FixType, NavPosLlh, NavRelPosNed, NavSol, NavTimeUtc, NavVelNed,
+};
 
 /// Noon of a day in 2026, ns since 1970.
 const NOON: i64 = 1_780_315_200_000_000_000;
@@ -85,4 +90,148 @@ fn a_receiver_without_a_fix_is_left_and_the_other_takes_its_rank() {
     };
     assert!(stern(15).iter().all(|rank| *rank == 0), "{ranks:?}");
     assert!(!ranks.iter().any(|(second, number, _)| *second > 15 && *number == 0), "{ranks:?}");
+}
+
+/// What comes of frames of a u-blox receiver, so many a second for ten seconds, 10 deg added to its heading.
+fn of_ublox(frames: impl Fn(u32) -> Vec<u8>) -> Vec<Message> {
+    let link = Link::Serial { byte_time: 10.0 / 115_200.0 };
+    let sensor = SensorConfig {
+        heading: true,
+        heading_offset_deg: 10.0,
+        ..SensorConfig::new("bow", "bow", Kind::Ubx)
+    };
+    let ports = vec![PortSpec { name: "bow".to_owned(), link }];
+    let sensors = vec![sensor];
+    let mut intake = Intake::new(&IntakeConfig { ports, sensors, imu: None, rangings: Vec::new() });
+    let mut passed = Vec::new();
+    for second in 0..10_u32 {
+        let late = i64::from(second) * 1_000_000_000 + 80_000_000;
+        let stamp = Stamp {
+            monotonic: Time::from_nanos(late + 5_000_000_000),
+            system: UtcTime::from_nanos(NOON + late),
+        };
+        let input = Input::Bytes(frames(second));
+        intake.handle(&Arrival { port: PortId(0), stamp, input });
+        while let Some(output) = intake.poll_output() {
+            if let Intaken::Measured(received) = output {
+                passed.push(received.message);
+            }
+        }
+    }
+    passed
+}
+
+/// Ns of the GPS week at a second after [`NOON`], the first of June 2026, a Monday.
+fn of_week(second: u32) -> i64 {
+    (129_600 + 18 + i64::from(second)) * 1_000_000_000
+}
+
+fn utc(second: u32) -> NavTimeUtc {
+    NavTimeUtc {
+        time_of_week: of_week(second),
+        accuracy: Some(1e-7),
+        nanosecond: 0,
+        year: 2026,
+        month_day: [6, 1],
+        clock: [12, 0, second as u8],
+        time_of_week_valid: true,
+        week_valid: true,
+        valid: true,
+        standard: 3,
+    }
+}
+
+#[test]
+fn a_receiver_without_nav_pvt_gives_fixes_with_velocity_and_sigmas() {
+    let passed = of_ublox(|second| {
+        let time_of_week = of_week(second);
+        let llh = NavPosLlh {
+            time_of_week,
+            longitude: 2.4,
+            latitude: 0.6,
+            height: 40.0,
+            height_msl: 4.0,
+            horizontal_accuracy: Some(2.0),
+            vertical_accuracy: Some(3.0),
+        };
+        let velocity = NavVelNed {
+            time_of_week,
+            velocity: [1.0, 2.0, 0.0],
+            speed: 2.24,
+            ground_speed: 2.24,
+            course: 1.1,
+            speed_accuracy: Some(0.2),
+            course_accuracy: None,
+        };
+        let sol = NavSol {
+            time_of_week,
+            fraction: 0,
+            week: 2421,
+            fix: if second == 5 { FixType::None } else { FixType::ThreeDimensional },
+            fix_ok: true,
+            differential: false,
+            week_valid: true,
+            time_of_week_valid: true,
+            position: [0.0; 3],
+            position_accuracy: None,
+            velocity: [0.0; 3],
+            speed_accuracy: None,
+            pdop: 1.0,
+            satellites: 8,
+        };
+        [llh.write(), sol.write(), velocity.write(), utc(second).write()].concat()
+    });
+    let fixes: Vec<_> = passed
+        .iter()
+        .filter_map(|message| if let Message::Gnss(fix) = message { Some(fix) } else { None })
+        .collect();
+    let (good, bad): (Vec<&GnssFix>, Vec<&GnssFix>) =
+        fixes.into_iter().partition(|fix| fix.quality == FixQuality::Autonomous);
+    assert_eq!((good.len(), bad.len()), (9, 1));
+    assert_eq!(bad[0].quality, FixQuality::Invalid);
+    for fix in good {
+        assert!((fix.position.unwrap().latitude - 0.6).abs() < 1e-9);
+        assert_eq!(fix.velocity.unwrap().0.as_slice(), [1.0, 2.0, 0.0]);
+        assert!((fix.position_std.unwrap().0.z - 3.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_receiver_that_is_told_to_be_a_compass_alone_gives_headings() {
+    let passed = of_ublox(|second| {
+        let line = NavRelPosNed {
+            version: 1,
+            station: 0,
+            time_of_week: of_week(second),
+            relative: [1.0, 0.0, 0.0],
+            length: 1.0,
+            heading: 0.5,
+            finer: [0.0; 3],
+            finer_length: 0.0,
+            accuracy: [Some(0.01); 3],
+            length_accuracy: Some(0.01),
+            heading_accuracy: Some(0.004),
+            fix_ok: true,
+            differential: true,
+            valid: true,
+            carrier: if second == 4 { Carrier::Float } else { Carrier::Fixed },
+            moving: true,
+            position_missing: false,
+            measurements_missing: false,
+            heading_valid: true,
+            normalized: false,
+        };
+        [utc(second).write(), line.write()].concat()
+    });
+    let headings: Vec<_> = passed
+        .iter()
+        .map(|message| match message {
+            Message::Reference(told) => (told.heading.unwrap(), told.heading_std.unwrap()),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert!((7..=9).contains(&headings.len()), "{headings:?}");
+    for (heading, std) in headings {
+        assert!((heading - 0.5 - 10_f64.to_radians()).abs() < 1e-6 && (std - 0.004).abs() < 1e-6);
+    }
 }

@@ -121,8 +121,7 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         imu(port, Protocol::Stim, "stim", |name| name != "STIM configuration").map(|sensor| {
             sensor.note("unless the unit sends its configuration, check [sensor.stim]")
         }),
-        plain_sensor(port, Protocol::Ubx, "ubx", "gnss", "NAV-PVT")
-            .or_else(|| raw_only(port, Protocol::Ubx, "ubx", "RXM-RAWX")),
+        ublox(port),
         plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF 4007")
             .or_else(|| raw_only(port, Protocol::Sbf, "sbf", "SBF 4027"))
             .or_else(|| plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF ")),
@@ -225,6 +224,28 @@ fn plain_sensor(
     let mut messages = used(port, protocol).filter(|message| message.name.starts_with(start));
     let rate = messages.next()?.rate_hz.map(round);
     Some(Sensor { kind, role, protocol: protocol.name(), rate, ..Sensor::default() })
+}
+
+/// A u-blox receiver: by its fixes, else by what it measured, else as a compass.
+fn ublox(port: &PortReport) -> Option<Sensor> {
+    let has = |name: &str| used(port, Protocol::Ubx).any(|message| message.name == name);
+    let told = |start| plain_sensor(port, Protocol::Ubx, "ubx", "gnss", start);
+    let fix = ["NAV-PVT", "NAV-POSLLH", "NAV-SOL"].iter().find_map(|start| told(start));
+    let mut sensor = fix
+        .or_else(|| raw_only(port, Protocol::Ubx, "ubx", "RXM-RAWX"))
+        .or_else(|| told("NAV-RELPOSNED"))?;
+    if has("NAV-POSLLH") && !["NAV-PVT", "NAV-SOL", "NAV-STATUS"].iter().any(|name| has(name)) {
+        sensor = sensor.note(
+            "neither NAV-SOL nor NAV-STATUS: the receiver does not tell whether it has a fix",
+        );
+    }
+    if has("NAV-RELPOSNED") {
+        sensor = sensor.key("heading = true".to_owned());
+        sensor = sensor.note("NAV-RELPOSNED is a heading only if the base moves with the ship;");
+        sensor =
+            sensor.note("heading_offset_deg: how the line from its antenna to the receiver's lies");
+    }
+    Some(sensor)
 }
 
 /// A receiver that tells what it measured, and no fix.

@@ -10,6 +10,7 @@ pub mod sbf;
 pub mod ubx;
 
 mod bits;
+mod cartesian;
 mod crc24q;
 mod epoch;
 mod kepler;

@@ -52,7 +52,7 @@ fn line(content: &[u8]) -> Vec<u8> {
 }
 
 /// Class and id of the messages that are read, and of one that is not.
-const UBX: [(u8, u8); 10] = [
+const UBX: [(u8, u8); 16] = [
     (0x01, 0x07),
     (0x01, 0x04),
     (0x01, 0x36),
@@ -63,6 +63,12 @@ const UBX: [(u8, u8); 10] = [
     (0x02, 0x15),
     (0x02, 0x13),
     (0x0A, 0x04),
+    (0x01, 0x02),
+    (0x01, 0x03),
+    (0x01, 0x06),
+    (0x01, 0x12),
+    (0x01, 0x21),
+    (0x01, 0x3C),
 ];
 
 fn ubx_frame(choice: u8, payload: &[u8]) -> Vec<u8> {
