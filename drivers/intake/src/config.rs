@@ -41,6 +41,12 @@ pub enum Kind {
     Rtcm,
     /// A base station that sends corrections in RTCM 3: MSM4 to MSM7, and 1005 or 1006. It is not on board.
     RtcmBase,
+    /// A NovAtel receiver: BESTPOS, BESTVEL, BESTGNSSPOS, BESTGNSSVEL, TIME; HEADING2 and DUALANTENNAHEADING as a heading.
+    Novatel,
+    /// The IMU of a NovAtel SPAN system: RAWIMUX, RAWIMUSX.
+    NovatelImu,
+    /// Heading of a NovAtel SPAN system: INSPVA, INSPVAS, INSPVAX.
+    NovatelIns,
     /// A log that speaks NMEA 0183: VBW, VHW.
     NmeaLog,
     /// A log that speaks RDI PD0.
@@ -293,10 +299,15 @@ impl Kind {
             | Kind::Xbus
             | Kind::Kvh
             | Kind::Stim
+            | Kind::NovatelImu
             | Kind::CanImu => Role::Imu,
-            Kind::NmeaGnss | Kind::Ubx | Kind::Sbf | Kind::Rtcm | Kind::N2kGnss => Role::Gnss,
+            Kind::NmeaGnss | Kind::Ubx | Kind::Sbf | Kind::Novatel | Kind::Rtcm | Kind::N2kGnss => {
+                Role::Gnss
+            }
             Kind::NmeaLog | Kind::Pd0 | Kind::Pd6 | Kind::Nortek | Kind::N2kLog => Role::Log,
-            Kind::Compass | Kind::Psxn | Kind::Pashr | Kind::N2kHeading => Role::Heading,
+            Kind::Compass | Kind::Psxn | Kind::Pashr | Kind::NovatelIns | Kind::N2kHeading => {
+                Role::Heading
+            }
             Kind::NmeaPosition | Kind::Manual | Kind::N2kPosition => Role::Position,
             Kind::Ranging | Kind::Rls => Role::Ranging,
             Kind::RtcmBase => Role::Base,
@@ -315,6 +326,7 @@ impl Kind {
             Kind::Stim => Protocol::Stim,
             Kind::Ubx => Protocol::Ubx,
             Kind::Sbf => Protocol::Sbf,
+            Kind::Novatel | Kind::NovatelImu | Kind::NovatelIns => Protocol::Novatel,
             Kind::Rtcm | Kind::RtcmBase => Protocol::Rtcm,
             Kind::Pd0 => Protocol::Pd0,
             Kind::Pd6 => Protocol::Pd6,

@@ -3,12 +3,16 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
 
 use insd_base::{
-    Arrival, Body, FixQuality, GnssFix, Input, Message, PortId, Source, Stamp, Time, UtcTime,
+    Arrival, Body as ShipAxes, FixQuality, GnssFix, Input, Message, PortId, Source, Stamp, Time,
+    UtcTime,
 };
 use insd_intake::config::{IntakeConfig, Kind, PortSpec, SensorConfig};
 use insd_intake::event::Refusal;
 use insd_intake::port::Link;
 use insd_intake::{Intake, Intaken};
+use insd_wire::gnss::novatel::{
+    AntennaHeading, BestPosition, BestVelocity, Body, Header, InsPva, Log,
+};
 use insd_wire::gnss::ubx::{
     Carrier, FixType, NavPosLlh, NavRelPosNed, NavSol, NavTimeUtc, NavVelNed,
 };
@@ -60,7 +64,7 @@ fn ranks(quality: impl Fn(usize, i64) -> u8) -> (Vec<(i64, u8, u8)>, Intake) {
                         (received.message, received.source)
                 {
                     let bow = if number == 0 { 5.0 } else { -15.0 };
-                    assert_eq!(fix.lever, Some(Body::new(bow, 1.0, -9.0)), "its own");
+                    assert_eq!(fix.lever, Some(ShipAxes::new(bow, 1.0, -9.0)), "its own");
                     ranks.push((second, number, fix.rank));
                 }
             }
@@ -94,11 +98,16 @@ fn a_receiver_without_a_fix_is_left_and_the_other_takes_its_rank() {
 
 /// What comes of frames of a u-blox receiver, so many a second for ten seconds, 10 deg added to its heading.
 fn of_ublox(frames: impl Fn(u32) -> Vec<u8>) -> Vec<Message> {
+    of_kind(Kind::Ubx, frames)
+}
+
+/// The same of any kind.
+fn of_kind(kind: Kind, frames: impl Fn(u32) -> Vec<u8>) -> Vec<Message> {
     let link = Link::Serial { byte_time: 10.0 / 115_200.0 };
     let sensor = SensorConfig {
         heading: true,
         heading_offset_deg: 10.0,
-        ..SensorConfig::new("bow", "bow", Kind::Ubx)
+        ..SensorConfig::new("bow", "bow", kind)
     };
     let ports = vec![PortSpec { name: "bow".to_owned(), link }];
     let sensors = vec![sensor];
@@ -233,5 +242,104 @@ fn a_receiver_that_is_told_to_be_a_compass_alone_gives_headings() {
     assert!((7..=9).contains(&headings.len()), "{headings:?}");
     for (heading, std) in headings {
         assert!((heading - 0.5 - 10_f64.to_radians()).abs() < 1e-6 && (std - 0.004).abs() < 1e-6);
+    }
+}
+
+/// A log of NovAtel at a second; GPS week 2421.
+fn oem(id: u16, second: u32, body: Body) -> Vec<u8> {
+    let milliseconds = (of_week(second) / 1_000_000) as i32;
+    let header =
+        Header { id, short: false, response: false, time_status: 180, week: 2421, milliseconds };
+    Log { header, body }.write()
+}
+
+fn best(kind: u32) -> BestPosition {
+    BestPosition {
+        status: 0,
+        kind,
+        latitude: 0.6,
+        longitude: 2.4,
+        height_msl: Some(4.0),
+        undulation: Some(36.0),
+        datum: 61,
+        std: [Some(0.5), Some(0.75), Some(1.5)],
+        base: [0; 4],
+        correction_age: None,
+        age: None,
+        tracked: 12,
+        satellites: 11,
+    }
+}
+
+#[test]
+fn a_novatel_receiver_gives_fixes_and_the_heading_of_its_antennas() {
+    let told = |second| {
+        let velocity = BestVelocity {
+            status: 0,
+            kind: 8,
+            latency: None,
+            correction_age: None,
+            ground_speed: Some(2.0),
+            course: Some(0.0),
+            climb: Some(0.5),
+        };
+        let line = AntennaHeading {
+            status: 0,
+            kind: 50,
+            length: Some(2.0),
+            heading: Some(0.25),
+            pitch: None,
+            heading_std: Some(0.002),
+            pitch_std: None,
+            rover: [0; 4],
+        };
+        let place = oem(42, second, Body::Position(best(16)));
+        let speed = oem(99, second, Body::Velocity(velocity));
+        [place, speed, oem(1335, second, Body::Heading(line))].concat()
+    };
+    let (mut fixes, mut headings) = (0, 0);
+    for message in of_kind(Kind::Novatel, told) {
+        match message {
+            Message::Gnss(fix) => {
+                assert_eq!(fix.velocity.unwrap().0.as_slice(), [2.0, 0.0, -0.5]);
+                assert_eq!(fix.position_std.unwrap().0.as_slice(), [0.5, 0.75, 1.5]);
+                assert!((fix.position.unwrap().height - 40.0).abs() < 1e-9);
+                fixes += 1;
+            }
+            Message::Reference(told) => {
+                let heading = told.heading.unwrap();
+                assert!((heading - 0.25 - 10_f64.to_radians()).abs() < 1e-6);
+                headings += 1;
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(fixes >= 8 && headings >= 8, "{fixes} {headings}");
+}
+
+#[test]
+fn an_inertial_place_of_a_novatel_receiver_is_not_used_and_its_heading_is_as_a_compass() {
+    let place = |second| oem(42, second, Body::Position(best(53)));
+    assert_eq!(of_kind(Kind::Novatel, place), []);
+    let ins = |second: u32| {
+        let told = InsPva {
+            week: 2421,
+            time_of_week: Some(of_week(second) as f64 * 1e-9),
+            latitude: 0.6,
+            longitude: 2.4,
+            height: Some(40.0),
+            velocity: [Some(0.0); 3],
+            roll: Some(0.0),
+            pitch: Some(0.0),
+            azimuth: Some(0.5),
+            status: if second < 5 { 1 } else { 3 },
+        };
+        oem(507, second, Body::Ins(told))
+    };
+    let headings = of_kind(Kind::NovatelIns, ins);
+    assert_eq!(headings.len(), 5, "only once it is aligned");
+    for message in headings {
+        let Message::Reference(told) = message else { panic!("{message:?}") };
+        assert!((told.heading.unwrap() - 0.5 - 10_f64.to_radians()).abs() < 1e-9);
     }
 }

@@ -1,6 +1,6 @@
 //! What a frame is called, for whoever looks at a port.
 
-use crate::gnss::{rtcm, sbf, ubx};
+use crate::gnss::{novatel, rtcm, sbf, ubx};
 use crate::imu::{kvh, mip, sbg, stdbin, stim, xbus};
 use crate::log::{pd0, pd6};
 use crate::nmea::others::{self, Understood};
@@ -47,6 +47,7 @@ pub fn describe(protocol: Protocol, frame: &[u8]) -> Described {
         Protocol::Stim => stim(frame),
         Protocol::Pd0 => plain("PD0", &pd0::Ensemble::read(frame)),
         Protocol::Pd6 => pd6(frame),
+        Protocol::Novatel => novatel(frame),
     }
 }
 
@@ -157,6 +158,16 @@ fn stim(frame: &[u8]) -> Described {
             described(format!("STIM {id:02X}"), Reading::Other)
         }
         Err(_) => described(format!("STIM {id:02X}"), Reading::Refused),
+    }
+}
+
+fn novatel(frame: &[u8]) -> Described {
+    match novatel::Log::read(frame) {
+        Ok(log) => match log.name() {
+            Some(name) => described(name, Reading::Used),
+            None => described(format!("NovAtel {}", log.header.id), Reading::Other),
+        },
+        Err(_) => described("NovAtel", Reading::Refused),
     }
 }
 

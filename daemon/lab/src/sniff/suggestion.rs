@@ -125,6 +125,11 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF 4007")
             .or_else(|| raw_only(port, Protocol::Sbf, "sbf", "SBF 4027"))
             .or_else(|| plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF ")),
+        plain_sensor(port, Protocol::Novatel, "novatel", "gnss", "BEST").map(|own| span(own, port)),
+        imu(port, Protocol::Novatel, "novatel_imu", |name| {
+            name.starts_with("RAWIMU") && name.ends_with('X')
+        }),
+        plain_sensor(port, Protocol::Novatel, "novatel_ins", "compass", "INSPVA"),
         plain_sensor(port, Protocol::Pd0, "pd0", "log", "").map(|log| mounted(log, port)),
         plain_sensor(port, Protocol::Pd6, "pd6", "log", "PD6 :B").map(|log| mounted(log, port)),
     ];
@@ -224,6 +229,20 @@ fn plain_sensor(
     let mut messages = used(port, protocol).filter(|message| message.name.starts_with(start));
     let rate = messages.next()?.rate_hz.map(round);
     Some(Sensor { kind, role, protocol: protocol.name(), rate, ..Sensor::default() })
+}
+
+/// A NovAtel receiver, by what else it sends.
+fn span(mut sensor: Sensor, port: &PortReport) -> Sensor {
+    let has =
+        |start: &str| used(port, Protocol::Novatel).any(|message| message.name.starts_with(start));
+    if has("HEADING2") || has("DUALANTENNA") {
+        sensor = sensor.key("heading = true".to_owned());
+        sensor = sensor.note("heading_offset_deg: how the line between its antennas lies");
+    }
+    if (has("INSPVA") || has("RAWIMU")) && !has("BESTGNSS") {
+        sensor = sensor.note("of a SPAN system BESTPOS is its own inertial place: let it send BESTGNSSPOS and BESTGNSSVEL");
+    }
+    sensor
 }
 
 /// A u-blox receiver: by its fixes, else by what it measured, else as a compass.

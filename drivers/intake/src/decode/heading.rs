@@ -1,6 +1,7 @@
 //! Headings from compasses and other attitude sensors.
 
 use insd_base::units::wrap_two_pi;
+use insd_wire::gnss::novatel as oem;
 use insd_wire::nmea::{HeadingMode, Pashr, PashrStatus, Psxn, PsxnQuality, Sentence};
 
 use super::Reading;
@@ -74,6 +75,13 @@ impl HeadingState {
             _ => None,
         }
     }
+}
+
+/// The heading of a SPAN system.
+pub(super) fn novatel(bytes: &[u8], config: &SensorConfig) -> Result<Vec<Reading>, Refusal> {
+    let log = oem::Log::read(bytes).map_err(|_| Refusal::Malformed)?;
+    let Some((heading, std)) = log.attitude() else { return Ok(vec![Reading::Idle]) };
+    finished(HeadingReading { std, ..told(heading, North::True, true) }, config)
 }
 
 /// A heading with the sensor's offset, if it is one that may be used.

@@ -102,11 +102,19 @@ impl Decoder {
     /// Why the frame is refused.
     pub fn read(&mut self, bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {
         match self.config.kind {
-            Kind::Sbg | Kind::Stdbin | Kind::Mip | Kind::Xbus | Kind::Kvh | Kind::Stim => {
+            Kind::Sbg
+            | Kind::Stdbin
+            | Kind::Mip
+            | Kind::Xbus
+            | Kind::Kvh
+            | Kind::Stim
+            | Kind::NovatelImu => {
                 self.imu.read(self.config.kind, bytes).map(|reading| vec![reading])
             }
             Kind::Ubx => gnss::ubx(bytes, self.config.raw),
             Kind::Sbf => gnss::sbf(bytes, self.config.raw),
+            Kind::Novatel => gnss::novatel(bytes),
+            Kind::NovatelIns => heading::novatel(bytes, &self.config),
             Kind::Rtcm => Ok(gnss::rtcm(bytes)),
             Kind::RtcmBase => Ok(vec![Reading::Base(bytes.to_vec())]),
             Kind::Pd0 => self.log.pd0(bytes),

@@ -38,6 +38,9 @@ impl Encoding {
             Kind::Psxn => Encoding::Psxn,
             Kind::Pashr => Encoding::Pashr,
             Kind::Rtcm
+            | Kind::Novatel
+            | Kind::NovatelImu
+            | Kind::NovatelIns
             | Kind::RtcmBase
             | Kind::NmeaPosition
             | Kind::Manual

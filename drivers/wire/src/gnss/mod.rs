@@ -5,6 +5,7 @@
 //! [`GnssPart::epoch`] which belong to each other.
 
 pub mod navigation;
+pub mod novatel;
 pub mod rtcm;
 pub mod sbf;
 pub mod ubx;

@@ -1,7 +1,7 @@
 //! The protocols that a port can speak.
 
 use super::Look;
-use crate::gnss::{rtcm, sbf, ubx};
+use crate::gnss::{novatel, rtcm, sbf, ubx};
 use crate::imu::{kvh, mip, sbg, stdbin, stim, xbus};
 use crate::log::{pd0, pd6};
 use crate::nmea;
@@ -33,11 +33,13 @@ pub enum Protocol {
     Pd0,
     /// Text lines of Teledyne RDI.
     Pd6,
+    /// Binary logs of NovAtel receivers.
+    Novatel,
 }
 
 impl Protocol {
     /// All of them, in the order in which they are asked.
-    pub const ALL: [Protocol; 12] = [
+    pub const ALL: [Protocol; 13] = [
         Protocol::Nmea,
         Protocol::Ubx,
         Protocol::Sbf,
@@ -50,6 +52,7 @@ impl Protocol {
         Protocol::Stim,
         Protocol::Pd0,
         Protocol::Pd6,
+        Protocol::Novatel,
     ];
 
     /// Its short name, as in configurations and tables.
@@ -68,6 +71,7 @@ impl Protocol {
             Protocol::Stim => "stim",
             Protocol::Pd0 => "pd0",
             Protocol::Pd6 => "pd6",
+            Protocol::Novatel => "novatel",
         }
     }
 
@@ -87,6 +91,7 @@ impl Protocol {
             Protocol::Stim => stim::look(bytes),
             Protocol::Pd0 => pd0::look(bytes),
             Protocol::Pd6 => pd6::look(bytes),
+            Protocol::Novatel => novatel::look(bytes),
         }
     }
 

@@ -6,7 +6,9 @@ use std::hint::black_box;
 use insd_base::satellites::SatelliteEpoch;
 use insd_base::{GpsTime, LogReference};
 use insd_wire::gnss::navigation::NavigationAssembler;
-use insd_wire::gnss::{GnssPart, Locks, NavigationWords, nmea as gnss_nmea, rtcm, sbf, ubx};
+use insd_wire::gnss::{
+    GnssPart, Locks, NavigationWords, nmea as gnss_nmea, novatel, rtcm, sbf, ubx,
+};
 use insd_wire::imu::kvh::{KvhFormat, KvhLinear, KvhMessage, KvhRotation, KvhTemperature};
 use insd_wire::imu::stim::{StimConfiguration, StimDatagram, StimFormat, StimKind, StimRange};
 use insd_wire::imu::{ImuReading, mip, sbg, stdbin, xbus};
@@ -32,6 +34,7 @@ pub(crate) fn look(protocol: Protocol, frame: &[u8]) {
         Protocol::Stim => stim(frame),
         Protocol::Pd0 => pd0(frame),
         Protocol::Pd6 => pd6(frame),
+        Protocol::Novatel => novatel(frame),
     }
 }
 
@@ -315,6 +318,15 @@ fn pd0(frame: &[u8]) {
         let finite = janus.is_none_or(|own| is_finite([Some(own.x), Some(own.z), own.error]));
         assert!(finite, "{janus:?}");
     }
+}
+
+fn novatel(frame: &[u8]) {
+    use novatel::Log;
+    let Some(log) = again(frame, Everything, Log::read, Log::write) else { return };
+    log.part().iter().for_each(is_sane_part);
+    log.imu().iter().for_each(is_sane_sample);
+    let told = log.attitude();
+    assert!(told.is_none_or(|(heading, std)| is_finite([heading, std])), "{log:?}");
 }
 
 fn pd6(frame: &[u8]) {

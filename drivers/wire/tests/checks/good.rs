@@ -4,7 +4,7 @@
 //! Where the library makes the frame of any payload its own function is used. The others are made here,
 //! with sums of their own, from the layouts that the modules of the formats describe.
 
-use insd_wire::gnss::{rtcm, sbf, ubx};
+use insd_wire::gnss::{novatel, rtcm, sbf, ubx};
 use insd_wire::nmea::{Sentence, checksum};
 use insd_wire::stream::{Look, Protocol};
 
@@ -24,6 +24,7 @@ pub(crate) fn frames(protocol: Protocol, bytes: &[u8]) -> Vec<Vec<u8>> {
         Protocol::Stim => vec![stim_frame(*choice, rest)],
         Protocol::Pd0 => vec![pd0_frame(*choice, rest)],
         Protocol::Pd6 => vec![pd6_line(*choice, rest)],
+        Protocol::Novatel => vec![novatel_frame(*choice, rest)],
     }
 }
 
@@ -223,6 +224,24 @@ fn pd0_frame(choice: u8, mut bytes: &[u8]) -> Vec<u8> {
     let summed = [&[0x7F, 0x7F][..], &length, &[0, 3], &offsets, &types, &[0; 2]].concat();
     let sum = summed.iter().fold(0_u16, |sum, byte| sum.wrapping_add(u16::from(*byte)));
     [&summed[..], &sum.to_le_bytes()].concat()
+}
+
+/// Numbers of the logs that are read, and of one that is not.
+const NOVATEL: [u16; 15] =
+    [42, 1429, 99, 1430, 1335, 2042, 507, 508, 1465, 268, 325, 1461, 1462, 101, 43];
+
+/// The time of the header comes first, then what it carries.
+fn novatel_frame(choice: u8, bytes: &[u8]) -> Vec<u8> {
+    let time = filled(&bytes[..bytes.len().min(7)], 7);
+    let header = novatel::Header {
+        id: chosen(&NOVATEL, choice),
+        short: choice & 0x40 != 0,
+        response: choice & 0x80 != 0,
+        time_status: if choice & 0x40 != 0 { 0 } else { time[0] },
+        week: u16::from_le_bytes([time[1], time[2]]),
+        milliseconds: i32::from_le_bytes([time[3], time[4], time[5], time[6]]),
+    };
+    header.write(&filled(&bytes[bytes.len().min(7)..], bytes.len().max(133)))
 }
 
 /// Names of the lines that are read, and of one that is not.
