@@ -35,7 +35,8 @@ UBX = {
 }
 SBF = {
     4007: "PVTGeodetic", 5906: "PosCovGeodetic", 5908: "VelCovGeodetic", 5938: "AttEuler",
-    5939: "AttCovEuler", 5914: "ReceiverTime", 5911: "xPPSOffset",
+    5939: "AttCovEuler", 5914: "ReceiverTime", 5911: "xPPSOffset", 4006: "PVTCartesian",
+    4028: "BaseVectorGeod",
 }
 
 
@@ -214,6 +215,26 @@ def sbf_fields(name, m):
             "MeanCorrAge": maybe(m.MeanCorrAge, (655.35,)), "SignalInfo": m.SignalInfo,
             "NrBases": m.NrBases, "Latency": maybe(m.Latency, (6.5535,)),
             "HAccuracy": maybe(m.HAccuracy, (655.35,)), "VAccuracy": maybe(m.VAccuracy, (655.35,))}
+    if name == "PVTCartesian":
+        place, speed = [get("X"), get("Y"), get("Z")], [get("Vx"), get("Vy"), get("Vz")]
+        place, speed = ([None] * 3 if None in own else own for own in (place, speed))
+        ours = head | mode() | dict(zip(("X", "Y", "Z"), place)) | dict(zip(("Vx", "Vy", "Vz"), speed))
+        return ours | {
+            "Undulation": get("Undulation"), "NrSV": byte("NrSV"), "NrBases": m.NrBases,
+            "Latency": maybe(m.Latency, (6.5535,)), "HAccuracy": maybe(m.HAccuracy, (655.35,)),
+            "VAccuracy": maybe(m.VAccuracy, (655.35,))}
+    if name == "BaseVectorGeod":
+        rows = []
+        for i in range(1, m.N + 1):
+            one = lambda key: getattr(m, f"{key}_{i:02d}")
+            real = lambda key, factor=1.0: number(one(key), factor)
+            rows.append({"NrSV": one("NrSV"), "Error": one("Error"), "Mode": one("Type")} | {
+                "DeltaNorth": real("DeltaNorth"), "DeltaEast": real("DeltaEast"),
+                "DeltaDown": real("DeltaUp", -1.0), "DeltaVn": real("DeltaVn"), "DeltaVe": real("DeltaVe"),
+                "DeltaVd": real("DeltaVu", -1.0), "Azimuth": round(one("Azimuth") * 100),
+                "Elevation": round(one("Elevation") * 100), "ReferenceID": one("ReferenceID"),
+                "CorrAge": maybe(one("CorrAge"), (655.35,)), "SignalInfo": one("SignalInfo")})
+        return head | {"vectors": rows}
     if name in ("PosCovGeodetic", "VelCovGeodetic"):
         a, b, c, d = ("latlat", "lonlon", "hgthgt", "bb") if name[0] == "P" else ("VnVn", "VeVe", "VuVu", "DtDt")
         rest = ("latlon", "lathgt", "latb", "lonhgt", "lonb", "hb") if name[0] == "P" else (
@@ -318,6 +339,14 @@ def random_sbf(rng, name):
         place = rng.choice((place, (-2e10,) * 3))
         return head + rng.randbytes(2) + struct.pack("<ddd", *place) + reals(5) + struct.pack(
             "<d", real()) + reals(1) + rng.randbytes(27)
+    if name == "PVTCartesian":
+        real8 = lambda: struct.pack("<d", real())
+        return head + rng.randbytes(2) + real8() + real8() + real8() + reals(5) + real8() + reals(1) + (
+            rng.randbytes(27))
+    if name == "BaseVectorGeod":
+        count = rng.randrange(4)
+        vector = lambda: rng.randbytes(4) + struct.pack("<ddd", real(), real(), real()) + reals(3) + rng.randbytes(12)
+        return head + bytes((count, 52)) + b"".join(vector() for _ in range(count))
     lengths = {"PosCovGeodetic": 10, "VelCovGeodetic": 10, "AttEuler": 6, "AttCovEuler": 6}
     if name in lengths:
         return head + rng.randbytes(6 if name == "AttEuler" else 2) + reals(lengths[name])

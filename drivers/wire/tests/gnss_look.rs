@@ -49,7 +49,7 @@ const UBX: [(u8, u8); 16] = [
 ];
 
 /// The blocks that we read.
-const SBF: [u16; 8] = [4007, 5906, 5908, 5938, 5939, 5914, 5911, 4027];
+const SBF: [u16; 10] = [4006, 4028, 4007, 5906, 5908, 5938, 5939, 5914, 5911, 4027];
 
 /// One frame of any protocol with a good checksum.
 fn frame() -> impl Strategy<Value = Vec<u8>> {

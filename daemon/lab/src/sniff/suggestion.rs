@@ -123,6 +123,7 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         }),
         ublox(port),
         plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF 4007")
+            .or_else(|| plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF 4006"))
             .or_else(|| raw_only(port, Protocol::Sbf, "sbf", "SBF 4027"))
             .or_else(|| plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF ")),
         plain_sensor(port, Protocol::Novatel, "novatel", "gnss", "BEST").map(|own| span(own, port)),

@@ -152,6 +152,8 @@ fn sbf(frame: &[u8]) {
     let read = Message::read;
     let write = |message: &Message| match message {
         Message::PvtGeodetic(block) => block.write(),
+        Message::PvtCartesian(block) => block.write(),
+        Message::BaseVectorGeod(block) => block.write(),
         Message::PosCovGeodetic(block) => block.write(),
         Message::VelCovGeodetic(block) => block.write(),
         Message::AttEuler(block) => block.write(),

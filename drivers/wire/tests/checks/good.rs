@@ -78,8 +78,9 @@ fn ubx_frame(choice: u8, payload: &[u8]) -> Vec<u8> {
 }
 
 /// Numbers of the blocks that are read, and of two that are not.
-const SBF: [u16; 16] = [
+const SBF: [u16; 18] = [
     4007, 5906, 5908, 5938, 5939, 5914, 5911, 4027, 4017, 4022, 4023, 4026, 4047, 4066, 4000, 4018,
+    4006, 4028,
 ];
 
 fn sbf_frame(choice: u8, payload: &[u8]) -> Vec<u8> {
