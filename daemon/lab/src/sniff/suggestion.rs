@@ -149,6 +149,13 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         }));
     sensors.extend(compasses(port));
     sensors.extend(own(port, "psxn", "psxn", "PSXN"));
+    sensors.extend(own(port, "psat", "psat", "PSAT"));
+    sensors.extend(own(port, "pfec", "pfec", "PFEC"));
+    sensors.extend(
+        own(port, "ptnl", "ptnl", "PTNL").map(|sensor| {
+            sensor.note("heading_offset_deg: how the line between its antennas lies")
+        }),
+    );
     sensors.extend(
         own(port, "rls", "rls", "RLS")
             .map(|sensor| sensor.note("its axes must be told in [[ranging]] (docs/berthing.md)")),

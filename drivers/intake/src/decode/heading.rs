@@ -2,7 +2,7 @@
 
 use insd_base::units::wrap_two_pi;
 use insd_wire::gnss::novatel as oem;
-use insd_wire::nmea::{HeadingMode, Pashr, PashrStatus, Psxn, PsxnQuality, Sentence};
+use insd_wire::nmea::{HeadingMode, Pashr, PashrStatus, PsatSource, Psxn, PsxnQuality, Sentence};
 
 use super::Reading;
 use crate::config::SensorConfig;
@@ -58,6 +58,12 @@ impl HeadingState {
             Sentence::Hdm(hdm) => Some(told(hdm.heading, North::Magnetic, true)),
             Sentence::Psxn(psxn) => self.psxn(psxn),
             Sentence::Pashr(pashr) => Some(of_pashr(pashr, config)),
+            // a gyro that holds on while satellites are hidden is no measurement
+            Sentence::PsatHpr(hpr) => {
+                Some(told(hpr.heading, North::True, hpr.source == PsatSource::Satellites))
+            }
+            Sentence::PtnlAvr(avr) => Some(told(avr.heading(), North::True, true)),
+            Sentence::PfecAttitude(attitude) => Some(told(attitude.heading, North::True, true)),
             _ => None,
         };
         reading.map_or_else(|| Ok(vec![Reading::Idle]), |reading| finished(reading, config))

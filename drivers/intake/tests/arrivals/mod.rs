@@ -29,7 +29,7 @@ use insd_intake::{Intake, Intaken};
 use insd_wire::stream::Protocol;
 
 /// All kinds of sensors.
-const KINDS: [Kind; 22] = [
+const KINDS: [Kind; 25] = [
     Kind::Sbg,
     Kind::Stdbin,
     Kind::Mip,
@@ -52,6 +52,9 @@ const KINDS: [Kind; 22] = [
     Kind::Novatel,
     Kind::NovatelImu,
     Kind::NovatelIns,
+    Kind::Psat,
+    Kind::Ptnl,
+    Kind::Pfec,
 ];
 
 const DIALECTS: [Dialect; 6] = [

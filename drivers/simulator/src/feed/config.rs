@@ -41,6 +41,9 @@ impl Encoding {
             | Kind::Novatel
             | Kind::NovatelImu
             | Kind::NovatelIns
+            | Kind::Psat
+            | Kind::Ptnl
+            | Kind::Pfec
             | Kind::RtcmBase
             | Kind::NmeaPosition
             | Kind::Manual
