@@ -50,6 +50,10 @@ pub enum Kind {
     Psxn,
     /// Heading from PASHR in a stated dialect.
     Pashr,
+    /// Heading of a motion sensor that sends KM binary; its roll and pitch are shown.
+    Kmb,
+    /// Heading of a motion sensor that sends EM3000; its roll and pitch are shown.
+    Em3000,
     /// A Hemisphere satellite compass: PSAT,HPR.
     Psat,
     /// Two antennas of a Trimble receiver: PTNL,AVR.
@@ -116,6 +120,8 @@ impl Kind {
             Kind::Compass
             | Kind::Psxn
             | Kind::Pashr
+            | Kind::Kmb
+            | Kind::Em3000
             | Kind::Psat
             | Kind::Ptnl
             | Kind::Pfec
@@ -140,6 +146,8 @@ impl Kind {
             Kind::Ubx => Protocol::Ubx,
             Kind::Sbf => Protocol::Sbf,
             Kind::Novatel | Kind::NovatelImu | Kind::NovatelIns => Protocol::Novatel,
+            Kind::Kmb => Protocol::Kmb,
+            Kind::Em3000 => Protocol::Em3000,
             Kind::Rtcm | Kind::RtcmBase => Protocol::Rtcm,
             Kind::Pd0 => Protocol::Pd0,
             Kind::Pd6 => Protocol::Pd6,

@@ -343,29 +343,3 @@ fn an_inertial_place_of_a_novatel_receiver_is_not_used_and_its_heading_is_as_a_c
         assert!((told.heading.unwrap() - 0.5 - 10_f64.to_radians()).abs() < 1e-9);
     }
 }
-
-#[test]
-fn satellite_compasses_by_their_makers_sentences_give_headings_while_they_measure() {
-    let of = |kind, good: &'static str, bad: &'static str| {
-        let told =
-            of_kind(kind, |second| sentence(if second < 6 { good } else { bad }).into_bytes());
-        let headings = told.iter().map(|message| match message {
-            Message::Reference(told) => told.heading.unwrap().to_degrees(),
-            other => panic!("{other:?}"),
-        });
-        headings.collect::<Vec<f64>>()
-    };
-    let hpr = ("PSAT,HPR,235410.50,89.58,3.35,,N", "PSAT,HPR,235410.50,89.58,3.35,,G");
-    let avr = (
-        "PTNL,AVR,212405.20,+52.1531,Yaw,-0.0806,Tilt,,,12.575,3,1.4,16",
-        "PTNL,AVR,212405.20,+52.1531,Yaw,-0.0806,Tilt,,,12.575,2,1.4,16",
-    );
-    let pfec = ("PFEC,GPatt,294.7,-02.5,+00.4", "PFEC,GPatt,,,");
-    for (kind, (good, bad), heading) in
-        [(Kind::Psat, hpr, 99.58), (Kind::Ptnl, avr, 62.1531), (Kind::Pfec, pfec, 304.7)]
-    {
-        let headings = of(kind, good, bad);
-        assert_eq!(headings.len(), 6, "{kind:?}");
-        assert!(headings.iter().all(|own| (own - heading).abs() < 1e-9), "{kind:?}: {headings:?}");
-    }
-}

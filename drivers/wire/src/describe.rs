@@ -3,6 +3,7 @@
 use crate::gnss::{novatel, rtcm, sbf, ubx};
 use crate::imu::{kvh, mip, sbg, stdbin, stim, xbus};
 use crate::log::{pd0, pd6};
+use crate::motion::{em, kmb};
 use crate::nmea::others::{self, Understood};
 use crate::stream::Protocol;
 
@@ -48,6 +49,8 @@ pub fn describe(protocol: Protocol, frame: &[u8]) -> Described {
         Protocol::Pd0 => plain("PD0", &pd0::Ensemble::read(frame)),
         Protocol::Pd6 => pd6(frame),
         Protocol::Novatel => novatel(frame),
+        Protocol::Kmb => plain("KMB", &kmb::Kmb::read(frame)),
+        Protocol::Em3000 => plain("EM3000", &em::EmAttitude::read(frame)),
     }
 }
 

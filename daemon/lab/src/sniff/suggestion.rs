@@ -131,6 +131,8 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
             name.starts_with("RAWIMU") && name.ends_with('X')
         }),
         plain_sensor(port, Protocol::Novatel, "novatel_ins", "compass", "INSPVA"),
+        plain_sensor(port, Protocol::Kmb, "kmb", "motion", ""),
+        plain_sensor(port, Protocol::Em3000, "em3000", "motion", ""),
         plain_sensor(port, Protocol::Pd0, "pd0", "log", "").map(|log| mounted(log, port)),
         plain_sensor(port, Protocol::Pd6, "pd6", "log", "PD6 :B").map(|log| mounted(log, port)),
     ];

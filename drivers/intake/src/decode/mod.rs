@@ -115,6 +115,8 @@ impl Decoder {
             Kind::Sbf => gnss::sbf(bytes, self.config.raw),
             Kind::Novatel => gnss::novatel(bytes),
             Kind::NovatelIns => heading::novatel(bytes, &self.config),
+            Kind::Kmb => heading::kmb(bytes, &self.config),
+            Kind::Em3000 => heading::em(bytes, &self.config),
             Kind::Rtcm => Ok(gnss::rtcm(bytes)),
             Kind::RtcmBase => Ok(vec![Reading::Base(bytes.to_vec())]),
             Kind::Pd0 => self.log.pd0(bytes),

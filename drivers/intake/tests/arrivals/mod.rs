@@ -5,7 +5,7 @@
 //! three bytes and what the third says:
 //!
 //! ```text
-//! 1   modulo 18: 0 to 11 and 17 contents of a good frame of a protocol, 12 raw bytes, 13 a pulse,
+//! 1   modulo 20: 0 to 11 and 17 to 19 contents of a good frame of a protocol, 12 raw bytes, 13 a pulse,
 //!     14 the port is lost, 15 the system clock is set, 16 bytes at a port that is not there
 //! 2   time since the arrival before: 0 to 63 ms, tens of ms, s, or a power of two of seconds
 //! 3   bytes of the contents
@@ -29,7 +29,7 @@ use insd_intake::{Intake, Intaken};
 use insd_wire::stream::Protocol;
 
 /// All kinds of sensors.
-const KINDS: [Kind; 25] = [
+const KINDS: [Kind; 27] = [
     Kind::Sbg,
     Kind::Stdbin,
     Kind::Mip,
@@ -55,6 +55,8 @@ const KINDS: [Kind; 25] = [
     Kind::Psat,
     Kind::Ptnl,
     Kind::Pfec,
+    Kind::Kmb,
+    Kind::Em3000,
 ];
 
 const DIALECTS: [Dialect; 6] = [
@@ -67,7 +69,7 @@ const DIALECTS: [Dialect; 6] = [
 ];
 
 /// What an arrival may be.
-const KINDS_OF_ARRIVALS: u8 = 18;
+const KINDS_OF_ARRIVALS: u8 = 20;
 
 /// The ship's time ends here, s: a century is far beyond any voyage.
 const END: f64 = 3.2e9;
@@ -141,7 +143,8 @@ fn arrive(intake: &mut Intake, what: u8, stamp: &mut Stamp, own: &[u8]) {
         }
         number => {
             let number = usize::from(number);
-            let protocol = Protocol::ALL[if number < 12 { number } else { number - 5 }];
+            let number = if number < 12 { number } else { number - 5 };
+            let protocol = Protocol::ALL.get(number).copied().unwrap_or(Protocol::Em3000);
             Input::Bytes(good::frames(protocol, own).concat())
         }
     };

@@ -41,6 +41,8 @@ impl Encoding {
             | Kind::Novatel
             | Kind::NovatelImu
             | Kind::NovatelIns
+            | Kind::Kmb
+            | Kind::Em3000
             | Kind::Psat
             | Kind::Ptnl
             | Kind::Pfec

@@ -13,6 +13,8 @@ use insd_wire::imu::kvh::{KvhFormat, KvhLinear, KvhMessage, KvhRotation, KvhTemp
 use insd_wire::imu::stim::{StimConfiguration, StimDatagram, StimFormat, StimKind, StimRange};
 use insd_wire::imu::{ImuReading, mip, sbg, stdbin, xbus};
 use insd_wire::log::{LogReading, pd0, pd6};
+use insd_wire::motion::em::EmAttitude;
+use insd_wire::motion::kmb::Kmb;
 use insd_wire::nmea::{ChecksumPolicy, Frame, PashrDialect, Sentence, TagBlock, Talker};
 use insd_wire::stream::Protocol;
 
@@ -35,6 +37,8 @@ pub(crate) fn look(protocol: Protocol, frame: &[u8]) {
         Protocol::Pd0 => pd0(frame),
         Protocol::Pd6 => pd6(frame),
         Protocol::Novatel => novatel(frame),
+        Protocol::Kmb => kmb(frame),
+        Protocol::Em3000 => em(frame),
     }
 }
 
@@ -320,6 +324,22 @@ fn pd0(frame: &[u8]) {
         let finite = janus.is_none_or(|own| is_finite([Some(own.x), Some(own.z), own.error]));
         assert!(finite, "{janus:?}");
     }
+}
+
+fn kmb(frame: &[u8]) {
+    let Ok(told) = Kmb::read(frame) else { return };
+    let heading = told.heading.map(|heading| heading.value);
+    let numbers = told.rates.map(Some).into_iter().chain([heading, told.sigma.heading]);
+    assert!(is_finite(numbers), "{told:?}");
+    if let Some(written) = told.write() {
+        make(Kmb::read(&written));
+    }
+}
+
+fn em(frame: &[u8]) {
+    let read = |bytes: &[u8]| EmAttitude::read(bytes);
+    let Some(told) = again(frame, AfterOnce, read, |told| told.write().to_vec()) else { return };
+    assert!(is_finite([told.roll, told.pitch, told.heave, told.heading]), "{told:?}");
 }
 
 fn novatel(frame: &[u8]) {

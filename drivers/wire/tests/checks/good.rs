@@ -25,6 +25,8 @@ pub(crate) fn frames(protocol: Protocol, bytes: &[u8]) -> Vec<Vec<u8>> {
         Protocol::Pd0 => vec![pd0_frame(*choice, rest)],
         Protocol::Pd6 => vec![pd6_line(*choice, rest)],
         Protocol::Novatel => vec![novatel_frame(*choice, rest)],
+        Protocol::Kmb => vec![kmb_frame(bytes)],
+        Protocol::Em3000 => vec![em_frame(*choice, rest)],
     }
 }
 
@@ -243,6 +245,20 @@ fn novatel_frame(choice: u8, bytes: &[u8]) -> Vec<u8> {
         milliseconds: i32::from_le_bytes([time[3], time[4], time[5], time[6]]),
     };
     header.write(&filled(&bytes[bytes.len().min(7)..], bytes.len().max(133)))
+}
+
+/// KM binary with a fraction below a second, or most would be refused for it.
+fn kmb_frame(bytes: &[u8]) -> Vec<u8> {
+    let mut body = filled(&bytes[..bytes.len().min(124)], 124);
+    body[7] &= 0x1F;
+    [&b"#KMB\x84\x00\x01\x00"[..], &body].concat()
+}
+
+/// EM3000 of which heave is in its range, or most would be none.
+fn em_frame(choice: u8, bytes: &[u8]) -> Vec<u8> {
+    let mut body = filled(&bytes[..bytes.len().min(8)], 8);
+    body[5] &= 1;
+    [&[0x90 | choice & 0x0F, 0x90][..], &body].concat()
 }
 
 /// Names of the lines that are read, and of one that is not.
