@@ -3,15 +3,14 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
 
 use insd_base::{
-    Arrival, Body as ShipAxes, FixQuality, GnssFix, Input, Message, PortId, Source, Stamp, Time,
-    UtcTime,
+    Arrival, Body, FixQuality, GnssFix, Input, Message, PortId, Source, Stamp, Time, UtcTime,
 };
 use insd_intake::config::{IntakeConfig, Kind, PortSpec, SensorConfig};
 use insd_intake::event::Refusal;
 use insd_intake::port::Link;
 use insd_intake::{Intake, Intaken};
 use insd_wire::gnss::novatel::{
-    AntennaHeading, BestPosition, BestVelocity, Body, Header, InsPva, Log,
+    AntennaHeading, BestPosition, BestVelocity, Header, InsPva, OemBody, OemLog,
 };
 use insd_wire::gnss::ubx::{
     Carrier, FixType, NavPosLlh, NavRelPosNed, NavSol, NavTimeUtc, NavVelNed,
@@ -64,7 +63,7 @@ fn ranks(quality: impl Fn(usize, i64) -> u8) -> (Vec<(i64, u8, u8)>, Intake) {
                         (received.message, received.source)
                 {
                     let bow = if number == 0 { 5.0 } else { -15.0 };
-                    assert_eq!(fix.lever, Some(ShipAxes::new(bow, 1.0, -9.0)), "its own");
+                    assert_eq!(fix.lever, Some(Body::new(bow, 1.0, -9.0)), "its own");
                     ranks.push((second, number, fix.rank));
                 }
             }
@@ -246,11 +245,11 @@ fn a_receiver_that_is_told_to_be_a_compass_alone_gives_headings() {
 }
 
 /// A log of NovAtel at a second; GPS week 2421.
-fn oem(id: u16, second: u32, body: Body) -> Vec<u8> {
+fn oem(id: u16, second: u32, body: OemBody) -> Vec<u8> {
     let milliseconds = (of_week(second) / 1_000_000) as i32;
     let header =
         Header { id, short: false, response: false, time_status: 180, week: 2421, milliseconds };
-    Log { header, body }.write()
+    OemLog { header, body }.write()
 }
 
 fn best(kind: u32) -> BestPosition {
@@ -293,9 +292,9 @@ fn a_novatel_receiver_gives_fixes_and_the_heading_of_its_antennas() {
             pitch_std: None,
             rover: [0; 4],
         };
-        let place = oem(42, second, Body::Position(best(16)));
-        let speed = oem(99, second, Body::Velocity(velocity));
-        [place, speed, oem(1335, second, Body::Heading(line))].concat()
+        let place = oem(42, second, OemBody::Position(best(16)));
+        let speed = oem(99, second, OemBody::Velocity(velocity));
+        [place, speed, oem(1335, second, OemBody::Heading(line))].concat()
     };
     let (mut fixes, mut headings) = (0, 0);
     for message in of_kind(Kind::Novatel, told) {
@@ -319,7 +318,7 @@ fn a_novatel_receiver_gives_fixes_and_the_heading_of_its_antennas() {
 
 #[test]
 fn an_inertial_place_of_a_novatel_receiver_is_not_used_and_its_heading_is_as_a_compass() {
-    let place = |second| oem(42, second, Body::Position(best(53)));
+    let place = |second| oem(42, second, OemBody::Position(best(53)));
     assert_eq!(of_kind(Kind::Novatel, place), []);
     let ins = |second: u32| {
         let told = InsPva {
@@ -334,7 +333,7 @@ fn an_inertial_place_of_a_novatel_receiver_is_not_used_and_its_heading_is_as_a_c
             azimuth: Some(0.5),
             status: if second < 5 { 1 } else { 3 },
         };
-        oem(507, second, Body::Ins(told))
+        oem(507, second, OemBody::Ins(told))
     };
     let headings = of_kind(Kind::NovatelIns, ins);
     assert_eq!(headings.len(), 5, "only once it is aligned");

@@ -165,7 +165,7 @@ fn stim(frame: &[u8]) -> Described {
 }
 
 fn novatel(frame: &[u8]) -> Described {
-    match novatel::Log::read(frame) {
+    match novatel::OemLog::read(frame) {
         Ok(log) => match log.name() {
             Some(name) => described(name, Reading::Used),
             None => described(format!("NovAtel {}", log.header.id), Reading::Other),

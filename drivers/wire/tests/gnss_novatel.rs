@@ -5,7 +5,8 @@
 use insd_base::units::DEG;
 use insd_base::{FixQuality, GpsTime};
 use insd_wire::gnss::novatel::{
-    AntennaHeading, BestPosition, BestVelocity, Body, Header, ImuScale, InsPva, Log, ReceiverClock,
+    AntennaHeading, BestPosition, BestVelocity, Header, ImuScale, InsPva, OemBody, OemLog,
+    ReceiverClock,
 };
 use insd_wire::gnss::{EpochTime, GnssPart};
 use insd_wire::imu::Motion;
@@ -35,21 +36,21 @@ fn header(id: u16) -> Header {
 }
 
 /// What a log says of its epoch once it was written and read.
-fn part(id: u16, body: Body) -> Option<GnssPart> {
-    let log = Log { header: header(id), body };
-    let read = Log::read(&log.write()).unwrap();
+fn part(id: u16, body: OemBody) -> Option<GnssPart> {
+    let log = OemLog { header: header(id), body };
+    let read = OemLog::read(&log.write()).unwrap();
     assert_eq!(read.header, log.header);
     read.part()
 }
 
 fn best(kind: u32) -> BestPosition {
-    let Body::Position(published) = Log::read(&hex(BESTPOS)).unwrap().body else { panic!() };
+    let OemBody::Position(published) = OemLog::read(&hex(BESTPOS)).unwrap().body else { panic!() };
     BestPosition { kind, ..published }
 }
 
 #[test]
 fn a_published_bestpos_says_where_the_receiver_is() {
-    let log = Log::read(&hex(BESTPOS)).unwrap();
+    let log = OemLog::read(&hex(BESTPOS)).unwrap();
     assert_eq!(log.name(), Some("BESTPOS"));
     let part = log.part().unwrap();
     assert_eq!(part.epoch, Some(EpochTime::Gps(GpsTime::from_week(1964, 141_367_000_000_000))));
@@ -65,7 +66,7 @@ fn a_published_bestpos_says_where_the_receiver_is() {
 
 #[test]
 fn a_published_sample_senses_gravity_against_the_axis_that_points_down() {
-    let log = Log::read(&hex(RAWIMUSX)).unwrap();
+    let log = OemLog::read(&hex(RAWIMUSX)).unwrap();
     assert!(log.header.short && log.name() == Some("RAWIMUSX"));
     let sample = log.imu().unwrap();
     let Motion::Increments { delta_velocity, delta_theta } = sample.motion else { panic!() };
@@ -80,13 +81,14 @@ fn a_published_sample_senses_gravity_against_the_axis_that_points_down() {
 
 #[test]
 fn a_system_that_is_not_aligned_tells_no_heading() {
-    let log = Log::read(&hex(INSPVAS)).unwrap();
+    let log = OemLog::read(&hex(INSPVAS)).unwrap();
     assert_eq!(log.attitude(), Some((None, None)));
-    let Body::Ins(told) = log.body else { panic!() };
+    let OemBody::Ins(told) = log.body else { panic!() };
     assert_eq!((told.week, told.status), (2174, 10));
     assert!((told.pitch.unwrap() - 0.536_322_201_978_612 * DEG).abs() < 1e-15);
     let aligned = InsPva { status: 3, azimuth: Some(-0.5), ..told };
-    let read = Log::read(&Log { header: header(507), body: Body::Ins(aligned) }.write()).unwrap();
+    let read =
+        OemLog::read(&OemLog { header: header(507), body: OemBody::Ins(aligned) }.write()).unwrap();
     let (heading, std) = read.attitude().unwrap();
     assert!((heading.unwrap() - (std::f64::consts::TAU - 0.5)).abs() < 1e-12 && std.is_none());
     assert_eq!(read.part(), None, "a place by an inertial system is none by satellites");
@@ -95,10 +97,10 @@ fn a_system_that_is_not_aligned_tells_no_heading() {
 #[test]
 fn published_frames_are_written_as_they_came_but_for_what_is_not_kept() {
     for text in [RAWIMUSX, INSPVAS] {
-        assert_eq!(Log::read(&hex(text)).unwrap().write(), hex(text));
+        assert_eq!(OemLog::read(&hex(text)).unwrap().write(), hex(text));
     }
-    let read = Log::read(&hex(BESTPOS)).unwrap();
-    assert_eq!(Log::read(&read.write()).unwrap(), read);
+    let read = OemLog::read(&hex(BESTPOS)).unwrap();
+    assert_eq!(OemLog::read(&read.write()).unwrap(), read);
 }
 
 #[test]
@@ -113,13 +115,13 @@ fn qualities_are_those_of_the_position_type_and_inertial_places_are_none() {
         (19, FixQuality::Estimated),
         (0, FixQuality::Invalid),
     ] {
-        let part = part(1429, Body::Position(best(kind))).unwrap();
+        let part = part(1429, OemBody::Position(best(kind))).unwrap();
         assert_eq!((part.kind, part.quality), ("BESTGNSSPOS", Some(quality)));
         assert_eq!(part.position.is_some(), quality != FixQuality::Invalid);
     }
-    assert_eq!(part(42, Body::Position(best(53))), None);
+    assert_eq!(part(42, OemBody::Position(best(53))), None);
     let unsolved = BestPosition { status: 1, ..best(16) };
-    assert!(part(42, Body::Position(unsolved)).unwrap().invalid);
+    assert!(part(42, OemBody::Position(unsolved)).unwrap().invalid);
 }
 
 #[test]
@@ -133,11 +135,12 @@ fn velocities_are_told_north_east_and_down() {
         course: Some(120.0 * DEG),
         climb: Some(0.25),
     };
-    let [north, east, down] = part(99, Body::Velocity(told)).unwrap().velocity.map(Option::unwrap);
+    let [north, east, down] =
+        part(99, OemBody::Velocity(told)).unwrap().velocity.map(Option::unwrap);
     assert!((north + 2.5).abs() < 1e-12 && (east - 4.330_127).abs() < 1e-6);
     assert_eq!(down, -0.25);
     let unsolved = BestVelocity { status: 1, ..told };
-    assert_eq!(part(99, Body::Velocity(unsolved)).unwrap().velocity, [None; 3]);
+    assert_eq!(part(99, OemBody::Velocity(unsolved)).unwrap().velocity, [None; 3]);
 }
 
 #[test]
@@ -153,13 +156,13 @@ fn only_a_line_with_fixed_integers_is_a_heading() {
         rover: *b"RVR1",
     };
     for id in [1335, 2042] {
-        let part = part(id, Body::Heading(line)).unwrap();
+        let part = part(id, OemBody::Heading(line)).unwrap();
         assert!((part.heading.unwrap() - 359.5 * DEG).abs() < 1e-6);
         assert!((part.heading_std.unwrap() - 0.25 * DEG).abs() < 1e-9);
         assert_eq!((part.quality, part.position), (None, None));
     }
     for other in [AntennaHeading { kind: 34, ..line }, AntennaHeading { status: 6, ..line }] {
-        assert_eq!(part(1335, Body::Heading(other)).unwrap().heading, None);
+        assert_eq!(part(1335, OemBody::Heading(other)).unwrap().heading, None);
     }
 }
 
@@ -175,17 +178,19 @@ fn leap_seconds_are_told_once_utc_is_valid() {
         milliseconds: 3_000,
         utc_status: 1,
     };
-    let told = part(101, Body::Time(clock)).unwrap();
+    let told = part(101, OemBody::Time(clock)).unwrap();
     assert_eq!((told.leap_seconds, told.time_std), (Some(18), Some(1e-8)));
     let unsure = ReceiverClock { utc_status: 0, ..clock };
-    assert_eq!(part(101, Body::Time(unsure)).unwrap().leap_seconds, None);
+    assert_eq!(part(101, OemBody::Time(unsure)).unwrap().leap_seconds, None);
 }
 
 #[test]
 fn a_time_that_is_only_approximate_is_no_time() {
-    let log =
-        Log { header: Header { time_status: 60, ..header(42) }, body: Body::Position(best(16)) };
-    assert_eq!(Log::read(&log.write()).unwrap().part().unwrap().epoch, None);
+    let log = OemLog {
+        header: Header { time_status: 60, ..header(42) },
+        body: OemBody::Position(best(16)),
+    };
+    assert_eq!(OemLog::read(&log.write()).unwrap().part().unwrap().epoch, None);
 }
 
 #[test]
@@ -194,14 +199,14 @@ fn cut_and_flipped_frames_are_refused_and_answers_to_commands_are_not_read() {
         let frame = hex(text);
         assert_eq!(insd_wire::gnss::novatel::look(&frame), Look::Frame(frame.len()));
         for length in 0..frame.len() {
-            assert!(Log::read(&frame[..length]).is_err());
+            assert!(OemLog::read(&frame[..length]).is_err());
         }
         for bit in 0..frame.len() * 8 {
             let mut flipped = frame.clone();
             flipped[bit / 8] ^= 1 << (bit % 8);
-            assert!(Log::read(&flipped).is_err(), "bit {bit}");
+            assert!(OemLog::read(&flipped).is_err(), "bit {bit}");
         }
     }
     let answer = Header { response: true, ..header(42) }.write(&[0; 72]);
-    assert_eq!(Log::read(&answer).unwrap().body, Body::Other);
+    assert_eq!(OemLog::read(&answer).unwrap().body, OemBody::Other);
 }

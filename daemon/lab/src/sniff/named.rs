@@ -121,7 +121,7 @@ fn fault(protocol: Protocol, frame: &[u8]) -> Option<String> {
         Protocol::Stim => told(stim::StimDatagram::read(frame)),
         Protocol::Pd0 => told(pd0::Ensemble::read(frame)),
         Protocol::Pd6 => told(pd6::Pd6::read(frame)),
-        Protocol::Novatel => told(novatel::Log::read(frame)),
+        Protocol::Novatel => told(novatel::OemLog::read(frame)),
         Protocol::Kmb => told(kmb::Kmb::read(frame)),
         Protocol::Em3000 => told(em::EmAttitude::read(frame)),
     }

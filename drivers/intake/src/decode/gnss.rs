@@ -28,8 +28,8 @@ pub(super) fn sbf(bytes: &[u8], raw: RawUse) -> Result<Vec<Reading>, Refusal> {
 
 /// A place of the receiver's own inertial filter is not one by satellites, and is left out.
 pub(super) fn novatel(bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {
-    let log = oem::Log::read(bytes).map_err(|_| Refusal::Malformed)?;
-    let inertial = matches!(&log.body, oem::Body::Position(place) if place.is_inertial());
+    let log = oem::OemLog::read(bytes).map_err(|_| Refusal::Malformed)?;
+    let inertial = matches!(&log.body, oem::OemBody::Position(place) if place.is_inertial());
     let left_out = inertial.then_some(Reading::LeftOut(Refusal::Invalid));
     Ok(or_idle(log.part().map(Reading::Gnss).into_iter().chain(left_out).collect()))
 }

@@ -88,7 +88,7 @@ impl HeadingState {
 
 /// The heading of a SPAN system.
 pub(super) fn novatel(bytes: &[u8], config: &SensorConfig) -> Result<Vec<Reading>, Refusal> {
-    let log = oem::Log::read(bytes).map_err(|_| Refusal::Malformed)?;
+    let log = oem::OemLog::read(bytes).map_err(|_| Refusal::Malformed)?;
     let Some((heading, std)) = log.attitude() else { return Ok(vec![Reading::Idle]) };
     finished(HeadingReading { std, ..told(heading, North::True, true) }, config)
 }

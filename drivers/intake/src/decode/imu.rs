@@ -36,7 +36,7 @@ impl ImuState {
             Kind::Stdbin => stdbin::Telegram::read(bytes).map_err(malformed)?.reading(),
             Kind::Mip => mip::Packet::read(bytes).map_err(malformed)?.reading(),
             Kind::Xbus => xbus::MtData2::read(bytes).map_err(malformed)?.reading(),
-            Kind::NovatelImu => novatel::Log::read(bytes).map_err(malformed)?.imu(),
+            Kind::NovatelImu => novatel::OemLog::read(bytes).map_err(malformed)?.imu(),
             Kind::Kvh => Some(KvhMessage::read(bytes).map_err(malformed)?.reading(&self.kvh)),
             _ => self.stim(bytes)?,
         };

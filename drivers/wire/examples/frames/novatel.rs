@@ -1,28 +1,28 @@
 //! Logs of NovAtel as JSON.
 
 use insd_wire::gnss::novatel::{
-    AntennaHeading, BestPosition, BestVelocity, Body, InsPva, InsPvax, Log, RawImu, RawImuX,
+    AntennaHeading, BestPosition, BestVelocity, InsPva, InsPvax, OemBody, OemLog, RawImu, RawImuX,
     ReceiverClock,
 };
 use serde_json::{Value, json};
 
 /// Name and fields of a frame; no fields if it is not read, `refused` and why if it can not be.
 pub(crate) fn describe(frame: &[u8]) -> (String, Value) {
-    let log = match Log::read(frame) {
+    let log = match OemLog::read(frame) {
         Ok(log) => log,
         Err(fault) => return ("refused".to_owned(), json!(fault.to_string())),
     };
     let Some(name) = log.name() else { return (log.header.id.to_string(), Value::Null) };
     let mut fields = match &log.body {
-        Body::Position(body) => position(body),
-        Body::Velocity(body) => velocity(body),
-        Body::Heading(body) => heading(body),
-        Body::Ins(body) => ins(body),
-        Body::InsExtended(body) => ins_extended(body),
-        Body::Imu(body) => imu(body),
-        Body::ImuExtended(body) => imu_extended(body),
-        Body::Time(body) => time(body),
-        Body::Other => Value::Null,
+        OemBody::Position(body) => position(body),
+        OemBody::Velocity(body) => velocity(body),
+        OemBody::Heading(body) => heading(body),
+        OemBody::Ins(body) => ins(body),
+        OemBody::InsExtended(body) => ins_extended(body),
+        OemBody::Imu(body) => imu(body),
+        OemBody::ImuExtended(body) => imu_extended(body),
+        OemBody::Time(body) => time(body),
+        OemBody::Other => Value::Null,
     };
     let header = log.header;
     fields["header"] = json!([header.week, header.milliseconds, header.time_status]);

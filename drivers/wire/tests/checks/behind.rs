@@ -343,8 +343,8 @@ fn em(frame: &[u8]) {
 }
 
 fn novatel(frame: &[u8]) {
-    use novatel::Log;
-    let Some(log) = again(frame, Everything, Log::read, Log::write) else { return };
+    use novatel::OemLog;
+    let Some(log) = again(frame, Everything, OemLog::read, OemLog::write) else { return };
     log.part().iter().for_each(is_sane_part);
     log.imu().iter().for_each(is_sane_sample);
     let told = log.attitude();

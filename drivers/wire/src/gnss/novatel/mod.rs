@@ -21,7 +21,7 @@ use crate::imu::ImuReading;
 
 /// What a log says.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Body {
+pub enum OemBody {
     /// BESTPOS and BESTGNSSPOS.
     Position(BestPosition),
     /// BESTVEL and BESTGNSSVEL.
@@ -44,11 +44,11 @@ pub enum Body {
 
 /// A log.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Log {
+pub struct OemLog {
     /// Which, and when.
     pub header: Header,
     /// What it says.
-    pub body: Body,
+    pub body: OemBody,
 }
 
 /// Numbers of the logs that are read, their names, and how many bytes they have.
@@ -69,7 +69,7 @@ const LOGS: [(u16, &str, usize); 14] = [
     (101, "TIME", 44),
 ];
 
-impl Log {
+impl OemLog {
     /// Reads a frame.
     ///
     /// # Errors
@@ -77,36 +77,40 @@ impl Log {
     pub fn read(frame: &[u8]) -> Result<Self, Fault> {
         let (header, payload) = Header::open(frame)?;
         let known = LOGS.iter().find(|(id, ..)| *id == header.id && !header.response);
-        let Some((_, name, needed)) = known else { return Ok(Log { header, body: Body::Other }) };
+        let Some((_, name, needed)) = known else {
+            return Ok(OemLog { header, body: OemBody::Other });
+        };
         if payload.len() < *needed {
             return Err(Fault::Short { needed: *needed, found: payload.len() });
         }
         let body = match *name {
-            "BESTPOS" | "BESTGNSSPOS" => Body::Position(BestPosition::read_body(payload)?),
-            "BESTVEL" | "BESTGNSSVEL" => Body::Velocity(BestVelocity::read_body(payload)?),
-            "HEADING2" | "DUALANTENNAHEADING" => Body::Heading(AntennaHeading::read_body(payload)?),
-            "INSPVA" | "INSPVAS" => Body::Ins(InsPva::read_body(payload)?),
-            "INSPVAX" => Body::InsExtended(InsPvax::read_body(payload)?),
-            "RAWIMU" | "RAWIMUS" => Body::Imu(RawImu::read_body(payload)?),
-            "RAWIMUX" | "RAWIMUSX" => Body::ImuExtended(RawImuX::read_body(payload)?),
-            _ => Body::Time(ReceiverClock::read_body(payload)?),
+            "BESTPOS" | "BESTGNSSPOS" => OemBody::Position(BestPosition::read_body(payload)?),
+            "BESTVEL" | "BESTGNSSVEL" => OemBody::Velocity(BestVelocity::read_body(payload)?),
+            "HEADING2" | "DUALANTENNAHEADING" => {
+                OemBody::Heading(AntennaHeading::read_body(payload)?)
+            }
+            "INSPVA" | "INSPVAS" => OemBody::Ins(InsPva::read_body(payload)?),
+            "INSPVAX" => OemBody::InsExtended(InsPvax::read_body(payload)?),
+            "RAWIMU" | "RAWIMUS" => OemBody::Imu(RawImu::read_body(payload)?),
+            "RAWIMUX" | "RAWIMUSX" => OemBody::ImuExtended(RawImuX::read_body(payload)?),
+            _ => OemBody::Time(ReceiverClock::read_body(payload)?),
         };
-        Ok(Log { header, body })
+        Ok(OemLog { header, body })
     }
 
     /// The frame; of a log that is not read its header alone.
     #[must_use]
     pub fn write(&self) -> Vec<u8> {
         let mut payload = match &self.body {
-            Body::Position(body) => body.write_body(),
-            Body::Velocity(body) => body.write_body(),
-            Body::Heading(body) => body.write_body(),
-            Body::Ins(body) => body.write_body(),
-            Body::InsExtended(body) => body.write_body(),
-            Body::Imu(body) => body.write_body(),
-            Body::ImuExtended(body) => body.write_body(),
-            Body::Time(body) => body.write_body(),
-            Body::Other => Vec::new(),
+            OemBody::Position(body) => body.write_body(),
+            OemBody::Velocity(body) => body.write_body(),
+            OemBody::Heading(body) => body.write_body(),
+            OemBody::Ins(body) => body.write_body(),
+            OemBody::InsExtended(body) => body.write_body(),
+            OemBody::Imu(body) => body.write_body(),
+            OemBody::ImuExtended(body) => body.write_body(),
+            OemBody::Time(body) => body.write_body(),
+            OemBody::Other => Vec::new(),
         };
         let known = LOGS.iter().find(|(id, ..)| *id == self.header.id);
         payload.resize(known.map_or(0, |(.., length)| *length).max(payload.len()), 0);
@@ -117,17 +121,17 @@ impl Log {
     #[must_use]
     pub fn name(&self) -> Option<&'static str> {
         let known = LOGS.iter().find(|(id, ..)| *id == self.header.id);
-        known.filter(|_| self.body != Body::Other).map(|(_, name, _)| *name)
+        known.filter(|_| self.body != OemBody::Other).map(|(_, name, _)| *name)
     }
 
     /// What it says of an epoch. A place or velocity of the receiver's own inertial filter says nothing: it is not by satellites.
     #[must_use]
     pub fn part(&self) -> Option<GnssPart> {
         let part = match &self.body {
-            Body::Position(body) => body.part()?,
-            Body::Velocity(body) => body.part()?,
-            Body::Heading(body) => body.part(),
-            Body::Time(body) => body.part(),
+            OemBody::Position(body) => body.part()?,
+            OemBody::Velocity(body) => body.part()?,
+            OemBody::Heading(body) => body.part(),
+            OemBody::Time(body) => body.part(),
             _ => return None,
         };
         Some(GnssPart { kind: self.name()?, epoch: self.header.epoch(), ..part })
@@ -137,8 +141,8 @@ impl Log {
     #[must_use]
     pub fn attitude(&self) -> Option<(Option<f64>, Option<f64>)> {
         match &self.body {
-            Body::Ins(body) => Some((body.heading(), None)),
-            Body::InsExtended(body) => Some((body.heading(), body.heading_std())),
+            OemBody::Ins(body) => Some((body.heading(), None)),
+            OemBody::InsExtended(body) => Some((body.heading(), body.heading_std())),
             _ => None,
         }
     }
@@ -147,7 +151,7 @@ impl Log {
     #[must_use]
     pub fn imu(&self) -> Option<ImuReading> {
         match &self.body {
-            Body::ImuExtended(body) => body.reading(),
+            OemBody::ImuExtended(body) => body.reading(),
             _ => None,
         }
     }
