@@ -18,6 +18,9 @@ const NEAR: f64 = 0.04;
 /// Talkers of satellite receivers.
 const RECEIVERS: [&str; 7] = ["GP", "GN", "GL", "GA", "GB", "GQ", "BD"];
 
+/// The talker of Loran receivers.
+const LORAN: &str = "LC";
+
 /// How the numbers of messages of RTCM begin that tell measurements: GPS, GLONASS, Galileo, BeiDou.
 const MEASURED: [&str; 4] = ["RTCM 107", "RTCM 108", "RTCM 109", "RTCM 112"];
 
@@ -144,6 +147,7 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         None if !has_receiver => sensors.extend(measured_by_rtcm(port)),
         None => {}
     }
+    sensors.extend(loran(port));
     sensors.extend(sentences(port, "nmea_log", "log", &["VBW", "VHW"]));
     sensors
         .extend(own(port, "nortek", "log", "PNORBT").map(|sensor| {
@@ -321,7 +325,8 @@ fn is_receiver(message: &MessageReport) -> bool {
 }
 
 fn receiver(port: &PortReport) -> Option<Sensor> {
-    let first = with_formatter(port, &["GGA", "GNS", "RMC", "GLL"]).next()?;
+    let mut positions = with_formatter(port, &["GGA", "GNS", "RMC", "GLL"]);
+    let first = positions.find(|message| talker(message) != LORAN)?;
     let mut sensor = Sensor {
         kind: "nmea_gnss",
         role: "gnss",
@@ -340,6 +345,23 @@ fn receiver(port: &PortReport) -> Option<Sensor> {
         sensor = sensor.note("neither ZDA nor RMC: the receiver does not tell the date");
     }
     Some(with_checksum(sensor, with_formatter(port, &RECEIVED)))
+}
+
+/// A receiver of Loran, whose place is not one by satellites.
+fn loran(port: &PortReport) -> Option<Sensor> {
+    let mut positions = with_formatter(port, &["GGA", "GNS", "RMC", "GLL"]);
+    let rate = positions.find(|message| talker(message) == LORAN)?.rate_hz.map(round);
+    let sensor = Sensor {
+        kind: "nmea_position",
+        role: "loran",
+        protocol: "nmea",
+        rate,
+        ..Sensor::default()
+    };
+    let sensor = sensor.key(format!("talkers = [\"{LORAN}\"]"));
+    Some(sensor.note(
+        "position_std_m must be told: what the corrections of the ground leave (docs/sensors.md)",
+    ))
 }
 
 /// A receiver that speaks binary, too, is read in that language alone.
