@@ -29,11 +29,14 @@ DEG = math.pi / 180
 UBX = {
     (0x01, 0x07): "NAV-PVT", (0x01, 0x04): "NAV-DOP", (0x01, 0x36): "NAV-COV",
     (0x01, 0x14): "NAV-HPPOSLLH", (0x01, 0x20): "NAV-TIMEGPS", (0x01, 0x26): "NAV-TIMELS",
+    (0x01, 0x02): "NAV-POSLLH", (0x01, 0x03): "NAV-STATUS", (0x01, 0x06): "NAV-SOL",
+    (0x01, 0x12): "NAV-VELNED", (0x01, 0x21): "NAV-TIMEUTC", (0x01, 0x3C): "NAV-RELPOSNED",
     (0x0D, 0x01): "TIM-TP", (0x02, 0x15): "RXM-RAWX", (0x02, 0x13): "RXM-SFRBX",
 }
 SBF = {
     4007: "PVTGeodetic", 5906: "PosCovGeodetic", 5908: "VelCovGeodetic", 5938: "AttEuler",
-    5939: "AttCovEuler", 5914: "ReceiverTime", 5911: "xPPSOffset",
+    5939: "AttCovEuler", 5914: "ReceiverTime", 5911: "xPPSOffset", 4006: "PVTCartesian",
+    4028: "BaseVectorGeod",
 }
 
 
@@ -138,6 +141,36 @@ def ubx_fields(name, m):
             "height": m.height * 1e-3 if place else None, "hMSL": m.hMSL * 1e-3,
             "hAcc": maybe(m.hAcc, (round(0xFFFFFFFF * 0.1, 12),), 1e-3),
             "vAcc": maybe(m.vAcc, (round(0xFFFFFFFF * 0.1, 12),), 1e-3)}
+    if name == "NAV-POSLLH":
+        return itow | {
+            "lat": m.lat * DEG, "lon": m.lon * DEG, "height": m.height * 1e-3, "hMSL": m.hMSL * 1e-3,
+            "hAcc": known(m.hAcc, 1e-3), "vAcc": known(m.vAcc, 1e-3)}
+    if name == "NAV-VELNED":
+        return itow | {key: getattr(m, key) * 1e-2 for key in (
+            "velN", "velE", "velD", "speed", "gSpeed")} | {
+            "heading": m.heading * DEG, "sAcc": known(m.sAcc, 1e-2), "cAcc": known(m.cAcc, DEG)}
+    if name == "NAV-SOL":
+        return itow | raw(
+            "fTOW", "week", "gpsFix", "gpsfixOK", "diffSoln", "wknSet", "towSet", "numSV", "pDOP") | {
+            key: getattr(m, key) * 1e-2 for key in (
+                "ecefX", "ecefY", "ecefZ", "ecefVX", "ecefVY", "ecefVZ")} | {
+            "pAcc": known(m.pAcc, 1e-2), "sAcc": known(m.sAcc, 1e-2)}
+    if name == "NAV-STATUS":
+        return itow | raw(
+            "gpsFix", "gpsFixOk", "diffSoln", "wknSet", "towSet", "spoofDetState", "carrSoln") | {
+            "ttff": m.ttff * 1_000_000, "msss": m.msss * 1_000_000}
+    if name == "NAV-TIMEUTC":
+        return itow | raw("nano", "year", "month", "day", "hour", "min", "sec", "validTOW",
+                          "validWKN", "validUTC", "utcStandard") | {"tAcc": known(m.tAcc, 1e-9)}
+    if name == "NAV-RELPOSNED":
+        fine = lambda key: maybe(getattr(m, key), (round(0xFFFFFFFF * 0.1, 12),), 1e-3)
+        flags = ("version", "refStationID", "gnssFixOK", "diffSoln", "relPosValid", "carrSoln", "isMoving",
+                 "refPosMiss", "refObsMiss", "relPosHeadingValid", "relPosNormalized")
+        # pyubx2 adds the fine digits to the coarse ones, in centimetres
+        return itow | raw(*flags) | {key: ("rounded to", getattr(m, key) * 1e-2) for key in (
+            "relPosN", "relPosE", "relPosD", "relPosLength")} | {
+            key: fine(key) for key in ("accN", "accE", "accD", "accLength")} | {
+            "relPosHeading": m.relPosHeading * DEG, "accHeading": known(m.accHeading, DEG)}
     if name == "NAV-TIMEGPS":
         return itow | raw("fTOW", "week", "towValid", "weekValid") | {
             "leapS": m.leapS if m.leapSValid else None, "tAcc": known(m.tAcc, 1e-9)}
@@ -182,6 +215,26 @@ def sbf_fields(name, m):
             "MeanCorrAge": maybe(m.MeanCorrAge, (655.35,)), "SignalInfo": m.SignalInfo,
             "NrBases": m.NrBases, "Latency": maybe(m.Latency, (6.5535,)),
             "HAccuracy": maybe(m.HAccuracy, (655.35,)), "VAccuracy": maybe(m.VAccuracy, (655.35,))}
+    if name == "PVTCartesian":
+        place, speed = [get("X"), get("Y"), get("Z")], [get("Vx"), get("Vy"), get("Vz")]
+        place, speed = ([None] * 3 if None in own else own for own in (place, speed))
+        ours = head | mode() | dict(zip(("X", "Y", "Z"), place)) | dict(zip(("Vx", "Vy", "Vz"), speed))
+        return ours | {
+            "Undulation": get("Undulation"), "NrSV": byte("NrSV"), "NrBases": m.NrBases,
+            "Latency": maybe(m.Latency, (6.5535,)), "HAccuracy": maybe(m.HAccuracy, (655.35,)),
+            "VAccuracy": maybe(m.VAccuracy, (655.35,))}
+    if name == "BaseVectorGeod":
+        rows = []
+        for i in range(1, m.N + 1):
+            one = lambda key: getattr(m, f"{key}_{i:02d}")
+            real = lambda key, factor=1.0: number(one(key), factor)
+            rows.append({"NrSV": one("NrSV"), "Error": one("Error"), "Mode": one("Type")} | {
+                "DeltaNorth": real("DeltaNorth"), "DeltaEast": real("DeltaEast"),
+                "DeltaDown": real("DeltaUp", -1.0), "DeltaVn": real("DeltaVn"), "DeltaVe": real("DeltaVe"),
+                "DeltaVd": real("DeltaVu", -1.0), "Azimuth": round(one("Azimuth") * 100),
+                "Elevation": round(one("Elevation") * 100), "ReferenceID": one("ReferenceID"),
+                "CorrAge": maybe(one("CorrAge"), (655.35,)), "SignalInfo": one("SignalInfo")})
+        return head | {"vectors": rows}
     if name in ("PosCovGeodetic", "VelCovGeodetic"):
         a, b, c, d = ("latlat", "lonlon", "hgthgt", "bb") if name[0] == "P" else ("VnVn", "VeVe", "VuVu", "DtDt")
         rest = ("latlon", "lathgt", "latb", "lonhgt", "lonb", "hb") if name[0] == "P" else (
@@ -209,6 +262,8 @@ def same(ours, theirs):
             return False
         if kind == "angle":
             return abs(math.remainder(ours - value, math.tau)) < 1e-9
+        if kind == "rounded to":
+            return abs(ours - value) < 1e-6
         return abs(ours - value) < 6e-13  # the oracle rounds seconds to twelve digits
     if isinstance(theirs, (list, dict)):
         keys = range(len(theirs)) if isinstance(theirs, list) else theirs
@@ -251,12 +306,17 @@ def made(rng, count):
 
 def random_ubx(rng, name):
     lengths = {"NAV-PVT": 92, "NAV-DOP": 18, "NAV-COV": 64, "NAV-HPPOSLLH": 36,
-               "NAV-TIMEGPS": 16, "NAV-TIMELS": 24, "TIM-TP": 16}
+               "NAV-TIMEGPS": 16, "NAV-TIMELS": 24, "TIM-TP": 16,
+               "NAV-POSLLH": 28, "NAV-STATUS": 16, "NAV-SOL": 52, "NAV-VELNED": 36,
+               "NAV-TIMEUTC": 20, "NAV-RELPOSNED": 64}
     groups = rng.randrange(6)
     length = lengths.get(name) or (16 + 32 * groups if name == "RXM-RAWX" else 8 + 4 * groups)
     payload = bytearray(rng.randbytes(length))
-    if name in ("NAV-PVT", "NAV-HPPOSLLH"):
-        at = 24 if name == "NAV-PVT" else 8
+    if name == "NAV-RELPOSNED":
+        payload[0] = 1
+    places = {"NAV-PVT": 24, "NAV-HPPOSLLH": 8, "NAV-POSLLH": 4}
+    if name in places:
+        at = places[name]
         struct.pack_into("<ii", payload, at, rng.randrange(-1_799_999_999, 1_799_999_999),
                          rng.randrange(-899_999_999, 899_999_999))
     if name in ("NAV-COV", "NAV-TIMELS", "NAV-HPPOSLLH"):
@@ -279,6 +339,14 @@ def random_sbf(rng, name):
         place = rng.choice((place, (-2e10,) * 3))
         return head + rng.randbytes(2) + struct.pack("<ddd", *place) + reals(5) + struct.pack(
             "<d", real()) + reals(1) + rng.randbytes(27)
+    if name == "PVTCartesian":
+        real8 = lambda: struct.pack("<d", real())
+        return head + rng.randbytes(2) + real8() + real8() + real8() + reals(5) + real8() + reals(1) + (
+            rng.randbytes(27))
+    if name == "BaseVectorGeod":
+        count = rng.randrange(4)
+        vector = lambda: rng.randbytes(4) + struct.pack("<ddd", real(), real(), real()) + reals(3) + rng.randbytes(12)
+        return head + bytes((count, 52)) + b"".join(vector() for _ in range(count))
     lengths = {"PosCovGeodetic": 10, "VelCovGeodetic": 10, "AttEuler": 6, "AttCovEuler": 6}
     if name in lengths:
         return head + rng.randbytes(6 if name == "AttEuler" else 2) + reals(lengths[name])

@@ -14,6 +14,7 @@ pub mod config;
 pub mod decode;
 pub mod device;
 pub mod event;
+mod kind;
 pub mod mounting;
 pub mod port;
 pub mod ranging;

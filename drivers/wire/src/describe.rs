@@ -1,8 +1,9 @@
 //! What a frame is called, for whoever looks at a port.
 
-use crate::gnss::{rtcm, sbf, ubx};
+use crate::gnss::{novatel, rtcm, sbf, ubx};
 use crate::imu::{kvh, mip, sbg, stdbin, stim, xbus};
 use crate::log::{pd0, pd6};
+use crate::motion::{em, kmb};
 use crate::nmea::others::{self, Understood};
 use crate::stream::Protocol;
 
@@ -47,6 +48,9 @@ pub fn describe(protocol: Protocol, frame: &[u8]) -> Described {
         Protocol::Stim => stim(frame),
         Protocol::Pd0 => plain("PD0", &pd0::Ensemble::read(frame)),
         Protocol::Pd6 => pd6(frame),
+        Protocol::Novatel => novatel(frame),
+        Protocol::Kmb => plain("KMB", &kmb::Kmb::read(frame)),
+        Protocol::Em3000 => plain("EM3000", &em::EmAttitude::read(frame)),
     }
 }
 
@@ -80,6 +84,12 @@ fn ubx(frame: &[u8]) -> Described {
         Ok(Message::NavDop(_)) => used("NAV-DOP"),
         Ok(Message::NavCov(_)) => used("NAV-COV"),
         Ok(Message::NavHpPosLlh(_)) => used("NAV-HPPOSLLH"),
+        Ok(Message::NavPosLlh(_)) => used("NAV-POSLLH"),
+        Ok(Message::NavVelNed(_)) => used("NAV-VELNED"),
+        Ok(Message::NavSol(_)) => used("NAV-SOL"),
+        Ok(Message::NavStatus(_)) => used("NAV-STATUS"),
+        Ok(Message::NavTimeUtc(_)) => used("NAV-TIMEUTC"),
+        Ok(Message::NavRelPosNed(_)) => used("NAV-RELPOSNED"),
         Ok(Message::NavTimeGps(_)) => used("NAV-TIMEGPS"),
         Ok(Message::NavTimeLs(_)) => used("NAV-TIMELS"),
         Ok(Message::TimTp(_)) => used("TIM-TP"),
@@ -151,6 +161,16 @@ fn stim(frame: &[u8]) -> Described {
             described(format!("STIM {id:02X}"), Reading::Other)
         }
         Err(_) => described(format!("STIM {id:02X}"), Reading::Refused),
+    }
+}
+
+fn novatel(frame: &[u8]) -> Described {
+    match novatel::OemLog::read(frame) {
+        Ok(log) => match log.name() {
+            Some(name) => described(name, Reading::Used),
+            None => described(format!("NovAtel {}", log.header.id), Reading::Other),
+        },
+        Err(_) => described("NovAtel", Reading::Refused),
     }
 }
 

@@ -9,6 +9,7 @@ pub mod binary;
 pub mod describe;
 pub mod gnss;
 pub mod imu;
+mod layout;
 pub mod log;
 pub mod motion;
 pub mod nmea;

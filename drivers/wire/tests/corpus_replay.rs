@@ -73,11 +73,16 @@ fn the_seeds_of_each_protocol_give_frames_whatever_the_chunks() {
         let among_all: usize = files.iter().map(|path| replay(&Protocol::ALL, path)).sum();
         assert!(files.is_empty() || alone > 0 && among_all > 0, "{}: no frame", protocol.name());
     }
+    for protocol in Protocol::ASKED_FOR {
+        let files = files_below(&corpus(protocol.name()));
+        let alone: usize = files.iter().map(|path| replay(&[protocol], path)).sum();
+        assert!(alone > 0, "{}: no frame", protocol.name());
+    }
 }
 
 #[test]
 fn the_seeds_pass_the_checks_of_the_fuzz_targets() {
-    for protocol in Protocol::ALL {
+    for protocol in Protocol::ALL.into_iter().chain(Protocol::ASKED_FOR) {
         let files = files_below(&corpus(protocol.name()));
         assert!(!files.is_empty(), "{}: no seeds", protocol.name());
         files.iter().for_each(|path| everything(protocol, &fs::read(path).unwrap()));

@@ -29,7 +29,7 @@ fn bytes(longest: usize) -> impl Strategy<Value = Vec<u8>> {
 }
 
 /// The messages that we read, by class and id.
-const UBX: [(u8, u8); 10] = [
+const UBX: [(u8, u8); 16] = [
     (0x01, 0x07),
     (0x01, 0x04),
     (0x01, 0x36),
@@ -39,11 +39,17 @@ const UBX: [(u8, u8); 10] = [
     (0x0D, 0x01),
     (0x02, 0x15),
     (0x02, 0x13),
+    (0x01, 0x02),
+    (0x01, 0x03),
+    (0x01, 0x06),
+    (0x01, 0x12),
+    (0x01, 0x21),
+    (0x01, 0x3C),
     (0x0A, 0x09),
 ];
 
 /// The blocks that we read.
-const SBF: [u16; 8] = [4007, 5906, 5908, 5938, 5939, 5914, 5911, 4027];
+const SBF: [u16; 10] = [4006, 4028, 4007, 5906, 5908, 5938, 5939, 5914, 5911, 4027];
 
 /// One frame of any protocol with a good checksum.
 fn frame() -> impl Strategy<Value = Vec<u8>> {

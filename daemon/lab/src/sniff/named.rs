@@ -1,9 +1,10 @@
 //! What a frame is called on the wire, who sent it, and why it is refused.
 
 use insd_wire::describe::{Reading, describe};
-use insd_wire::gnss::{sbf, ubx};
+use insd_wire::gnss::{novatel, sbf, ubx};
 use insd_wire::imu::{kvh, mip, sbg, stdbin, stim, xbus};
 use insd_wire::log::{pd0, pd6};
+use insd_wire::motion::{em, kmb};
 use insd_wire::nmea::others::{self, Understood};
 use insd_wire::nmea::{ChecksumPolicy, Frame, Talker};
 use insd_wire::stream::Protocol;
@@ -120,6 +121,9 @@ fn fault(protocol: Protocol, frame: &[u8]) -> Option<String> {
         Protocol::Stim => told(stim::StimDatagram::read(frame)),
         Protocol::Pd0 => told(pd0::Ensemble::read(frame)),
         Protocol::Pd6 => told(pd6::Pd6::read(frame)),
+        Protocol::Novatel => told(novatel::OemLog::read(frame)),
+        Protocol::Kmb => told(kmb::Kmb::read(frame)),
+        Protocol::Em3000 => told(em::EmAttitude::read(frame)),
     }
 }
 

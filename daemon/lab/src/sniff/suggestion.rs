@@ -18,6 +18,9 @@ const NEAR: f64 = 0.04;
 /// Talkers of satellite receivers.
 const RECEIVERS: [&str; 7] = ["GP", "GN", "GL", "GA", "GB", "GQ", "BD"];
 
+/// The talker of Loran receivers.
+const LORAN: &str = "LC";
+
 /// How the numbers of messages of RTCM begin that tell measurements: GPS, GLONASS, Galileo, BeiDou.
 const MEASURED: [&str; 4] = ["RTCM 107", "RTCM 108", "RTCM 109", "RTCM 112"];
 
@@ -121,11 +124,18 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         imu(port, Protocol::Stim, "stim", |name| name != "STIM configuration").map(|sensor| {
             sensor.note("unless the unit sends its configuration, check [sensor.stim]")
         }),
-        plain_sensor(port, Protocol::Ubx, "ubx", "gnss", "NAV-PVT")
-            .or_else(|| raw_only(port, Protocol::Ubx, "ubx", "RXM-RAWX")),
+        ublox(port),
         plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF 4007")
+            .or_else(|| plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF 4006"))
             .or_else(|| raw_only(port, Protocol::Sbf, "sbf", "SBF 4027"))
             .or_else(|| plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF ")),
+        plain_sensor(port, Protocol::Novatel, "novatel", "gnss", "BEST").map(|own| span(own, port)),
+        imu(port, Protocol::Novatel, "novatel_imu", |name| {
+            name.starts_with("RAWIMU") && name.ends_with('X')
+        }),
+        plain_sensor(port, Protocol::Novatel, "novatel_ins", "compass", "INSPVA"),
+        plain_sensor(port, Protocol::Kmb, "kmb", "motion", ""),
+        plain_sensor(port, Protocol::Em3000, "em3000", "motion", ""),
         plain_sensor(port, Protocol::Pd0, "pd0", "log", "").map(|log| mounted(log, port)),
         plain_sensor(port, Protocol::Pd6, "pd6", "log", "PD6 :B").map(|log| mounted(log, port)),
     ];
@@ -137,6 +147,7 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         None if !has_receiver => sensors.extend(measured_by_rtcm(port)),
         None => {}
     }
+    sensors.extend(loran(port));
     sensors.extend(sentences(port, "nmea_log", "log", &["VBW", "VHW"]));
     sensors
         .extend(own(port, "nortek", "log", "PNORBT").map(|sensor| {
@@ -144,6 +155,13 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         }));
     sensors.extend(compasses(port));
     sensors.extend(own(port, "psxn", "psxn", "PSXN"));
+    sensors.extend(own(port, "psat", "psat", "PSAT"));
+    sensors.extend(own(port, "pfec", "pfec", "PFEC"));
+    sensors.extend(
+        own(port, "ptnl", "ptnl", "PTNL").map(|sensor| {
+            sensor.note("heading_offset_deg: how the line between its antennas lies")
+        }),
+    );
     sensors.extend(
         own(port, "rls", "rls", "RLS")
             .map(|sensor| sensor.note("its axes must be told in [[ranging]] (docs/berthing.md)")),
@@ -227,6 +245,42 @@ fn plain_sensor(
     Some(Sensor { kind, role, protocol: protocol.name(), rate, ..Sensor::default() })
 }
 
+/// A NovAtel receiver, by what else it sends.
+fn span(mut sensor: Sensor, port: &PortReport) -> Sensor {
+    let has =
+        |start: &str| used(port, Protocol::Novatel).any(|message| message.name.starts_with(start));
+    if has("HEADING2") || has("DUALANTENNA") {
+        sensor = sensor.key("heading = true".to_owned());
+        sensor = sensor.note("heading_offset_deg: how the line between its antennas lies");
+    }
+    if (has("INSPVA") || has("RAWIMU")) && !has("BESTGNSS") {
+        sensor = sensor.note("of a SPAN system BESTPOS is its own inertial place: let it send BESTGNSSPOS and BESTGNSSVEL");
+    }
+    sensor
+}
+
+/// A u-blox receiver: by its fixes, else by what it measured, else as a compass.
+fn ublox(port: &PortReport) -> Option<Sensor> {
+    let has = |name: &str| used(port, Protocol::Ubx).any(|message| message.name == name);
+    let told = |start| plain_sensor(port, Protocol::Ubx, "ubx", "gnss", start);
+    let fix = ["NAV-PVT", "NAV-POSLLH", "NAV-SOL"].iter().find_map(|start| told(start));
+    let mut sensor = fix
+        .or_else(|| raw_only(port, Protocol::Ubx, "ubx", "RXM-RAWX"))
+        .or_else(|| told("NAV-RELPOSNED"))?;
+    if has("NAV-POSLLH") && !["NAV-PVT", "NAV-SOL", "NAV-STATUS"].iter().any(|name| has(name)) {
+        sensor = sensor.note(
+            "neither NAV-SOL nor NAV-STATUS: the receiver does not tell whether it has a fix",
+        );
+    }
+    if has("NAV-RELPOSNED") {
+        sensor = sensor.key("heading = true".to_owned());
+        sensor = sensor.note("NAV-RELPOSNED is a heading only if the base moves with the ship;");
+        sensor =
+            sensor.note("heading_offset_deg: how the line from its antenna to the receiver's lies");
+    }
+    Some(sensor)
+}
+
 /// A receiver that tells what it measured, and no fix.
 fn raw_only(
     port: &PortReport,
@@ -271,7 +325,8 @@ fn is_receiver(message: &MessageReport) -> bool {
 }
 
 fn receiver(port: &PortReport) -> Option<Sensor> {
-    let first = with_formatter(port, &["GGA", "GNS", "RMC", "GLL"]).next()?;
+    let mut positions = with_formatter(port, &["GGA", "GNS", "RMC", "GLL"]);
+    let first = positions.find(|message| talker(message) != LORAN)?;
     let mut sensor = Sensor {
         kind: "nmea_gnss",
         role: "gnss",
@@ -290,6 +345,23 @@ fn receiver(port: &PortReport) -> Option<Sensor> {
         sensor = sensor.note("neither ZDA nor RMC: the receiver does not tell the date");
     }
     Some(with_checksum(sensor, with_formatter(port, &RECEIVED)))
+}
+
+/// A receiver of Loran, whose place is not one by satellites.
+fn loran(port: &PortReport) -> Option<Sensor> {
+    let mut positions = with_formatter(port, &["GGA", "GNS", "RMC", "GLL"]);
+    let rate = positions.find(|message| talker(message) == LORAN)?.rate_hz.map(round);
+    let sensor = Sensor {
+        kind: "nmea_position",
+        role: "loran",
+        protocol: "nmea",
+        rate,
+        ..Sensor::default()
+    };
+    let sensor = sensor.key(format!("talkers = [\"{LORAN}\"]"));
+    Some(sensor.note(
+        "position_std_m must be told: what the corrections of the ground leave (docs/sensors.md)",
+    ))
 }
 
 /// A receiver that speaks binary, too, is read in that language alone.

@@ -329,3 +329,28 @@ fn the_mounting_of_a_log_is_suggested_by_the_axes_that_it_tells() {
     assert!(text.contains("axes of the ship"), "{text}");
     assert!(suggestion(Coordinates::Earth, 0.0).1.contains("EX10111"));
 }
+
+#[test]
+fn what_owners_have_is_suggested_by_its_kind() {
+    let of = |bytes_of: &[u8]| {
+        let open = opened("/dev/ttyUSB0 at 115200 baud");
+        let all = (1..40_u32).map(|tenth| bytes(f64::from(tenth) / 10.0, bytes_of));
+        let port = after(&std::iter::once(open).chain(all).collect::<Vec<_>>());
+        suggested(&port)
+            .1
+            .into_iter()
+            .map(|sensor| (sensor.kind, sensor.talkers))
+            .collect::<Vec<_>>()
+    };
+    let loran = line("LCGLL,5000.00,N,00400.00,E,120000.00,A,A");
+    assert_eq!(of(&loran), [(Kind::NmeaPosition, vec!["LC".to_owned()])]);
+    let hpr = line("PSAT,HPR,235410.50,89.58,3.35,,N");
+    assert_eq!(of(&hpr), [(Kind::Psat, Vec::new())]);
+    let avr = line("PTNL,AVR,212405.20,+52.1531,Yaw,-0.0806,Tilt,,,12.575,3,1.4,16");
+    assert_eq!(of(&avr), [(Kind::Ptnl, Vec::new())]);
+    let oem = std::fs::read("../../fuzz/corpus/novatel/published.novatel").unwrap();
+    let kinds: Vec<Kind> = of(&oem).into_iter().map(|(kind, _)| kind).collect();
+    assert_eq!(kinds, [Kind::Novatel, Kind::NovatelImu, Kind::NovatelIns]);
+    let kmb = std::fs::read("../../fuzz/corpus/kmb/telegrams.kmb").unwrap();
+    assert_eq!(of(&kmb[..132]), [(Kind::Kmb, Vec::new())]);
+}

@@ -139,8 +139,9 @@ fn print(text: &str) -> anyhow::Result<()> {
 }
 
 fn protocol(text: &str) -> Result<Protocol, String> {
-    let found = Protocol::ALL.into_iter().find(|protocol| protocol.name() == text);
-    let names = || Protocol::ALL.map(Protocol::name).join(", ");
+    let known = || Protocol::ALL.into_iter().chain(Protocol::ASKED_FOR);
+    let found = known().find(|protocol| protocol.name() == text);
+    let names = || known().map(Protocol::name).collect::<Vec<_>>().join(", ");
     found.ok_or_else(|| format!("expected one of {}", names()))
 }
 

@@ -1,5 +1,6 @@
 //! Epochs of receivers, and what else they say of time.
 
+use insd_base::units::wrap_two_pi;
 use insd_base::{ExternalReference, GnssFix, GpsTime, Message, Source, Span, Stamp, Time};
 use insd_wire::gnss::{EpochTime, GnssPart, PulseOrder, PulseTime};
 
@@ -67,13 +68,11 @@ impl Core {
 
     pub(super) fn epoch(&mut self, index: usize, now: Time, time: Time, epoch: &Epoch) {
         let sensor = &self.sensors[index];
-        let (number, role, uses_heading) =
-            (sensor.number, sensor.config.kind.role(), sensor.config.heading);
-        let (std, offset) = (sensor.config.heading_std_deg, sensor.config.heading_offset_deg);
+        let (number, role) = (sensor.number, sensor.config.kind.role());
         let default_std = sensor.config.position_std_m;
         let time = time - Span::from_seconds(sensor.config.delay_s);
         let fix = GnssFix { lever: sensor.config.lever(), ..epoch.fix(time) };
-        self.validity(index, now, epoch.is_valid(), 0);
+        self.validity(index, now, epoch.is_valid() || epoch.is_compass(), 0);
         self.sensors[index].fixed = Some(now);
         if let Some(sky) = self.sensors[index].sky.as_mut().filter(|_| epoch.is_valid()) {
             sky.hear_fix(&fix);
@@ -93,15 +92,9 @@ impl Core {
             self.reference(Quantity::Position, index, now, epoch.is_valid(), reference);
             return;
         }
-        if uses_heading && let Some(heading) = epoch.part.heading {
-            let heading = insd_base::units::wrap_two_pi(heading + offset.to_radians());
-            let reference = ExternalReference {
-                time,
-                heading: Some(heading),
-                heading_std: epoch.part.heading_std.or(Some(std.to_radians())),
-                ..ExternalReference::default()
-            };
-            self.reference(Quantity::Heading, index, now, epoch.is_valid(), reference);
+        self.own_heading(index, now, time, epoch);
+        if epoch.is_compass() {
+            return;
         }
         let is_used = self.choose(Quantity::Gnss, index, epoch.is_valid(), now);
         if is_used || epoch.is_valid() {
@@ -110,6 +103,22 @@ impl Core {
         } else {
             self.refuse(index, Refusal::Invalid);
         }
+    }
+
+    /// The heading of a receiver with several antennas, where it is used.
+    fn own_heading(&mut self, index: usize, now: Time, time: Time, epoch: &Epoch) {
+        let config = &self.sensors[index].config;
+        let Some(heading) = epoch.part.heading.filter(|_| config.heading) else { return };
+        let heading = wrap_two_pi(heading + config.heading_offset_deg.to_radians());
+        let default = config.heading_std_deg.to_radians();
+        let reference = ExternalReference {
+            time,
+            heading: Some(heading),
+            heading_std: epoch.part.heading_std.or(Some(default)),
+            ..ExternalReference::default()
+        };
+        let valid = epoch.is_valid() || epoch.is_compass();
+        self.reference(Quantity::Heading, index, now, valid, reference);
     }
 
     /// UTC that a receiver tells beside its fixes.

@@ -1,6 +1,6 @@
 //! GNSS receivers.
 
-use insd_wire::gnss::{nmea as sentences, sbf as septentrio, ubx as ublox};
+use insd_wire::gnss::{nmea as sentences, novatel as oem, sbf as septentrio, ubx as ublox};
 use insd_wire::nmea::Sentence;
 use insd_wire::stream::Protocol;
 
@@ -24,6 +24,14 @@ pub(super) fn sbf(bytes: &[u8], raw: RawUse) -> Result<Vec<Reading>, Refusal> {
     let is_epoch = matches!(message, septentrio::Message::MeasEpoch(_));
     let told = raw_reading(raw, is_epoch, || RawReading::of_sbf(&message));
     Ok(or_idle(part.into_iter().chain(pulse).chain(told).collect()))
+}
+
+/// A place of the receiver's own inertial filter is not one by satellites, and is left out.
+pub(super) fn novatel(bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {
+    let log = oem::OemLog::read(bytes).map_err(|_| Refusal::Malformed)?;
+    let inertial = matches!(&log.body, oem::OemBody::Position(place) if place.is_inertial());
+    let left_out = inertial.then_some(Reading::LeftOut(Refusal::Invalid));
+    Ok(or_idle(log.part().map(Reading::Gnss).into_iter().chain(left_out).collect()))
 }
 
 /// What a message says of satellites, where that is wanted. An epoch says nothing only where the receiver does not know when it was.

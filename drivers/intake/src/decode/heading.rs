@@ -1,11 +1,15 @@
 //! Headings from compasses and other attitude sensors.
 
 use insd_base::units::wrap_two_pi;
-use insd_wire::nmea::{HeadingMode, Pashr, PashrStatus, Psxn, PsxnQuality, Sentence};
+use insd_wire::gnss::novatel as oem;
+use insd_wire::motion::em::{EmAttitude, EmStatus};
+use insd_wire::motion::kmb::Kmb;
+use insd_wire::nmea::{HeadingMode, Pashr, PashrStatus, PsatSource, Psxn, PsxnQuality, Sentence};
 
 use super::Reading;
 use crate::config::SensorConfig;
 use crate::event::Refusal;
+use crate::status::ShownPart;
 
 /// A heading.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +61,12 @@ impl HeadingState {
             Sentence::Hdm(hdm) => Some(told(hdm.heading, North::Magnetic, true)),
             Sentence::Psxn(psxn) => self.psxn(psxn),
             Sentence::Pashr(pashr) => Some(of_pashr(pashr, config)),
+            // a gyro that holds on while satellites are hidden is no measurement
+            Sentence::PsatHpr(hpr) => {
+                Some(told(hpr.heading, North::True, hpr.source == PsatSource::Satellites))
+            }
+            Sentence::PtnlAvr(avr) => Some(told(avr.heading(), North::True, true)),
+            Sentence::PfecAttitude(attitude) => Some(told(attitude.heading, North::True, true)),
             _ => None,
         };
         reading.map_or_else(|| Ok(vec![Reading::Idle]), |reading| finished(reading, config))
@@ -74,6 +84,42 @@ impl HeadingState {
             _ => None,
         }
     }
+}
+
+/// The heading of a SPAN system.
+pub(super) fn novatel(bytes: &[u8], config: &SensorConfig) -> Result<Vec<Reading>, Refusal> {
+    let log = oem::OemLog::read(bytes).map_err(|_| Refusal::Malformed)?;
+    let Some((heading, std)) = log.attitude() else { return Ok(vec![Reading::Idle]) };
+    finished(HeadingReading { std, ..told(heading, North::True, true) }, config)
+}
+
+/// Heading and tilt of KM binary.
+pub(super) fn kmb(bytes: &[u8], config: &SensorConfig) -> Result<Vec<Reading>, Refusal> {
+    let telegram = Kmb::read(bytes).map_err(|_| Refusal::Malformed)?;
+    let std = telegram.sigma.heading.filter(|std| *std > 0.0);
+    let heading = telegram.heading.map(|heading| heading.value);
+    let tilt = telegram.tilt.map(|tilt| (tilt.value.roll, tilt.value.pitch));
+    let reading = HeadingReading { std, ..told(heading, North::True, true) };
+    with_tilt(reading, tilt.unzip(), config)
+}
+
+/// Heading and tilt of EM3000. A sensor that aligns or has an error stands behind neither.
+pub(super) fn em(bytes: &[u8], config: &SensorConfig) -> Result<Vec<Reading>, Refusal> {
+    let telegram = EmAttitude::read(bytes).map_err(|_| Refusal::Malformed)?;
+    let valid = matches!(telegram.status, Some(EmStatus::Normal | EmStatus::Reduced));
+    let shown = |angle: Option<f64>| angle.filter(|_| valid);
+    let reading = told(telegram.heading, North::True, valid);
+    with_tilt(reading, (shown(telegram.roll), shown(telegram.pitch)), config)
+}
+
+fn with_tilt(
+    reading: HeadingReading,
+    (roll, pitch): (Option<f64>, Option<f64>),
+    config: &SensorConfig,
+) -> Result<Vec<Reading>, Refusal> {
+    let mut readings = finished(reading, config)?;
+    readings.push(Reading::Shown(ShownPart::Tilt { roll, pitch }));
+    Ok(readings)
 }
 
 /// A heading with the sensor's offset, if it is one that may be used.

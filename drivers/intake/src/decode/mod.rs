@@ -102,11 +102,21 @@ impl Decoder {
     /// Why the frame is refused.
     pub fn read(&mut self, bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {
         match self.config.kind {
-            Kind::Sbg | Kind::Stdbin | Kind::Mip | Kind::Xbus | Kind::Kvh | Kind::Stim => {
+            Kind::Sbg
+            | Kind::Stdbin
+            | Kind::Mip
+            | Kind::Xbus
+            | Kind::Kvh
+            | Kind::Stim
+            | Kind::NovatelImu => {
                 self.imu.read(self.config.kind, bytes).map(|reading| vec![reading])
             }
             Kind::Ubx => gnss::ubx(bytes, self.config.raw),
             Kind::Sbf => gnss::sbf(bytes, self.config.raw),
+            Kind::Novatel => gnss::novatel(bytes),
+            Kind::NovatelIns => heading::novatel(bytes, &self.config),
+            Kind::Kmb => heading::kmb(bytes, &self.config),
+            Kind::Em3000 => heading::em(bytes, &self.config),
             Kind::Rtcm => Ok(gnss::rtcm(bytes)),
             Kind::RtcmBase => Ok(vec![Reading::Base(bytes.to_vec())]),
             Kind::Pd0 => self.log.pd0(bytes),
@@ -199,6 +209,9 @@ impl Decoder {
             Kind::Compass => &["HDT", "THS", "HDG", "HDM"],
             Kind::Psxn => &["PSXN"],
             Kind::Pashr => &["PASHR"],
+            Kind::Psat => &["PSAT"],
+            Kind::Ptnl => &["PTNL"],
+            Kind::Pfec => &["PFEC"],
             Kind::Manual | Kind::Ranging => &["PINSD"],
             Kind::Rls => &["RLS"],
             _ => &[],

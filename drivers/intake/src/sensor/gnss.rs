@@ -171,6 +171,16 @@ impl Epoch {
         !self.part.invalid && self.quality().is_measured()
     }
 
+    /// Whether it tells a heading and nothing beside, as receivers do that were told to be a compass and no more.
+    #[must_use]
+    pub fn is_compass(&self) -> bool {
+        let part = &self.part;
+        let moves = part.velocity.iter().any(Option::is_some);
+        let told =
+            part.position.is_some() || part.horizontal.is_some() || moves || part.quality.is_some();
+        part.heading.is_some() && !told && !part.invalid
+    }
+
     /// What the receiver says of its fix: autonomous if it gives a position and says nothing.
     #[must_use]
     pub fn quality(&self) -> FixQuality {

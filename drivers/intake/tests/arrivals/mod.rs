@@ -5,7 +5,7 @@
 //! three bytes and what the third says:
 //!
 //! ```text
-//! 1   modulo 17: 0 to 11 contents of a good frame of a protocol, 12 raw bytes, 13 a pulse,
+//! 1   modulo 20: 0 to 11 and 17 to 19 contents of a good frame of a protocol, 12 raw bytes, 13 a pulse,
 //!     14 the port is lost, 15 the system clock is set, 16 bytes at a port that is not there
 //! 2   time since the arrival before: 0 to 63 ms, tens of ms, s, or a power of two of seconds
 //! 3   bytes of the contents
@@ -29,7 +29,7 @@ use insd_intake::{Intake, Intaken};
 use insd_wire::stream::Protocol;
 
 /// All kinds of sensors.
-const KINDS: [Kind; 19] = [
+const KINDS: [Kind; 27] = [
     Kind::Sbg,
     Kind::Stdbin,
     Kind::Mip,
@@ -49,6 +49,14 @@ const KINDS: [Kind; 19] = [
     Kind::NmeaPosition,
     Kind::Rtcm,
     Kind::RtcmBase,
+    Kind::Novatel,
+    Kind::NovatelImu,
+    Kind::NovatelIns,
+    Kind::Psat,
+    Kind::Ptnl,
+    Kind::Pfec,
+    Kind::Kmb,
+    Kind::Em3000,
 ];
 
 const DIALECTS: [Dialect; 6] = [
@@ -59,6 +67,9 @@ const DIALECTS: [Dialect; 6] = [
     Dialect::Trimble,
     Dialect::Applanix,
 ];
+
+/// What an arrival may be.
+const KINDS_OF_ARRIVALS: u8 = 20;
 
 /// The ship's time ends here, s: a century is far beyond any voyage.
 const END: f64 = 3.2e9;
@@ -112,7 +123,7 @@ fn go_on(stamp: &mut Stamp, step: u8) {
 fn arrive(intake: &mut Intake, what: u8, stamp: &mut Stamp, own: &[u8]) {
     let mut port = PortId(0);
     let number = own.iter().rev().take(8).fold(0_i64, |sum, byte| sum << 8 | i64::from(*byte));
-    let input = match what % 17 {
+    let input = match what % KINDS_OF_ARRIVALS {
         12 => Input::Bytes(own.to_vec()),
         13 => {
             // the kernel saw the edge up to a second before it was told
@@ -131,7 +142,9 @@ fn arrive(intake: &mut Intake, what: u8, stamp: &mut Stamp, own: &[u8]) {
             Input::Bytes(own.to_vec())
         }
         number => {
-            let protocol = Protocol::ALL[usize::from(number)];
+            let number = usize::from(number);
+            let number = if number < 12 { number } else { number - 5 };
+            let protocol = Protocol::ALL.get(number).copied().unwrap_or(Protocol::Em3000);
             Input::Bytes(good::frames(protocol, own).concat())
         }
     };

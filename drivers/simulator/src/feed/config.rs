@@ -38,6 +38,14 @@ impl Encoding {
             Kind::Psxn => Encoding::Psxn,
             Kind::Pashr => Encoding::Pashr,
             Kind::Rtcm
+            | Kind::Novatel
+            | Kind::NovatelImu
+            | Kind::NovatelIns
+            | Kind::Kmb
+            | Kind::Em3000
+            | Kind::Psat
+            | Kind::Ptnl
+            | Kind::Pfec
             | Kind::RtcmBase
             | Kind::NmeaPosition
             | Kind::Manual

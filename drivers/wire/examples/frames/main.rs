@@ -2,6 +2,7 @@
 //! `frames FOLDER`. Each file is cut with all protocols mixed and with each one alone. Values are in
 //! SI units and radians under the names that the makers' documents give the fields.
 
+mod novatel;
 mod sbf;
 mod ubx;
 
@@ -59,6 +60,7 @@ fn line(file: &str, way: &str, cut: &Cut<'_>) -> Value {
     let (name, fields) = match cut.protocol {
         Protocol::Ubx => ubx::describe(cut.bytes),
         Protocol::Sbf => sbf::describe(cut.bytes),
+        Protocol::Novatel => novatel::describe(cut.bytes),
         Protocol::Rtcm => {
             let number = rtcm::Frame::open(cut.bytes).ok().and_then(|frame| frame.number());
             (number.map_or_else(|| "filler".to_owned(), |number| number.to_string()), Value::Null)

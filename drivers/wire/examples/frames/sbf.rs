@@ -1,8 +1,9 @@
 //! SBF blocks as JSON.
 
 use insd_wire::gnss::sbf::{
-    AttCovEuler, AttEuler, Covariance, MeasChannel, MeasEpoch, MeasOther, Message, Mode,
-    PvtGeodetic, RawNavigation, RawNavigationKind, ReceiverTime, Stamp, XppsOffset,
+    AttCovEuler, AttEuler, BaseVector, BaseVectorGeod, Covariance, MeasChannel, MeasEpoch,
+    MeasOther, Message, Mode, PvtCartesian, PvtGeodetic, RawNavigation, RawNavigationKind,
+    ReceiverTime, Stamp, XppsOffset,
 };
 use serde_json::{Value, json};
 
@@ -14,6 +15,8 @@ pub(crate) fn describe(block: &[u8]) -> (String, Value) {
     };
     let (name, fields) = match &message {
         Message::PvtGeodetic(block) => ("PVTGeodetic", pvt(block)),
+        Message::PvtCartesian(block) => ("PVTCartesian", cartesian(block)),
+        Message::BaseVectorGeod(block) => ("BaseVectorGeod", vectors(block)),
         Message::PosCovGeodetic(block) => ("PosCovGeodetic", cov(&block.0)),
         Message::VelCovGeodetic(block) => ("VelCovGeodetic", cov(&block.0)),
         Message::AttEuler(block) => ("AttEuler", attitude(block)),
@@ -55,6 +58,36 @@ fn pvt(block: &PvtGeodetic) -> Value {
         "VAccuracy": extra.and_then(|extra| extra.vertical),
     });
     with(block.stamp, Some(block.mode), fields)
+}
+
+fn cartesian(block: &PvtCartesian) -> Value {
+    let (position, velocity, extra) = (block.position, block.velocity, block.extra);
+    let fields = json!({
+        "X": position.map(|own| own[0]), "Y": position.map(|own| own[1]),
+        "Z": position.map(|own| own[2]), "Undulation": block.undulation,
+        "Vx": velocity.map(|own| own[0]), "Vy": velocity.map(|own| own[1]),
+        "Vz": velocity.map(|own| own[2]), "NrSV": block.satellites,
+        "NrBases": extra.map(|extra| extra.bases),
+        "Latency": extra.and_then(|extra| extra.latency),
+        "HAccuracy": extra.and_then(|extra| extra.horizontal),
+        "VAccuracy": extra.and_then(|extra| extra.vertical),
+    });
+    with(block.stamp, Some(block.mode), fields)
+}
+
+fn vectors(block: &BaseVectorGeod) -> Value {
+    let vector = |own: &BaseVector| {
+        json!({
+            "NrSV": own.satellites, "Error": own.mode.error, "Mode": own.mode.solution.raw(),
+            "Misc": own.misc, "DeltaNorth": own.relative[0], "DeltaEast": own.relative[1],
+            "DeltaDown": own.relative[2], "DeltaVn": own.velocity[0],
+            "DeltaVe": own.velocity[1], "DeltaVd": own.velocity[2], "Azimuth": own.direction.0,
+            "Elevation": own.direction.1, "ReferenceID": own.reference,
+            "CorrAge": own.correction_age, "SignalInfo": own.signals,
+        })
+    };
+    let vectors: Vec<_> = block.vectors.iter().map(vector).collect();
+    with(block.stamp, None, json!({ "vectors": vectors }))
 }
 
 fn cov(block: &Covariance) -> Value {

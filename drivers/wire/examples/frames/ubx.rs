@@ -1,8 +1,8 @@
 //! UBX messages as JSON.
 
 use insd_wire::gnss::ubx::{
-    Covariance, Message, NavCov, NavDop, NavHpPosLlh, NavPvt, NavTimeGps, NavTimeLs, RxmRawx,
-    RxmSfrbx, TimTp,
+    Covariance, Message, NavCov, NavDop, NavHpPosLlh, NavPosLlh, NavPvt, NavRelPosNed, NavSol,
+    NavStatus, NavTimeGps, NavTimeLs, NavTimeUtc, NavVelNed, RxmRawx, RxmSfrbx, TimTp,
 };
 use insd_wire::gnss::{EpochTime, PulseTime};
 use serde_json::{Value, json};
@@ -18,6 +18,12 @@ pub(crate) fn describe(frame: &[u8]) -> (String, Value) {
         Message::NavDop(message) => ("NAV-DOP", dop(message)),
         Message::NavCov(message) => ("NAV-COV", cov(message)),
         Message::NavHpPosLlh(message) => ("NAV-HPPOSLLH", hpposllh(message)),
+        Message::NavPosLlh(message) => ("NAV-POSLLH", posllh(message)),
+        Message::NavVelNed(message) => ("NAV-VELNED", velned(message)),
+        Message::NavSol(message) => ("NAV-SOL", sol(message)),
+        Message::NavStatus(message) => ("NAV-STATUS", status(message)),
+        Message::NavTimeUtc(message) => ("NAV-TIMEUTC", timeutc(message)),
+        Message::NavRelPosNed(message) => ("NAV-RELPOSNED", relposned(message)),
         Message::NavTimeGps(message) => ("NAV-TIMEGPS", time_gps(message)),
         Message::NavTimeLs(message) => ("NAV-TIMELS", time_ls(message)),
         Message::TimTp(message) => ("TIM-TP", tim_tp(message)),
@@ -75,6 +81,71 @@ fn hpposllh(message: &NavHpPosLlh) -> Value {
         "lon": position.map(|position| position.longitude),
         "height": position.map(|position| position.height), "hMSL": message.height_msl,
         "hAcc": message.horizontal_accuracy, "vAcc": message.vertical_accuracy,
+    })
+}
+
+fn posllh(message: &NavPosLlh) -> Value {
+    json!({
+        "iTOW": message.time_of_week, "lat": message.latitude, "lon": message.longitude,
+        "height": message.height, "hMSL": message.height_msl,
+        "hAcc": message.horizontal_accuracy, "vAcc": message.vertical_accuracy,
+    })
+}
+
+fn velned(message: &NavVelNed) -> Value {
+    json!({
+        "iTOW": message.time_of_week, "velN": message.velocity[0], "velE": message.velocity[1],
+        "velD": message.velocity[2], "speed": message.speed, "gSpeed": message.ground_speed,
+        "heading": message.course, "sAcc": message.speed_accuracy, "cAcc": message.course_accuracy,
+    })
+}
+
+fn sol(message: &NavSol) -> Value {
+    let ([x, y, z], [vx, vy, vz]) = (message.position, message.velocity);
+    json!({
+        "iTOW": message.time_of_week, "fTOW": message.fraction, "week": message.week,
+        "gpsFix": message.fix.raw(), "gpsfixOK": message.fix_ok, "diffSoln": message.differential,
+        "wknSet": message.week_valid, "towSet": message.time_of_week_valid,
+        "ecefX": x, "ecefY": y, "ecefZ": z, "pAcc": message.position_accuracy,
+        "ecefVX": vx, "ecefVY": vy, "ecefVZ": vz, "sAcc": message.speed_accuracy,
+        "pDOP": message.pdop, "numSV": message.satellites,
+    })
+}
+
+fn status(message: &NavStatus) -> Value {
+    json!({
+        "iTOW": message.time_of_week, "gpsFix": message.fix.raw(), "gpsFixOk": message.fix_ok,
+        "diffSoln": message.differential, "wknSet": message.week_valid,
+        "towSet": message.time_of_week_valid, "spoofDetState": message.spoofing,
+        "carrSoln": message.carrier.raw(), "ttff": message.to_first_fix,
+        "msss": message.since_start,
+    })
+}
+
+fn timeutc(message: &NavTimeUtc) -> Value {
+    json!({
+        "iTOW": message.time_of_week, "tAcc": message.accuracy, "nano": message.nanosecond,
+        "year": message.year, "month": message.month_day[0], "day": message.month_day[1],
+        "hour": message.clock[0], "min": message.clock[1], "sec": message.clock[2],
+        "validTOW": message.time_of_week_valid, "validWKN": message.week_valid,
+        "validUTC": message.valid, "utcStandard": message.standard,
+    })
+}
+
+fn relposned(message: &NavRelPosNed) -> Value {
+    let ([n, e, d], [fine_n, fine_e, fine_d]) = (message.relative, message.finer);
+    json!({
+        "iTOW": message.time_of_week, "version": message.version, "refStationID": message.station,
+        "relPosN": n + fine_n, "relPosE": e + fine_e, "relPosD": d + fine_d,
+        "relPosLength": message.length + message.finer_length,
+        "relPosHeading": message.heading, "accN": message.accuracy[0],
+        "accE": message.accuracy[1], "accD": message.accuracy[2],
+        "accLength": message.length_accuracy, "accHeading": message.heading_accuracy,
+        "gnssFixOK": message.fix_ok, "diffSoln": message.differential,
+        "relPosValid": message.valid, "carrSoln": message.carrier.raw(),
+        "isMoving": message.moving, "refPosMiss": message.position_missing,
+        "refObsMiss": message.measurements_missing, "relPosHeadingValid": message.heading_valid,
+        "relPosNormalized": message.normalized,
     })
 }
 

@@ -5,11 +5,13 @@
 //! [`GnssPart::epoch`] which belong to each other.
 
 pub mod navigation;
+pub mod novatel;
 pub mod rtcm;
 pub mod sbf;
 pub mod ubx;
 
 mod bits;
+mod cartesian;
 mod crc24q;
 mod epoch;
 mod kepler;

@@ -27,6 +27,7 @@ use insd_base::units::{DEG, wrap_two_pi};
 
 use super::{fixed, whole};
 use crate::binary::{Fault, Reader, scaled};
+use crate::stream::Look;
 
 /// Bytes of the telegram.
 pub const LENGTH: usize = 10;
@@ -44,6 +45,35 @@ const CENTIMETRE: f64 = 0.01;
 const LARGEST_HEAVE: u16 = 999;
 /// Units of a full turn.
 const TURN: u16 = 36_000;
+
+/// What stands at the start of some bytes: a telegram of EM3000 by its first two bytes and the ranges of all its values, as there is no
+/// checksum; of random bytes one in 400 000 begins a telegram. That of EM1000, which has no status, is not sought.
+#[must_use]
+pub fn look(bytes: &[u8]) -> Look {
+    match bytes {
+        [status, rest @ ..] if EmStatus::of_byte(*status).is_some() => match rest {
+            [] => Look::More(2),
+            [SYNC, ..] => bytes.get(..LENGTH).map_or(Look::More(LENGTH), within_ranges),
+            _ => Look::Nothing,
+        },
+        _ => Look::Nothing,
+    }
+}
+
+/// A telegram whose values are in their ranges, or the largest that their fields hold, by which they are unknown.
+fn within_ranges(bytes: &[u8]) -> Look {
+    let Ok(read) = EmAttitude::read(bytes) else { return Look::Nothing };
+    let [_, _, r0, r1, p0, p1, h0, h1, d0, d1] = *bytes else { return Look::Nothing };
+    let largest = |told: Option<f64>, low: u8, high: u8, unknown: [u8; 2]| {
+        told.is_some() || [low, high] == unknown
+    };
+    let signed = i16::MAX.to_le_bytes();
+    let good = largest(read.roll, r0, r1, signed)
+        && largest(read.pitch, p0, p1, signed)
+        && largest(read.heave, h0, h1, signed)
+        && largest(read.heading, d0, d1, u16::MAX.to_le_bytes());
+    if good { Look::Frame(LENGTH) } else { Look::Nothing }
+}
 
 /// What the sensor says of itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

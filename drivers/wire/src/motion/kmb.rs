@@ -45,6 +45,7 @@ use super::{
     within,
 };
 use crate::binary::{Fault, Reader, Writer};
+use crate::stream::Look;
 
 /// Bytes of the telegram.
 pub const LENGTH: usize = 132;
@@ -61,6 +62,20 @@ const DELAYED: Bits = Bits { invalid: 1 << 5, reduced: 1 << 21 };
 
 /// An error that the sensor does not estimate.
 const NOT_ESTIMATED: f32 = -1.0;
+
+/// What stands at the start of some bytes: a telegram by its first eight bytes and by what can be read of it, as there is no checksum.
+#[must_use]
+pub fn look(bytes: &[u8]) -> Look {
+    let head = [*START, [LENGTH as u8, 0, VERSION as u8, 0]].concat();
+    if bytes.iter().zip(&head).any(|(byte, own)| byte != own) {
+        return Look::Nothing;
+    }
+    match bytes.get(..LENGTH) {
+        None => Look::More(LENGTH),
+        Some(telegram) if Kmb::read(telegram).is_ok() => Look::Frame(LENGTH),
+        Some(_) => Look::Damaged,
+    }
+}
 
 /// The telegram.
 #[derive(Clone, Copy, Debug, PartialEq)]

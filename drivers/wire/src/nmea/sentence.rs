@@ -8,7 +8,9 @@ use super::{
     NortekBeam, NortekBottomTrack, NortekGroundSpeed, Pashr, Pinsd, Psxn, Rls, Rmc, Rot, Ths, Txt,
     Vbw, Vdr, Vhw, Vlw, Vtg, Xdr, Zda,
 };
-use super::{PfecAttitude, Phcmp, Phinf, Phlin, Phoct, Phspd, Phtro, Pixse, Prdid, Ptnthtm};
+use super::{
+    PfecAttitude, Phcmp, Phinf, Phlin, Phoct, Phspd, Phtro, Pixse, Prdid, PsatHpr, PtnlAvr, Ptnthtm,
+};
 
 /// The enum, and the match of a formatter to its reader and of a sentence to its writer.
 macro_rules! sentences {
@@ -147,6 +149,10 @@ sentences! {
         Pixse("PIXSE"),
         /// Attitude for current profilers.
         Prdid("PRDID"),
+        /// Attitude of Hemisphere satellite compasses.
+        PsatHpr("PSAT"),
+        /// Line between two antennas of a Trimble receiver.
+        PtnlAvr("PTNL"),
         /// Attitude, rates, quality of Seatex and Kongsberg units.
         Psxn("PSXN"),
         /// Attitude of compasses of True North.

@@ -1,9 +1,10 @@
 //! The protocols that a port can speak.
 
 use super::Look;
-use crate::gnss::{rtcm, sbf, ubx};
+use crate::gnss::{novatel, rtcm, sbf, ubx};
 use crate::imu::{kvh, mip, sbg, stdbin, stim, xbus};
 use crate::log::{pd0, pd6};
+use crate::motion::{em, kmb};
 use crate::nmea;
 
 /// A way of framing bytes.
@@ -33,11 +34,17 @@ pub enum Protocol {
     Pd0,
     /// Text lines of Teledyne RDI.
     Pd6,
+    /// Binary logs of NovAtel receivers.
+    Novatel,
+    /// KM binary of motion sensors.
+    Kmb,
+    /// EM3000 of motion sensors.
+    Em3000,
 }
 
 impl Protocol {
-    /// All of them, in the order in which they are asked.
-    pub const ALL: [Protocol; 12] = [
+    /// Those that can be told from one another in one stream, in the order in which they are asked.
+    pub const ALL: [Protocol; 14] = [
         Protocol::Nmea,
         Protocol::Ubx,
         Protocol::Sbf,
@@ -50,7 +57,13 @@ impl Protocol {
         Protocol::Stim,
         Protocol::Pd0,
         Protocol::Pd6,
+        Protocol::Novatel,
+        Protocol::Kmb,
     ];
+
+    /// Those that are sought only where somebody says that they are spoken: a telegram of EM3000 has no checksum, and may stand at the
+    /// start of a longer frame of another.
+    pub const ASKED_FOR: [Protocol; 1] = [Protocol::Em3000];
 
     /// Its short name, as in configurations and tables.
     #[must_use]
@@ -68,6 +81,9 @@ impl Protocol {
             Protocol::Stim => "stim",
             Protocol::Pd0 => "pd0",
             Protocol::Pd6 => "pd6",
+            Protocol::Novatel => "novatel",
+            Protocol::Kmb => "kmb",
+            Protocol::Em3000 => "em3000",
         }
     }
 
@@ -87,6 +103,9 @@ impl Protocol {
             Protocol::Stim => stim::look(bytes),
             Protocol::Pd0 => pd0::look(bytes),
             Protocol::Pd6 => pd6::look(bytes),
+            Protocol::Novatel => novatel::look(bytes),
+            Protocol::Kmb => kmb::look(bytes),
+            Protocol::Em3000 => em::look(bytes),
         }
     }
 

@@ -6,11 +6,15 @@ use std::hint::black_box;
 use insd_base::satellites::SatelliteEpoch;
 use insd_base::{GpsTime, LogReference};
 use insd_wire::gnss::navigation::NavigationAssembler;
-use insd_wire::gnss::{GnssPart, Locks, NavigationWords, nmea as gnss_nmea, rtcm, sbf, ubx};
+use insd_wire::gnss::{
+    GnssPart, Locks, NavigationWords, nmea as gnss_nmea, novatel, rtcm, sbf, ubx,
+};
 use insd_wire::imu::kvh::{KvhFormat, KvhLinear, KvhMessage, KvhRotation, KvhTemperature};
 use insd_wire::imu::stim::{StimConfiguration, StimDatagram, StimFormat, StimKind, StimRange};
 use insd_wire::imu::{ImuReading, mip, sbg, stdbin, xbus};
 use insd_wire::log::{LogReading, pd0, pd6};
+use insd_wire::motion::em::EmAttitude;
+use insd_wire::motion::kmb::Kmb;
 use insd_wire::nmea::{ChecksumPolicy, Frame, PashrDialect, Sentence, TagBlock, Talker};
 use insd_wire::stream::Protocol;
 
@@ -32,6 +36,9 @@ pub(crate) fn look(protocol: Protocol, frame: &[u8]) {
         Protocol::Stim => stim(frame),
         Protocol::Pd0 => pd0(frame),
         Protocol::Pd6 => pd6(frame),
+        Protocol::Novatel => novatel(frame),
+        Protocol::Kmb => kmb(frame),
+        Protocol::Em3000 => em(frame),
     }
 }
 
@@ -119,6 +126,12 @@ fn ubx(frame: &[u8]) {
         Message::NavDop(message) => message.write(),
         Message::NavCov(message) => message.write(),
         Message::NavHpPosLlh(message) => message.write(),
+        Message::NavPosLlh(message) => message.write(),
+        Message::NavVelNed(message) => message.write(),
+        Message::NavSol(message) => message.write(),
+        Message::NavStatus(message) => message.write(),
+        Message::NavTimeUtc(message) => message.write(),
+        Message::NavRelPosNed(message) => message.write(),
         Message::NavTimeGps(message) => message.write(),
         Message::NavTimeLs(message) => message.write(),
         Message::TimTp(message) => message.write(),
@@ -143,6 +156,8 @@ fn sbf(frame: &[u8]) {
     let read = Message::read;
     let write = |message: &Message| match message {
         Message::PvtGeodetic(block) => block.write(),
+        Message::PvtCartesian(block) => block.write(),
+        Message::BaseVectorGeod(block) => block.write(),
         Message::PosCovGeodetic(block) => block.write(),
         Message::VelCovGeodetic(block) => block.write(),
         Message::AttEuler(block) => block.write(),
@@ -309,6 +324,31 @@ fn pd0(frame: &[u8]) {
         let finite = janus.is_none_or(|own| is_finite([Some(own.x), Some(own.z), own.error]));
         assert!(finite, "{janus:?}");
     }
+}
+
+fn kmb(frame: &[u8]) {
+    let Ok(told) = Kmb::read(frame) else { return };
+    let heading = told.heading.map(|heading| heading.value);
+    let numbers = told.rates.map(Some).into_iter().chain([heading, told.sigma.heading]);
+    assert!(is_finite(numbers), "{told:?}");
+    if let Some(written) = told.write() {
+        make(Kmb::read(&written));
+    }
+}
+
+fn em(frame: &[u8]) {
+    let read = |bytes: &[u8]| EmAttitude::read(bytes);
+    let Some(told) = again(frame, AfterOnce, read, |told| told.write().to_vec()) else { return };
+    assert!(is_finite([told.roll, told.pitch, told.heave, told.heading]), "{told:?}");
+}
+
+fn novatel(frame: &[u8]) {
+    use novatel::OemLog;
+    let Some(log) = again(frame, Everything, OemLog::read, OemLog::write) else { return };
+    log.part().iter().for_each(is_sane_part);
+    log.imu().iter().for_each(is_sane_sample);
+    let told = log.attitude();
+    assert!(told.is_none_or(|(heading, std)| is_finite([heading, std])), "{log:?}");
 }
 
 fn pd6(frame: &[u8]) {

@@ -4,7 +4,7 @@
 //! Where the library makes the frame of any payload its own function is used. The others are made here,
 //! with sums of their own, from the layouts that the modules of the formats describe.
 
-use insd_wire::gnss::{rtcm, sbf, ubx};
+use insd_wire::gnss::{novatel, rtcm, sbf, ubx};
 use insd_wire::nmea::{Sentence, checksum};
 use insd_wire::stream::{Look, Protocol};
 
@@ -24,6 +24,9 @@ pub(crate) fn frames(protocol: Protocol, bytes: &[u8]) -> Vec<Vec<u8>> {
         Protocol::Stim => vec![stim_frame(*choice, rest)],
         Protocol::Pd0 => vec![pd0_frame(*choice, rest)],
         Protocol::Pd6 => vec![pd6_line(*choice, rest)],
+        Protocol::Novatel => vec![novatel_frame(*choice, rest)],
+        Protocol::Kmb => vec![kmb_frame(bytes)],
+        Protocol::Em3000 => vec![em_frame(*choice, rest)],
     }
 }
 
@@ -52,7 +55,7 @@ fn line(content: &[u8]) -> Vec<u8> {
 }
 
 /// Class and id of the messages that are read, and of one that is not.
-const UBX: [(u8, u8); 10] = [
+const UBX: [(u8, u8); 16] = [
     (0x01, 0x07),
     (0x01, 0x04),
     (0x01, 0x36),
@@ -63,6 +66,12 @@ const UBX: [(u8, u8); 10] = [
     (0x02, 0x15),
     (0x02, 0x13),
     (0x0A, 0x04),
+    (0x01, 0x02),
+    (0x01, 0x03),
+    (0x01, 0x06),
+    (0x01, 0x12),
+    (0x01, 0x21),
+    (0x01, 0x3C),
 ];
 
 fn ubx_frame(choice: u8, payload: &[u8]) -> Vec<u8> {
@@ -71,8 +80,9 @@ fn ubx_frame(choice: u8, payload: &[u8]) -> Vec<u8> {
 }
 
 /// Numbers of the blocks that are read, and of two that are not.
-const SBF: [u16; 16] = [
+const SBF: [u16; 18] = [
     4007, 5906, 5908, 5938, 5939, 5914, 5911, 4027, 4017, 4022, 4023, 4026, 4047, 4066, 4000, 4018,
+    4006, 4028,
 ];
 
 fn sbf_frame(choice: u8, payload: &[u8]) -> Vec<u8> {
@@ -217,6 +227,38 @@ fn pd0_frame(choice: u8, mut bytes: &[u8]) -> Vec<u8> {
     let summed = [&[0x7F, 0x7F][..], &length, &[0, 3], &offsets, &types, &[0; 2]].concat();
     let sum = summed.iter().fold(0_u16, |sum, byte| sum.wrapping_add(u16::from(*byte)));
     [&summed[..], &sum.to_le_bytes()].concat()
+}
+
+/// Numbers of the logs that are read, and of one that is not.
+const NOVATEL: [u16; 15] =
+    [42, 1429, 99, 1430, 1335, 2042, 507, 508, 1465, 268, 325, 1461, 1462, 101, 43];
+
+/// The time of the header comes first, then what it carries.
+fn novatel_frame(choice: u8, bytes: &[u8]) -> Vec<u8> {
+    let time = filled(&bytes[..bytes.len().min(7)], 7);
+    let header = novatel::Header {
+        id: chosen(&NOVATEL, choice),
+        short: choice & 0x40 != 0,
+        response: choice & 0x80 != 0,
+        time_status: if choice & 0x40 != 0 { 0 } else { time[0] },
+        week: u16::from_le_bytes([time[1], time[2]]),
+        milliseconds: i32::from_le_bytes([time[3], time[4], time[5], time[6]]),
+    };
+    header.write(&filled(&bytes[bytes.len().min(7)..], bytes.len().max(133)))
+}
+
+/// KM binary with a fraction below a second, or most would be refused for it.
+fn kmb_frame(bytes: &[u8]) -> Vec<u8> {
+    let mut body = filled(&bytes[..bytes.len().min(124)], 124);
+    body[7] &= 0x1F;
+    [&b"#KMB\x84\x00\x01\x00"[..], &body].concat()
+}
+
+/// EM3000 of which heave is in its range, or most would be none.
+fn em_frame(choice: u8, bytes: &[u8]) -> Vec<u8> {
+    let mut body = filled(&bytes[..bytes.len().min(8)], 8);
+    body[5] &= 1;
+    [&[0x90 | choice & 0x0F, 0x90][..], &body].concat()
 }
 
 /// Names of the lines that are read, and of one that is not.

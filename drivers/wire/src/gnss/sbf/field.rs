@@ -155,17 +155,26 @@ impl Mode {
     }
 
     pub(super) fn read(reader: &mut Reader<'_>) -> Result<Self, Fault> {
-        let [mode, error] = reader.array()?;
-        Ok(Mode {
+        Ok(Mode::of_bytes(reader.array()?))
+    }
+
+    /// By the bytes of mode and error.
+    pub(super) fn of_bytes([mode, error]: [u8; 2]) -> Self {
+        Mode {
             solution: Solution::from_raw(mode & 15),
             determining: mode & 0x40 != 0,
             two_dimensional: mode & 0x80 != 0,
             error,
-        })
+        }
     }
 
     pub(super) fn write(self, writer: &mut Writer) {
+        writer.put(&self.bytes());
+    }
+
+    /// The bytes of mode and error.
+    pub(super) fn bytes(self) -> [u8; 2] {
         let flags = u8::from(self.determining) << 6 | u8::from(self.two_dimensional) << 7;
-        writer.u8(self.solution.raw() | flags).u8(self.error);
+        [self.solution.raw() | flags, self.error]
     }
 }

@@ -5,6 +5,7 @@
 //! Layouts are from the maker's guides and pysbf2; logs of a device were at hand for MeasEpoch and raw navigation bits only.
 
 mod attitude;
+mod cartesian;
 mod cov;
 mod field;
 mod frame;
@@ -13,8 +14,10 @@ mod navigation;
 mod pvt;
 mod signal;
 mod time;
+mod vector;
 
 pub use attitude::{AttCovEuler, AttEuler};
+pub use cartesian::PvtCartesian;
 pub use cov::{Covariance, PosCovGeodetic, VelCovGeodetic};
 pub use field::{Mode, Solution};
 pub use frame::{Frame, Stamp, look};
@@ -22,6 +25,7 @@ pub use measurements::{MeasChannel, MeasEpoch, MeasOther};
 pub use navigation::{RawNavigation, RawNavigationKind};
 pub use pvt::{PvtAccuracy, PvtGeodetic};
 pub use time::{ReceiverTime, XppsOffset};
+pub use vector::{BaseVector, BaseVectorGeod};
 
 use super::{GnssPart, PulseTime};
 use crate::binary::Fault;
@@ -31,6 +35,10 @@ use crate::binary::Fault;
 pub enum Message {
     /// Position, velocity and time.
     PvtGeodetic(Box<PvtGeodetic>),
+    /// Position, velocity and time along the axes of the Earth.
+    PvtCartesian(Box<PvtCartesian>),
+    /// Lines from bases.
+    BaseVectorGeod(BaseVectorGeod),
     /// Covariance of the position.
     PosCovGeodetic(PosCovGeodetic),
     /// Covariance of the velocity.
@@ -65,6 +73,8 @@ impl Message {
         let Frame { id, revision, .. } = Frame::open(block)?;
         Ok(match id {
             pvt::ID => Message::PvtGeodetic(Box::new(PvtGeodetic::read(block)?)),
+            cartesian::ID => Message::PvtCartesian(Box::new(PvtCartesian::read(block)?)),
+            vector::ID => Message::BaseVectorGeod(BaseVectorGeod::read(block)?),
             cov::POSITION => Message::PosCovGeodetic(PosCovGeodetic::read(block)?),
             cov::VELOCITY => Message::VelCovGeodetic(VelCovGeodetic::read(block)?),
             attitude::ANGLES => Message::AttEuler(AttEuler::read(block)?),
@@ -84,6 +94,8 @@ impl Message {
     pub fn part(&self) -> Option<GnssPart> {
         Some(match self {
             Message::PvtGeodetic(block) => block.part(),
+            Message::PvtCartesian(block) => block.part(),
+            Message::BaseVectorGeod(block) => block.part(),
             Message::PosCovGeodetic(block) => block.part(),
             Message::VelCovGeodetic(block) => block.part(),
             Message::AttEuler(block) => block.part(),

@@ -72,7 +72,7 @@ pub struct PvtAccuracy {
 
 impl PvtAccuracy {
     /// What a revision has; nothing of revisions 0 and 1, which tell no accuracy.
-    fn read(reader: &mut Reader<'_>, revision: u8) -> Result<Option<Self>, Fault> {
+    pub(super) fn read(reader: &mut Reader<'_>, revision: u8) -> Result<Option<Self>, Fault> {
         if revision < 2 {
             return Ok(None);
         }
@@ -85,7 +85,7 @@ impl PvtAccuracy {
         }))
     }
 
-    fn write(&self, writer: &mut Writer) {
+    pub(super) fn write(&self, writer: &mut Writer) {
         writer.put(&[self.bases, 0, 0]);
         put_u16(writer, self.latency, 1e-4);
         put_u16(writer, self.horizontal, 0.01);
@@ -94,7 +94,7 @@ impl PvtAccuracy {
     }
 
     /// 1-sigma of north, east, down: the horizontal distance shared equally.
-    fn std(&self) -> [Option<f64>; 3] {
+    pub(super) fn std(&self) -> [Option<f64>; 3] {
         let component = self.horizontal.map(|twice| twice / 2.0 / SQRT_2);
         [component, component, self.vertical.map(|twice| twice / 2.0)]
     }

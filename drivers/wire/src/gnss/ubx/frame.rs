@@ -94,3 +94,26 @@ impl<'a> Frame<'a> {
 pub(super) fn framed((class, id): (u8, u8), payload: &Writer) -> Vec<u8> {
     Frame { class, id, payload: payload.bytes() }.write()
 }
+
+/// Reader and writer of a message that is one table.
+macro_rules! as_message {
+    ($message:ident, $name:expr) => {
+        impl $message {
+            /// Reads a frame.
+            ///
+            /// # Errors
+            /// What is wrong with the bytes.
+            pub fn read(frame: &[u8]) -> Result<Self, $crate::binary::Fault> {
+                Self::read_fields(super::frame::Frame::payload_of(frame, $name)?)
+            }
+
+            /// The frame.
+            #[must_use]
+            pub fn write(&self) -> Vec<u8> {
+                let (class, id) = $name;
+                super::frame::Frame { class, id, payload: &self.write_fields() }.write()
+            }
+        }
+    };
+}
+pub(super) use as_message;

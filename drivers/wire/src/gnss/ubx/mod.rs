@@ -8,16 +8,20 @@ mod cov;
 mod field;
 mod frame;
 mod hpposllh;
+mod older;
 mod pvt;
 mod raw;
+mod relposned;
 mod signal;
 mod time;
 
 pub use cov::{Covariance, NavCov, NavDop};
 pub use frame::{Frame, look};
 pub use hpposllh::NavHpPosLlh;
+pub use older::{NavPosLlh, NavSol, NavStatus, NavTimeUtc, NavVelNed};
 pub use pvt::{Carrier, FixType, NavPvt, PvtTime};
 pub use raw::{RawMeasurement, RxmRawx, RxmSfrbx};
+pub use relposned::NavRelPosNed;
 pub use signal::Signal;
 pub use time::{LeapEvent, NavTimeGps, NavTimeLs, TimTp};
 
@@ -35,6 +39,18 @@ pub enum Message {
     NavCov(NavCov),
     /// Position to a tenth of a millimetre.
     NavHpPosLlh(NavHpPosLlh),
+    /// Position of an epoch; whether there is a fix another message tells.
+    NavPosLlh(NavPosLlh),
+    /// Velocity of an epoch.
+    NavVelNed(NavVelNed),
+    /// Fix, position and velocity along the axes of the Earth.
+    NavSol(NavSol),
+    /// What the receiver says of its fix.
+    NavStatus(NavStatus),
+    /// UTC of an epoch.
+    NavTimeUtc(NavTimeUtc),
+    /// From the antenna of a base to that of the receiver.
+    NavRelPosNed(NavRelPosNed),
     /// GPS time of an epoch.
     NavTimeGps(NavTimeGps),
     /// Leap seconds.
@@ -68,6 +84,14 @@ impl Message {
             cov::DOP => Message::NavDop(NavDop::read(frame)?),
             cov::COV => Message::NavCov(NavCov::read(frame)?),
             hpposllh::NAME => Message::NavHpPosLlh(NavHpPosLlh::read(frame)?),
+            older::POSLLH => Message::NavPosLlh(NavPosLlh::read(frame)?),
+            older::VELNED => Message::NavVelNed(NavVelNed::read(frame)?),
+            older::SOL => Message::NavSol(NavSol::read(frame)?),
+            older::STATUS => Message::NavStatus(NavStatus::read(frame)?),
+            older::TIMEUTC => Message::NavTimeUtc(NavTimeUtc::read(frame)?),
+            relposned::NAME if payload.first() == Some(&NavRelPosNed::VERSION) => {
+                Message::NavRelPosNed(NavRelPosNed::read(frame)?)
+            }
             time::TIME_GPS => Message::NavTimeGps(NavTimeGps::read(frame)?),
             time::TIME_LS => Message::NavTimeLs(NavTimeLs::read(frame)?),
             time::TIM_TP => Message::TimTp(TimTp::read(frame)?),
@@ -85,6 +109,12 @@ impl Message {
             Message::NavDop(message) => message.part(),
             Message::NavCov(message) => message.part(),
             Message::NavHpPosLlh(message) => message.part(),
+            Message::NavPosLlh(message) => message.part(),
+            Message::NavVelNed(message) => message.part(),
+            Message::NavSol(message) => message.part(),
+            Message::NavStatus(message) => message.part(),
+            Message::NavTimeUtc(message) => message.part(),
+            Message::NavRelPosNed(message) => message.part(),
             Message::NavTimeGps(message) => message.part(),
             Message::NavTimeLs(message) => message.part(),
             _ => return None,

@@ -119,7 +119,7 @@ pub struct NavPvt {
 }
 
 impl FixType {
-    fn from_raw(raw: u8) -> Self {
+    pub(super) fn from_raw(raw: u8) -> Self {
         match raw {
             0 => FixType::None,
             1 => FixType::DeadReckoning,
@@ -156,11 +156,24 @@ impl FixType {
                 | FixType::Combined
         )
     }
+
+    /// What a receiver says of its fix by this, whether it is within its limits, and by what it was helped.
+    pub(super) fn quality(self, is_ok: bool, carrier: Carrier, differential: bool) -> FixQuality {
+        match (self, carrier) {
+            _ if !is_ok || !self.has_position() => FixQuality::Invalid,
+            (FixType::DeadReckoning, _) => FixQuality::Estimated,
+            (_, Carrier::Fixed) => FixQuality::RtkFixed,
+            (_, Carrier::Float) => FixQuality::RtkFloat,
+            _ if differential => FixQuality::Differential,
+            _ => FixQuality::Autonomous,
+        }
+    }
 }
 
 impl Carrier {
-    fn from_flags(flags: u8) -> Self {
-        match flags >> 6 {
+    /// By the value on the wire, two bits.
+    pub(super) fn of_raw(raw: u8) -> Self {
+        match raw {
             0 => Carrier::None,
             1 => Carrier::Float,
             2 => Carrier::Fixed,
@@ -194,7 +207,7 @@ impl PvtTime {
 
     /// The instant for whoever puts the epoch together: a leap second is told as a time of day, as it
     /// has no place in a count of seconds without them.
-    fn epoch(&self) -> Option<EpochTime> {
+    pub(super) fn epoch(&self) -> Option<EpochTime> {
         let utc = self.utc()?;
         let (hour, minute, second) = self.clock;
         let nanosecond = u32::try_from(self.nanosecond).ok().filter(|_| second == 60);
@@ -273,7 +286,7 @@ impl NavPvt {
             fix,
             fix_ok: bit(flags, 0),
             differential: bit(flags, 1),
-            carrier: Carrier::from_flags(flags),
+            carrier: Carrier::of_raw(flags >> 6),
             satellites,
             position: located.then(|| position(place, [0; 3])).transpose()?,
             height_msl,
@@ -395,14 +408,7 @@ impl NavPvt {
     /// What the receiver says of its fix. Dead reckoning without satellites is no measurement.
     #[must_use]
     pub fn quality(&self) -> FixQuality {
-        match (self.fix, self.carrier) {
-            _ if !self.fix_ok || !self.fix.has_position() => FixQuality::Invalid,
-            (FixType::DeadReckoning, _) => FixQuality::Estimated,
-            (_, Carrier::Fixed) => FixQuality::RtkFixed,
-            (_, Carrier::Float) => FixQuality::RtkFloat,
-            _ if self.differential => FixQuality::Differential,
-            _ => FixQuality::Autonomous,
-        }
+        self.fix.quality(self.fix_ok, self.carrier, self.differential)
     }
 }
 

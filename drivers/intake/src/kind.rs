@@ -1,0 +1,178 @@
+//! Kinds of sensors: what each measures, and how its bytes are framed.
+
+use insd_wire::stream::Protocol;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The format of a sensor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// SBG sbgECom: IMU.
+    Sbg,
+    /// iXblue StdBin: raw rotation and acceleration.
+    Stdbin,
+    /// MicroStrain MIP: IMU.
+    Mip,
+    /// Xsens Xbus MTData2: IMU.
+    Xbus,
+    /// KVH 1750 and 1775: IMU.
+    Kvh,
+    /// Sensonor STIM300 and 318: IMU.
+    Stim,
+    /// A GNSS receiver that speaks NMEA 0183.
+    NmeaGnss,
+    /// A u-blox receiver.
+    Ubx,
+    /// A Septentrio receiver.
+    Sbf,
+    /// A receiver that sends its measurements in RTCM 3: MSM4 to MSM7, and orbits.
+    Rtcm,
+    /// A base station that sends corrections in RTCM 3: MSM4 to MSM7, and 1005 or 1006. It is not on board.
+    RtcmBase,
+    /// A NovAtel receiver: BESTPOS, BESTVEL, BESTGNSSPOS, BESTGNSSVEL, TIME; HEADING2 and DUALANTENNAHEADING as a heading.
+    Novatel,
+    /// The IMU of a NovAtel SPAN system: RAWIMUX, RAWIMUSX.
+    NovatelImu,
+    /// Heading of a NovAtel SPAN system: INSPVA, INSPVAS, INSPVAX.
+    NovatelIns,
+    /// A log that speaks NMEA 0183: VBW, VHW.
+    NmeaLog,
+    /// A log that speaks RDI PD0.
+    Pd0,
+    /// A log that speaks RDI PD6.
+    Pd6,
+    /// A Nortek log: PNORBT6 to 9.
+    Nortek,
+    /// A compass: HDT, THS; HDG and HDM if `magnetic` is set.
+    Compass,
+    /// Heading from PSXN,23 with its quality from PSXN,20.
+    Psxn,
+    /// Heading from PASHR in a stated dialect.
+    Pashr,
+    /// Heading of a motion sensor that sends KM binary; its roll and pitch are shown.
+    Kmb,
+    /// Heading of a motion sensor that sends EM3000; its roll and pitch are shown.
+    Em3000,
+    /// A Hemisphere satellite compass: PSAT,HPR.
+    Psat,
+    /// Two antennas of a Trimble receiver: PTNL,AVR.
+    Ptnl,
+    /// A Furuno or JRC satellite compass: PFEC,GPatt.
+    Pfec,
+    /// A position from elsewhere than the ship's receivers, in NMEA 0183.
+    NmeaPosition,
+    /// Positions and headings typed in by an operator (PINSD).
+    Manual,
+    /// Docking aids that tell a distance each: PINSD,RNG. What they measure to stands in `[[ranging]]`.
+    Ranging,
+    /// A local position reference, CyScan or RadaScan: RLS. Where its targets are stands in `[[ranging]]`, and the direction of its axis A in
+    /// `heading_offset_deg`.
+    Rls,
+    /// A GNSS receiver of NMEA 2000: 129029, 129026, 129539, 129542, 126992, 129033.
+    N2kGnss,
+    /// A compass of NMEA 2000: 127250; 127257 if `yaw` is set.
+    N2kHeading,
+    /// A log of NMEA 2000: 130578, else 128259.
+    N2kLog,
+    /// A position of NMEA 2000 from elsewhere than the ship's receivers: 129025.
+    N2kPosition,
+    /// An IMU that sends plain CAN frames, by its `layout`.
+    CanImu,
+}
+
+/// What a sensor measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Rotation and specific force.
+    Imu,
+    /// Position and velocity by satellites.
+    Gnss,
+    /// Velocity over ground or through the water.
+    Log,
+    /// Heading.
+    Heading,
+    /// Position.
+    Position,
+    /// Distances to lines and points ashore.
+    Ranging,
+    /// The other end of differences of satellites.
+    Base,
+}
+
+impl Kind {
+    /// What it measures.
+    #[must_use]
+    pub fn role(self) -> Role {
+        match self {
+            Kind::Sbg
+            | Kind::Stdbin
+            | Kind::Mip
+            | Kind::Xbus
+            | Kind::Kvh
+            | Kind::Stim
+            | Kind::NovatelImu
+            | Kind::CanImu => Role::Imu,
+            Kind::NmeaGnss | Kind::Ubx | Kind::Sbf | Kind::Novatel | Kind::Rtcm | Kind::N2kGnss => {
+                Role::Gnss
+            }
+            Kind::NmeaLog | Kind::Pd0 | Kind::Pd6 | Kind::Nortek | Kind::N2kLog => Role::Log,
+            Kind::Compass
+            | Kind::Psxn
+            | Kind::Pashr
+            | Kind::Kmb
+            | Kind::Em3000
+            | Kind::Psat
+            | Kind::Ptnl
+            | Kind::Pfec
+            | Kind::NovatelIns
+            | Kind::N2kHeading => Role::Heading,
+            Kind::NmeaPosition | Kind::Manual | Kind::N2kPosition => Role::Position,
+            Kind::Ranging | Kind::Rls => Role::Ranging,
+            Kind::RtcmBase => Role::Base,
+        }
+    }
+
+    /// How its bytes are framed; `None` if it sends CAN frames.
+    #[must_use]
+    pub fn protocol(self) -> Option<Protocol> {
+        Some(match self {
+            Kind::Sbg => Protocol::Sbg,
+            Kind::Stdbin => Protocol::StdBin,
+            Kind::Mip => Protocol::Mip,
+            Kind::Xbus => Protocol::Xbus,
+            Kind::Kvh => Protocol::Kvh,
+            Kind::Stim => Protocol::Stim,
+            Kind::Ubx => Protocol::Ubx,
+            Kind::Sbf => Protocol::Sbf,
+            Kind::Novatel | Kind::NovatelImu | Kind::NovatelIns => Protocol::Novatel,
+            Kind::Kmb => Protocol::Kmb,
+            Kind::Em3000 => Protocol::Em3000,
+            Kind::Rtcm | Kind::RtcmBase => Protocol::Rtcm,
+            Kind::Pd0 => Protocol::Pd0,
+            Kind::Pd6 => Protocol::Pd6,
+            Kind::NmeaGnss
+            | Kind::NmeaLog
+            | Kind::Nortek
+            | Kind::Compass
+            | Kind::Psxn
+            | Kind::Pashr
+            | Kind::Psat
+            | Kind::Ptnl
+            | Kind::Pfec
+            | Kind::NmeaPosition
+            | Kind::Manual
+            | Kind::Ranging
+            | Kind::Rls => Protocol::Nmea,
+            Kind::N2kGnss | Kind::N2kHeading | Kind::N2kLog | Kind::N2kPosition | Kind::CanImu => {
+                return None;
+            }
+        })
+    }
+
+    /// Whether it is a device of NMEA 2000.
+    #[must_use]
+    pub fn is_n2k(self) -> bool {
+        matches!(self, Kind::N2kGnss | Kind::N2kHeading | Kind::N2kLog | Kind::N2kPosition)
+    }
+}
