@@ -6,9 +6,11 @@ use std::path::Path;
 use insd_base::units::DEG;
 use insd_base::{Body, CameraModel};
 use insd_config::BadInput;
-use insd_nav::config::CameraAid;
+use insd_nav::config::{CameraAid, OdometryModel};
 use nalgebra::{Matrix3, Vector2};
 use serde::Deserialize;
+
+use crate::camera_voyage::CameraWay;
 
 /// Error of an image point where nobody says, px.
 const PIXEL_STD: f64 = 1.0;
@@ -27,21 +29,25 @@ struct CameraTable {
     pixel_std: Option<f64>,
     axes_std_deg: Option<f64>,
     delay_std_s: Option<f64>,
+    log_scale_std: Option<f64>,
+    log_scale_walk_sqrt_s: Option<f64>,
 }
 
-/// Reads the table; `None` where there is none.
+/// Reads the table for a way in which the camera is used; `None` where there is none.
 ///
 /// # Errors
 /// The file is no TOML, or no camera is like that.
-pub(crate) fn read(dir: &Path) -> anyhow::Result<Option<CameraAid>> {
+pub(crate) fn read(dir: &Path, way: CameraWay) -> anyhow::Result<Option<CameraAid>> {
     let path = dir.join("voyage.toml");
     let text = fs::read_to_string(&path)?;
     let file: File =
         toml::from_str(&text).map_err(|error| BadInput(format!("{}: {error}", path.display())))?;
     let Some(table) = file.camera else { return Ok(None) };
-    table.aid().map(Some).map_err(|(key, expected)| {
-        BadInput(format!("{}: camera.{key}: {expected}", path.display())).into()
-    })
+    let aid = table.aid().map_err(|(key, expected)| {
+        BadInput(format!("{}: camera.{key}: {expected}", path.display()))
+    })?;
+    let odometry = (way == CameraWay::Increments).then(|| table.odometry());
+    Ok(Some(CameraAid { odometry, ..aid }))
 }
 
 impl CameraTable {
@@ -68,8 +74,15 @@ impl CameraTable {
         if self.size_px.contains(&0) {
             return Err(("size_px", "expected width and height, above zero"));
         }
-        let sigmas = [self.pixel_std, self.axes_std_deg, self.delay_std_s];
-        let names = ["pixel_std", "axes_std_deg", "delay_std_s"];
+        let sigmas = [
+            self.pixel_std,
+            self.axes_std_deg,
+            self.delay_std_s,
+            self.log_scale_std,
+            self.log_scale_walk_sqrt_s,
+        ];
+        let names =
+            ["pixel_std", "axes_std_deg", "delay_std_s", "log_scale_std", "log_scale_walk_sqrt_s"];
         let is_none = |std: &Option<f64>| std.is_some_and(|std| !(std > 0.0 && std.is_finite()));
         if let Some(place) = sigmas.iter().position(is_none) {
             return Err((names[place], "expected a number above zero"));
@@ -89,6 +102,15 @@ impl CameraTable {
             ..usual
         })
     }
+
+    /// Its visual odometry. The logarithm of a scale is off by what the scale is, as a ratio, to the first order.
+    fn odometry(&self) -> OdometryModel {
+        let usual = OdometryModel::default();
+        OdometryModel {
+            scale_std: self.log_scale_std.unwrap_or(usual.scale_std),
+            scale_walk: self.log_scale_walk_sqrt_s.unwrap_or(usual.scale_walk),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -102,7 +124,7 @@ mod tests {
     fn read_text(text: &str) -> anyhow::Result<Option<CameraAid>> {
         let desk = tempfile::tempdir().unwrap();
         fs::write(desk.path().join("voyage.toml"), text).unwrap();
-        read(desk.path())
+        read(desk.path(), CameraWay::Tracks)
     }
 
     #[test]
