@@ -42,6 +42,7 @@ impl Encoding {
             | Kind::NmeaPosition
             | Kind::Manual
             | Kind::Ranging
+            | Kind::Camera
             | Kind::Rls
             | Kind::N2kGnss
             | Kind::N2kHeading

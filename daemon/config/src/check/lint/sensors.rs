@@ -133,7 +133,13 @@ fn told_apart(one: &SensorConfig, other: &SensorConfig) -> bool {
         && [one, other].iter().any(|own| {
             matches!(
                 own.kind,
-                Kind::Psxn | Kind::Pashr | Kind::Nortek | Kind::Manual | Kind::Ranging | Kind::Rls
+                Kind::Psxn
+                    | Kind::Pashr
+                    | Kind::Nortek
+                    | Kind::Manual
+                    | Kind::Ranging
+                    | Kind::Camera
+                    | Kind::Rls
             )
         });
     by_talker || by_kind
