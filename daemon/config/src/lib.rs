@@ -9,6 +9,7 @@ mod berth;
 mod berths;
 pub mod calendar;
 mod camera;
+mod cameras;
 pub mod check;
 mod environment;
 mod faults;

@@ -61,8 +61,7 @@ pub enum Kind {
     Manual,
     /// Docking aids that tell a distance each: PINSD,RNG. What they measure to stands in `[[ranging]]`.
     Ranging,
-    /// A local position reference, CyScan or RadaScan: RLS. Where its targets are stands in `[[ranging]]`, and the direction of its axis A in
-    /// `heading_offset_deg`.
+    /// A local position reference, CyScan or RadaScan: RLS. Its targets stand in `[[ranging]]`, its axis A in `heading_offset_deg`.
     Rls,
     /// The front end of a camera: PINSD,TRK and PINSD,VO. How the camera sits stands in `[camera]`.
     Camera,
@@ -470,11 +469,8 @@ impl SensorConfig {
         let offset = self.heading_offset_deg.abs() <= 360.0;
         expect(offset, "heading_offset_deg", "-360 to 360");
         let stated = self.kind != Kind::Pashr || self.dialect.is_some();
-        expect(
-            stated,
-            "dialect",
-            "the dialect of PASHR: sbg, sbg_wassp, ixblue, novatel, trimble, applanix",
-        );
+        let expected = "the dialect of PASHR: sbg, sbg_wassp, ixblue, novatel, trimble, applanix";
+        expect(stated, "dialect", expected);
         expect(self.stim.format(1.0).is_some(), "stim.range_g", "2, 5, 10, 30 or 80");
         let filtered = self.device.is_none() || self.kind.is_n2k();
         expect(filtered, "device", "a sensor of NMEA 2000, for only those have a NAME");

@@ -117,7 +117,7 @@ mod tests {
         sender.finish().unwrap();
         let written = std::fs::read(path).unwrap();
         assert!(written.starts_with(b"$PINSD,TRK,12.500,1,34,0,0.00,0.50,1,1.00,0.50,"));
-        let mut heard = Vec::new();
+        let mut heard: Vec<u8> = Vec::new();
         let mut buffer = [0; 2000];
         while heard.len() < written.len() {
             let count = ear.recv(&mut buffer).unwrap();
