@@ -5,9 +5,12 @@
 //! the measurements say of where it is is projected out, and what is left is an innovation of the poses alone. A few points that stay in
 //! sight for long are states themselves (landmarks), which hold a hovering ship where she is.
 //!
+//! Or another's visual odometry has made steps of the images, from pose to pose ([`step`]).
+//!
 //! Nothing here knows a filter; [`crate::filter`] puts it together.
 
 pub mod sight;
+pub mod step;
 pub mod track;
 pub mod triangulation;
 pub mod window;

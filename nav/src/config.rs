@@ -158,13 +158,32 @@ pub struct CameraAid {
     pub axes_std: f64,
     /// By how much its images are taken later than they are stamped, 1-sigma, s.
     pub delay_std: f64,
+    /// The visual odometry that tells how it moved, where that is used in place of its points.
+    pub odometry: Option<OdometryModel>,
 }
 
 impl CameraAid {
     /// One that was put up by eye, and whose images are stamped by who receives them.
     #[must_use]
     pub fn new(model: CameraModel) -> Self {
-        CameraAid { model, axes_std: CAMERA_AXES_STD, delay_std: CAMERA_DELAY_STD }
+        let (axes_std, delay_std) = (CAMERA_AXES_STD, CAMERA_DELAY_STD);
+        CameraAid { model, axes_std, delay_std, odometry: None }
+    }
+}
+
+/// A visual odometry that knows no scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OdometryModel {
+    /// By how much the scale of a map is other than one, 1-sigma, ratio.
+    pub scale_std: f64,
+    /// By what it wanders, ratio per root of a second.
+    pub scale_walk: f64,
+}
+
+impl Default for OdometryModel {
+    /// Those of the visual odometry of the berthing source.
+    fn default() -> Self {
+        OdometryModel { scale_std: 0.3, scale_walk: 1e-3 }
     }
 }
 
@@ -384,6 +403,12 @@ pub(crate) fn is_on_board(arm: &Vector3<f64>) -> bool {
 }
 
 impl NavConfig {
+    /// The visual odometry, as it is or would be.
+    #[must_use]
+    pub fn odometry(&self) -> OdometryModel {
+        self.camera.and_then(|camera| camera.odometry).unwrap_or_default()
+    }
+
     /// Whether the gyros are coarse.
     #[must_use]
     pub fn has_coarse_gyros(&self) -> bool {

@@ -65,8 +65,12 @@ pub enum Carried {
     WithAntennas,
     /// From the first reading of a docking aid on, while any is heard.
     WithRanging,
-    /// From the first image of a camera on, while it is heard.
+    /// From the first image or step of a camera on, while it is heard.
     WithCamera,
+    /// From the first image of a camera whose points are tracked on, while it is heard.
+    WithTracks,
+    /// From the first step of a visual odometry on, while it is heard.
+    WithOdometry,
     /// While the ship is held at her berth.
     AtBerth,
 }

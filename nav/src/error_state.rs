@@ -53,6 +53,8 @@ pub const CAMERA_POSES: usize = 10;
 pub const POSE_STATES: usize = 6;
 /// Points of the world that a camera sees, and that are held at once.
 pub const LANDMARKS: usize = 16;
+/// Poses that steps of a visual odometry are measured from, and that are held at once.
+pub const ODOMETRY_POSES: usize = 3;
 /// By what the delay of a camera wanders, s per root of a second.
 const CAMERA_DELAY_WALK: f64 = 1e-5;
 
@@ -215,11 +217,11 @@ declare! {
         first: |_| 1.0, process: |_, _| Process::of_sigmas(SURVEY_TIME),
         correction: Correction::Adds(|nominal| nominal.ranging_errors.as_mut_slice());
     /// Position, ECEF, m, and attitude, small rotation in ECEF axes, rad, at times of images ([`crate::camera`]).
-    POSES: POSE_STATES * CAMERA_POSES, "poses", "m, rad", Ecef, WithCamera,
+    POSES: POSE_STATES * CAMERA_POSES, "poses", "m, rad", Ecef, WithTracks,
         first: |_| 0.0, process: |_, _| Process::Constant,
         correction: Correction::Adds(|nominal| nominal.poses.as_mut_slice());
     /// Points of the world that a camera sees, ECEF, m.
-    LANDMARK_POINTS: 3 * LANDMARKS, "landmarks", "m", Ecef, WithCamera,
+    LANDMARK_POINTS: 3 * LANDMARKS, "landmarks", "m", Ecef, WithTracks,
         first: |_| 0.0, process: |_, _| Process::Constant,
         correction: Correction::Adds(|nominal| nominal.landmarks.as_mut_slice());
     /// How a camera sits otherwise than configured, small rotation about body axes, rad, constant.
@@ -232,6 +234,23 @@ declare! {
         first: |config| config.camera.map_or(0.0, |camera| camera.delay_std),
         process: |_, _| Process::Walk(CAMERA_DELAY_WALK),
         correction: Correction::Adds(|nominal| from_mut(&mut nominal.camera_delay));
+    /// Position, ECEF, m, and attitude, small rotation in ECEF axes, rad, at times of keyframes of a visual odometry ([`crate::camera::step`]).
+    VO_POSES: POSE_STATES * ODOMETRY_POSES, "vo_poses", "m, rad", Ecef, WithOdometry,
+        first: |_| 0.0, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.vo_poses.as_mut_slice());
+    /// By how much the scale of a map of a visual odometry is more than one, ratio, random walk.
+    VO_SCALE: 1, "vo_scale", "ratio", Scalar, WithOdometry,
+        first: |config| config.odometry().scale_std,
+        process: |config, _| Process::Walk(config.odometry().scale_walk),
+        correction: Correction::Adds(|nominal| from_mut(&mut nominal.vo_scale));
+    /// By what all turns of a visual odometry since one keyframe are off, camera axes, in units of the sigma of the step, constant.
+    VO_ATTITUDE_DRIFT: 3, "vo_attitude_drift", "sigma", Scalar, WithOdometry,
+        first: |_| 1.0, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.vo_attitude_drift.as_mut_slice());
+    /// By what all ways of a visual odometry since one keyframe are off, camera axes, in units of the sigma of the step, constant.
+    VO_TRAJECTORY_DRIFT: 3, "vo_trajectory_drift", "sigma", Scalar, WithOdometry,
+        first: |_| 1.0, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.vo_trajectory_drift.as_mut_slice());
     /// Mean place of a moored ship from her named berth, north and east, m, constant but for shifts.
     BERTH_OFFSET: 2, "berth_offset", "m", ComputedNed, AtBerth,
         first: |_| 0.0, process: |_, _| Process::Constant,

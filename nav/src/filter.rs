@@ -32,6 +32,7 @@ use entry::detail;
 use heard::Heard;
 use held::Held;
 use installation::Installation;
+use odometry_standing::Odometry;
 use ranging_standing::Rangings;
 use receiver::Receiver;
 use rtk_standing::RtkStanding;
@@ -69,6 +70,8 @@ mod misplaced;
 mod mode;
 mod moored;
 mod motion;
+mod odometry;
+mod odometry_standing;
 mod others;
 mod protected;
 mod ranges;
@@ -112,6 +115,8 @@ pub struct Filter {
     rangings: Rangings,
     /// What a camera sees.
     camera: Arc<Camera>,
+    /// From where a visual odometry measures.
+    odometry: Odometry,
     /// What was used when.
     sources: Sources,
     /// While there are ranges, the same ship without them.
@@ -139,6 +144,7 @@ impl Filter {
             antennas: Antennas::default(),
             rangings: Rangings::default(),
             camera: Arc::default(),
+            odometry: Odometry::default(),
             sources: Sources::default(),
             companion: None,
             navigating: false,
@@ -374,6 +380,7 @@ impl Estimator for Filter {
             Message::Ranges(ranges) => self.apply_ranges(ranges, received.source, &mut report),
             Message::Ranging(told) => self.apply_ranging(told, received.source, &mut report),
             Message::Camera(frame) => self.apply_camera(frame, received.source, &mut report),
+            Message::Odometry(step) => self.apply_odometry(step, received.source, &mut report),
         }
         self.hold_back();
         self.forget_silent_marks();

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::declaration::{declaration, no_errors};
 use crate::error_state::{
-    ANTENNA_ROWS, ATTITUDE, CAMERA_POSES, DECLARATIONS, Errors, LANDMARKS, LINES, POSE_STATES,
-    POSITION, RANGING_MARKS, SATELLITES,
+    ANTENNA_ROWS, ATTITUDE, CAMERA_POSES, DECLARATIONS, Errors, LANDMARKS, LINES, ODOMETRY_POSES,
+    POSE_STATES, POSITION, RANGING_MARKS, SATELLITES,
 };
 
 /// Estimated values of everything in the error state; units and axes as stated there.
@@ -91,6 +91,14 @@ pub struct Nominal {
     pub camera_axes: Vector3<f64>,
     /// By how much images were taken later than they are stamped, s.
     pub camera_delay: f64,
+    /// By what each pose at a keyframe of a visual odometry was corrected since it was first estimated, m and rad, ECEF axes.
+    pub vo_poses: SVector<f64, { POSE_STATES * ODOMETRY_POSES }>,
+    /// By how much the scale of its map is more than one.
+    pub vo_scale: f64,
+    /// By what its turns since the keyframe are off, sigmas.
+    pub vo_attitude_drift: Vector3<f64>,
+    /// By what its ways since the keyframe are off, sigmas.
+    pub vo_trajectory_drift: Vector3<f64>,
 }
 
 impl Nominal {
@@ -137,6 +145,10 @@ impl Nominal {
             landmarks: SVector::zeros(),
             camera_axes: Vector3::zeros(),
             camera_delay: 0.0,
+            vo_poses: SVector::zeros(),
+            vo_scale: 0.0,
+            vo_attitude_drift: Vector3::zeros(),
+            vo_trajectory_drift: Vector3::zeros(),
         }
     }
 

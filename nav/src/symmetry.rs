@@ -27,7 +27,8 @@ use insd_estimation::Key;
 
 use crate::error_state::{
     ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, CAMERA_AXES, CAMERA_POSES, CURRENT, Covariance, Errors,
-    GYRO_BIAS, GYRO_DRIFT, LANDMARK_POINTS, LANDMARKS, POSE_STATES, POSES, POSITION, VELOCITY,
+    GYRO_BIAS, GYRO_DRIFT, LANDMARK_POINTS, LANDMARKS, ODOMETRY_POSES, POSE_STATES, POSES,
+    POSITION, VELOCITY, VO_POSES,
 };
 
 /// Turns the covariance of the biases from one estimate of the attitude, C_eb, to another.
@@ -78,7 +79,8 @@ pub fn keep_scene_unknown(p: &mut Covariance, error: &Errors, c_eb: &Matrix3<f64
     let moved = places(POSITION.key(), 1, 3)
         .chain(places(VELOCITY.key(), 1, 3))
         .chain(places(POSES.key(), CAMERA_POSES, POSE_STATES))
-        .chain(places(LANDMARK_POINTS.key(), LANDMARKS, 3));
+        .chain(places(LANDMARK_POINTS.key(), LANDMARKS, 3))
+        .chain(places(VO_POSES.key(), ODOMETRY_POSES, POSE_STATES));
     let matrix = p.matrix_mut();
     for start in moved {
         let by = -error.values().fixed_rows::<3>(start).cross_matrix();

@@ -350,7 +350,8 @@ impl Estimator for EightState {
             | Message::Rtk(_)
             | Message::Compass(_)
             | Message::Ranging(_)
-            | Message::Camera(_) => Report::default(),
+            | Message::Camera(_)
+            | Message::Odometry(_) => Report::default(),
             Message::Ranges(ranges) => self.ranges(ranges, received.source),
             Message::Gnss(fix) => self.gnss(fix, received.source),
             Message::Log(log) => self.log(log, received.source),

@@ -3,6 +3,7 @@
 use insd_drivers::can::CanConfig;
 
 use crate::berths;
+use crate::cameras;
 use crate::file::Config;
 use crate::rangings;
 use crate::spares;
@@ -26,6 +27,7 @@ pub(super) fn of(config: &Config) -> Vec<String> {
     outputs(config, &mut faults);
     faults.extend(berths::faults(config));
     faults.extend(rangings::faults(config));
+    faults.extend(cameras::faults(config));
     nodes(config, &mut faults);
     faults.extend(config.state.faults().chain(config.web.faults()).chain(config.log.faults()));
     faults

@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::berth::{BerthSection, DockingSection};
+use crate::camera::CameraSection;
 use crate::imu::ImuModel;
 use crate::models::{
     AlignmentSection, FloorSection, GateSection, ModelSection, ProtectionSection, Sections,
@@ -67,6 +68,8 @@ pub struct Config {
     /// Docking aids.
     #[serde(default, rename = "ranging")]
     pub rangings: Vec<RangingSection>,
+    /// A camera.
+    pub camera: Option<CameraSection>,
     /// Ports that are written to.
     #[serde(default, rename = "output")]
     pub outputs: Vec<OutputSection>,

@@ -71,7 +71,7 @@ impl Config {
             start,
             initial: place.map(|(lat, lon)| Geodetic::from_degrees(lat, lon, ship.height_m)),
             output_rate: ship.rate_hz,
-            models: Models { antennas: self.antennas(), ..self.assumed().models() },
+            models: self.models(),
             alignment: self.alignment.config(),
             stored: None,
             vessel: ship.kind.into(),
@@ -79,6 +79,11 @@ impl Config {
             accept_mounting: ship.accept_mounting,
             relay: ship.relay,
         }
+    }
+
+    fn models(&self) -> Models {
+        let camera = self.camera.as_ref().and_then(|camera| camera.aid().ok());
+        Models { antennas: self.antennas(), camera, ..self.assumed().models() }
     }
 
     /// How well it is known how antennas sit that are a compass; the worst of them for all.

@@ -65,6 +65,8 @@ impl Config {
         let from_own = |point: &Body| Body(point.0 - offset.0);
         // zeros stand for what was not measured
         let measured = |arm: &Body| if *arm == Body::default() { *arm } else { from_own(arm) };
+        let mut models = first.models;
+        models.camera.iter_mut().for_each(|own| own.model.lever = from_own(&own.model.lever));
         let mut initial = first.initial;
         initial.iter_mut().for_each(|place| place.height -= offset.0.z);
         EngineConfig {
@@ -74,6 +76,7 @@ impl Config {
                 log: measured(&first.lever_arms.log),
             },
             initial,
+            models,
             points: std::iter::once(Body::default())
                 .chain(first.points.iter().map(from_own))
                 .collect(),

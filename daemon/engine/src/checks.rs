@@ -23,8 +23,8 @@ pub(crate) fn checked(received: &Received, vessel: VesselKind) -> (Received, Vec
         | Message::Compass(_) => {}
         // the filter asks whether a distance can be one
         Message::Ranging(_) => {}
-        // and looks at each point of an image
-        Message::Camera(_) => {}
+        // and looks at each point of an image, and at a step
+        Message::Camera(_) | Message::Odometry(_) => {}
         Message::Gnss(fix) => {
             keep(&mut fix.position, is_place, "gnss_position", &mut faults);
             keep(&mut fix.velocity, |v| v.0.iter().all(is_speed), "gnss_velocity", &mut faults);

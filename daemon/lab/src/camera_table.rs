@@ -3,15 +3,11 @@
 use std::fs;
 use std::path::Path;
 
-use insd_base::units::DEG;
-use insd_base::{Body, CameraModel};
-use insd_config::BadInput;
+use insd_config::{BadInput, CameraSection, CameraTold};
 use insd_nav::config::CameraAid;
-use nalgebra::{Matrix3, Vector2};
 use serde::Deserialize;
 
-/// Error of an image point where nobody says, px.
-const PIXEL_STD: f64 = 1.0;
+use crate::camera_voyage::CameraWay;
 
 #[derive(Debug, Deserialize)]
 struct File {
@@ -27,72 +23,52 @@ struct CameraTable {
     pixel_std: Option<f64>,
     axes_std_deg: Option<f64>,
     delay_std_s: Option<f64>,
+    log_scale_std: Option<f64>,
+    log_scale_walk_sqrt_s: Option<f64>,
 }
 
-/// Reads the table; `None` where there is none.
+/// Reads the table for a way in which the camera is used; `None` where there is none.
 ///
 /// # Errors
 /// The file is no TOML, or no camera is like that.
-pub(crate) fn read(dir: &Path) -> anyhow::Result<Option<CameraAid>> {
+pub(crate) fn read(dir: &Path, way: CameraWay) -> anyhow::Result<Option<CameraAid>> {
     let path = dir.join("voyage.toml");
     let text = fs::read_to_string(&path)?;
     let file: File =
         toml::from_str(&text).map_err(|error| BadInput(format!("{}: {error}", path.display())))?;
     let Some(table) = file.camera else { return Ok(None) };
-    table.aid().map(Some).map_err(|(key, expected)| {
-        BadInput(format!("{}: camera.{key}: {expected}", path.display())).into()
-    })
+    let aid = table.section(way).aid().map_err(|(key, expected)| {
+        BadInput(format!("{}: camera.{key}: expected {expected}", path.display()))
+    })?;
+    Ok(Some(aid))
 }
 
 impl CameraTable {
-    /// The camera, or which key is wrong and what was expected.
-    fn aid(&self) -> Result<CameraAid, (&'static str, &'static str)> {
-        let rows = |m: &[[f64; 3]; 3]| Matrix3::from_fn(|i, j| m[i][j]);
-        let c_bc = rows(&self.rotation_body_from_camera);
-        let is_rotation = (c_bc.transpose() * c_bc - Matrix3::identity()).amax() < 1e-3
-            && c_bc.determinant() > 0.0;
-        if !is_rotation {
-            return Err((
-                "rotation_body_from_camera",
-                "expected a rotation, rows of three numbers",
-            ));
+    /// The same as the section of a ship that uses it in a way.
+    fn section(self, way: CameraWay) -> CameraSection {
+        CameraSection {
+            lever_m: self.lever_arm_m,
+            rotation_body_from_camera: Some(self.rotation_body_from_camera),
+            k: self.k,
+            size_px: self.size_px,
+            pixel_std: self.pixel_std,
+            axes_std_deg: self.axes_std_deg,
+            delay_std_s: self.delay_std_s,
+            way: match way {
+                CameraWay::Tracks => CameraTold::Tracks,
+                CameraWay::Increments => CameraTold::Increments,
+            },
+            log_scale_std: self.log_scale_std,
+            log_scale_walk_sqrt_s: self.log_scale_walk_sqrt_s,
+            ..CameraSection::default()
         }
-        let k = rows(&self.k);
-        let is_upright = k[(0, 0)] > 0.0 && k[(1, 1)] > 0.0 && k.iter().all(|x| x.is_finite());
-        if !is_upright {
-            return Err((
-                "k",
-                "expected [[fx, 0, cx], [0, fy, cy], [0, 0, 1]] with fx and fy above zero",
-            ));
-        }
-        if self.size_px.contains(&0) {
-            return Err(("size_px", "expected width and height, above zero"));
-        }
-        let sigmas = [self.pixel_std, self.axes_std_deg, self.delay_std_s];
-        let names = ["pixel_std", "axes_std_deg", "delay_std_s"];
-        let is_none = |std: &Option<f64>| std.is_some_and(|std| !(std > 0.0 && std.is_finite()));
-        if let Some(place) = sigmas.iter().position(is_none) {
-            return Err((names[place], "expected a number above zero"));
-        }
-        let model = CameraModel {
-            lever: Body(self.lever_arm_m.into()),
-            c_bc,
-            focal: Vector2::new(k[(0, 0)], k[(1, 1)]),
-            centre: Vector2::new(k[(0, 2)], k[(1, 2)]),
-            size: self.size_px,
-            pixel_std: self.pixel_std.unwrap_or(PIXEL_STD),
-        };
-        let usual = CameraAid::new(model);
-        Ok(CameraAid {
-            axes_std: self.axes_std_deg.map_or(usual.axes_std, |std| std * DEG),
-            delay_std: self.delay_std_s.unwrap_or(usual.delay_std),
-            ..usual
-        })
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use insd_base::units::DEG;
+
     use super::*;
 
     const TABLE: &str = "[camera]\nlever_arm_m = [25.0, 5.0, -8.0]\n\
@@ -102,7 +78,7 @@ mod tests {
     fn read_text(text: &str) -> anyhow::Result<Option<CameraAid>> {
         let desk = tempfile::tempdir().unwrap();
         fs::write(desk.path().join("voyage.toml"), text).unwrap();
-        read(desk.path())
+        read(desk.path(), CameraWay::Tracks)
     }
 
     #[test]

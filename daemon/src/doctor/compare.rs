@@ -141,7 +141,7 @@ fn reads(sensor: &SensorConfig, report: &PortReport) -> bool {
         Kind::NmeaGnss | Kind::NmeaPosition => &["GGA", "GNS", "RMC", "GLL"],
         Kind::Compass => &["HDT", "THS", "HDG", "HDM"],
         Kind::NmeaLog => &["VBW", "VHW"],
-        Kind::Manual | Kind::Ranging => return true,
+        Kind::Manual | Kind::Ranging | Kind::Camera => return true,
         _ => return false,
     };
     report.messages.iter().any(|message| ends.iter().any(|end| message.name.ends_with(end)))

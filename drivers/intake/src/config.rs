@@ -326,11 +326,8 @@ impl SensorConfig {
         let offset = self.heading_offset_deg.abs() <= 360.0;
         expect(offset, "heading_offset_deg", "-360 to 360");
         let stated = self.kind != Kind::Pashr || self.dialect.is_some();
-        expect(
-            stated,
-            "dialect",
-            "the dialect of PASHR: sbg, sbg_wassp, ixblue, novatel, trimble, applanix",
-        );
+        let expected = "the dialect of PASHR: sbg, sbg_wassp, ixblue, novatel, trimble, applanix";
+        expect(stated, "dialect", expected);
         expect(self.stim.format(1.0).is_some(), "stim.range_g", "2, 5, 10, 30 or 80");
         let filtered = self.device.is_none() || self.kind.is_n2k();
         expect(filtered, "device", "a sensor of NMEA 2000, for only those have a NAME");

@@ -36,11 +36,11 @@ pub enum Refusal {
     Magnetic,
     /// Its axes cannot be turned into the ship's.
     Frame,
-    /// A frame of the sample is missing.
+    /// A frame of the sample is missing, or a sentence of an image.
     Incomplete,
     /// It is from another device of the bus than the one that is listened to.
     OtherDevice,
-    /// An epoch of satellites that was told already, or is older than the one before.
+    /// An epoch of satellites that was told already, or is older than the one before; an image or a step of the same time again.
     Repeated,
     /// No satellite of an epoch has an orbit that can be used, or nobody knows yet where the antenna is.
     NoOrbit,

@@ -69,6 +69,8 @@ pub enum Kind {
     /// A local position reference, CyScan or RadaScan: RLS. Where its targets are stands in `[[ranging]]`, and the direction of its axis A in
     /// `heading_offset_deg`.
     Rls,
+    /// The front end of a camera: PINSD,TRK and PINSD,VO. How the camera sits stands in `[camera]`.
+    Camera,
     /// A GNSS receiver of NMEA 2000: 129029, 129026, 129539, 129542, 126992, 129033.
     N2kGnss,
     /// A compass of NMEA 2000: 127250; 127257 if `yaw` is set.
@@ -98,6 +100,8 @@ pub enum Role {
     Ranging,
     /// The other end of differences of satellites.
     Base,
+    /// Points of the world in images.
+    Camera,
 }
 
 impl Kind {
@@ -130,6 +134,7 @@ impl Kind {
             Kind::NmeaPosition | Kind::Manual | Kind::N2kPosition => Role::Position,
             Kind::Ranging | Kind::Rls => Role::Ranging,
             Kind::RtcmBase => Role::Base,
+            Kind::Camera => Role::Camera,
         }
     }
 
@@ -163,6 +168,7 @@ impl Kind {
             | Kind::NmeaPosition
             | Kind::Manual
             | Kind::Ranging
+            | Kind::Camera
             | Kind::Rls => Protocol::Nmea,
             Kind::N2kGnss | Kind::N2kHeading | Kind::N2kLog | Kind::N2kPosition | Kind::CanImu => {
                 return None;

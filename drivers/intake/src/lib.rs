@@ -7,6 +7,7 @@
 //! Pure: no I/O, no clock, no thread, no log.
 
 pub mod base;
+mod camera;
 pub mod can;
 pub mod choice;
 pub mod clock;

@@ -480,7 +480,7 @@ proptest! {
                 Message::Log(own) => [own.u, own.v].iter().flatten().all(|part| part.is_finite()),
                 Message::Reference(own) => own.heading.is_none_or(f64::is_finite),
                 Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) | Message::Compass(_) => false,
-                Message::Ranging(_) | Message::Camera(_) => false,
+                Message::Ranging(_) | Message::Camera(_) | Message::Odometry(_) => false,
             };
             prop_assert!(finite, "{message:?}");
         }

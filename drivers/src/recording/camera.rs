@@ -48,7 +48,7 @@ impl Row for PointRow {
 }
 
 /// A whole number that is not negative.
-fn whole(fields: &Fields<'_>, column: usize) -> Result<u64, BadRow> {
+pub(super) fn whole(fields: &Fields<'_>, column: usize) -> Result<u64, BadRow> {
     let value = fields.required(column)?;
     let is_whole = value >= 0.0 && value.fract() == 0.0 && value < 9e15;
     if is_whole { Ok(value as u64) } else { Err(fields.bad(column, RowFault::OutOfRange)) }

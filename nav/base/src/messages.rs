@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use crate::camera::CameraFrame;
+use crate::camera::{CameraFrame, VisualOdometry};
 use crate::frames::{Body, Geodetic, Ned};
 use crate::gnss::GnssFix;
 use crate::ranging::RangingReading;
@@ -134,6 +134,8 @@ pub enum Message {
     Ranging(RangingReading),
     /// Points in an image of a camera.
     Camera(Arc<CameraFrame>),
+    /// How a camera moved from one image to another.
+    Odometry(VisualOdometry),
 }
 
 impl Message {
@@ -151,6 +153,7 @@ impl Message {
             Message::Compass(m) => m.time,
             Message::Ranging(m) => m.time,
             Message::Camera(m) => m.time,
+            Message::Odometry(m) => m.time,
         }
     }
 }

@@ -112,6 +112,24 @@ impl Eye {
         &self.model
     }
 
+    /// Camera to body axes, as it sits.
+    #[must_use]
+    pub fn c_bc(&self) -> Matrix3<f64> {
+        self.c_bc
+    }
+
+    /// By what a change of the rotation vector turns it.
+    #[must_use]
+    pub fn by_axes(&self) -> Matrix3<f64> {
+        self.by_axes
+    }
+
+    /// By how much images are taken later than they are stamped, s.
+    #[must_use]
+    pub fn delay(&self) -> f64 {
+        self.delay
+    }
+
     /// Where its centre is, ECEF, m, and how it is turned (ECEF to camera axes), when the IMU has this pose at the stamped time.
     #[must_use]
     pub fn placed(&self, pose: &Pose) -> (Vector3<f64>, Matrix3<f64>) {

@@ -10,6 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use super::Filter;
 use super::camera_standing::{Camera, FEWEST_POINTS, Tally};
 use super::entry::{CAMERA_AID, Judged, NO_INNOVATION, enter};
+use super::odometry_standing::Odometry;
 use crate::camera::sight::{Eye, Pose};
 use crate::camera::track::{AXES_AT, COLUMNS, DELAY_AT, TrackRows, TrackTold, pose_now, told};
 use crate::camera::triangulation::{FEWEST, Unfound};
@@ -54,7 +55,8 @@ impl Filter {
         frame: &Arc<CameraFrame>,
         report: &mut Report,
     ) -> Result<Tally, Rejection> {
-        let Some(aid) = self.config.camera else { return Err(Rejection::NotUsable) };
+        let aid = self.config.camera.filter(|aid| aid.odometry.is_none());
+        let Some(aid) = aid else { return Err(Rejection::NotUsable) };
         if !self.navigating || self.state.is_moored() {
             self.forget_camera();
             return Err(Rejection::NotUsable);
@@ -98,9 +100,7 @@ impl Filter {
         if !self.state.covariance.has(POSES) {
             self.forget_camera();
             self.camera_mut().last = Some(Arc::clone(frame));
-            let config = self.config;
-            carried(Carried::WithCamera)
-                .for_each(|own| own.join(&mut self.state.covariance, &config));
+            self.carry_camera(Carried::WithTracks);
         } else if gap.is_some_and(|gap| gap > BROKEN) {
             self.begin_scene_anew();
         }
@@ -109,9 +109,17 @@ impl Filter {
         if is_frozen { Err(Rejection::Frozen) } else { Ok(()) }
     }
 
+    /// The states of what is made of a camera join, and those of the camera.
+    pub(super) fn carry_camera(&mut self, when: Carried) {
+        let config = self.config;
+        carried(when)
+            .chain(carried(Carried::WithCamera))
+            .for_each(|own| own.join(&mut self.state.covariance, &config));
+    }
+
     /// Once no camera is heard for a while its states are not carried any longer.
     pub(super) fn forget_silent_camera(&mut self) {
-        let heard = self.camera.last.as_ref().map(|frame| frame.time);
+        let heard = self.camera.last.as_ref().map(|frame| frame.time).or(self.odometry.heard);
         if heard.is_some_and(|heard| (self.state.time - heard).as_seconds() > SILENT) {
             self.forget_camera();
         }
@@ -127,9 +135,12 @@ impl Filter {
     }
 
     pub(super) fn forget_camera(&mut self) {
-        if self.camera.last.is_some() || self.state.covariance.has(POSES) {
+        if self.camera.last.is_some() || self.state.covariance.has(CAMERA_AXES) {
             self.camera = Arc::default();
-            self.end_to_carry(Carried::WithCamera);
+            self.odometry = Odometry::default();
+            [Carried::WithTracks, Carried::WithCamera, Carried::WithOdometry]
+                .into_iter()
+                .for_each(|when| self.end_to_carry(when));
         }
     }
 

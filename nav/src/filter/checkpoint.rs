@@ -137,7 +137,7 @@ impl Filter {
         };
         // which mark had which states is not kept: they begin anew
         filter.end_to_carry(Carried::WithRanging);
-        filter.end_to_carry(Carried::WithCamera);
+        filter.forget_camera();
         filter.begin_navigation();
         let is_noise = |noise: &f64| noise.is_finite() && *noise > 0.0;
         let is_finite = kept.rate.iter().all(|x| x.is_finite())

@@ -59,7 +59,11 @@ impl Filter {
     pub(super) fn accompany(&mut self, received: &Received) -> Option<Report> {
         let is_unheard = matches!(
             received.message,
-            Message::Ranges(_) | Message::Rtk(_) | Message::Compass(_) | Message::Camera(_)
+            Message::Ranges(_)
+                | Message::Rtk(_)
+                | Message::Compass(_)
+                | Message::Camera(_)
+                | Message::Odometry(_)
         );
         if is_unheard {
             return None;

@@ -18,6 +18,8 @@ pub(super) const RANGING_AID: &str = "ranging";
 
 /// That of a camera.
 pub(super) const CAMERA_AID: &str = "camera";
+/// That of a visual odometry.
+pub(super) const ODOMETRY_AID: &str = "odometry";
 
 /// What the gates said of an innovation.
 #[derive(Clone, Copy, Debug, PartialEq)]

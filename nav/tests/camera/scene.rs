@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use insd_base::{
     Body, CameraFrame, CameraModel, Geodetic, ImagePoint, ImuSpec, LeverArms, Message, Received,
-    Source, Time, Triad, earth,
+    Source, Time, Triad, VisualOdometry, earth,
 };
 use insd_nav::camera::sight::{Eye, Pose};
-use insd_nav::config::CameraAid;
+use insd_nav::config::{CameraAid, OdometryModel};
 use insd_nav::error_state::{ATTITUDE, Errors, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
 use insd_nav::strapdown::{LocalGravity, integrate};
@@ -37,6 +37,10 @@ pub(crate) enum Trouble {
     Noise,
     /// The first image again and again.
     Frozen,
+    /// No points but the steps of a visual odometry, each map of which has ten of them.
+    Odometry,
+    /// The same, of an odometry that goes by a ship that passes, from five seconds on.
+    Misled,
 }
 
 /// All of it.
@@ -53,6 +57,9 @@ pub(crate) struct Scene {
     visits: Vec<(bool, u64)>,
     trouble: Trouble,
     first: Option<CameraFrame>,
+    /// The camera when its visual odometry told of it last, with its number of steps and the scale of its map.
+    before: Option<(Time, Pose, u32)>,
+    scale: f64,
     steps: u64,
     refused: u32,
     rng: Pcg64,
@@ -111,7 +118,9 @@ impl Scene {
         (truth.attitude, truth.velocity) = (attitude(&c_en, 0.0), velocity(&c_en, 0.0));
         let model = model();
         let mut config = NavConfig::new(spec(), LeverArms::default());
-        config.camera = Some(CameraAid { delay_std: 0.005, ..CameraAid::new(model) });
+        let has_steps = matches!(trouble, Trouble::Odometry | Trouble::Misled);
+        let odometry = has_steps.then(OdometryModel::default);
+        config.camera = Some(CameraAid { delay_std: 0.005, odometry, ..CameraAid::new(model) });
         let mut covariance = sensor_covariance(&config);
         let mut estimate = truth;
         let known = [
@@ -148,6 +157,8 @@ impl Scene {
             points,
             trouble,
             first: None,
+            before: None,
+            scale: 1.0,
             steps: 0,
             refused: 0,
             rng,
@@ -233,26 +244,65 @@ impl Scene {
         if self.trouble == Trouble::Blind {
             return;
         }
-        let seen = self.image(time, rate);
-        let frame = match self.trouble {
-            Trouble::Frozen => CameraFrame { time, ..self.first.get_or_insert(seen).clone() },
-            _ => seen,
+        let message = match self.trouble {
+            Trouble::Odometry | Trouble::Misled => match self.moved(time, rate) {
+                Some(step) => Message::Odometry(step),
+                None => return,
+            },
+            Trouble::Frozen => {
+                let seen = self.image(time, rate);
+                let first = self.first.get_or_insert(seen).clone();
+                Message::Camera(Arc::new(CameraFrame { time, ..first }))
+            }
+            _ => Message::Camera(Arc::new(self.image(time, rate))),
         };
-        let message = Message::Camera(Arc::new(frame));
         let received = Received { receipt: time, source: Source::Camera(0), message };
         let report = self.filter.apply(&received);
         let is_refused = |outcome: Outcome| matches!(outcome, Outcome::Rejected(_));
         self.refused += u32::from(report.aids.iter().any(|aid| is_refused(aid.outcome)));
     }
 
-    fn image(&mut self, time: Time, rate: Vector3<f64>) -> CameraFrame {
-        let eye = Eye::new(&self.model, &self.axes, 0.0);
-        let pose = Pose {
+    fn pose(&self, rate: Vector3<f64>) -> Pose {
+        Pose {
             position: self.truth.position,
             attitude: self.truth.attitude,
             velocity: self.truth.velocity,
             rate: self.truth.attitude * rate,
+        }
+    }
+
+    /// How the camera has moved since the last step, as a visual odometry has it.
+    fn moved(&mut self, time: Time, rate: Vector3<f64>) -> Option<VisualOdometry> {
+        let eye = Eye::new(&self.model, &self.axes, 0.0);
+        let (now, count) = (self.pose(rate), self.before.map_or(0, |(.., count)| count));
+        let (since, before, _) = self.before.replace((time, now, count + 1))?;
+        if count % 10 == 0 {
+            let one: f64 = StandardNormal.sample(&mut self.seen);
+            self.scale = 1.0 + OdometryModel::default().scale_std * one.clamp(-2.0, 2.0);
+        }
+        let ((c_1, r_1), (c_2, r_2)) = (eye.placed(&before), eye.placed(&now));
+        let is_misled = self.trouble == Trouble::Misled && time > Time::from_seconds(5.0);
+        let passing = self.truth.velocity * if is_misled { 1.5 } else { 0.0 };
+        let way = r_1 * (c_2 - c_1 - passing * (time - since).as_seconds());
+        let (rotation_std, std) = (3e-4, 0.01 + 0.02 * way.norm());
+        let mut noise = |std: f64| {
+            Vector3::from_fn(|_, _| -> f64 { StandardNormal.sample(&mut self.seen) }) * std
         };
+        let turn = UnitQuaternion::from_matrix(&(r_1 * r_2.transpose()));
+        Some(VisualOdometry {
+            time,
+            since,
+            map: count / 10,
+            rotation: turn * UnitQuaternion::new(noise(rotation_std)),
+            translation: (way + noise(std)) * self.scale,
+            rotation_std,
+            translation_std: std * self.scale,
+        })
+    }
+
+    fn image(&mut self, time: Time, rate: Vector3<f64>) -> CameraFrame {
+        let eye = Eye::new(&self.model, &self.axes, 0.0);
+        let pose = self.pose(rate);
         let way = self.truth.velocity.normalize();
         let across = (way + way.cross(&self.truth.position.normalize())).normalize();
         let mut points = Vec::new();

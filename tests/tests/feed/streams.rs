@@ -45,7 +45,8 @@ fn measured(all: &[Intaken]) -> Measured {
             Message::Log(log) => measured.log.push(*log),
             Message::Reference(reference) => measured.heading.push(*reference),
             Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {}
-            Message::Compass(_) | Message::Ranging(_) | Message::Camera(_) => {}
+            Message::Compass(_) | Message::Ranging(_) => {}
+            Message::Camera(_) | Message::Odometry(_) => {}
         }
     }
     measured

@@ -90,6 +90,7 @@ fn restamp(received: &mut Received, off: f64) {
         Message::Reference(m) => m.time = m.time + span,
         Message::Rtk(m) => m.time = m.time + span,
         Message::Ranging(m) => m.time = m.time + span,
+        Message::Odometry(m) => m.time = m.time + span,
         Message::Camera(m) => {
             let frame = Arc::make_mut(m);
             frame.time = frame.time + span;
@@ -148,6 +149,7 @@ fn spoil(received: &mut Received, field: u8, value: f64) {
         }
         Message::Ranging(m) if field & 4 == 0 => m.distance = value,
         Message::Ranging(m) => m.std = value,
+        Message::Odometry(m) => m.translation[axis] = value,
         Message::Camera(m) => {
             Arc::make_mut(m).points.iter_mut().for_each(|point| point.at[axis % 2] = value);
         }

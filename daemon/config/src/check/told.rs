@@ -111,7 +111,9 @@ fn advise(finding: &mut ConfigFinding, config: &Config) {
             let imus = config.sensors.iter().filter(|own| own.kind.role() == Role::Imu);
             imus.map(|own| own.name.as_str()).collect()
         }
-        ("ranging", "sensor") => config.sensors.iter().map(|own| own.name.as_str()).collect(),
+        ("ranging" | "camera", "sensor") => {
+            config.sensors.iter().map(|own| own.name.as_str()).collect()
+        }
         ("docking" | "ranging", "berth") => {
             config.berths.iter().map(|own| own.name.as_str()).collect()
         }

@@ -218,7 +218,8 @@ impl Surveyor {
             | Message::Base(_)
             | Message::Rtk(_)
             | Message::Ranging(_)
-            | Message::Camera(_) => {}
+            | Message::Camera(_)
+            | Message::Odometry(_) => {}
         }
     }
 

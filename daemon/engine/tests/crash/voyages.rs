@@ -165,6 +165,7 @@ fn shifted(received: &Received, by: Span) -> Received {
         Message::Compass(m) => &mut Arc::make_mut(m).time,
         Message::Ranging(m) => &mut m.time,
         Message::Camera(m) => &mut Arc::make_mut(m).time,
+        Message::Odometry(m) => &mut m.time,
     };
     *time = *time + by;
     moved

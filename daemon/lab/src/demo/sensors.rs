@@ -55,9 +55,10 @@ impl DemoSensor {
             | Message::Rtk(_)
             | Message::Compass(_) => DemoSensor::Gnss,
             Message::Log(_) => DemoSensor::Log,
-            Message::Reference(_) | Message::Ranging(_) | Message::Camera(_) => {
-                DemoSensor::Reference
-            }
+            Message::Reference(_)
+            | Message::Ranging(_)
+            | Message::Camera(_)
+            | Message::Odometry(_) => DemoSensor::Reference,
         }
     }
 }

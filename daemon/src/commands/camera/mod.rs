@@ -3,6 +3,7 @@
 mod attitude;
 mod check;
 mod options;
+mod sender;
 mod source;
 mod summary;
 mod track;
@@ -18,7 +19,7 @@ pub struct CameraArgs {
 enum What {
     /// Tell how well points are followed, how sharp and bright images are, and draw tracks and horizon over one
     Check(check::CheckArgs),
-    /// Write the tracks of points (t_s,id,u_px,v_px), which is what a recording holds of a camera
+    /// Write the tracks of points (t_s,id,u_px,v_px), which is what a recording holds of a camera, or send them to a ship that listens
     Track(track::TrackArgs),
 }
 

@@ -1,4 +1,4 @@
-//! `insd camera track`: the tracks of images as a table.
+//! `insd camera track`: the tracks of images as a table, or as sentences for a ship that listens.
 
 use std::fs;
 use std::path::PathBuf;
@@ -9,6 +9,7 @@ use insd_drivers::recording::{FEATURES_HEAD, feature_rows};
 use insd_vision::{Hints, Tracked};
 
 use super::options::CameraOptions;
+use super::sender::TrackSender;
 use super::source::SourceOptions;
 
 /// Options of `insd camera track`.
@@ -19,21 +20,33 @@ pub(super) struct TrackArgs {
     #[command(flatten)]
     camera: CameraOptions,
     /// Where the table goes: t_s,id,u_px,v_px, points without the distortion of the lens
-    #[arg(long, value_name = "CSV")]
-    out: PathBuf,
+    #[arg(long, value_name = "CSV", required_unless_present_any = ["send", "sentences"])]
+    out: Option<PathBuf>,
+    /// Send each image at once as $PINSD,TRK by UDP, to a port of kind camera
+    #[arg(long, value_name = "HOST:PORT")]
+    send: Option<String>,
+    /// Write the same sentences to a file
+    #[arg(long, value_name = "FILE")]
+    sentences: Option<PathBuf>,
 }
 
 /// Runs the command.
 pub(super) fn run(args: &TrackArgs) -> anyhow::Result<()> {
     let camera = args.camera.camera()?;
     let mut table = format!("{FEATURES_HEAD}\n");
+    let mut sender = TrackSender::open(args.send.as_deref(), args.sentences.as_deref())?;
     let seen = |_: TimedImage, tracked: &Tracked, _: &Hints| {
-        table.push_str(&feature_rows(&tracked.frame));
+        if args.out.is_some() {
+            table.push_str(&feature_rows(&tracked.frame));
+        }
+        sender.tell(&tracked.frame);
     };
     let (counts, _) = args.source.follow(&args.camera, &camera, seen)?;
-    fs::write(&args.out, table).with_context(|| args.out.display().to_string())?;
+    if let Some(out) = &args.out {
+        fs::write(out, table).with_context(|| out.display().to_string())?;
+    }
     for (reason, count) in &counts.refused {
         eprintln!("insd: {count} images not used: {}", reason.text());
     }
-    Ok(())
+    sender.finish()
 }

@@ -3,6 +3,7 @@
 mod array;
 mod base;
 mod came;
+mod camera;
 mod gnss;
 mod imu;
 mod ranging;
@@ -79,7 +80,7 @@ fn array(config: &IntakeConfig) -> Option<Array> {
 
 impl Core {
     pub(crate) fn new(config: &IntakeConfig) -> Self {
-        let mut numbers = [0_u8; 7];
+        let mut numbers = [0_u8; 8];
         let sensors = config.sensors.iter().map(|sensor| {
             let number = &mut numbers[sensor.kind.role() as usize];
             let own = Sensor::new(sensor, config, *number);
@@ -245,6 +246,8 @@ impl Core {
             Reading::Fix(position, std) => self.manual(index, stamp, came, *position, *std),
             Reading::Place(position) => self.place(index, stamp, came, *position),
             Reading::Range(range) => self.distance(index, stamp, came, range),
+            Reading::Tracks(tracks) => self.tracks(index, stamp, came, tracks),
+            Reading::Step(step) => self.step(index, stamp, came, step),
             Reading::Clock(epoch) => self.clock(index, stamp, came, epoch),
             Reading::Shown(shown) => self.sensors[index].status.shown.enter(*shown),
             Reading::LeftOut(reason) => self.refuse(index, *reason),

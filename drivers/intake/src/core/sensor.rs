@@ -8,6 +8,7 @@ use insd_wire::gnss::GnssPart;
 use super::QUANTITIES;
 use super::sky::Sky;
 use crate::base::Base;
+use crate::camera::CameraIntake;
 use crate::choice::Quantity;
 use crate::config::{IntakeConfig, Kind, Role, SensorConfig};
 use crate::decode::Decoder;
@@ -36,6 +37,8 @@ pub(crate) struct Sensor {
     pub(super) sky: Option<Box<Sky>>,
     /// What is made of a base's messages.
     pub(super) base: Option<Box<Base>>,
+    /// What is made of what a camera's front end tells.
+    pub(super) camera: Option<Box<CameraIntake>>,
     /// When it told a fix of its own last, or that it has none.
     pub(super) fixed: Option<Time>,
     /// What it says is new, and not read from a file.
@@ -68,6 +71,7 @@ impl Sensor {
             undated: Vec::new(),
             sky: None,
             base: (config.kind.role() == Role::Base).then(|| Box::new(Base::new(config.base))),
+            camera: (config.kind.role() == Role::Camera).then(Box::default),
             fixed: None,
             paces: [Pace::default(); QUANTITIES.len()],
             live: port.is_none_or(|port| intake.ports[port].link != Link::File),
@@ -82,7 +86,7 @@ impl Sensor {
             Role::Gnss if self.config.heading => &[Quantity::Gnss, Quantity::Heading],
             Role::Gnss => &[Quantity::Gnss],
             Role::Ranging if self.config.kind == Kind::Rls => &[Quantity::Heading],
-            Role::Base | Role::Ranging => &[],
+            Role::Base | Role::Ranging | Role::Camera => &[],
             Role::Log => &[Quantity::BottomVelocity, Quantity::WaterVelocity],
             Role::Heading => &[Quantity::Heading],
             Role::Position if self.config.kind == Kind::Manual => {

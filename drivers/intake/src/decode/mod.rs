@@ -12,7 +12,9 @@ use insd_n2k::Message;
 use insd_wire::gnss::{EpochTime, GnssPart, PulseTime};
 use insd_wire::imu::ImuReading;
 use insd_wire::imu::can::{CanImu, CanPart};
-use insd_wire::nmea::{ChecksumPolicy, Frame as NmeaFrame, Pinsd, Position, Rls, Sentence};
+use insd_wire::nmea::{
+    ChecksumPolicy, Frame as NmeaFrame, Pinsd, PinsdStep, PinsdTracks, Position, Rls, Sentence,
+};
 
 use crate::config::{Kind, SensorConfig};
 use crate::event::Refusal;
@@ -46,6 +48,10 @@ pub enum Reading {
     Place(Option<Position>),
     /// A distance of a docking aid.
     Range(HeadDistance),
+    /// Points in an image of a camera.
+    Tracks(Box<PinsdTracks>),
+    /// How a camera moved.
+    Step(Box<PinsdStep>),
     /// UTC beside the fixes of a receiver.
     Clock(EpochTime),
     /// Something that is shown and not used.
@@ -180,6 +186,7 @@ impl Decoder {
             Kind::NmeaLog | Kind::Nortek => self.log.sentence(&sentence)?,
             Kind::Manual => vec![manual(&sentence)],
             Kind::Ranging => distance(&sentence),
+            Kind::Camera => vec![seen(&sentence)],
             Kind::Rls => between_targets(&sentence, &self.config)?,
             _ => self.heading.sentence(&sentence, &self.config)?,
         };
@@ -212,7 +219,7 @@ impl Decoder {
             Kind::Psat => &["PSAT"],
             Kind::Ptnl => &["PTNL"],
             Kind::Pfec => &["PFEC"],
-            Kind::Manual | Kind::Ranging => &["PINSD"],
+            Kind::Manual | Kind::Ranging | Kind::Camera => &["PINSD"],
             Kind::Rls => &["RLS"],
             _ => &[],
         };
@@ -244,6 +251,15 @@ fn distance(sentence: &Sentence) -> Vec<Reading> {
         std: told.std.filter(|std| *std > 0.0),
         age: told.age.unwrap_or(0.0),
     })]
+}
+
+/// What the front end of a camera tells.
+fn seen(sentence: &Sentence) -> Reading {
+    match sentence {
+        Sentence::Pinsd(Pinsd::Tracks(told)) => Reading::Tracks(Box::new(*told)),
+        Sentence::Pinsd(Pinsd::Step(told)) => Reading::Step(Box::new(*told)),
+        _ => Reading::Idle,
+    }
 }
 
 /// A position and a heading between targets. The heading is that from axis A, and what the configuration adds makes it true; where there is

@@ -240,6 +240,10 @@ fn is_sane(message: &Message) -> usize {
             frame.points.iter().for_each(|point| finite(&[Some(point.at.norm())]));
             9
         }
+        Message::Odometry(step) => {
+            finite(&[Some(step.translation.norm()), Some(step.rotation.angle())]);
+            10
+        }
         Message::Ranges(ranges) => {
             let codes = ranges.ranges.iter().filter_map(|range| range.code);
             codes.for_each(|code| finite(&[Some(code.value), Some(code.variance)]));

@@ -50,6 +50,7 @@ impl Encoding {
             | Kind::NmeaPosition
             | Kind::Manual
             | Kind::Ranging
+            | Kind::Camera
             | Kind::Rls
             | Kind::N2kGnss
             | Kind::N2kHeading

@@ -128,7 +128,8 @@ pub use phtro::Phtro;
 pub use pinsd::{
     Pinsd, PinsdAlignment, PinsdBerth, PinsdChoice, PinsdDocking, PinsdIntegrity, PinsdMode,
     PinsdPart, PinsdPartOfShip, PinsdPhase, PinsdProtection, PinsdRange, PinsdSide, PinsdSigma,
-    PinsdSource, PinsdStatus, PinsdTime, ProtectionState,
+    PinsdSource, PinsdStatus, PinsdStep, PinsdTime, PinsdTracks, ProtectionState, TRACK_NUMBERS,
+    TRACK_SENTENCES, TRACKED, TrackedPoint,
 };
 pub use pixse::{Pixse, PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus};
 pub use pnorbt::{NortekBeam, NortekBottomTrack, NortekGroundSpeed, NortekSensors};

@@ -141,6 +141,7 @@ fn told_apart(one: &SensorConfig, other: &SensorConfig) -> bool {
                     | Kind::Nortek
                     | Kind::Manual
                     | Kind::Ranging
+                    | Kind::Camera
                     | Kind::Rls
             )
         });

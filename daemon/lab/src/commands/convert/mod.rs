@@ -166,7 +166,8 @@ fn enter(voyage: &mut Voyage, received: &Received) {
         Message::Gnss(message) if message.rank > 0 => {}
         // made of raw data, which are kept as such; and no file of a voyage holds docking aids
         Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {}
-        Message::Compass(_) | Message::Ranging(_) | Message::Camera(_) => {}
+        Message::Compass(_) | Message::Ranging(_) => {}
+        Message::Camera(_) | Message::Odometry(_) => {}
         Message::Gnss(message) => voyage.gnss.push(Stamped { message: *message, arrival }),
         Message::Log(message) => voyage.log.push(Stamped { message: *message, arrival }),
         Message::Reference(message) => {

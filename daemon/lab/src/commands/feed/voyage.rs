@@ -37,7 +37,8 @@ fn read(dir: &Path) -> anyhow::Result<Voyage> {
             Message::Reference(own) => voyage.reference.push(Stamped::prompt(own)),
             // no file of a voyage holds them
             Message::Ranges(_) | Message::Base(_) | Message::Rtk(_) => {}
-            Message::Compass(_) | Message::Ranging(_) | Message::Camera(_) => {}
+            Message::Compass(_) | Message::Ranging(_) => {}
+            Message::Camera(_) | Message::Odometry(_) => {}
         }
     }
     Ok(voyage)

@@ -7,6 +7,7 @@ use insd_vessel::{Names, Product};
 use super::super::alignment::AlignmentArgs;
 use super::super::outage::SensorOutage;
 use super::without::Without;
+use crate::camera_voyage::CameraWay;
 use crate::ranges::{GnssUse, SatelliteMask};
 
 /// Tells the journal of a product as the daemon does.
@@ -39,6 +40,9 @@ pub struct ReplayArgs {
     /// What raw GNSS is made of: a fix of each epoch, or ranges; `none` leaves GNSS out [default: tight where raw GNSS is there]
     #[arg(long, value_enum)]
     pub(super) gnss: Option<GnssUse>,
+    /// What is made of a camera: tracks of its points, or the steps of a visual odometry [default: tracks where features.csv is there]
+    #[arg(long, value_enum)]
+    pub(super) camera: Option<CameraWay>,
     /// Leave N satellites of the raw GNSS while FROM <= t_s < TO, those that stand highest, and no fix where N
     /// is less than four; may be repeated
     #[arg(long = "mask", value_name = "FROM..TO:N")]

@@ -28,10 +28,10 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     config.alignment = args.alignment.config();
     let table = RawTable::read(&args.dir)?;
     config.models.ranges = table.model();
-    let has_camera = !args.without.contains(&Without::Camera);
+    let way = Without::camera(&args.without, args.camera)?;
     let mut camera =
-        if has_camera { CameraVoyage::open(&args.dir)? } else { CameraVoyage::default() };
-    config.models.camera = if has_camera { camera_table::read(&args.dir)? } else { None };
+        way.map(|way| CameraVoyage::open(&args.dir, way)).transpose()?.unwrap_or_default();
+    config.models.camera = way.map(|way| camera_table::read(&args.dir, way)).transpose()?.flatten();
     config.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
     let mut ports = Ports::of(args, &reader.header().start_utc)?;
     config.points = ports.as_ref().map(|ports| ports.levers.clone()).unwrap_or_default();

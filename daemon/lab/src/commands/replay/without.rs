@@ -3,6 +3,7 @@
 use insd_base::{Received, Source};
 use insd_config::BadInput;
 
+use crate::camera_voyage::CameraWay;
 use crate::ranges::GnssUse;
 
 /// Something that a replay leaves out, to see what it gives.
@@ -45,6 +46,23 @@ impl Without {
             };
         }
         Ok(asked)
+    }
+
+    /// What is made of a camera, after all that the options say of it; `None` if nothing is.
+    ///
+    /// # Errors
+    /// One option asks for what another leaves out.
+    pub(super) fn camera(
+        without: &[Without],
+        asked: Option<CameraWay>,
+    ) -> Result<Option<CameraWay>, BadInput> {
+        if !without.contains(&Without::Camera) {
+            return Ok(Some(asked.unwrap_or_default()));
+        }
+        match asked {
+            Some(_) => Err(BadInput("--without camera leaves nothing for --camera".to_owned())),
+            None => Ok(None),
+        }
     }
 
     /// Whether a message is of a sensor that is left out for the whole voyage.

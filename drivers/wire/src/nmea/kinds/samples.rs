@@ -8,8 +8,8 @@ use crate::nmea::table::Sampled;
 use crate::nmea::{
     Acn, Arc, Dtm, Frame, Gst, Hbt, Hcr, Hdg, Hdm, Hdt, Line, MAX_LEN, PfecAttitude, Phcmp, Phinf,
     Phlin, Phoct, Phspd, Phtro, PinsdAlignment, PinsdBerth, PinsdPartOfShip, PinsdProtection,
-    PinsdRange, PinsdSigma, PinsdStatus, PsatHpr, Rls, Rot, Sentence, Talker, Ths, Vdr, Vhw, Vlw,
-    Vtg, checksum,
+    PinsdRange, PinsdSigma, PinsdStatus, PinsdStep, PsatHpr, Rls, Rot, Sentence, Talker, Ths, Vdr,
+    Vhw, Vlw, Vtg, checksum,
 };
 
 /// Numbers without pattern, and always the same ones (splitmix64).
@@ -248,6 +248,7 @@ mod tests {
             PinsdRange::sample,
             PinsdSigma::sample,
             PinsdStatus::sample,
+            PinsdStep::sample,
             PsatHpr::sample,
             Rls::sample,
             Rot::sample,

@@ -9,6 +9,11 @@
 //! ```text
 //! $PINSD,RNG,...   a distance to a line or a point ashore   [PinsdRange]
 //! ```
+//! What the front end of a camera tells insd:
+//! ```text
+//! $PINSD,TRK,...   points that are followed from image to image   [PinsdTracks]
+//! $PINSD,VO,...    how the camera moved between two images        [PinsdStep]
+//! ```
 //! What insd tells others, in their files:
 //! ```text
 //! $PINSD,STA,...   what it does and how good that is    [PinsdStatus]
@@ -18,10 +23,11 @@
 //! $PINSD,BTH,...   how she stands to a berth            [PinsdBerth]
 //! $PINSD,DOK,...   and each part of her                 [PinsdPartOfShip]
 //! ```
-//! None is longer than the 82 bytes of the standard. A field that is unknown is empty. Later versions may
+//! None but those of a camera is longer than the 82 bytes of the standard. A field that is unknown is empty. Later versions may
 //! append fields, and readers ignore what they do not know. `docs/pinsd.md` says the same to people.
 
 mod alignment;
+mod camera;
 mod docking;
 mod protection;
 mod ranging;
@@ -29,6 +35,7 @@ mod sigma;
 mod status;
 
 pub use alignment::{PinsdAlignment, PinsdPhase};
+pub use camera::{PinsdStep, PinsdTracks, TRACK_NUMBERS, TRACK_SENTENCES, TRACKED, TrackedPoint};
 pub use docking::{PinsdBerth, PinsdChoice, PinsdDocking, PinsdPart, PinsdPartOfShip, PinsdSide};
 pub use protection::{PinsdProtection, ProtectionState};
 pub use ranging::PinsdRange;
@@ -65,6 +72,10 @@ pub enum Pinsd {
     },
     /// RNG.
     Range(PinsdRange),
+    /// TRK.
+    Tracks(PinsdTracks),
+    /// VO.
+    Step(PinsdStep),
     /// STA.
     Status(PinsdStatus),
     /// SIG.
@@ -83,7 +94,7 @@ impl Pinsd {
     /// All before the first comma.
     pub const ADDRESS: &'static str = "PINSD";
 
-    /// Greatest length of any of them, bytes with CR LF.
+    /// Greatest length of any of them that insd tells, bytes with CR LF.
     pub const LONGEST: usize = 82;
 
     /// Writes the sentence; minutes to 0.00001, sigmas of the operator to 0.1 m and 0.01 deg.
@@ -103,6 +114,14 @@ impl Pinsd {
             Pinsd::Range(range) => {
                 line.text(PinsdRange::NAME);
                 range.write_fields(line);
+            }
+            Pinsd::Tracks(tracks) => {
+                line.text(PinsdTracks::NAME);
+                tracks.write_fields(line);
+            }
+            Pinsd::Step(step) => {
+                line.text(PinsdStep::NAME);
+                step.write_fields(line);
             }
             Pinsd::Status(status) => {
                 line.text(PinsdStatus::NAME);
@@ -147,6 +166,8 @@ impl Pinsd {
                 std: fields.number_in(0.0..=DEGREES.limit)?.map(f64::to_radians),
             },
             PinsdRange::NAME => Pinsd::Range(PinsdRange::read_fields(&mut fields)?),
+            PinsdTracks::NAME => Pinsd::Tracks(PinsdTracks::read_fields(&mut fields)?),
+            PinsdStep::NAME => Pinsd::Step(PinsdStep::read_fields(&mut fields)?),
             PinsdStatus::NAME => Pinsd::Status(PinsdStatus::read_fields(&mut fields)?),
             PinsdSigma::NAME => Pinsd::Sigma(PinsdSigma::read_fields(&mut fields)?),
             PinsdAlignment::NAME => Pinsd::Alignment(PinsdAlignment::read_fields(&mut fields)?),
