@@ -88,6 +88,12 @@ pub struct LogModel {
     pub current_std: f64,
     /// Time constant of the current, s.
     pub current_time: f64,
+    /// Whether errors that depend on speed and rate of turn are estimated as well.
+    pub is_learnt: bool,
+    /// Change of the scale factor with the speed, 1-sigma, 1/(m/s).
+    pub by_speed_std: f64,
+    /// What is added to starboard by the rate of turn, 1-sigma, m.
+    pub by_turn_std: f64,
 }
 
 /// Ship and sea.
@@ -234,6 +240,9 @@ impl Default for LogModel {
             misalignment_std: 0.3 * DEG,
             current_std: 0.5,
             current_time: 7200.0,
+            is_learnt: false,
+            by_speed_std: 0.003,
+            by_turn_std: 5.0,
         }
     }
 }

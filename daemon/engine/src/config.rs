@@ -36,6 +36,8 @@ pub struct EngineConfig {
     /// Monitoring points of which the heave is wanted, from the IMU, body axes, m. The first is the IMU
     /// itself. Without any there is no heave.
     pub points: Vec<Body>,
+    /// Whether the errors of log and gyros that repeat are learnt while she is well aided (docs/learning.md).
+    pub learning: bool,
 }
 
 impl EngineConfig {
@@ -56,6 +58,7 @@ impl EngineConfig {
             accept_mounting: false,
             relay: true,
             points: Vec::new(),
+            learning: false,
         }
     }
 }

@@ -17,6 +17,7 @@ mod doubts;
 mod epochs;
 mod heir;
 mod images;
+mod learning;
 mod ledger;
 mod looks;
 mod mode;
@@ -55,6 +56,7 @@ use coarse::Coarse;
 pub use config::EngineConfig;
 use disturbance::Trace;
 use epochs::{due_at, epochs};
+use learning::Learning;
 use mode::{Facts, Machine};
 use receivers::Receivers;
 use recent::Recent;
@@ -128,6 +130,8 @@ pub struct Engine {
     heard: Option<Time>,
     /// The state saved before a crash, while it is on trial.
     resumption: Option<Resumption>,
+    /// What is learnt of the sensors, where that is wanted.
+    learning: Option<Box<Learning>>,
     trace: Trace,
     counts: Counts,
     outputs: VecDeque<Output>,
@@ -177,6 +181,9 @@ impl Engine {
             no_rtk: None,
             heard: None,
             resumption: None,
+            learning: config
+                .learning
+                .then(|| Box::new(Learning::new(&nav))),
             trace: Trace::new(),
             counts: Counts::default(),
             outputs: VecDeque::new(),
@@ -240,6 +247,7 @@ impl Engine {
         if let Some(step) = step {
             self.tell(Event::ImuClock { time: sample.time, step });
         }
+        let sample = self.without_heat(&sample);
         let increment = match self.conditioner.take(&sample) {
             Conditioned::Sample(increment) => {
                 self.begin_resumption(increment.from, 0.0);
@@ -324,6 +332,7 @@ impl Engine {
                 for solution in solutions {
                     self.emit(solution);
                 }
+                self.look_at_biases(increment.to);
                 self.tell_alignment();
                 self.tell_standings();
                 self.tell_installation(increment.to);
@@ -417,6 +426,7 @@ impl Engine {
                 if let Some(report) = line.measure(&checked) {
                     self.note(&report);
                 }
+                self.look_at_log(&checked);
             }
         }
     }

@@ -165,6 +165,13 @@ impl Ship {
         }
     }
 
+    /// Whether errors of a log that repeat are estimated, and how the current goes on, 1-sigma, m/s, and time constant, s.
+    pub(crate) fn learn_log(&mut self, wanted: (bool, (f64, f64))) {
+        if let Ship::Navigating { navigator, .. } = self {
+            navigator.filter_mut().learn_log(wanted.0, wanted.1);
+        }
+    }
+
     /// Whether the trial of her heading is over and GNSS has borne it out.
     pub(crate) fn is_acquitted(&self) -> bool {
         match self {

@@ -80,6 +80,7 @@ pub fn engine(event: &Event) -> (&'static str, Option<String>) {
         Event::RangingJudged { ranging, turn, .. } => {
             ("docking aid", Some(format!("number {}: {turn}", ranging + 1)))
         }
+        Event::Learnt { turn, .. } => ("learning", Some(turn.to_string())),
         Event::CameraJudged { turn, .. } => ("camera", Some(turn.to_string())),
         Event::SourceChanged { to, why, .. } => {
             ("source", Some(format!("best source {}: {why}", to.as_str())))

@@ -48,7 +48,7 @@ pub use camera::{CameraFrame, CameraModel, CameraTurn, ImagePoint, VisualOdometr
 pub use can::{BusEvent, CanFrame, CanId};
 pub use estimates::{Disturbance, Estimate, Estimates, SeaQuantity};
 pub use events::{
-    AidInnovation, Counts, Event, ModeReason, Rejection, ResumeDoubt, SatelliteInnovation,
+    AidInnovation, Counts, Event, LearntTurn, ModeReason, Rejection, ResumeDoubt, SatelliteInnovation,
     SourceReason, StoredDoubt,
 };
 pub use frames::{Body, Ecef, Geodetic, Ned};

@@ -43,7 +43,7 @@ pub struct ReplayArgs {
     /// is less than four; may be repeated
     #[arg(long = "mask", value_name = "FROM..TO:N")]
     pub(super) masks: Vec<SatelliteMask>,
-    /// Leave out what is named, between commas, to see what it gives; of learning there is nothing yet
+    /// Leave out what is named, between commas, to see what it gives
     #[arg(long, value_name = "WHAT", value_enum, value_delimiter = ',')]
     pub(super) without: Vec<Without>,
     #[command(flatten)]

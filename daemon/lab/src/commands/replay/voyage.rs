@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context;
 use insd_base::{Body, Received};
 use insd_config::{BadInput, Config, VoyageCalendar, stored};
-use insd_drivers::recording::VoyageReader;
+use insd_drivers::recording::{TemperatureReader, VoyageReader};
 use insd_engine::{Engine, EngineConfig};
 use insd_vessel::Outputs;
 
@@ -26,6 +26,8 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     let mut reader = VoyageReader::open(&args.dir)?;
     let mut config = EngineConfig::for_voyage(reader.header(), args.rate.unwrap_or(RATE));
     config.alignment = args.alignment.config();
+    config.learning = !args.without.contains(&Without::Learning);
+    let mut temperature = TemperatureReader::open(&args.dir)?;
     let table = RawTable::read(&args.dir)?;
     config.models.ranges = table.model();
     let has_camera = !args.without.contains(&Without::Camera);
@@ -52,6 +54,11 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
             sink.look(&engine).context("cannot write the sky")?;
         }
         dropped += camera.pass_on(received.receipt, &mut engine, &args.outages)?;
+        if let Some(own) = &mut temperature
+            && let Some((time, celsius)) = own.until(received.receipt)?
+        {
+            engine.feel(time, celsius);
+        }
         raw.hear(&received);
         if raw.replaces(&received) || Without::drops(&args.without, &received) {
             continue;
@@ -69,7 +76,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         ports.iter_mut().try_for_each(|ports| ports.speak(&engine, &received))?;
     }
     ports.map_or(Ok(()), |ports| ports.sent.finish())?;
-    let files = reader.skipped().into_iter().chain(camera.report()).collect();
+    let files = reader.skipped().into_iter().chain(camera.report()).chain(temperature.as_ref().map(TemperatureReader::report)).collect();
     eprint!("{}", sink.summary(engine.counts(), dropped, files));
     sink.finish()?;
     match &args.save_state {

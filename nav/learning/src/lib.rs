@@ -1,0 +1,17 @@
+//! What repeats of the errors of a log, and how the current goes on: learnt while the ship is well aided, proven on
+//! outages that did not happen, and used only while it is better than nothing.
+//!
+//! Pure. A [`Learner`] takes [`Label`]s, each the mean of half a minute, and says how it [`Standing`] is. It knows no filter: what
+//! is done with it is the engine's matter.
+
+pub mod label;
+pub mod learner;
+pub mod model;
+pub mod shadow;
+pub mod thermal;
+
+pub use label::{Collector, Label, Look};
+pub use learner::{Learner, Standing, Verdict};
+pub use model::{CurrentModel, LogErrors};
+pub use shadow::ShadowScore;
+pub use thermal::{Compensation, Thermal};
