@@ -79,6 +79,7 @@ impl Config {
             accept_mounting: ship.accept_mounting,
             relay: ship.relay,
             learning: false,
+            learnt: None,
         }
     }
 

@@ -13,13 +13,14 @@ use insd_nav::navigator::checkpoint::NavigatorCheckpoint;
 use serde::{Deserialize, Serialize};
 
 use crate::alignment_status::StatusCheckpoint;
+use crate::learning::Learning;
 use crate::surveyor::Probation;
 
 /// What begins each checkpoint.
 const MARK: [u8; 4] = *b"insc";
 /// To be raised whenever anything of [`Kept`] changes: the bytes do not say what they are. `tests/crash/bytes.rs` holds
 /// their number, under way and at the berth.
-const VERSION: u16 = 18;
+const VERSION: u16 = 19;
 const HEAD: usize = MARK.len() + 2 + 4;
 const SUM: usize = 4;
 /// More than a state can ever be, bytes.
@@ -39,6 +40,7 @@ pub(crate) struct Kept {
     pub(crate) aligned: bool,
     pub(crate) alignment_status: StatusCheckpoint,
     pub(crate) probation: Probation,
+    pub(crate) learning: Option<Box<Learning>>,
 }
 
 impl Kept {

@@ -2,6 +2,7 @@
 
 use insd_alignment::{AlignmentConfig, StoredState};
 use insd_base::{Body, Geodetic, ImuSpec, LeverArms, StartCondition, VesselKind, VoyageHeader};
+use insd_learning::KeptModel;
 use insd_nav::config::Models;
 
 /// What the engine must know before the first message.
@@ -38,6 +39,8 @@ pub struct EngineConfig {
     pub points: Vec<Body>,
     /// Whether the errors of log and gyros that repeat are learnt while she is well aided (docs/learning.md).
     pub learning: bool,
+    /// What was learnt on earlier voyages.
+    pub learnt: Option<KeptModel>,
 }
 
 impl EngineConfig {
@@ -59,6 +62,7 @@ impl EngineConfig {
             relay: true,
             points: Vec::new(),
             learning: false,
+            learnt: None,
         }
     }
 }

@@ -1,10 +1,13 @@
 //! What is learnt of the sensors while the ship is well aided, for the time when she is not.
 
 use insd_base::{
-    Body, Event, ImuSample, LearntTurn, LogReference, LogVelocity, Message, Mode, Received, Time,
+    Body, Estimate, Event, ImuSample, LearntTurn, LogReference, LogVelocity, Message, Mode,
+    Received, Span, Time,
 };
-use insd_learning::{Collector, Compensation, Learner, Look, Thermal, Verdict};
-use insd_nav::{Filter, NavConfig};
+use insd_learning::model::PRIOR;
+use insd_learning::{Collector, Compensation, KeptModel, Learner, Look, Thermal, Verdict};
+use insd_nav::config::LogShape;
+use insd_nav::{Filter, NavConfig, Navigator};
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -32,21 +35,35 @@ pub(crate) struct Learning {
     sampled: Option<Time>,
     /// How the current goes on before anything is learnt, 1-sigma, m/s, and time constant, s.
     unknown_waters: (f64, f64),
+    /// What the filter is told of the log before it learns itself: value and 1-sigma by speed, 1/(m/s), and by turn, m. What this voyage
+    /// has told it learns itself, and nothing is counted twice.
+    before: [(f64, f64); 2],
+    /// Voyages before, and how often the model of them was written.
+    earlier: (u32, u32),
 }
 
 impl Learning {
-    /// Nothing is learnt yet.
-    pub(crate) fn new(config: &NavConfig) -> Self {
+    /// One that goes on from earlier voyages, if there were any.
+    pub(crate) fn new(config: &NavConfig, kept: Option<&KeptModel>) -> Self {
+        let bias_std = config.imu.gyro.bias_std;
+        let log = kept.map(|kept| &kept.log);
+        let gyros = kept.and_then(|kept| kept.gyros.as_ref());
         Learning {
             collector: Collector::default(),
-            learner: Learner::default(),
-            thermal: Thermal::unknown(config.imu.gyro.bias_std),
+            learner: log.map_or_else(Learner::default, Learner::after),
+            thermal: gyros
+                .map_or_else(|| Thermal::unknown(bias_std), |own| Thermal::after(own, bias_std)),
             compensation: None,
             celsius: None,
             looked: None,
             renewed: None,
             sampled: None,
             unknown_waters: (config.log.current_std, config.log.current_time),
+            before: log.map_or([(0.0, PRIOR[1]), (0.0, PRIOR[3])], |kept| {
+                let std = |i: usize| kept.covariance[i].max(0.0).sqrt();
+                [(kept.scale_by_speed_s_m, std(2)), (kept.slide_m, std(9))]
+            }),
+            earlier: kept.map_or((0, 0), |kept| (kept.voyages, kept.generation)),
         }
     }
 
@@ -55,6 +72,34 @@ impl Learning {
         let celsius = self.celsius.map(|(_, celsius)| celsius);
         let own = self.compensation.as_ref().zip(celsius).map(|(own, celsius)| own.rate(celsius));
         own.unwrap_or_else(Vector3::zeros)
+    }
+
+    /// The same on a time line that is later by a span.
+    pub(crate) fn shifted(&self, by: Span) -> Self {
+        let later = |time: Option<Time>| time.map(|time| time + by);
+        Learning {
+            // what was begun before the gap is no label, nor is a temperature of before it that of now
+            collector: Collector::default(),
+            celsius: self.celsius.map(|(time, celsius)| (time + by, celsius)),
+            looked: later(self.looked),
+            renewed: later(self.renewed),
+            sampled: None,
+            ..self.clone()
+        }
+    }
+
+    /// What the filter is told of the log.
+    fn shape(&self) -> LogShape {
+        let [by_speed, by_turn] = self.before.map(|(value, sigma)| Estimate { value, sigma });
+        LogShape { by_speed, by_turn }
+    }
+
+    /// What is kept for the next voyage.
+    fn kept(&self) -> KeptModel {
+        let (voyages, generation) = self.earlier;
+        let mut own = KeptModel::new(self.learner.kept(), self.thermal.kept());
+        (own.voyages, own.generation) = (voyages + 1, generation + 1);
+        own
     }
 
     /// A sample without what the temperature makes of it.
@@ -71,13 +116,22 @@ impl Engine {
     pub fn feel(&mut self, time: Time, celsius: f64) {
         if let Some(own) = self.learning.as_mut().filter(|_| celsius.is_finite()) {
             own.celsius = Some((time, celsius));
+            if own.compensation.is_none() && own.thermal.is_known() {
+                let none = Vector3::zeros();
+                own.compensation = Some(Compensation::beginning(&own.thermal, celsius, &none));
+            }
         }
     }
 
-    /// What is learnt, for people who look on; `None` where nothing is.
+    /// What is learnt, to be kept for the next voyage; `None` where nothing is.
     #[must_use]
-    pub fn learnt(&self) -> Option<&Learner> {
-        self.learning.as_ref().map(|own| &own.learner)
+    pub fn learnt(&self) -> Option<KeptModel> {
+        let mut kept = self.learning.as_ref()?.kept();
+        let filter = self.ship().and_then(Ship::likeliest).map(Navigator::filter);
+        if let Some((found, covariance)) = filter.and_then(Filter::found_log) {
+            kept.log = kept.log.with_found(&found, &covariance);
+        }
+        Some(kept)
     }
 
     /// A sample as it is used.
@@ -111,7 +165,9 @@ impl Engine {
     pub(crate) fn look_at_log(&mut self, received: &Received) {
         let Message::Log(log) = &received.message else { return };
         let is_aided = self.machine.mode() == Mode::Aided;
-        let (Some(own), Stage::Running(line)) = (&mut self.learning, &mut self.stage) else { return };
+        let (Some(own), Stage::Running(line)) = (&mut self.learning, &mut self.stage) else {
+            return;
+        };
         let Ship::Navigating { navigator, .. } = line.estimator() else { return };
         if !is_aided {
             return own.collector.spoil();
@@ -121,7 +177,8 @@ impl Engine {
         let verdict = own.learner.hear(&label);
         let standing = own.learner.standing();
         let current = standing.current.map(|current| (current.std, current.time));
-        let wanted = (standing.is_used, current.unwrap_or(own.unknown_waters));
+        let shape = standing.is_used.then(|| own.shape());
+        let wanted = (shape, current.unwrap_or(own.unknown_waters));
         if navigator.filter().log_as_learnt() != wanted {
             line.amend(|ship| ship.learn_log(wanted));
         }

@@ -183,7 +183,7 @@ impl Engine {
             resumption: None,
             learning: config
                 .learning
-                .then(|| Box::new(Learning::new(&nav))),
+                .then(|| Box::new(Learning::new(&nav, config.learnt.as_ref()))),
             trace: Trace::new(),
             counts: Counts::default(),
             outputs: VecDeque::new(),

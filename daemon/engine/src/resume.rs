@@ -36,6 +36,7 @@ impl Engine {
             aligned: *aligned,
             alignment_status: self.alignment_status.kept(),
             probation: self.surveyor.probation(),
+            learning: self.learning.clone(),
         })
     }
 
@@ -77,6 +78,9 @@ impl Engine {
         self.conditioner = conditioner;
         self.alignment_status.take_up(&kept.alignment_status, by);
         self.surveyor.take_up(kept.probation.shifted(by));
+        if let (Some(own), Some(kept)) = (&mut self.learning, &kept.learning) {
+            **own = kept.shifted(by);
+        }
         self.next_epoch = Some(epoch_after(self.period, now));
         self.resumption = Some(Resumption::new(!kept.navigator.filter().is_receiver_suspect()));
         Ok(())

@@ -48,8 +48,8 @@ pub use camera::{CameraFrame, CameraModel, CameraTurn, ImagePoint, VisualOdometr
 pub use can::{BusEvent, CanFrame, CanId};
 pub use estimates::{Disturbance, Estimate, Estimates, SeaQuantity};
 pub use events::{
-    AidInnovation, Counts, Event, LearntTurn, ModeReason, Rejection, ResumeDoubt, SatelliteInnovation,
-    SourceReason, StoredDoubt,
+    AidInnovation, Counts, Event, LearntTurn, ModeReason, Rejection, ResumeDoubt,
+    SatelliteInnovation, SourceReason, StoredDoubt,
 };
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};

@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 
+use crate::kept::KeptLog;
 use crate::label::Label;
 use crate::model::{CurrentModel, LogErrors};
 use crate::shadow::ShadowScore;
@@ -67,6 +68,32 @@ impl Default for Learner {
 }
 
 impl Learner {
+    /// One that goes on from an earlier voyage.
+    #[must_use]
+    pub fn after(kept: &KeptLog) -> Self {
+        let notion = |time: f64| STDS.map(|std| LogErrors::known(kept, CurrentModel { std, time }));
+        let pairs = kept.shadow_without_m.iter().zip(&kept.shadow_with_m);
+        let shadow = ShadowScore::of(pairs.map(|(without, with)| [*without, *with]));
+        Learner {
+            notions: TIMES.iter().flat_map(|time| notion(*time)).collect(),
+            is_used: kept.labels >= FEWEST && shadow.proves(false),
+            shadow,
+            count: kept.labels,
+            ..Learner::default()
+        }
+    }
+
+    /// What is kept of it for the next voyage.
+    #[must_use]
+    pub fn kept(&self) -> KeptLog {
+        KeptLog {
+            labels: self.count,
+            shadow_without_m: self.shadow.errors().map(|pair| pair[0]).collect(),
+            shadow_with_m: self.shadow.errors().map(|pair| pair[1]).collect(),
+            ..self.model().kept()
+        }
+    }
+
     /// Learns from a label.
     pub fn hear(&mut self, label: &Label) -> Option<Verdict> {
         let held = self.held_at_loss();
@@ -85,7 +112,11 @@ impl Learner {
         let before = self.is_used;
         self.is_used = self.shadow.proves(before);
         match (before, self.is_used) {
-            (false, true) => Some(Verdict::Proven),
+            (false, true) => {
+                // the filter learns now, and its heading does not lean to what the log says in a turn any more
+                self.notions.iter_mut().for_each(LogErrors::unsettle_slide);
+                Some(Verdict::Proven)
+            }
             (true, false) => Some(Verdict::Unproven),
             _ => None,
         }

@@ -4,12 +4,14 @@
 //! Pure. A [`Learner`] takes [`Label`]s, each the mean of half a minute, and says how it [`Standing`] is. It knows no filter: what
 //! is done with it is the engine's matter.
 
+pub mod kept;
 pub mod label;
 pub mod learner;
 pub mod model;
 pub mod shadow;
 pub mod thermal;
 
+pub use kept::{KeptFault, KeptGyros, KeptLog, KeptModel};
 pub use label::{Collector, Label, Look};
 pub use learner::{Learner, Standing, Verdict};
 pub use model::{CurrentModel, LogErrors};

@@ -13,6 +13,7 @@
 use nalgebra::{Matrix2, Matrix2x6, Matrix6, Vector2, Vector4, Vector6};
 use serde::{Deserialize, Serialize};
 
+use crate::kept::KeptLog;
 use crate::label::{LENGTH, Label};
 
 /// 1-sigma of scale, slope, s/m, turn of the log, rad, and slide, m, before anything is known.
@@ -23,6 +24,8 @@ const FOULS: f64 = 0.07;
 const UNMODELLED: f64 = 0.01;
 /// Squares of innovations of which one in twenty thousand is larger: no label.
 const GATE: f64 = 20.0;
+/// How much likelier a current is to go on as it did on the voyage before, as a logarithm.
+const FAMILIAR: f64 = 4.0;
 const DAY: f64 = 86_400.0;
 
 /// How a current goes on: Gauss-Markov.
@@ -60,6 +63,30 @@ impl LogErrors {
         let std = Vector6::new(PRIOR[0], PRIOR[1], PRIOR[2], PRIOR[3], c, c);
         let p = Matrix6::from_diagonal(&std.component_mul(&std));
         LogErrors { x: Vector6::zeros(), p, current, last: None, score: 0.0 }
+    }
+
+    /// What was kept of an earlier voyage, in unknown waters.
+    pub(crate) fn known(kept: &KeptLog, current: CurrentModel) -> Self {
+        let mut own = Self::unknown(current);
+        let (x, p) = kept.belief();
+        own.x.fixed_rows_mut::<4>(0).copy_from(&x);
+        own.p.fixed_view_mut::<4, 4>(0, 0).copy_from(&p);
+        let is_same = current.std == kept.current_std_mps && current.time == kept.current_time_s;
+        own.score = if is_same { FAMILIAR } else { 0.0 };
+        own
+    }
+
+    /// What was learnt of the slide may have been too little: it is as uncertain as at first.
+    pub(crate) fn unsettle_slide(&mut self) {
+        self.p.row_mut(3).fill(0.0);
+        self.p.column_mut(3).fill(0.0);
+        self.p[(3, 3)] = PRIOR[3] * PRIOR[3];
+    }
+
+    /// What is kept of it.
+    pub(crate) fn kept(&self) -> KeptLog {
+        let p = self.p.fixed_view::<4, 4>(0, 0).into_owned();
+        KeptLog::of(&self.values(), &p, &self.current)
     }
 
     /// Scale, slope, s/m, turn of the log, rad, slide, m.
@@ -116,7 +143,8 @@ impl LogErrors {
         let k = self.p * h.transpose() * inverse;
         let left = Matrix6::identity() - k * h;
         self.x += k * off;
-        self.p = left * self.p * left.transpose() + k * Matrix2::from_diagonal(&noise) * k.transpose();
+        self.p =
+            left * self.p * left.transpose() + k * Matrix2::from_diagonal(&noise) * k.transpose();
         self.p = (self.p + self.p.transpose()) * 0.5;
         Heard { is_used: true }
     }
@@ -141,7 +169,17 @@ impl LogErrors {
 fn rows(label: &Label) -> Matrix2x6<f64> {
     let (u, (cos, sin)) = (label.told.x, (label.bow.x, label.bow.y));
     Matrix2x6::new(
-        u, u.abs() * u, 0.0, 0.0, -cos, -sin, //
-        0.0, 0.0, u, label.turn, sin, -cos,
+        u,
+        u.abs() * u,
+        0.0,
+        0.0,
+        -cos,
+        -sin, //
+        0.0,
+        0.0,
+        u,
+        label.turn,
+        sin,
+        -cos,
     )
 }

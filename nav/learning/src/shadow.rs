@@ -67,7 +67,10 @@ impl ShadowScore {
         let along = |label: &Label| {
             let body = label.beyond - repeats(label);
             Rotation2::from_matrix_unchecked(nalgebra::Matrix2::new(
-                label.bow.x, -label.bow.y, label.bow.y, label.bow.x,
+                label.bow.x,
+                -label.bow.y,
+                label.bow.y,
+                label.bow.x,
             )) * body
         };
         let mean = |labels: &mut dyn Iterator<Item = &Label>, n: usize| {
@@ -76,6 +79,17 @@ impl ShadowScore {
         let known = mean(&mut self.labels.iter().take(BEFORE), BEFORE);
         let lost = mean(&mut self.labels.iter().skip(BEFORE), LOST);
         (lost - known).norm() * LENGTH * LOST as f64
+    }
+
+    /// Outages of an earlier voyage, without and with what was learnt, m.
+    #[must_use]
+    pub fn of(errors: impl Iterator<Item = [f64; 2]>) -> Self {
+        ShadowScore { errors: errors.take(REMEMBERED).collect(), ..ShadowScore::default() }
+    }
+
+    /// Ends of outages, without and with what is learnt, m, the newest last.
+    pub fn errors(&self) -> impl Iterator<Item = &[f64; 2]> {
+        self.errors.iter()
     }
 
     /// Number of outages scored.

@@ -4,6 +4,7 @@
 //! biases to be. They are off by the same for minutes: one tells as much as its share of that time. What is taken away from the
 //! samples is the difference to the temperature at which it was begun, so that nothing steps when more is known.
 
+use crate::kept::KeptGyros;
 use nalgebra::{Matrix3, RowVector3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -39,8 +40,36 @@ impl Thermal {
     #[must_use]
     pub fn unknown(bias_std: f64) -> Self {
         let std = Vector3::from(PRIOR) * bias_std;
-        let axis = Axis { x: Vector3::zeros(), p: Matrix3::from_diagonal(&std.component_mul(&std)) };
+        let axis =
+            Axis { x: Vector3::zeros(), p: Matrix3::from_diagonal(&std.component_mul(&std)) };
         Thermal { axes: [axis; 3], count: 0, range: None, last: None }
+    }
+
+    /// What was kept of an earlier voyage: gyros with such a turn-on bias, 1-sigma, rad/s, start with another each time.
+    #[must_use]
+    pub fn after(kept: &KeptGyros, bias_std: f64) -> Self {
+        let axis = |i: usize| {
+            let at =
+                |r: usize, c: usize| kept.covariance[i][r.max(c) * (r.max(c) + 1) / 2 + r.min(c)];
+            let mut p = Matrix3::from_fn(at);
+            p[(0, 0)] += bias_std * bias_std;
+            Axis { x: Vector3::from(kept.bias_rad_s[i]), p }
+        };
+        let axes = std::array::from_fn(axis);
+        Thermal { axes, count: kept.looks, range: Some(kept.range_c), last: None }
+    }
+
+    /// What is kept of it for the next voyage; `None` where nothing is known.
+    #[must_use]
+    pub fn kept(&self) -> Option<KeptGyros> {
+        let triangle =
+            |p: &Matrix3<f64>| [p[(0, 0)], p[(1, 0)], p[(1, 1)], p[(2, 0)], p[(2, 1)], p[(2, 2)]];
+        Some(KeptGyros {
+            looks: self.count,
+            range_c: self.range?,
+            bias_rad_s: std::array::from_fn(|i| self.axes[i].x.into()),
+            covariance: std::array::from_fn(|i| triangle(&self.axes[i].p)),
+        })
     }
 
     /// Learns from biases at a temperature, degrees Celsius, each with its 1-sigma, rad/s.
@@ -123,7 +152,12 @@ mod tests {
         for i in 0..120 {
             let celsius = 32.0 + 10.0 * (f64::from(i) / 20.0).sin();
             let ripple = Vector3::repeat(1e-5 * (f64::from(i) * 1.7).sin());
-            own.hear(30.0 * f64::from(i), celsius, &(bias(celsius) + ripple), &Vector3::repeat(2e-5));
+            own.hear(
+                30.0 * f64::from(i),
+                celsius,
+                &(bias(celsius) + ripple),
+                &Vector3::repeat(2e-5),
+            );
         }
         own
     }
@@ -136,6 +170,17 @@ mod tests {
             assert!((own.bias(celsius) - bias(celsius)).amax() < 1e-5, "{celsius}");
         }
         assert_eq!(own.bias(60.0), own.bias(42.0_f64.min(60.0).max(own.range.unwrap()[1])));
+    }
+
+    #[test]
+    fn what_is_kept_goes_on_with_the_shape_and_another_turn_on_bias() {
+        let kept = heard().kept().unwrap();
+        let mut own = Thermal::after(&kept, 1e-4);
+        let step = Vector3::repeat(7e-5);
+        for i in 0..20 {
+            own.hear(30.0 * f64::from(i), 31.0, &(bias(31.0) + step), &Vector3::repeat(2e-5));
+        }
+        assert!((own.bias(41.0) - bias(41.0) - step).amax() < 2e-5);
     }
 
     #[test]

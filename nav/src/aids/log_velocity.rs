@@ -18,8 +18,8 @@ use nalgebra::{Matrix3, Vector1, Vector3};
 
 use super::View;
 use crate::error_state::{
-    ATTITUDE, CURRENT, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, Innovation, Jacobian, LOG_MISALIGNMENT,
-    LOG_BY_SPEED, LOG_BY_TURN, LOG_SCALE, VELOCITY,
+    ATTITUDE, CURRENT, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, Innovation, Jacobian, LOG_BY_SPEED,
+    LOG_BY_TURN, LOG_MISALIGNMENT, LOG_SCALE, VELOCITY,
 };
 
 /// The predicted log velocity and its derivative, all three components.

@@ -148,6 +148,7 @@ const ARROWS: [(&str, &[&str]); 20] = [
             "insd-engine",
             "insd-gnss",
             "insd-intake",
+            "insd-learning",
             "insd-n2k",
             "insd-nav",
             "insd-output",

@@ -4,6 +4,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
 use super::*;
+use crate::kept::{KeptFault, KeptModel};
 
 /// A log and a sea.
 #[derive(Clone, Copy)]
@@ -124,6 +125,24 @@ fn a_log_that_fouled_overnight_is_found_to_be_another_within_ten_minutes() {
     let words: Vec<_> = (0..20).map(|_| own.hear(&sea.label(&fouled))).collect();
     assert!(words.contains(&Some(Verdict::Changed)), "{words:?}");
     assert!(!own.standing().is_used && own.standing().current.is_none());
+}
+
+#[test]
+fn what_is_kept_is_read_as_it_was_written_and_damage_is_found() {
+    let own = sailed(&REPEATS, 400, 4);
+    let model = KeptModel::new(own.kept(), None);
+    let text = model.text();
+    assert_eq!(KeptModel::parse(&text), Ok(model.clone()));
+    assert!(text.len() < 65_536 && text == model.text());
+    let next = Learner::after(&model.log);
+    assert_eq!(next.kept().covariance, model.log.covariance);
+    assert_eq!(next.standing(), own.standing());
+    let changed = text.replace("voyages = 1", "voyages = 9");
+    assert_eq!(KeptModel::parse(&changed), Err(KeptFault::Checksum));
+    assert_eq!(KeptModel::parse("hello"), Err(KeptFault::NotAModel));
+    for cut in 0..text.len() - 1 {
+        assert!(KeptModel::parse(&text[..cut]).is_err(), "{cut}");
+    }
 }
 
 #[test]

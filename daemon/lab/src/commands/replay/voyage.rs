@@ -9,6 +9,7 @@ use insd_drivers::recording::{TemperatureReader, VoyageReader};
 use insd_engine::{Engine, EngineConfig};
 use insd_vessel::Outputs;
 
+use super::super::learn;
 use super::args::ReplayArgs;
 use super::sent::Sent;
 use super::sink::Sink;
@@ -27,6 +28,12 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     let mut config = EngineConfig::for_voyage(reader.header(), args.rate.unwrap_or(RATE));
     config.alignment = args.alignment.config();
     config.learning = !args.without.contains(&Without::Learning);
+    config.learnt = match &args.log_model {
+        Some(_) if !config.learning => {
+            return Err(BadInput("--without learning leaves nothing for --log-model".into()).into());
+        }
+        file => file.as_deref().map(learn::read).transpose()?,
+    };
     let mut temperature = TemperatureReader::open(&args.dir)?;
     let table = RawTable::read(&args.dir)?;
     config.models.ranges = table.model();
@@ -76,7 +83,12 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         ports.iter_mut().try_for_each(|ports| ports.speak(&engine, &received))?;
     }
     ports.map_or(Ok(()), |ports| ports.sent.finish())?;
-    let files = reader.skipped().into_iter().chain(camera.report()).chain(temperature.as_ref().map(TemperatureReader::report)).collect();
+    let files = reader
+        .skipped()
+        .into_iter()
+        .chain(camera.report())
+        .chain(temperature.as_ref().map(TemperatureReader::report))
+        .collect();
     eprint!("{}", sink.summary(engine.counts(), dropped, files));
     sink.finish()?;
     match &args.save_state {
