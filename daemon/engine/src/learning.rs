@@ -1,26 +1,20 @@
 //! What is learnt of the sensors while the ship is well aided, for the time when she is not.
 
-use insd_base::{
-    Body, Estimate, Event, ImuSample, LearntTurn, LogReference, LogVelocity, Message, Mode,
-    Received, Span, Time,
-};
+use insd_base::{Body, Estimate, ImuSample, Span, Time};
 use insd_learning::model::PRIOR;
-use insd_learning::{Collector, Compensation, KeptModel, Learner, Look, Thermal, Verdict};
+use insd_learning::{
+    Collector, Compensation, KeptModel, LabelLook, Learner, LearnerVerdict, Thermal,
+};
+use insd_nav::NavConfig;
 use insd_nav::config::LogShape;
-use insd_nav::{Filter, NavConfig, Navigator};
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
-
-use crate::ship::Ship;
-use crate::{Engine, Stage};
 
 /// Biases of the gyros are looked at so often, s, and what is taken away for the temperature is renewed so often.
 const LOOK: f64 = 30.0;
 const RENEW: f64 = 120.0;
 /// A temperature is that of the IMU for so long, s.
 const FRESH: f64 = 60.0;
-/// A look at a log is one at its time to so much, s.
-const TOGETHER: f64 = 0.3;
 
 /// What is learnt, and what of it is in use.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,8 +37,17 @@ pub(crate) struct Learning {
 }
 
 impl Learning {
+    /// One where it is wanted.
+    pub(crate) fn where_wanted(
+        is_wanted: bool,
+        config: &NavConfig,
+        kept: Option<&KeptModel>,
+    ) -> Option<Box<Self>> {
+        is_wanted.then(|| Box::new(Learning::new(config, kept)))
+    }
+
     /// One that goes on from earlier voyages, if there were any.
-    pub(crate) fn new(config: &NavConfig, kept: Option<&KeptModel>) -> Self {
+    fn new(config: &NavConfig, kept: Option<&KeptModel>) -> Self {
         let bias_std = config.imu.gyro.bias_std;
         let log = kept.map(|kept| &kept.log);
         let gyros = kept.and_then(|kept| kept.gyros.as_ref());
@@ -95,7 +98,7 @@ impl Learning {
     }
 
     /// What is kept for the next voyage.
-    fn kept(&self) -> KeptModel {
+    pub(crate) fn kept(&self) -> KeptModel {
         let (voyages, generation) = self.earlier;
         let mut own = KeptModel::new(self.learner.kept(), self.thermal.kept());
         (own.voyages, own.generation) = (voyages + 1, generation + 1);
@@ -103,112 +106,59 @@ impl Learning {
     }
 
     /// A sample without what the temperature makes of it.
-    fn corrected(&mut self, sample: &ImuSample, usual: f64) -> ImuSample {
+    pub(crate) fn corrected(&mut self, sample: &ImuSample, usual: f64) -> ImuSample {
         let apart = self.sampled.replace(sample.time).map(|last| (sample.time - last).as_seconds());
         let interval = apart.filter(|apart| (0.0..2.0 * usual).contains(apart)).unwrap_or(usual);
         let delta_theta = Body(sample.delta_theta.0 - self.taken_away() * interval);
         ImuSample { delta_theta, ..*sample }
     }
-}
 
-impl Engine {
-    /// The temperature of the IMU, degrees Celsius: what its biases do with it is learnt.
-    pub fn feel(&mut self, time: Time, celsius: f64) {
-        if let Some(own) = self.learning.as_mut().filter(|_| celsius.is_finite()) {
-            own.celsius = Some((time, celsius));
-            if own.compensation.is_none() && own.thermal.is_known() {
-                let none = Vector3::zeros();
-                own.compensation = Some(Compensation::beginning(&own.thermal, celsius, &none));
-            }
+    /// The temperature of the IMU, degrees Celsius.
+    pub(crate) fn feel(&mut self, time: Time, celsius: f64) {
+        self.celsius = Some((time, celsius));
+        if self.compensation.is_none() && self.thermal.is_known() {
+            let none = Vector3::zeros();
+            self.compensation = Some(Compensation::beginning(&self.thermal, celsius, &none));
         }
     }
 
-    /// What is learnt, to be kept for the next voyage; `None` where nothing is.
-    #[must_use]
-    pub fn learnt(&self) -> Option<KeptModel> {
-        let mut kept = self.learning.as_ref()?.kept();
-        let filter = self.ship().and_then(Ship::likeliest).map(Navigator::filter);
-        if let Some((found, covariance)) = filter.and_then(Filter::found_log) {
-            kept.log = kept.log.with_found(&found, &covariance);
-        }
-        Some(kept)
+    /// Whether the biases of the gyros are to be looked at.
+    pub(crate) fn is_look_due(&self, now: Time) -> bool {
+        let is_fresh = self.celsius.is_some_and(|(felt, _)| (now - felt).as_seconds() < FRESH);
+        is_fresh && since(self.looked, now) >= LOOK
     }
 
-    /// A sample as it is used.
-    pub(crate) fn without_heat(&mut self, sample: &ImuSample) -> ImuSample {
-        let usual = 1.0 / self.config.imu.rate;
-        self.learning.as_mut().map_or(*sample, |own| own.corrected(sample, usual))
-    }
-
-    /// Looks at the biases of the gyros now and then while she is aided.
-    pub(crate) fn look_at_biases(&mut self, now: Time) {
-        let is_aided = self.machine.mode() == Mode::Aided;
-        let (Some(own), Stage::Running(line)) = (&mut self.learning, &self.stage) else { return };
-        let since = |at: Option<Time>| at.map_or(f64::INFINITY, |at| (now - at).as_seconds());
-        let Some((felt, celsius)) = own.celsius else { return };
-        if !is_aided || since(Some(felt)) > FRESH || since(own.looked) < LOOK {
-            return;
-        }
-        own.looked = Some(now);
-        let Ship::Navigating { navigator, .. } = line.estimator() else { return };
-        let found = navigator.filter().estimates(false);
-        let bias = found.gyro_bias.0 + own.taken_away();
-        own.thermal.hear(now.as_seconds(), celsius, &bias, &found.gyro_bias_sigma.0);
-        if own.thermal.is_known() && since(own.renewed) >= RENEW {
-            own.renewed = Some(now);
-            let until_then = own.taken_away();
-            own.compensation = Some(Compensation::beginning(&own.thermal, celsius, &until_then));
+    /// Learns from biases of the gyros, rad/s, as they are beside what is taken away, with their 1-sigma.
+    pub(crate) fn hear_biases(&mut self, now: Time, (bias, std): (Vector3<f64>, Vector3<f64>)) {
+        let Some((_, celsius)) = self.celsius else { return };
+        self.looked = Some(now);
+        let until_then = self.taken_away();
+        self.thermal.hear(now.as_seconds(), celsius, &(bias + until_then), &std);
+        if self.thermal.is_known() && since(self.renewed, now) >= RENEW {
+            self.renewed = Some(now);
+            self.compensation = Some(Compensation::beginning(&self.thermal, celsius, &until_then));
         }
     }
 
-    /// Looks at a log beside the solution while she is aided.
-    pub(crate) fn look_at_log(&mut self, received: &Received) {
-        let Message::Log(log) = &received.message else { return };
-        let is_aided = self.machine.mode() == Mode::Aided;
-        let (Some(own), Stage::Running(line)) = (&mut self.learning, &mut self.stage) else {
-            return;
-        };
-        let Ship::Navigating { navigator, .. } = line.estimator() else { return };
-        if !is_aided {
-            return own.collector.spoil();
-        }
-        let Some(look) = look(navigator.filter(), log) else { return };
-        let Some(label) = own.collector.take(&look) else { return };
-        let verdict = own.learner.hear(&label);
-        let standing = own.learner.standing();
+    /// She is not well aided: what was begun is no label.
+    pub(crate) fn pause(&mut self) {
+        self.collector.spoil();
+    }
+
+    /// Learns from a look at a log; tells what that changed if it completes a label.
+    pub(crate) fn hear_log(&mut self, look: &LabelLook) -> Option<Option<LearnerVerdict>> {
+        let label = self.collector.take(look)?;
+        Some(self.learner.hear(&label))
+    }
+
+    /// What the filter is to assume of the log, and of the current, 1-sigma, m/s, and time constant, s.
+    pub(crate) fn wanted(&self) -> (Option<LogShape>, (f64, f64)) {
+        let standing = self.learner.standing();
         let current = standing.current.map(|current| (current.std, current.time));
-        let shape = standing.is_used.then(|| own.shape());
-        let wanted = (shape, current.unwrap_or(own.unknown_waters));
-        if navigator.filter().log_as_learnt() != wanted {
-            line.amend(|ship| ship.learn_log(wanted));
-        }
-        if let Some(verdict) = verdict {
-            let turn = match verdict {
-                Verdict::Proven => LearntTurn::LogProven,
-                Verdict::Unproven => LearntTurn::LogUnproven,
-                Verdict::Changed => LearntTurn::LogChanged,
-            };
-            self.tell(Event::Learnt { time: log.time, turn });
-        }
+        (standing.is_used.then(|| self.shape()), current.unwrap_or(self.unknown_waters))
     }
 }
 
-/// A log that measures through the water beside the estimate at its time.
-fn look(filter: &Filter, log: &LogVelocity) -> Option<Look> {
-    let (u, v) = (log.u?, log.v?);
-    let is_together = (filter.time() - log.time).as_seconds().abs() < TOGETHER;
-    if log.reference != LogReference::Water || !is_together {
-        return None;
-    }
-    let own = filter.look_at_log(log);
-    Some(Look {
-        time: log.time.as_seconds(),
-        told: Vector2::new(u, v),
-        told_std: own.stated_std,
-        aided: own.velocity,
-        aided_std: own.velocity_std,
-        heading: own.heading,
-        heading_std: own.heading_std,
-        turn: own.turn,
-    })
+fn since(at: Option<Time>, now: Time) -> f64 {
+    at.map_or(f64::INFINITY, |at| (now - at).as_seconds())
 }

@@ -19,6 +19,7 @@ mod heir;
 mod images;
 mod learning;
 mod ledger;
+mod lessons;
 mod looks;
 mod mode;
 mod receivers;
@@ -39,7 +40,7 @@ pub mod vote;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use insd_alignment::{StoredState, StoredVerdict};
+use insd_alignment::StoredState;
 use insd_base::satellites::{BaseEpoch, SatelliteRanges};
 use insd_base::{
     AidInnovation, AlignmentStatus, Body, Counts, Event, Finding, ImuSample, ImuSpec, Message,
@@ -130,7 +131,6 @@ pub struct Engine {
     heard: Option<Time>,
     /// The state saved before a crash, while it is on trial.
     resumption: Option<Resumption>,
-    /// What is learnt of the sensors, where that is wanted.
     learning: Option<Box<Learning>>,
     trace: Trace,
     counts: Counts,
@@ -181,9 +181,7 @@ impl Engine {
             no_rtk: None,
             heard: None,
             resumption: None,
-            learning: config
-                .learning
-                .then(|| Box::new(Learning::new(&nav, config.learnt.as_ref()))),
+            learning: Learning::where_wanted(config.learning, &nav, config.learnt.as_ref()),
             trace: Trace::new(),
             counts: Counts::default(),
             outputs: VecDeque::new(),
@@ -197,8 +195,7 @@ impl Engine {
         self.config.stored = Some(stored);
     }
 
-    /// Other monitoring points, the first of them the IMU: if they are others than before, their heave
-    /// begins anew.
+    /// Other monitoring points, the first of them the IMU: the heave of others than before begins anew.
     pub fn observe_points(&mut self, points: Vec<Body>) {
         if points != self.config.points {
             self.heave = heave_of(&self.config.imu, &points);
@@ -485,20 +482,6 @@ impl Engine {
         if silent {
             self.enter(receipt, Mode::Standby, self.facts(), None);
         }
-    }
-
-    /// Tells once what became of the stored state, which is then not offered again.
-    fn tell_of_stored(&mut self) {
-        let Stage::Running(line) = &self.stage else { return };
-        if self.config.stored.is_none() {
-            return;
-        }
-        let Some(verdict) = line.estimator().verdict() else { return };
-        self.config.stored = None;
-        self.tell(match verdict {
-            StoredVerdict::Used { time } => Event::StoredStateUsed { time },
-            StoredVerdict::Dropped { time, reason } => Event::StoredStateDropped { time, reason },
-        });
     }
 
     fn tell(&mut self, event: Event) {

@@ -1,5 +1,6 @@
 //! Going on after a crash: the engine as bytes, and the next one from them.
 
+use insd_alignment::StoredVerdict;
 use insd_alignment::stored::fingerprint;
 use insd_base::units::DEG;
 use insd_base::{Event, ModeReason, ResumeDoubt, Span, Time};
@@ -103,6 +104,20 @@ impl Engine {
             Event::Resumed { time, gap }
         });
         true
+    }
+
+    /// Tells once what became of the stored state, which is then not offered again.
+    pub(crate) fn tell_of_stored(&mut self) {
+        let Stage::Running(line) = &self.stage else { return };
+        if self.config.stored.is_none() {
+            return;
+        }
+        let Some(verdict) = line.estimator().verdict() else { return };
+        self.config.stored = None;
+        self.tell(match verdict {
+            StoredVerdict::Used { time } => Event::StoredStateUsed { time },
+            StoredVerdict::Dropped { time, reason } => Event::StoredStateDropped { time, reason },
+        });
     }
 
     /// Ends the trial of a resumption once the sensors have spoken.

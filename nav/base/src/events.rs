@@ -5,11 +5,13 @@ use std::fmt;
 
 use crate::camera::CameraTurn;
 use crate::installation::Finding;
+use crate::learnt::LearntTurn;
 use crate::messages::Source;
 use crate::party::{ReceiverChange, Stands};
 use crate::ranging::RangingTurn;
-use crate::satellites::{CompassRefusal, RtkSilence, RtkTurn, SatelliteId};
+use crate::satellites::{CompassRefusal, RtkTurn, SatelliteId};
 use crate::solution::{Mode, SolutionSource};
+use crate::source_reason::SourceReason;
 use crate::time::Time;
 
 /// Why a message or a part of it was not used.
@@ -406,50 +408,6 @@ pub enum Event {
         /// When.
         time: Time,
     },
-}
-
-/// What is learnt of a sensor is used otherwise than before.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LearntTurn {
-    /// What was learnt of the log has proven better than nothing, and is used.
-    LogProven,
-    /// It is no better than nothing any more, and is not used.
-    LogUnproven,
-    /// The log is another than it was: all that was learnt of it is dropped.
-    LogChanged,
-}
-
-impl fmt::Display for LearntTurn {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::LogProven => "what was learnt of the log has proven itself, and is used",
-            Self::LogUnproven => "what was learnt of the log does not help any more, and is not used",
-            Self::LogChanged => {
-                "the log is not what it was: fouled, exchanged or turned; what was learnt of it is dropped"
-            }
-        })
-    }
-}
-
-/// Why the best source of the solution is another one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SourceReason {
-    /// A better one has come.
-    Better,
-    /// The better one is not heard any more, or is not used.
-    Unheard,
-    /// There is no RTK.
-    NoRtk(RtkSilence),
-}
-
-impl fmt::Display for SourceReason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Better => f.write_str("it has come"),
-            Self::Unheard => f.write_str("nothing better is heard or used"),
-            Self::NoRtk(why) => why.fmt(f),
-        }
-    }
 }
 
 /// One component of an innovation: measured minus predicted, with the sigma that was expected.

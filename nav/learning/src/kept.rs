@@ -7,7 +7,7 @@ use crc::{CRC_32_ISO_HDLC, Crc};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 use serde::{Deserialize, Serialize};
 
-use crate::model::CurrentModel;
+use crate::current::CurrentModel;
 
 /// The version that is written, and the only one that is read.
 const VERSION: u32 = 1;

@@ -14,7 +14,7 @@ const VELOCITY: f64 = 0.05;
 
 /// One word of a log beside the solution at its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Look {
+pub struct LabelLook {
     /// When, s.
     pub time: f64,
     /// What the log says, forward and starboard, m/s.
@@ -65,7 +65,7 @@ pub struct Collector {
 
 impl Collector {
     /// Takes a look; returns the label that it completes. What is not known well enough spoils the half minute.
-    pub fn take(&mut self, look: &Look) -> Option<Label> {
+    pub fn take(&mut self, look: &LabelLook) -> Option<Label> {
         let is_good = look.aided_std < VELOCITY && look.heading_std < HEADING;
         if !is_good {
             self.spoil();

@@ -4,9 +4,10 @@ use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 
+use crate::current::CurrentModel;
 use crate::kept::KeptLog;
 use crate::label::Label;
-use crate::model::{CurrentModel, LogErrors};
+use crate::model::LogErrors;
 use crate::shadow::ShadowScore;
 
 /// How a current may go on: 1-sigma, m/s, by time constant, s. The last of each is for unknown waters.
@@ -35,7 +36,7 @@ pub struct Learner {
 
 /// How a learner stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Standing {
+pub struct LearnerStanding {
     /// Whether what repeats of the log is used.
     pub is_used: bool,
     /// How the current goes on, once enough was heard.
@@ -44,7 +45,7 @@ pub struct Standing {
 
 /// What a label changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum LearnerVerdict {
     /// What is learnt has proven better than nothing, and is used from now on.
     Proven,
     /// It is not better any more.
@@ -95,7 +96,7 @@ impl Learner {
     }
 
     /// Learns from a label.
-    pub fn hear(&mut self, label: &Label) -> Option<Verdict> {
+    pub fn hear(&mut self, label: &Label) -> Option<LearnerVerdict> {
         let held = self.held_at_loss();
         self.shadow.take(label, &held);
         let best = self.best();
@@ -107,7 +108,7 @@ impl Learner {
         }
         if self.refused.iter().filter(|refused| **refused).count() >= REFUSED {
             *self = Learner::default();
-            return Some(Verdict::Changed);
+            return Some(LearnerVerdict::Changed);
         }
         let before = self.is_used;
         self.is_used = self.shadow.proves(before);
@@ -115,18 +116,18 @@ impl Learner {
             (false, true) => {
                 // the filter learns now, and its heading does not lean to what the log says in a turn any more
                 self.notions.iter_mut().for_each(LogErrors::unsettle_slide);
-                Some(Verdict::Proven)
+                Some(LearnerVerdict::Proven)
             }
-            (true, false) => Some(Verdict::Unproven),
+            (true, false) => Some(LearnerVerdict::Unproven),
             _ => None,
         }
     }
 
     /// How it stands.
     #[must_use]
-    pub fn standing(&self) -> Standing {
+    pub fn standing(&self) -> LearnerStanding {
         let current = (self.count >= FEWEST).then(|| self.model().current());
-        Standing { is_used: self.is_used && current.is_some(), current }
+        LearnerStanding { is_used: self.is_used && current.is_some(), current }
     }
 
     /// What is learnt: of the notions that are not given up the one with the liveliest current.

@@ -4,6 +4,7 @@
 //! Pure. A [`Learner`] takes [`Label`]s, each the mean of half a minute, and says how it [`Standing`] is. It knows no filter: what
 //! is done with it is the engine's matter.
 
+pub mod current;
 pub mod kept;
 pub mod label;
 pub mod learner;
@@ -11,9 +12,10 @@ pub mod model;
 pub mod shadow;
 pub mod thermal;
 
+pub use current::CurrentModel;
 pub use kept::{KeptFault, KeptGyros, KeptLog, KeptModel};
-pub use label::{Collector, Label, Look};
-pub use learner::{Learner, Standing, Verdict};
-pub use model::{CurrentModel, LogErrors};
+pub use label::{Collector, Label, LabelLook};
+pub use learner::{Learner, LearnerStanding, LearnerVerdict};
+pub use model::LogErrors;
 pub use shadow::ShadowScore;
 pub use thermal::{Compensation, Thermal};

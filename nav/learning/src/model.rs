@@ -13,6 +13,7 @@
 use nalgebra::{Matrix2, Matrix2x6, Matrix6, Vector2, Vector4, Vector6};
 use serde::{Deserialize, Serialize};
 
+use crate::current::CurrentModel;
 use crate::kept::KeptLog;
 use crate::label::{LENGTH, Label};
 
@@ -27,15 +28,6 @@ const GATE: f64 = 20.0;
 /// How much likelier a current is to go on as it did on the voyage before, as a logarithm.
 const FAMILIAR: f64 = 4.0;
 const DAY: f64 = 86_400.0;
-
-/// How a current goes on: Gauss-Markov.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CurrentModel {
-    /// 1-sigma of each component, m/s.
-    pub std: f64,
-    /// Time constant, s.
-    pub time: f64,
-}
 
 /// What repeats, with the covariance that is known to.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

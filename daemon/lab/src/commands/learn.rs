@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
+use insd_base::Time;
 use insd_base::units::{DEG, DEG_PER_HOUR};
 use insd_config::{BadInput, output_file};
 use insd_drivers::recording::{TemperatureReader, VoyageReader};
@@ -97,15 +98,24 @@ fn sail(dir: &Path, before: Option<KeptModel>) -> anyhow::Result<KeptModel> {
     let mut engine = Engine::new(config);
     for received in &mut reader {
         let received = received?;
-        if let Some(temperature) = &mut temperature
-            && let Some((time, celsius)) = temperature.until(received.receipt)?
-        {
-            engine.feel(time, celsius);
-        }
+        feel(&mut engine, temperature.as_mut(), received.receipt)?;
         engine.handle(&received);
         while engine.poll_output().is_some() {}
     }
     engine.learnt().context("nothing is learnt of this voyage")
+}
+
+/// Tells an engine the newest temperature of its IMU, if there is a newer one.
+pub(super) fn feel(
+    engine: &mut Engine,
+    temperature: Option<&mut TemperatureReader>,
+    now: Time,
+) -> anyhow::Result<()> {
+    let newer = temperature.map(|own| own.until(now)).transpose()?.flatten();
+    if let Some((time, celsius)) = newer {
+        engine.feel(time, celsius);
+    }
+    Ok(())
 }
 
 /// A model in words.

@@ -123,7 +123,7 @@ fn a_log_that_fouled_overnight_is_found_to_be_another_within_ten_minutes() {
     });
     let fouled = Truth { scale: REPEATS.scale + 0.03, ..REPEATS };
     let words: Vec<_> = (0..20).map(|_| own.hear(&sea.label(&fouled))).collect();
-    assert!(words.contains(&Some(Verdict::Changed)), "{words:?}");
+    assert!(words.contains(&Some(LearnerVerdict::Changed)), "{words:?}");
     assert!(!own.standing().is_used && own.standing().current.is_none());
 }
 

@@ -25,15 +25,7 @@ const RATE: f64 = 10.0;
 /// Replays a voyage.
 pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     let mut reader = VoyageReader::open(&args.dir)?;
-    let mut config = EngineConfig::for_voyage(reader.header(), args.rate.unwrap_or(RATE));
-    config.alignment = args.alignment.config();
-    config.learning = !args.without.contains(&Without::Learning);
-    config.learnt = match &args.log_model {
-        Some(_) if !config.learning => {
-            return Err(BadInput("--without learning leaves nothing for --log-model".into()).into());
-        }
-        file => file.as_deref().map(learn::read).transpose()?,
-    };
+    let mut config = asked(args, &reader)?;
     let mut temperature = TemperatureReader::open(&args.dir)?;
     let table = RawTable::read(&args.dir)?;
     config.models.ranges = table.model();
@@ -41,7 +33,6 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     let mut camera =
         if has_camera { CameraVoyage::open(&args.dir)? } else { CameraVoyage::default() };
     config.models.camera = if has_camera { camera_table::read(&args.dir)? } else { None };
-    config.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
     let mut ports = Ports::of(args, &reader.header().start_utc)?;
     config.points = ports.as_ref().map(|ports| ports.levers.clone()).unwrap_or_default();
     let mut engine = Engine::new(config);
@@ -61,11 +52,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
             sink.look(&engine).context("cannot write the sky")?;
         }
         dropped += camera.pass_on(received.receipt, &mut engine, &args.outages)?;
-        if let Some(own) = &mut temperature
-            && let Some((time, celsius)) = own.until(received.receipt)?
-        {
-            engine.feel(time, celsius);
-        }
+        learn::feel(&mut engine, temperature.as_mut(), received.receipt)?;
         raw.hear(&received);
         if raw.replaces(&received) || Without::drops(&args.without, &received) {
             continue;
@@ -95,6 +82,21 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         Some(path) => save(path, &engine, &reader.header().start_utc),
         None => Ok(()),
     }
+}
+
+/// What the options ask of the engine.
+fn asked(args: &ReplayArgs, reader: &VoyageReader) -> anyhow::Result<EngineConfig> {
+    let mut config = EngineConfig::for_voyage(reader.header(), args.rate.unwrap_or(RATE));
+    config.alignment = args.alignment.config();
+    config.learning = !args.without.contains(&Without::Learning);
+    config.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
+    config.learnt = match &args.log_model {
+        Some(_) if !config.learning => {
+            return Err(BadInput("--without learning leaves nothing for --log-model".into()).into());
+        }
+        file => file.as_deref().map(learn::read).transpose()?,
+    };
+    Ok(config)
 }
 
 /// The ports of a configuration, as they would be with the sensors of the voyage.
