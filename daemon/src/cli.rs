@@ -8,7 +8,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use insd_config::{BadInput, Config};
 use insd_drivers::recording::RecordingError;
 use insd_lab::commands::{
-    campaign, convert, evaluate, feed, integrity, limit, replay, report, simulate,
+    campaign, convert, evaluate, feed, integrity, learn, limit, replay, report, simulate,
 };
 use insd_lab::demo;
 
@@ -56,6 +56,8 @@ enum Command {
     Integrity(integrity::IntegrityArgs),
     /// Run a scenario with many seeds and score errors and claims
     Campaign(campaign::CampaignArgs),
+    /// Learn from recorded voyages what repeats of the errors of log and gyros
+    Learn(learn::LearnArgs),
     /// How well the optimal filter could do in a scenario
     Limit(limit::LimitArgs),
     /// Look for faults in a configuration: tells all of them, and what it amounts to
@@ -107,6 +109,7 @@ impl Cli {
             Command::Evaluate(args) => evaluate::run(&args),
             Command::Integrity(args) => integrity::run(&args),
             Command::Campaign(args) => campaign::run(&args),
+            Command::Learn(args) => learn::run(&args),
             Command::Limit(args) => limit::run(&args),
             Command::CheckConfig(args) => check_config::run(&args),
             Command::Doctor(args) => doctor::run(&args),

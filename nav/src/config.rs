@@ -1,7 +1,7 @@
 //! What the filter assumes of sensors and sea beyond the IMU's data sheet.
 
 use insd_base::units::{DEG, DEG_PER_HOUR};
-use insd_base::{Body, CameraModel, ImuSpec, LeverArms, VesselKind};
+use insd_base::{Body, CameraModel, Estimate, ImuSpec, LeverArms, VesselKind};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::disturbance::{PrefilterConfig, WhiteningConfig};
@@ -88,6 +88,17 @@ pub struct LogModel {
     pub current_std: f64,
     /// Time constant of the current, s.
     pub current_time: f64,
+    /// Errors that depend on speed and rate of turn, where they are estimated as well.
+    pub shape: Option<LogShape>,
+}
+
+/// Errors of a log that depend on speed and rate of turn, as they are known before they are estimated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LogShape {
+    /// Change of the scale factor with the speed, 1/(m/s).
+    pub by_speed: Estimate,
+    /// What is added to starboard by the rate of turn, m.
+    pub by_turn: Estimate,
 }
 
 /// Ship and sea.
@@ -253,6 +264,7 @@ impl Default for LogModel {
             misalignment_std: 0.3 * DEG,
             current_std: 0.5,
             current_time: 7200.0,
+            shape: None,
         }
     }
 }

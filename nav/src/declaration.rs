@@ -57,6 +57,8 @@ pub enum Carried {
     Always,
     /// From the first word of a log on.
     WithLog,
+    /// From the first word of a log on, where what repeats of its errors is learnt.
+    WithLearning,
     /// From the first heading of a reference on.
     WithHeading,
     /// From the first ranges of satellites on.

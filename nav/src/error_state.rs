@@ -161,6 +161,14 @@ declare! {
     LOG_MISALIGNMENT: 2, "log_misalignment", "rad", Body, WithLog,
         first: |config| config.log.misalignment_std, process: |_, _| Process::Constant,
         correction: Correction::Adds(|nominal| nominal.log_misalignment.as_mut_slice());
+    /// By what the scale factor of a log changes with the speed, 1/(m/s), constant.
+    LOG_BY_SPEED: 1, "log_by_speed", "s/m", Scalar, WithLearning,
+        first: |config| config.log.shape.map_or(0.0, |shape| shape.by_speed.sigma), process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| from_mut(&mut nominal.log_by_speed));
+    /// What a log adds to starboard while she turns, by the rate of turn, m, constant.
+    LOG_BY_TURN: 1, "log_by_turn", "m", Scalar, WithLearning,
+        first: |config| config.log.shape.map_or(0.0, |shape| shape.by_turn.sigma), process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| from_mut(&mut nominal.log_by_turn));
     /// Slowly varying part of the error of a reference's heading, in units of the sigma it states, Gauss-Markov.
     HEADING_ERROR: 1, "heading_error", "sigma", Scalar, WithHeading,
         first: |_| 1.0, process: |_, _| Process::of_sigmas(reference_heading::TIME),

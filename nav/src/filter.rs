@@ -63,6 +63,7 @@ mod joined;
 pub mod judged;
 mod landmarks;
 mod leaps;
+pub mod learnt;
 mod level;
 mod mending;
 mod misconduct;

@@ -78,6 +78,8 @@ impl Config {
             time_std: ship.time_std_s.or_else(|| self.time_std(None)),
             accept_mounting: ship.accept_mounting,
             relay: ship.relay,
+            learning: false,
+            learnt: None,
         }
     }
 

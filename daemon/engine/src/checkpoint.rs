@@ -13,6 +13,7 @@ use insd_nav::navigator::checkpoint::NavigatorCheckpoint;
 use serde::{Deserialize, Serialize};
 
 use crate::alignment_status::StatusCheckpoint;
+use crate::learning::Learning;
 use crate::surveyor::Probation;
 
 /// What begins each checkpoint.
@@ -39,6 +40,7 @@ pub(crate) struct Kept {
     pub(crate) aligned: bool,
     pub(crate) alignment_status: StatusCheckpoint,
     pub(crate) probation: Probation,
+    pub(crate) learning: Option<Box<Learning>>,
 }
 
 impl Kept {

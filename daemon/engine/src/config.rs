@@ -2,6 +2,7 @@
 
 use insd_alignment::{AlignmentConfig, StoredState};
 use insd_base::{Body, Geodetic, ImuSpec, LeverArms, StartCondition, VesselKind, VoyageHeader};
+use insd_learning::KeptModel;
 use insd_nav::config::Models;
 
 /// What the engine must know before the first message.
@@ -36,6 +37,10 @@ pub struct EngineConfig {
     /// Monitoring points of which the heave is wanted, from the IMU, body axes, m. The first is the IMU
     /// itself. Without any there is no heave.
     pub points: Vec<Body>,
+    /// Whether the errors of log and gyros that repeat are learnt while she is well aided (docs/learning.md).
+    pub learning: bool,
+    /// What was learnt on earlier voyages.
+    pub learnt: Option<KeptModel>,
 }
 
 impl EngineConfig {
@@ -56,6 +61,8 @@ impl EngineConfig {
             accept_mounting: false,
             relay: true,
             points: Vec::new(),
+            learning: false,
+            learnt: None,
         }
     }
 }

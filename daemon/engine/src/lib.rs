@@ -17,7 +17,9 @@ mod doubts;
 mod epochs;
 mod heir;
 mod images;
+mod learning;
 mod ledger;
+mod lessons;
 mod looks;
 mod mode;
 mod receivers;
@@ -38,7 +40,7 @@ pub mod vote;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use insd_alignment::{StoredState, StoredVerdict};
+use insd_alignment::StoredState;
 use insd_base::satellites::{BaseEpoch, SatelliteRanges};
 use insd_base::{
     AidInnovation, AlignmentStatus, Body, Counts, Event, Finding, ImuSample, ImuSpec, Message,
@@ -55,6 +57,7 @@ use coarse::Coarse;
 pub use config::EngineConfig;
 use disturbance::Trace;
 use epochs::{due_at, epochs};
+use learning::Learning;
 use mode::{Facts, Machine};
 use receivers::Receivers;
 use recent::Recent;
@@ -128,6 +131,7 @@ pub struct Engine {
     heard: Option<Time>,
     /// The state saved before a crash, while it is on trial.
     resumption: Option<Resumption>,
+    learning: Option<Box<Learning>>,
     trace: Trace,
     counts: Counts,
     outputs: VecDeque<Output>,
@@ -177,6 +181,7 @@ impl Engine {
             no_rtk: None,
             heard: None,
             resumption: None,
+            learning: Learning::where_wanted(config.learning, &nav, config.learnt.as_ref()),
             trace: Trace::new(),
             counts: Counts::default(),
             outputs: VecDeque::new(),
@@ -190,8 +195,7 @@ impl Engine {
         self.config.stored = Some(stored);
     }
 
-    /// Other monitoring points, the first of them the IMU: if they are others than before, their heave
-    /// begins anew.
+    /// Other monitoring points, the first of them the IMU: the heave of others than before begins anew.
     pub fn observe_points(&mut self, points: Vec<Body>) {
         if points != self.config.points {
             self.heave = heave_of(&self.config.imu, &points);
@@ -240,6 +244,7 @@ impl Engine {
         if let Some(step) = step {
             self.tell(Event::ImuClock { time: sample.time, step });
         }
+        let sample = self.without_heat(&sample);
         let increment = match self.conditioner.take(&sample) {
             Conditioned::Sample(increment) => {
                 self.begin_resumption(increment.from, 0.0);
@@ -324,6 +329,7 @@ impl Engine {
                 for solution in solutions {
                     self.emit(solution);
                 }
+                self.look_at_biases(increment.to);
                 self.tell_alignment();
                 self.tell_standings();
                 self.tell_installation(increment.to);
@@ -417,6 +423,7 @@ impl Engine {
                 if let Some(report) = line.measure(&checked) {
                     self.note(&report);
                 }
+                self.look_at_log(&checked);
             }
         }
     }
@@ -475,20 +482,6 @@ impl Engine {
         if silent {
             self.enter(receipt, Mode::Standby, self.facts(), None);
         }
-    }
-
-    /// Tells once what became of the stored state, which is then not offered again.
-    fn tell_of_stored(&mut self) {
-        let Stage::Running(line) = &self.stage else { return };
-        if self.config.stored.is_none() {
-            return;
-        }
-        let Some(verdict) = line.estimator().verdict() else { return };
-        self.config.stored = None;
-        self.tell(match verdict {
-            StoredVerdict::Used { time } => Event::StoredStateUsed { time },
-            StoredVerdict::Dropped { time, reason } => Event::StoredStateDropped { time, reason },
-        });
     }
 
     fn tell(&mut self, event: Event) {

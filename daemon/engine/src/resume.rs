@@ -1,5 +1,6 @@
 //! Going on after a crash: the engine as bytes, and the next one from them.
 
+use insd_alignment::StoredVerdict;
 use insd_alignment::stored::fingerprint;
 use insd_base::units::DEG;
 use insd_base::{Event, ModeReason, ResumeDoubt, Span, Time};
@@ -36,6 +37,7 @@ impl Engine {
             aligned: *aligned,
             alignment_status: self.alignment_status.kept(),
             probation: self.surveyor.probation(),
+            learning: self.learning.clone(),
         })
     }
 
@@ -77,6 +79,9 @@ impl Engine {
         self.conditioner = conditioner;
         self.alignment_status.take_up(&kept.alignment_status, by);
         self.surveyor.take_up(kept.probation.shifted(by));
+        if let (Some(own), Some(kept)) = (&mut self.learning, &kept.learning) {
+            **own = kept.shifted(by);
+        }
         self.next_epoch = Some(epoch_after(self.period, now));
         self.resumption = Some(Resumption::new(!kept.navigator.filter().is_receiver_suspect()));
         Ok(())
@@ -99,6 +104,20 @@ impl Engine {
             Event::Resumed { time, gap }
         });
         true
+    }
+
+    /// Tells once what became of the stored state, which is then not offered again.
+    pub(crate) fn tell_of_stored(&mut self) {
+        let Stage::Running(line) = &self.stage else { return };
+        if self.config.stored.is_none() {
+            return;
+        }
+        let Some(verdict) = line.estimator().verdict() else { return };
+        self.config.stored = None;
+        self.tell(match verdict {
+            StoredVerdict::Used { time } => Event::StoredStateUsed { time },
+            StoredVerdict::Dropped { time, reason } => Event::StoredStateDropped { time, reason },
+        });
     }
 
     /// Ends the trial of a resumption once the sensors have spoken.

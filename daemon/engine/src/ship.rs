@@ -10,6 +10,7 @@ use insd_base::{
     Body, Fault, ImuSpec, Message, Mode, Party, Received, Solution, StoredDoubt, Time,
 };
 use insd_nav::berth::Method;
+use insd_nav::config::LogShape;
 use insd_nav::filter::judged::ImuState;
 use insd_nav::judge::Docket;
 use insd_nav::{Estimator, Increment, NavConfig, Navigator, Report};
@@ -162,6 +163,13 @@ impl Ship {
     pub(crate) fn disbelieve(&mut self, whom: Party) {
         if let Ship::Navigating { navigator, .. } = self {
             navigator.filter_mut().disbelieve(whom);
+        }
+    }
+
+    /// Which errors of a log are estimated, and how the current goes on, 1-sigma, m/s, and time constant, s.
+    pub(crate) fn learn_log(&mut self, wanted: (Option<LogShape>, (f64, f64))) {
+        if let Ship::Navigating { navigator, .. } = self {
+            navigator.filter_mut().learn_log(wanted.0, wanted.1);
         }
     }
 

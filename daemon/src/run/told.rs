@@ -120,6 +120,7 @@ fn tell_engine(event: &Event) {
         | Event::RtkJudged { .. }
         | Event::RangingJudged { .. }
         | Event::CameraJudged { .. }
+        | Event::Learnt { .. }
         | Event::StoredStateDropped { .. } => {
             let (what, text) = words::engine(event);
             tracing::warn!("{what}: {}", text.unwrap_or_default());

@@ -28,6 +28,10 @@ pub fn mode(mode: Mode) -> &'static str {
     }
 }
 
+fn resumed(gap: f64) -> String {
+    format!("goes on from before the restart, over a gap of {gap:.2} s")
+}
+
 /// An event of the engine: its kind, and its words unless it is only counted.
 #[must_use]
 pub fn engine(event: &Event) -> (&'static str, Option<String>) {
@@ -49,10 +53,7 @@ pub fn engine(event: &Event) -> (&'static str, Option<String>) {
             let reason = reason.as_str().replace('_', " ");
             ("stored state", Some(format!("the stored state is not believed: {reason}")))
         }
-        Event::Resumed { gap, .. } => {
-            let words = format!("goes on from before the restart, over a gap of {gap:.2} s");
-            ("restart", Some(words))
-        }
+        Event::Resumed { gap, .. } => ("restart", Some(resumed(*gap))),
         Event::ResumeConfirmed { .. } => {
             ("restart", Some("the sensors confirm the state before the restart".to_owned()))
         }
@@ -80,6 +81,7 @@ pub fn engine(event: &Event) -> (&'static str, Option<String>) {
         Event::RangingJudged { ranging, turn, .. } => {
             ("docking aid", Some(format!("number {}: {turn}", ranging + 1)))
         }
+        Event::Learnt { turn, .. } => ("learning", Some(turn.to_string())),
         Event::CameraJudged { turn, .. } => ("camera", Some(turn.to_string())),
         Event::SourceChanged { to, why, .. } => {
             ("source", Some(format!("best source {}: {why}", to.as_str())))

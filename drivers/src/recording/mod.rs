@@ -33,6 +33,7 @@ mod report;
 mod rows;
 mod stream;
 mod table;
+mod temperature;
 mod writer;
 
 pub use camera::{FEATURES_HEAD, ImageReader, feature_rows};
@@ -46,4 +47,5 @@ pub use odometry::StepReader;
 pub use raw_files::{RawFiles, RawTexts, read_raw, read_raw_base, write_raw};
 pub use reader::{Rows, VoyageReader, read_truth, read_truth_rows};
 pub use report::{BadRow, FileReport, RowFault};
+pub use temperature::TemperatureReader;
 pub use writer::{Compression, write_voyage};

@@ -6,11 +6,13 @@ use std::fmt;
 
 use crate::camera::CameraTurn;
 use crate::installation::Finding;
+use crate::learnt::LearntTurn;
 use crate::messages::Source;
 use crate::party::{ReceiverChange, Stands};
 use crate::ranging::RangingTurn;
-use crate::satellites::{CompassRefusal, RtkSilence, RtkTurn, SatelliteId};
+use crate::satellites::{CompassRefusal, RtkTurn, SatelliteId};
 use crate::solution::{Mode, SolutionSource};
+use crate::source_reason::SourceReason;
 use crate::time::Time;
 
 /// Why a message or a part of it was not used.
@@ -348,6 +350,13 @@ pub enum Event {
         /// How.
         turn: CameraTurn,
     },
+    /// What is learnt of a sensor is used otherwise than before.
+    Learnt {
+        /// When.
+        time: Time,
+        /// What, and how.
+        turn: LearntTurn,
+    },
     /// The best source of the solution is another one.
     SourceChanged {
         /// When.
@@ -371,27 +380,6 @@ pub enum Event {
         /// When.
         time: Time,
     },
-}
-
-/// Why the best source of the solution is another one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SourceReason {
-    /// A better one has come.
-    Better,
-    /// The better one is not heard any more, or is not used.
-    Unheard,
-    /// There is no RTK.
-    NoRtk(RtkSilence),
-}
-
-impl fmt::Display for SourceReason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Better => f.write_str("it has come"),
-            Self::Unheard => f.write_str("nothing better is heard or used"),
-            Self::NoRtk(why) => why.fmt(f),
-        }
-    }
 }
 
 /// One component of an innovation: measured minus predicted, with the sigma that was expected.

@@ -23,6 +23,7 @@ pub mod gnss;
 pub mod heave;
 pub mod input;
 pub mod installation;
+mod learnt;
 pub mod messages;
 pub mod motion;
 pub mod party;
@@ -33,6 +34,7 @@ pub mod satellites;
 pub mod sea_fit;
 pub mod sensor;
 pub mod solution;
+mod source_reason;
 mod stored_doubt;
 pub mod time;
 pub mod units;
@@ -50,7 +52,6 @@ pub use can::{BusEvent, CanFrame, CanId};
 pub use estimates::{Disturbance, Estimate, Estimates, SeaQuantity};
 pub use events::{
     AidInnovation, Counts, Event, ModeReason, Rejection, ResumeDoubt, SatelliteInnovation,
-    SourceReason,
 };
 pub use frames::{Body, Ecef, Geodetic, Ned};
 pub use gnss::{FixQuality, GnssFix};
@@ -59,6 +60,7 @@ pub use input::{
     AlertOrder, Arrival, Closed, Input, Order, PortId, PortState, Pulse, Sent, Stamp, StorageFaults,
 };
 pub use installation::{Axes, Finding, Frozen};
+pub use learnt::LearntTurn;
 pub use messages::{
     ExternalReference, ImuSample, LogReference, LogVelocity, Message, Received, Source,
 };
@@ -74,6 +76,7 @@ pub use satellites::{
 pub use sea_fit::{Residual, SeaFit, SeenResidual};
 pub use sensor::{ImuSpec, LeverArms, Triad};
 pub use solution::{Mode, Protection, Solution, SolutionSigma, SolutionSource};
+pub use source_reason::SourceReason;
 pub use stored_doubt::StoredDoubt;
 pub use time::{Span, Time};
 pub use utc::{GpsTime, UtcTime};

@@ -18,8 +18,8 @@ use nalgebra::{Matrix3, Vector1, Vector3};
 
 use super::View;
 use crate::error_state::{
-    ATTITUDE, CURRENT, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, Innovation, Jacobian, LOG_MISALIGNMENT,
-    LOG_SCALE, VELOCITY,
+    ATTITUDE, CURRENT, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, Innovation, Jacobian, LOG_BY_SPEED,
+    LOG_BY_TURN, LOG_MISALIGNMENT, LOG_SCALE, VELOCITY,
 };
 
 /// The predicted log velocity and its derivative, all three components.
@@ -35,9 +35,14 @@ pub struct Prediction {
     pub swing_noise: Matrix3<f64>,
 }
 
-/// Predicts the log; `lever` from the IMU to the log, body axes, m.
+/// Predicts the log; `lever` from the IMU to the log, body axes, m; `turn` the rate of turn without that of the waves, rad/s.
 #[must_use]
-pub fn predict(view: &View, reference: LogReference, lever: &Vector3<f64>) -> Prediction {
+pub fn predict(
+    view: &View,
+    reference: LogReference,
+    lever: &Vector3<f64>,
+    turn: f64,
+) -> Prediction {
     let c_be = view.c_eb.transpose();
     let to_north_east = view.c_ne.fixed_rows::<2>(0).into_owned();
     let water = reference == LogReference::Water;
@@ -45,7 +50,11 @@ pub fn predict(view: &View, reference: LogReference, lever: &Vector3<f64>) -> Pr
     let through = if water { view.nominal.velocity - current_e } else { view.nominal.velocity };
     let u = c_be * through + view.rate.cross(lever);
     let m = Vector3::new(0.0, view.nominal.log_misalignment.x, view.nominal.log_misalignment.y);
-    let gain = (Matrix3::identity() - skew(&m)) * (1.0 + view.nominal.log_scale);
+    let linear = (Matrix3::identity() - skew(&m)) * (1.0 + view.nominal.log_scale);
+    let (by_speed, by_turn) = (view.nominal.log_by_speed, view.nominal.log_by_turn);
+    let own = Vector3::new(by_speed * u.x.abs() * u.x, by_turn * turn, 0.0);
+    let mut gain = linear;
+    gain[(0, 0)] += 2.0 * by_speed * u.x.abs();
     let mut h = Jacobian::none(3);
     h.set(VELOCITY, &(gain * c_be));
     let by_gyro = gain * skew(lever);
@@ -61,9 +70,11 @@ pub fn predict(view: &View, reference: LogReference, lever: &Vector3<f64>) -> Pr
     h.set(LOG_SCALE, &(u - m.cross(&u)));
     let by_turn = skew(&u) * (1.0 + view.nominal.log_scale);
     h.set(LOG_MISALIGNMENT, &by_turn.fixed_columns::<2>(1).into_owned());
+    h.set(LOG_BY_SPEED, &Vector3::new(u.x.abs() * u.x, 0.0, 0.0));
+    h.set(LOG_BY_TURN, &Vector3::new(0.0, turn, 0.0));
     let swing_noise = by_gyro * by_gyro.transpose() * view.rate_variance;
     let by_lever = gain * skew(&view.rate);
-    Prediction { velocity: gain * u, h, by_lever, swing_noise }
+    Prediction { velocity: linear * u + own, h, by_lever, swing_noise }
 }
 
 /// Innovation of one component (0 forward, 1 starboard, 2 down), measured in m/s with sigma `std`.

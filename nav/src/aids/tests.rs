@@ -31,6 +31,8 @@ fn estimate() -> Nominal {
     nominal.sway = Vector4::new(-0.1, 0.4, 0.2, 0.1);
     nominal.log_scale = 0.01;
     nominal.log_misalignment = Vector2::new(0.02, -0.03);
+    nominal.log_by_speed = 0.004;
+    nominal.log_by_turn = -6.0;
     nominal.sea_level = 24.0;
     nominal.heading_error = 0.4;
     nominal.receiver_clock = Vector2::new(120.0, 0.3);
@@ -189,7 +191,7 @@ fn berth_of_the_swaying_ship() -> Geodetic {
 }
 
 fn log_rows(view: &View, reference: LogReference) -> Rows {
-    let prediction = log_velocity::predict(view, reference, &Vector3::new(9.0, -1.0, 9.0));
+    let prediction = log_velocity::predict(view, reference, &Vector3::new(9.0, -1.0, 9.0), 0.02);
     rows(&log_velocity::complete(&prediction, &Vector3::new(5.0, 0.5, 0.1), 0.03))
 }
 

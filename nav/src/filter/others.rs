@@ -25,6 +25,7 @@ impl Filter {
         let range = self.config.floors.log;
         let stated = floored(log.std, &range, aid, report);
         self.begin_to_carry(Carried::WithLog);
+        self.begin_to_learn();
         let prediction = self.predict_log(log);
         if let Some(measured) = log_velocity::all_components(log) {
             let mut innovation = log_velocity::complete(&prediction, &measured, stated);
@@ -125,7 +126,8 @@ impl Filter {
     /// A lever arm that was found here, and not measured, makes noise as the ship turns.
     fn predict_log(&self, log: &LogVelocity) -> Prediction {
         let lever = self.config.lever_arms.log.0;
-        let mut prediction = log_velocity::predict(&self.view(), log.reference, &lever);
+        let mut prediction =
+            log_velocity::predict(&self.view(), log.reference, &lever, self.state.turn);
         if let Some(std) = self.installation.log_lever_std {
             let by_std = prediction.by_lever * Matrix3::from_diagonal(&std);
             prediction.swing_noise += by_std * by_std.transpose();

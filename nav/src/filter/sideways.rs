@@ -96,7 +96,7 @@ impl Filter {
     ) {
         self.begin_to_carry(Carried::WithLog);
         let shared = (2.0 * self.vessel().sideways().time / spacing.max(0.05)).max(1.0);
-        let prediction = log_velocity::predict(&self.view(), reference, lever);
+        let prediction = log_velocity::predict(&self.view(), reference, lever, self.state.turn);
         let std = sigma * shared.sqrt();
         let innovation = log_velocity::component(&prediction, axis, 0.0, std);
         if let Some(weighed) = innovation.weigh(&self.state.covariance)

@@ -18,6 +18,8 @@ use crate::symmetry::{keep_course_unknown, keep_turn_unknown, turn_biases};
 
 /// Correction of the attitude after which the knowledge of the biases is turned with it, rad.
 const TURN: f64 = 2e-4;
+/// So long the rate of turn is averaged, s: a hull slides through a turn, not through each wave.
+const CALM: f64 = 10.0;
 /// Gap over which the heights are not the ship's: their mean begins anew, s.
 const UNSEEN: f64 = 0.5;
 
@@ -36,6 +38,8 @@ pub(super) struct State {
     pub(super) gap_left: f64,
     pub(super) rate: Vector3<f64>,
     pub(super) rate_variance: f64,
+    /// Rate of turn without that of the waves, rad/s.
+    pub(super) turn: f64,
     pub(super) level: LevelWindow,
     /// How the ship sways while she is moored, and what that has not been carried over yet, s.
     pub(super) sway: Option<Sway>,
@@ -59,6 +63,7 @@ impl State {
             gap_left: 0.0,
             rate: initial.rate,
             rate_variance: rate_variance(&config.imu),
+            turn: 0.0,
             level: LevelWindow::new(&config.sea),
             sway: None,
             unswayed: 0.0,
@@ -79,6 +84,7 @@ impl State {
         self.stretch.add(&step);
         self.stretch.add_noise(increment);
         (self.rate, self.rate_variance) = (increment.end_rate, increment.end_rate_variance);
+        self.turn += (self.rate.z - self.turn) * (increment.duration() / CALM).min(1.0);
         self.time = increment.to;
         let gap = increment.bridged.filter(|gap| *gap > UNSEEN).unwrap_or(0.0);
         let left = if self.is_in_gap() { self.gap_left.min(gap) } else { gap };

@@ -7,6 +7,7 @@ pub mod convert;
 pub mod evaluate;
 pub mod feed;
 pub mod integrity;
+pub mod learn;
 pub mod limit;
 mod outage;
 mod raw_gnss;

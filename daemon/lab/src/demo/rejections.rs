@@ -72,6 +72,7 @@ pub fn event(event: &Event) -> String {
         Event::RangingJudged { ranging, turn, .. } => {
             format!("Docking aid {}: {turn}", ranging + 1)
         }
+        Event::Learnt { turn, .. } => capitalised(&turn.to_string()),
         Event::CameraJudged { turn, .. } => format!("Camera: {turn}"),
         Event::SourceChanged { to, .. } => format!("Best source {}", to.as_str()),
         Event::PositionReset { .. } => "Position set anew".to_owned(),

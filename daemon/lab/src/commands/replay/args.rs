@@ -47,9 +47,12 @@ pub struct ReplayArgs {
     /// is less than four; may be repeated
     #[arg(long = "mask", value_name = "FROM..TO:N")]
     pub(super) masks: Vec<SatelliteMask>,
-    /// Leave out what is named, between commas, to see what it gives; of learning there is nothing yet
+    /// Leave out what is named, between commas, to see what it gives
     #[arg(long, value_name = "WHAT", value_enum, value_delimiter = ',')]
     pub(super) without: Vec<Without>,
+    /// What was learnt of log and gyros on earlier voyages (`insd learn`)
+    #[arg(long, value_name = "FILE.toml")]
+    pub(super) log_model: Option<PathBuf>,
     #[command(flatten)]
     pub(super) alignment: AlignmentArgs,
     /// Start warm: the state stored at the last shutdown, believed once the sensors confirm it

@@ -23,6 +23,7 @@ pub fn run(args: &ReplayArgs, tell: Tell) -> anyhow::Result<()> {
     let only_voyages = [
         ("--outage", !args.outages.is_empty()),
         ("--without", !args.without.is_empty()),
+        ("--log-model", args.log_model.is_some()),
         ("--save-state", args.save_state.is_some()),
     ];
     if let Some((option, _)) = only_voyages.iter().find(|(_, given)| *given) {

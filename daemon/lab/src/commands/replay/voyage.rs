@@ -5,10 +5,11 @@ use std::path::Path;
 use anyhow::Context;
 use insd_base::{Body, Received};
 use insd_config::{BadInput, Config, VoyageCalendar, stored};
-use insd_drivers::recording::VoyageReader;
+use insd_drivers::recording::{TemperatureReader, VoyageReader};
 use insd_engine::{Engine, EngineConfig};
 use insd_vessel::Outputs;
 
+use super::super::learn;
 use super::args::ReplayArgs;
 use super::sent::Sent;
 use super::sink::Sink;
@@ -24,15 +25,14 @@ const RATE: f64 = 10.0;
 /// Replays a voyage.
 pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     let mut reader = VoyageReader::open(&args.dir)?;
-    let mut config = EngineConfig::for_voyage(reader.header(), args.rate.unwrap_or(RATE));
-    config.alignment = args.alignment.config();
+    let mut config = asked(args, &reader)?;
+    let mut temperature = TemperatureReader::open(&args.dir)?;
     let table = RawTable::read(&args.dir)?;
     config.models.ranges = table.model();
     let way = Without::camera(&args.without, args.camera)?;
     let mut camera =
         way.map(|way| CameraVoyage::open(&args.dir, way)).transpose()?.unwrap_or_default();
     config.models.camera = way.map(|way| camera_table::read(&args.dir, way)).transpose()?.flatten();
-    config.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
     let mut ports = Ports::of(args, &reader.header().start_utc)?;
     config.points = ports.as_ref().map(|ports| ports.levers.clone()).unwrap_or_default();
     let mut engine = Engine::new(config);
@@ -52,6 +52,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
             sink.look(&engine).context("cannot write the sky")?;
         }
         dropped += camera.pass_on(received.receipt, &mut engine, &args.outages)?;
+        learn::feel(&mut engine, temperature.as_mut(), received.receipt)?;
         raw.hear(&received);
         if raw.replaces(&received) || Without::drops(&args.without, &received) {
             continue;
@@ -69,13 +70,33 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         ports.iter_mut().try_for_each(|ports| ports.speak(&engine, &received))?;
     }
     ports.map_or(Ok(()), |ports| ports.sent.finish())?;
-    let files = reader.skipped().into_iter().chain(camera.report()).collect();
+    let files = reader
+        .skipped()
+        .into_iter()
+        .chain(camera.report())
+        .chain(temperature.as_ref().map(TemperatureReader::report))
+        .collect();
     eprint!("{}", sink.summary(engine.counts(), dropped, files));
     sink.finish()?;
     match &args.save_state {
         Some(path) => save(path, &engine, &reader.header().start_utc),
         None => Ok(()),
     }
+}
+
+/// What the options ask of the engine.
+fn asked(args: &ReplayArgs, reader: &VoyageReader) -> anyhow::Result<EngineConfig> {
+    let mut config = EngineConfig::for_voyage(reader.header(), args.rate.unwrap_or(RATE));
+    config.alignment = args.alignment.config();
+    config.learning = !args.without.contains(&Without::Learning);
+    config.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
+    config.learnt = match &args.log_model {
+        Some(_) if !config.learning => {
+            return Err(BadInput("--without learning leaves nothing for --log-model".into()).into());
+        }
+        file => file.as_deref().map(learn::read).transpose()?,
+    };
+    Ok(config)
 }
 
 /// The ports of a configuration, as they would be with the sensors of the voyage.

@@ -1,0 +1,98 @@
+//! Lessons: the engine lets what learns look at the sensors while she is well aided, and does as it says.
+
+use insd_base::{
+    Event, ImuSample, LearntTurn, LogReference, LogVelocity, Message, Mode, Received, Time,
+};
+use insd_learning::{KeptModel, LabelLook, LearnerVerdict};
+use insd_nav::{Filter, Navigator};
+use nalgebra::Vector2;
+
+use crate::ship::Ship;
+use crate::{Engine, Stage};
+
+/// A look at a log is one at its time to so much, s.
+const TOGETHER: f64 = 0.3;
+
+impl Engine {
+    /// The temperature of the IMU, degrees Celsius: what its biases do with it is learnt.
+    pub fn feel(&mut self, time: Time, celsius: f64) {
+        if let Some(own) = self.learning.as_mut().filter(|_| celsius.is_finite()) {
+            own.feel(time, celsius);
+        }
+    }
+
+    /// What is learnt, to be kept for the next voyage; `None` where nothing is.
+    #[must_use]
+    pub fn learnt(&self) -> Option<KeptModel> {
+        let mut kept = self.learning.as_ref()?.kept();
+        let filter = self.ship().and_then(Ship::likeliest).map(Navigator::filter);
+        if let Some((found, covariance)) = filter.and_then(Filter::found_log) {
+            kept.log = kept.log.with_found(&found, &covariance);
+        }
+        Some(kept)
+    }
+
+    /// A sample as it is used.
+    pub(crate) fn without_heat(&mut self, sample: &ImuSample) -> ImuSample {
+        let usual = 1.0 / self.config.imu.rate;
+        self.learning.as_mut().map_or(*sample, |own| own.corrected(sample, usual))
+    }
+
+    /// Looks at the biases of the gyros now and then while she is aided.
+    pub(crate) fn look_at_biases(&mut self, now: Time) {
+        let is_aided = self.machine.mode() == Mode::Aided;
+        let (Some(own), Stage::Running(line)) = (&mut self.learning, &self.stage) else { return };
+        let Ship::Navigating { navigator, .. } = line.estimator() else { return };
+        if is_aided && own.is_look_due(now) {
+            let found = navigator.filter().estimates(false);
+            own.hear_biases(now, (found.gyro_bias.0, found.gyro_bias_sigma.0));
+        }
+    }
+
+    /// Looks at a log beside the solution while she is aided.
+    pub(crate) fn look_at_log(&mut self, received: &Received) {
+        let Message::Log(log) = &received.message else { return };
+        let is_aided = self.machine.mode() == Mode::Aided;
+        let (Some(own), Stage::Running(line)) = (&mut self.learning, &mut self.stage) else {
+            return;
+        };
+        let Ship::Navigating { navigator, .. } = line.estimator() else { return };
+        if !is_aided {
+            return own.pause();
+        }
+        let Some(look) = look(navigator.filter(), log) else { return };
+        let Some(verdict) = own.hear_log(&look) else { return };
+        let wanted = own.wanted();
+        if navigator.filter().log_as_learnt() != wanted {
+            line.amend(|ship| ship.learn_log(wanted));
+        }
+        if let Some(verdict) = verdict {
+            let turn = match verdict {
+                LearnerVerdict::Proven => LearntTurn::LogProven,
+                LearnerVerdict::Unproven => LearntTurn::LogUnproven,
+                LearnerVerdict::Changed => LearntTurn::LogChanged,
+            };
+            self.tell(Event::Learnt { time: log.time, turn });
+        }
+    }
+}
+
+/// A log that measures through the water beside the estimate at its time.
+fn look(filter: &Filter, log: &LogVelocity) -> Option<LabelLook> {
+    let (u, v) = (log.u?, log.v?);
+    let is_together = (filter.time() - log.time).as_seconds().abs() < TOGETHER;
+    if log.reference != LogReference::Water || !is_together {
+        return None;
+    }
+    let own = filter.look_at_log(log);
+    Some(LabelLook {
+        time: log.time.as_seconds(),
+        told: Vector2::new(u, v),
+        told_std: own.stated_std,
+        aided: own.velocity,
+        aided_std: own.velocity_std,
+        heading: own.heading,
+        heading_std: own.heading_std,
+        turn: own.turn,
+    })
+}

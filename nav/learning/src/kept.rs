@@ -1,0 +1,196 @@
+//! What is learnt, as it is kept from voyage to voyage: a text that people can read.
+//!
+//! TOML with units in the keys; the last line is a CRC-32 over all before it. Whatever the text is, reading it gives a model or a
+//! reason.
+
+use crc::{CRC_32_ISO_HDLC, Crc};
+use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
+use serde::{Deserialize, Serialize};
+
+use crate::current::CurrentModel;
+
+/// The version that is written, and the only one that is read.
+const VERSION: u32 = 1;
+/// Longest text that is read, bytes.
+pub const LONGEST: usize = 1 << 16;
+const SUM: &str = "checksum = ";
+
+static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+
+/// What is learnt, between voyages.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KeptModel {
+    version: u32,
+    /// How often it was written.
+    pub generation: u32,
+    /// Voyages that it was learnt on.
+    pub voyages: u32,
+    /// The log and the current.
+    pub log: KeptLog,
+    /// The gyros, where their temperature was told.
+    pub gyros: Option<KeptGyros>,
+}
+
+/// What repeats of a log's errors, how the current goes on, and what it was worth.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KeptLog {
+    /// Half minutes that were learnt from.
+    pub labels: u32,
+    /// Scale factor, ratio: what the log tells too much.
+    pub scale: f64,
+    /// Its change with the speed, 1/(m/s).
+    pub scale_by_speed_s_m: f64,
+    /// Turn of the log, rad.
+    pub turn_rad: f64,
+    /// What it adds to starboard by the rate of turn, m.
+    pub slide_m: f64,
+    /// Lower triangle of their covariance, by rows.
+    pub covariance: [f64; 10],
+    /// 1-sigma of the current, each component, m/s.
+    pub current_std_mps: f64,
+    /// Its time constant, s.
+    pub current_time_s: f64,
+    /// Ends of the last outages that did not happen, without what was learnt, m.
+    pub shadow_without_m: Vec<f64>,
+    /// And with it, m.
+    pub shadow_with_m: Vec<f64>,
+}
+
+/// How the biases of gyros follow the temperature: the constant, the slope per 10 K and the bend per (10 K)^2 about 30 degrees Celsius.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KeptGyros {
+    /// Looks that were learnt from.
+    pub looks: u32,
+    /// Range of temperatures, degrees Celsius.
+    pub range_c: [f64; 2],
+    /// Coefficients of each axis, forward, starboard, down, rad/s.
+    pub bias_rad_s: [[f64; 3]; 3],
+    /// Lower triangle of the covariance of each, by rows, (rad/s)^2.
+    pub covariance: [[f64; 6]; 3],
+}
+
+/// Why a text is no model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum KeptFault {
+    /// It is longer than any model.
+    #[error("longer than any model of a log")]
+    TooLong,
+    /// The checksum is not that of the text.
+    #[error("damaged, or changed by hand: its checksum is another")]
+    Checksum,
+    /// It is not a model, or of another version of the program.
+    #[error("no model of a log that this version reads")]
+    NotAModel,
+    /// A value is none that a model can have.
+    #[error("a value that no model has")]
+    OutOfRange,
+}
+
+impl KeptModel {
+    /// A model of this version.
+    #[must_use]
+    pub fn new(log: KeptLog, gyros: Option<KeptGyros>) -> Self {
+        KeptModel { version: VERSION, generation: 1, voyages: 1, log, gyros }
+    }
+
+    /// The text; the same for the same model.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let body = toml::to_string(self).unwrap_or_default();
+        // the tables stand last: the checksum is a comment behind them
+        format!("{body}\n# {SUM}\"{:08x}\"\n", CRC.checksum(body.as_bytes()))
+    }
+
+    /// The model of a text.
+    ///
+    /// # Errors
+    /// Why it is none.
+    pub fn parse(text: &str) -> Result<Self, KeptFault> {
+        if text.len() > LONGEST {
+            return Err(KeptFault::TooLong);
+        }
+        let (body, sum) = text.rsplit_once(&format!("\n# {SUM}")).ok_or(KeptFault::NotAModel)?;
+        if sum.trim() != format!("\"{:08x}\"", CRC.checksum(body.as_bytes())) {
+            return Err(KeptFault::Checksum);
+        }
+        let model: KeptModel = toml::from_str(body).map_err(|_| KeptFault::NotAModel)?;
+        if model.version != VERSION {
+            return Err(KeptFault::NotAModel);
+        }
+        if model.is_sound() { Ok(model) } else { Err(KeptFault::OutOfRange) }
+    }
+
+    /// Checksum of its text, for those who want to say which it was.
+    #[must_use]
+    pub fn fingerprint(&self) -> u32 {
+        CRC.checksum(self.text().as_bytes())
+    }
+
+    fn is_sound(&self) -> bool {
+        let log = &self.log;
+        let small = [log.scale, log.turn_rad, log.scale_by_speed_s_m].iter().all(|x| x.abs() < 0.5);
+        let current = (1e-3..=5.0).contains(&log.current_std_mps)
+            && (60.0..=1e6).contains(&log.current_time_s);
+        let variances = [0, 2, 5, 9].iter().all(|i| (0.0..1e6).contains(&log.covariance[*i]));
+        let numbers = log.covariance.iter().chain(&log.shadow_with_m).chain(&log.shadow_without_m);
+        small
+            && current
+            && variances
+            && log.slide_m.abs() < 1000.0
+            && numbers.clone().all(|x| x.is_finite())
+            && log.shadow_with_m.len() == log.shadow_without_m.len()
+            && self.gyros.as_ref().is_none_or(KeptGyros::is_sound)
+    }
+}
+
+impl KeptGyros {
+    fn is_sound(&self) -> bool {
+        let [least, most] = self.range_c;
+        let all = self.bias_rad_s.iter().flatten().chain(self.covariance.iter().flatten());
+        (-100.0..=most).contains(&least) && most < 200.0 && all.clone().all(|x| x.abs() < 1.0)
+    }
+}
+
+impl KeptLog {
+    /// The four values, and their covariance.
+    pub(crate) fn belief(&self) -> (Vector4<f64>, Matrix4<f64>) {
+        let x = Vector4::new(self.scale, self.scale_by_speed_s_m, self.turn_rad, self.slide_m);
+        let at = |i: usize, j: usize| self.covariance[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
+        (x, Matrix4::from_fn(at))
+    }
+
+    /// With scale factor, change with the speed and slide as a filter has found them together with all else, and their covariance: the heading that
+    /// labels are told in leans to what a log says in a turn, and they see less of the slide than there is.
+    #[must_use]
+    pub fn with_found(mut self, found: &Vector3<f64>, covariance: &Matrix3<f64>) -> Self {
+        (self.scale, self.scale_by_speed_s_m, self.slide_m) = (found.x, found.y, found.z);
+        let turn = self.covariance[5];
+        let at = |i: usize, j: usize| covariance[(i, j)];
+        self.covariance =
+            [at(0, 0), at(1, 0), at(1, 1), 0.0, 0.0, turn, at(2, 0), at(2, 1), 0.0, at(2, 2)];
+        self
+    }
+
+    /// Of values with their covariance and a current.
+    pub(crate) fn of(x: &Vector4<f64>, p: &Matrix4<f64>, current: &CurrentModel) -> Self {
+        let mut covariance = [0.0; 10];
+        for i in 0..4 {
+            for j in 0..=i {
+                covariance[i * (i + 1) / 2 + j] = p[(i, j)];
+            }
+        }
+        KeptLog {
+            scale: x[0],
+            scale_by_speed_s_m: x[1],
+            turn_rad: x[2],
+            slide_m: x[3],
+            covariance,
+            current_std_mps: current.std,
+            current_time_s: current.time,
+            ..KeptLog::default()
+        }
+    }
+}

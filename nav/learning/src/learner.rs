@@ -1,0 +1,170 @@
+//! Learns from labels with several notions of how the current goes on, and says what is used.
+
+use std::collections::VecDeque;
+
+use serde::{Deserialize, Serialize};
+
+use crate::current::CurrentModel;
+use crate::kept::KeptLog;
+use crate::label::Label;
+use crate::model::LogErrors;
+use crate::shadow::ShadowScore;
+
+/// How a current may go on: 1-sigma, m/s, by time constant, s. The last of each is for unknown waters.
+const STDS: [f64; 3] = [0.1, 0.25, 0.5];
+const TIMES: [f64; 4] = [44_714.0, 20_000.0, 12_000.0, 7200.0];
+/// Notions that are less likely than the best by this, as a logarithm, are given up; of the others the one with the liveliest
+/// current is used.
+const GIVEN_UP: f64 = 3.0;
+/// Labels before anything is used.
+const FEWEST: u32 = 40;
+/// Of the last labels so many refused: the log is another.
+const LAST: usize = 10;
+const REFUSED: usize = 6;
+
+/// What is learnt of a log.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Learner {
+    notions: Vec<LogErrors>,
+    shadow: ShadowScore,
+    refused: VecDeque<bool>,
+    count: u32,
+    is_used: bool,
+    /// Models as they were at the begin of the outages that are scored.
+    held: VecDeque<LogErrors>,
+}
+
+/// How a learner stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LearnerStanding {
+    /// Whether what repeats of the log is used.
+    pub is_used: bool,
+    /// How the current goes on, once enough was heard.
+    pub current: Option<CurrentModel>,
+}
+
+/// What a label changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LearnerVerdict {
+    /// What is learnt has proven better than nothing, and is used from now on.
+    Proven,
+    /// It is not better any more.
+    Unproven,
+    /// The log is another than it was: fouled, exchanged or turned. All is learnt anew.
+    Changed,
+}
+
+impl Default for Learner {
+    fn default() -> Self {
+        let notion = |time: f64| STDS.map(|std| LogErrors::unknown(CurrentModel { std, time }));
+        Learner {
+            notions: TIMES.iter().flat_map(|time| notion(*time)).collect(),
+            shadow: ShadowScore::default(),
+            refused: VecDeque::new(),
+            count: 0,
+            is_used: false,
+            held: VecDeque::new(),
+        }
+    }
+}
+
+impl Learner {
+    /// One that goes on from an earlier voyage.
+    #[must_use]
+    pub fn after(kept: &KeptLog) -> Self {
+        let notion = |time: f64| STDS.map(|std| LogErrors::known(kept, CurrentModel { std, time }));
+        let pairs = kept.shadow_without_m.iter().zip(&kept.shadow_with_m);
+        let shadow = ShadowScore::of(pairs.map(|(without, with)| [*without, *with]));
+        Learner {
+            notions: TIMES.iter().flat_map(|time| notion(*time)).collect(),
+            is_used: kept.labels >= FEWEST && shadow.proves(false),
+            shadow,
+            count: kept.labels,
+            ..Learner::default()
+        }
+    }
+
+    /// What is kept of it for the next voyage.
+    #[must_use]
+    pub fn kept(&self) -> KeptLog {
+        KeptLog {
+            labels: self.count,
+            shadow_without_m: self.shadow.errors().map(|pair| pair[0]).collect(),
+            shadow_with_m: self.shadow.errors().map(|pair| pair[1]).collect(),
+            ..self.model().kept()
+        }
+    }
+
+    /// Learns from a label.
+    pub fn hear(&mut self, label: &Label) -> Option<LearnerVerdict> {
+        let held = self.held_at_loss();
+        self.shadow.take(label, &held);
+        let best = self.best();
+        let heard: Vec<_> = self.notions.iter_mut().map(|notion| notion.hear(label)).collect();
+        self.count += 1;
+        self.refused.push_back(!heard[best].is_used);
+        if self.refused.len() > LAST {
+            self.refused.pop_front();
+        }
+        if self.refused.iter().filter(|refused| **refused).count() >= REFUSED {
+            *self = Learner::default();
+            return Some(LearnerVerdict::Changed);
+        }
+        let before = self.is_used;
+        self.is_used = self.shadow.proves(before);
+        match (before, self.is_used) {
+            (false, true) => {
+                // the filter learns now, and its heading does not lean to what the log says in a turn any more
+                self.notions.iter_mut().for_each(LogErrors::unsettle_slide);
+                Some(LearnerVerdict::Proven)
+            }
+            (true, false) => Some(LearnerVerdict::Unproven),
+            _ => None,
+        }
+    }
+
+    /// How it stands.
+    #[must_use]
+    pub fn standing(&self) -> LearnerStanding {
+        let current = (self.count >= FEWEST).then(|| self.model().current());
+        LearnerStanding { is_used: self.is_used && current.is_some(), current }
+    }
+
+    /// What is learnt: of the notions that are not given up the one with the liveliest current.
+    #[must_use]
+    pub fn model(&self) -> &LogErrors {
+        let most = self.notions[self.best()].score();
+        let walk = |notion: &LogErrors| notion.current().std.powi(2) / notion.current().time;
+        let kept = self.notions.iter().filter(|notion| notion.score() > most - GIVEN_UP);
+        kept.max_by(|a, b| walk(a).total_cmp(&walk(b))).unwrap_or(&self.notions[0])
+    }
+
+    /// Outages that did not happen.
+    #[must_use]
+    pub fn shadow(&self) -> &ShadowScore {
+        &self.shadow
+    }
+
+    /// Number of labels heard.
+    #[must_use]
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// The model ten labels ago.
+    fn held_at_loss(&mut self) -> LogErrors {
+        self.held.push_back(*self.model());
+        if self.held.len() > crate::shadow::LOST {
+            self.held.pop_front();
+        }
+        self.held[0]
+    }
+
+    fn best(&self) -> usize {
+        let score = |i: &usize| self.notions[*i].score();
+        (0..self.notions.len()).max_by(|a, b| score(a).total_cmp(&score(b))).unwrap_or(0)
+    }
+}
+
+#[cfg(test)]
+mod tests;

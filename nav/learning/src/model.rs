@@ -1,0 +1,177 @@
+//! A Bayesian linear model of what a log says beyond the velocity over the Earth, beside a current that wanders.
+//!
+//! With u and v what the log says, r the rate of turn and psi the heading, forward and starboard:
+//!
+//! e_u = k u + s |u| u           - (cos psi c_N + sin psi c_E) + w,
+//! e_v = m u + t r               - (cos psi c_E - sin psi c_N) + w,
+//!
+//! k a scale factor, s its change with the speed, m a turn of the log, t what a hull adds as it slides through a turn.
+//! x = [k, s, m, t, c_N, c_E]; the first four hardly change (fouling), c is Gauss-Markov. Kalman filter with the update in
+//! Joseph's form (Bucy and Joseph, Filtering for Stochastic Processes, 1968). Held by
+//! `what_repeats_is_found_beside_a_current_that_wanders`.
+
+use nalgebra::{Matrix2, Matrix2x6, Matrix6, Vector2, Vector4, Vector6};
+use serde::{Deserialize, Serialize};
+
+use crate::current::CurrentModel;
+use crate::kept::KeptLog;
+use crate::label::{LENGTH, Label};
+
+/// 1-sigma of scale, slope, s/m, turn of the log, rad, and slide, m, before anything is known.
+pub const PRIOR: [f64; 4] = [0.03, 0.003, 0.01, 5.0];
+/// A log fouls by so much a day, 1-sigma, of each in units of its prior.
+const FOULS: f64 = 0.07;
+/// What is not of this model, 1-sigma in a label, m/s.
+const UNMODELLED: f64 = 0.01;
+/// Squares of innovations of which one in twenty thousand is larger: no label.
+const GATE: f64 = 20.0;
+/// How much likelier a current is to go on as it did on the voyage before, as a logarithm.
+const FAMILIAR: f64 = 4.0;
+const DAY: f64 = 86_400.0;
+
+/// What repeats, with the covariance that is known to.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LogErrors {
+    x: Vector6<f64>,
+    p: Matrix6<f64>,
+    current: CurrentModel,
+    last: Option<f64>,
+    /// Sum of the log-likelihoods of what was heard.
+    score: f64,
+}
+
+/// What became of a label.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Heard {
+    /// Whether it was learnt from.
+    pub(crate) is_used: bool,
+}
+
+impl LogErrors {
+    /// Nothing is known but how the current goes on.
+    #[must_use]
+    pub fn unknown(current: CurrentModel) -> Self {
+        let c = current.std;
+        let std = Vector6::new(PRIOR[0], PRIOR[1], PRIOR[2], PRIOR[3], c, c);
+        let p = Matrix6::from_diagonal(&std.component_mul(&std));
+        LogErrors { x: Vector6::zeros(), p, current, last: None, score: 0.0 }
+    }
+
+    /// What was kept of an earlier voyage, in unknown waters.
+    pub(crate) fn known(kept: &KeptLog, current: CurrentModel) -> Self {
+        let mut own = Self::unknown(current);
+        let (x, p) = kept.belief();
+        own.x.fixed_rows_mut::<4>(0).copy_from(&x);
+        own.p.fixed_view_mut::<4, 4>(0, 0).copy_from(&p);
+        let is_same = current.std == kept.current_std_mps && current.time == kept.current_time_s;
+        own.score = if is_same { FAMILIAR } else { 0.0 };
+        own
+    }
+
+    /// What was learnt of the slide may have been too little: it is as uncertain as at first.
+    pub(crate) fn unsettle_slide(&mut self) {
+        self.p.row_mut(3).fill(0.0);
+        self.p.column_mut(3).fill(0.0);
+        self.p[(3, 3)] = PRIOR[3] * PRIOR[3];
+    }
+
+    /// What is kept of it.
+    pub(crate) fn kept(&self) -> KeptLog {
+        let p = self.p.fixed_view::<4, 4>(0, 0).into_owned();
+        KeptLog::of(&self.values(), &p, &self.current)
+    }
+
+    /// Scale, slope, s/m, turn of the log, rad, slide, m.
+    #[must_use]
+    pub fn values(&self) -> Vector4<f64> {
+        self.x.fixed_rows::<4>(0).into_owned()
+    }
+
+    /// Their 1-sigmas.
+    #[must_use]
+    pub fn stds(&self) -> Vector4<f64> {
+        self.p.diagonal().fixed_rows::<4>(0).map(|variance| variance.max(0.0).sqrt())
+    }
+
+    /// Current, north and east, m/s.
+    #[must_use]
+    pub fn set(&self) -> Vector2<f64> {
+        self.x.fixed_rows::<2>(4).into_owned()
+    }
+
+    /// How the current goes on.
+    #[must_use]
+    pub fn current(&self) -> CurrentModel {
+        self.current
+    }
+
+    /// Sum of log-likelihoods.
+    #[must_use]
+    pub(crate) fn score(&self) -> f64 {
+        self.score
+    }
+
+    /// What repeats of a label, forward and starboard, m/s.
+    #[must_use]
+    pub fn repeats(&self, label: &Label) -> Vector2<f64> {
+        let mut known = self.x;
+        known.fixed_rows_mut::<2>(4).fill(0.0);
+        rows(label) * known
+    }
+
+    /// Learns from a label.
+    pub(crate) fn hear(&mut self, label: &Label) -> Heard {
+        self.carry(label.time);
+        let h = rows(label);
+        let noise = label.variance.add_scalar(UNMODELLED * UNMODELLED);
+        let s = h * self.p * h.transpose() + Matrix2::from_diagonal(&noise);
+        let off = label.beyond - h * self.x;
+        let Some(inverse) = s.try_inverse() else { return Heard { is_used: false } };
+        let square = (off.transpose() * inverse * off).x;
+        self.score -= 0.5 * (square.min(GATE) + s.determinant().ln());
+        if square > GATE {
+            return Heard { is_used: false };
+        }
+        let k = self.p * h.transpose() * inverse;
+        let left = Matrix6::identity() - k * h;
+        self.x += k * off;
+        self.p =
+            left * self.p * left.transpose() + k * Matrix2::from_diagonal(&noise) * k.transpose();
+        self.p = (self.p + self.p.transpose()) * 0.5;
+        Heard { is_used: true }
+    }
+
+    fn carry(&mut self, now: f64) {
+        let dt = self.last.replace(now).map_or(LENGTH, |last| (now - last).max(0.0));
+        let left = (-dt / self.current.time).exp();
+        for i in 4..6 {
+            self.x[i] *= left;
+            self.p.row_mut(i).scale_mut(left);
+            self.p.column_mut(i).scale_mut(left);
+            self.p[(i, i)] += self.current.std.powi(2) * (1.0 - left * left);
+        }
+        for (i, prior) in PRIOR.iter().enumerate() {
+            if self.p[(i, i)] > 0.0 {
+                self.p[(i, i)] += (FOULS * prior).powi(2) * dt / DAY;
+            }
+        }
+    }
+}
+
+fn rows(label: &Label) -> Matrix2x6<f64> {
+    let (u, (cos, sin)) = (label.told.x, (label.bow.x, label.bow.y));
+    Matrix2x6::new(
+        u,
+        u.abs() * u,
+        0.0,
+        0.0,
+        -cos,
+        -sin, //
+        0.0,
+        0.0,
+        u,
+        label.turn,
+        sin,
+        -cos,
+    )
+}
