@@ -47,7 +47,7 @@ enum Show {
 /// A voyage or the model cannot be read, or the model not written.
 pub fn run(args: &LearnArgs) -> anyhow::Result<()> {
     if let Some(Show::Show { file }) = &args.show {
-        print!("{}", words(&read(file)?));
+        crate::terminal::print(&words(&read(file)?))?;
         return Ok(());
     }
     let Some(file) = &args.model else {
@@ -62,7 +62,7 @@ pub fn run(args: &LearnArgs) -> anyhow::Result<()> {
     keep_the_one_before(file)?;
     output_file::replace(file, &model.text())
         .with_context(|| format!("{}: cannot be written", file.display()))?;
-    print!("{}", words(&model));
+    crate::terminal::print(&words(&model))?;
     Ok(())
 }
 
@@ -83,7 +83,9 @@ fn keep_the_one_before(file: &Path) -> anyhow::Result<()> {
     }
     let mut name = file.as_os_str().to_owned();
     name.push(".1");
-    fs::rename(file, &name).with_context(|| format!("{}: cannot be moved", file.display()))
+    // copied, not moved: whoever is stopped here leaves the file in its place
+    fs::copy(file, &name).with_context(|| format!("{}: cannot be copied", file.display()))?;
+    Ok(())
 }
 
 /// Sails a voyage, and returns what is known after it.
