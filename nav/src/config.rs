@@ -1,7 +1,9 @@
 //! What the filter assumes of sensors and sea beyond the IMU's data sheet.
 
+mod camera;
+
 use insd_base::units::{DEG, DEG_PER_HOUR};
-use insd_base::{Body, CameraModel, Estimate, ImuSpec, LeverArms, VesselKind};
+use insd_base::{Body, Estimate, ImuSpec, LeverArms, VesselKind};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::disturbance::{PrefilterConfig, WhiteningConfig};
@@ -9,13 +11,11 @@ use crate::floors::Floors;
 use crate::judge::docket::Docket;
 use crate::protection::RiskModel;
 
+pub use camera::{CameraAid, OdometryModel};
+
 /// Gyros with a larger turn-on bias than this, rad/s, are coarse: they do not find north on their own, and are no judges
 /// of a receiver.
 pub const COARSE_GYRO: f64 = 1.0 * DEG_PER_HOUR;
-
-/// How well a camera sits as configured where nobody says, 1-sigma, rad, and its stamps are right, 1-sigma, s.
-const CAMERA_AXES_STD: f64 = 1.0 * DEG;
-const CAMERA_DELAY_STD: f64 = 0.02;
 
 /// A berth taken from a chart is off by so much, 1-sigma, m.
 const MISPLACED: f64 = 10.0;
@@ -158,44 +158,6 @@ pub struct Models {
     pub camera: Option<CameraAid>,
     /// The risk of protection levels.
     pub risk: RiskModel,
-}
-
-/// A camera, and how well it is known how it sits and when its images are taken.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CameraAid {
-    /// How it looks at the world.
-    pub model: CameraModel,
-    /// Small rotations about body axes by which it sits otherwise, 1-sigma, rad.
-    pub axes_std: f64,
-    /// By how much its images are taken later than they are stamped, 1-sigma, s.
-    pub delay_std: f64,
-    /// The visual odometry that tells how it moved, where that is used in place of its points.
-    pub odometry: Option<OdometryModel>,
-}
-
-impl CameraAid {
-    /// One that was put up by eye, and whose images are stamped by who receives them.
-    #[must_use]
-    pub fn new(model: CameraModel) -> Self {
-        let (axes_std, delay_std) = (CAMERA_AXES_STD, CAMERA_DELAY_STD);
-        CameraAid { model, axes_std, delay_std, odometry: None }
-    }
-}
-
-/// A visual odometry that knows no scale.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OdometryModel {
-    /// By how much the scale of a map is other than one, 1-sigma, ratio.
-    pub scale_std: f64,
-    /// By what it wanders, ratio per root of a second.
-    pub scale_walk: f64,
-}
-
-impl Default for OdometryModel {
-    /// Those of the visual odometry of the berthing source.
-    fn default() -> Self {
-        OdometryModel { scale_std: 0.3, scale_walk: 1e-3 }
-    }
 }
 
 /// The receiver that ranges of satellites come from.
