@@ -63,8 +63,8 @@ impl Learning {
             sampled: None,
             unknown_waters: (config.log.current_std, config.log.current_time),
             before: log.map_or([(0.0, PRIOR[1]), (0.0, PRIOR[3])], |kept| {
-                let std = |i: usize| kept.covariance[i].max(0.0).sqrt();
-                [(kept.scale_by_speed_s_m, std(2)), (kept.slide_m, std(9))]
+                let (found, covariance) = kept.belief();
+                [1, 3].map(|i| (found[i], covariance[(i, i)].max(0.0).sqrt()))
             }),
             earlier: kept.map_or((0, 0), |kept| (kept.voyages, kept.generation)),
         }

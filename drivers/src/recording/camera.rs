@@ -5,11 +5,11 @@ use std::path::Path;
 use insd_base::{CameraFrame, ImagePoint, Time};
 use nalgebra::Vector2;
 
+use super::ahead::Ahead;
 use super::error::RecordingError;
 use super::fields::Fields;
-use super::input;
 use super::report::{BadRow, FileReport, RowFault};
-use super::table::{Row, Table};
+use super::table::Row;
 
 /// An image of more points than this is cut: a file whose time stands still is no image.
 const MOST_POINTS: usize = 4096;
@@ -55,10 +55,7 @@ pub(super) fn whole(fields: &Fields<'_>, column: usize) -> Result<u64, BadRow> {
 }
 
 /// The images of a voyage, one after another, in constant memory.
-pub struct ImageReader {
-    table: Table<PointRow>,
-    next: Option<PointRow>,
-}
+pub struct ImageReader(Ahead<PointRow>);
 
 impl ImageReader {
     /// Opens `features.csv`, plain or compressed; `None` where there is none.
@@ -66,16 +63,13 @@ impl ImageReader {
     /// # Errors
     /// It cannot be read, or lacks a column.
     pub fn open(dir: &Path) -> Result<Option<Self>, RecordingError> {
-        let Some(path) = input::find(dir, "features.csv") else { return Ok(None) };
-        let mut table = Table::open(&path)?;
-        let next = table.next_row()?.map(|(row, _)| row);
-        Ok(Some(ImageReader { table, next }))
+        Ok(Ahead::open(dir, "features.csv")?.map(ImageReader))
     }
 
     /// When the next image was taken.
     #[must_use]
     pub fn time(&self) -> Option<Time> {
-        self.next.as_ref().map(|row| row.time)
+        self.0.time()
     }
 
     /// The next image: rows of one time in a row.
@@ -83,16 +77,11 @@ impl ImageReader {
     /// # Errors
     /// The file cannot be read on, or most of it is faulty.
     pub fn next_frame(&mut self) -> Result<Option<CameraFrame>, RecordingError> {
-        let Some(first) = self.next.take() else { return Ok(None) };
+        let Some(first) = self.0.take()? else { return Ok(None) };
         let mut frame = CameraFrame { time: first.time, points: vec![first.point] };
-        while let Some((row, _)) = self.table.next_row()? {
-            if row.time != frame.time {
-                self.next = Some(row);
-                break;
-            }
-            if frame.points.len() < MOST_POINTS {
-                frame.points.push(row.point);
-            }
+        while self.0.time() == Some(frame.time) {
+            let point = self.0.take()?.map(|row| row.point);
+            frame.points.extend(point.filter(|_| frame.points.len() < MOST_POINTS));
         }
         Ok(Some(frame))
     }
@@ -100,7 +89,7 @@ impl ImageReader {
     /// What was read and skipped so far.
     #[must_use]
     pub fn report(&self) -> &FileReport {
-        self.table.report()
+        self.0.report()
     }
 }
 

@@ -14,6 +14,7 @@
 //!   column ([`FileReport`]). When more than 100 rows and more than 10 % of a file are faulty, that
 //!   is an error too. So is a row of `nav.csv` that says of its integrity what the format does not know.
 
+mod ahead;
 mod camera;
 mod camera_files;
 mod error;

@@ -5,12 +5,12 @@ use std::path::Path;
 use insd_base::{Time, VisualOdometry};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
+use super::ahead::Ahead;
 use super::camera::whole;
 use super::error::RecordingError;
 use super::fields::Fields;
-use super::input;
 use super::report::{BadRow, FileReport, RowFault};
-use super::table::{Row, Table};
+use super::table::Row;
 
 /// By how much a quaternion of rounded numbers is other than of length one.
 const ROUNDED: f64 = 1e-3;
@@ -72,10 +72,7 @@ fn three(fields: &Fields<'_>, first: usize) -> Result<Vector3<f64>, BadRow> {
 }
 
 /// The steps of a voyage, one after another, in constant memory.
-pub struct StepReader {
-    table: Table<StepRow>,
-    next: Option<VisualOdometry>,
-}
+pub struct StepReader(Ahead<StepRow>);
 
 impl StepReader {
     /// Opens `vo.csv`, plain or compressed; `None` where there is none.
@@ -83,16 +80,13 @@ impl StepReader {
     /// # Errors
     /// It cannot be read, or lacks a column.
     pub fn open(dir: &Path) -> Result<Option<Self>, RecordingError> {
-        let Some(path) = input::find(dir, "vo.csv") else { return Ok(None) };
-        let mut reader = StepReader { table: Table::open(&path)?, next: None };
-        reader.next_step()?;
-        Ok(Some(reader))
+        Ok(Ahead::open(dir, "vo.csv")?.map(StepReader))
     }
 
     /// The end of the next step.
     #[must_use]
     pub fn time(&self) -> Option<Time> {
-        self.next.map(|step| step.time)
+        self.0.time()
     }
 
     /// The next step.
@@ -100,14 +94,13 @@ impl StepReader {
     /// # Errors
     /// The file cannot be read on, or most of it is faulty.
     pub fn next_step(&mut self) -> Result<Option<VisualOdometry>, RecordingError> {
-        let next = self.table.next_row()?.map(|(StepRow(step), _)| step);
-        Ok(std::mem::replace(&mut self.next, next))
+        Ok(self.0.take()?.map(|StepRow(step)| step))
     }
 
     /// What was read and skipped so far.
     #[must_use]
     pub fn report(&self) -> &FileReport {
-        self.table.report()
+        self.0.report()
     }
 }
 

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use insd_base::Time;
 
+use super::ahead::Ahead;
 use super::error::RecordingError;
 use super::fields::Fields;
-use super::input;
 use super::report::{BadRow, FileReport};
-use super::table::{Row, Table};
+use super::table::Row;
 
 /// Temperature at an instant.
 struct TemperatureRow {
@@ -30,10 +30,7 @@ impl Row for TemperatureRow {
 }
 
 /// The temperatures of a voyage, one after another, in constant memory.
-pub struct TemperatureReader {
-    table: Table<TemperatureRow>,
-    next: Option<TemperatureRow>,
-}
+pub struct TemperatureReader(Ahead<TemperatureRow>);
 
 impl TemperatureReader {
     /// Opens `temperature.csv`, plain or compressed; `None` where there is none.
@@ -41,10 +38,7 @@ impl TemperatureReader {
     /// # Errors
     /// It cannot be read, or lacks a column.
     pub fn open(dir: &Path) -> Result<Option<Self>, RecordingError> {
-        let Some(path) = input::find(dir, "temperature.csv") else { return Ok(None) };
-        let mut table = Table::open(&path)?;
-        let next = table.next_row()?.map(|(row, _)| row);
-        Ok(Some(TemperatureReader { table, next }))
+        Ok(Ahead::open(dir, "temperature.csv")?.map(TemperatureReader))
     }
 
     /// The newest temperature up to an instant that was not told yet, degrees Celsius.
@@ -53,9 +47,8 @@ impl TemperatureReader {
     /// The file cannot be read on, or most of it is faulty.
     pub fn until(&mut self, now: Time) -> Result<Option<(Time, f64)>, RecordingError> {
         let mut newest = None;
-        while let Some(row) = self.next.take_if(|row| row.time <= now) {
-            newest = Some((row.time, row.celsius));
-            self.next = self.table.next_row()?.map(|(row, _)| row);
+        while self.0.time().is_some_and(|time| time <= now) {
+            newest = self.0.take()?.map(|row| (row.time, row.celsius));
         }
         Ok(newest)
     }
@@ -63,7 +56,7 @@ impl TemperatureReader {
     /// What was read and skipped so far.
     #[must_use]
     pub fn report(&self) -> &FileReport {
-        self.table.report()
+        self.0.report()
     }
 }
 

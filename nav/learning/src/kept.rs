@@ -123,12 +123,6 @@ impl KeptModel {
         if model.is_sound() { Ok(model) } else { Err(KeptFault::OutOfRange) }
     }
 
-    /// Checksum of its text, for those who want to say which it was.
-    #[must_use]
-    pub fn fingerprint(&self) -> u32 {
-        CRC.checksum(self.text().as_bytes())
-    }
-
     fn is_sound(&self) -> bool {
         let log = &self.log;
         let small = [log.scale, log.turn_rad, log.scale_by_speed_s_m].iter().all(|x| x.abs() < 0.5);
@@ -154,12 +148,18 @@ impl KeptGyros {
     }
 }
 
+/// Where an entry of a symmetric matrix stands in its lower triangle, by rows.
+pub(crate) fn in_triangle(i: usize, j: usize) -> usize {
+    let (row, column) = (i.max(j), i.min(j));
+    row * (row + 1) / 2 + column
+}
+
 impl KeptLog {
-    /// The four values, and their covariance.
-    pub(crate) fn belief(&self) -> (Vector4<f64>, Matrix4<f64>) {
+    /// Scale, slope, s/m, turn of the log, rad, slide, m, and their covariance.
+    #[must_use]
+    pub fn belief(&self) -> (Vector4<f64>, Matrix4<f64>) {
         let x = Vector4::new(self.scale, self.scale_by_speed_s_m, self.turn_rad, self.slide_m);
-        let at = |i: usize, j: usize| self.covariance[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
-        (x, Matrix4::from_fn(at))
+        (x, Matrix4::from_fn(|i, j| self.covariance[in_triangle(i, j)]))
     }
 
     /// With scale factor, change with the speed and slide as a filter has found them together with all else, and their covariance: the heading that

@@ -56,9 +56,8 @@ pub enum LearnerVerdict {
 
 impl Default for Learner {
     fn default() -> Self {
-        let notion = |time: f64| STDS.map(|std| LogErrors::unknown(CurrentModel { std, time }));
         Learner {
-            notions: TIMES.iter().flat_map(|time| notion(*time)).collect(),
+            notions: notions(LogErrors::unknown),
             shadow: ShadowScore::default(),
             refused: VecDeque::new(),
             count: 0,
@@ -72,11 +71,9 @@ impl Learner {
     /// One that goes on from an earlier voyage.
     #[must_use]
     pub fn after(kept: &KeptLog) -> Self {
-        let notion = |time: f64| STDS.map(|std| LogErrors::known(kept, CurrentModel { std, time }));
-        let pairs = kept.shadow_without_m.iter().zip(&kept.shadow_with_m);
-        let shadow = ShadowScore::of(pairs.map(|(without, with)| [*without, *with]));
+        let shadow = ShadowScore::after(kept);
         Learner {
-            notions: TIMES.iter().flat_map(|time| notion(*time)).collect(),
+            notions: notions(|current| LogErrors::known(kept, current)),
             is_used: kept.labels >= FEWEST && shadow.proves(false),
             shadow,
             count: kept.labels,
@@ -145,12 +142,6 @@ impl Learner {
         &self.shadow
     }
 
-    /// Number of labels heard.
-    #[must_use]
-    pub fn count(&self) -> u32 {
-        self.count
-    }
-
     /// The model ten labels ago.
     fn held_at_loss(&mut self) -> LogErrors {
         self.held.push_back(*self.model());
@@ -164,6 +155,12 @@ impl Learner {
         let score = |i: &usize| self.notions[*i].score();
         (0..self.notions.len()).max_by(|a, b| score(a).total_cmp(&score(b))).unwrap_or(0)
     }
+}
+
+/// One for each way in which a current may go on.
+fn notions(of: impl Fn(CurrentModel) -> LogErrors) -> Vec<LogErrors> {
+    let models = TIMES.iter().flat_map(|time| STDS.map(|std| CurrentModel { std, time: *time }));
+    models.map(of).collect()
 }
 
 #[cfg(test)]

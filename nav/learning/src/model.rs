@@ -93,12 +93,6 @@ impl LogErrors {
         self.p.diagonal().fixed_rows::<4>(0).map(|variance| variance.max(0.0).sqrt())
     }
 
-    /// Current, north and east, m/s.
-    #[must_use]
-    pub fn set(&self) -> Vector2<f64> {
-        self.x.fixed_rows::<2>(4).into_owned()
-    }
-
     /// How the current goes on.
     #[must_use]
     pub fn current(&self) -> CurrentModel {

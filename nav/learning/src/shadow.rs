@@ -10,6 +10,7 @@ use std::collections::VecDeque;
 use nalgebra::{Rotation2, Vector2};
 use serde::{Deserialize, Serialize};
 
+use crate::kept::KeptLog;
 use crate::label::{LENGTH, Label};
 use crate::model::LogErrors;
 
@@ -81,21 +82,17 @@ impl ShadowScore {
         (lost - known).norm() * LENGTH * LOST as f64
     }
 
-    /// Outages of an earlier voyage, without and with what was learnt, m.
+    /// Outages of an earlier voyage.
     #[must_use]
-    pub fn of(errors: impl Iterator<Item = [f64; 2]>) -> Self {
-        ShadowScore { errors: errors.take(REMEMBERED).collect(), ..ShadowScore::default() }
+    pub fn after(kept: &KeptLog) -> Self {
+        let pairs = kept.shadow_without_m.iter().zip(&kept.shadow_with_m);
+        let errors = pairs.take(REMEMBERED).map(|(without, with)| [*without, *with]).collect();
+        ShadowScore { errors, ..ShadowScore::default() }
     }
 
     /// Ends of outages, without and with what is learnt, m, the newest last.
     pub fn errors(&self) -> impl Iterator<Item = &[f64; 2]> {
         self.errors.iter()
-    }
-
-    /// Number of outages scored.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        self.errors.len()
     }
 
     /// Median and 95th percentile without and with what is learnt, m; `None` of too few.

@@ -4,12 +4,12 @@
 //! biases to be. They are off by the same for minutes: one tells as much as its share of that time. What is taken away from the
 //! samples is the difference to the temperature at which it was begun, so that nothing steps when more is known.
 
-use crate::kept::KeptGyros;
+use crate::kept::{KeptGyros, in_triangle};
 use nalgebra::{Matrix3, RowVector3, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// Where x is zero, degrees Celsius, and what a unit of it is, K.
-const MIDDLE: f64 = 30.0;
+pub const MIDDLE: f64 = 30.0;
 const UNIT: f64 = 10.0;
 /// 1-sigma of the bias at the middle, of its slope and of its bend, per unit, in units of the turn-on bias of the data sheet.
 const PRIOR: [f64; 3] = [10.0, 2.0, 1.0];
@@ -49,9 +49,7 @@ impl Thermal {
     #[must_use]
     pub fn after(kept: &KeptGyros, bias_std: f64) -> Self {
         let axis = |i: usize| {
-            let at =
-                |r: usize, c: usize| kept.covariance[i][r.max(c) * (r.max(c) + 1) / 2 + r.min(c)];
-            let mut p = Matrix3::from_fn(at);
+            let mut p = Matrix3::from_fn(|r, c| kept.covariance[i][in_triangle(r, c)]);
             p[(0, 0)] += bias_std * bias_std;
             Axis { x: Vector3::from(kept.bias_rad_s[i]), p }
         };
@@ -107,6 +105,15 @@ impl Axis {
         let left = Matrix3::identity() - k * h;
         self.x += k * (bias - (h * self.x).x);
         self.p = left * self.p * left.transpose() + k * variance * k.transpose();
+    }
+}
+
+impl KeptGyros {
+    /// By how much the bias of each axis is other than at [`MIDDLE`], rad/s.
+    #[must_use]
+    pub fn against_middle(&self, celsius: f64) -> Vector3<f64> {
+        let apart = basis(celsius) - basis(MIDDLE);
+        Vector3::from_fn(|i, _| (apart * Vector3::from(self.bias_rad_s[i])).x)
     }
 }
 

@@ -10,6 +10,7 @@ use insd_base::units::{DEG, DEG_PER_HOUR};
 use insd_config::{BadInput, output_file};
 use insd_drivers::recording::{TemperatureReader, VoyageReader};
 use insd_engine::{Engine, EngineConfig};
+use insd_learning::thermal::MIDDLE;
 use insd_learning::{KeptGyros, KeptLog, KeptModel, ShadowScore};
 
 /// Knots in a metre per second.
@@ -147,8 +148,7 @@ fn of_log(text: &mut String, log: &KeptLog) {
         writeln!(text, "it reads {slide:.3} m/s to starboard for each deg/s of turn to starboard");
     let (std, time) = (log.current_std_mps, log.current_time_s / 3600.0);
     let _ = writeln!(text, "currents of {std:.2} m/s that go on for {time:.1} h");
-    let pairs = log.shadow_without_m.iter().zip(&log.shadow_with_m);
-    let shadow = ShadowScore::of(pairs.map(|(without, with)| [*without, *with]));
+    let shadow = ShadowScore::after(log);
     match shadow.quantiles() {
         Some([without, with]) => {
             let use_ = if shadow.proves(false) { "used" } else { "not used" };
@@ -164,13 +164,11 @@ fn of_log(text: &mut String, log: &KeptLog) {
 
 fn of_gyros(text: &mut String, gyros: &KeptGyros) {
     let [least, most] = gyros.range_c;
-    let _ = writeln!(text, "gyros from {least:.0} to {most:.0} degrees Celsius, against 30:");
-    for (axis, [_, slope, bend]) in ["forward", "starboard", "down"].iter().zip(gyros.bias_rad_s) {
-        let at = |celsius: f64| {
-            let x = (celsius - 30.0) / 10.0;
-            (slope * x + bend * x * x) / DEG_PER_HOUR
-        };
-        let (cold, warm) = (at(least), at(most));
+    let _ =
+        writeln!(text, "gyros from {least:.0} to {most:.0} degrees Celsius, against {MIDDLE:.0}:");
+    let [cold, warm] = [least, most].map(|celsius| gyros.against_middle(celsius) / DEG_PER_HOUR);
+    for (i, axis) in ["forward", "starboard", "down"].iter().enumerate() {
+        let (cold, warm) = (cold[i], warm[i]);
         let _ = writeln!(text, "  {axis}: {cold:+.1} deg/h cold, {warm:+.1} deg/h warm");
     }
 }

@@ -4,7 +4,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{BufRead as _, BufReader, Seek as _, Write as _};
+use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::{Path, PathBuf};
 
 use insd_config::BadInput;
@@ -161,13 +161,12 @@ impl Keeper {
         }
     }
 
-    fn drop_torn_line(&mut self) -> anyhow::Result<()> {
+    fn drop_torn_line(&self) -> anyhow::Result<()> {
         let content = std::fs::read(&self.path)?;
         let whole = content.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
         if whole < content.len() {
             eprintln!("{}: the last line was cut off and is left out", self.path.display());
             self.file.set_len(whole as u64)?;
-            self.file.seek(std::io::SeekFrom::End(0))?;
         }
         Ok(())
     }

@@ -5,7 +5,7 @@
 use insd_base::FixQuality;
 
 use super::field::{self, Mode, put_f32, put_f64};
-use super::frame::{Stamp, begun, body, framed};
+use super::frame::{Stamp, begun, body};
 use super::pvt::PvtAccuracy;
 use crate::binary::Fault;
 use crate::gnss::{GnssPart, cartesian};
@@ -77,10 +77,7 @@ impl PvtCartesian {
         put_f32(&mut writer, None);
         writer.put(&[u8::MAX, u8::MAX, self.satellites.unwrap_or(u8::MAX), 0]);
         writer.le_u16(0).le_u16(u16::MAX).le_u32(0).u8(0);
-        if let Some(extra) = &self.extra {
-            extra.write(&mut writer);
-        }
-        framed((ID, if self.extra.is_some() { 2 } else { 0 }), &writer)
+        PvtAccuracy::framed(self.extra.as_ref(), ID, writer)
     }
 
     /// What the message says of its epoch, as that of PVTGeodetic.

@@ -85,7 +85,15 @@ impl PvtAccuracy {
         }))
     }
 
-    pub(super) fn write(&self, writer: &mut Writer) {
+    /// The block of a payload and of what revision 2 adds to it; of revision 0 if that is not known.
+    pub(super) fn framed(own: Option<&Self>, id: u16, mut payload: Writer) -> Vec<u8> {
+        if let Some(own) = own {
+            own.write(&mut payload);
+        }
+        framed((id, if own.is_some() { 2 } else { 0 }), &payload)
+    }
+
+    fn write(&self, writer: &mut Writer) {
         writer.put(&[self.bases, 0, 0]);
         put_u16(writer, self.latency, 1e-4);
         put_u16(writer, self.horizontal, 0.01);
@@ -156,10 +164,7 @@ impl PvtGeodetic {
         writer.put(&small.map(|value| value.unwrap_or(u8::MAX))).u8(0).le_u16(self.reference);
         put_u16(&mut writer, self.correction_age, 0.01);
         writer.le_u32(self.signals).u8(self.alert);
-        if let Some(extra) = &self.extra {
-            extra.write(&mut writer);
-        }
-        framed((ID, if self.extra.is_some() { 2 } else { 0 }), &writer)
+        PvtAccuracy::framed(self.extra.as_ref(), ID, writer)
     }
 
     /// What a receiver in this state would send.
