@@ -51,6 +51,8 @@ use crate::stream::Look;
 pub const LENGTH: usize = 132;
 
 const START: &[u8; 4] = b"#KMB";
+/// How each telegram begins: start, length, version.
+const HEAD: [u8; 8] = [b'#', b'K', b'M', b'B', LENGTH as u8, 0, VERSION as u8, 0];
 const VERSION: u16 = 1;
 
 const PLACE: Bits = Bits { invalid: 1, reduced: 1 << 16 };
@@ -66,8 +68,7 @@ const NOT_ESTIMATED: f32 = -1.0;
 /// What stands at the start of some bytes: a telegram by its first eight bytes and by what can be read of it, as there is no checksum.
 #[must_use]
 pub fn look(bytes: &[u8]) -> Look {
-    let head = [*START, [LENGTH as u8, 0, VERSION as u8, 0]].concat();
-    if bytes.iter().zip(&head).any(|(byte, own)| byte != own) {
+    if bytes.iter().zip(&HEAD).any(|(byte, own)| byte != own) {
         return Look::Nothing;
     }
     match bytes.get(..LENGTH) {

@@ -4,6 +4,8 @@ use super::{Look, Protocol};
 
 /// Bytes that have been dealt with may stay in the buffer up to this many.
 const COMPACT: usize = 16 * 1024;
+/// Each of so many first bytes may say that a frame is none: what begins like a long one is looked at again with each of them.
+const BEGIN: usize = 8;
 
 /// Finds the frames of some protocols in a stream of bytes.
 #[derive(Clone, Debug)]
@@ -70,7 +72,8 @@ impl Cutter {
                 (protocol, Look::Frame(length)) => return Some(self.take(protocol, length)),
                 (_, Look::Filler(length)) => self.advance(length),
                 (_, Look::More(wanted)) => {
-                    self.wanted = wanted.max(self.waiting() + 1);
+                    let next = self.waiting() + 1;
+                    self.wanted = if next <= BEGIN { next } else { wanted.max(next) };
                     return None;
                 }
                 (_, Look::Damaged) => {
@@ -201,6 +204,15 @@ mod tests {
         }
         let single: Vec<&[u8]> = bytes.chunks(1).collect();
         assert_eq!(frames(&single), whole);
+    }
+
+    #[test]
+    fn a_single_byte_that_could_begin_a_long_frame_keeps_nobody_waiting() {
+        for first in 0..=u8::MAX {
+            let bytes = [&[first], &b"$HETHS,316.70,E*1A\r\n"[..]].concat();
+            let single: Vec<&[u8]> = bytes.chunks(1).collect();
+            assert_eq!(frames(&single), frames(&[&bytes]), "{first:#x}");
+        }
     }
 
     #[test]
