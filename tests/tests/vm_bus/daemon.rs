@@ -196,6 +196,9 @@ fn against_truth(voyage: &Voyage, start: f64, all: &[Read]) -> Worst {
     worst
 }
 
+/// Of a meridian, to a percent.
+const METRES_PER_DEGREE: f64 = 111_000.0;
+
 /// How far a place is from the way between two rows of the solution, and how far along it is, deg.
 fn beside(pair: &[Solution], place: [f64; 2]) -> (f64, f64) {
     let at = |own: &Solution| [own.position.latitude / DEG, own.position.longitude / DEG];
@@ -217,8 +220,10 @@ fn against_nav(nav: &[Solution], all: &[Read]) -> usize {
         let pair = nav.windows(2).min_by(|one, other| near(one).0.total_cmp(&near(other).0));
         let pair = pair.unwrap();
         let (off, share) = near(pair);
-        // a correction between two rows is a step of centimetres
-        assert!(off < 6e-7, "{read:?} is on no way of the solution: {off}");
+        // a correction between two rows is a step: centimetres, or, as long as the place is not known well yet
+        // (and on a busy machine a burst meets another part of it), a share of what is claimed
+        let claimed = pair[0].sigma.position.0.xy().norm() / METRES_PER_DEGREE;
+        assert!(off < 6e-7 + 0.2 * claimed, "{read:?} is on no way of the solution: {off}");
         let before = all[index.saturating_sub(6)..index].iter().rev();
         let mut headings = before.filter_map(|own| match own.what {
             What::Heading(heading) if read.at - own.at < 0.05 => Some(heading),
