@@ -7,7 +7,7 @@
 use std::hint::black_box;
 
 use gungraun::{library_benchmark, library_benchmark_group, main};
-use insd_alignment::bank::Kinematics;
+use insd_alignment::kinematics::Kinematics;
 use insd_alignment::{Bank, EightState, Level};
 use insd_base::units::{DEG_PER_HOUR, DEG_PER_SQRT_HOUR, MICRO_G, MPS_PER_SQRT_HOUR};
 use insd_base::{Body, Geodetic, ImuSample, ImuSpec, LeverArms, Time, Triad};

@@ -9,7 +9,7 @@
 use std::f64::consts::TAU;
 
 use insd_base::units::{DEG, wrap_pi};
-use insd_base::{Geodetic, Received, Solution, Span, Time};
+use insd_base::{Received, Solution, Span, Time};
 use insd_nav::berth::Method;
 use insd_nav::error_state::{ATTITUDE, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
@@ -17,31 +17,11 @@ use insd_nav::{Estimator, Increment, InitialState, NavConfig, Navigator, Nominal
 use nalgebra::{Matrix3, Vector3};
 
 use crate::config::AlignmentConfig;
+use crate::kinematics::Kinematics;
 use crate::levelling::Level;
 use crate::mixture::mixed;
 use crate::stored::StoredState;
 use crate::trial::{ANY, Origin, Shares, StoredVerdict, Trial, explanations, joined_origin};
-
-/// Where and how fast the ship is when the bank starts, with 1-sigma errors.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kinematics {
-    /// Position of the IMU.
-    pub position: Geodetic,
-    /// Of each component of the position, m.
-    pub position_std: f64,
-    /// Velocity, NED, m/s.
-    pub velocity: Vector3<f64>,
-    /// Of each component of the velocity, m/s.
-    pub velocity_std: f64,
-    /// Mean acceleration over the levelling window, NED, m/s^2.
-    pub acceleration: Vector3<f64>,
-    /// Whether the ship is known to lie at her berth.
-    pub moored: bool,
-    /// Whether a receiver tells her position.
-    pub gnss_position: bool,
-    /// Whether it tells her velocity as well.
-    pub gnss_velocity: bool,
-}
 
 /// The filters and their weights.
 #[derive(Clone, Debug)]

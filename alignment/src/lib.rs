@@ -11,6 +11,7 @@ pub mod bank;
 pub mod config;
 pub mod forecast;
 pub mod in_motion;
+pub mod kinematics;
 pub mod levelling;
 pub mod mixture;
 mod progress;

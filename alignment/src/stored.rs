@@ -18,7 +18,7 @@ use insd_nav::error_state::{ACCEL_BIAS, ACCEL_DRIFT, Covariance, GYRO_BIAS, GYRO
 use insd_nav::{Estimator, Navigator, Nominal};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::bank::Kinematics;
+use crate::kinematics::Kinematics;
 use crate::levelling::Level;
 
 /// An aligned state of a moored ship.

@@ -1,6 +1,6 @@
 use super::*;
 use insd_base::units::{DEG_PER_HOUR, DEG_PER_SQRT_HOUR, MICRO_G, MPS_PER_SQRT_HOUR};
-use insd_base::{ImuSpec, LeverArms, Triad, earth};
+use insd_base::{Geodetic, ImuSpec, LeverArms, Triad, earth};
 
 /// Samples a second.
 const RATE: f64 = 10.0;

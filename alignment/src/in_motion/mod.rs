@@ -51,7 +51,7 @@ use insd_nav::leap::LeapWatch;
 use insd_nav::{Estimator, Increment, NavConfig, Report};
 use nalgebra::{Matrix2, Rotation3, UnitQuaternion, Vector2, Vector3};
 
-use crate::bank::Kinematics;
+use crate::kinematics::Kinematics;
 use crate::levelling::Level;
 use aids::Scene;
 use belief::{Belief, considered as k, state as x};

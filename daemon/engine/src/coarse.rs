@@ -1,6 +1,6 @@
 //! The first seconds: levelling, and collecting where and how fast the ship is.
 
-use insd_alignment::bank::Kinematics;
+use insd_alignment::kinematics::Kinematics;
 use insd_alignment::{Level, Levelling};
 use insd_base::{Geodetic, GnssFix, Message, Received, StartCondition, Time};
 use insd_nav::Increment;

@@ -4,14 +4,12 @@
 //! heard there is nothing to compare it with; from then on the filter of eight states, which knows of it, finds
 //! the heading from the beginning, upright as the bank has left her.
 
-use insd_alignment::bank::Kinematics;
+use insd_alignment::kinematics::Kinematics;
 use insd_alignment::{Bank, Level};
 use insd_base::{Message, Received, earth};
 use insd_nav::berth::Method;
 use insd_nav::{Estimator, NavConfig};
 use nalgebra::Vector3;
-
-use crate::ship::Ship;
 
 /// Velocity of a ship of which only positions are told, 1-sigma, m/s: at her berth, and under way.
 const SWAYING: f64 = 2.0;
@@ -22,9 +20,12 @@ const PLACE: f64 = 100.0;
 /// The filter of eight states to be.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Heir {
-    config: NavConfig,
+    pub(crate) config: NavConfig,
     method: Method,
 }
+
+/// What it begins with: the level and the motion she has, and how she is held if she lies at her berth.
+pub(crate) type Heritage = (Level, Kinematics, Option<Method>);
 
 impl Heir {
     /// `method` is how a ship at her berth will be held by the full filter.
@@ -32,8 +33,8 @@ impl Heir {
         Heir { config: *config, method }
     }
 
-    /// The ship with the filter of eight states, if the message is a position of a receiver.
-    pub(crate) fn called_by(&self, received: &Received, bank: &Bank) -> Option<Ship> {
+    /// What the filter of eight states begins with, if the message is a position of a receiver.
+    pub(crate) fn called_by(&self, received: &Received, bank: &Bank) -> Option<Heritage> {
         let Message::Gnss(fix) = received.message else { return None };
         let position = fix.position.filter(|_| fix.quality.is_measured())?;
         let navigator = bank.likeliest()?;
@@ -54,6 +55,6 @@ impl Heir {
             gnss_position: true,
             gnss_velocity: told.is_some(),
         };
-        Some(Ship::in_motion(&self.config, &level, &kinematics, moored.then_some(self.method)))
+        Some((level, kinematics, moored.then_some(self.method)))
     }
 }

@@ -1,6 +1,6 @@
-//! What became of the measurements: counted, and told.
+//! What became of the measurements: counted, and told; and how everybody stands.
 
-use insd_base::{AidInnovation, Event, Received, Rejection, Source, Time};
+use insd_base::{AidInnovation, Event, Received, Rejection, Source, Stands, Time};
 use insd_nav::{Outcome, Report};
 
 use crate::{Engine, Output};
@@ -52,5 +52,20 @@ impl Engine {
     fn note_rejection(&mut self, time: Time, source: Source, aid: &'static str, reason: Rejection) {
         *self.counts.rejected.entry((aid, reason)).or_insert(0) += 1;
         self.tell(Event::Rejected { time, source, aid, reason });
+    }
+
+    /// Tells whoever stands otherwise than was told last. What is made of the others beside an IMU that is not believed is
+    /// of no account.
+    pub(crate) fn tell_standings(&mut self) {
+        if self.shunned.is_some() {
+            return;
+        }
+        let mut told = self.told;
+        let new: Vec<Stands> = self.standings().filter(|stands| told.note(stands)).collect();
+        self.told = told;
+        for stands in new {
+            let time = stands.since;
+            self.tell(Event::Judged { time, stands });
+        }
     }
 }

@@ -10,6 +10,7 @@ mod array;
 mod blind;
 mod checkpoint;
 mod checks;
+mod clock_step;
 mod coarse;
 mod config;
 mod disturbance;
@@ -22,8 +23,10 @@ mod ledger;
 mod lessons;
 mod looks;
 mod mode;
+mod output;
 mod receivers;
 mod recent;
+mod reception;
 mod relay;
 mod resume;
 mod resumption;
@@ -43,9 +46,8 @@ use std::sync::Arc;
 use insd_alignment::StoredState;
 use insd_base::satellites::{BaseEpoch, SatelliteRanges};
 use insd_base::{
-    AidInnovation, AlignmentStatus, Body, Counts, Event, Finding, ImuSample, ImuSpec, Message,
-    Mode, ModeReason, Received, Rejection, RtkSilence, SatelliteInnovation, Solution,
-    SolutionSource, Span, StartCondition, Time,
+    Body, Counts, Event, Finding, ImuSample, ImuSpec, Message, Mode, ModeReason, Received,
+    Rejection, RtkSilence, Solution, SolutionSource, Span, StartCondition, Time,
 };
 use insd_nav::{
     Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Report, Timeline,
@@ -59,6 +61,7 @@ use disturbance::Trace;
 use epochs::{due_at, epochs};
 use learning::Learning;
 use mode::{Facts, Machine};
+pub use output::Output;
 use receivers::Receivers;
 use recent::Recent;
 use relay::Relay;
@@ -68,22 +71,6 @@ use stamps::Stamps;
 use standings::Told;
 use surveyor::Surveyor;
 use twin::Twin;
-
-/// What leaves the engine.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Output {
-    /// The state of the ship at an output epoch.
-    Solution(Solution),
-    /// An innovation of a measurement.
-    Innovation(AidInnovation),
-    /// An innovation of one satellite.
-    Satellite(SatelliteInnovation),
-    /// What the alignment knows of itself: when its phase changes and every ten seconds until the ship
-    /// is aligned.
-    Alignment(AlignmentStatus),
-    /// Something worth telling.
-    Event(Event),
-}
 
 /// What the engine is doing with the data.
 #[derive(Clone, Debug)]
@@ -100,7 +87,7 @@ pub struct Engine {
     config: EngineConfig,
     nav: NavConfig,
     stamps: Stamps,
-    twin: Option<Twin>,
+    twin: Option<Twin<Engine>>,
     conditioner: Conditioner,
     stage: Stage,
     alignment_status: StatusTeller,

@@ -3,16 +3,8 @@
 //! The intake ranks them: 0 is the one that it would use. The engine uses that one unless it was found to lie and another
 //! was not. Fixes of the others go to the judge, who compares them with the navigator; nothing else hears them.
 
-use insd_base::{
-    Ecef, Event, Geodetic, GnssFix, Message, Ned, Parties, Party, Received, ReceiverChange,
-    Rejection, Source, Standing, Time, earth,
-};
+use insd_base::{Geodetic, GnssFix, Parties, Party, ReceiverChange, Standing, Time};
 use insd_nav::judge::Docket;
-use insd_nav::timeline::HISTORY;
-use nalgebra::Vector3;
-
-use crate::ship::Ship;
-use crate::{Engine, Stage, checks};
 
 /// A receiver that is not the intake's choice can be used if it was heard within this, s.
 const FRESH: f64 = 5.0;
@@ -20,8 +12,6 @@ const FRESH: f64 = 5.0;
 const LEFT: f64 = 1.5;
 /// A receiver is compared no more often than this, s.
 const SPACING: f64 = 0.95;
-/// Acceleration of a ship between the time of a fix and its receipt, 1-sigma, m/s^2.
-const UNSEEN: f64 = 0.5;
 
 /// What was heard last of one.
 #[derive(Clone, Copy, Debug)]
@@ -44,12 +34,13 @@ pub(crate) struct Receivers {
     is_own_choice: bool,
 }
 
-fn index(number: u8) -> usize {
+/// Of a receiver by its number.
+pub(crate) fn index(number: u8) -> usize {
     usize::from(number).min(Party::RECEIVERS.len() - 1)
 }
 
 impl Receivers {
-    fn hear(&mut self, own: usize, fix: &GnssFix, receipt: Time) {
+    pub(crate) fn hear(&mut self, own: usize, fix: &GnssFix, receipt: Time) {
         let before = self.heard[own];
         let frozen = before.and_then(|before| before.frozen);
         let heard = Heard {
@@ -90,8 +81,35 @@ impl Receivers {
         best.map(|(own, _)| own).or(self.in_use)
     }
 
+    /// Uses another if another is better: gives the change, and whether it is to be told, as the intake tells its own.
+    pub(crate) fn choose(&mut self, docket: &Docket, now: Time) -> Option<(ReceiverChange, bool)> {
+        let to = self.best(docket, now)?;
+        let before = self.in_use.replace(to);
+        let is_own = self.heard[to].is_some_and(|heard| heard.rank > 0);
+        let was_own = std::mem::replace(&mut self.is_own_choice, is_own);
+        let from = before.filter(|from| *from != to)?;
+        let is_for_lie = self.class(from, docket) == 2;
+        let [from, to] = [from, to].map(|own| Party::RECEIVERS[own]);
+        Some((ReceiverChange { from, to, is_for_lie }, is_own || was_own))
+    }
+
+    pub(crate) fn is_used(&self, own: usize) -> bool {
+        self.in_use == Some(own)
+    }
+
+    /// Whether another is used than one that the intake has chosen, which is not to be believed then.
+    pub(crate) fn is_passed_over(&self, own: usize) -> bool {
+        self.is_own_choice && !self.is_used(own)
+    }
+
+    /// The one in use stands still where she does not.
+    pub(crate) fn note_frozen(&mut self) {
+        let in_use = self.in_use.and_then(|own| self.heard[own].as_mut());
+        in_use.into_iter().for_each(|heard| heard.frozen = heard.place);
+    }
+
     /// Whether it is time to compare one, with a fix that was valid then; takes note of it.
-    fn is_compared(&mut self, own: usize, time: Time) -> bool {
+    pub(crate) fn is_compared(&mut self, own: usize, time: Time) -> bool {
         let Some(heard) = &mut self.heard[own] else { return false };
         let is_due = heard.compared.is_none_or(|last| (time - last).as_seconds() >= SPACING);
         if is_due {
@@ -109,103 +127,5 @@ impl Receivers {
             Party::RECEIVERS.into_iter().zip(self.heard).filter(|(party, _)| *party != own);
         let frozen = others.filter(|(_, heard)| heard.as_ref().is_some_and(is_frozen));
         named.chain(frozen.map(|(party, _)| party)).collect()
-    }
-}
-
-impl Engine {
-    /// A message as it is to be used. The fix of a receiver that is not in use is compared, and goes no further.
-    pub(crate) fn as_used(&mut self, received: &Received) -> Option<Received> {
-        if self.is_of_liar(received) {
-            let is_rtk = matches!(received.message, Message::Rtk(_));
-            let aid = if is_rtk { "rtk_position" } else { "satellite_code" };
-            self.reject(received, aid, Rejection::SourceSuspect);
-            return None;
-        }
-        let (Message::Gnss(fix), Source::Gnss(number)) = (&received.message, received.source)
-        else {
-            return Some(received.clone());
-        };
-        let own = index(number);
-        self.receivers.hear(own, fix, received.receipt);
-        self.choose_receiver(received.receipt);
-        let is_used = self.receivers.in_use == Some(own);
-        let rank = if is_used { 0 } else { fix.rank.max(1) };
-        let marked = Received { message: Message::Gnss(GnssFix { rank, ..*fix }), ..*received };
-        if is_used {
-            return Some(marked);
-        }
-        if self.receivers.is_compared(own, fix.time) {
-            self.compare(&marked);
-        }
-        None
-    }
-
-    /// Whether these are ranges of the receiver of the intake's choice, while another is used for its lies.
-    fn is_of_liar(&self, received: &Received) -> bool {
-        let (Message::Ranges(_) | Message::Rtk(_), Source::Gnss(number)) =
-            (&received.message, received.source)
-        else {
-            return false;
-        };
-        self.receivers.is_own_choice && self.receivers.in_use != Some(index(number))
-    }
-
-    /// Uses another receiver if another is better, and tells it where the intake does not.
-    fn choose_receiver(&mut self, now: Time) {
-        if let Some(own) = self.receivers.in_use.filter(|_| self.surveyor.is_fix_frozen())
-            && let Some(heard) = &mut self.receivers.heard[own]
-        {
-            heard.frozen = heard.place;
-        }
-        let docket = self.docket();
-        let Some(to) = self.receivers.best(&docket, now) else { return };
-        let before = self.receivers.in_use.replace(to);
-        let is_own = self.receivers.heard[to].is_some_and(|heard| heard.rank > 0);
-        let was_own = std::mem::replace(&mut self.receivers.is_own_choice, is_own);
-        let Some(from) = before.filter(|from| *from != to) else { return };
-        let is_for_lie = self.receivers.class(from, &docket) == 2;
-        self.surveyor.forget_receiver();
-        if is_own || was_own {
-            let [from, to] = [from, to].map(|own| Party::RECEIVERS[own]);
-            let change = ReceiverChange { from, to, is_for_lie };
-            self.tell(Event::ReceiverUsed { time: now, change });
-        }
-    }
-
-    /// How far everybody is believed.
-    pub(crate) fn docket(&self) -> Docket {
-        self.ship().and_then(Ship::docket).unwrap_or(self.nav.docket)
-    }
-
-    /// Lets the judge compare a fix, carried on to the newest sample of the IMU: what it is compared with to metres need
-    /// not send the ship back on her time line.
-    fn compare(&mut self, received: &Received) {
-        let (checked, _) = checks::checked(received, self.config.vessel);
-        let checked = self.surveyor.completed(&checked);
-        let Stage::Running(line) = &mut self.stage else { return };
-        let Message::Gnss(fix) = checked.message else { return };
-        let late = line.now() - fix.time;
-        if line.estimator().has_one_heading() && late < HISTORY {
-            let fix = if late.as_seconds() > 0.0 { carried(&fix, line.now()) } else { fix };
-            // nothing comes of it that would have to be told: the judge looks at it once a second
-            line.measure(&Received { message: Message::Gnss(fix), ..checked });
-        }
-    }
-}
-
-/// A fix as it would be at a later instant.
-fn carried(fix: &GnssFix, to: Time) -> GnssFix {
-    let late = (to - fix.time).as_seconds();
-    let v_n = fix.velocity.map_or_else(Vector3::zeros, |velocity| velocity.0);
-    let way = v_n.map(|v| if v.is_finite() { v * late } else { 0.0 });
-    let moved = |place: Geodetic| {
-        earth::geodetic(&Ecef(earth::ecef(&place).0 + earth::c_ne(&place).tr_mul(&way)))
-    };
-    let unsure = |std: Ned| Ned(std.0.map(|std| std.hypot(UNSEEN * late)));
-    GnssFix {
-        time: to,
-        position: fix.position.map(moved),
-        velocity_std: fix.velocity_std.map(unsure),
-        ..*fix
     }
 }

@@ -1,6 +1,6 @@
 //! The ship on her time line: finding her heading, then navigating.
 
-use insd_alignment::bank::Kinematics;
+use insd_alignment::kinematics::Kinematics;
 use insd_alignment::{
     AlignmentConfig, Bank, EightState, InMotion, Level, StoredState, StoredVerdict,
 };
@@ -78,7 +78,7 @@ impl Ship {
         Ship::Aligning { bank, heir }
     }
 
-    pub(crate) fn in_motion(
+    fn in_motion(
         config: &NavConfig,
         level: &Level,
         kinematics: &Kinematics,
@@ -314,8 +314,8 @@ impl Ship {
         if is_compared(received) {
             return;
         }
-        if let Some(ship) = heir.called_by(received, bank) {
-            *self = ship;
+        if let Some((level, kinematics, berth)) = heir.called_by(received, bank) {
+            *self = Ship::in_motion(&heir.config, &level, &kinematics, berth);
         }
     }
 

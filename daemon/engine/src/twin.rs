@@ -4,9 +4,9 @@
 //! same to look at. So an engine that takes the step back goes on beside the first for a minute. Who steers by wrong times meets
 //! each wave and each turn too late: the sum of the normalised squares of the innovations tells them apart.
 
-use insd_base::{Event, Received, Span, Time};
+use insd_base::{Span, Time};
 
-use crate::{Engine, Output};
+use crate::output::Output;
 
 /// A twin lives so long, s.
 const LIFE: f64 = 60.0;
@@ -18,10 +18,10 @@ const TIMES: f64 = 2.0;
 
 /// The engine that takes the gap for a step.
 #[derive(Clone, Debug)]
-pub(crate) struct Twin {
-    engine: Box<Engine>,
-    since: Time,
-    step: f64,
+pub(crate) struct Twin<E> {
+    pub(crate) engine: Box<E>,
+    pub(crate) since: Time,
+    pub(crate) step: f64,
     /// What the first has heard, and what this has.
     first: Heard,
     own: Heard,
@@ -38,51 +38,29 @@ struct Heard {
 }
 
 /// How it ended.
-enum Ending {
+pub(crate) enum Ending {
     Right,
     Wrong,
 }
 
-impl Engine {
-    /// Lets a twin begin where samples may be missing, or not.
-    pub(crate) fn bear_twin(&mut self, received: &Received, step: f64) {
-        if self.twin.is_some() {
-            return;
-        }
-        let mut engine = Box::new(self.clone());
-        engine.stamps.take_back(step);
-        let since = received.message.time();
+impl<E> Twin<E> {
+    pub(crate) fn new(engine: E, since: Time, step: f64) -> Self {
         let (first, own) = (Heard::default(), Heard::default());
-        self.twin = Some(Twin { engine, since, step, first, own });
+        Twin { engine: Box::new(engine), since, step, first, own }
     }
 
-    /// The twin hears the same; `before` outputs were there before this engine heard it.
-    pub(crate) fn hear_with_twin(&mut self, received: &Received, before: usize) {
-        let Some(mut twin) = self.twin.take() else { return };
-        let from = twin.since + Span::from_seconds(SETTLED);
-        twin.first.extend(squares(self.outputs.iter().skip(before), from));
-        twin.engine.handle_alone(received);
-        twin.own.extend(squares(twin.engine.outputs.iter(), from));
-        twin.engine.outputs.clear();
-        match twin.ending(received.message.time()) {
-            None => self.twin = Some(twin),
-            Some(Ending::Wrong) => {}
-            Some(Ending::Right) => self.become_twin(twin),
-        }
+    /// What the first and this one have made of a message.
+    pub(crate) fn compare<'a>(
+        &mut self,
+        first: impl Iterator<Item = &'a Output>,
+        own: impl Iterator<Item = &'a Output>,
+    ) {
+        let from = self.since + Span::from_seconds(SETTLED);
+        self.first.extend(squares(first, from));
+        self.own.extend(squares(own, from));
     }
 
-    fn become_twin(&mut self, twin: Twin) {
-        let (outputs, next) = (std::mem::take(&mut self.outputs), self.next_epoch);
-        *self = *twin.engine;
-        self.outputs = outputs;
-        // what was told is not told again
-        self.next_epoch = next;
-        self.tell(Event::ImuClock { time: twin.since, step: twin.step });
-    }
-}
-
-impl Twin {
-    fn ending(&mut self, now: Time) -> Option<Ending> {
+    pub(crate) fn ending(&mut self, now: Time) -> Option<Ending> {
         let until = self.first.latest.min(self.own.latest);
         let (first, own) = (self.first.misfit_until(until), self.own.misfit_until(until));
         let is_old = (now - self.since).as_seconds() > LIFE;

@@ -1,11 +1,8 @@
 //! Innovations: what every measurement is turned into.
 
-use nalgebra::{Cholesky, DMatrix, DVector, SMatrix, SVector};
+use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
-use crate::covariance::Covariance;
 use crate::jacobian::Jacobian;
-use crate::sums::{axpy, column_mut};
-use crate::weighed::{Weighed, p_h_transposed, symmetric};
 
 /// Measured minus predicted, and how it depends on the error state: z = H x + noise(R).
 #[derive(Clone, Debug, PartialEq)]
@@ -68,24 +65,5 @@ impl Innovation {
             at += one.rows();
         }
         Innovation { z, h: Jacobian::stacked(all.map(|one| &one.h)), r }
-    }
-
-    /// Computes S = H P H^T + R and factors it; `None` if S is not positive definite or a value is
-    /// not finite.
-    #[must_use]
-    pub fn weigh(&self, p: &Covariance) -> Option<Weighed> {
-        if self.rows() == 0 || !self.z.iter().all(|x| x.is_finite()) {
-            return None;
-        }
-        let columns = self.h.columns(p.layout());
-        let pht = p_h_transposed(p.matrix(), &columns, self.rows());
-        let mut s = self.r.clone();
-        for (state, column) in &columns {
-            for row in 0..self.rows() {
-                axpy(pht[(*state, row)], column, column_mut(&mut s, row));
-            }
-        }
-        let factor = Cholesky::new(symmetric(s))?;
-        Some(Weighed::new(self.clone(), p.layout().clone(), pht, factor))
     }
 }

@@ -17,6 +17,7 @@ struct Readme;
 mod block;
 mod checkpoint;
 mod covariance;
+mod covariance_of_block;
 mod effects;
 mod errors;
 mod gate;

@@ -28,16 +28,29 @@ pub struct Weighed {
 /// covariances is not far from rounding.
 const SURE: f64 = 1e9;
 
-impl Weighed {
-    pub(crate) fn new(
-        innovation: Innovation,
-        layout: Layout,
-        pht: DMatrix<f64>,
-        factor: Cholesky<f64, Dyn>,
-    ) -> Self {
-        Weighed { innovation, layout, pht, factor, root: OnceCell::new() }
+impl Innovation {
+    /// Computes S = H P H^T + R and factors it; `None` if S is not positive definite or a value is
+    /// not finite.
+    #[must_use]
+    pub fn weigh(&self, p: &Covariance) -> Option<Weighed> {
+        if self.rows() == 0 || !self.z.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        let columns = self.h.columns(p.layout());
+        let pht = p_h_transposed(p.matrix(), &columns, self.rows());
+        let mut s = self.r.clone();
+        for (state, column) in &columns {
+            for row in 0..self.rows() {
+                axpy(pht[(*state, row)], column, column_mut(&mut s, row));
+            }
+        }
+        let factor = Cholesky::new(symmetric(s))?;
+        let layout = p.layout().clone();
+        Some(Weighed { innovation: self.clone(), layout, pht, factor, root: OnceCell::new() })
     }
+}
 
+impl Weighed {
     /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {
@@ -234,11 +247,7 @@ impl Weighed {
 }
 
 /// P H^T, by the columns of H that are not empty.
-pub(crate) fn p_h_transposed(
-    p: &DMatrix<f64>,
-    columns: &[(usize, &[f64])],
-    rows: usize,
-) -> DMatrix<f64> {
+fn p_h_transposed(p: &DMatrix<f64>, columns: &[(usize, &[f64])], rows: usize) -> DMatrix<f64> {
     let mut pht = DMatrix::zeros(p.nrows(), rows);
     for row in 0..rows {
         let terms = columns.iter().map(|(state, by)| (by[row], column(p, *state)));
@@ -247,7 +256,7 @@ pub(crate) fn p_h_transposed(
     pht
 }
 
-pub(crate) fn symmetric(s: DMatrix<f64>) -> DMatrix<f64> {
+fn symmetric(s: DMatrix<f64>) -> DMatrix<f64> {
     let transposed = s.transpose();
     (s + transposed) * 0.5
 }

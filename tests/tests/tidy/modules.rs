@@ -83,6 +83,19 @@ impl Modules {
         self.named.iter().map(|own| (own.0, needs(own))).collect()
     }
 
+    /// Which of them needs which, of those that need each other.
+    pub(crate) fn ties(&self) -> BTreeSet<(Module, Module)> {
+        let (needs, circles) = (self.needs(), self.circles());
+        let of_circle = |circle: &BTreeSet<Module>| {
+            let inside = |module: &Module| {
+                let others = needs[module].intersection(circle).cloned();
+                others.map(|other| (module.clone(), other)).collect::<Vec<_>>()
+            };
+            circle.iter().flat_map(inside).collect::<Vec<_>>()
+        };
+        circles.iter().flat_map(of_circle).collect()
+    }
+
     /// Modules that need each other, all of a circle together.
     pub(crate) fn circles(&self) -> BTreeSet<BTreeSet<Module>> {
         let needs = self.needs();

@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 
+use super::checksum::{checksum, stated_checksum};
 use super::fault::Fault;
 use super::fields::{Fields, LeftOut};
 use super::line::Talker;
@@ -27,12 +28,6 @@ pub enum ChecksumPolicy {
     Required,
     /// It is taken: there are ships' devices that send none.
     Optional,
-}
-
-/// Exclusive or of all bytes, as between `$` and `*`.
-#[must_use]
-pub fn checksum(bytes: &[u8]) -> u8 {
-    bytes.iter().fold(0, |sum, byte| sum ^ byte)
 }
 
 impl<'a> Frame<'a> {
@@ -160,18 +155,6 @@ fn checked(content: &[u8], policy: ChecksumPolicy) -> Result<&[u8], Fault> {
     let stated = tail.get(1..).and_then(stated_checksum).ok_or(Fault::NoChecksum)?;
     let computed = checksum(text);
     if stated == computed { Ok(text) } else { Err(Fault::WrongChecksum { stated, computed }) }
-}
-
-/// The checksum that two hexadecimal digits state.
-pub(crate) fn stated_checksum(digits: &[u8]) -> Option<u8> {
-    match digits {
-        [high, low] => Some(hex(*high)? << 4 | hex(*low)?),
-        _ => None,
-    }
-}
-
-fn hex(byte: u8) -> Option<u8> {
-    (byte as char).to_digit(16).and_then(|digit| u8::try_from(digit).ok())
 }
 
 #[cfg(test)]

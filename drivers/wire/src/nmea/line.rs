@@ -2,9 +2,9 @@
 
 use std::fmt;
 
+use super::checksum::checksum;
 use super::civil::TimeOfDay;
 use super::decimal::{Form, power_of_ten, scaled};
-use super::frame::checksum;
 use super::position::Position;
 
 /// Longest sentence of the standard, bytes from `$` to line feed (IEC 61162-1).

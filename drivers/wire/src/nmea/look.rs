@@ -1,6 +1,6 @@
 //! Where a line begins and ends in a stream.
 
-use super::frame::{checksum, stated_checksum};
+use super::checksum::{checksum, stated_checksum};
 use super::tag::{DATAGRAM_HEADER, TagBlock};
 use crate::stream::Look;
 

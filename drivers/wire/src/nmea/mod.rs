@@ -25,6 +25,7 @@
 //! Sources: gpsd `www/NMEA.adoc` for the layouts; manuals of receivers where a file names them.
 
 mod bits;
+mod checksum;
 mod civil;
 mod decimal;
 mod fault;
@@ -97,11 +98,12 @@ pub use alert::{
 };
 pub use alf::Alf;
 pub use arc::Arc;
+pub use checksum::checksum;
 pub use civil::{CivilTime, Date, TimeOfDay};
 pub use dtm::{Datum, Dtm};
 pub use fault::Fault;
 pub use fields::{Fields, LeftOut};
-pub use frame::{ChecksumPolicy, Frame, checksum};
+pub use frame::{ChecksumPolicy, Frame};
 pub use gbs::Gbs;
 pub use gga::Gga;
 pub use gll::Gll;

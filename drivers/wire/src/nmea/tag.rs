@@ -11,9 +11,9 @@
 
 use insd_base::UtcTime;
 
+use super::checksum::checksum;
 use super::civil::nanoseconds;
 use super::decimal::parse_digits;
-use super::frame::checksum;
 use super::line::Line;
 
 /// First bytes of a datagram with sentences.

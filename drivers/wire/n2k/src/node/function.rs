@@ -8,7 +8,7 @@ use insd_base::{Span, Time};
 
 use super::answers::Answer;
 use super::pairs::{self, CLAIM, CLAIM_BITS, CONFIGURATION, LIST, PRODUCT, Width};
-use super::replies::PULSE;
+use super::pulse::PULSE;
 use super::{Node, NodeEvent, Transmit};
 use crate::groups::{
     Acknowledge, Command, Configuration, GroupFunction, GroupRequest, Heartbeat, INTERVAL_DEFAULT,

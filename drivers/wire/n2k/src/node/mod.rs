@@ -19,6 +19,7 @@ mod config;
 mod event;
 mod function;
 mod pairs;
+mod pulse;
 mod queue;
 mod random;
 mod reception;
@@ -46,10 +47,10 @@ use crate::{ADDRESS_CLAIM, Assembler, BROADCAST, Message, N2kId, NULL_ADDRESS, R
 use answers::{Answer, Answers};
 use budget::Budget;
 use claim::{Claim, Step};
+use pulse::Pulse;
 use queue::{Kind, Queue};
 use random::Random;
 use reception::Reception;
-use replies::Pulse;
 
 /// Events that wait for the owner; when there are more the oldest are dropped.
 const MAX_EVENTS: usize = 64;

@@ -1,7 +1,7 @@
 //! External blocks: what the sensors of the system told it.
 
+use super::composer::Composer;
 use super::sizes::{Blocks, floats};
-use super::telegram::Composer;
 use crate::binary::{Reader, Writer};
 
 /// The external blocks that are read.

@@ -29,6 +29,7 @@
 //! agree with 9.81, and no status says so: it seems that some systems do not fill these blocks. Such a
 //! reading is not valid.
 
+mod composer;
 mod external;
 mod reading;
 mod sizes;

@@ -3,6 +3,7 @@
 use insd_base::UtcTime;
 use insd_base::units::DEG;
 
+use super::composer::Composer;
 use super::external::External;
 use super::sizes::{self, Blocks, cut, floats, words};
 use super::{SUM, checksum, header_length, is_sound};
@@ -256,45 +257,4 @@ fn date(block: &[u8]) -> Option<(u16, u8, u8)> {
     let mut reader = Reader::new(block);
     let (day, month) = (reader.u8().ok()?, reader.u8().ok()?);
     Some((reader.be_u16().ok()?, month, day))
-}
-
-/// Masks and blocks in the making. Blocks must come in the order of their bits; a place is the number
-/// of the mask (navigation, extended, external) and the bit.
-#[derive(Debug, Default)]
-pub(super) struct Composer {
-    masks: [u32; 3],
-    body: Writer,
-}
-
-impl Composer {
-    /// Begins a block and says where to write it.
-    pub(super) fn block(&mut self, (mask, bit): (usize, u32)) -> &mut Writer {
-        if let Some(mask) = self.masks.get_mut(mask) {
-            *mask |= 1 << bit;
-        }
-        &mut self.body
-    }
-
-    fn floats<const N: usize>(
-        &mut self,
-        place: (usize, u32),
-        values: Option<[f64; N]>,
-        units: [f64; N],
-    ) {
-        if let Some(values) = values {
-            let block = self.block(place);
-            for (value, unit) in values.iter().zip(units) {
-                block.be_f32((value / unit) as f32);
-            }
-        }
-    }
-
-    fn words<const N: usize>(&mut self, place: (usize, u32), words: Option<[u32; N]>) {
-        if let Some(words) = words {
-            let block = self.block(place);
-            for word in words {
-                block.be_u32(word);
-            }
-        }
-    }
 }
