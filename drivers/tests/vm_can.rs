@@ -16,7 +16,7 @@ use std::thread::sleep;
 use std::time::Duration;
 
 use insd_base::{Arrival, BusEvent, CanFrame, CanId, Input, PortId, PortState, Span, Stamp, Time};
-use insd_drivers::can::{CanConfig, CanFilter, SharedSpeaker, Socketcan, Speaker, spawn};
+use insd_drivers::can::{CanFilter, SharedSpeaker, Socketcan, Speaker, spawn};
 use insd_drivers::ports::{
     Clock, PortConfig, PortHandle, Receiver, Surroundings, Transport, WAITING_LIMIT, queue,
 };
@@ -166,7 +166,7 @@ impl Bench {
         let mut builder = tokio::runtime::Builder::new_multi_thread();
         let runtime = builder.worker_threads(1).enable_all().build().unwrap();
         let port = runtime.block_on(async {
-            let config = CanConfig::of(&config).unwrap();
+            let config = config.as_can().unwrap();
             spawn(PortId(1), config, surroundings, Some(node.for_port()))
         });
         Bench { clock, node, receiver, port, runtime, _turn: turn }

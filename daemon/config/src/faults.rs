@@ -1,7 +1,5 @@
 //! Everything that types alone cannot refuse.
 
-use insd_drivers::can::CanConfig;
-
 use crate::berths;
 use crate::cameras;
 use crate::file::Config;
@@ -75,7 +73,7 @@ fn nodes(config: &Config, faults: &mut Vec<String>) {
         }
         let mut ports = config.ports.iter().zip(config.port_configs());
         let is_bus =
-            ports.any(|(port, opened)| port.name == node.port && CanConfig::of(&opened).is_some());
+            ports.any(|(port, opened)| port.name == node.port && opened.as_can().is_some());
         if !is_bus {
             faults.push(format!("{place}: port: expected the name of a CAN port"));
         }

@@ -2,7 +2,7 @@
 
 use insd_base::{Arrival, PortId};
 use insd_config::{Config, PortSection};
-use insd_drivers::can::{self, CanConfig};
+use insd_drivers::can;
 use insd_drivers::ports::{self, Outgoing, PortConfig, PortHandle, Surroundings};
 use insd_output::{Port, PortMessage};
 use tokio::runtime::Handle;
@@ -121,7 +121,7 @@ impl Connections {
     fn listen(&self, id: PortId, section: &PortSection, port: PortConfig) -> PortHandle {
         let surroundings = self.surroundings.clone();
         let node = self.nodes.iter().find(|node| node.port == section.name);
-        match CanConfig::of(&port).zip(node) {
+        match port.as_can().zip(node) {
             Some((bus, node)) => can::spawn(id, bus, surroundings, Some(node.node.for_port())),
             None => ports::spawn(id, port, surroundings),
         }

@@ -8,7 +8,7 @@ use insd_n2k::text::slcan;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::ports::{Hosts, PortConfig, Transport};
+use crate::ports::Hosts;
 
 /// A CAN port.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,26 +127,6 @@ pub struct CanFilter {
 }
 
 impl CanConfig {
-    /// The CAN port that this port is; `None` if it is of another kind.
-    #[must_use]
-    pub fn of(port: &PortConfig) -> Option<Self> {
-        let transport = match port.transport.clone() {
-            Transport::Socketcan(socketcan) => CanTransport::Socketcan(socketcan),
-            Transport::Slcan(slcan) => CanTransport::Slcan(slcan),
-            Transport::GatewayTcp(gateway) => CanTransport::GatewayTcp(gateway),
-            Transport::GatewayUdp(gateway) => CanTransport::GatewayUdp(gateway),
-            Transport::Candump(candump) => CanTransport::Candump(candump),
-            _ => return None,
-        };
-        let PortConfig { patience_s, write, filters, .. } = port;
-        Some(CanConfig {
-            transport,
-            patience_s: *patience_s,
-            write: *write,
-            filters: filters.clone(),
-        })
-    }
-
     /// All that is wrong with what only CAN ports have, in words.
     #[must_use]
     pub fn faults(&self) -> Vec<String> {
@@ -217,6 +197,7 @@ fn default_bitrate() -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ports::PortConfig;
 
     fn port(text: &str) -> PortConfig {
         toml::from_str(text).unwrap()
@@ -234,7 +215,7 @@ mod tests {
         ] {
             let port = port(text);
             assert_eq!(port.faults(), Vec::<String>::new());
-            assert!(CanConfig::of(&port).is_some());
+            assert!(port.as_can().is_some());
         }
     }
 

@@ -19,7 +19,7 @@ use std::path::PathBuf;
 
 use insd_base::{PortId, Span, UtcTime};
 
-use super::run::Surroundings;
+use super::surroundings::Surroundings;
 use super::teller::Teller;
 
 const MAGIC: i32 = 0x534f_434b;

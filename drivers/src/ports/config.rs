@@ -1,6 +1,7 @@
 //! What a port is: plain types, readable from a configuration file. Unknown keys are refused; what a
 //! type cannot refuse is found by [`PortConfig::faults`] and [`OutputConfig::faults`].
 
+mod as_can;
 mod faults;
 
 use std::net::{Ipv4Addr, SocketAddr};

@@ -4,9 +4,9 @@ use tokio::fs::OpenOptions;
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::unix::pipe;
 
+use super::attempt::Outcome;
 use super::config::File;
 use super::outbox::Outbox;
-use super::run::Outcome;
 use super::stream::{READ, listen as listen_to};
 use super::teller::Teller;
 

@@ -36,6 +36,7 @@
 //! The time of receipt is that of the return of a read, by the given [`Clock`]; of pulses and of frames of
 //! the kernel's CAN interfaces it is the kernel's.
 
+mod attempt;
 mod cable;
 mod chrony;
 mod clock;
@@ -43,8 +44,10 @@ mod config;
 mod doorman;
 mod file;
 mod found;
+mod handle;
 mod histogram;
 mod hosts;
+mod judge;
 mod low_latency;
 mod ntrip;
 mod outbox;
@@ -57,6 +60,7 @@ mod queue;
 mod run;
 mod serial;
 mod stream;
+mod surroundings;
 mod tally;
 mod tcp;
 mod teller;
@@ -71,15 +75,17 @@ pub use config::{
     SerialMode, TcpClient, TcpServer, Transport, Udp, UdpOutput,
 };
 pub use found::{FoundKind, FoundPort, list};
+pub use handle::{OutputPort, PortHandle};
 pub use hosts::{Hosts, Network, NoNetwork};
+pub use judge::{Judge, Judgement};
 pub use ntrip::Ntrip;
 pub use outgoing::{AgeStatus, Outgoing, OutputStatus, SlotStatus};
-pub use probe::{Judge, Judgement};
 pub use queue::{FRAME, Queue, Receiver, WAITING_LIMIT, queue};
-pub use run::{OutputPort, PortHandle, Surroundings, spawn, spawn_output};
+pub use run::{spawn, spawn_output};
+pub use surroundings::Surroundings;
 
+pub(crate) use attempt::{FIRST_PAUSE, LONGEST_PAUSE, Outcome, Pause, tell};
 pub(crate) use clock::{both_clocks, monotonic_at};
-pub(crate) use run::{FIRST_PAUSE, LONGEST_PAUSE, Outcome, Pause, tell};
 pub(crate) use serial::{Line, open_line};
 pub(crate) use tcp::{CALLING, keep_alive};
 pub(crate) use teller::Teller;

@@ -14,9 +14,9 @@ use insd_base::{Pulse, Span, UtcTime};
 use pps_time::PpsDevice;
 use pps_time::pps::{pps_fdata, pps_ktime};
 
+use super::attempt::{Outcome, Pause, tell};
 use super::clock::{both_clocks, monotonic_at};
 use super::config::{Edge, Pps};
-use super::run::{Outcome, Pause, tell};
 use super::teller::Teller;
 
 /// Longest wait for one edge, seconds: also how soon the thread stops.

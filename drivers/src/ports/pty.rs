@@ -18,10 +18,10 @@ use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{OptionalActions, QueueSelector, tcflush, tcgetattr, tcsetattr};
 use tokio::time::sleep;
 
+use super::attempt::Outcome;
 use super::config::Pty as Config;
 use super::outbox::Outbox;
 use super::pace::Pace;
-use super::run::Outcome;
 use super::teller::Teller;
 
 /// Bytes that may wait for a reader in the kernel before one more message, of the 4095 that it can hold.

@@ -1,34 +1,25 @@
 //! The task of a port: open, listen, lose, wait, open again, for ever.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, PoisonError};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use insd_base::{PortId, Span, Stamp};
-use tokio::task::AbortHandle;
 use tokio::time::sleep;
 
-use super::clock::Clock;
+use super::attempt::{Outcome, Pause, tell};
 use super::config::{Destination, OutputConfig, PortConfig, Serial, Transport};
+use super::handle::{OutputPort, PortHandle, Work};
+use super::judge::Judge;
 use super::ntrip::Ntrip;
 use super::outbox::{Keeping, Outbox, Outlet};
-use super::outgoing::{Outgoing, OutputStatus};
-use super::probe::Judge;
-use super::queue::Queue;
-use super::teller::{Shown, Teller};
+use super::surroundings::Surroundings;
+use super::teller::Teller;
 use super::{file, ntrip, pps, pty, serial, tcp, udp};
-use crate::can::{self, CanConfig};
-
-/// First and longest pause before a port is opened again; each is twice the one before.
-pub(crate) const FIRST_PAUSE: Duration = Duration::from_millis(200);
-pub(crate) const LONGEST_PAUSE: Duration = Duration::from_secs(5);
+use crate::can;
 
 /// Longest pause before a caster is called again.
 const CASTER_PAUSE: Duration = Duration::from_secs(60);
-
-/// A port that was open for so long starts with the first pause again; one that comes and goes more
-/// quickly is waited for longer and longer.
-const LASTING: Span = Span::from_nanos(5_000_000_000);
 
 /// Bytes that may wait to be written where nothing else is said.
 const OUTBOX_LIMIT: usize = 64 * 1024;
@@ -38,52 +29,6 @@ const FILE_LIMIT: usize = 1024 * 1024;
 
 /// Seconds' worth of bytes that may wait for a serial line where all is kept in order.
 const SERIAL_SECONDS: u32 = 2;
-
-/// What every port is given.
-#[derive(Clone)]
-pub struct Surroundings {
-    /// Tells the time of receipt.
-    pub clock: Arc<dyn Clock>,
-    /// Takes what arrives, and each change of state.
-    pub queue: Queue,
-    /// Judges the bytes of a serial line whose baud rate is searched. Without a judge the rate is the
-    /// configured one.
-    pub judge: Option<Judge>,
-}
-
-/// A port at work. It stops when this is dropped.
-#[must_use = "the port stops when its handle is dropped"]
-#[derive(Debug)]
-pub struct PortHandle {
-    work: Work,
-    outlet: Option<Outlet>,
-    attempts: Arc<AtomicU64>,
-}
-
-/// A port that is only written to, at work. It stops when this is dropped.
-#[must_use = "the port stops when its handle is dropped"]
-#[derive(Debug)]
-pub struct OutputPort {
-    handle: PortHandle,
-    outlet: Outlet,
-    shown: Shown,
-}
-
-#[derive(Debug)]
-enum Work {
-    Task(AbortHandle),
-    Thread(Arc<AtomicBool>),
-}
-
-/// How an attempt ended.
-pub(crate) enum Outcome {
-    /// It could not be opened.
-    Absent(String),
-    /// It was open and was lost.
-    Lost(String),
-    /// There is no more to come.
-    Ended,
-}
 
 /// What is to be written, for those that write.
 struct Written {
@@ -104,7 +49,7 @@ enum Link {
 /// its reason, and opens the device again by its configured name after a pause of 0.2 s, which doubles
 /// up to 5 s. Only a file ends. A CAN port is listened to, see [`can::spawn`].
 pub fn spawn(port: PortId, config: PortConfig, surroundings: Surroundings) -> PortHandle {
-    if let Some(config) = CanConfig::of(&config) {
+    if let Some(config) = config.as_can() {
         return can::spawn(port, config, surroundings, None);
     }
     let Surroundings { clock, queue, judge } = surroundings;
@@ -118,10 +63,10 @@ pub fn spawn(port: PortId, config: PortConfig, surroundings: Surroundings) -> Po
     let work = match config.transport {
         Transport::Pps(pps) => Work::Thread(pps::spawn(pps, teller, Arc::clone(&attempts))),
         transport => {
-            Work::task(Link::Input(transport, judge), teller, outlet.clone(), Arc::clone(&attempts))
+            start(Link::Input(transport, judge), teller, outlet.clone(), Arc::clone(&attempts))
         }
     };
-    PortHandle { work, outlet, attempts }
+    PortHandle::new(work, outlet, attempts)
 }
 
 /// Starts an output. To be called inside a tokio runtime that can do I/O and timers. Its states are
@@ -145,96 +90,15 @@ pub fn spawn_output(port: PortId, config: OutputConfig, surroundings: Surroundin
     let shown = teller.shown();
     let attempts = Arc::<AtomicU64>::default();
     let link = Link::Output(config.destination);
-    let work = Work::task(link, teller, Some(outlet.clone()), Arc::clone(&attempts));
-    OutputPort { handle: PortHandle { work, outlet: None, attempts }, outlet, shown }
+    let work = start(link, teller, Some(outlet.clone()), Arc::clone(&attempts));
+    OutputPort::new(PortHandle::new(work, None, attempts), outlet, shown)
 }
 
-impl PortHandle {
-    /// A port that a task of its own listens to.
-    pub(crate) fn of_task(task: AbortHandle, attempts: Arc<AtomicU64>) -> Self {
-        PortHandle { work: Work::Task(task), outlet: None, attempts }
-    }
-
-    /// Hands over what grows old: where the ship is, for a caster. Gives whether the port takes it.
-    pub fn offer(&self, message: Outgoing) -> bool {
-        let Some(outlet) = &self.outlet else { return false };
-        outlet.send(message);
-        true
-    }
-
-    /// Puts a whole message behind what is still to be written, and never waits: a command, for example.
-    /// Gives whether the port is one that is written to. When too many bytes wait the oldest go.
-    pub fn send(&self, message: Vec<u8>) -> bool {
-        let Some(outlet) = &self.outlet else { return false };
-        let (valid, period) = (outlet.now(), Span::ZERO);
-        outlet.send(Outgoing { slot: 0, bytes: message, valid, period });
-        true
-    }
-
-    /// Whole messages that were dropped since the start, the oldest first, because they could not be
-    /// written soon enough. Of a TCP server: counted for each client.
-    #[must_use]
-    pub fn dropped(&self) -> u64 {
-        self.outlet.as_ref().map_or(0, |outlet| outlet.tally().all_dropped())
-    }
-
-    /// How often it was tried to open the port.
-    #[must_use]
-    pub fn attempts(&self) -> u64 {
-        self.attempts.load(Ordering::Relaxed)
-    }
-}
-
-impl Drop for PortHandle {
-    fn drop(&mut self) {
-        match &self.work {
-            Work::Task(task) => task.abort(),
-            Work::Thread(stop) => stop.store(true, Ordering::Relaxed),
-        }
-    }
-}
-
-impl OutputPort {
-    /// Hands a message over, and never waits.
-    pub fn send(&self, message: Outgoing) {
-        self.outlet.send(message);
-    }
-
-    /// What it has done since its start.
-    #[must_use]
-    pub fn status(&self) -> OutputStatus {
-        let slots = self.outlet.tally().status();
-        OutputStatus {
-            state: self.shown.lock().unwrap_or_else(PoisonError::into_inner).clone(),
-            attempts: self.handle.attempts(),
-            sent: slots.iter().map(|slot| slot.sent).sum(),
-            dropped: slots.iter().map(|slot| slot.dropped).sum(),
-            waiting: slots.iter().map(|slot| slot.waiting).sum(),
-            bytes: slots.iter().map(|slot| slot.bytes).sum(),
-            slots,
-        }
-    }
-
-    /// Messages of all slots that will never leave, see [`OutputStatus::dropped`].
-    #[must_use]
-    pub fn dropped(&self) -> u64 {
-        self.outlet.tally().all_dropped()
-    }
-
-    /// See [`PortHandle::attempts`].
-    #[must_use]
-    pub fn attempts(&self) -> u64 {
-        self.handle.attempts()
-    }
-}
-
-impl Work {
-    fn task(link: Link, teller: Teller, outlet: Option<Outlet>, attempts: Arc<AtomicU64>) -> Self {
-        // made before the task starts, so that nothing that is handed over meanwhile is missed
-        let outbox = outlet.as_ref().filter(|_| !link.has_clients()).map(Outlet::outbox);
-        let written = Written { outbox, outlet };
-        Work::Task(tokio::spawn(run(link, teller, written, attempts)).abort_handle())
-    }
+fn start(link: Link, teller: Teller, outlet: Option<Outlet>, attempts: Arc<AtomicU64>) -> Work {
+    // made before the task starts, so that nothing that is handed over meanwhile is missed
+    let outbox = outlet.as_ref().filter(|_| !link.has_clients()).map(Outlet::outbox);
+    let written = Written { outbox, outlet };
+    Work::Task(tokio::spawn(run(link, teller, written, attempts)).abort_handle())
 }
 
 impl Link {
@@ -269,19 +133,6 @@ async fn run(link: Link, mut teller: Teller, written: Written, attempts: Arc<Ato
         // whoever serves many is not called by all of them at once
         sleep(if link.is_shared() { spread(wait, teller.now()) } else { wait }).await;
     }
-}
-
-/// Tells how an attempt ended. Gives whether there is to be another.
-pub(crate) fn tell(outcome: Outcome, teller: &mut Teller) -> bool {
-    match outcome {
-        Outcome::Absent(reason) => teller.absent(reason),
-        Outcome::Lost(reason) => teller.lost(reason),
-        Outcome::Ended => {
-            teller.ended();
-            return false;
-        }
-    }
-    true
 }
 
 async fn attempt(
@@ -376,49 +227,11 @@ fn serial_limit(serial: &Serial) -> usize {
     usize::try_from(a_second.saturating_mul(SERIAL_SECONDS)).unwrap_or(OUTBOX_LIMIT).max(1024)
 }
 
-/// The pauses between attempts.
-pub(crate) struct Pause {
-    next: Duration,
-    longest: Duration,
-}
-
-impl Default for Pause {
-    fn default() -> Self {
-        Pause { next: FIRST_PAUSE, longest: LONGEST_PAUSE }
-    }
-}
-
-impl Pause {
-    /// Pauses that grow up to this one.
-    pub(crate) fn up_to(longest: Duration) -> Self {
-        Pause { next: FIRST_PAUSE, longest }
-    }
-
-    /// The next pause, after a port that was open for so long.
-    pub(crate) fn after(&mut self, open_for: Span) -> Duration {
-        if open_for >= LASTING {
-            self.next = FIRST_PAUSE;
-        }
-        let pause = self.next;
-        self.next = (pause * 2).min(self.longest);
-        pause
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use insd_base::{Time, UtcTime};
 
     use super::*;
-
-    #[test]
-    fn pauses_double_up_to_five_seconds_and_start_again_after_a_lasting_opening() {
-        let mut pause = Pause::default();
-        let brief = Span::from_seconds(1.0);
-        let millis: Vec<u128> = (0..7).map(|_| pause.after(brief).as_millis()).collect();
-        assert_eq!(millis, [200, 400, 800, 1600, 3200, 5000, 5000]);
-        assert_eq!(pause.after(LASTING), FIRST_PAUSE);
-    }
 
     #[test]
     fn pauses_of_those_who_call_one_caster_differ() {

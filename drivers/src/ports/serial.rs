@@ -12,12 +12,13 @@ use rustix::fs::{Mode, OFlags};
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio_serial::{ClearBuffer, SerialPort, SerialPortBuilder, SerialStream};
 
+use super::attempt::Outcome;
 use super::config::{FlowControl, Parity, Serial};
+use super::judge::{Doubt, Judge};
 use super::low_latency;
 use super::outbox::Outbox;
 use super::pace::Pace;
-use super::probe::{Doubt, Judge, probe};
-use super::run::Outcome;
+use super::probe::probe;
 use super::stream::converse;
 use super::teller::Teller;
 

@@ -7,9 +7,9 @@ use std::pin::Pin;
 use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt};
 use tokio::time::timeout;
 
+use super::judge::Doubt;
 use super::outbox::Outbox;
 use super::pace::Pace;
-use super::probe::Doubt;
 use super::teller::Teller;
 
 /// Most bytes of one read.

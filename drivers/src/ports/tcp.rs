@@ -12,10 +12,10 @@ use tokio::sync::mpsc;
 use tokio::task::{AbortHandle, JoinSet};
 use tokio::time::{sleep, timeout};
 
+use super::attempt::Outcome;
 use super::clock::Clock;
 use super::config::{TcpClient, TcpServer};
 use super::outbox::{Outbox, Outlet};
-use super::run::Outcome;
 use super::stream::{listen, read, talk};
 use super::teller::Teller;
 

@@ -9,9 +9,9 @@ use socket2::{Domain, Protocol, Socket, Type};
 use tokio::net::UdpSocket;
 use tokio::time::timeout;
 
+use super::attempt::Outcome;
 use super::config::{Udp, UdpOutput};
 use super::outbox::Outbox;
-use super::run::Outcome;
 use super::teller::Teller;
 
 /// Longest datagram there can be.

@@ -4,8 +4,7 @@ use std::time::Duration;
 
 use insd_base::{BusEvent, CanFrame, CanId, Input, PortId, PortState, Time};
 use insd_drivers::can::{
-    CanConfig, CanFilter, Candump, GatewayFormat, GatewayTcp, GatewayUdp, SharedSpeaker, Slcan,
-    Speaker, spawn,
+    CanFilter, Candump, GatewayFormat, GatewayTcp, GatewayUdp, SharedSpeaker, Slcan, Speaker, spawn,
 };
 use insd_drivers::ports::{PortConfig, PortHandle, Transport};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
@@ -48,7 +47,7 @@ fn saying(frame: CanFrame) -> SharedSpeaker {
 fn can_port(host: &Host, transport: Transport, node: Option<SharedSpeaker>) -> PortHandle {
     let config = PortConfig::new(transport);
     assert_eq!(config.faults(), Vec::<String>::new());
-    let config = CanConfig::of(&config).unwrap();
+    let config = config.as_can().unwrap();
     spawn(PortId(1), config, host.surroundings.clone(), node)
 }
 

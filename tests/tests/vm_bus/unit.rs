@@ -9,7 +9,7 @@ use std::time::Duration;
 use insd::clock::HostClock;
 use insd_base::{BusEvent, Input, PortId};
 use insd_config::{NodeMemory, NodeSection};
-use insd_drivers::can::{CanConfig, SharedSpeaker, Socketcan, spawn};
+use insd_drivers::can::{SharedSpeaker, Socketcan, spawn};
 use insd_drivers::ports::{
     PortConfig, PortHandle, Receiver, Surroundings, Transport, WAITING_LIMIT, queue,
 };
@@ -58,7 +58,7 @@ impl Unit {
         let clock = HostClock::start();
         let surroundings = Surroundings { clock: Arc::new(clock), queue, judge: None };
         let transport = Transport::Socketcan(Socketcan { interface: interface.to_owned() });
-        let config = CanConfig::of(&PortConfig::new(transport)).unwrap();
+        let config = PortConfig::new(transport).as_can().unwrap();
         let mut builder = tokio::runtime::Builder::new_multi_thread();
         let runtime = builder.worker_threads(1).enable_all().build().unwrap();
         let port = runtime

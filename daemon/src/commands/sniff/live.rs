@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use anyhow::Context;
 use insd_base::{PortId, Time};
-use insd_drivers::can::{self, CanConfig, SharedSpeaker};
+use insd_drivers::can::{self, SharedSpeaker};
 use insd_drivers::ports::{
     self, Judge, Judgement, PortConfig, PortHandle, Receiver, Surroundings, WAITING_LIMIT,
 };
@@ -110,7 +110,7 @@ impl Bench {
                 bench.searched.push((id, heard));
                 bench.search_s = bench.search_s.max(port.search_s);
             }
-            let handle = match CanConfig::of(&port.config).filter(|_| style.ask) {
+            let handle = match port.config.as_can().filter(|_| style.ask) {
                 Some(bus) => {
                     let asker = SharedSpeaker::new(Asker::default()).for_port();
                     can::spawn(id, bus, surroundings, Some(asker))

@@ -1,7 +1,6 @@
 //! What is wrong with a port and its types cannot refuse.
 
 use super::{Destination, OutputConfig, PortConfig, Pty, Serial, TcpServer, Transport, Udp};
-use crate::can::CanConfig;
 use crate::ports::Hosts;
 
 /// Longest patience, seconds: a day.
@@ -23,7 +22,7 @@ impl PortConfig {
             _ => {}
         }
         faults.extend(self.hosts_fault());
-        match CanConfig::of(self) {
+        match self.as_can() {
             Some(can) => faults.extend(can.faults()),
             None if !self.filters.is_empty() => {
                 faults.push("filters: expected a CAN port, for only that has filters".to_owned());
