@@ -19,9 +19,10 @@ use insd_base::{
     Body, FixQuality, Geodetic, GnssFix, ImuSample, ImuSpec, LeverArms, Message, Ned, Received,
     Source, Time, Triad, earth,
 };
+use insd_nav::declaration::Regime;
 use insd_nav::error_state::{ATTITUDE, Covariance, POSITION, VELOCITY};
 use insd_nav::initial::sensor_covariance;
-use insd_nav::propagation::{Passage, Regime, Stretch};
+use insd_nav::propagation::{Passage, Stretch};
 use insd_nav::strapdown::{LocalGravity, Step, integrate};
 use insd_nav::{
     Conditioned, Conditioner, Estimator, Filter, Increment, InitialState, NavConfig, Nominal,

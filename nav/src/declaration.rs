@@ -1,12 +1,10 @@
 //! What is declared of an error state, and what follows from it.
 
 use insd_base::Triad;
-use insd_estimation::{Covariance, Errors, Key, Layout};
+use insd_estimation::{Covariance, Key};
 
 use crate::config::NavConfig;
-use crate::error_state::DECLARATIONS;
 use crate::nominal::Nominal;
-use crate::propagation::Regime;
 
 /// Everything that the navigator knows of a block of error states.
 ///
@@ -77,6 +75,13 @@ pub enum Carried {
     AtBerth,
 }
 
+/// What the error models depend on at the moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Regime {
+    /// GNSS positions come from fixed carrier ambiguities.
+    pub rtk: bool,
+}
+
 /// How a block goes on by itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Process {
@@ -140,33 +145,4 @@ impl Declaration {
     pub fn join(&self, p: &mut Covariance, config: &NavConfig) {
         p.join_diagonal(self.key, self.width, (self.first)(config).powi(2));
     }
-}
-
-/// The declaration of a kind.
-#[must_use]
-pub fn declaration(key: Key) -> Option<&'static Declaration> {
-    DECLARATIONS.get(usize::from(key.kind))
-}
-
-/// All that are carried at such a time.
-pub fn carried(when: Carried) -> impl Iterator<Item = &'static Declaration> {
-    DECLARATIONS.iter().filter(move |declaration| declaration.carried == when)
-}
-
-/// All states that there may be, in the order of their declarations.
-#[must_use]
-pub fn all_states() -> Layout {
-    Layout::of_blocks(DECLARATIONS.iter().map(|own| (own.key, own.width)))
-}
-
-/// All of them known.
-#[must_use]
-pub fn no_covariance() -> Covariance {
-    Covariance::zeros(&all_states())
-}
-
-/// No error of any of them.
-#[must_use]
-pub fn no_errors() -> Errors {
-    Errors::zeros(&all_states())
 }

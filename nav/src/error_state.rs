@@ -9,15 +9,14 @@ use std::slice::from_mut;
 
 pub use insd_estimation::{Block, Covariance, Effects, Errors, Innovation, Jacobian, Weighed};
 
-use crate::aids::reference_heading;
-use crate::declaration::{Carried, Correction, Declaration, Process, StateAxes};
+use insd_estimation::{Key, Layout};
 
-/// Satellites that are used at once, the highest ones.
-pub const SATELLITES: usize = 24;
-/// Lines of antennas that are told apart at once: three beside the first, of three constellations on two bands.
-pub const LINES: usize = 18;
-/// What an epoch of antennas tells: attitude and lines.
-pub const ANTENNA_ROWS: usize = 3 + LINES;
+use crate::declaration::{Carried, Correction, Declaration, Process, StateAxes};
+pub use crate::dimensions::{
+    ANTENNA_ROWS, CAMERA_POSES, LANDMARKS, LINES, ODOMETRY_POSES, POSE_STATES, RANGING_MARKS,
+    SATELLITES,
+};
+
 /// How long reflections of phases go on between antennas, s.
 const ANTENNA_REFLECTION_TIME: f64 = 180.0;
 /// 1-sigma of a line before anything is known of it, m: so much more than a phase is worth that it tells nothing.
@@ -42,22 +41,14 @@ pub const PHASE_DRIFT: f64 = 5e-4;
 /// By what its reflections walk beside that, m per root of a second.
 const PHASE_WALK: f64 = 5e-4;
 
-/// Lines and points ashore that docking aids measure to at once.
-pub const RANGING_MARKS: usize = 4;
 /// How long their surveys, and the zeros of their instruments, go on to be off by the same, s.
 const SURVEY_TIME: f64 = 7200.0;
 
-/// Poses at times of images that are held at once.
-pub const CAMERA_POSES: usize = 10;
-/// States of one of them: position and attitude.
-pub const POSE_STATES: usize = 6;
-/// Points of the world that a camera sees, and that are held at once.
-pub const LANDMARKS: usize = 16;
-/// Poses that steps of a visual odometry are measured from, and that are held at once.
-pub const ODOMETRY_POSES: usize = 3;
 /// By what the delay of a camera wanders, s per root of a second.
 const CAMERA_DELAY_WALK: f64 = 1e-5;
 
+/// How long the slow part of the error of a reference's heading lasts, s.
+const HEADING_ERROR_TIME: f64 = 600.0;
 /// 1-sigma of the mean height before anything is known of it, m.
 pub(crate) const SEA_LEVEL_UNKNOWN: f64 = 30.0;
 
@@ -171,7 +162,7 @@ declare! {
         correction: Correction::Adds(|nominal| from_mut(&mut nominal.log_by_turn));
     /// Slowly varying part of the error of a reference's heading, in units of the sigma it states, Gauss-Markov.
     HEADING_ERROR: 1, "heading_error", "sigma", Scalar, WithHeading,
-        first: |_| 1.0, process: |_, _| Process::of_sigmas(reference_heading::TIME),
+        first: |_| 1.0, process: |_, _| Process::of_sigmas(HEADING_ERROR_TIME),
         correction: Correction::Adds(|nominal| from_mut(&mut nominal.heading_error));
     /// Clock of the receiver of ranges against GPS time and its drift, m and m/s.
     RECEIVER_CLOCK: 2, "receiver_clock", "m, m/s", Scalar, WithRanges,
@@ -275,3 +266,32 @@ declare! {
 
 /// Number of states at the head that the strapdown integrates: position, velocity, attitude.
 pub const STRAPDOWN_STATES: usize = 9;
+
+/// The declaration of a kind.
+#[must_use]
+pub fn declaration(key: Key) -> Option<&'static Declaration> {
+    DECLARATIONS.get(usize::from(key.kind))
+}
+
+/// All that are carried at such a time.
+pub fn carried(when: Carried) -> impl Iterator<Item = &'static Declaration> {
+    DECLARATIONS.iter().filter(move |declaration| declaration.carried == when)
+}
+
+/// All states that there may be, in the order of their declarations.
+#[must_use]
+pub fn all_states() -> Layout {
+    Layout::of_blocks(DECLARATIONS.iter().map(|own| (own.key, own.width)))
+}
+
+/// All of them known.
+#[must_use]
+pub fn no_covariance() -> Covariance {
+    Covariance::zeros(&all_states())
+}
+
+/// No error of any of them.
+#[must_use]
+pub fn no_errors() -> Errors {
+    Errors::zeros(&all_states())
+}

@@ -10,13 +10,13 @@ use nalgebra::Vector3;
 
 use crate::aids::View;
 use crate::config::NavConfig;
+use crate::declaration::Regime;
 use crate::disturbance::{PrefilterConfig, WhiteningConfig};
 use crate::error_state::{Covariance, Errors, Innovation, Weighed};
 use crate::increments::Increment;
 use crate::initial::InitialState;
 use crate::judge::agitate;
 use crate::nominal::Nominal;
-use crate::propagation::Regime;
 use crate::report::{Outcome, Report};
 use crate::separate_bias::SeparateBias;
 use crate::solution_sigma::solution_covariance;

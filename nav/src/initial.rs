@@ -4,7 +4,8 @@ use insd_base::{ImuSpec, Time};
 use nalgebra::Vector3;
 
 use crate::config::{NavConfig, WORSE};
-use crate::declaration::{Carried, carried};
+use crate::declaration::Carried;
+use crate::error_state::carried;
 use crate::error_state::{
     ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, Covariance, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE,
 };

@@ -17,10 +17,10 @@ use insd_estimation::{Decay, Feed, Layout, Place, Transition};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use crate::config::NavConfig;
-use crate::declaration::{Process, declaration};
+use crate::declaration::{Process, Regime};
 use crate::error_state::{
     ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, Block, Covariance, DECLARATIONS, Effects,
-    Errors, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, POSITION, STRAPDOWN_STATES, VELOCITY,
+    Errors, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, POSITION, STRAPDOWN_STATES, VELOCITY, declaration,
 };
 use crate::increments::Increment;
 use crate::nominal::Nominal;
@@ -89,13 +89,6 @@ impl Default for Stretch {
     fn default() -> Self {
         Self::new()
     }
-}
-
-/// What the error models depend on at the moment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Regime {
-    /// GNSS positions come from fixed carrier ambiguities.
-    pub rtk: bool,
 }
 
 /// Where the strapdown errors stand: at the head, in this order.

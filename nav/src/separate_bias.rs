@@ -397,7 +397,7 @@ impl SeparateBias {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::declaration::all_states;
+    use crate::error_state::all_states;
     use crate::error_state::{Innovation, Jacobian};
     use insd_base::{Geodetic, earth};
     use nalgebra::Matrix3 as M3;

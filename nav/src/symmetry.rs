@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn what_is_known_of_heading_and_bias_together_stays_in_ecef_axes() {
-        let mut before = crate::declaration::no_covariance();
+        let mut before = crate::error_state::no_covariance();
         let states = before.states();
         let root = DMatrix::from_fn(states, states, |i, j| ((i * 3 + j * 7) as f64).sin());
         *before.matrix_mut() = &root * root.transpose();
@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn a_turn_of_all_that_moves_stays_what_a_log_does_not_see() {
-        let mut p = crate::declaration::no_covariance();
+        let mut p = crate::error_state::no_covariance();
         let down = Vector3::new(0.6, 0.0, 0.8);
         let (before, correction) = (Vector3::new(4.0, -2.0, 1.0), Vector3::new(0.5, 1.0, -0.2));
         // nothing is unknown but a turn by one radian

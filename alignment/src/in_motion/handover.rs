@@ -7,7 +7,8 @@
 
 use insd_base::earth;
 use insd_nav::antenna::AntennaMotion;
-use insd_nav::declaration::{Carried, carried};
+use insd_nav::declaration::Carried;
+use insd_nav::error_state::carried;
 use insd_nav::error_state::{
     ACCEL_BIAS, ACCEL_DRIFT, ATTITUDE, CURRENT, Effects, GNSS_DELAY, GNSS_LEVER,
     GNSS_POSITION_ERROR, GNSS_VELOCITY_DELAY, GNSS_VELOCITY_ERROR, GYRO_BIAS, GYRO_DRIFT,

@@ -14,9 +14,6 @@ use nalgebra::{Matrix1, Vector1};
 use super::View;
 use crate::error_state::{ATTITUDE, HEADING_ERROR, Innovation, Jacobian};
 
-/// How long the slow part of the error lasts, s.
-pub const TIME: f64 = 600.0;
-
 /// Share of its variance that does.
 const SHARE: f64 = 0.02;
 

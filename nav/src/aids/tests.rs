@@ -13,8 +13,8 @@ use nalgebra::{Vector2, Vector3, Vector4};
 
 use super::satellite_range::Sighted;
 use super::*;
-use crate::declaration::{all_states, no_errors};
 use crate::error_state::{ANTENNA_AXES, ANTENNA_LINES, ATTITUDE, Innovation};
+use crate::error_state::{all_states, no_errors};
 
 const MEASURED_RATE: Vector3<f64> = Vector3::new(0.02, -0.05, 0.03);
 

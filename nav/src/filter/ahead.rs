@@ -12,8 +12,9 @@ use super::Filter;
 use super::velocity_epoch::VelocityEpoch;
 use crate::aids::View;
 use crate::aids::gnss_velocity::{self, VelocityFix};
+use crate::declaration::Regime;
 use crate::error_state::{ATTITUDE, Covariance, Innovation, Jacobian};
-use crate::propagation::{Passage, Regime, Stretch};
+use crate::propagation::{Passage, Stretch};
 
 /// A filter's covariance on its way into the future.
 #[derive(Clone, Debug)]

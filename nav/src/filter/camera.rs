@@ -15,7 +15,8 @@ use crate::camera::sight::{Eye, Pose};
 use crate::camera::track::{AXES_AT, COLUMNS, DELAY_AT, TrackRows, TrackTold, pose_now, told};
 use crate::camera::triangulation::{FEWEST, Unfound};
 use crate::camera::window::{Keyframe, Leaving, PoseWindow, Track};
-use crate::declaration::{Carried, carried};
+use crate::declaration::Carried;
+use crate::error_state::carried;
 use crate::error_state::{
     ATTITUDE, CAMERA_AXES, CAMERA_DELAY, CAMERA_POSES, Errors, Innovation, Jacobian, LANDMARKS,
     POSE_STATES, POSES, POSITION, Weighed,

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::Filter;
 use super::ahead::heading_std;
-use super::receivers::horizontal_noise;
+use super::receivers::{horizontal_noise, position_std};
 use crate::config::WORSE;
 use crate::error_state::{
     ATTITUDE, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, GYRO_BIAS, Innovation,
@@ -141,14 +141,13 @@ impl Filter {
         }
         let (now, covariance) = (self.state.time, self.state.covariance.clone());
         let both = position.beside(velocity.unwrap_or(&Innovation::silent(3)));
-        let noise = horizontal_noise(position);
-        let weighed = both.weigh(&covariance);
-        let Some(weighed) = weighed else { return };
+        let noise = [horizontal_noise(position), position_std(&covariance)];
+        let Some(weighed) = both.weigh(&covariance) else { return };
         match self.judge_now() {
-            Some(judge) => judge.follow((Party::Gnss, now), &weighed, noise, &covariance),
+            Some(judge) => judge.follow((Party::Gnss, now), &weighed, noise),
             None => {
                 let mut docket = self.config.docket;
-                docket.see_receiver((Party::Gnss, now), &weighed, noise, &covariance, false);
+                docket.see_receiver((Party::Gnss, now), &weighed, noise, false);
                 self.config = self.config.with_docket(docket);
                 self.court.covered = self.cover();
             }

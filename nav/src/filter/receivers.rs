@@ -11,7 +11,9 @@ use super::Filter;
 use crate::aids::View;
 use crate::aids::gnss_position::{self, PositionFix};
 use crate::aids::gnss_velocity::{self, VelocityFix};
-use crate::error_state::{GNSS_DELAY, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, Innovation};
+use crate::error_state::{
+    Covariance, GNSS_DELAY, GNSS_POSITION_ERROR, GNSS_VELOCITY_ERROR, Innovation, POSITION,
+};
 use crate::judge::{Aid, Judge, rows};
 use crate::separate_bias::SeparateBias;
 
@@ -27,6 +29,11 @@ const APART_VELOCITY: [f64; 2] = [0.1, 10.0];
 /// 1-sigma of the noise of a position, of the worse of north and east, m.
 pub(super) fn horizontal_noise(position: &Innovation) -> f64 {
     position.r[(0, 0)].max(position.r[(1, 1)]).sqrt()
+}
+
+/// 1-sigma of the worst component of the position, m.
+pub(super) fn position_std(p: &Covariance) -> f64 {
+    POSITION.covariance(p).diagonal().max().max(0.0).sqrt()
 }
 
 impl Filter {
@@ -114,10 +121,9 @@ impl Filter {
     fn follow_spare(&mut self, position: &Innovation, velocity: Option<&Innovation>) {
         let (now, covariance) = (self.state.time, self.state.covariance.clone());
         let both = position.beside(velocity.unwrap_or(&Innovation::silent(3)));
-        let noise = horizontal_noise(position);
-        let weighed = both.weigh(&covariance);
-        if let Some((weighed, judge)) = weighed.zip(self.judge_now()) {
-            judge.follow((Party::Gnss2, now), &weighed, noise, &covariance);
+        let noise = [horizontal_noise(position), position_std(&covariance)];
+        if let Some((weighed, judge)) = both.weigh(&covariance).zip(self.judge_now()) {
+            judge.follow((Party::Gnss2, now), &weighed, noise);
         }
     }
 

@@ -1,7 +1,8 @@
 //! States that join and leave: a ship does not pay for those of sensors that she has not.
 
 use super::Filter;
-use crate::declaration::{Carried, carried};
+use crate::declaration::Carried;
+use crate::error_state::carried;
 
 impl Filter {
     /// The states of a sensor that speaks for the first time are carried from now on, and by the judge, too.

@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix2, SVector, Vector2};
 
-use super::TICK;
+use super::times::TICK;
 
 /// Signals that the bank makes of one input: what the sections took away, and last what they left.
 pub(super) const SIGNALS: usize = 2 * RESONANCES.len() + POLES.len() + 1;

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use nalgebra::Vector4;
 
-use super::TICK;
 use super::kernel::{Kernel, SPACING};
+use super::times::TICK;
 
 /// The twice integrated acceleration, up, m, and the direction of down in body axes: what the
 /// displacement of every point is a sum of.

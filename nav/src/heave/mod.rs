@@ -35,56 +35,32 @@ mod bank;
 mod combine;
 mod history;
 mod kernel;
+mod kernels;
 mod learner;
 mod model;
 mod point;
 mod run;
+mod step;
 mod ticker;
+mod times;
 
 use insd_base::{Body, Heave, ImuSpec, Span, Time};
 use nalgebra::Vector3;
 
 use bank::Bank;
-use kernel::Kernel;
+use kernels::Kernels;
 use learner::Grade;
-use point::{Expected, Point};
+use point::Point;
 use run::Run;
+pub use step::VerticalStep;
+pub use times::DELAY;
 
-/// Interval of the bank and of the history, s.
-const TICK: f64 = 0.1;
-/// Delay of the delayed heave, s.
-pub const DELAY: f64 = 120.0;
-/// Delay of the heave that the bank is measured against, s: less, to follow a sea that changes.
-const LESSON: usize = 75;
-/// What the average of the delayed heave stops and passes, s.
-const DELAYED_BAND: (f64, f64) = (40.0, 100.0);
-/// The same for the average that the bank is measured against.
-const LESSON_BAND: (f64, f64) = (30.0, 80.0);
-/// Half the length of the average that shows what is slower than heave, and what it stops and passes, s.
-const SLOW: f64 = 75.0;
-const SLOW_BAND: (f64, f64) = (45.0, 120.0);
-/// Distance of the averages whose fourth difference is the slow motion, s.
-const SLOW_APART: f64 = 22.0;
 /// Longest gap in the IMU's data after which the filter goes on, s.
 const LONGEST_GAP: f64 = 5.0;
 /// Steps of more than this are no ship's, m/s^2.
 const MOST_ACCELERATION: f64 = 500.0;
 /// Least white noise that an IMU is believed to have, (m/s)/sqrt(s).
 const LEAST_NOISE: f64 = 2e-5;
-
-/// A step of the IMU's vertical motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VerticalStep {
-    /// Its end.
-    pub to: Time,
-    /// Its length, s.
-    pub duration: f64,
-    /// Increment of the IMU's upward velocity, m/s: gravity, Coriolis and the estimated errors of the
-    /// accelerometers removed, free of the filter's corrections.
-    pub velocity: f64,
-    /// Direction of down in body axes at the end of the step: the third row of C_nb.
-    pub down_b: Vector3<f64>,
-}
 
 /// The filter of all monitoring points. Some 120 kB and 3 kB for each point, all of it copied by a clone.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,28 +70,6 @@ pub struct HeaveFilter {
     kernels: Kernels,
     points: Vec<Point>,
     run: Option<Run>,
-}
-
-/// The averages, and what the IMU's errors leave of them.
-#[derive(Clone, Debug, PartialEq)]
-struct Kernels {
-    delayed: Kernel,
-    lesson: Kernel,
-    slow: Kernel,
-    expected: Expected,
-}
-
-impl Kernels {
-    fn new(grade: &Grade) -> Self {
-        let delayed = Kernel::low_pass(DELAY, DELAYED_BAND.0, DELAYED_BAND.1);
-        let lesson = Kernel::low_pass(LESSON as f64, LESSON_BAND.0, LESSON_BAND.1);
-        let slow = Kernel::low_pass(SLOW, SLOW_BAND.0, SLOW_BAND.1).fourth_difference(SLOW_APART);
-        let expected = Expected {
-            delayed: delayed.response_of_rest().variance(grade.noise, grade.walk),
-            slow: slow.response().variance(grade.noise, grade.walk),
-        };
-        Kernels { delayed, lesson, slow, expected }
-    }
 }
 
 impl HeaveFilter {

@@ -14,8 +14,8 @@ use std::f64::consts::TAU;
 
 use nalgebra::SMatrix;
 
-use super::TICK;
 use super::bank::{Bank, Chain, Kick, SIGNALS, Signals, TAKEN};
+use super::times::TICK;
 
 /// Covariance of what the bank took away and of the error of what it left.
 pub(super) type Errors = SMatrix<f64, SIGNALS, SIGNALS>;

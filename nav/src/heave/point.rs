@@ -3,12 +3,12 @@
 use insd_base::{Body, DelayedHeave, HeaveQuality, Time};
 use nalgebra::SMatrix;
 
-use super::TICK;
 use super::bank::SIGNALS;
 use super::combine::Combination;
 use super::history::Raw;
 use super::learner::{Grade, Learner};
 use super::model::{Model, error_of};
+use super::times::TICK;
 
 /// The bank's signals for each of the raw displacements.
 pub(super) type Outputs = SMatrix<f64, SIGNALS, 4>;

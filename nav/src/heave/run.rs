@@ -7,10 +7,11 @@ use nalgebra::Vector3;
 
 use super::bank::{Bank, Chain, Kick};
 use super::history::{History, Raw, ticks};
+use super::kernels::Kernels;
 use super::model::Model;
 use super::point::{Moment, Outputs, Point, Second};
 use super::ticker::{Tick, Ticker};
-use super::{DELAY, Kernels, LESSON, TICK};
+use super::times::{DELAY, LESSON, TICK};
 
 /// Ticks in a second.
 const SECOND: usize = 10;

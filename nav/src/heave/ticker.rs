@@ -4,7 +4,8 @@ use insd_base::{Span, Time};
 use nalgebra::Vector3;
 
 use super::bank::Kick;
-use super::{TICK, VerticalStep};
+use super::step::VerticalStep;
+use super::times::TICK;
 
 /// Rounding of times, s.
 const ROUNDING: f64 = 1e-9;

@@ -1,9 +1,9 @@
 //! What the judge hears.
 
 use insd_base::{Party, Time};
+use insd_estimation::{Innovation, Weighed};
 
 use super::scatter::Scatter;
-use crate::error_state::{Innovation, Weighed};
 
 /// An aid that is heard: each has noise and outliers of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

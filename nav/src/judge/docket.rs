@@ -13,13 +13,12 @@ mod of_imu;
 mod open;
 
 use insd_base::{Fault, Integrity, Judgement, Parties, Party, Span, Standing, Stands, Time};
+use insd_estimation::Weighed;
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use super::aid::{Aid, agreement};
 use super::lie::LieOfGnss;
-use crate::error_state::Weighed;
-use crate::error_state::{Covariance, POSITION};
 pub(crate) use open::OpenLie;
 
 /// Who agrees for so long is heard again, s; each time he relapses for twice as long, up to this.
@@ -205,17 +204,15 @@ impl Docket {
         self.entries[place].fault = Some(Fault::Jump);
     }
 
-    /// Sees position and velocity of a receiver that is left out together, weighed by a navigator with a covariance, and follows what
-    /// the receiver, by its part, is off by; `alone` where only the navigator speaks against it.
+    /// Sees position and velocity of a receiver that is left out together, weighed by a navigator whose position is known to `own`, 1-sigma, m, and
+    /// follows what the receiver, by its part, is off by; `alone` where only the navigator speaks against it.
     pub fn see_receiver(
         &mut self,
         (party, now): (Party, Time),
         weighed: &Weighed,
-        noise: f64,
-        p: &Covariance,
+        [noise, own]: [f64; 2],
         alone: bool,
     ) {
-        let own = POSITION.covariance(p).diagonal().max().max(0.0).sqrt();
         let z = Vector2::new(weighed.z()[0], weighed.z()[1]);
         let (square, sigma) = (agreement(weighed), own.hypot(noise));
         let agrees = square.is_some();

@@ -2,7 +2,7 @@
 //!
 //! Beside the navigator goes a [`Shadow`] that believes everybody. Faults of every sensor, the IMU among them, that may
 //! have begun at many instants ([`Onset`]) are sized from its innovations; [`Dissenter`]s do not believe one sensor,
-//! whatever it does. They are weighed against each other and against nobody lying ([`charge`]). Three things
+//! whatever it does. They are weighed against each other and against nobody lying ([`assessment`]). Three things
 //! follow:
 //!
 //! - *A verdict*: one sensor's fault explains what nobody else's does, for some seconds on end. It is left out, and the
@@ -11,6 +11,8 @@
 //! - *Neither*: a navigator that refuses somebody then is wrong itself, and becomes its shadow.
 
 mod aid;
+mod alternative;
+mod assessment;
 mod charge;
 mod claims;
 mod dissenter;
@@ -25,7 +27,9 @@ mod receivers;
 mod returned;
 pub mod rows;
 mod scatter;
+mod separation;
 mod shadow;
+mod suspicion;
 mod verdict;
 
 use insd_base::{Integrity, Judgement, Parties, Party, Standing, Stands, Time};
@@ -37,17 +41,17 @@ use crate::error_state::{Block, Covariance, Errors, Innovation, Weighed};
 use crate::propagation::Passage;
 pub use aid::Aid;
 use aid::{AIDS, Hearing, agreement};
+pub use alternative::{Alternative, Ruling};
 use charge::{Assessment, Charge, DOUBT};
 use dissenter::{Dissenter, Success, log_likelihood};
 pub use docket::Docket;
-pub use hypotheses::Separation;
 use onset::Onset;
 use pessimist::Pessimist;
-use returned::{Allowed, Suspicion};
 use rows::Direct;
+pub use separation::Separation;
 use shadow::Shadow;
 pub use shadow::agitate;
-pub use verdict::{Alternative, Ruling};
+use suspicion::{Allowed, Suspicion};
 
 /// Looks are so far apart, s.
 const LOOK: f64 = 0.95;
@@ -404,20 +408,19 @@ impl Judge {
         self.docket.watch(party, now, agreement(weighed).filter(|_| is_calm));
     }
 
-    /// Sees position and velocity of a receiver that is left out together, weighed by the navigator, which has a
-    /// covariance, and follows what the receiver, by its part, is off by.
+    /// Sees position and velocity of a receiver that is left out together, weighed by the navigator, whose own
+    /// position is known to `own`, 1-sigma, m, and follows what the receiver, by its part, is off by; `noise` is that of its position, m.
     pub fn follow(
         &mut self,
         (party, now): (Party, Time),
         weighed: &Weighed,
-        noise: f64,
-        p: &Covariance,
+        [noise, own]: [f64; 2],
     ) {
         if party == Party::Gnss2 {
             self.hearings[Aid::SparePosition as usize].note(now);
         }
         let alone = party == Party::Gnss && self.witnesses(now) == 0;
-        self.docket.see_receiver((party, now), weighed, noise, p, alone);
+        self.docket.see_receiver((party, now), weighed, [noise, own], alone);
     }
 
     /// Sees the height of a receiver of which only that is wrong, weighed by the navigator.

@@ -6,7 +6,7 @@
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
-use super::Alternative;
+use super::alternative::Alternative;
 use crate::error_state::{ATTITUDE, Covariance, Errors, Innovation, VELOCITY, Weighed};
 use crate::propagation::Passing;
 use crate::symmetry::turn_biases;

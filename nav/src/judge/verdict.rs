@@ -2,16 +2,14 @@
 
 use insd_base::units::MICRO_G;
 use insd_base::{Fault, Party, Standing, Stands, Time};
-use nalgebra::Vector2;
 
+use super::aid::Aid;
+use super::alternative::Ruling;
 use super::charge::{Charge, DOUBT, Kind};
 use super::docket::NO_LIE;
-use super::lie::growth;
-use super::{Aid, Judge, SCATTERS, UNHEARD, WILD};
+use super::{Judge, SCATTERS, UNHEARD, WILD};
 use crate::config::WORST;
-use crate::error_state::{
-    ATTITUDE, Covariance, Errors, GNSS_DELAY, GYRO_SCALE, POSITION, VELOCITY,
-};
+use crate::error_state::{ATTITUDE, GNSS_DELAY, GYRO_SCALE, POSITION, VELOCITY};
 
 /// Mean square of an innovation that only a lie explains.
 const BLATANT: f64 = 100.0;
@@ -33,24 +31,6 @@ const MEANWHILE: f64 = 60.0;
 const FOLLOWED: f64 = 0.3;
 /// Fixes that are later than this are left out, s; others are set back.
 const SET_BACK: f64 = 1.0;
-
-/// Somebody is found to lie.
-#[derive(Clone, Debug)]
-pub struct Ruling {
-    /// What he does.
-    pub fault: Fault,
-    /// The estimate without it, where that is another.
-    pub mended: Option<Alternative>,
-}
-
-/// What the estimate may be instead.
-#[derive(Clone, Debug)]
-pub struct Alternative {
-    /// What the navigator's estimate lacks to it.
-    pub error: Errors,
-    /// The covariance of its errors.
-    pub covariance: Covariance,
-}
 
 impl Judge {
     /// While the IMU is not believed nobody else is judged; it is again when its word has been good for a while.
@@ -82,7 +62,7 @@ impl Judge {
         if charge.kind == Kind::Shapeless && self.lies_another(charge.party()) {
             return self.leave_out(charge, now);
         }
-        if let Some(late) = late(charge) {
+        if let Some(late) = charge.lateness() {
             if late.abs() < SET_BACK {
                 return Ruling { fault: charge.fault, mended: Some(mended) };
             }
@@ -207,7 +187,7 @@ impl Judge {
     /// Leaves somebody out for what he does; the estimate stays as it is, as it must where somebody else lies, too.
     pub(super) fn leave_out(&mut self, charge: &Charge, now: Time) -> Ruling {
         let age = (now - charge.since(now)).as_seconds();
-        self.docket.convict(charge.fault, now, lie_of_gnss(charge, age));
+        self.docket.convict(charge.fault, now, charge.lie_of_gnss(age));
         Ruling { fault: charge.fault, mended: None }
     }
 
@@ -324,19 +304,4 @@ impl Judge {
         let charge = Charge::shapeless(Party::Imu, DOUBT);
         Ruling { fault: charge.fault, mended: Some(self.alternative(&charge)) }
     }
-}
-
-/// By how much a receiver is found to be late, s.
-fn late(charge: &Charge) -> Option<f64> {
-    match charge.kind {
-        Kind::Shaped { sized, .. } if charge.fault == Fault::Delay => Some(sized.value.x),
-        _ => None,
-    }
-}
-
-/// What a receiver is off by after such an age, s: m, and how fast that grows, m/s.
-pub(super) fn lie_of_gnss(charge: &Charge, age: f64) -> (Vector2<f64>, f64) {
-    let Kind::Shaped { sized, .. } = charge.kind else { return NO_LIE };
-    let value = Vector2::new(sized.value.x, sized.value.y);
-    growth(charge.fault, age).map_or(NO_LIE, |(size, rate)| (value * size, value.norm() * rate))
 }

@@ -5,7 +5,7 @@ use insd_base::{Attitude, Geodetic, ImuSpec, LeverArms, Span, Time, Triad};
 use nalgebra::{DMatrix, Vector3};
 
 use super::*;
-use crate::declaration::no_covariance;
+use crate::error_state::no_covariance;
 use crate::increments::Increment;
 use crate::nominal::Nominal;
 use crate::strapdown::{self, LocalGravity};

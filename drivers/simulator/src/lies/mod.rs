@@ -3,6 +3,7 @@
 //! Each kind of the [`catalogue`] draws its size, axis, direction and moment from a seed; what is asked of a
 //! navigator then depends on what the other sensors can show ([`evidence`]).
 
+mod case;
 mod compass;
 mod draw;
 pub mod evidence;
@@ -18,8 +19,8 @@ use rand_pcg::Pcg64;
 
 use crate::random::{Purpose, stream};
 
+pub use case::{Case, case};
 pub use compass::CompassLie;
-pub use draw::{Case, case};
 pub use gnss::GnssLie;
 pub use imu::ImuLie;
 pub use kinds::{Kind, catalogue};

@@ -3,8 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::covariance::{Covariance, Measurement, Shaping};
-use super::model::{ATTITUDE, POSITION, VELOCITY, cross, level_turn};
+use super::model::{ATTITUDE, POSITION, VELOCITY, cross};
 use super::way::Place;
+use super::way::level_turn;
 use crate::motion::Swing;
 use crate::scenario::{Gnss, GnssNoise};
 

@@ -7,7 +7,7 @@ use insd_base::earth::{radii, rate_n, transport_rate};
 use insd_base::units::DEG;
 
 use super::block::Block;
-use super::way::Stretch;
+use super::way::{Stretch, level_turn};
 use crate::motion::Swing;
 
 /// Error of position north and east, m.
@@ -165,12 +165,6 @@ fn couple_sensors(f: &mut DMatrix<f64>, spec: &ImuSpec, stretch: &Stretch) {
     {
         block.places().for_each(|place| f[(place, place)] = -1.0 / time);
     }
-}
-
-/// The turn from axes along the ship to north, east and down: by the heading, rad.
-pub(super) fn level_turn(heading: f64) -> Matrix3<f64> {
-    let (sin, cos) = heading.sin_cos();
-    Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
 }
 
 /// The matrix that multiplies like a vector product from the left.

@@ -1,12 +1,11 @@
 //! The ship's way as the analysis sees it: where she is and what she senses, step by step.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use insd_base::Geodetic;
 use insd_base::earth::{normal_gravity, rate_n, transport_rate};
 use insd_base::units::wrap_pi;
 
-use super::model::level_turn;
 use crate::motion::{Motion, Swing};
 use crate::scenario::Scenario;
 use crate::track::{Track, start_of};
@@ -155,4 +154,10 @@ fn sailed(track: &Track, from: f64, to: f64) -> Stretch {
         heading: middle.attitude().heading,
         turn_rate: turned / dt,
     }
+}
+
+/// The turn from axes along the ship to north, east and down: by the heading, rad.
+pub(super) fn level_turn(heading: f64) -> Matrix3<f64> {
+    let (sin, cos) = heading.sin_cos();
+    Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
 }
