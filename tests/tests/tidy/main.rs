@@ -161,7 +161,7 @@ const ARROWS: [(&str, &[&str]); 20] = [
 ];
 
 /// How many modules of a crate are still tied in circles: these numbers fall, and no crate joins them.
-const TIED: [(&str, usize); 3] = [("insd-nav", 0), ("insd-intake", 15), ("insd-simulator", 0)];
+const TIED: [(&str, usize); 1] = [("insd-intake", 15)];
 
 /// Public types that still have a namesake in another crate, all below the daemon: the list only shrinks.
 const NAMESAKES: [&str; 24] = [

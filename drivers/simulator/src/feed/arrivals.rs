@@ -2,7 +2,7 @@
 
 use insd_base::{Arrival, PortId, Span, Stamp, Time, UtcTime};
 
-use super::Sending;
+use super::line::Sending;
 
 /// How bytes reach the computer.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,7 +10,9 @@ use insd_wire::imu::can::{Field, FrameLayout, Layout, LayoutChoice, Order, Shipp
 use insd_wire::imu::xbus::Precision;
 use insd_wire::log::LogFrame;
 
-use super::{Calendar, DeviceClock, Encoding, FeedConfig, SensorFeed, heading, n2k};
+use super::calendar::Calendar;
+use super::sensor::{DeviceClock, Encoding, FeedConfig, SensorFeed};
+use super::{heading, n2k};
 
 /// Bits of a byte with its start and stop bits, and of one in a frame of a bus.
 const BITS: f64 = 10.0;

@@ -6,7 +6,9 @@ use insd_wire::gnss::sbf::{PosCovGeodetic, PvtGeodetic, VelCovGeodetic};
 use insd_wire::gnss::ubx::{NavCov, NavPvt};
 use insd_wire::nmea::{Gga, Gst, Line as Sentence, Position, PositionMode, Rmc, Talker, Vtg, Zda};
 
-use super::{Calendar, Encoding, Line, SensorFeed};
+use super::calendar::Calendar;
+use super::line::Line;
+use super::sensor::{Encoding, SensorFeed};
 
 /// Height of the geoid above the ellipsoid, m.
 const UNDULATION: f64 = 36.0;

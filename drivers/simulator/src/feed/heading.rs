@@ -3,7 +3,8 @@
 use insd_base::{Attitude, Time, Voyage};
 use insd_wire::nmea::{Hdt, HeadingMode, Pashr, Psxn, PsxnQuality, Talker, Ths};
 
-use super::{Encoding, Line, SensorFeed};
+use super::line::Line;
+use super::sensor::{Encoding, SensorFeed};
 
 /// A heading to be told.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -15,7 +15,8 @@ use insd_wire::imu::{DeviceTime, ImuReading, Motion, Wrapping};
 use nalgebra::Matrix3;
 
 use super::config::{layout, mounting};
-use super::{Encoding, Line, SensorFeed};
+use super::line::Line;
+use super::sensor::{Encoding, SensorFeed};
 
 /// All is well, of an SBG unit.
 const SBG_GOOD: u16 = 0x03FF;

@@ -12,7 +12,8 @@ use insd_wire::nmea::{NortekBottomTrack, Talker, Vbw, VbwVelocity};
 use nalgebra::{Matrix3, Vector3};
 
 use super::config::mounting;
-use super::{Encoding, Line, SensorFeed};
+use super::line::Line;
+use super::sensor::{Encoding, SensorFeed};
 
 /// How the beams of the Doppler log stand.
 const JANUS: Geometry = Geometry { angle: 30.0 * DEG, convex: true, up: false };

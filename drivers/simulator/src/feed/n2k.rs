@@ -11,7 +11,9 @@ use insd_n2k::pgn::{
 };
 use insd_n2k::{ADDRESS_CLAIM, BROADCAST, N2kId, Name, NameParts};
 
-use super::{Encoding, Line, SensorFeed, heading};
+use super::heading;
+use super::line::Line;
+use super::sensor::{Encoding, SensorFeed};
 
 /// Height of the geoid above the ellipsoid, m.
 const GEOID: f64 = 36.0;
