@@ -206,6 +206,10 @@ integrity-campaign seeds="50" *page:
 berth-campaign seeds="24":
     cargo run --release -p insd-tests --example berth_campaign -- {{seeds}} docs/figures.md
 
+# outages of ships whose errors repeat and of others, with what is learnt of their sensors and without: one table, ten minutes
+learning-campaign ships="12" *page:
+    cargo run --release -p insd-tests --example learning_campaign -- {{ships}} {{page}}
+
 # independent readers on what the ports send in a simulated voyage; INSD_GPSDECODE: gpsd 3.27's decoder
 conformance-outputs *options:
     #!/usr/bin/env bash

@@ -27,7 +27,14 @@ pub(super) fn of(config: &Config) -> Vec<String> {
     faults.extend(rangings::faults(config));
     faults.extend(cameras::faults(config));
     nodes(config, &mut faults);
-    faults.extend(config.state.faults().chain(config.web.faults()).chain(config.log.faults()));
+    faults.extend(
+        config
+            .state
+            .faults()
+            .chain(config.learning.faults())
+            .chain(config.web.faults())
+            .chain(config.log.faults()),
+    );
     faults
 }
 

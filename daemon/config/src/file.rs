@@ -10,6 +10,7 @@ use serde::Deserialize;
 use crate::berth::{BerthSection, DockingSection};
 use crate::camera::CameraSection;
 use crate::imu::ImuModel;
+use crate::learning::LearningSection;
 use crate::models::{
     AlignmentSection, FloorSection, GateSection, ModelSection, ProtectionSection, Sections,
 };
@@ -83,6 +84,9 @@ pub struct Config {
     /// Where it is kept what the next start goes on from.
     #[serde(default)]
     pub state: StateSection,
+    /// Learning the sensors.
+    #[serde(default)]
+    pub learning: LearningSection,
     /// The status page.
     #[serde(default)]
     pub web: WebSection,

@@ -78,7 +78,7 @@ impl Config {
             time_std: ship.time_std_s.or_else(|| self.time_std(None)),
             accept_mounting: ship.accept_mounting,
             relay: ship.relay,
-            learning: false,
+            learning: self.learning.enabled,
             learnt: None,
         }
     }

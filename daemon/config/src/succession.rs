@@ -42,6 +42,7 @@ impl Config {
         keep("recording", self.recording == before.recording);
         keep("chrony", self.chrony == before.chrony);
         keep("state", self.state == before.state);
+        keep("learning", self.learning == before.learning);
         keep("web", self.web == before.web);
         self.ship.clone_from(&before.ship);
         self.imu.clone_from(&before.imu);
@@ -53,6 +54,7 @@ impl Config {
         self.recording.clone_from(&before.recording);
         self.chrony.clone_from(&before.chrony);
         self.state.clone_from(&before.state);
+        self.learning = before.learning;
         self.web.clone_from(&before.web);
         let inputs = self.ports != before.ports || self.sensors != before.sensors;
         let outputs = self.outputs != before.outputs

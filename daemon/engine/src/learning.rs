@@ -34,6 +34,19 @@ pub(crate) struct Learning {
     before: [(f64, f64); 2],
     /// Voyages before, and how often the model of them was written.
     earlier: (u32, u32),
+    /// It may not be used; what is taken away from the gyros stays as it was then, rad/s.
+    barred: Option<Vector3<f64>>,
+}
+
+/// How what is learnt stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LearningStatus {
+    /// What is learnt.
+    pub kept: KeptModel,
+    /// Whether it may be used.
+    pub may_be_used: bool,
+    /// Whether what was learnt of the log is used, of the current, and of the gyros.
+    pub used: [bool; 3],
 }
 
 impl Learning {
@@ -47,7 +60,7 @@ impl Learning {
     }
 
     /// One that goes on from earlier voyages, if there were any.
-    fn new(config: &NavConfig, kept: Option<&KeptModel>) -> Self {
+    pub(crate) fn new(config: &NavConfig, kept: Option<&KeptModel>) -> Self {
         let bias_std = config.imu.gyro.bias_std;
         let log = kept.map(|kept| &kept.log);
         let gyros = kept.and_then(|kept| kept.gyros.as_ref());
@@ -67,11 +80,52 @@ impl Learning {
                 [1, 3].map(|i| (found[i], covariance[(i, i)].max(0.0).sqrt()))
             }),
             earlier: kept.map_or((0, 0), |kept| (kept.voyages, kept.generation)),
+            barred: None,
         }
+    }
+
+    /// The same, barred or not.
+    pub(crate) fn barred(mut self, is_barred: bool) -> Self {
+        self.bar(is_barred);
+        self
+    }
+
+    /// Whether it may not be used.
+    pub(crate) fn is_barred(&self) -> bool {
+        self.barred.is_some()
+    }
+
+    /// Bars it or allows it; what is taken away from the gyros does not step.
+    pub(crate) fn bar(&mut self, is_barred: bool) {
+        match (self.barred, is_barred) {
+            (None, true) => self.barred = Some(self.taken_away()),
+            (Some(until_then), false) => {
+                self.barred = None;
+                self.renew(&until_then);
+            }
+            _ => {}
+        }
+    }
+
+    /// How it stands.
+    pub(crate) fn status(&self, kept: KeptModel) -> LearningStatus {
+        let may_be_used = !self.is_barred();
+        let standing = self.learner.standing();
+        let used = [standing.is_used, standing.current.is_some(), self.compensation.is_some()];
+        LearningStatus { kept, may_be_used, used: used.map(|used| used && may_be_used) }
+    }
+
+    /// Takes away from now on what is known of the gyros; it begins at what was until then, rad/s.
+    fn renew(&mut self, until_then: &Vector3<f64>) {
+        let Some((_, celsius)) = self.celsius.filter(|_| self.thermal.is_known()) else { return };
+        self.compensation = Some(Compensation::beginning(&self.thermal, celsius, until_then));
     }
 
     /// What is taken away from the rate at this temperature, rad/s.
     fn taken_away(&self) -> Vector3<f64> {
+        if let Some(barred) = self.barred {
+            return barred;
+        }
         let celsius = self.celsius.map(|(_, celsius)| celsius);
         let own = self.compensation.as_ref().zip(celsius).map(|(own, celsius)| own.rate(celsius));
         own.unwrap_or_else(Vector3::zeros)
@@ -116,9 +170,8 @@ impl Learning {
     /// The temperature of the IMU, degrees Celsius.
     pub(crate) fn feel(&mut self, time: Time, celsius: f64) {
         self.celsius = Some((time, celsius));
-        if self.compensation.is_none() && self.thermal.is_known() {
-            let none = Vector3::zeros();
-            self.compensation = Some(Compensation::beginning(&self.thermal, celsius, &none));
+        if self.compensation.is_none() {
+            self.renew(&Vector3::zeros());
         }
     }
 
@@ -136,7 +189,7 @@ impl Learning {
         self.thermal.hear(now.as_seconds(), celsius, &(bias + until_then), &std);
         if self.thermal.is_known() && since(self.renewed, now) >= RENEW {
             self.renewed = Some(now);
-            self.compensation = Some(Compensation::beginning(&self.thermal, celsius, &until_then));
+            self.renew(&until_then);
         }
     }
 
@@ -153,6 +206,9 @@ impl Learning {
 
     /// What the filter is to assume of the log, and of the current, 1-sigma, m/s, and time constant, s.
     pub(crate) fn wanted(&self) -> (Option<LogShape>, (f64, f64)) {
+        if self.is_barred() {
+            return (None, self.unknown_waters);
+        }
         let standing = self.learner.standing();
         let current = standing.current.map(|current| (current.std, current.time));
         (standing.is_used.then(|| self.shape()), current.unwrap_or(self.unknown_waters))

@@ -7,6 +7,7 @@ use insd_learning::{KeptModel, LabelLook, LearnerVerdict};
 use insd_nav::{Filter, Navigator};
 use nalgebra::Vector2;
 
+use crate::learning::{Learning, LearningStatus};
 use crate::ship::Ship;
 use crate::{Engine, Stage};
 
@@ -19,6 +20,31 @@ impl Engine {
         if let Some(own) = self.learning.as_mut().filter(|_| celsius.is_finite()) {
             own.feel(time, celsius);
         }
+    }
+
+    /// Offers what was learnt on earlier voyages, as [`crate::EngineConfig::learnt`] does, before the first message. Where nothing is to be learnt it is of no use.
+    pub fn offer_learnt(&mut self, model: &KeptModel) {
+        let is_begun = self.machine.has_begun() || !matches!(self.stage, Stage::Levelling(_));
+        if let Some(own) = self.learning.as_mut().filter(|_| !is_begun) {
+            **own = Learning::new(&self.nav, Some(model)).barred(own.is_barred());
+        }
+    }
+
+    /// Whether what is learnt may be used; it is learnt all the same.
+    pub fn use_learnt(&mut self, is_wanted: bool) {
+        let Some(own) = &mut self.learning else { return };
+        own.bar(!is_wanted);
+        let wanted = own.wanted();
+        if let Stage::Running(line) = &mut self.stage {
+            line.amend(|ship| ship.learn_log(wanted));
+        }
+    }
+
+    /// How what is learnt stands; `None` where nothing is to be.
+    #[must_use]
+    pub fn learning(&self) -> Option<LearningStatus> {
+        let kept = self.learnt()?;
+        Some(self.learning.as_ref()?.status(kept))
     }
 
     /// What is learnt, to be kept for the next voyage; `None` where nothing is.

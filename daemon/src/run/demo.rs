@@ -94,6 +94,7 @@ fn slow(sight: &DemoSight<'_>) -> Slow {
     let time = TimeStatus { utc: sight.utc, quality: TimeQuality::Messages, sigma: None };
     let intake = IntakeStatus { ports: Vec::new(), sensors: Vec::new(), choices: Vec::new(), time };
     Slow {
+        learning: None,
         intake,
         attempts: Vec::new(),
         counts: engine.counts().clone(),

@@ -6,6 +6,7 @@ use insd_base::{
     Time, UtcTime,
 };
 use insd_drivers::raw::RecorderState;
+use insd_engine::LearningStatus;
 use insd_intake::status::IntakeStatus;
 use insd_n2k::node::NodeStatus;
 use insd_output::alerts::AlertView;
@@ -60,6 +61,8 @@ pub(super) struct Slow {
     pub(super) standings: Vec<Stands>,
     /// What of the installation is found to be otherwise than configured.
     pub(super) findings: Vec<Finding>,
+    /// How what is learnt of the sensors stands.
+    pub(super) learning: Option<LearningStatus>,
     /// What moves the ship: looked at every ten seconds.
     pub(super) disturbance: Option<Disturbance>,
     /// Epochs of the outputs, those that began late, and those that were skipped.

@@ -86,6 +86,7 @@ impl Service {
             insd_web::PageOrder::Acknowledge { id, .. } => order(*id, AlertOrder::Acknowledge),
             insd_web::PageOrder::Silence { id, .. } => order(*id, AlertOrder::Silence),
             insd_web::PageOrder::Berth(name) => Order::Berth(name.clone()),
+            insd_web::PageOrder::UseLearnt(is_wanted) => Order::UseLearnt(*is_wanted),
             insd_web::PageOrder::LogLevel(level) => {
                 tracing::info!(target: SECURITY, level, "what is logged is changed on the page");
                 let outcome = self.log.set(level);
@@ -95,7 +96,11 @@ impl Service {
         let commander = self.commander.clone();
         tokio::spawn(async move {
             let outcome = match commander.give(ordered).await {
-                Ok(Obeyed::Alert { done: true, .. } | Obeyed::Berth { done: true, .. }) => Ok(()),
+                Ok(
+                    Obeyed::Alert { done: true, .. }
+                    | Obeyed::Berth { done: true, .. }
+                    | Obeyed::LearntUse(_),
+                ) => Ok(()),
                 Ok(Obeyed::Berth { .. }) => Err("there is no such berth".to_owned()),
                 Ok(_) => Err("there is no such alert, or it cannot be done to it".to_owned()),
                 Err(fault) => Err(fault.to_string()),

@@ -46,7 +46,7 @@ fn tell_command(names: &Names, commanded: &Commanded) {
 
 fn tell_order(obeyed: &Obeyed) {
     match obeyed {
-        Obeyed::Alert { .. } | Obeyed::Berth { .. } => {
+        Obeyed::Alert { .. } | Obeyed::Berth { .. } | Obeyed::LearntUse(_) => {
             tracing::info!(target: SECURITY, "{}", words::order(obeyed));
         }
         Obeyed::Configured(change) if change.is_nothing() => {
@@ -72,6 +72,8 @@ fn tell_order(obeyed: &Obeyed) {
         Obeyed::StoredStateRefused(fault) => {
             tracing::warn!(fault, "no heading stored at the berth");
         }
+        Obeyed::LearntOffered => tracing::info!("{}", words::order(obeyed)),
+        Obeyed::LearntRefused(_) => tracing::warn!("{}", words::order(obeyed)),
     }
 }
 

@@ -63,6 +63,7 @@ pub(super) struct Agenda {
     shown: Option<Time>,
     saved: Option<Time>,
     berth_saved: Option<Time>,
+    learnt_saved: Option<Time>,
     ticked: Option<Time>,
     sea: Option<Time>,
     accounted: Option<Time>,
@@ -123,6 +124,15 @@ impl Worker {
     fn go_on_from(&mut self, remains: Remains) -> anyhow::Result<()> {
         for fault in &remains.faults {
             tracing::warn!(fault, "left by the run before, and no use");
+        }
+        if self.pipeline.reader().learning.enabled {
+            // before the navigation of the run before, which brings what it has learnt along
+            if let Some(text) = remains.learnt {
+                self.order(Order::LearntModel(text))?;
+            }
+            if !self.pipeline.reader().learning.is_used {
+                self.order(Order::UseLearnt(false))?;
+            }
         }
         if let Some((age, state)) = remains.navigation
             && self.order(Order::Checkpoint { age, state })? == Some(Obeyed::Resumed)
@@ -198,6 +208,18 @@ impl Worker {
         if is_due(&mut self.agenda.berth_saved, now.monotonic, BERTH_SAVED) {
             self.save_berth(now.monotonic);
         }
+        let interval = self.pipeline.reader().learning.interval_s;
+        if is_due(&mut self.agenda.learnt_saved, now.monotonic, interval) {
+            self.save_learnt();
+        }
+    }
+
+    /// Saves what is learnt of the sensors, once there is anything.
+    fn save_learnt(&self) {
+        let learnt = self.pipeline.engine().learnt().filter(|own| !own.is_empty());
+        if let (Some(saver), Some(model)) = (&self.saver, learnt) {
+            saver.learnt(model);
+        }
     }
 
     fn save_berth(&self, now: Time) {
@@ -246,6 +268,7 @@ impl Worker {
             sky: self.pipeline.engine_in_use().sky(),
             standings: self.pipeline.engine_in_use().standings().collect(),
             findings: self.pipeline.engine_in_use().findings().to_vec(),
+            learning: self.pipeline.engine_in_use().learning(),
             disturbance: with_sea.then(|| self.pipeline.engine_in_use().disturbance()).flatten(),
             epochs: [epochs, late, self.pipeline.outputs().station().skipped()],
             untold: self.journal.lost(),
@@ -345,6 +368,7 @@ impl Worker {
     fn finish(self) -> anyhow::Result<()> {
         let now = self.clock.now();
         self.save_berth(now.monotonic);
+        self.save_learnt();
         if let (Some(saver), Some(state)) = (&self.saver, self.pipeline.checkpoint()) {
             saver.navigation(Kept { made: boot_now(&now), state });
         }

@@ -12,11 +12,14 @@ pub use store::{Kept, Loaded, Store};
 use std::path::{Path, PathBuf};
 
 use insd_base::Span;
+use insd_config::learning::newest;
 
 /// Name of the files with the navigation.
 const NAVIGATION: &str = "navigation";
 /// Name of the file with the state of a ship at her berth.
 const BERTH: &str = "berth.toml";
+/// Name of the file with what was learnt of the sensors.
+const LEARNT: &str = "sensors.toml";
 
 /// What the run before has left.
 #[derive(Clone, Debug, Default)]
@@ -25,6 +28,8 @@ pub struct Remains {
     pub navigation: Option<(Span, Vec<u8>)>,
     /// The state of the ship at her berth, as its file has it.
     pub berth: Option<String>,
+    /// What was learnt of the sensors, as its file has it.
+    pub learnt: Option<String>,
     /// What was found damaged or cannot be used, in words.
     pub faults: Vec<String>,
 }
@@ -36,6 +41,11 @@ pub fn remains(folders: &[PathBuf], now: &Boot) -> Remains {
     for folder in folders {
         let loaded = Store::new(folder, NAVIGATION).load();
         remains.faults.extend(loaded.faults);
+        let berth = std::fs::read_to_string(berth(folder)).ok();
+        remains.berth = remains.berth.or(berth);
+        let learnt = newest(&learnt(folder));
+        remains.faults.extend(learnt.faults);
+        remains.learnt = remains.learnt.or(learnt.model.map(|(_, text)| text));
         let Some(kept) = loaded.kept else { continue };
         match now.since(&kept.made) {
             Some(age) => {
@@ -49,10 +59,14 @@ pub fn remains(folders: &[PathBuf], now: &Boot) -> Remains {
                 folder.display()
             )),
         }
-        let berth = std::fs::read_to_string(berth(folder)).ok();
-        remains.berth = remains.berth.or(berth);
     }
     remains
+}
+
+/// The file with what was learnt of the sensors.
+#[must_use]
+pub fn learnt(folder: &Path) -> PathBuf {
+    folder.join(LEARNT)
 }
 
 /// The file with the state of a ship at her berth.

@@ -7,9 +7,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle};
 
 use insd_base::Span;
-use insd_config::output_file;
+use insd_config::{learning, output_file};
+use insd_engine::KeptModel;
 
-use super::{Boot, Kept, NAVIGATION, Store, berth};
+use super::{Boot, Kept, NAVIGATION, Store, berth, learnt};
 
 /// Where is saved, and how often.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +38,7 @@ pub struct SaverState {
 enum Message {
     Navigation(Kept),
     Berth(String),
+    Learnt(Box<KeptModel>),
 }
 
 /// Saves on a thread of its own. No call waits for the disk, apart from [`Saver::finish`].
@@ -60,6 +62,7 @@ impl Saver {
             memory: folders.memory.as_deref().map(|folder| Store::new(folder, NAVIGATION)),
             disk: folders.disk.as_deref().map(|folder| Store::new(folder, NAVIGATION)),
             berth: folders.disk.as_deref().map(berth),
+            learnt: folders.disk.as_deref().map(learnt),
             interval: folders.interval,
             last: None,
             state: Arc::clone(&state),
@@ -77,6 +80,11 @@ impl Saver {
     /// Hands over the state of a ship at her berth, as its file is to have it.
     pub fn berth(&self, text: String) {
         self.send(Message::Berth(text));
+    }
+
+    /// Hands over what was learnt of the sensors.
+    pub fn learnt(&self, model: KeptModel) {
+        self.send(Message::Learnt(Box::new(model)));
     }
 
     /// How it is going.
@@ -117,6 +125,7 @@ struct Worker {
     memory: Option<Store>,
     disk: Option<Store>,
     berth: Option<PathBuf>,
+    learnt: Option<PathBuf>,
     interval: Span,
     /// When the disk was given a state last.
     last: Option<Boot>,
@@ -131,6 +140,11 @@ impl Worker {
                 Message::Berth(text) => {
                     let place = self.berth.as_deref();
                     let written = place.map(|place| output_file::replace(place, &text));
+                    written.into_iter().for_each(|written| self.judge(written));
+                }
+                Message::Learnt(model) => {
+                    let place = self.learnt.as_deref();
+                    let written = place.map(|place| learning::keep(place, &model));
                     written.into_iter().for_each(|written| self.judge(written));
                 }
             }

@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use insd_alignment::StoredState;
 use insd_base::{
-    AlertOrder, Arrival, Counts, Heave, Input, Mode, Motion, Order, ResumeDoubt, Time, UtcTime,
+    AlertOrder, Arrival, Counts, Heave, Input, Mode, Motion, Order, ResumeDoubt, Span, Time,
+    UtcTime,
 };
-use insd_engine::{Engine, Output};
+use insd_engine::{Engine, KeptFault, KeptModel, Output};
 use insd_intake::event::IntakeEvent;
 use insd_intake::status::IntakeStatus;
 use insd_intake::{Intake, Intaken};
@@ -73,6 +74,12 @@ pub enum Obeyed {
     StoredStateOffered,
     /// It is not, and why.
     StoredStateRefused(String),
+    /// What was learnt of the sensors on earlier voyages is gone on from.
+    LearntOffered,
+    /// It is not, and why.
+    LearntRefused(KeptFault),
+    /// Whether what is learnt of the sensors may be used.
+    LearntUse(bool),
 }
 
 /// Who reads the orders that come as text: this crate knows no format of a file. What it reads may hang on
@@ -131,6 +138,7 @@ impl<R: OrderReader> Pipeline<R> {
         while let Some(taken) = self.intake.poll_output() {
             match taken {
                 Intaken::Event(event) => product(Product::Intake(event)),
+                Intaken::Temperature(time, celsius) => self.engine.feel(time, celsius),
                 Intaken::Measured(received) => {
                     self.outputs.hear(&received);
                     self.redundancy.iter_mut().for_each(|own| own.overhear_first(&received));
@@ -190,28 +198,7 @@ impl<R: OrderReader> Pipeline<R> {
                 Ok((plan, change)) => Obeyed::Configured(self.configure(plan, change)),
                 Err(faults) => Obeyed::ConfigurationRefused(faults),
             },
-            Order::Checkpoint { age, state } => {
-                let Some(checkpoints) = Checkpoints::parse(state) else {
-                    return Obeyed::NotResumed(ResumeDoubt::Damaged);
-                };
-                let first = match checkpoints.of(FIRST) {
-                    Some(own) => self.engine.resume(own, now, *age),
-                    None => Err(ResumeDoubt::Damaged),
-                };
-                let chosen = checkpoints.of(BERTH).map(String::from_utf8_lossy);
-                let spares = self.redundancy.as_mut();
-                let resumed = spares.is_some_and(|own| own.resume(&checkpoints, now, *age));
-                match first {
-                    Err(doubt) if !resumed => Obeyed::NotResumed(doubt),
-                    _ => {
-                        // a berth that is configured no more is not there to be chosen
-                        if let Some(name) = chosen {
-                            self.outputs.choose_berth(Some(&name));
-                        }
-                        Obeyed::Resumed
-                    }
-                }
-            }
+            Order::Checkpoint { age, state } => self.resume(now, *age, state),
             Order::Berth(name) => {
                 let done = self.outputs.choose_berth(name.as_deref());
                 Obeyed::Berth { name: name.clone(), done }
@@ -223,6 +210,48 @@ impl<R: OrderReader> Pipeline<R> {
                 }
                 Err(fault) => Obeyed::StoredStateRefused(fault),
             },
+            Order::LearntModel(text) => self.go_on_learning(text),
+            Order::UseLearnt(is_wanted) => {
+                self.engine.use_learnt(*is_wanted);
+                self.redundancy.iter_mut().for_each(|own| own.use_learnt(*is_wanted));
+                Obeyed::LearntUse(*is_wanted)
+            }
+        }
+    }
+
+    /// Goes on from the checkpoint of the run before.
+    fn resume(&mut self, now: Time, age: Span, state: &[u8]) -> Obeyed {
+        let Some(checkpoints) = Checkpoints::parse(state) else {
+            return Obeyed::NotResumed(ResumeDoubt::Damaged);
+        };
+        let first = match checkpoints.of(FIRST) {
+            Some(own) => self.engine.resume(own, now, age),
+            None => Err(ResumeDoubt::Damaged),
+        };
+        let chosen = checkpoints.of(BERTH).map(String::from_utf8_lossy);
+        let spares = self.redundancy.as_mut();
+        let resumed = spares.is_some_and(|own| own.resume(&checkpoints, now, age));
+        match first {
+            Err(doubt) if !resumed => Obeyed::NotResumed(doubt),
+            _ => {
+                // a berth that is configured no more is not there to be chosen
+                if let Some(name) = chosen {
+                    self.outputs.choose_berth(Some(&name));
+                }
+                Obeyed::Resumed
+            }
+        }
+    }
+
+    /// Goes on from what was learnt on earlier voyages.
+    fn go_on_learning(&mut self, text: &str) -> Obeyed {
+        match KeptModel::parse(text) {
+            Ok(model) => {
+                self.engine.offer_learnt(&model);
+                self.redundancy.iter_mut().for_each(|own| own.offer_learnt(&model));
+                Obeyed::LearntOffered
+            }
+            Err(fault) => Obeyed::LearntRefused(fault),
         }
     }
 

@@ -11,7 +11,7 @@ use insd_base::{
 use insd_engine::vote::{
     Difference, Disagreement, Doubt, Gyros, Record, Testimony, Voice, VoteEvent, Voter,
 };
-use insd_engine::{Engine, Output};
+use insd_engine::{Engine, KeptModel, Output};
 use insd_intake::choice::Quantity;
 use insd_intake::{Intake, Intaken};
 use insd_output::Doubts;
@@ -213,6 +213,18 @@ impl Redundancy {
         resumed
     }
 
+    /// Offers the spares what was learnt of what they share with the first engine; their IMUs are others.
+    pub(crate) fn offer_learnt(&mut self, model: &KeptModel) {
+        let mut shared = model.clone();
+        shared.gyros = None;
+        self.spares.iter_mut().for_each(|own| own.engine.offer_learnt(&shared));
+    }
+
+    /// Whether what is learnt may be used.
+    pub(crate) fn use_learnt(&mut self, is_wanted: bool) {
+        self.spares.iter_mut().for_each(|own| own.engine.use_learnt(is_wanted));
+    }
+
     /// What the spares need to go on.
     pub(crate) fn checkpoints(&self) -> impl Iterator<Item = (String, Vec<u8>)> + '_ {
         let own = |spare: &Running| Some((spare.name.to_string(), spare.engine.checkpoint()?));
@@ -291,7 +303,14 @@ impl Running {
     fn handle(&mut self, arrival: &Arrival, mut say: impl FnMut(&Arc<str>, &Body, Output)) {
         self.intake.handle(arrival);
         while let Some(taken) = self.intake.poll_output() {
-            let Intaken::Measured(received) = taken else { continue };
+            let received = match taken {
+                Intaken::Measured(received) => received,
+                Intaken::Temperature(time, celsius) => {
+                    self.engine.feel(time, celsius);
+                    continue;
+                }
+                Intaken::Event(_) => continue,
+            };
             self.ears.gyros.hear(&received.message);
             self.engine.handle(&loosened(&received, &self.home));
             while let Some(output) = self.engine.poll_output() {

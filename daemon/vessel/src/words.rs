@@ -137,6 +137,10 @@ pub fn order(obeyed: &Obeyed) -> String {
         }
         Obeyed::StoredStateOffered => "the heading stored at the berth is on offer".to_owned(),
         Obeyed::StoredStateRefused(fault) => format!("the heading stored at the berth: {fault}"),
+        Obeyed::LearntOffered => "what was learnt of the sensors is gone on from".to_owned(),
+        Obeyed::LearntRefused(fault) => format!("what was learnt of the sensors: {fault}"),
+        Obeyed::LearntUse(true) => "what is learnt of the sensors may be used".to_owned(),
+        Obeyed::LearntUse(false) => "what is learnt of the sensors is not used".to_owned(),
     }
 }
 

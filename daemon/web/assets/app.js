@@ -13,6 +13,7 @@ import { alignment, disturbance, modes, modeTone } from "./alignment.js";
 import { alerts, startAlerts } from "./alerts.js";
 import * as bridge from "./bridge.js";
 import { docking, plan, startDocking } from "./docking.js";
+import { learning, startLearning } from "./learning.js";
 
 const bind = binder(document);
 const instruments = [rose(byId("rose")), rose(byId("b-rose")), horizon(byId("horizon")), turn(byId("turn")), turn(byId("b-turn")), qualities, source];
@@ -76,6 +77,7 @@ function drawWhole() {
   show(byId("simulated"), data.program.simulated);
   sensors(data);
   sky(data);
+  learning(data);
   ports(data);
   measurements(data);
   system(data);
@@ -184,5 +186,6 @@ startTheme();
 bridge.startView(redraw);
 startAlerts();
 startDocking();
+startLearning();
 setInterval(() => { if (performance.now() - at > LOOK) age(false); }, LOOK);
 follow({ onData: take, onLink });

@@ -31,6 +31,8 @@ pub enum PageOrder {
     },
     /// The berth of this name is gone alongside; without a name the nearest is proposed.
     Berth(Option<String>),
+    /// Whether what is learnt of the sensors may be used.
+    UseLearnt(bool),
     /// What the journal tells from now on: a level, or a filter by module.
     LogLevel(String),
 }
@@ -42,6 +44,8 @@ impl fmt::Display for PageOrder {
             PageOrder::Silence { id, .. } => write!(f, "silence alert {id}"),
             PageOrder::Berth(Some(name)) => write!(f, "choose berth {name}"),
             PageOrder::Berth(None) => f.write_str("choose the nearest berth"),
+            PageOrder::UseLearnt(true) => f.write_str("use what is learnt of the sensors"),
+            PageOrder::UseLearnt(false) => f.write_str("do not use what is learnt of the sensors"),
             PageOrder::LogLevel(level) => write!(f, "log at level {level}"),
         }
     }

@@ -47,6 +47,8 @@ const TICK: f64 = 0.1;
 pub enum Intaken {
     /// A measurement, for the engine.
     Measured(Received),
+    /// The temperature of the IMU in use, degrees Celsius, about once a second.
+    Temperature(Time, f64),
     /// Something worth telling.
     Event(IntakeEvent),
 }

@@ -205,6 +205,14 @@ fn put_order(bytes: &mut Vec<u8>, order: &Order) {
             put(bytes, 4);
             put_bytes(bytes, name.as_deref().unwrap_or_default().as_bytes());
         }
+        Order::LearntModel(text) => {
+            put(bytes, 5);
+            put_bytes(bytes, text.as_bytes());
+        }
+        Order::UseLearnt(is_wanted) => {
+            put(bytes, 6);
+            put(bytes, u64::from(*is_wanted));
+        }
     }
 }
 
@@ -344,6 +352,12 @@ fn take_order(bytes: &mut &[u8]) -> Option<Order> {
         }
         3 => Order::StoredState(take_text(bytes)?),
         4 => Order::Berth(Some(take_text(bytes)?).filter(|name| !name.is_empty())),
+        5 => Order::LearntModel(take_text(bytes)?),
+        6 => match take(bytes)? {
+            0 => Order::UseLearnt(false),
+            1 => Order::UseLearnt(true),
+            _ => return None,
+        },
         _ => return None,
     })
 }

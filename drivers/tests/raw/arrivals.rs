@@ -58,6 +58,8 @@ fn order() -> impl Strategy<Value = Order> {
             .prop_map(|(age, state)| Order::Checkpoint { age: Span::from_nanos(age), state }),
         ".{0,40}".prop_map(Order::StoredState),
         proptest::option::of(".{1,40}").prop_map(Order::Berth),
+        ".{0,40}".prop_map(Order::LearntModel),
+        any::<bool>().prop_map(Order::UseLearnt),
     ]
 }
 

@@ -153,6 +153,10 @@ pub enum Order {
     StoredState(String),
     /// The berth of this name is gone alongside; without a name the nearest is proposed.
     Berth(Option<String>),
+    /// What was learnt of the sensors on earlier voyages: the text of its file.
+    LearntModel(String),
+    /// Whether what is learnt of the sensors may be used.
+    UseLearnt(bool),
 }
 
 /// What an operator can do about an alert.
@@ -191,8 +195,10 @@ impl Order {
     #[must_use]
     pub fn length(&self) -> usize {
         match self {
-            Order::Alert { .. } => 0,
-            Order::Configuration(text) | Order::StoredState(text) => text.len(),
+            Order::Alert { .. } | Order::UseLearnt(_) => 0,
+            Order::Configuration(text) | Order::StoredState(text) | Order::LearntModel(text) => {
+                text.len()
+            }
             Order::Berth(name) => name.as_ref().map_or(0, String::len),
             Order::Checkpoint { state, .. } => state.len(),
         }

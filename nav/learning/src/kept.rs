@@ -8,6 +8,9 @@ use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 use serde::{Deserialize, Serialize};
 
 use crate::current::CurrentModel;
+use crate::label::LENGTH;
+use crate::shadow::ShadowScore;
+use crate::trained::Trained;
 
 /// The version that is written, and the only one that is read.
 const VERSION: u32 = 1;
@@ -56,6 +59,9 @@ pub struct KeptLog {
     pub shadow_without_m: Vec<f64>,
     /// And with it, m.
     pub shadow_with_m: Vec<f64>,
+    /// Speeds and turns that it was learnt on.
+    #[serde(default)]
+    pub trained: Trained,
 }
 
 /// How the biases of gyros follow the temperature: the constant, the slope per 10 K and the bend per (10 K)^2 about 30 degrees Celsius.
@@ -96,6 +102,24 @@ impl KeptModel {
         KeptModel { version: VERSION, generation: 1, voyages: 1, log, gyros }
     }
 
+    /// Whether nothing was learnt.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.log.labels == 0 && self.gyros.is_none()
+    }
+
+    /// Hours that were learnt from.
+    #[must_use]
+    pub fn hours(&self) -> f64 {
+        f64::from(self.log.labels) * LENGTH / 3600.0
+    }
+
+    /// Median error after five minutes in outages that did not happen, without and with what is learnt, m; `None` of too few.
+    #[must_use]
+    pub fn outage(&self) -> Option<[f64; 2]> {
+        ShadowScore::after(&self.log).quantiles().map(|own| own.map(|[median, _]| median))
+    }
+
     /// The text; the same for the same model.
     #[must_use]
     pub fn text(&self) -> String {
@@ -134,6 +158,7 @@ impl KeptModel {
             && current
             && variances
             && log.slide_m.abs() < 1000.0
+            && log.trained.is_sound()
             && numbers.clone().all(|x| x.is_finite())
             && log.shadow_with_m.len() == log.shadow_without_m.len()
             && self.gyros.as_ref().is_none_or(KeptGyros::is_sound)

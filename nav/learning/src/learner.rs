@@ -9,6 +9,7 @@ use crate::kept::KeptLog;
 use crate::label::Label;
 use crate::model::LogErrors;
 use crate::shadow::ShadowScore;
+use crate::trained::Trained;
 
 /// How a current may go on: 1-sigma, m/s, by time constant, s. The last of each is for unknown waters.
 const STDS: [f64; 3] = [0.1, 0.25, 0.5];
@@ -18,6 +19,8 @@ const TIMES: [f64; 4] = [44_714.0, 20_000.0, 12_000.0, 7200.0];
 const GIVEN_UP: f64 = 3.0;
 /// Labels before anything is used.
 const FEWEST: u32 = 40;
+/// A log that is begun anew with nothing known explains what is heard better by this, as a logarithm: the log is another.
+const OTHER: f64 = 8.0;
 /// Of the last labels so many refused: the log is another.
 const LAST: usize = 10;
 const REFUSED: usize = 6;
@@ -32,6 +35,11 @@ pub struct Learner {
     is_used: bool,
     /// Models as they were at the begin of the outages that are scored.
     held: VecDeque<LogErrors>,
+    /// What another log would make of what is heard, with nothing known of it: while there is something known of earlier voyages.
+    rivals: Vec<LogErrors>,
+    /// Labels that the rivals have heard.
+    rivalled: u32,
+    trained: Trained,
 }
 
 /// How a learner stands.
@@ -63,6 +71,9 @@ impl Default for Learner {
             count: 0,
             is_used: false,
             held: VecDeque::new(),
+            rivals: Vec::new(),
+            rivalled: 0,
+            trained: Trained::default(),
         }
     }
 }
@@ -74,9 +85,11 @@ impl Learner {
         let shadow = ShadowScore::after(kept);
         Learner {
             notions: notions(|current| LogErrors::known(kept, current)),
-            is_used: kept.labels >= FEWEST && shadow.proves(false),
+            is_used: kept.labels >= FEWEST && kept.trained.is_enough() && shadow.proves(false),
             shadow,
             count: kept.labels,
+            rivals: notions(LogErrors::unknown),
+            trained: kept.trained,
             ..Learner::default()
         }
     }
@@ -86,6 +99,7 @@ impl Learner {
     pub fn kept(&self) -> KeptLog {
         KeptLog {
             labels: self.count,
+            trained: self.trained,
             shadow_without_m: self.shadow.errors().map(|pair| pair[0]).collect(),
             shadow_with_m: self.shadow.errors().map(|pair| pair[1]).collect(),
             ..self.model().kept()
@@ -103,12 +117,20 @@ impl Learner {
         if self.refused.len() > LAST {
             self.refused.pop_front();
         }
+        if heard[best].is_used {
+            self.trained.widen(label);
+        }
         if self.refused.iter().filter(|refused| **refused).count() >= REFUSED {
             *self = Learner::default();
             return Some(LearnerVerdict::Changed);
         }
+        if self.is_another(label) {
+            let rivals = std::mem::take(&mut self.rivals);
+            *self = Learner { notions: rivals, count: self.rivalled, ..Learner::default() };
+            return Some(LearnerVerdict::Changed);
+        }
         let before = self.is_used;
-        self.is_used = self.shadow.proves(before);
+        self.is_used = self.trained.is_enough() && self.shadow.proves(before);
         match (before, self.is_used) {
             (false, true) => {
                 // the filter learns now, and its heading does not lean to what the log says in a turn any more
@@ -118,6 +140,22 @@ impl Learner {
             (true, false) => Some(LearnerVerdict::Unproven),
             _ => None,
         }
+    }
+
+    /// Whether what is heard of this voyage is that of another log: the likeliest notion of one of which nothing is known
+    /// explains it better than what is known does, by the ratio of their likelihoods.
+    fn is_another(&mut self, label: &Label) -> bool {
+        if self.rivals.is_empty() {
+            return false;
+        }
+        self.rivals.iter_mut().for_each(|rival| {
+            rival.hear(label);
+        });
+        self.rivalled += 1;
+        // with the same current: a livelier one would explain what a log that was turned says, too
+        let likeliest = likeliest(&self.rivals);
+        let of = |all: &[LogErrors]| all[likeliest].score();
+        of(&self.rivals) - of(&self.notions) > OTHER
     }
 
     /// How it stands.
@@ -152,9 +190,13 @@ impl Learner {
     }
 
     fn best(&self) -> usize {
-        let score = |i: &usize| self.notions[*i].score();
-        (0..self.notions.len()).max_by(|a, b| score(a).total_cmp(&score(b))).unwrap_or(0)
+        likeliest(&self.notions)
     }
+}
+
+fn likeliest(all: &[LogErrors]) -> usize {
+    let score = |i: &usize| all[*i].score();
+    (0..all.len()).max_by(|a, b| score(a).total_cmp(&score(b))).unwrap_or(0)
 }
 
 /// One for each way in which a current may go on.

@@ -11,6 +11,8 @@ pub mod learner;
 pub mod model;
 pub mod shadow;
 pub mod thermal;
+pub mod trained;
+mod words;
 
 pub use current::CurrentModel;
 pub use kept::{KeptFault, KeptGyros, KeptLog, KeptModel};
@@ -19,3 +21,5 @@ pub use learner::{Learner, LearnerStanding, LearnerVerdict};
 pub use model::LogErrors;
 pub use shadow::ShadowScore;
 pub use thermal::{Compensation, Thermal};
+pub use trained::Trained;
+pub use words::words;

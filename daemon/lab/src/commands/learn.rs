@@ -1,28 +1,27 @@
-//! `insd learn`: what repeats of the errors of log and gyros, learnt from voyages that were recorded.
+//! `insd learn`: what repeats of the errors of log and gyros, learnt from voyages and raw recordings.
 
-use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use insd_base::Time;
-use insd_base::units::{DEG, DEG_PER_HOUR};
-use insd_config::{BadInput, output_file};
+use indicatif::{ProgressBar, ProgressStyle};
+use insd_base::{Arrival, Input, Order, Time};
+use insd_config::{BadInput, learning};
 use insd_drivers::recording::{TemperatureReader, VoyageReader};
 use insd_engine::{Engine, EngineConfig};
-use insd_learning::thermal::MIDDLE;
-use insd_learning::{KeptGyros, KeptLog, KeptModel, ShadowScore};
+use insd_learning::{KeptModel, words};
+use insd_vessel::Pipeline;
 
-/// Knots in a metre per second.
-const KNOTS: f64 = 3600.0 / 1852.0;
-/// Speeds that the curve of a log is told at, knots.
-const SPEEDS: [f64; 4] = [6.0, 9.0, 12.0, 18.0];
+use crate::raw_run::{RawRun, is_recording};
+
+/// Messages between two looks at the progress.
+const STRIDE: u32 = 20_000;
 
 /// Options of `insd learn`.
 #[derive(Clone, Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct LearnArgs {
-    /// Voyage directories, in the order in which they were made
+    /// Voyage directories and raw recordings, in the order in which they were made
     #[arg(required = true, value_name = "VOYAGE")]
     voyages: Vec<PathBuf>,
     /// The model: gone on from if it is there, and written
@@ -48,23 +47,28 @@ enum Show {
 /// A voyage or the model cannot be read, or the model not written.
 pub fn run(args: &LearnArgs) -> anyhow::Result<()> {
     if let Some(Show::Show { file }) = &args.show {
-        crate::terminal::print(&words(&read(file)?))?;
+        print(&read(file)?)?;
         return Ok(());
     }
     let Some(file) = &args.model else {
         return Err(BadInput("--model: which file is the model to be in?".to_owned()).into());
     };
     let mut model = if file.exists() { Some(read(file)?) } else { None };
-    for (i, voyage) in args.voyages.iter().enumerate() {
-        eprintln!("{} of {}: {}", i + 1, args.voyages.len(), voyage.display());
-        model = Some(sail(voyage, model)?);
+    let bar = progress_bar(args.voyages.len() as u64)?;
+    for voyage in &args.voyages {
+        let told = Progress { bar: &bar, name: voyage.display().to_string(), count: 0 };
+        model = Some(if voyage.join("voyage.toml").exists() || !is_recording(voyage) {
+            sail(voyage, model, told)?
+        } else {
+            replay(voyage, model, told)?
+        });
+        bar.inc(1);
     }
+    bar.finish_and_clear();
     let Some(model) = model else { return Ok(()) };
-    keep_the_one_before(file)?;
-    output_file::replace(file, &model.text())
+    learning::keep(file, &model)
         .with_context(|| format!("{}: cannot be written", file.display()))?;
-    crate::terminal::print(&words(&model))?;
-    Ok(())
+    print(&model)
 }
 
 /// Reads a model.
@@ -77,20 +81,12 @@ pub(super) fn read(file: &Path) -> anyhow::Result<KeptModel> {
     KeptModel::parse(&text).map_err(|fault| bad(&fault).into())
 }
 
-/// The generation before stays beside it, as FILE.1.
-fn keep_the_one_before(file: &Path) -> anyhow::Result<()> {
-    if !file.exists() {
-        return Ok(());
-    }
-    let mut name = file.as_os_str().to_owned();
-    name.push(".1");
-    // copied, not moved: whoever is stopped here leaves the file in its place
-    fs::copy(file, &name).with_context(|| format!("{}: cannot be copied", file.display()))?;
-    Ok(())
-}
-
 /// Sails a voyage, and returns what is known after it.
-fn sail(dir: &Path, before: Option<KeptModel>) -> anyhow::Result<KeptModel> {
+fn sail(
+    dir: &Path,
+    before: Option<KeptModel>,
+    mut told: Progress<'_>,
+) -> anyhow::Result<KeptModel> {
     let mut reader = VoyageReader::open(dir)?;
     let mut temperature = TemperatureReader::open(dir)?;
     let config = EngineConfig {
@@ -101,11 +97,67 @@ fn sail(dir: &Path, before: Option<KeptModel>) -> anyhow::Result<KeptModel> {
     let mut engine = Engine::new(config);
     for received in &mut reader {
         let received = received?;
+        told.go_on(received.receipt);
         feel(&mut engine, temperature.as_mut(), received.receipt)?;
         engine.handle(&received);
         while engine.poll_output().is_some() {}
     }
     engine.learnt().context("nothing is learnt of this voyage")
+}
+
+/// Sails all runs of a raw recording, each with the configuration that it had, and returns what is known after them.
+fn replay(
+    path: &Path,
+    before: Option<KeptModel>,
+    mut told: Progress<'_>,
+) -> anyhow::Result<KeptModel> {
+    let (mut model, mut run, mut runs) = (before, 1, 1);
+    while run <= runs {
+        let mut raw = RawRun::open(path, None, run)?;
+        let engine = EngineConfig { learning: true, learnt: model.clone(), ..raw.config.engine() };
+        let mut pipeline = Pipeline::new(raw.config.plan_with(engine), raw.config.clone());
+        runs = raw.walk(|item| {
+            // what is wrong with a recording is told by `insd replay`
+            let Ok(arrival) = item else { return Ok(()) };
+            told.go_on(arrival.stamp.monotonic);
+            if !is_of_another_run(&arrival) {
+                pipeline.handle(&arrival, |_| {});
+            }
+            Ok(())
+        })?;
+        model = pipeline.engine().learnt();
+        run += 1;
+    }
+    model.context("nothing is learnt of this recording")
+}
+
+/// What the run before has left: here it is gone on from the model that is made.
+fn is_of_another_run(arrival: &Arrival) -> bool {
+    matches!(
+        arrival.input,
+        Input::Order(Order::LearntModel(_) | Order::Checkpoint { .. } | Order::UseLearnt(_))
+    )
+}
+
+/// Tells how far a voyage is.
+struct Progress<'a> {
+    bar: &'a ProgressBar,
+    name: String,
+    count: u32,
+}
+
+impl Progress<'_> {
+    fn go_on(&mut self, now: Time) {
+        self.count += 1;
+        if self.count.is_multiple_of(STRIDE) {
+            self.bar.set_message(format!("{}: {:.1} h", self.name, now.as_seconds() / 3600.0));
+        }
+    }
+}
+
+fn progress_bar(length: u64) -> anyhow::Result<ProgressBar> {
+    let style = "{wide_bar:.cyan/blue} {pos}/{len} voyages, {msg}, {elapsed} gone";
+    Ok(ProgressBar::new(length).with_style(ProgressStyle::with_template(style)?))
 }
 
 /// Tells an engine the newest temperature of its IMU, if there is a newer one.
@@ -121,78 +173,6 @@ pub(super) fn feel(
     Ok(())
 }
 
-/// A model in words.
-fn words(model: &KeptModel) -> String {
-    let mut text = String::new();
-    let hours = f64::from(model.log.labels) / 120.0;
-    let (voyages, generation) = (model.voyages, model.generation);
-    let _ =
-        writeln!(text, "learnt from {hours:.1} h of {voyages} voyages, generation {generation}");
-    of_log(&mut text, &model.log);
-    if let Some(gyros) = &model.gyros {
-        of_gyros(&mut text, gyros);
-    }
-    text
-}
-
-fn of_log(text: &mut String, log: &KeptLog) {
-    for knots in SPEEDS {
-        let speed = knots / KNOTS;
-        let off = 100.0 * (log.scale + log.scale_by_speed_s_m * speed);
-        let which = if off < 0.0 { "low" } else { "high" };
-        let _ = writeln!(text, "at {knots:.0} kn the log reads {:.1} % {which}", off.abs());
-    }
-    let _ = writeln!(text, "it is turned by {:.2} deg", log.turn_rad / DEG);
-    let slide = log.slide_m * DEG;
-    let _ =
-        writeln!(text, "it reads {slide:.3} m/s to starboard for each deg/s of turn to starboard");
-    let (std, time) = (log.current_std_mps, log.current_time_s / 3600.0);
-    let _ = writeln!(text, "currents of {std:.2} m/s that go on for {time:.1} h");
-    let shadow = ShadowScore::after(log);
-    match shadow.quantiles() {
-        Some([without, with]) => {
-            let use_ = if shadow.proves(false) { "used" } else { "not used" };
-            let _ = writeln!(
-                text,
-                "if GNSS failed: {:.0} m in 5 min, without learning {:.0} (95 %: {:.0} and {:.0}): {use_}",
-                with[0], without[0], with[1], without[1]
-            );
-        }
-        None => text.push_str("not proven yet: not used\n"),
-    }
-}
-
-fn of_gyros(text: &mut String, gyros: &KeptGyros) {
-    let [least, most] = gyros.range_c;
-    let _ =
-        writeln!(text, "gyros from {least:.0} to {most:.0} degrees Celsius, against {MIDDLE:.0}:");
-    let [cold, warm] = [least, most].map(|celsius| gyros.against_middle(celsius) / DEG_PER_HOUR);
-    for (i, axis) in ["forward", "starboard", "down"].iter().enumerate() {
-        let (cold, warm) = (cold[i], warm[i]);
-        let _ = writeln!(text, "  {axis}: {cold:+.1} deg/h cold, {warm:+.1} deg/h warm");
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_model_is_told_in_words() {
-        let log = KeptLog {
-            labels: 4920,
-            scale: 0.02,
-            scale_by_speed_s_m: -0.001,
-            slide_m: -5.0,
-            current_std_mps: 0.1,
-            current_time_s: 20_000.0,
-            shadow_without_m: vec![25.0; 8],
-            shadow_with_m: vec![12.0; 8],
-            ..KeptLog::default()
-        };
-        let told = words(&KeptModel::new(log, None));
-        assert!(told.contains("learnt from 41.0 h of 1 voyages"), "{told}");
-        assert!(told.contains("at 12 kn the log reads 1.4 % high"), "{told}");
-        assert!(told.contains("12 m in 5 min, without learning 25"), "{told}");
-    }
+fn print(model: &KeptModel) -> anyhow::Result<()> {
+    Ok(crate::terminal::print(&(words(model).join("\n") + "\n"))?)
 }

@@ -6,6 +6,7 @@ mod alerts;
 mod alignment;
 mod docking;
 mod engines;
+mod learning;
 mod meaning;
 mod ports;
 mod program;
@@ -173,6 +174,7 @@ impl Showcase {
         shown.estimates = slow.estimates.as_ref().map(engines::estimates);
         shown.standings = engines::standings(&slow.standings);
         shown.installation = engines::installation(&slow.findings);
+        shown.learning = slow.learning.as_ref().map(learning::learning);
         if let Some(disturbance) = &slow.disturbance {
             shown.disturbance = Some(engines::disturbance(disturbance));
         }

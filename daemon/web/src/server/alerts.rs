@@ -38,6 +38,14 @@ struct BerthBody {
     name: Option<String>,
 }
 
+/// The body of an order about what is learnt.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LearningBody {
+    #[serde(rename = "use")]
+    is_used: bool,
+}
+
 /// The body of an order about the journal.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -103,6 +111,19 @@ pub(super) async fn berth(
             return Err("name: the name of a berth, or null for the nearest".to_owned());
         }
         Ok(PageOrder::Berth(name))
+    };
+    give(&hall, &headers, peer, order).await
+}
+
+pub(super) async fn learning(
+    State(hall): State<Arc<Hall>>,
+    Extension(peer): Extension<Peer>,
+    headers: HeaderMap,
+    body: Bytes,
+) -> Response {
+    let order = || {
+        let LearningBody { is_used } = parse(&body)?;
+        Ok(PageOrder::UseLearnt(is_used))
     };
     give(&hall, &headers, peer, order).await
 }

@@ -125,6 +125,7 @@ fn router(hall: &Arc<Hall>) -> Router {
         .route("/api/v1/alerts/{id}/acknowledge", post(alerts::acknowledge))
         .route("/api/v1/alerts/{id}/silence", post(alerts::silence))
         .route("/api/v1/berth", post(alerts::berth))
+        .route("/api/v1/learning", post(alerts::learning))
         .route("/api/v1/log-level", post(alerts::log_level))
         .fallback(guard::not_found)
         .layer(DefaultBodyLimit::max(MAX_BODY))

@@ -17,6 +17,7 @@ mod alerts;
 mod alignment;
 mod docking;
 mod freshness;
+mod learning;
 mod ports;
 mod program;
 mod sensors;
@@ -28,6 +29,7 @@ pub use alerts::{Alert, ShownAlertState, ShownEvent, ShownPriority, ShownSeverit
 pub use alignment::{DisturbanceAxis, ShownAlignment, ShownDisturbance, ShownFit};
 pub use docking::{ShownContact, ShownDocking, ShownDockingPoint, ShownQuay};
 pub use freshness::{Freshness, GONE, OLD};
+pub use learning::ShownLearning;
 pub use ports::{
     Age, Bus, BusNode, BusState, OutputMessage, Schedule, ShownInput, ShownOutput, ShownPortState,
 };
@@ -83,6 +85,8 @@ pub struct Snapshot {
     pub standings: Vec<ShownStands>,
     /// What of the installation is found to be otherwise than configured.
     pub installation: Vec<Found>,
+    /// What is learnt of the sensors; `None` where nothing is to be.
+    pub learning: Option<ShownLearning>,
     /// Sensors, in the order of the configuration.
     pub sensors: Vec<Sensor>,
     /// Which sensor is used for what, and why.
@@ -133,6 +137,7 @@ impl Default for Snapshot {
             estimates: None,
             standings: Vec::new(),
             installation: Vec::new(),
+            learning: None,
             sensors: Vec::new(),
             choices: Vec::new(),
             sky: ShownSky::default(),

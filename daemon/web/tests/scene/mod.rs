@@ -10,8 +10,8 @@ mod ship;
 mod sky;
 
 use insd_web::snapshot::{
-    Alert, Log, Program, RecordingState, ShownAlertState, ShownEngine, ShownEvent, ShownMode,
-    ShownPriority, ShownRecording, ShownSeverity, ShownTransition, Snapshot, TimeInfo,
+    Alert, Log, Program, RecordingState, ShownAlertState, ShownEngine, ShownEvent, ShownLearning,
+    ShownMode, ShownPriority, ShownRecording, ShownSeverity, ShownTransition, Snapshot, TimeInfo,
 };
 use insd_web::{OrderReceiver, PageOrder};
 
@@ -51,13 +51,22 @@ pub(crate) struct Show {
     level: String,
     /// The berth that somebody chose.
     berth: Option<String>,
+    /// Whether what is learnt may be used.
+    uses_learnt: bool,
 }
 
 impl Show {
     /// A scene that has been going on for some minutes.
     pub(crate) fn new(scene: Scene) -> Self {
         let alerts = [ShownAlertState::Unacknowledged; 2];
-        Show { scene, ticks: 3000, alerts, level: "info".to_owned(), berth: None }
+        Show {
+            scene,
+            ticks: 3000,
+            alerts,
+            level: "info".to_owned(),
+            berth: None,
+            uses_learnt: true,
+        }
     }
 
     /// The same from its beginning, to be gone through by [`Show::skip`].
@@ -93,6 +102,7 @@ impl Show {
             engines: self.engines(t),
             estimates: Some(ship::estimates(t)),
             installation: ship::installation(self.scene),
+            learning: (self.scene == Scene::Underway).then(|| self.learning()),
             sky: sky::sky(t, self.scene),
             rejections: plumbing::rejections(t, self.scene),
             aids: plumbing::aids(t, self.scene),
@@ -110,6 +120,24 @@ impl Show {
         snapshot
     }
 
+    fn learning(&self) -> ShownLearning {
+        let words = [
+            "learnt from 41.0 h of 12 voyages, generation 12",
+            "at 12 kn the log reads 1.4 % high",
+        ];
+        ShownLearning {
+            may_be_used: self.uses_learnt,
+            uses_log: self.uses_learnt,
+            uses_current: self.uses_learnt,
+            learnt_h: 41.0,
+            voyages: 12,
+            outage_m: Some(12.0),
+            outage_without_m: Some(25.0),
+            words: words.map(str::to_owned).to_vec(),
+            ..ShownLearning::default()
+        }
+    }
+
     /// Obeys all orders that have come.
     pub(crate) fn obey(&mut self, orders: &mut OrderReceiver) {
         while let Some(request) = orders.poll() {
@@ -125,6 +153,10 @@ impl Show {
                     return Err("there is no such berth".to_owned());
                 }
                 self.berth.clone_from(name);
+                return Ok(());
+            }
+            PageOrder::UseLearnt(is_wanted) => {
+                self.uses_learnt = *is_wanted;
                 return Ok(());
             }
             PageOrder::LogLevel(level) => {

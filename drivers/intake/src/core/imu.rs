@@ -5,6 +5,7 @@ use insd_wire::gnss::EpochTime;
 use insd_wire::imu::ImuReading;
 
 use super::{Came, Core};
+use crate::Intaken;
 use crate::choice::Quantity;
 use crate::event::{Happening, Refusal};
 use crate::sensor::{ImuChange, TimeBase};
@@ -39,6 +40,11 @@ impl Core {
             self.refuse(index, Refusal::NoTime);
         }
         let used = self.choose(Quantity::Inertial, index, sample.valid, now);
+        let own = &mut self.sensors[index];
+        let celsius = sample.temperature.and_then(|told| own.warmth.take(now, told));
+        if let Some(celsius) = celsius.filter(|_| used) {
+            self.outputs.push_back(Intaken::Temperature(now, celsius));
+        }
         let number = self.sensors[index].number;
         for sample in ready {
             if used {

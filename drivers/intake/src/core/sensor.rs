@@ -14,7 +14,7 @@ use crate::config::{IntakeConfig, Kind, Role, SensorConfig};
 use crate::decode::Decoder;
 use crate::device::DeviceChoice;
 use crate::port::Link;
-use crate::sensor::{Epoch, EpochBuilder, Gravity, ImuIntake, ImuSettings, Pace};
+use crate::sensor::{Epoch, EpochBuilder, Gravity, ImuIntake, ImuSettings, Pace, Warmth};
 use crate::status::SensorStatus;
 
 /// One sensor at work.
@@ -45,6 +45,8 @@ pub(crate) struct Sensor {
     pub(super) live: bool,
     /// Whether an IMU's specific force is gravity, in the mean.
     pub(super) gravity: Gravity,
+    /// How warm an IMU is.
+    pub(super) warmth: Warmth,
     /// Its number among the sensors of its role.
     pub(super) number: u8,
 }
@@ -76,6 +78,7 @@ impl Sensor {
             paces: [Pace::default(); QUANTITIES.len()],
             live: port.is_none_or(|port| intake.ports[port].link != Link::File),
             gravity: Gravity::default(),
+            warmth: Warmth::default(),
             number,
         }
     }

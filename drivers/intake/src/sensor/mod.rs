@@ -4,8 +4,10 @@ mod gnss;
 mod gravity;
 mod imu;
 mod pace;
+mod warmth;
 
 pub use gnss::{Epoch, EpochBuilder};
 pub use gravity::Gravity;
 pub use imu::{ImuChange, ImuIntake, ImuSettings, TimeBase};
 pub use pace::Pace;
+pub use warmth::Warmth;

@@ -122,6 +122,7 @@ impl Bus {
             match taken {
                 Intaken::Measured(received) => self.measured.push(received.message),
                 Intaken::Event(event) => self.events.push(event.what),
+                Intaken::Temperature(..) => {}
             }
         }
     }

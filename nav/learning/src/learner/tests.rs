@@ -149,3 +149,56 @@ fn what_is_kept_is_read_as_it_was_written_and_damage_is_found() {
 fn the_same_labels_make_the_same_learner() {
     assert_eq!(sailed(&REPEATS, 100, 5), sailed(&REPEATS, 100, 5));
 }
+
+/// A learner that knows the log of an earlier voyage, and what it says on the next one, half an hour of legs, where the log is another.
+fn next_voyage(truth: &Truth, seed: u64) -> (Vec<Option<LearnerVerdict>>, Learner) {
+    let before = sailed(&REPEATS, 480, seed);
+    assert!(before.standing().is_used, "{seed}");
+    let mut own = Learner::after(&before.kept());
+    // another day, another current
+    let mut sea = Sea { c: Vector2::new(-0.12, 0.2), ..Sea::new(seed + 100) };
+    let words = (0..60).map(|_| own.hear(&sea.label(truth))).collect();
+    (words, own)
+}
+
+/// After how many labels it is told that the log is another, at the latest of ten voyages.
+fn told_after(truth: &Truth) -> usize {
+    let told = |seed| {
+        let (words, _) = next_voyage(truth, seed);
+        words.iter().position(|word| *word == Some(LearnerVerdict::Changed)).map_or(60, |at| at + 1)
+    };
+    (0..10).map(told).max().unwrap()
+}
+
+#[test]
+fn after_a_night_a_log_that_fouled_or_was_exchanged_is_found_within_ten_minutes() {
+    let fouled = Truth { scale: REPEATS.scale - 0.03, ..REPEATS };
+    let exchanged = Truth { scale: -0.02, slope: -0.001, turn: -0.012, slide: 1.0, ..REPEATS };
+    assert!(told_after(&fouled) <= 20);
+    assert!(told_after(&exchanged) <= 20);
+}
+
+#[test]
+fn one_that_was_turned_by_a_degree_is_found_within_twenty_minutes_of_small_turns() {
+    assert!(told_after(&Truth { turn: REPEATS.turn + 0.01745, ..REPEATS }) <= 40);
+}
+
+#[test]
+fn the_same_log_on_another_day_is_not_taken_for_another_whatever_the_current() {
+    for (current, time) in [(0.15, 20_000.0), (0.3, 7200.0), (0.05, 40_000.0)] {
+        for seed in 0..20 {
+            let (words, _) = next_voyage(&Truth { current, time, ..REPEATS }, seed);
+            assert!(!words.contains(&Some(LearnerVerdict::Changed)), "{seed} {current}");
+        }
+    }
+}
+
+#[test]
+fn what_was_never_sailed_at_another_speed_or_in_a_turn_is_not_used() {
+    let (mut sea, mut own) = (Sea::new(6), Learner::default());
+    for _ in 0..200 {
+        let label = sea.label(&REPEATS);
+        own.hear(&Label { told: Vector2::new(6.0, 0.0), ..label });
+    }
+    assert!(!own.standing().is_used && own.standing().current.is_some());
+}

@@ -1,0 +1,105 @@
+//! What was learnt, in words.
+
+use crate::kept::{KeptGyros, KeptLog, KeptModel};
+use crate::shadow::ShadowScore;
+use crate::thermal::MIDDLE;
+
+/// Knots in a metre per second, degrees in a radian, seconds in an hour.
+const KNOTS: f64 = 3600.0 / 1852.0;
+const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+const HOUR: f64 = 3600.0;
+/// Speeds that the curve of a log is told at, knots.
+const SPEEDS: [f64; 4] = [6.0, 9.0, 12.0, 18.0];
+
+/// A model in words, line by line.
+#[must_use]
+pub fn words(model: &KeptModel) -> Vec<String> {
+    let hours = model.hours();
+    let (voyages, generation) = (model.voyages, model.generation);
+    let ending = if voyages == 1 { "" } else { "s" };
+    let mut lines = Vec::new();
+    if model.log.labels > 0 {
+        lines.push(format!(
+            "learnt from {hours:.1} h of {voyages} voyage{ending}, generation {generation}"
+        ));
+        of_log(&mut lines, &model.log);
+    } else {
+        lines.push("nothing is learnt of a log yet".to_owned());
+    }
+    if let Some(gyros) = &model.gyros {
+        of_gyros(&mut lines, gyros);
+    }
+    lines
+}
+
+fn of_log(lines: &mut Vec<String>, log: &KeptLog) {
+    for knots in SPEEDS {
+        let off = 100.0 * (log.scale + log.scale_by_speed_s_m * knots / KNOTS);
+        let which = if off < 0.0 { "low" } else { "high" };
+        lines.push(format!("at {knots:.0} kn the log reads {:.1} % {which}", off.abs()));
+    }
+    if let Some(range) = log.trained.speeds_mps {
+        let [least, most] = range.map(|speed| speed * KNOTS);
+        let turns = log.trained.turns;
+        let enough = if log.trained.is_enough() { "" } else { ": too little" };
+        lines.push(format!(
+            "learnt from {least:.0} to {most:.0} kn and {turns} half minutes in turns{enough}"
+        ));
+    }
+    lines.push(format!("it is turned by {:.2} deg", log.turn_rad * DEGREES));
+    let slide = log.slide_m / DEGREES;
+    lines.push(format!("it reads {slide:.3} m/s to starboard for each deg/s of turn to starboard"));
+    let (std, time) = (log.current_std_mps, log.current_time_s / HOUR);
+    lines.push(format!("currents of {std:.2} m/s that go on for {time:.1} h"));
+    let shadow = ShadowScore::after(log);
+    lines.push(match shadow.quantiles() {
+        Some([without, with]) => {
+            let use_ = if shadow.proves(false) { "used" } else { "not used" };
+            format!(
+                "if GNSS failed: {:.0} m in 5 min, without learning {:.0} (95 %: {:.0} and {:.0}): {use_}",
+                with[0], without[0], with[1], without[1]
+            )
+        }
+        None => "not proven yet: not used".to_owned(),
+    });
+}
+
+fn of_gyros(lines: &mut Vec<String>, gyros: &KeptGyros) {
+    let [least, most] = gyros.range_c;
+    lines.push(format!("gyros from {least:.0} to {most:.0} degrees Celsius, against {MIDDLE:.0}:"));
+    let [cold, warm] = [least, most].map(|celsius| gyros.against_middle(celsius) * DEGREES * HOUR);
+    for (i, axis) in ["forward", "starboard", "down"].iter().enumerate() {
+        let (cold, warm) = (cold[i], warm[i]);
+        lines.push(format!("  {axis}: {cold:+.1} deg/h cold, {warm:+.1} deg/h warm"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_model_is_told_in_words() {
+        let log = KeptLog {
+            labels: 4920,
+            scale: 0.02,
+            scale_by_speed_s_m: -0.001,
+            slide_m: -5.0,
+            current_std_mps: 0.1,
+            current_time_s: 20_000.0,
+            shadow_without_m: vec![25.0; 8],
+            shadow_with_m: vec![12.0; 8],
+            ..KeptLog::default()
+        };
+        let told = words(&KeptModel::new(log, None)).join("\n");
+        assert!(told.contains("learnt from 41.0 h of 1 voyage,"), "{told}");
+        assert!(told.contains("at 12 kn the log reads 1.4 % high"), "{told}");
+        assert!(told.contains("12 m in 5 min, without learning 25"), "{told}");
+    }
+
+    #[test]
+    fn where_no_log_was_heard_nothing_is_said_of_one() {
+        let told = words(&KeptModel::new(KeptLog::default(), None));
+        assert_eq!(told, ["nothing is learnt of a log yet"]);
+    }
+}
