@@ -80,6 +80,7 @@ impl Config {
             relay: ship.relay,
             learning: false,
             learnt: None,
+            smoothing: None,
         }
     }
 

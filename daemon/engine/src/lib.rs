@@ -22,6 +22,7 @@ mod ledger;
 mod lessons;
 mod looks;
 mod mode;
+mod past;
 mod receivers;
 mod recent;
 mod relay;
@@ -47,6 +48,7 @@ use insd_base::{
     Mode, ModeReason, Received, Rejection, RtkSilence, SatelliteInnovation, Solution,
     SolutionSource, Span, StartCondition, Time,
 };
+use insd_nav::smoothing::KeptEpoch;
 use insd_nav::{
     Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Report, Timeline,
 };
@@ -133,6 +135,8 @@ pub struct Engine {
     resumption: Option<Resumption>,
     learning: Option<Box<Learning>>,
     trace: Trace,
+    /// What was kept for smoothing before each time that all was begun anew.
+    past: Vec<Arc<KeptEpoch>>,
     counts: Counts,
     outputs: VecDeque<Output>,
 }
@@ -156,6 +160,7 @@ impl Engine {
         nav.vessel = config.vessel;
         nav.gnss.delay_std = config.time_std.unwrap_or(nav.gnss.delay_std);
         nav.gnss.stamps_std = nav.gnss.delay_std;
+        nav.smoothing = past::plan_of(&config);
         Engine {
             stamps: Stamps::new(1.0 / config.imu.rate),
             twin: None,
@@ -183,6 +188,7 @@ impl Engine {
             resumption: None,
             learning: Learning::where_wanted(config.learning, &nav, config.learnt.as_ref()),
             trace: Trace::new(),
+            past: Vec::new(),
             counts: Counts::default(),
             outputs: VecDeque::new(),
             nav,
@@ -287,6 +293,7 @@ impl Engine {
 
     /// Levels anew, as if nothing had been.
     fn start_over(&mut self, time: Time, why: ModeReason) {
+        self.keep_past();
         self.nav = self.nav.with_docket(self.docket().begun_anew(time));
         self.stage = Stage::Levelling(Box::new(Coarse::new(&self.config)));
         self.alignment_status = StatusTeller::new(&self.config.imu, self.config.alignment.accuracy);
