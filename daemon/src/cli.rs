@@ -8,8 +8,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use insd_config::{BadInput, Config};
 use insd_drivers::recording::RecordingError;
 use insd_lab::commands::{
-    campaign, convert, evaluate, feed, integrity, learn, limit, replay, report, simulate,
-    smooth,
+    campaign, convert, evaluate, feed, integrity, learn, limit, replay, report, simulate, smooth,
 };
 use insd_lab::demo;
 

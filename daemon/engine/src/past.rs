@@ -15,16 +15,9 @@ impl Engine {
     /// All of the voyage so far, each instant with what was measured after it: rows where she navigated, none where the heading was being sought.
     #[must_use]
     pub fn smoothed(&self) -> SmoothedVoyage {
-        let mut all = SmoothedVoyage::default();
         let mut now = self.clone();
         now.keep_past();
-        for newest in &now.past {
-            let part = smoothed(newest);
-            all.rows.extend(part.rows);
-            all.cuts.extend(part.cuts);
-            all.epochs += part.epochs;
-        }
-        all
+        now.past.iter().map(smoothed).reduce(SmoothedVoyage::followed_by).unwrap_or_default()
     }
 
     /// Puts away what has been kept, before all is begun anew.

@@ -168,12 +168,7 @@ impl Covariance {
     }
 
     /// Neighbours of a process carry on by themselves: x <- A x + w, of two states by their places in the layout.
-    pub fn carry_pair(
-        &mut self,
-        (x, v): (usize, usize),
-        by: &Matrix2<f64>,
-        noise: &Matrix2<f64>,
-    ) {
+    pub fn carry_pair(&mut self, (x, v): (usize, usize), by: &Matrix2<f64>, noise: &Matrix2<f64>) {
         let carried = |old_x: f64, old_v: f64| {
             (by[(0, 0)] * old_x + by[(0, 1)] * old_v, by[(1, 0)] * old_x + by[(1, 1)] * old_v)
         };

@@ -17,7 +17,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::covariance::Covariance;
 use crate::errors::Errors;
-use crate::layout::Layout;
+use crate::layout::{Layout, Place};
 use crate::trail::KeptTrail;
 
 /// What was measured after an instant, of the errors at that instant.
@@ -53,19 +53,15 @@ impl Hindsight {
         }
     }
 
-    /// What it says of the errors of some states, of all those of the layout of `p`, whose covariance was that then; and their covariance
-    /// with it.
+    /// What it says of the errors of the states that were wanted of a covariance, as that was then; and their covariance with it.
     #[must_use]
-    pub fn of(&self, p: &Covariance, wanted: &Layout) -> (Errors, Covariance) {
+    pub fn of(&self, kept: &KeptCovariance) -> (Errors, Covariance) {
+        let KeptCovariance { layout, wanted, rows } = kept;
         let mut now = self.clone();
-        now.conform(p.layout());
-        let mut before = p.clone();
-        before.break_trail();
-        let cross = rows_of(&before, wanted);
-        let told = &cross * &now.gradient;
-        before.conform(wanted);
-        let lowered = &cross * now.information * cross.transpose();
-        let p = before.matrix() - (&lowered + lowered.transpose()) * 0.5;
+        now.conform(layout);
+        let told = rows * &now.gradient;
+        let lowered = rows * now.information * rows.transpose();
+        let p = kept.own() - (&lowered + lowered.transpose()) * 0.5;
         (Errors::new(wanted.clone(), told), Covariance::new(wanted.clone(), p))
     }
 
@@ -84,12 +80,36 @@ impl Hindsight {
     }
 }
 
-/// The rows of a covariance that belong to states of another layout; zeros for states that it has not.
-fn rows_of(p: &Covariance, wanted: &Layout) -> DMatrix<f64> {
-    let mut rows = DMatrix::zeros(wanted.states(), p.states());
-    for to in wanted.places() {
-        let Some(from) = p.layout().place(to.key) else { continue };
-        rows.rows_mut(to.start, to.width).copy_from(&p.matrix().rows(from.start, from.width));
+/// What has to be known of a covariance, so that some of its states can be smoothed: its rows that belong to them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeptCovariance {
+    layout: Layout,
+    wanted: Layout,
+    rows: DMatrix<f64>,
+}
+
+impl KeptCovariance {
+    /// Of a covariance as it is, for states of which it may have some or all.
+    #[must_use]
+    pub fn of(p: &Covariance, wanted: &Layout) -> Self {
+        let mut rows = DMatrix::zeros(wanted.states(), p.states());
+        for (to, from) in both(wanted, p.layout()) {
+            rows.rows_mut(to.start, to.width).copy_from(&p.matrix().rows(from.start, to.width));
+        }
+        KeptCovariance { layout: p.layout().clone(), wanted: wanted.clone(), rows }
     }
-    rows
+
+    /// The covariance of the states that are wanted.
+    fn own(&self) -> DMatrix<f64> {
+        let mut own = DMatrix::zeros(self.wanted.states(), self.wanted.states());
+        for (to, from) in both(&self.wanted, &self.layout) {
+            own.columns_mut(to.start, to.width).copy_from(&self.rows.columns(from.start, to.width));
+        }
+        own
+    }
+}
+
+/// Where states stand that two layouts have.
+fn both<'a>(to: &'a Layout, from: &'a Layout) -> impl Iterator<Item = (Place, Place)> + 'a {
+    to.places().iter().filter_map(|to| Some((*to, from.place(to.key)?)))
 }

@@ -41,7 +41,10 @@ fn system(numbers: &[f64]) -> System {
     let (square, rest) = numbers.split_at(ALL * ALL);
     let (steps, rest) = rest.split_at(STEPS * 10);
     let told = |own: &[f64]| {
-        (SMatrix::from_column_slice(&own[..6]), SMatrix::from_column_slice(&[own[6], 0.3, 0.1, own[7]]))
+        (
+            SMatrix::from_column_slice(&own[..6]),
+            SMatrix::from_column_slice(&[own[6], 0.3, 0.1, own[7]]),
+        )
     };
     System {
         p: beginning(square),
@@ -82,12 +85,12 @@ impl System {
     }
 
     /// Filters, and gives estimate and covariance before each measurement with the trail since the one before.
-    fn filtered(&self) -> Vec<(Errors, KeptCovariance, Option<KeptTrail>)> {
+    fn filtered(&self, wanted: &Layout) -> Vec<(Errors, KeptCovariance, Option<KeptTrail>)> {
         let (mut p, mut estimate) = (self.p.clone(), Errors::zeros(self.p.layout()));
         let mut kept = Vec::new();
         for step in 0..STEPS {
             let trail = p.begin_trail().map(|trail| trail.kept());
-            kept.push((estimate.clone(), KeptCovariance::of(&p), trail));
+            kept.push((estimate.clone(), KeptCovariance::of(&p, wanted), trail));
             let h = self.jacobian(step);
             let z = self.measured[step] - h.to_matrix(p.layout()) * estimate.values();
             let noise = Matrix2::new(0.4, 0.1, 0.1, 0.3);
@@ -100,7 +103,7 @@ impl System {
             HEAD.inflate(&mut p, self.noise);
         }
         let trail = p.begin_trail().map(|trail| trail.kept());
-        kept.push((estimate, KeptCovariance::of(&p), trail));
+        kept.push((estimate, KeptCovariance::of(&p, wanted), trail));
         kept
     }
 
@@ -140,13 +143,13 @@ proptest! {
         numbers in proptest::collection::vec(-1.0..1.0_f64, NUMBERS)
     ) {
         let system = system(&numbers);
-        let kept = system.filtered();
-        let (mean, covariance) = system.fitted();
         let wanted = Layout::of_blocks([(C.key(), 2), (HEAD.key(), 3)]);
+        let kept = system.filtered(&wanted);
+        let (mean, covariance) = system.fitted();
         let mut hindsight = Hindsight::none();
         for step in (0..=STEPS).rev() {
             let (estimate, p, trail) = &kept[step];
-            let (error, smoothed) = hindsight.of(&p.taken_out(), &wanted);
+            let (error, smoothed) = hindsight.of(p);
             for (block, start, width) in [(HEAD.key(), 0, 3), (C.key(), 6, 2)] {
                 let at = wanted.start(block).unwrap();
                 let own = estimate.values().rows(start, width) + error.values().rows(at, width);
@@ -199,7 +202,7 @@ fn what_joins_leaves_and_is_cloned_is_smoothed_as_if_it_had_always_been_there() 
         }
         let second = p.begin_trail().unwrap().kept();
         let wanted = Layout::of_blocks([(PLACE.key(), 1)]);
-        Hindsight::none().before(&second).before(&first).of(&start, &wanted)
+        Hindsight::none().before(&second).before(&first).of(&KeptCovariance::of(&start, &wanted))
     };
     let ((error, p), (other, other_p)) = (run(true), run(false));
     assert_relative_eq!(error.values(), other.values(), epsilon = 1e-12);

@@ -60,8 +60,7 @@ impl Filter {
         let Some(mut past) = self.state.past.take() else { return };
         let acceleration = self.acceleration_of_antenna(self.state.time);
         let state = &self.state;
-        let estimate =
-            KeptEstimate::of(state.time, &state.nominal, &state.rate, &acceleration);
+        let estimate = KeptEstimate::of(state.time, &state.nominal, &state.rate, &acceleration);
         let dating = self.dating();
         past.keep(&estimate, dating, &mut self.state.covariance);
         self.state.past = Some(past);

@@ -13,17 +13,16 @@ mod past;
 use std::sync::Arc;
 
 use insd_base::{Attitude, Geodetic, Ned, SolutionSigma, Time};
-use insd_estimation::{Hindsight, Layout};
+use insd_estimation::Hindsight;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::aids::View;
 use crate::dating::Dating;
-use crate::error_state::{ATTITUDE, GNSS_DELAY, POSITION, VELOCITY};
 use crate::nominal::Nominal;
 use crate::solution_sigma::solution_sigma;
 use past::{Apart, apart};
-pub(crate) use past::{KeptEstimate, Past};
 pub use past::{KeptEpoch, SmoothingPlan};
+pub(crate) use past::{KeptEstimate, Past};
 
 /// Where the ship was, how she moved and lay, at the IMU, and how sure that is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +50,16 @@ pub struct SmoothedVoyage {
     pub epochs: usize,
 }
 
+impl SmoothedVoyage {
+    /// With another part of the voyage after it.
+    #[must_use]
+    pub fn followed_by(mut self, other: Self) -> Self {
+        self.rows.extend(other.rows);
+        self.cuts.extend(other.cuts);
+        SmoothedVoyage { epochs: self.epochs + other.epochs, ..self }
+    }
+}
+
 /// An epoch, smoothed.
 struct Found {
     time: Time,
@@ -61,21 +70,15 @@ struct Found {
 /// Smooths what a filter has kept, from its newest epoch back to its oldest.
 #[must_use]
 pub fn smoothed(newest: &Arc<KeptEpoch>) -> SmoothedVoyage {
-    let wanted = Layout::of_blocks(
-        [POSITION, VELOCITY, ATTITUDE].map(|block| (block.key(), 3)).into_iter().chain([(
-            GNSS_DELAY.key(),
-            1,
-        )]),
-    );
     let mut voyage = SmoothedVoyage::default();
     let mut hindsight = Hindsight::none();
-    let mut at_end = found(newest, &hindsight, &wanted);
+    let mut at_end = found(newest, &hindsight);
     let mut epoch = newest;
     loop {
         voyage.epochs += 1;
         hindsight = epoch.trail.as_ref().map_or_else(Hindsight::none, |own| hindsight.before(own));
         let Some(before) = &epoch.before else { break };
-        let at_begin = found(before, &hindsight, &wanted);
+        let at_begin = found(before, &hindsight);
         let is_cut = epoch.trail.is_none();
         voyage.cuts.extend(is_cut.then_some(epoch.estimate.time));
         let moved = epoch.estimate.moved;
@@ -91,10 +94,11 @@ pub fn smoothed(newest: &Arc<KeptEpoch>) -> SmoothedVoyage {
     voyage
 }
 
-fn found(epoch: &KeptEpoch, hindsight: &Hindsight, wanted: &Layout) -> Found {
-    let (error, p) = hindsight.of(&epoch.covariance.taken_out(), wanted);
+fn found(epoch: &KeptEpoch, hindsight: &Hindsight) -> Found {
+    let (error, p) = hindsight.of(&epoch.covariance);
     let error = apart(&error);
-    let view = view_of(&epoch.estimate, &error).at_gnss_time(&epoch.estimate.acceleration, &epoch.dating);
+    let view =
+        view_of(&epoch.estimate, &error).at_gnss_time(&epoch.estimate.acceleration, &epoch.dating);
     let sigma = solution_sigma(&view, &epoch.estimate.acceleration, &epoch.dating, &p);
     Found { time: epoch.estimate.time, error, sigma }
 }

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use insd_base::{Span, Time};
-use insd_estimation::{Covariance, KeptCovariance, KeptTrail};
+use insd_estimation::{Covariance, KeptCovariance, KeptTrail, Layout};
 use nalgebra::{SVector, UnitQuaternion, Vector3};
 
 use crate::dating::Dating;
@@ -52,7 +52,7 @@ pub struct KeptEpoch {
     /// What became of the errors since the epoch before; `None` where nobody can tell, and nothing is smoothed across.
     pub(crate) trail: Option<KeptTrail>,
     /// Estimates in between, in the order of time.
-    pub(crate) rows: Vec<KeptEstimate>,
+    pub(crate) rows: Box<[KeptEstimate]>,
     pub(crate) before: Option<Arc<KeptEpoch>>,
 }
 
@@ -71,6 +71,7 @@ impl Drop for KeptEpoch {
 pub(crate) struct Past {
     pub(crate) plan: SmoothingPlan,
     pub(crate) newest: Option<Arc<KeptEpoch>>,
+    wanted: Layout,
     moved: Apart,
     rows: Vec<KeptEstimate>,
     /// Number of the next row, in periods since the start.
@@ -81,7 +82,8 @@ impl Past {
     /// Nothing yet at an instant, after what was kept before it.
     pub(crate) fn new(plan: SmoothingPlan, before: Option<Arc<KeptEpoch>>, now: Time) -> Self {
         let next_row = now.as_nanos().div_euclid(plan.period.as_nanos().max(1)) + 1;
-        Past { plan, newest: before, moved: Apart::zeros(), rows: Vec::new(), next_row }
+        let (wanted, moved) = (smoothed_states(), Apart::zeros());
+        Past { plan, newest: before, wanted, moved, rows: Vec::new(), next_row }
     }
 
     /// Instant of the next row.
@@ -110,10 +112,10 @@ impl Past {
         let moved = std::mem::replace(&mut self.moved, Apart::zeros());
         self.newest = Some(Arc::new(KeptEpoch {
             estimate: KeptEstimate { moved, ..*estimate },
-            covariance: KeptCovariance::of(p),
+            covariance: KeptCovariance::of(p, &self.wanted),
             dating,
             trail,
-            rows: std::mem::take(&mut self.rows),
+            rows: self.rows.drain(..).collect(),
             before: self.newest.take(),
         }));
     }
@@ -140,7 +142,13 @@ impl KeptEstimate {
     }
 }
 
-/// The errors that are smoothed, in their order.
+/// The states that are smoothed, in the order in which the claims of a solution are made of them.
+fn smoothed_states() -> Layout {
+    let strapdown = [POSITION, VELOCITY, ATTITUDE].map(|block| (block.key(), 3));
+    Layout::of_blocks(strapdown.into_iter().chain([(GNSS_DELAY.key(), 1)]))
+}
+
+/// Their errors.
 pub(crate) fn apart(error: &Errors) -> Apart {
     let mut apart = Apart::zeros();
     for (block, at) in [(POSITION, 0), (VELOCITY, 3), (ATTITUDE, 6)] {

@@ -31,11 +31,7 @@ pub(super) fn run_and_smooth(
     run_to_end(args, tell, Some(afterwards))
 }
 
-fn run_to_end(
-    args: &ReplayArgs,
-    tell: Tell,
-    afterwards: Option<Afterwards>,
-) -> anyhow::Result<()> {
+fn run_to_end(args: &ReplayArgs, tell: Tell, afterwards: Option<Afterwards>) -> anyhow::Result<()> {
     if args.dir.join("voyage.toml").exists() || !crate::raw_run::is_recording(&args.dir) {
         return voyage::run(args, afterwards);
     }

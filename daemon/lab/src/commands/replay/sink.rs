@@ -36,7 +36,10 @@ pub(super) struct Sink {
 }
 
 impl Sink {
-    pub(super) fn create(args: &ReplayArgs, afterwards: Option<Afterwards>) -> anyhow::Result<Self> {
+    pub(super) fn create(
+        args: &ReplayArgs,
+        afterwards: Option<Afterwards>,
+    ) -> anyhow::Result<Self> {
         let innovations = |path: &PathBuf| OutputFile::create(path).map(RowWriter::new);
         let log = |path: &PathBuf| OutputFile::create(path).map(RowWriter::new);
         Ok(Sink {

@@ -51,10 +51,7 @@ impl Afterwards {
     ///
     /// # Errors
     /// There is no solution at all, or the output cannot be written.
-    pub(in crate::commands) fn write(
-        &self,
-        nav: &mut NavWriter<OutputFile>,
-    ) -> anyhow::Result<()> {
+    pub(in crate::commands) fn write(&self, nav: &mut NavWriter<OutputFile>) -> anyhow::Result<()> {
         if self.solutions.is_empty() {
             return Err(BadInput("the recording has no solution to smooth".to_owned()).into());
         }

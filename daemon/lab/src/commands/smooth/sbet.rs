@@ -31,7 +31,8 @@ impl SbetRow {
     pub(super) fn all(solutions: &[Solution]) -> impl Iterator<Item = SbetRow> + '_ {
         let last = solutions.len().saturating_sub(1);
         solutions.iter().enumerate().map(move |(at, own)| {
-            let (before, after) = (&solutions[at.saturating_sub(1)], &solutions[(at + 1).min(last)]);
+            let (before, after) =
+                (&solutions[at.saturating_sub(1)], &solutions[(at + 1).min(last)]);
             SbetRow::of(own, &acceleration(before, after))
         })
     }
