@@ -8,7 +8,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use insd_config::{BadInput, Config};
 use insd_drivers::recording::RecordingError;
 use insd_lab::commands::{
-    campaign, convert, evaluate, feed, integrity, learn, limit, replay, report, simulate,
+    campaign, convert, evaluate, feed, integrity, learn, limit, replay, report, simulate, smooth,
 };
 use insd_lab::demo;
 
@@ -46,6 +46,8 @@ enum Command {
     Simulate(simulate::SimulateArgs),
     /// Run a recorded voyage through the navigator
     Replay(replay::ReplayArgs),
+    /// Run a recorded voyage through the navigator and back again: each instant with what was measured before and after it
+    Smooth(smooth::SmoothArgs),
     /// Make one self-contained page of a recording: track, attitude, errors claimed, aids, alerts
     Report(report::ReportArgs),
     /// Make a voyage directory of a raw recording
@@ -105,6 +107,7 @@ impl Cli {
             }
             Command::Simulate(args) => simulate::run(&args),
             Command::Replay(args) => replay::run(&args, crate::run::tell),
+            Command::Smooth(args) => smooth::run(&args, crate::run::tell),
             Command::Report(args) => report::run(&args),
             Command::Evaluate(args) => evaluate::run(&args),
             Command::Integrity(args) => integrity::run(&args),

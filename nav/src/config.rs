@@ -10,6 +10,7 @@ use crate::disturbance::{PrefilterConfig, WhiteningConfig};
 use crate::floors::Floors;
 use crate::judge::docket::Docket;
 use crate::protection::RiskModel;
+use crate::smoothing::SmoothingPlan;
 
 pub use camera::{CameraAid, OdometryModel};
 
@@ -286,6 +287,8 @@ pub struct NavConfig {
     pub covariance_interval: f64,
     /// How far everybody is believed at the begin.
     pub docket: Docket,
+    /// What is kept of the way for smoothing, where that is wanted.
+    pub smoothing: Option<SmoothingPlan>,
 }
 
 impl NavConfig {
@@ -319,6 +322,7 @@ impl NavConfig {
             risk: models.risk,
             covariance_interval: 0.1,
             docket: Docket::default(),
+            smoothing: None,
         }
     }
 }

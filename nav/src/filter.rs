@@ -61,6 +61,7 @@ mod holding;
 mod installation;
 mod joined;
 pub mod judged;
+mod keeping;
 mod landmarks;
 mod leaps;
 pub mod learnt;
@@ -195,6 +196,10 @@ impl Filter {
         self.state.interval = self.config.covariance_interval;
         self.installation.bias = Some(SeparateBias::of_unknown_origin(&self.view()));
         self.be_judged();
+        if let Some(plan) = self.config.smoothing {
+            self.settle();
+            self.keep_past(plan, None);
+        }
     }
 
     /// Propagates the covariance only every so many seconds until navigation begins: for searches
@@ -227,6 +232,7 @@ impl Filter {
         }
         self.note_antenna_motion();
         self.state.begin_stretch();
+        self.keep_epoch_if_due();
     }
 
     fn regime(&self) -> Regime {
@@ -339,6 +345,7 @@ impl Estimator for Filter {
         if let Some(companion) = self.companion_mut() {
             companion.advance(increment);
         }
+        self.keep_rows(increment);
         let step = self.state.advance(increment);
         self.court.note(&step, increment);
         if self.state.is_due() {

@@ -42,6 +42,7 @@ pub mod sea_state;
 pub mod sea_window;
 pub mod separate_bias;
 pub mod slip;
+pub mod smoothing;
 pub mod solution_sigma;
 pub mod spikes;
 pub mod spread;

@@ -13,7 +13,7 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{DMatrix, Matrix2, Matrix4, Vector4};
+use nalgebra::{Matrix2, Matrix4, Vector4};
 use serde::{Deserialize, Serialize};
 
 use crate::error_state::{Covariance, SWAY, SWAY_VELOCITY};
@@ -84,7 +84,7 @@ impl Sway {
             let stationary = oscillator.stationary();
             let noise = stationary - phi * stationary * phi.transpose();
             for component in [first, first + 1] {
-                carry(p.matrix_mut(), (sway + component, velocity + component), &phi, &noise);
+                p.carry_pair((sway + component, velocity + component), &phi, &noise);
             }
         }
     }
@@ -98,23 +98,6 @@ impl Sway {
             nominal.sway_velocity[i] = phi[(1, 0)] * x + phi[(1, 1)] * v;
         }
     }
-}
-
-/// Applies the transition and noise of one pair of states to rows and columns of a covariance.
-fn carry(p: &mut DMatrix<f64>, (x, v): (usize, usize), phi: &Matrix2<f64>, noise: &Matrix2<f64>) {
-    let carried = |old_x: f64, old_v: f64| {
-        (phi[(0, 0)] * old_x + phi[(0, 1)] * old_v, phi[(1, 0)] * old_x + phi[(1, 1)] * old_v)
-    };
-    for i in 0..p.nrows() {
-        (p[(i, x)], p[(i, v)]) = carried(p[(i, x)], p[(i, v)]);
-    }
-    for i in 0..p.nrows() {
-        (p[(x, i)], p[(v, i)]) = carried(p[(x, i)], p[(v, i)]);
-    }
-    p[(x, x)] += noise[(0, 0)];
-    p[(v, v)] += noise[(1, 1)];
-    p[(x, v)] += noise[(0, 1)];
-    p[(v, x)] += noise[(0, 1)];
 }
 
 #[cfg(test)]

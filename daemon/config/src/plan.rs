@@ -80,6 +80,7 @@ impl Config {
             relay: ship.relay,
             learning: self.learning.enabled,
             learnt: None,
+            smoothing: None,
         }
     }
 

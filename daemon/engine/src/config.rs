@@ -41,6 +41,8 @@ pub struct EngineConfig {
     pub learning: bool,
     /// What was learnt on earlier voyages.
     pub learnt: Option<KeptModel>,
+    /// Whether enough is kept of the voyage to smooth it afterwards: the interval between epochs that are smoothed by themselves, s.
+    pub smoothing: Option<f64>,
 }
 
 impl EngineConfig {
@@ -63,6 +65,7 @@ impl EngineConfig {
             points: Vec::new(),
             learning: false,
             learnt: None,
+            smoothing: None,
         }
     }
 }

@@ -24,6 +24,7 @@ mod lessons;
 mod looks;
 mod mode;
 mod output;
+mod past;
 mod receivers;
 mod recent;
 mod reception;
@@ -49,6 +50,7 @@ use insd_base::{
     Body, Counts, Event, Finding, ImuSample, ImuSpec, Message, Mode, ModeReason, Received,
     Rejection, RtkSilence, Solution, SolutionSource, Span, StartCondition, Time,
 };
+use insd_nav::smoothing::KeptEpoch;
 use insd_nav::{
     Conditioned, Conditioner, Estimator, HeaveFilter, Increment, NavConfig, Report, Timeline,
 };
@@ -122,6 +124,8 @@ pub struct Engine {
     resumption: Option<Resumption>,
     learning: Option<Box<Learning>>,
     trace: Trace,
+    /// What was kept for smoothing before each time that all was begun anew.
+    past: Vec<Arc<KeptEpoch>>,
     counts: Counts,
     outputs: VecDeque<Output>,
 }
@@ -145,6 +149,7 @@ impl Engine {
         nav.vessel = config.vessel;
         nav.gnss.delay_std = config.time_std.unwrap_or(nav.gnss.delay_std);
         nav.gnss.stamps_std = nav.gnss.delay_std;
+        nav.smoothing = past::plan_of(&config);
         Engine {
             stamps: Stamps::new(1.0 / config.imu.rate),
             twin: None,
@@ -172,6 +177,7 @@ impl Engine {
             resumption: None,
             learning: Learning::where_wanted(config.learning, &nav, config.learnt.as_ref()),
             trace: Trace::new(),
+            past: Vec::new(),
             counts: Counts::default(),
             outputs: VecDeque::new(),
             nav,
@@ -276,6 +282,7 @@ impl Engine {
 
     /// Levels anew, as if nothing had been.
     fn start_over(&mut self, time: Time, why: ModeReason) {
+        self.keep_past();
         self.nav = self.nav.with_docket(self.docket().begun_anew(time));
         self.stage = Stage::Levelling(Box::new(Coarse::new(&self.config)));
         self.alignment_status = StatusTeller::new(&self.config.imu, self.config.alignment.accuracy);

@@ -340,8 +340,10 @@ impl Ship {
                 let docket =
                     navigator.filter().docket().without(Fault::HeadingOffset, finder.time());
                 let config = finder.config().with_docket(docket);
+                let past = navigator.filter().past();
                 **navigator = Navigator::new(&config, &initial.at_berth(navigator.berth()));
                 navigator.begin_navigation();
+                navigator.filter_mut().follow_past(past);
                 *trial = Some(Trial::of(navigator.filter()));
                 (*aligned, *own) = (false, None);
             }

@@ -35,7 +35,10 @@ use sensors::epochs;
 use track::Track;
 
 pub use camera::{Footage, FootageSpec, FootageTruth, InjectedCameraFault};
-pub use limit::{CameraUse, Limit, LimitError, SegmentLimit, camera_limit, limit, satellite_limit};
+pub use limit::{
+    CameraUse, Limit, LimitError, LimitQuestion, SegmentLimit, camera_limit, limit, limit_of,
+    satellite_limit,
+};
 pub use scenario::{Fault, Override, Scenario, ScenarioBerth, ScenarioError};
 pub use shipped::shipped;
 pub use sky::{

@@ -1,17 +1,19 @@
 //! The covariance of the errors.
 
-use nalgebra::{DMatrix, SMatrix};
+use nalgebra::{DMatrix, Matrix2, SMatrix};
 
 use crate::block::{Block, Key};
 use crate::effects::Effects;
 use crate::errors::Errors;
 use crate::layout::Layout;
+use crate::trail::Trail;
 
-/// A covariance of error states that join and leave.
+/// A covariance of error states that join and leave. It may keep a [`Trail`] of what becomes of the errors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Covariance {
     layout: Layout,
     p: DMatrix<f64>,
+    trail: Option<Box<Trail>>,
 }
 
 impl Covariance {
@@ -29,7 +31,22 @@ impl Covariance {
     }
 
     pub(crate) fn new(layout: Layout, p: DMatrix<f64>) -> Self {
-        Covariance { layout, p }
+        Covariance { layout, p, trail: None }
+    }
+
+    /// Keeps a trail from now on; gives the one that was kept until now, if nothing has broken it off.
+    pub fn begin_trail(&mut self) -> Option<Trail> {
+        let begun = Trail::new(&self.layout);
+        self.trail.replace(Box::new(begun)).map(|trail| *trail)
+    }
+
+    /// Keeps no trail from now on: that of what becomes of the errors is broken off.
+    pub fn break_trail(&mut self) {
+        self.trail = None;
+    }
+
+    pub(crate) fn trail_mut(&mut self) -> Option<&mut Trail> {
+        self.trail.as_deref_mut()
     }
 
     /// Which states there are.
@@ -50,8 +67,14 @@ impl Covariance {
         &self.p
     }
 
-    /// The same to be changed; whoever does keeps it symmetric.
+    /// The same to be changed; whoever does keeps it symmetric. What it does to the errors is not known, which breaks a trail off.
     pub fn matrix_mut(&mut self) -> &mut DMatrix<f64> {
+        self.break_trail();
+        &mut self.p
+    }
+
+    /// The same for who tells the trail himself.
+    pub(crate) fn p_mut(&mut self) -> &mut DMatrix<f64> {
         &mut self.p
     }
 
@@ -86,6 +109,7 @@ impl Covariance {
         let p = p.remove_rows(place.start, place.width);
         self.p = p.remove_columns(place.start, place.width);
         self.layout = self.layout.without(key);
+        self.follow();
     }
 
     /// A block joins as it is at this moment, and stays so: as another instance, with all that the original has to do with
@@ -109,16 +133,20 @@ impl Covariance {
         self.p.fixed_columns_mut::<W>(to).copy_from(&columns);
         let rows = self.p.fixed_rows::<W>(from).into_owned();
         self.p.fixed_rows_mut::<W>(to).copy_from(&rows);
+        if let Some(trail) = self.trail_mut() {
+            trail.copy::<W>(from, to);
+        }
     }
 
     /// Some states of a block, from `first` of them on, are known otherwise: `cross` is their covariance with all states, a row for each of
-    /// them, `own` that among themselves.
+    /// them, `own` that among themselves. Of what they are made is not said, which breaks a trail off.
     pub fn replace(&mut self, key: Key, first: usize, cross: &DMatrix<f64>, own: &DMatrix<f64>) {
         let count = cross.nrows();
         let Some(place) = self.layout.place(key).filter(|place| first + count <= place.width)
         else {
             return;
         };
+        self.break_trail();
         let at = place.start + first;
         self.p.rows_mut(at, count).copy_from(cross);
         self.p.columns_mut(at, count).copy_from(&cross.transpose());
@@ -129,6 +157,35 @@ impl Covariance {
         self.layout = self.layout.with(key, width);
         let states = self.layout.states();
         self.p.resize_mut(states, states, 0.0);
+        self.follow();
+    }
+
+    /// The trail has the states that there are: of those that are new nothing was there before.
+    fn follow(&mut self) {
+        if let Some(trail) = &mut self.trail {
+            trail.conform(&self.layout);
+        }
+    }
+
+    /// Neighbours of a process carry on by themselves: x <- A x + w, of two states by their places in the layout.
+    pub fn carry_pair(&mut self, (x, v): (usize, usize), by: &Matrix2<f64>, noise: &Matrix2<f64>) {
+        let carried = |old_x: f64, old_v: f64| {
+            (by[(0, 0)] * old_x + by[(0, 1)] * old_v, by[(1, 0)] * old_x + by[(1, 1)] * old_v)
+        };
+        let p = &mut self.p;
+        for i in 0..p.nrows() {
+            (p[(i, x)], p[(i, v)]) = carried(p[(i, x)], p[(i, v)]);
+        }
+        for i in 0..p.nrows() {
+            (p[(x, i)], p[(v, i)]) = carried(p[(x, i)], p[(v, i)]);
+        }
+        p[(x, x)] += noise[(0, 0)];
+        p[(v, v)] += noise[(1, 1)];
+        p[(x, v)] += noise[(0, 1)];
+        p[(v, x)] += noise[(0, 1)];
+        if let Some(trail) = self.trail_mut() {
+            trail.carry_pair((x, v), by);
+        }
     }
 
     /// Takes on the states of a layout in its order: those that it has not leave, new ones are known to be zero.
@@ -137,6 +194,7 @@ impl Covariance {
             return;
         }
         let mut other = Covariance::zeros(layout);
+        other.trail = self.trail.take();
         let both = layout.places().iter().filter_map(|to| Some((to, self.layout.place(to.key)?)));
         let both: Vec<_> = both.map(|(to, from)| (to.start, from.start, to.width)).collect();
         for (to_row, from_row, rows) in &both {
@@ -147,6 +205,7 @@ impl Covariance {
             }
         }
         *self = other;
+        self.follow();
     }
 
     /// Forgets what is known of one state of a block, if that is there: a new variance, no correlation with the rest.
@@ -158,6 +217,9 @@ impl Covariance {
         self.p.row_mut(index).fill(0.0);
         self.p.column_mut(index).fill(0.0);
         self.p[(index, index)] = variance;
+        if let Some(trail) = self.trail_mut() {
+            trail.forget(index, 1);
+        }
     }
 
     /// Adds a variance to each state of a block, by its name, if it is there.
@@ -169,6 +231,7 @@ impl Covariance {
     /// All multiplied by a factor.
     #[must_use]
     pub fn scaled(mut self, factor: f64) -> Self {
+        self.break_trail();
         self.p *= factor;
         self
     }

@@ -58,16 +58,19 @@ impl<const W: usize> Block<W> {
     /// Forgets what is known of this block: new covariance, no correlation with the rest. It joins where it is not there.
     pub fn renew(self, p: &mut Covariance, covariance: &SMatrix<f64, W, W>) {
         let Some(start) = p.layout().start(self.key()) else { return p.join(self, covariance) };
-        let matrix = p.matrix_mut();
+        let matrix = p.p_mut();
         matrix.fixed_rows_mut::<W>(start).fill(0.0);
         matrix.fixed_columns_mut::<W>(start).fill(0.0);
         matrix.fixed_view_mut::<W, W>(start, start).copy_from(covariance);
+        if let Some(trail) = p.trail_mut() {
+            trail.forget(start, W);
+        }
     }
 
     /// Adds to the covariance of this block, if it is there.
     pub fn add(self, p: &mut Covariance, covariance: &SMatrix<f64, W, W>) {
         let Some(start) = p.layout().start(self.key()) else { return };
-        let mut own = p.matrix_mut().fixed_view_mut::<W, W>(start, start);
+        let mut own = p.p_mut().fixed_view_mut::<W, W>(start, start);
         own += (covariance + covariance.transpose()) * 0.5;
     }
 
@@ -80,13 +83,16 @@ impl<const W: usize> Block<W> {
     ) {
         let (from, to) = (p.layout().start(self.key()), p.layout().start(other.key()));
         let Some((from, to)) = from.zip(to) else { return };
-        let matrix = p.matrix_mut();
+        let matrix = p.p_mut();
         let more = by * matrix.fixed_rows::<W>(from);
         let mut rows = matrix.fixed_rows_mut::<V>(to);
         rows += more;
         let more = matrix.fixed_columns::<W>(from) * by.transpose();
         let mut columns = matrix.fixed_columns_mut::<V>(to);
         columns += more;
+        if let Some(trail) = p.trail_mut() {
+            trail.add_to(from, to, by);
+        }
     }
 
     /// Adds to the covariance of this block (rows) with another (columns), and of that with this, if both are there.
@@ -98,9 +104,9 @@ impl<const W: usize> Block<W> {
     ) {
         let (row, column) = (p.layout().start(self.key()), p.layout().start(other.key()));
         let Some((row, column)) = row.zip(column) else { return };
-        let mut own = p.matrix_mut().fixed_view_mut::<W, V>(row, column);
+        let mut own = p.p_mut().fixed_view_mut::<W, V>(row, column);
         own += covariance;
-        let mut transposed = p.matrix_mut().fixed_view_mut::<V, W>(column, row);
+        let mut transposed = p.p_mut().fixed_view_mut::<V, W>(column, row);
         transposed += covariance.transpose();
     }
 
@@ -112,7 +118,7 @@ impl<const W: usize> Block<W> {
     /// Transforms this block of the error by a matrix, x <- A x.
     pub fn transform(self, p: &mut Covariance, by: &SMatrix<f64, W, W>) {
         let Some(start) = p.layout().start(self.key()) else { return };
-        let (states, matrix) = (p.states(), p.matrix_mut());
+        let (states, matrix) = (p.states(), p.p_mut());
         let columns = &mut matrix.as_mut_slice()[start * states..(start + W) * states];
         for state in 0..states {
             let turned = by * SVector::<f64, W>::from_fn(|k, _| columns[k * states + state]);
@@ -122,6 +128,9 @@ impl<const W: usize> Block<W> {
         matrix.fixed_view_mut::<W, W>(start, start).copy_from(&own);
         for state in (0..states).filter(|state| !(start..start + W).contains(state)) {
             (start..start + W).for_each(|k| matrix[(k, state)] = matrix[(state, k)]);
+        }
+        if let Some(trail) = p.trail_mut() {
+            trail.transform(start, by);
         }
     }
 

@@ -25,6 +25,11 @@ impl Effects {
         Effects { layout, rows }
     }
 
+    /// Of errors that are their own causes.
+    pub(crate) fn identity(layout: &Layout) -> Self {
+        Effects::new(layout.clone(), DMatrix::identity(layout.states(), layout.states()))
+    }
+
     /// Number of causes.
     #[must_use]
     pub fn causes(&self) -> usize {

@@ -50,7 +50,7 @@ const ROWS: usize = 4;
 impl<const N: usize> Transition<'_, N> {
     /// Carries a covariance: P <- Phi P Phi^T, and what keeps the processes that decay as wide as they are.
     pub fn propagate(&self, p: &mut Covariance) {
-        let matrix = p.matrix_mut();
+        let matrix = p.p_mut();
         self.carry_rows(matrix.nrows(), matrix.as_mut_slice());
         let corner = self.corner(matrix);
         let states = matrix.nrows();
@@ -61,6 +61,9 @@ impl<const N: usize> Transition<'_, N> {
         }
         matrix.fixed_view_mut::<N, N>(0, 0).copy_from(&corner);
         self.relax(matrix);
+        if let Some(trail) = p.trail_mut() {
+            self.carry(trail.effects_mut());
+        }
     }
 
     /// Carries the effects of causes: U^T <- U^T Phi^T.

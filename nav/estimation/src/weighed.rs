@@ -147,6 +147,7 @@ impl Weighed {
         if self.is_all_but_perfect() {
             return self.update_with(p, &self.gain());
         }
+        self.leave_trail(p);
         let w = self.root();
         self.lower(p, w);
         Errors::new(self.layout.clone(), w * self.whitened())
@@ -159,6 +160,7 @@ impl Weighed {
     /// costs D D^T, which for this one is W W^T among the considered states.
     #[must_use]
     pub fn update_considering(&self, p: &mut Covariance, considered: &[Key]) -> Errors {
+        self.leave_trail(p);
         let mut w = self.root().clone();
         let mut kept = DMatrix::zeros(w.nrows(), w.ncols());
         for place in considered.iter().filter_map(|key| self.layout.place(*key)) {
@@ -166,7 +168,7 @@ impl Weighed {
             kept.rows_mut(place.start, place.width).copy_from(&own);
         }
         self.lower(p, &w);
-        add_product(p.matrix_mut(), &kept, 1.0);
+        add_product(p.p_mut(), &kept, 1.0);
         w -= kept;
         Errors::new(self.layout.clone(), w * self.whitened())
     }
@@ -176,6 +178,7 @@ impl Weighed {
     #[must_use]
     pub fn update_with(&self, p: &mut Covariance, gain: &DMatrix<f64>) -> Errors {
         debug_assert_eq!(self.layout, *p.layout());
+        self.leave_trail(p);
         let states = p.states();
         let mut left = DMatrix::identity(states, states);
         for (state, weights) in self.innovation.h.columns(&self.layout) {
@@ -183,7 +186,7 @@ impl Weighed {
                 axpy(-weight, column(gain, row), column_mut(&mut left, state));
             }
         }
-        let matrix = p.matrix_mut();
+        let matrix = p.p_mut();
         let lowered = &left * &*matrix * left.transpose();
         *matrix = lowered + gain * &self.innovation.r * gain.transpose();
         p.symmetrise();
@@ -192,7 +195,14 @@ impl Weighed {
 
     fn lower(&self, p: &mut Covariance, w: &DMatrix<f64>) {
         debug_assert_eq!(self.layout, *p.layout());
-        add_product(p.matrix_mut(), w, -1.0);
+        add_product(p.p_mut(), w, -1.0);
+    }
+
+    /// The trail is told of the update with the best gain: what another one costs is noise.
+    fn leave_trail(&self, p: &mut Covariance) {
+        if let Some(trail) = p.trail_mut() {
+            trail.absorb(self);
+        }
     }
 
     fn is_all_but_perfect(&self) -> bool {

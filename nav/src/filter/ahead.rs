@@ -37,6 +37,7 @@ impl Filter {
     /// The covariance with the swaying carried up to the time of the estimate.
     fn swayed_covariance(&self) -> Covariance {
         let mut covariance = self.state.covariance.clone();
+        covariance.break_trail();
         if let Some(sway) = &self.state.sway {
             sway.propagate(&mut covariance, self.state.unswayed);
         }

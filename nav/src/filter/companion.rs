@@ -38,6 +38,7 @@ impl Filter {
             return;
         }
         let mut companion = self.clone();
+        companion.keep_nothing();
         companion.end_to_carry(Carried::WithRanges);
         companion.end_to_carry(Carried::WithAntennas);
         companion.forget_camera();
@@ -148,7 +149,9 @@ impl Filter {
         if let Some(companion) = self.companion.take() {
             let now = self.state.time;
             report.satellites.extend(self.satellites.left_out().map(|own| (now, own, false)));
-            *self = Arc::unwrap_or_clone(companion);
+            let mut alone = Arc::unwrap_or_clone(companion);
+            self.hand_past_to(&mut alone);
+            *self = alone;
         }
     }
 

@@ -380,6 +380,7 @@ impl Filter {
         self.follow_contradicted((place.0 - self.state.nominal.position).norm());
         let variance = floors::greatest_told(&(measured.white + measured.slow)).powi(2);
         POSITION.renew(&mut self.state.covariance, &Matrix3::from_diagonal_element(variance));
+        self.state.covariance.break_trail();
         self.state.nominal.position = place.0;
         if let Some(velocity) = velocity {
             let swing = view.c_eb * view.rate.cross(&lever);

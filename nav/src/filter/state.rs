@@ -13,6 +13,7 @@ use crate::initial::InitialState;
 use crate::nominal::Nominal;
 use crate::propagation::{self, Passage, Passing, Stretch};
 use crate::sea_window::LevelWindow;
+use crate::smoothing::Past;
 use crate::strapdown::{self, LocalGravity, Step};
 use crate::sway::Sway;
 use crate::symmetry::{keep_course_unknown, keep_turn_unknown, turn_biases};
@@ -50,6 +51,8 @@ pub(super) struct State {
     pub(super) turned: Vector3<f64>,
     pub(super) corrected: Errors,
     pub(super) absorbed: Vector3<f64>,
+    /// What is kept for smoothing, where that is wanted.
+    pub(super) past: Option<Box<Past>>,
 }
 
 impl State {
@@ -71,6 +74,7 @@ impl State {
             turned: Vector3::zeros(),
             corrected: Errors::none(),
             absorbed: Vector3::zeros(),
+            past: None,
         }
     }
 
@@ -159,6 +163,7 @@ impl State {
         self.nominal.inject(error);
         self.corrected += error;
         self.absorbed += error.of(VELOCITY);
+        self.past.iter_mut().for_each(|past| past.note(error));
     }
 
     /// Brings in an innovation that was weighed with its covariance; returns the error that was found.

@@ -50,7 +50,9 @@ impl Shadow {
     #[must_use]
     pub(super) fn of(covariance: &Covariance) -> Self {
         let apart = Errors::zeros(covariance.layout());
-        Shadow { apart, covariance: covariance.clone(), turned: Vector3::zeros() }
+        let mut covariance = covariance.clone();
+        covariance.break_trail();
+        Shadow { apart, covariance, turned: Vector3::zeros() }
     }
 
     /// Its estimate, as one that may be.

@@ -3,8 +3,8 @@
 use insd_base::units::DEG;
 use insd_config::BadInput;
 use insd_simulator::{
-    CameraUse, JudgedSegment, Limit, LimitError, Override, Scenario, SegmentLimit, camera_limit,
-    limit, satellite_limit,
+    CameraUse, JudgedSegment, Limit, LimitError, LimitQuestion, Override, Scenario, SegmentLimit,
+    camera_limit, limit_of, satellite_limit,
 };
 use serde::Serialize;
 
@@ -28,6 +28,12 @@ pub struct LimitArgs {
     /// In place of instants the segments of a scenario with raw GNSS, by satellites and, where there is one, the camera, in the sky of this seed
     #[arg(long, value_name = "SEED", conflicts_with = "at")]
     segments: Option<u64>,
+    /// Take the fixes away while FROM <= t < TO; may be repeated
+    #[arg(long = "outage", value_name = "FROM..TO", value_parser = stretch, conflicts_with = "segments")]
+    outages: Vec<(f64, f64)>,
+    /// Of who knows the whole voyage, as after `insd smooth`, and not its past alone
+    #[arg(long, conflicts_with = "segments")]
+    smoothed: bool,
     /// Set a key of the scenario to another value, as start.lat_deg=60; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     sets: Vec<Override>,
@@ -63,17 +69,27 @@ pub fn run(args: &LimitArgs) -> anyhow::Result<()> {
         return run_segments(args, &named, seed);
     }
     let at = if args.at.is_empty() { instants(&named.scenario) } else { args.at.clone() };
-    let limits = limit(&named.scenario, &at)
+    let asked = LimitQuestion { at, outages: args.outages.clone(), is_afterwards: args.smoothed };
+    let limits = limit_of(&named.scenario, &asked)
         .map_err(|fault| BadInput(format!("{}: {fault}", named.name)))?;
     let report =
         LimitReport { scenario: named.name, limits: limits.iter().map(Row::new).collect() };
     if args.json {
         crate::terminal::print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
     } else {
-        let head = format!("{}: 1-sigma of the optimal filter\n\n", report.scenario);
+        let whose = if args.smoothed { "smoother" } else { "filter" };
+        let head = format!("{}: 1-sigma of the optimal {whose}\n\n", report.scenario);
         crate::terminal::print(&(head + &table(&report.limits).to_string()))?;
     }
     Ok(())
+}
+
+/// FROM..TO, s.
+fn stretch(text: &str) -> Result<(f64, f64), String> {
+    let expected = || "expected FROM..TO with FROM < TO in seconds".to_owned();
+    let (from, to) = text.split_once("..").ok_or_else(expected)?;
+    let (from, to) = (super::seconds(from)?, super::seconds(to)?);
+    if from < to { Ok((from, to)) } else { Err(expected()) }
 }
 
 /// The limits of segments in the shape of a voyage's `limit.json`.

@@ -14,6 +14,7 @@ mod raw_gnss;
 pub mod replay;
 pub mod report;
 pub mod simulate;
+pub mod smooth;
 mod stored_start;
 mod summary;
 

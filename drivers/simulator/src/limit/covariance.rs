@@ -84,6 +84,21 @@ impl Covariance {
         self.p.nrows()
     }
 
+    /// The matrix.
+    pub(super) fn p(&self) -> &DMatrix<f64> {
+        &self.p
+    }
+
+    /// What is known is something else; gives what it was.
+    pub(super) fn replace(&mut self, p: DMatrix<f64>) -> DMatrix<f64> {
+        std::mem::replace(&mut self.p, p)
+    }
+
+    /// The transition of the last prediction.
+    pub(super) fn transition(&self) -> &DMatrix<f64> {
+        &self.transition
+    }
+
     /// Appends a shaping filter in its steady state; gives the place of its output.
     pub(super) fn append(&mut self, shaping: &Shaping) -> usize {
         let (transition, added) = discrete(&shaping.dynamics, &shaping.density, self.step);

@@ -14,6 +14,7 @@
 mod aid;
 mod block;
 mod covariance;
+mod hindsight;
 mod model;
 mod satellites;
 mod way;
@@ -40,6 +41,17 @@ pub struct Limit {
     pub horizontal_position: f64,
     /// Horizontal velocity, likewise, m/s.
     pub horizontal_velocity: f64,
+}
+
+/// What is asked of the limit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LimitQuestion {
+    /// Instants, s.
+    pub at: Vec<f64>,
+    /// Stretches without fixes, from and to, s: a fix at their end counts.
+    pub outages: Vec<(f64, f64)>,
+    /// Whether all of the voyage is known, and not what was measured up to each instant alone.
+    pub is_afterwards: bool,
 }
 
 /// Why there is no limit.
@@ -73,16 +85,27 @@ const SHORTEST_STEP: f64 = 0.1;
 /// # Errors
 /// The scenario has sensors or faults that are not modelled: see [`LimitError`].
 pub fn limit(scenario: &Scenario, at: &[f64]) -> Result<Vec<Limit>, LimitError> {
+    limit_of(scenario, &LimitQuestion { at: at.to_vec(), ..LimitQuestion::default() })
+}
+
+/// The same with fixes taken away, or of who knows all of the voyage.
+///
+/// # Errors
+/// As [`limit`].
+pub fn limit_of(scenario: &Scenario, asked: &LimitQuestion) -> Result<Vec<Limit>, LimitError> {
     check(scenario)?;
     let end = scenario.duration();
-    if let Some(at) = at.iter().find(|at| !(0.0..=end).contains(*at)) {
+    if let Some(at) = asked.at.iter().find(|at| !(0.0..=end).contains(*at)) {
         return Err(LimitError::Instant { at: at.to_string(), end: end.to_string() });
     }
-    let mut at = at.to_vec();
+    let mut at = asked.at.clone();
     at.sort_by(f64::total_cmp);
-    let way = Way::new(scenario, at.last().copied().unwrap_or(0.0));
+    let last = if asked.is_afterwards { end } else { at.last().copied().unwrap_or(0.0) };
+    let way = Way::new(scenario, last);
     check_berth(scenario, &way)?;
-    Ok(Analysis::new(scenario, way).run(&at))
+    let mut analysis = Analysis::new(scenario, way);
+    analysis.outages.clone_from(&asked.outages);
+    Ok(if asked.is_afterwards { analysis.run_and_back(&at, end) } else { analysis.run(&at) })
 }
 
 /// Refuses what is not modelled.
@@ -155,6 +178,8 @@ struct Analysis {
     step: f64,
     /// Steps from fix to fix.
     steps_per_fix: usize,
+    /// Stretches without fixes, from and to, s.
+    outages: Vec<(f64, f64)>,
 }
 
 impl Analysis {
@@ -166,7 +191,7 @@ impl Analysis {
         let berth = swings.map(|swings| Berth::new(&swings, step, &mut covariance));
         let gnss = scenario.gnss.as_ref();
         let fixes = gnss.map(|gnss| Fixes::new(gnss, fixes_per_step, &mut covariance));
-        Analysis { way, berth, fixes, covariance, step, steps_per_fix }
+        Analysis { way, berth, fixes, covariance, step, steps_per_fix, outages: Vec::new() }
     }
 
     fn run(mut self, at: &[f64]) -> Vec<Limit> {
@@ -193,9 +218,9 @@ impl Analysis {
         if let Some(berth) = self.berth.as_ref().filter(|_| self.way.is_at_berth(to)) {
             self.covariance.update(&berth.measurement(&place, size));
         }
-        if let Some(fixes) =
-            self.fixes.as_ref().filter(|_| (index + 1).is_multiple_of(self.steps_per_fix))
-        {
+        let is_out = self.outages.iter().any(|(from, until)| (*from..*until).contains(&to));
+        let is_due = (index + 1).is_multiple_of(self.steps_per_fix) && !is_out;
+        if let Some(fixes) = self.fixes.as_ref().filter(|_| is_due) {
             self.covariance.update(&fixes.measurement(&place, size));
         }
     }

@@ -188,3 +188,28 @@ fn a_measurement_of_what_is_known_changes_nothing_and_leaves_the_covariance_fini
     covariance.update(&covariance::Measurement { rows, variances });
     assert_eq!(covariance.std_of(&[(model::ATTITUDE.at(2), 1.0)]), 104.0 * DEG);
 }
+
+/// A MEMS unit under way with fixes that are away for a minute.
+fn afterwards(at: &[f64], is_afterwards: bool) -> Vec<Limit> {
+    let scenario = Scenario::with_overrides(
+        "name = \"s\"\nmode = \"underway\"\nduration_s = 600.0\n[start]\nlat_deg = 35.0\nlon_deg = 61.0\n\
+         [[route.legs]]\nheading_deg = 90.0\nspeed_kn = 10.0\nduration_s = 600.0\n[imu]\ngrade = \"mems\"\n[gnss]\n",
+        &[],
+    )
+    .unwrap();
+    let outages = vec![(300.0, 360.0)];
+    limit_of(&scenario, &LimitQuestion { at: at.to_vec(), outages, is_afterwards }).unwrap()
+}
+
+#[test]
+fn who_knows_all_of_the_voyage_knows_no_less_than_who_knows_its_past_and_as_much_at_its_end() {
+    let at = [30.0, 299.0, 330.0, 359.0, 420.0, 600.0];
+    let (filtered, smoothed) = (afterwards(&at, false), afterwards(&at, true));
+    for (one, both) in filtered.iter().zip(&smoothed) {
+        assert!(both.horizontal_position <= one.horizontal_position * (1.0 + 1e-6), "{both:?}");
+        assert!(both.heading <= one.heading * (1.0 + 1e-6), "{both:?}");
+    }
+    let (last, end) = (filtered[5], smoothed[5]);
+    assert_relative_eq!(last.horizontal_position, end.horizontal_position, max_relative = 1e-9);
+    assert!(smoothed[3].horizontal_position < 0.5 * filtered[3].horizontal_position);
+}

@@ -10,6 +10,8 @@ mod without;
 
 use insd_config::BadInput;
 
+use super::smooth::Afterwards;
+
 pub use args::{ReplayArgs, Tell};
 
 /// Runs the command. What it writes is a function of the recording and the options alone.
@@ -17,8 +19,21 @@ pub use args::{ReplayArgs, Tell};
 /// # Errors
 /// The recording cannot be read or the output not written.
 pub fn run(args: &ReplayArgs, tell: Tell) -> anyhow::Result<()> {
+    run_to_end(args, tell, None)
+}
+
+/// The same, and back again.
+pub(super) fn run_and_smooth(
+    args: &ReplayArgs,
+    tell: Tell,
+    afterwards: Afterwards,
+) -> anyhow::Result<()> {
+    run_to_end(args, tell, Some(afterwards))
+}
+
+fn run_to_end(args: &ReplayArgs, tell: Tell, afterwards: Option<Afterwards>) -> anyhow::Result<()> {
     if args.dir.join("voyage.toml").exists() || !crate::raw_run::is_recording(&args.dir) {
-        return voyage::run(args);
+        return voyage::run(args, afterwards);
     }
     let only_voyages = [
         ("--outage", !args.outages.is_empty()),
@@ -30,5 +45,5 @@ pub fn run(args: &ReplayArgs, tell: Tell) -> anyhow::Result<()> {
         let hint = "make a voyage of it with `insd convert` first";
         return Err(BadInput(format!("{option} is for voyage directories: {hint}")).into());
     }
-    recording::run(args, tell)
+    recording::run(args, tell, afterwards)
 }

@@ -7,18 +7,24 @@ use insd_vessel::{Names, Pipeline, Product};
 use super::args::{ReplayArgs, Tell};
 use super::sent::Sent;
 use super::sink::Sink;
+use crate::commands::smooth::Afterwards;
 use crate::raw_run::RawRun;
 
 /// Replays a recording.
-pub(super) fn run(args: &ReplayArgs, tell: Tell) -> anyhow::Result<()> {
+pub(super) fn run(
+    args: &ReplayArgs,
+    tell: Tell,
+    afterwards: Option<Afterwards>,
+) -> anyhow::Result<()> {
     let mut raw = RawRun::open(&args.dir, args.config.as_deref(), args.run)?;
     let mut engine = raw.config.engine();
     engine.output_rate = args.rate.unwrap_or(engine.output_rate);
+    engine.smoothing = afterwards.as_ref().map(|own| own.interval);
     engine.alignment = args.alignment.config();
     engine.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
     let mut pipeline = Pipeline::new(raw.config.plan_with(engine), raw.config.clone());
     let names = Names::of(&raw.config.intake());
-    let mut sink = Sink::create(args)?;
+    let mut sink = Sink::create(args, afterwards)?;
     let sent = args.sent.as_deref().map(|folder| Sent::create(folder, &raw.config));
     let mut sent = sent.transpose()?;
     raw.for_each(|arrival| {
@@ -36,6 +42,7 @@ pub(super) fn run(args: &ReplayArgs, tell: Tell) -> anyhow::Result<()> {
         written.context("cannot write what comes of it")?;
         sink.look(pipeline.engine_in_use()).context("cannot write the sky")
     })?;
+    sink.smooth(pipeline.engine_in_use());
     eprint!("{}", sink.summary(pipeline.counts(), 0, Vec::new()));
     sent.map_or(Ok(()), Sent::finish)?;
     sink.finish()

@@ -10,12 +10,15 @@ use insd_engine::{Engine, Output};
 
 use super::args::ReplayArgs;
 use super::sky_log::SkyLog;
+use crate::commands::smooth::Afterwards;
 use crate::commands::summary::Summary;
 use crate::evaluation::{AlignmentRow, InnovationRow, RowWriter};
 
 /// Where the outputs of the engine go.
 pub(super) struct Sink {
     nav: NavWriter<OutputFile>,
+    /// Where they are smoothed before they are written.
+    afterwards: Option<Afterwards>,
     innovations: Option<RowWriter<InnovationRow, OutputFile>>,
     alignment_log: Option<RowWriter<AlignmentRow, OutputFile>>,
     sky: Option<SkyLog>,
@@ -33,11 +36,15 @@ pub(super) struct Sink {
 }
 
 impl Sink {
-    pub(super) fn create(args: &ReplayArgs) -> anyhow::Result<Self> {
+    pub(super) fn create(
+        args: &ReplayArgs,
+        afterwards: Option<Afterwards>,
+    ) -> anyhow::Result<Self> {
         let innovations = |path: &PathBuf| OutputFile::create(path).map(RowWriter::new);
         let log = |path: &PathBuf| OutputFile::create(path).map(RowWriter::new);
         Ok(Sink {
             nav: open_nav(&args.out)?,
+            afterwards,
             innovations: args.innovations.as_ref().map(innovations).transpose()?,
             alignment_log: args.alignment_log.as_ref().map(log).transpose()?,
             sky: args.sky.as_deref().map(SkyLog::create).transpose()?,
@@ -59,7 +66,11 @@ impl Sink {
             Output::Solution(solution) => {
                 self.solutions += 1;
                 self.solved = Some(solution.time);
-                self.nav.write(solution)
+                match &mut self.afterwards {
+                    Some(afterwards) => afterwards.take(solution),
+                    None => self.nav.write(solution)?,
+                }
+                Ok(())
             }
             Output::Innovation(innovation) => self.write(|| innovation.into()),
             Output::Satellite(told) => {
@@ -139,7 +150,17 @@ impl Sink {
         }
     }
 
-    pub(super) fn finish(self) -> anyhow::Result<()> {
+    /// The voyage is over.
+    pub(super) fn smooth(&mut self, engine: &Engine) {
+        if let Some(afterwards) = &mut self.afterwards {
+            afterwards.smooth(engine);
+        }
+    }
+
+    pub(super) fn finish(mut self) -> anyhow::Result<()> {
+        if let Some(afterwards) = &self.afterwards {
+            afterwards.write(&mut self.nav)?;
+        }
         self.nav.finish().context("cannot write the solution")?.finish()?;
         if let Some(file) = self.alignment_log {
             file.finish()?.finish()?;

@@ -16,6 +16,7 @@ use super::sink::Sink;
 use super::without::Without;
 use crate::camera_table;
 use crate::camera_voyage::CameraVoyage;
+use crate::commands::smooth::Afterwards;
 use crate::raw_table::RawTable;
 use crate::raw_voyage::RawVoyage;
 
@@ -23,9 +24,10 @@ use crate::raw_voyage::RawVoyage;
 const RATE: f64 = 10.0;
 
 /// Replays a voyage.
-pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
+pub(super) fn run(args: &ReplayArgs, afterwards: Option<Afterwards>) -> anyhow::Result<()> {
     let mut reader = VoyageReader::open(&args.dir)?;
     let mut config = asked(args, &reader)?;
+    config.smoothing = afterwards.as_ref().map(|own| own.interval);
     let mut temperature = TemperatureReader::open(&args.dir)?;
     let table = RawTable::read(&args.dir)?;
     config.models.ranges = table.model();
@@ -36,7 +38,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
     let mut ports = Ports::of(args, &reader.header().start_utc)?;
     config.points = ports.as_ref().map(|ports| ports.levers.clone()).unwrap_or_default();
     let mut engine = Engine::new(config);
-    let mut sink = Sink::create(args)?;
+    let mut sink = Sink::create(args, afterwards)?;
     let mut dropped = 0_u64;
     let gnss = Without::gnss(&args.without, args.gnss)?;
     let start_utc = &reader.header().start_utc;
@@ -70,6 +72,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         ports.iter_mut().try_for_each(|ports| ports.speak(&engine, &received))?;
     }
     ports.map_or(Ok(()), |ports| ports.sent.finish())?;
+    sink.smooth(&engine);
     let files = reader
         .skipped()
         .into_iter()

@@ -1,0 +1,29 @@
+//! The voyage as it is known afterwards, where enough of it was kept.
+
+use insd_base::Span;
+use insd_nav::smoothing::{SmoothedVoyage, SmoothingPlan, smoothed};
+
+use super::{Engine, EngineConfig, Stage};
+
+/// What a configuration asks to be kept.
+pub(super) fn plan_of(config: &EngineConfig) -> Option<SmoothingPlan> {
+    let interval = config.smoothing?;
+    Some(SmoothingPlan { interval, period: Span::from_seconds(1.0 / config.output_rate) })
+}
+
+impl Engine {
+    /// All of the voyage so far, each instant with what was measured after it: rows where she navigated, none where the heading was being sought.
+    #[must_use]
+    pub fn smoothed(&self) -> SmoothedVoyage {
+        let mut now = self.clone();
+        now.keep_past();
+        now.past.iter().map(smoothed).reduce(SmoothedVoyage::followed_by).unwrap_or_default()
+    }
+
+    /// Puts away what has been kept, before all is begun anew.
+    pub(super) fn keep_past(&mut self) {
+        let Stage::Running(line) = &self.stage else { return };
+        let navigator = line.estimator().likeliest();
+        self.past.extend(navigator.and_then(|own| own.filter().past()));
+    }
+}
