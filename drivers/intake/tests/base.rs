@@ -119,6 +119,7 @@ impl Heard {
                         self.news.push(news);
                     }
                 }
+                Intaken::Temperature(..) => {}
             }
         }
     }

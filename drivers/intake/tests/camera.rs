@@ -60,6 +60,7 @@ impl Ship {
                     let stepped = matches!(event.what, Happening::DeviceClockStepped { .. });
                     self.stepped += usize::from(stepped);
                 }
+                Intaken::Temperature(..) => {}
             }
         }
     }

@@ -39,6 +39,7 @@ impl Ship {
             match intaken {
                 Intaken::Measured(received) => self.measured.push(received.message),
                 Intaken::Event(event) => self.events.push(event.what),
+                Intaken::Temperature(..) => {}
             }
         }
     }

@@ -9,7 +9,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::current::CurrentModel;
 use crate::label::LENGTH;
-use crate::shadow::ShadowScore;
 use crate::trained::Trained;
 
 /// The version that is written, and the only one that is read.
@@ -112,12 +111,6 @@ impl KeptModel {
     #[must_use]
     pub fn hours(&self) -> f64 {
         f64::from(self.log.labels) * LENGTH / 3600.0
-    }
-
-    /// Median error after five minutes in outages that did not happen, without and with what is learnt, m; `None` of too few.
-    #[must_use]
-    pub fn outage(&self) -> Option<[f64; 2]> {
-        ShadowScore::after(&self.log).quantiles().map(|own| own.map(|[median, _]| median))
     }
 
     /// The text; the same for the same model.

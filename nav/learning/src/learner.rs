@@ -17,6 +17,8 @@ const TIMES: [f64; 4] = [44_714.0, 20_000.0, 12_000.0, 7200.0];
 /// Notions that are less likely than the best by this, as a logarithm, are given up; of the others the one with the liveliest
 /// current is used.
 const GIVEN_UP: f64 = 3.0;
+/// What is claimed of the current is widened in such steps.
+const WIDER: f64 = 1.25;
 /// Labels before anything is used.
 const FEWEST: u32 = 40;
 /// A log that is begun anew with nothing known explains what is heard better by this, as a logarithm: the log is another.
@@ -161,8 +163,18 @@ impl Learner {
     /// How it stands.
     #[must_use]
     pub fn standing(&self) -> LearnerStanding {
-        let current = (self.count >= FEWEST).then(|| self.model().current());
+        let current = (self.count >= FEWEST).then(|| self.honest());
         LearnerStanding { is_used: self.is_used && current.is_some(), current }
+    }
+
+    /// How the current goes on, so lively that outages that did not happen ended as far off as it claims; never livelier than in unknown waters.
+    fn honest(&self) -> CurrentModel {
+        let own = self.model().current();
+        let excess = self.shadow.excess(self.is_used, &own).unwrap_or(1.0);
+        // in steps, so that the filter is not told anew with each outage
+        let steps = (excess.max(1.0).ln() / WIDER.ln()).ceil();
+        let unknown = STDS[2] * (own.time / TIMES[3]).sqrt();
+        CurrentModel { std: (own.std * WIDER.powf(steps)).min(unknown), ..own }
     }
 
     /// What is learnt: of the notions that are not given up the one with the liveliest current.

@@ -10,6 +10,7 @@ use std::collections::VecDeque;
 use nalgebra::{Rotation2, Vector2};
 use serde::{Deserialize, Serialize};
 
+use crate::current::CurrentModel;
 use crate::kept::KeptLog;
 use crate::label::{LENGTH, Label};
 use crate::model::LogErrors;
@@ -107,6 +108,24 @@ impl ShadowScore {
             [all[all.len() / 2], all[((all.len() - 1) as f64 * 0.95).round() as usize]]
         };
         Some([of(0), of(1)])
+    }
+
+    /// By how much the errors at the ends of outages were larger than a current alone that goes on so would make them, RMS; with what is learnt, or without. `None` of
+    /// too few.
+    ///
+    /// Of a random walk of q = 2 sigma^2 / tau the mean of the time after an instant differs from that of the time before by
+    /// q (`T_before` + `T_after`) / 3, each axis.
+    #[must_use]
+    pub fn excess(&self, is_with: bool, current: &CurrentModel) -> Option<f64> {
+        if self.errors.len() < FEWEST {
+            return None;
+        }
+        let squares = self.errors.iter().map(|pair| pair[usize::from(is_with)].powi(2));
+        let seen = squares.sum::<f64>() / self.errors.len() as f64;
+        let walk = 2.0 * current.std.powi(2) / current.time;
+        let lasted = LENGTH * LOST as f64;
+        let apart = walk * (LENGTH * BEFORE as f64 + lasted) / 3.0;
+        Some((seen / (2.0 * apart * lasted * lasted)).sqrt())
     }
 
     /// Whether what is learnt was better than nothing; what is not used yet is to be so by a margin.

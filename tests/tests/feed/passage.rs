@@ -143,6 +143,7 @@ impl Ship {
                         let when = (event.time - self.reception.offset).as_seconds();
                         passage.events.push((when, event.what));
                     }
+                    Intaken::Temperature(..) => {}
                     Intaken::Measured(received) => {
                         passage.counts[kind(received.source)] += 1;
                         let early = matches!(received.message, Message::Imu(_));
