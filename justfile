@@ -110,6 +110,11 @@ heave-chain grade="navigation":
         rm -r sailed sent
     done
 
+# simulated MEMS voyages with minutes without fixes, as known then and afterwards: errors, limits, NEES; a minute for each seed
+smooth-campaign seeds="1..21":
+    cargo build --release
+    python3 contrib/smoothing/campaign.py --seeds {{seeds}}
+
 # installations that are not as configured, through simulated voyages: errors, and whether they are told
 installation seeds="20" *voyage:
     cargo run --release -p insd-engine --example installation -- {{seeds}} {{voyage}}

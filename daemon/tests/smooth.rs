@@ -78,9 +78,13 @@ fn what_cannot_be_smoothed_is_refused_with_its_reason() {
     let message = told(&["smooth", &name(dir, "nowhere"), "--out", &out], 2);
     assert!(message.contains("nowhere"), "{message}");
     let imu = Path::new(&voyage).join("imu.csv");
-    let head = fs::read_to_string(&imu).unwrap().lines().next().unwrap().to_owned() + "\n";
-    fs::write(&imu, head).unwrap();
+    let sound = fs::read_to_string(&imu).unwrap();
+    let beginning = |rows: usize| -> String { sound.split_inclusive('\n').take(rows).collect() };
+    fs::write(&imu, beginning(1)).unwrap();
     let message = told(&["smooth", &voyage, "--out", &out], 2);
+    assert!(message.contains("imu.csv:1: no rows"), "{message}");
+    fs::write(&imu, beginning(200)).unwrap();
+    let message = told(&["smooth", &voyage, "--out", &out, "--without", "gnss"], 2);
     assert!(message.contains("no solution to smooth"), "{message}");
     assert!(!Path::new(&out).exists());
     let message = told(&["smooth", &voyage, "--out", &out, "--interval", "0"], 2);

@@ -10,7 +10,7 @@ use crate::disturbance::{PrefilterConfig, WhiteningConfig};
 use crate::floors::Floors;
 use crate::judge::docket::Docket;
 use crate::protection::RiskModel;
-use crate::smoothing::SmoothingPlan;
+use crate::smoothing::plan::SmoothingPlan;
 
 pub use camera::{CameraAid, OdometryModel};
 

@@ -1,9 +1,12 @@
 //! What the engine must know before the first message.
 
 use insd_alignment::{AlignmentConfig, StoredState};
-use insd_base::{Body, Geodetic, ImuSpec, LeverArms, StartCondition, VesselKind, VoyageHeader};
+use insd_base::{
+    Body, Geodetic, ImuSpec, LeverArms, Span, StartCondition, VesselKind, VoyageHeader,
+};
 use insd_learning::KeptModel;
 use insd_nav::config::Models;
+use insd_nav::smoothing::SmoothingPlan;
 
 /// What the engine must know before the first message.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,5 +70,11 @@ impl EngineConfig {
             learnt: None,
             smoothing: None,
         }
+    }
+
+    /// What is to be kept for smoothing, if anything is.
+    pub(crate) fn smoothing_plan(&self) -> Option<SmoothingPlan> {
+        let period = Span::from_seconds(1.0 / self.output_rate);
+        self.smoothing.map(|interval| SmoothingPlan { interval, period })
     }
 }

@@ -149,7 +149,7 @@ impl Engine {
         nav.vessel = config.vessel;
         nav.gnss.delay_std = config.time_std.unwrap_or(nav.gnss.delay_std);
         nav.gnss.stamps_std = nav.gnss.delay_std;
-        nav.smoothing = past::plan_of(&config);
+        nav.smoothing = config.smoothing_plan();
         Engine {
             stamps: Stamps::new(1.0 / config.imu.rate),
             twin: None,

@@ -1,15 +1,8 @@
 //! The voyage as it is known afterwards, where enough of it was kept.
 
-use insd_base::Span;
-use insd_nav::smoothing::{SmoothedVoyage, SmoothingPlan, smoothed};
+use insd_nav::smoothing::{SmoothedVoyage, smoothed};
 
-use super::{Engine, EngineConfig, Stage};
-
-/// What a configuration asks to be kept.
-pub(super) fn plan_of(config: &EngineConfig) -> Option<SmoothingPlan> {
-    let interval = config.smoothing?;
-    Some(SmoothingPlan { interval, period: Span::from_seconds(1.0 / config.output_rate) })
-}
+use super::{Engine, Stage};
 
 impl Engine {
     /// All of the voyage so far, each instant with what was measured after it: rows where she navigated, none where the heading was being sought.

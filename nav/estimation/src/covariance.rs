@@ -2,18 +2,19 @@
 
 use nalgebra::{DMatrix, Matrix2, SMatrix};
 
-use crate::block::{Block, Key};
+use crate::block::Block;
 use crate::effects::Effects;
 use crate::errors::Errors;
+use crate::key::Key;
 use crate::layout::Layout;
-use crate::trail::Trail;
+use crate::trail::ErrorTrail;
 
-/// A covariance of error states that join and leave. It may keep a [`Trail`] of what becomes of the errors.
+/// A covariance of error states that join and leave. It may keep a [`ErrorTrail`] of what becomes of the errors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Covariance {
     layout: Layout,
     p: DMatrix<f64>,
-    trail: Option<Box<Trail>>,
+    trail: Option<Box<ErrorTrail>>,
 }
 
 impl Covariance {
@@ -35,8 +36,8 @@ impl Covariance {
     }
 
     /// Keeps a trail from now on; gives the one that was kept until now, if nothing has broken it off.
-    pub fn begin_trail(&mut self) -> Option<Trail> {
-        let begun = Trail::new(&self.layout);
+    pub fn begin_trail(&mut self) -> Option<ErrorTrail> {
+        let begun = ErrorTrail::new(&self.layout);
         self.trail.replace(Box::new(begun)).map(|trail| *trail)
     }
 
@@ -45,7 +46,7 @@ impl Covariance {
         self.trail = None;
     }
 
-    pub(crate) fn trail_mut(&mut self) -> Option<&mut Trail> {
+    pub(crate) fn trail_mut(&mut self) -> Option<&mut ErrorTrail> {
         self.trail.as_deref_mut()
     }
 

@@ -4,7 +4,8 @@ use std::ops::{AddAssign, Neg, SubAssign};
 
 use nalgebra::{DMatrix, DVector, SVector};
 
-use crate::block::{Block, Key};
+use crate::block::Block;
+use crate::key::Key;
 use crate::layout::Layout;
 use crate::sums::axpy;
 

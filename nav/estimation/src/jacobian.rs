@@ -2,8 +2,9 @@
 
 use nalgebra::{DMatrix, DVector, SMatrix};
 
-use crate::block::{Block, Key};
+use crate::block::Block;
 use crate::errors::Errors;
+use crate::key::Key;
 use crate::layout::Layout;
 
 /// Blocks that a measurement depends on, as a rule.

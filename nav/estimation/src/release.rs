@@ -17,8 +17,9 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SMatrix, SVector};
 
-use crate::block::{Block, Key};
+use crate::block::Block;
 use crate::covariance::Covariance;
+use crate::key::Key;
 
 /// A sub-solution in which some states were not held.
 #[derive(Clone, Debug)]

@@ -17,11 +17,10 @@ use crate::effects::Effects;
 use crate::layout::Layout;
 use crate::sums::{add_all, column_mut};
 use crate::triangle::Triangle;
-use crate::weighed::Weighed;
 
 /// A trail that is being kept.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Trail {
+pub struct ErrorTrail {
     begun: Layout,
     /// T^T: a row for each error at the beginning.
     become_of: Effects,
@@ -29,10 +28,10 @@ pub struct Trail {
     information: DMatrix<f64>,
 }
 
-impl Trail {
+impl ErrorTrail {
     pub(crate) fn new(layout: &Layout) -> Self {
         let states = layout.states();
-        Trail {
+        ErrorTrail {
             begun: layout.clone(),
             become_of: Effects::identity(layout),
             gradient: DVector::zeros(states),
@@ -100,19 +99,20 @@ impl Trail {
         }
     }
 
-    /// An update by an innovation that was weighed with the covariance that keeps this.
-    pub(crate) fn absorb(&mut self, weighed: &Weighed) {
-        let causes = self.become_of.causes();
-        // (H T)^T L^-T, a row for each error at the beginning
-        let told = weighed.effect_of(&self.become_of, DMatrix::zeros(causes, weighed.rows()));
-        let z = weighed.whitened();
+    /// What has become of the errors.
+    pub(crate) fn effects(&self) -> &Effects {
+        &self.become_of
+    }
+
+    /// An innovation, whitened (L^-1 z), has told of the errors at the beginning: (H T)^T L^-T, a row for each of them.
+    pub(crate) fn hear(&mut self, told: &DMatrix<f64>, z: &DVector<f64>) {
+        let causes = told.nrows();
         let columns = || told.as_slice().chunks_exact(causes.max(1));
         add_all(z.iter().copied().zip(columns()), self.gradient.as_mut_slice());
         for state in 0..causes {
             let own = column_mut(&mut self.information, state);
             add_all(columns().map(|column| (column[state], column)), own);
         }
-        weighed.pass_on(&mut self.become_of, &told);
     }
 }
 

@@ -4,11 +4,11 @@ use std::cell::OnceCell;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use crate::block::Key;
 use crate::covariance::Covariance;
 use crate::effects::Effects;
 use crate::errors::Errors;
 use crate::innovation::Innovation;
+use crate::key::Key;
 use crate::layout::Layout;
 use crate::sums::{add_all, axpy, column, column_mut, solve_right, solve_right_transposed};
 
@@ -200,9 +200,11 @@ impl Weighed {
 
     /// The trail is told of the update with the best gain: what another one costs is noise.
     fn leave_trail(&self, p: &mut Covariance) {
-        if let Some(trail) = p.trail_mut() {
-            trail.absorb(self);
-        }
+        let Some(trail) = p.trail_mut() else { return };
+        let none = DMatrix::zeros(trail.effects().causes(), self.rows());
+        let told = self.effect_of(trail.effects(), none);
+        trail.hear(&told, &self.whitened());
+        self.pass_on(trail.effects_mut(), &told);
     }
 
     fn is_all_but_perfect(&self) -> bool {

@@ -1,6 +1,8 @@
 //! The smoother against the least-squares fit of a whole voyage at once: every state at every instant, and all that was measured, in one
 //! normal distribution (Gelb, Applied Optimal Estimation, eq. (4.2-6), (4.2-7)), on systems drawn at random.
 
+#![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
+
 use approx::assert_relative_eq;
 use insd_estimation::{
     Block, Covariance, Decay, Errors, Feed, Hindsight, Innovation, Jacobian, KeptCovariance,

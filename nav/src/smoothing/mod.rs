@@ -9,6 +9,7 @@
 //! smoothed without what comes after.
 
 mod past;
+pub(crate) mod plan;
 
 use std::sync::Arc;
 
@@ -20,9 +21,10 @@ use crate::aids::View;
 use crate::dating::Dating;
 use crate::nominal::Nominal;
 use crate::solution_sigma::solution_sigma;
+pub use past::KeptEpoch;
 use past::{Apart, apart};
-pub use past::{KeptEpoch, SmoothingPlan};
 pub(crate) use past::{KeptEstimate, Past};
+pub use plan::SmoothingPlan;
 
 /// Where the ship was, how she moved and lay, at the IMU, and how sure that is.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,31 +1,23 @@
 //! What a filter keeps of its way, so that it can be smoothed afterwards.
 //!
 //! Once in a while, where its covariance is settled, it puts away its estimate, its covariance and the trail since the last time
-//! ([`insd_estimation::Trail`]); at the instants at which the smoothed solution is wanted, the estimate alone. What is kept hangs together from the newest
+//! ([`insd_estimation::ErrorTrail`]); at the instants at which the smoothed solution is wanted, the estimate alone. What is kept hangs together from the newest
 //! to the oldest, and a copy of the filter shares it: who goes back to a checkpoint for a late measurement goes back to what was kept by then, and what is
 //! left in the end is of those states alone that are final.
 
 use std::sync::Arc;
 
-use insd_base::{Span, Time};
+use insd_base::Time;
 use insd_estimation::{Covariance, KeptCovariance, KeptTrail, Layout};
 use nalgebra::{SVector, UnitQuaternion, Vector3};
 
 use crate::dating::Dating;
 use crate::error_state::{ATTITUDE, Errors, GNSS_DELAY, POSITION, VELOCITY};
 use crate::nominal::Nominal;
+use crate::smoothing::plan::SmoothingPlan;
 
 /// Errors that are smoothed: position, velocity and attitude, ECEF axes, m, m/s and rad, and the delay of GNSS, s.
 pub(crate) type Apart = SVector<f64, 10>;
-
-/// How much is kept.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SmoothingPlan {
-    /// Interval between what is smoothed by itself, s; in between it is interpolated.
-    pub interval: f64,
-    /// Interval between the rows of the solution: whole multiples of it since the start of the voyage.
-    pub period: Span,
-}
 
 /// What a solution is made of.
 #[derive(Clone, Copy, Debug, PartialEq)]

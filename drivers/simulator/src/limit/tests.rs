@@ -211,5 +211,6 @@ fn who_knows_all_of_the_voyage_knows_no_less_than_who_knows_its_past_and_as_much
     }
     let (last, end) = (filtered[5], smoothed[5]);
     assert_relative_eq!(last.horizontal_position, end.horizontal_position, max_relative = 1e-9);
-    assert!(smoothed[3].horizontal_position < 0.5 * filtered[3].horizontal_position);
+    // on a straight course the heading stays unknown, and with it where the antenna is; how she moves is known from both sides
+    assert!(smoothed[3].horizontal_velocity < 0.1 * filtered[3].horizontal_velocity);
 }

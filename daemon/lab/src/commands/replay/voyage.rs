@@ -26,8 +26,7 @@ const RATE: f64 = 10.0;
 /// Replays a voyage.
 pub(super) fn run(args: &ReplayArgs, afterwards: Option<Afterwards>) -> anyhow::Result<()> {
     let mut reader = VoyageReader::open(&args.dir)?;
-    let mut config = asked(args, &reader)?;
-    config.smoothing = afterwards.as_ref().map(|own| own.interval);
+    let mut config = asked(args, &reader, afterwards.as_ref())?;
     let mut temperature = TemperatureReader::open(&args.dir)?;
     let table = RawTable::read(&args.dir)?;
     config.models.ranges = table.model();
@@ -38,8 +37,7 @@ pub(super) fn run(args: &ReplayArgs, afterwards: Option<Afterwards>) -> anyhow::
     let mut ports = Ports::of(args, &reader.header().start_utc)?;
     config.points = ports.as_ref().map(|ports| ports.levers.clone()).unwrap_or_default();
     let mut engine = Engine::new(config);
-    let mut sink = Sink::create(args, afterwards)?;
-    let mut dropped = 0_u64;
+    let (mut sink, mut dropped) = (Sink::create(args, afterwards)?, 0_u64);
     let gnss = Without::gnss(&args.without, args.gnss)?;
     let start_utc = &reader.header().start_utc;
     let mut raw = RawVoyage::open(&args.dir, gnss, &args.masks, &table, start_utc)?;
@@ -88,9 +86,14 @@ pub(super) fn run(args: &ReplayArgs, afterwards: Option<Afterwards>) -> anyhow::
 }
 
 /// What the options ask of the engine.
-fn asked(args: &ReplayArgs, reader: &VoyageReader) -> anyhow::Result<EngineConfig> {
+fn asked(
+    args: &ReplayArgs,
+    reader: &VoyageReader,
+    afterwards: Option<&Afterwards>,
+) -> anyhow::Result<EngineConfig> {
     let mut config = EngineConfig::for_voyage(reader.header(), args.rate.unwrap_or(RATE));
     config.alignment = args.alignment.config();
+    config.smoothing = afterwards.map(|own| own.interval);
     config.learning = !args.without.contains(&Without::Learning);
     config.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
     config.learnt = match &args.log_model {

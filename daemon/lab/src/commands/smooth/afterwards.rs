@@ -43,7 +43,10 @@ impl Afterwards {
         let SmoothedVoyage { rows, cuts, epochs } = &self.voyage;
         eprintln!("{} rows smoothed over {epochs} epochs", rows.len());
         for cut in cuts {
-            eprintln!("  {:>10.1} s  not smoothed across: the filter began anew", cut.as_seconds());
+            eprintln!(
+                "  {:>10.1} s  not smoothed across: the filter gave its estimate up for another",
+                cut.as_seconds()
+            );
         }
     }
 
