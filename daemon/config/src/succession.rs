@@ -54,7 +54,9 @@ impl Config {
         self.chrony.clone_from(&before.chrony);
         self.state.clone_from(&before.state);
         self.web.clone_from(&before.web);
-        let inputs = self.ports != before.ports || self.sensors != before.sensors;
+        let inputs = self.ports != before.ports
+            || self.sensors != before.sensors
+            || self.watches != before.watches;
         let outputs = self.outputs != before.outputs
             || self.points != before.points
             || self.berths != before.berths

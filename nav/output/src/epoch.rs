@@ -6,6 +6,7 @@ use insd_base::{
 };
 use insd_n2k::pgn::TimeSource;
 
+use crate::alerts::{AlertText, Condition};
 use crate::docking::Docking;
 use crate::schedule::Boundary;
 
@@ -52,6 +53,8 @@ pub struct OutputEpoch {
     pub engines_differ: bool,
     /// What of the installation is found to be otherwise than configured.
     pub doubts: Doubts,
+    /// Which references that are watched are contradicted.
+    pub contradicted: Contradicted,
     /// What cannot be written on the disk.
     pub storage: StorageFaults,
     /// How the ship stands to the berth that is chosen or near.
@@ -84,6 +87,30 @@ impl Doubts {
                 .any(|it| it.is_fault() && !it.doubts_imu() && !it.is_bad_data()),
             bad_data: findings.iter().any(Finding::is_bad_data),
             imu: false,
+        }
+    }
+}
+
+/// Which references that are watched are contradicted: what is to be told of each quantity; `None` where all agree.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Contradicted {
+    /// Headings.
+    pub heading: Option<AlertText>,
+    /// Positions.
+    pub position: Option<AlertText>,
+    /// Roll and pitch.
+    pub attitude: Option<AlertText>,
+}
+
+impl Contradicted {
+    /// What an alert about them is to say.
+    #[must_use]
+    pub fn about(&self, condition: Condition) -> Option<AlertText> {
+        match condition {
+            Condition::HeadingMonitor => self.heading,
+            Condition::PositionMonitor => self.position,
+            Condition::AttitudeMonitor => self.attitude,
+            _ => None,
         }
     }
 }
@@ -151,6 +178,7 @@ impl OutputEpoch {
             alignment: None,
             engines_differ: false,
             doubts: Doubts::default(),
+            contradicted: Contradicted::default(),
             storage: StorageFaults::default(),
             docking: None,
             stern: None,

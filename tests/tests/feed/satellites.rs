@@ -103,6 +103,7 @@ impl Taken {
                 match taken {
                     Intaken::Measured(received) => measured.push(received),
                     Intaken::Event(event) => happened.push((event.time, event.what)),
+                    Intaken::Watched(_) => {}
                 }
             }
         }

@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use insd_base::{Span, Time};
 use insd_wire::nmea::{Acn, AlertCommand, AlertEntry, AlertState, Alf, Arc, CivilTime, Hbt};
 
+use super::AlertText;
 use super::alert::Alert;
 use super::conditions::Condition;
 use super::patience::AlertConfig;
@@ -64,6 +65,12 @@ impl AlertBoard {
     /// A condition holds; nothing changes if that was known.
     pub fn raise(&mut self, condition: Condition, now: &Boundary) {
         self.each(|alert| alert.condition == condition && alert.raise(now));
+    }
+
+    /// What an alert says from now on instead of its usual description; nothing changes without a text. Who knows of it is
+    /// told anew.
+    pub fn explain(&mut self, condition: Condition, detail: Option<AlertText>, now: &Boundary) {
+        self.each(|alert| alert.condition == condition && alert.explain(detail, now));
     }
 
     /// A condition is gone; nothing changes if that was known.
