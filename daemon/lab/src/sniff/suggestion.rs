@@ -135,14 +135,11 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
             name.starts_with("RAWIMU") && name.ends_with('X')
         }),
         plain_sensor(port, Protocol::Novatel, "novatel_ins", "compass", "INSPVA"),
-        plain_sensor(port, Protocol::Kmb, "kmb", "motion", ""),
-        plain_sensor(port, Protocol::Em3000, "em3000", "motion", ""),
-        plain_sensor(port, Protocol::Tss1, "tss1", "motion", "")
-            .map(|own| own.note("it tells no heading: name it in a [[watch]] (docs/watch.md)")),
         plain_sensor(port, Protocol::Pd0, "pd0", "log", "").map(|log| mounted(log, port)),
         plain_sensor(port, Protocol::Pd6, "pd6", "log", "PD6 :B").map(|log| mounted(log, port)),
     ];
-    let mut sensors: Vec<Sensor> = binary.into_iter().chain(adapted(port)).flatten().collect();
+    let mut sensors: Vec<Sensor> =
+        binary.into_iter().chain(motion(port)).chain(adapted(port)).flatten().collect();
     let has_receiver = sensors.iter().any(|sensor| sensor.role == "gnss");
     match receiver(port) {
         Some(sensor) if !has_receiver => sensors.push(sensor),
@@ -173,6 +170,16 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         sensor.note("dialect must be stated: sbg, sbg_wassp, ixblue, novatel, trimble or applanix")
     }));
     sensors
+}
+
+/// Motion sensors by their telegrams.
+fn motion(port: &PortReport) -> [Option<Sensor>; 3] {
+    [
+        plain_sensor(port, Protocol::Kmb, "kmb", "motion", ""),
+        plain_sensor(port, Protocol::Em3000, "em3000", "motion", ""),
+        plain_sensor(port, Protocol::Tss1, "tss1", "motion", "")
+            .map(|own| own.note("it tells no heading: name it in a [[watch]] (docs/watch.md)")),
+    ]
 }
 
 /// Devices of a bus behind an adapter.
