@@ -7,7 +7,7 @@ use crate::cameras;
 use crate::file::Config;
 use crate::rangings;
 use crate::spares;
-use crate::watch;
+use crate::watches;
 
 /// Names, ranges and references: each fault with its place and what was expected.
 pub(super) fn of(config: &Config) -> Vec<String> {
@@ -29,7 +29,7 @@ pub(super) fn of(config: &Config) -> Vec<String> {
     faults.extend(berths::faults(config));
     faults.extend(rangings::faults(config));
     faults.extend(cameras::faults(config));
-    faults.extend(watch::faults(config));
+    faults.extend(watches::faults(config));
     nodes(config, &mut faults);
     faults.extend(config.state.faults().chain(config.web.faults()).chain(config.log.faults()));
     faults

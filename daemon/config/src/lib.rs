@@ -38,6 +38,7 @@ mod succession;
 #[cfg(test)]
 mod tests;
 mod watch;
+mod watches;
 
 pub use bad_input::BadInput;
 pub use berth::{BerthSection, DockingSection, WaterHand};

@@ -3,11 +3,9 @@
 use insd_base::units::DEG;
 use insd_base::{Body, Span};
 use insd_intake::config::{Role, SensorConfig};
-use insd_vessel::{MOST_WATCHED, WatchLimits, WatchPlan};
+use insd_vessel::{WatchLimits, WatchPlan};
 use schemars::JsonSchema;
 use serde::Deserialize;
-
-use crate::file::Config;
 
 /// A sensor that is watched: what it says is held against the ship's own word, and not used.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -53,7 +51,7 @@ fn seconds() -> f64 {
 }
 
 impl WatchSection {
-    fn plan(&self, index: usize, sensor: &SensorConfig) -> WatchPlan {
+    pub(crate) fn plan(&self, index: usize, sensor: &SensorConfig) -> WatchPlan {
         WatchPlan {
             sensor: index,
             name: self.sensor.clone(),
@@ -70,20 +68,20 @@ impl WatchSection {
     }
 
     /// All that is wrong with it, in words.
-    fn faults(&self, config: &Config) -> Vec<String> {
+    pub(crate) fn faults(&self, sensors: &[SensorConfig], all: &[WatchSection]) -> Vec<String> {
         let mut faults = Vec::new();
         let mut expect = |good: bool, key: &str, expected: &str| {
             if !good {
                 faults.push(format!("{key}: expected {expected}"));
             }
         };
-        let own = config.sensors.iter().find(|sensor| sensor.name == self.sensor);
+        let own = sensors.iter().find(|sensor| sensor.name == self.sensor);
         let is_comparable = own.is_some_and(|own| {
             matches!(own.kind.role(), Role::Heading | Role::Attitude | Role::Position)
         });
         let expected = "the name of a [[sensor]] that tells a heading or a position from elsewhere";
         expect(is_comparable, "sensor", expected);
-        let others = config.watches.iter().filter(|other| other.sensor == self.sensor);
+        let others = all.iter().filter(|other| other.sensor == self.sensor);
         expect(others.count() == 1, "sensor", "a sensor that is not watched already");
         for (key, value, most, expected) in [
             ("heading_deg", self.heading_deg, 180.0, "more than 0, 180 at the most"),
@@ -97,30 +95,4 @@ impl WatchSection {
         expect((0.0..=3600.0).contains(&self.after_s), "after_s", "0 to 3600");
         faults
     }
-}
-
-impl Config {
-    /// What the vessel is told of those that are watched.
-    pub(crate) fn watch_plans(&self) -> Vec<WatchPlan> {
-        let plan = |own: &WatchSection| {
-            let mut sensors = self.sensors.iter().enumerate();
-            let (index, sensor) = sensors.find(|(_, sensor)| sensor.name == own.sensor)?;
-            Some(own.plan(index, sensor))
-        };
-        self.watches.iter().filter_map(plan).collect()
-    }
-}
-
-/// All that is wrong with those that are watched, with their places.
-pub(crate) fn faults(config: &Config) -> Vec<String> {
-    let of_one = |own: &WatchSection| {
-        let place = format!("[[watch]] \"{}\"", own.sensor);
-        own.faults(config).into_iter().map(move |fault| format!("{place}: {fault}"))
-    };
-    let mut faults: Vec<String> = config.watches.iter().flat_map(of_one).collect();
-    if let Some(last) = config.watches.last().filter(|_| config.watches.len() > MOST_WATCHED) {
-        let fault = format!("sensor: expected no more than {MOST_WATCHED} that are watched");
-        faults.push(format!("[[watch]] \"{}\": {fault}", last.sensor));
-    }
-    faults
 }

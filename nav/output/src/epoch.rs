@@ -6,7 +6,6 @@ use insd_base::{
 };
 use insd_n2k::pgn::TimeSource;
 
-use crate::alerts::{AlertText, Condition};
 use crate::docking::Docking;
 use crate::schedule::Boundary;
 
@@ -91,6 +90,9 @@ impl Doubts {
     }
 }
 
+/// Title or description of an alert.
+pub type AlertText = insd_wire::nmea::Text<64>;
+
 /// Which references that are watched are contradicted: what is to be told of each quantity; `None` where all agree.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Contradicted {
@@ -100,19 +102,6 @@ pub struct Contradicted {
     pub position: Option<AlertText>,
     /// Roll and pitch.
     pub attitude: Option<AlertText>,
-}
-
-impl Contradicted {
-    /// What an alert about them is to say.
-    #[must_use]
-    pub fn about(&self, condition: Condition) -> Option<AlertText> {
-        match condition {
-            Condition::HeadingMonitor => self.heading,
-            Condition::PositionMonitor => self.position,
-            Condition::AttitudeMonitor => self.attitude,
-            _ => None,
-        }
-    }
 }
 
 /// Distance run since the start, m.

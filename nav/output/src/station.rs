@@ -246,7 +246,7 @@ impl OutputStation {
         let simulated = self.ports.iter().any(|port| port.config().manner.simulated);
         let limits = self.berths.config().limits;
         for (condition, holds) in self.watch.note(epoch, &policy, &limits, simulated) {
-            self.board.explain(condition, epoch.contradicted.about(condition), now);
+            self.board.explain(condition, condition.detail(epoch), now);
             if holds {
                 self.board.raise(condition, now);
             } else {

@@ -58,7 +58,7 @@ fn plan(fleet: &Fleet) -> Plan {
     plan
 }
 
-/// What was told of the compasses, when, and what the alert said then; and the last solution's heading.
+/// What was told of the compasses, when, and what the alert said then; and when she began to navigate.
 fn sail(until: f64, off: impl Fn(usize, f64) -> f64) -> Vec<(f64, String, Option<String>)> {
     let mut fleet = fleet().clone().until(until);
     fleet.imus.truncate(1);
@@ -68,7 +68,7 @@ fn sail(until: f64, off: impl Fn(usize, f64) -> f64) -> Vec<(f64, String, Option
     all.sort_by_key(|arrival| arrival.stamp.monotonic);
     let mut pipeline = Pipeline::new(plan(&fleet), Fleet::reader());
     let mut told: Vec<(f64, String, Option<String>)> = Vec::new();
-    let (mut news, mut is_up) = (Vec::new(), false);
+    let (mut news, mut is_up, mut navigates) = (Vec::new(), false, false);
     for arrival in all {
         let now = arrival.stamp;
         let at = (now.monotonic - reception.offset).as_seconds();
@@ -81,6 +81,10 @@ fn sail(until: f64, off: impl Fn(usize, f64) -> f64) -> Vec<(f64, String, Option
         if pipeline.wake_up(now.monotonic).is_some_and(|due| due.at <= now.monotonic) {
             let tick = Arrival { stamp: now, port: PortId(u16::MAX), input: Input::Tick };
             pipeline.handle(&tick, &mut note);
+        }
+        if !navigates && pipeline.mode().is_navigating() {
+            navigates = true;
+            told.push((at, "navigates".to_owned(), None));
         }
         told.extend(news.drain(..).map(|(at, line)| (at, line, None)));
         let board = pipeline.outputs().station().alerts();
@@ -100,7 +104,10 @@ fn a_watched_compass_that_steps_by_two_degrees_is_named_within_ten_seconds_and_m
     const STEP: f64 = 300.0;
     let told = sail(340.0, |number, at| if number == 1 && at > STEP { 2.1 } else { 0.1 });
     let after: Vec<_> = told.iter().filter(|(at, ..)| *at < STEP + 10.0).collect();
-    assert!(told.iter().all(|(at, ..)| *at > STEP), "there was nothing to tell before");
+    assert!(
+        told.iter().all(|(at, line, _)| *at > STEP || line == "navigates"),
+        "there was nothing to tell before"
+    );
     let is_told = |text: &str| after.iter().any(|(_, line, _)| line.contains(text));
     assert!(is_told("gyro 1 and gyro 2 differ") && is_told("gyro 2 and insd differ"));
     let lines = after.iter().filter(|(_, line, _)| line.contains("differ"));
@@ -116,7 +123,8 @@ fn while_she_seeks_her_heading_two_that_contradict_are_told_and_neither_is_named
     let (at, first, _) = &told[0];
     assert!(*at < 10.0 && first.ends_with("who is wrong is not known"), "{at} {first}");
     let named = told.iter().find(|(_, line, _)| line.ends_with("gyro 2 is wrong")).unwrap();
-    assert!(named.0 > 30.0, "she cannot have known so soon");
+    let navigates = told.iter().find(|(_, line, _)| line == "navigates").unwrap();
+    assert!(*at < navigates.0 && named.0 >= navigates.0, "{navigates:?} {named:?}");
     assert!(told.iter().all(|(_, line, _)| !line.ends_with("gyro 1 is wrong")));
 }
 

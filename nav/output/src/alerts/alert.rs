@@ -5,10 +5,10 @@ use insd_wire::nmea::{
     AlertCategory, AlertCommand, AlertEntry, AlertPriority, AlertState, Alf, CivilTime,
 };
 
-use super::AlertText;
 use super::conditions::Condition;
 use super::patience::{AlertConfig, Escalation};
 use super::view::AlertView;
+use crate::epoch::AlertText;
 use crate::schedule::Boundary;
 
 /// How long an alert stays silenced.

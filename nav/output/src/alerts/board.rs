@@ -5,11 +5,11 @@ use std::collections::VecDeque;
 use insd_base::{Span, Time};
 use insd_wire::nmea::{Acn, AlertCommand, AlertEntry, AlertState, Alf, Arc, CivilTime, Hbt};
 
-use super::AlertText;
 use super::alert::Alert;
 use super::conditions::Condition;
 use super::patience::AlertConfig;
 use super::view::AlertView;
+use crate::epoch::AlertText;
 use crate::schedule::Boundary;
 
 /// A heartbeat counts for so many of its intervals: one may be lost.

@@ -4,7 +4,7 @@ use insd_base::{FixQuality, Integrity, Judgement, Mode, Party, Solution, Span, T
 use insd_wire::nmea::{AlertId, AlertPriority, HeadingMode, Manufacturer};
 
 use crate::docking::{Docking, DockingLimits};
-use crate::epoch::OutputEpoch;
+use crate::epoch::{AlertText, OutputEpoch};
 use crate::policy::Policy;
 
 /// Mnemonic under which our own alerts go, that of the PINSD sentences. It is not registered anywhere.
@@ -147,6 +147,17 @@ impl Condition {
     #[must_use]
     pub fn description(self) -> &'static str {
         self.definition().description
+    }
+
+    /// What it says at an epoch instead of its usual description, where there is something.
+    #[must_use]
+    pub fn detail(self, epoch: &OutputEpoch) -> Option<AlertText> {
+        match self {
+            Condition::HeadingMonitor => epoch.contradicted.heading,
+            Condition::PositionMonitor => epoch.contradicted.position,
+            Condition::AttitudeMonitor => epoch.contradicted.attitude,
+            _ => None,
+        }
     }
 
     fn definition(self) -> Definition {
@@ -361,7 +372,7 @@ impl Watch {
             Condition::NotRecording => epoch.storage.recording,
             Condition::NotSaving => epoch.storage.state,
             Condition::HeadingMonitor | Condition::PositionMonitor | Condition::AttitudeMonitor => {
-                epoch.contradicted.about(condition).is_some()
+                condition.detail(epoch).is_some()
             }
             Condition::ApproachFast | Condition::QuayNear => {
                 epoch.docking.is_some_and(|own| condition.holds_at(&own, approach))

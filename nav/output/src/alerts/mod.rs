@@ -38,10 +38,8 @@ mod conditions;
 mod patience;
 mod view;
 
+pub use crate::epoch::AlertText;
 pub use board::{AlertBoard, Announcement};
 pub use conditions::{Condition, Watch};
-
-/// Title or description of an alert.
-pub type AlertText = insd_wire::nmea::Text<64>;
 pub use patience::{AlertConfig, Escalation};
 pub use view::AlertView;

@@ -3,7 +3,7 @@
 use insd_base::UtcTime;
 use insd_wire::nmea::{AlertPriority, AlertState, Manufacturer};
 
-use super::AlertText;
+use crate::epoch::AlertText;
 
 /// How an alert stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
