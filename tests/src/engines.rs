@@ -212,6 +212,18 @@ impl Fleet {
     /// A pipeline for her.
     #[must_use]
     pub fn pipeline(&self) -> Pipeline<Config> {
+        Pipeline::new(self.plan(), Self::reader())
+    }
+
+    /// Who reads her orders.
+    #[must_use]
+    pub fn reader() -> Config {
+        Config::of_text(include_str!("../../systemd/examples/minimal.toml")).unwrap()
+    }
+
+    /// What her pipeline is told.
+    #[must_use]
+    pub fn plan(&self) -> Plan {
         let rate = Rate::from_hertz(10.0);
         let kinds = ["HDT", "GGA", "ALF"];
         let messages = kinds.map(|kind| (MessageKind::named(kind).unwrap(), rate)).to_vec();
@@ -221,9 +233,8 @@ impl Fleet {
         let feeds = self.feeds();
         let imu = Some(format!("sensor {}", port(self.engines[0])));
         let intake = IntakeConfig { imu, ..feeds.intake(&self.voyage) };
-        let config = Config::of_text(include_str!("../../systemd/examples/minimal.toml")).unwrap();
         let (engine, spares) = (self.engine(), self.spares(&feeds));
-        Pipeline::new(Plan { intake, engine, spares, outputs }, config)
+        Plan { intake, engine, spares, outputs, watched: Vec::new() }
     }
 
     /// Sails her.
@@ -346,7 +357,8 @@ fn port(imu: usize) -> usize {
 }
 
 /// True heading, rad, and place, ECEF, m, between the rows of the truth.
-fn truth_at(truth: &[Truth], seconds: f64) -> Option<(f64, Vector3<f64>)> {
+#[must_use]
+pub fn truth_at(truth: &[Truth], seconds: f64) -> Option<(f64, Vector3<f64>)> {
     let next = truth.partition_point(|row| row.time.as_seconds() <= seconds);
     let (one, other) = (truth.get(next.checked_sub(1)?)?, truth.get(next)?);
     let (first, second) = (one.attitude?.heading, other.attitude?.heading);

@@ -5,6 +5,7 @@ use crate::cameras;
 use crate::file::Config;
 use crate::rangings;
 use crate::spares;
+use crate::watches;
 
 /// Names, ranges and references: each fault with its place and what was expected.
 pub(super) fn of(config: &Config) -> Vec<String> {
@@ -26,6 +27,7 @@ pub(super) fn of(config: &Config) -> Vec<String> {
     faults.extend(berths::faults(config));
     faults.extend(rangings::faults(config));
     faults.extend(cameras::faults(config));
+    faults.extend(watches::faults(config));
     nodes(config, &mut faults);
     faults.extend(
         config

@@ -21,6 +21,7 @@ use crate::ranging::RangingSection;
 use crate::service::{ChronySection, LogSection, RecordingSection, StateSection, WebSection};
 use crate::ship::ShipSection;
 use crate::spare::SpareSection;
+use crate::watch::WatchSection;
 
 /// How well receiver and IMU agree in time where neither a pulse nor the IMU's own UTC ties them, s.
 pub(crate) const TIME_STD: f64 = 0.02;
@@ -54,6 +55,9 @@ pub struct Config {
     /// Sensors on them.
     #[serde(default, rename = "sensor")]
     pub sensors: Vec<SensorConfig>,
+    /// Sensors that are watched and not used.
+    #[serde(default, rename = "watch")]
+    pub watches: Vec<WatchSection>,
     /// Engines beside the first.
     #[serde(default, rename = "spare")]
     pub spares: Vec<SpareSection>,

@@ -38,6 +38,8 @@ pub mod stored;
 mod succession;
 #[cfg(test)]
 mod tests;
+mod watch;
+mod watches;
 
 pub use bad_input::BadInput;
 pub use berth::{BerthSection, DockingSection, WaterHand};
@@ -59,3 +61,4 @@ pub use ranging::{RangingBeamKind, RangingSection};
 pub use service::{ChronySection, LogSection, RecordingSection, StateSection, WebSection};
 pub use ship::{CarrierKind, ShipSection, Start};
 pub use spare::SpareSection;
+pub use watch::WatchSection;

@@ -37,7 +37,13 @@ impl Config {
     #[must_use]
     pub fn plan_with(&self, engine: EngineConfig) -> Plan {
         let spares = self.spares(&engine);
-        Plan { intake: self.intake(), engine, spares, outputs: self.output_plan() }
+        Plan {
+            intake: self.intake(),
+            engine,
+            spares,
+            outputs: self.output_plan(),
+            watched: self.watch_plans(),
+        }
     }
 
     /// What the intake is told.
@@ -48,7 +54,9 @@ impl Config {
             .iter()
             .map(|port| PortSpec { name: port.name.clone(), link: link(&port.transport) });
         let (sensors, imu) = (self.sensors.clone(), self.ship.imu.clone());
-        IntakeConfig { ports: ports.collect(), sensors, imu, rangings: self.ranging_specs() }
+        let watched = self.watches.iter().map(|own| own.sensor.clone()).collect();
+        let rangings = self.ranging_specs();
+        IntakeConfig { ports: ports.collect(), sensors, imu, rangings, watched }
     }
 
     /// What the engine is told.

@@ -56,7 +56,9 @@ impl Config {
         self.state.clone_from(&before.state);
         self.learning = before.learning;
         self.web.clone_from(&before.web);
-        let inputs = self.ports != before.ports || self.sensors != before.sensors;
+        let inputs = self.ports != before.ports
+            || self.sensors != before.sensors
+            || self.watches != before.watches;
         let outputs = self.outputs != before.outputs
             || self.points != before.points
             || self.berths != before.berths

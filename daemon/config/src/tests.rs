@@ -177,7 +177,7 @@ fn the_documented_sensors_of_a_bus_are_read() {
             link: Link::Can { bit_time: 4e-6 },
         });
         let mut config =
-            IntakeConfig { ports: ports.collect(), sensors, imu: None, rangings: Vec::new() };
+            IntakeConfig { ports: ports.collect(), sensors, ..IntakeConfig::default() };
         config.ports.dedup();
         config.sensors.push(SensorConfig {
             layout: Some(LayoutChoice::Shipped(Shipped::Sbg)),
@@ -201,7 +201,7 @@ fn a_table_of_a_can_imu_is_read_from_toml_and_its_faults_are_told() {
     let sensor = layered(table).remove(0);
     let port = PortSpec { name: "can".to_owned(), link: Link::Can { bit_time: 2e-6 } };
     let config =
-        IntakeConfig { ports: vec![port], sensors: vec![sensor], imu: None, rangings: Vec::new() };
+        IntakeConfig { ports: vec![port], sensors: vec![sensor], ..IntakeConfig::default() };
     let told = config.faults();
     assert!(told.iter().all(|fault| fault.key == "layout") && told.len() == 2, "{told:?}");
     let fault = toml::from_str::<Sensors>(&table.replace("width", "witdh")).unwrap_err();

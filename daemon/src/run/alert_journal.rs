@@ -32,6 +32,7 @@ impl Audience for AlertJournal {
 
 fn tell(view: &AlertView) {
     let AlertView { identifier: alert, title, description, escalation, .. } = *view;
+    let description = description.to_string();
     let (priority, state) = (priority(view.priority), state(view.state));
     match (view.state, view.priority) {
         (AlertState::Unacknowledged, AlertPriority::Alarm | AlertPriority::EmergencyAlarm) => {

@@ -103,6 +103,7 @@ fn slow(sight: &DemoSight<'_>) -> Slow {
         recorder: None,
         saver: None,
         disputes: Vec::new(),
+        watched: Vec::new(),
         estimates: engine.estimates(),
         sky: engine.sky(),
         standings: engine.standings().collect(),

@@ -11,7 +11,7 @@ use insd_intake::status::IntakeStatus;
 use insd_n2k::node::NodeStatus;
 use insd_output::alerts::AlertView;
 use insd_output::docking::Docking;
-use insd_vessel::{Dispute, EngineStatus};
+use insd_vessel::{Dispute, EngineStatus, WatchComparison};
 
 use super::outputs::OutputReport;
 use crate::state::SaverState;
@@ -54,6 +54,8 @@ pub(super) struct Slow {
     pub(super) recorder: Option<RecorderState>,
     pub(super) saver: Option<SaverState>,
     pub(super) disputes: Vec<Dispute>,
+    /// How each reference that is watched stands.
+    pub(super) watched: Vec<WatchComparison>,
     pub(super) estimates: Option<Estimates>,
     /// The satellites, if a receiver tells what it measures of each.
     pub(super) sky: Option<Sky>,

@@ -27,6 +27,10 @@ pub fn tell(names: &Names, product: &Product) {
         Product::Spare(name, Output::Event(event)) => tracing::debug!(engine = %name, ?event),
         Product::Vote(vote) => tell_vote(vote),
         Product::Command(commanded) => tell_command(names, commanded),
+        Product::Watch(change) if change.comparison.differ => {
+            tracing::warn!("{}", words::watch(change));
+        }
+        Product::Watch(change) => tracing::info!("{}", words::watch(change)),
         Product::Engine(_) | Product::Spoken(_) | Product::Spare(..) => {}
     }
 }

@@ -249,11 +249,11 @@ impl Worker {
             alerts: outputs.station().alerts().views().collect(),
             engines: pipeline.engines(),
             heard: pipeline.heard().collect(),
-            slow: is_second.then(|| Box::new(self.slow(with_sea))),
+            slow: is_second.then(|| Box::new(self.slow(now.monotonic, with_sea))),
         }
     }
 
-    fn slow(&self, with_sea: bool) -> Slow {
+    fn slow(&self, now: Time, with_sea: bool) -> Slow {
         let (epochs, late) = self.agenda.epochs;
         Slow {
             intake: self.pipeline.status(),
@@ -264,6 +264,7 @@ impl Worker {
             recorder: self.recorder.as_ref().map(Recorder::state),
             saver: self.saver.as_ref().map(Saver::state),
             disputes: self.pipeline.disputes(),
+            watched: self.pipeline.watched(now),
             estimates: self.pipeline.engine_in_use().estimates(),
             sky: self.pipeline.engine_in_use().sky(),
             standings: self.pipeline.engine_in_use().standings().collect(),

@@ -13,6 +13,7 @@ mod outputs;
 mod pipeline;
 mod plan;
 mod spares;
+mod watch;
 pub mod words;
 
 pub use alert_commands::Who;
@@ -22,3 +23,6 @@ pub use outputs::{Commanded, Knows, Outputs, Spoken};
 pub use pipeline::{Obeyed, OrderReader, Pipeline, Product};
 pub use plan::{Change, OutputPlan, Plan, Spare};
 pub use spares::{Dispute, EngineStatus, FIRST, Vote, loosened};
+pub use watch::{
+    MOST_WATCHED, WatchChange, WatchComparison, WatchLimits, WatchPlan, WatchQuantity,
+};

@@ -8,8 +8,8 @@ use insd_base::{
 use insd_engine::{Engine, Output};
 use insd_n2k::pgn::TimeSource;
 use insd_output::{
-    Doubts, OutputEpoch, OutputStation, PortMessage, SatelliteGeometry, Situation, Variation,
-    WakeUp,
+    Contradicted, Doubts, OutputEpoch, OutputStation, PortMessage, SatelliteGeometry, Situation,
+    Variation, WakeUp,
 };
 use insd_wire::nmea::{Acn, AlertCommand, Sentence};
 
@@ -85,6 +85,7 @@ pub struct Outputs {
     receiver: Option<(Time, SatelliteGeometry)>,
     variation: Option<(Time, Variation)>,
     storage: StorageFaults,
+    contradicted: Contradicted,
     /// Commands of those who may not command, and when one of them was answered last.
     strangers: (u64, Option<Time>),
 }
@@ -101,6 +102,7 @@ impl Outputs {
             receiver: None,
             variation: None,
             storage: StorageFaults::default(),
+            contradicted: Contradicted::default(),
             strangers: (0, None),
         }
     }
@@ -146,6 +148,11 @@ impl Outputs {
     /// Takes note of what cannot be written on the disk.
     pub fn note_storage(&mut self, faults: StorageFaults) {
         self.storage = faults;
+    }
+
+    /// Takes note of which references that are watched are contradicted.
+    pub fn note_contradicted(&mut self, contradicted: Contradicted) {
+        self.contradicted = contradicted;
     }
 
     /// Obeys the operator about an alert; whether it could.
@@ -244,6 +251,7 @@ impl Outputs {
             engines_differ: engine.engines_differ(),
             doubts: engine.doubts(),
             storage: self.storage,
+            contradicted: self.contradicted,
         }
     }
 

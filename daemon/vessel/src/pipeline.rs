@@ -20,6 +20,7 @@ use crate::checkpoints::Checkpoints;
 use crate::outputs::{Commanded, Knows, Outputs, Spoken};
 use crate::plan::{Change, Plan};
 use crate::spares::{Dispute, EngineStatus, FIRST, InUse, Redundancy, Said, Vote};
+use crate::watch::{ReferenceWatch, WatchChange, WatchComparison};
 
 /// In a checkpoint the name of the berth that is chosen stands under this name, which is that of no engine.
 const BERTH: &str = "";
@@ -41,6 +42,8 @@ pub enum Product {
     Vote(Vote),
     /// What became of a command of the bridge.
     Command(Commanded),
+    /// References that are watched differ, or agree again.
+    Watch(WatchChange),
 }
 
 /// What became of an order.
@@ -107,19 +110,21 @@ pub struct Pipeline<R> {
     outputs: Outputs,
     /// The spare engines, if there are any.
     redundancy: Option<Redundancy>,
+    watch: ReferenceWatch,
 }
 
 impl<R: OrderReader> Pipeline<R> {
     /// A pipeline that knows nothing yet.
     #[must_use]
     pub fn new(plan: Plan, reader: R) -> Self {
-        let Plan { intake, engine, spares, outputs } = plan;
+        let Plan { intake, engine, spares, outputs, watched } = plan;
         Pipeline {
             reader,
             intake: Intake::new(&intake),
             engine: Engine::new(engine),
             outputs: Outputs::new(outputs),
             redundancy: (!spares.is_empty()).then(|| Redundancy::new(spares)),
+            watch: ReferenceWatch::new(watched),
         }
     }
 
@@ -134,11 +139,16 @@ impl<R: OrderReader> Pipeline<R> {
             let first = (&mut self.engine, &self.intake);
             redundancy.look(now, first, |vote| product(Product::Vote(vote)));
         }
+        let known = InUse { first: &self.engine, redundancy: self.redundancy.as_ref() };
+        self.watch.look(now, || known.motion(), |change| product(Product::Watch(change)));
         self.intake.handle(arrival);
         while let Some(taken) = self.intake.poll_output() {
             match taken {
                 Intaken::Event(event) => product(Product::Intake(event)),
                 Intaken::Temperature(time, celsius) => self.engine.feel(time, celsius),
+                Intaken::Watched(told) => {
+                    self.watch.hear(&told, self.in_use().motion().as_ref());
+                }
                 Intaken::Measured(received) => {
                     self.outputs.hear(&received);
                     self.redundancy.iter_mut().for_each(|own| own.overhear_first(&received));
@@ -154,6 +164,7 @@ impl<R: OrderReader> Pipeline<R> {
         let utc = self.intake.utc_at(now);
         self.outputs.overhear(arrival, utc, |own| product(Product::Command(own)));
         if arrival.input == Input::Tick {
+            self.outputs.note_contradicted(self.watch.contradicted(now));
             let known = InUse { first: &self.engine, redundancy: self.redundancy.as_ref() };
             self.outputs.speak(&known, now, utc, |spoken| product(Product::Spoken(spoken)));
         }
@@ -259,6 +270,7 @@ impl<R: OrderReader> Pipeline<R> {
     fn configure(&mut self, plan: Plan, change: Change) -> Change {
         if change.inputs {
             self.intake = Intake::new(&plan.intake);
+            self.watch = ReferenceWatch::new(plan.watched);
         }
         if change.outputs || change.inputs {
             self.outputs.succeed(Outputs::new(plan.outputs));
@@ -319,6 +331,12 @@ impl<R: OrderReader> Pipeline<R> {
     #[must_use]
     pub fn heave(&self) -> Option<Heave> {
         self.in_use().heaves().first().copied().flatten()
+    }
+
+    /// How each reference that is watched stands to the others and to what the ship says of herself.
+    #[must_use]
+    pub fn watched(&self, now: Time) -> Vec<WatchComparison> {
+        self.watch.comparisons(now)
     }
 
     fn in_use(&self) -> InUse<'_> {

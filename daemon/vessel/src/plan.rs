@@ -7,6 +7,8 @@ use insd_intake::config::IntakeConfig;
 use insd_output::docking::DockingConfig;
 use insd_output::{OutputPortConfig, Rate};
 
+use crate::watch::WatchPlan;
+
 /// What a pipeline is made of.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -18,6 +20,8 @@ pub struct Plan {
     pub spares: Vec<Spare>,
     /// What is said, and who may command.
     pub outputs: OutputPlan,
+    /// What is watched and not used.
+    pub watched: Vec<WatchPlan>,
 }
 
 /// A further engine.

@@ -12,6 +12,7 @@ use crate::names::Names;
 use crate::outputs::Commanded;
 use crate::pipeline::Obeyed;
 use crate::spares::Vote;
+use crate::watch::WatchChange;
 
 /// What the system does, in a few words.
 #[must_use]
@@ -163,6 +164,12 @@ pub fn vote(vote: &Vote) -> String {
             format!("outputs come from {} instead of {}", vote.name(to), vote.name(from))
         }
     }
+}
+
+/// What was found of a reference that is watched.
+#[must_use]
+pub fn watch(change: &WatchChange) -> String {
+    change.comparison.to_string()
 }
 
 /// An event of the border: its kind and its words.

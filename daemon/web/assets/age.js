@@ -49,7 +49,7 @@ function forgotten(data, time) {
     mode: { name: "fault", since_s: time.told_ago_s, reason: "nothing is heard of the navigator" },
     motion: null, docking: alongside(data.docking, time.at_s, "gone"), alignment: null, estimates: null, disturbance: null,
     engines: data.engines.map(({ name }) => ({ name, mode: "", in_use: false, healthy: false, differs: [] })),
-    sensors: data.sensors.map(row), choices: [],
+    sensors: data.sensors.map(row), choices: [], watched: [],
     sky: { state: "unknown", satellites: [], refused: data.sky?.refused ?? [] },
     inputs: data.inputs.map(row), outputs: data.outputs.map(row),
     buses: data.buses.map((bus) => ({ ...row(bus), port: bus.port })),

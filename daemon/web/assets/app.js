@@ -7,7 +7,7 @@ import { follow, load } from "./stream.js";
 import { rose, horizon, turn, qualities, source, speak } from "./instruments.js";
 import { chart } from "./chart.js";
 import { history, plot, sigmaPlot, spectrum } from "./plots.js";
-import { sensors, ports, measurements, system } from "./tables.js";
+import { sensors, watched, ports, measurements, system } from "./tables.js";
 import { sky } from "./sky.js";
 import { alignment, disturbance, modes, modeTone } from "./alignment.js";
 import { alerts, startAlerts } from "./alerts.js";
@@ -76,6 +76,7 @@ function drawLive() {
 function drawWhole() {
   show(byId("simulated"), data.program.simulated);
   sensors(data);
+  watched(data);
   sky(data);
   learning(data);
   ports(data);

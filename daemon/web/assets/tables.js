@@ -49,6 +49,18 @@ export function sensors(data) {
   });
 }
 
+export function watched(data) {
+  const all = data.watched ?? [];
+  const told = (one, name) => (known(one[`${name}_m`]) ? `${fixed(one[`${name}_m`], 0)} m` : `${fixed(one[`${name}_deg`], 2)}°`);
+  const verdict = (one) => (one.differs ? (one.wrong ? `${one.wrong} is wrong` : "differ, not known who is wrong") : "within its limit");
+  fill(byId("watch-table"), all.map((one) => [
+    one.sensor, one.against ?? "insd", words(one.quantity),
+    right(told(one, "difference"), one.differs ? "is-bad" : ""), right(told(one, "sigma")), right(told(one, "limit")),
+    { text: verdict(one), cls: `state ${one.differs ? "bad" : "good"}` },
+  ]));
+  show(byId("watch-card"), all.length > 0);
+}
+
 export function ports(data) {
   fill(byId("inputs"), data.inputs.map((port) => [
     { text: port.name, sub: `${port.transport} · ${port.what}` },

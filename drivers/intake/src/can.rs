@@ -8,10 +8,11 @@
 
 use insd_base::can::{BusEvent, CanFrame};
 use insd_base::{Span, Stamp};
-use insd_n2k::{Assembler, Name, Roster};
+use insd_n2k::{Assembler, Message, Name, Roster};
+use insd_wire::ngt1::NgtFrame;
 
 use crate::core::{Came, Core};
-use crate::port::{Link, PortCounts};
+use crate::port::{Frame, Link, PortCounts};
 
 /// What a controller told of its bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -64,6 +65,28 @@ impl CanIntake {
             let came = Came { begun: own.begun, ended: stamp.monotonic };
             core.message(port, stamp, came, &own.message, name);
         }
+    }
+
+    /// Takes a message that an adapter has made bytes of: the time of its bytes is taken off, that of the bus is not known.
+    pub(crate) fn adapted(
+        &mut self,
+        port: usize,
+        stamp: &Stamp,
+        frame: &Frame<'_>,
+        core: &mut Core,
+    ) {
+        let Ok(NgtFrame::Received(told)) = NgtFrame::read(frame.bytes) else { return };
+        let message = Message {
+            priority: told.priority,
+            pgn: told.pgn,
+            source: told.source,
+            destination: told.destination,
+            data: told.data,
+        };
+        self.roster.learn(&message);
+        let name = self.roster.name_at(message.source);
+        let came = Came { begun: frame.begun, ended: frame.ended };
+        core.message(port, stamp, came, &message, name);
     }
 
     /// The controller says something.

@@ -62,7 +62,7 @@ pub struct SensorConfig {
     #[serde(default)]
     pub latency_s: f64,
     /// Of a receiver: its antenna from the IMU: forward, starboard, down, m. Left out, or zeros:
-    /// `gnss_lever_m` of `[ship]`.
+    /// `gnss_lever_m` of `[ship]`. Of a position that is watched: where it is of.
     #[serde(default)]
     pub lever_m: Option<[f64; 3]>,
     /// Of a receiver: by how much its fixes are older than the time they carry, s.
@@ -161,6 +161,8 @@ pub struct IntakeConfig {
     pub imu: Option<String>,
     /// Docking aids, in the order of their [`insd_base::Source`].
     pub rangings: Vec<RangingSpec>,
+    /// Names of the sensors that are watched and not used.
+    pub watched: Vec<String>,
 }
 
 /// A fault of a sensor's description.
@@ -226,10 +228,17 @@ impl IntakeConfig {
     pub fn protocols(&self, port: &str) -> Vec<Protocol> {
         let mut protocols = Vec::new();
         for sensor in self.sensors.iter().filter(|sensor| sensor.port == port) {
-            let own = sensor.kind.protocol().filter(|own| !protocols.contains(own));
-            protocols.extend(own);
+            let adapter = sensor.kind.is_n2k() && !self.is_bus(port);
+            let own = sensor.kind.protocol().or(adapter.then_some(Protocol::Ngt1));
+            protocols.extend(own.filter(|own| !protocols.contains(own)));
         }
         protocols
+    }
+
+    /// Whether a port carries CAN frames.
+    fn is_bus(&self, port: &str) -> bool {
+        let mut own = self.ports.iter().filter(|own| own.name == port);
+        own.any(|own| matches!(own.link, Link::Can { .. }))
     }
 
     /// Whether a sensor on a port is a device of NMEA 2000.
@@ -298,15 +307,20 @@ impl SensorConfig {
         expect(known, "port", "the name of a port");
         let carries = config.ports.iter().filter(|port| port.name == self.port);
         let frames = |link: &Link| matches!(link, Link::Can { .. });
-        let fits =
-            carries.map(|port| frames(&port.link)).all(|own| own == self.kind.protocol().is_none());
+        // an adapter makes bytes of a bus
+        let fits = self.kind.is_n2k()
+            || carries
+                .map(|port| frames(&port.link))
+                .all(|own| own == self.kind.protocol().is_none());
         expect(fits, "kind", "a kind of sensor that the port can carry: CAN frames, or bytes");
         expect((0.1..=600.0).contains(&self.patience_s), "patience_s", "0.1 to 600 s");
         expect((0.0..=2.0).contains(&self.latency_s), "latency_s", "0 to 2 s");
         let is_receiver = self.kind.role() == Role::Gnss;
         let lever = self.lever_m.iter().flatten().all(|length| length.abs() <= 1000.0);
         expect(lever, "lever_m", "[forward, starboard, down] in m, each within +-1000");
-        expect(self.lever_m.is_none() || is_receiver, "lever_m", "a GNSS receiver");
+        let has_place = is_receiver || config.watched.contains(&self.name);
+        let expected = "a GNSS receiver, or a position that is watched";
+        expect(self.lever_m.is_none() || has_place, "lever_m", expected);
         expect(self.delay_s.abs() <= 2.0, "delay_s", "-2 to 2 s");
         expect(self.delay_s == 0.0 || is_receiver, "delay_s", "a GNSS receiver");
         let has_raw = matches!(self.kind, Kind::Ubx | Kind::Sbf);

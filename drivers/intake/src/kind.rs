@@ -54,6 +54,10 @@ pub enum Kind {
     Kmb,
     /// Heading of a motion sensor that sends EM3000; its roll and pitch are shown.
     Em3000,
+    /// Heading of an Exail (iXblue) system by StdBin; its roll and pitch are shown, and its position is for a watch.
+    StdbinIns,
+    /// A motion sensor that sends TSS1: its roll and pitch are shown.
+    Tss1,
     /// A Hemisphere satellite compass: PSAT,HPR.
     Psat,
     /// Two antennas of a Trimble receiver: PTNL,AVR.
@@ -94,6 +98,8 @@ pub enum Role {
     Log,
     /// Heading.
     Heading,
+    /// Roll and pitch alone.
+    Attitude,
     /// Position.
     Position,
     /// Distances to lines and points ashore.
@@ -126,11 +132,13 @@ impl Kind {
             | Kind::Pashr
             | Kind::Kmb
             | Kind::Em3000
+            | Kind::StdbinIns
             | Kind::Psat
             | Kind::Ptnl
             | Kind::Pfec
             | Kind::NovatelIns
             | Kind::N2kHeading => Role::Heading,
+            Kind::Tss1 => Role::Attitude,
             Kind::NmeaPosition | Kind::Manual | Kind::N2kPosition => Role::Position,
             Kind::Ranging | Kind::Rls => Role::Ranging,
             Kind::RtcmBase => Role::Base,
@@ -138,12 +146,12 @@ impl Kind {
         }
     }
 
-    /// How its bytes are framed; `None` if it sends CAN frames.
+    /// How its bytes are framed; `None` if it sends CAN frames, also where an adapter makes bytes of them.
     #[must_use]
     pub fn protocol(self) -> Option<Protocol> {
         Some(match self {
             Kind::Sbg => Protocol::Sbg,
-            Kind::Stdbin => Protocol::StdBin,
+            Kind::Stdbin | Kind::StdbinIns => Protocol::StdBin,
             Kind::Mip => Protocol::Mip,
             Kind::Xbus => Protocol::Xbus,
             Kind::Kvh => Protocol::Kvh,
@@ -153,6 +161,7 @@ impl Kind {
             Kind::Novatel | Kind::NovatelImu | Kind::NovatelIns => Protocol::Novatel,
             Kind::Kmb => Protocol::Kmb,
             Kind::Em3000 => Protocol::Em3000,
+            Kind::Tss1 => Protocol::Tss1,
             Kind::Rtcm | Kind::RtcmBase => Protocol::Rtcm,
             Kind::Pd0 => Protocol::Pd0,
             Kind::Pd6 => Protocol::Pd6,

@@ -22,12 +22,15 @@ pub mod ranging;
 pub mod satellites;
 pub mod sensor;
 pub mod status;
+pub mod watched;
 
 mod core;
 mod inertial;
 mod magnetic;
 
 pub use magnetic::variation;
+
+use insd_wire::stream::Protocol;
 
 use insd_base::{Arrival, Input, PortState, Received, Sent, Stamp, Time, UtcTime};
 
@@ -38,6 +41,7 @@ use crate::core::Core;
 use crate::event::{Happening, IntakeEvent};
 use crate::port::PortIntake;
 use crate::status::{ChoiceStatus, IntakeStatus, PortStatus, PortTold, SensorStatus, TimeStatus};
+use crate::watched::Watched;
 
 /// Time between looks for silences, s.
 const TICK: f64 = 0.1;
@@ -49,6 +53,8 @@ pub enum Intaken {
     Measured(Received),
     /// The temperature of the IMU in use, degrees Celsius, about once a second.
     Temperature(Time, f64),
+    /// What a sensor says that is watched and not used.
+    Watched(Watched),
     /// Something worth telling.
     Event(IntakeEvent),
 }
@@ -94,7 +100,11 @@ impl Intake {
             match &arrival.input {
                 Input::Bytes(bytes) | Input::Sent(Sent { bytes, .. }) => {
                     port.heard = Some(stamp.monotonic);
-                    port.intake.take(stamp, bytes, |frame| core.frame(index, stamp, frame));
+                    let Port { intake, can, .. } = port;
+                    intake.take(stamp, bytes, |frame| match frame.protocol {
+                        Protocol::Ngt1 => can.adapted(index, stamp, frame, core),
+                        _ => core.frame(index, stamp, frame),
+                    });
                 }
                 Input::Can(frame) => {
                     port.heard = Some(stamp.monotonic);

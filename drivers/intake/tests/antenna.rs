@@ -19,12 +19,8 @@ fn sentence(inside: &str) -> String {
 fn fixes(sensor: SensorConfig) -> Vec<GnssFix> {
     let link = Link::Serial { byte_time: 10.0 / 115_200.0 };
     let ports = vec![PortSpec { name: "gnss".to_owned(), link }];
-    let mut intake = Intake::new(&IntakeConfig {
-        ports,
-        sensors: vec![sensor],
-        imu: None,
-        rangings: Vec::new(),
-    });
+    let mut intake =
+        Intake::new(&IntakeConfig { ports, sensors: vec![sensor], ..IntakeConfig::default() });
     let mut fixes = Vec::new();
     for second in 0..30_i64 {
         let time = format!("1200{second:02}.00");

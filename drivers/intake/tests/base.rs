@@ -73,8 +73,7 @@ fn hear(settings: BaseSettings, north_deg: f64, size: usize) -> Heard {
     let config = IntakeConfig {
         ports: vec![port("gnss"), port("caster")],
         sensors: vec![SensorConfig::new("gnss", "gnss", Kind::NmeaGnss), base],
-        imu: None,
-        rangings: Vec::new(),
+        ..IntakeConfig::default()
     };
     let mut heard = Heard {
         bases: Vec::new(),
@@ -114,6 +113,7 @@ impl Heard {
                     Message::Ranges(_) => self.ranges += 1,
                     _ => self.others += 1,
                 },
+                Intaken::Watched(_) => {}
                 Intaken::Event(event) => {
                     if let Happening::Base { sensor: 1, news } = event.what {
                         self.news.push(news);
@@ -166,8 +166,7 @@ fn a_base_is_refused_while_nobody_knows_the_time() {
     let config = IntakeConfig {
         ports: vec![PortSpec { name: "caster".to_owned(), link: Link::Stream }],
         sensors: vec![SensorConfig::new("base", "caster", Kind::RtcmBase)],
-        imu: None,
-        rangings: Vec::new(),
+        ..IntakeConfig::default()
     };
     let mut intake = Intake::new(&config);
     let system = UtcTime::from_civil((2023, 1, 3), (12, 0, 0), 0).unwrap();
@@ -185,8 +184,7 @@ fn half_a_place_and_a_base_that_is_none_are_faults_of_the_configuration() {
         let config = IntakeConfig {
             ports: vec![PortSpec { name: "port".to_owned(), link: Link::Stream }],
             sensors: vec![SensorConfig { base, ..SensorConfig::new("own", "port", kind) }],
-            imu: None,
-            rangings: Vec::new(),
+            ..IntakeConfig::default()
         };
         config.faults().into_iter().filter(|fault| fault.key == "base").count()
     };

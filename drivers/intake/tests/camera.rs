@@ -56,6 +56,7 @@ impl Ship {
                         other => panic!("{other:?}"),
                     }
                 }
+                Intaken::Watched(_) => {}
                 Intaken::Event(event) => {
                     let stepped = matches!(event.what, Happening::DeviceClockStepped { .. });
                     self.stepped += usize::from(stepped);

@@ -41,7 +41,8 @@ fn told(
     said: impl Fn(i64) -> String,
 ) -> (Vec<(Source, Message)>, Intake) {
     let ports = vec![PortSpec { name: "port".to_owned(), link: Link::Datagrams }];
-    let mut intake = Intake::new(&IntakeConfig { ports, sensors, imu: None, rangings });
+    let mut intake =
+        Intake::new(&IntakeConfig { ports, sensors, rangings, ..IntakeConfig::default() });
     let mut all = Vec::new();
     for tenth in 0..400_i64 {
         let late = tenth * 100_000_000 + 30_000_000;

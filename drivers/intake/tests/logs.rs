@@ -25,7 +25,7 @@ struct Ship {
 impl Ship {
     fn new(sensor: SensorConfig, link: Link) -> Self {
         let ports = vec![PortSpec { name: "port".to_owned(), link }];
-        let config = IntakeConfig { ports, sensors: vec![sensor], imu: None, rangings: Vec::new() };
+        let config = IntakeConfig { ports, sensors: vec![sensor], ..IntakeConfig::default() };
         Ship { intake: Intake::new(&config), measured: Vec::new(), events: Vec::new() }
     }
 
@@ -39,7 +39,7 @@ impl Ship {
             match intaken {
                 Intaken::Measured(received) => self.measured.push(received.message),
                 Intaken::Event(event) => self.events.push(event.what),
-                Intaken::Temperature(..) => {}
+                Intaken::Temperature(..) | Intaken::Watched(_) => {}
             }
         }
     }

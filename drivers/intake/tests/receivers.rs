@@ -46,7 +46,7 @@ fn ranks(quality: impl Fn(usize, i64) -> u8) -> (Vec<(i64, u8, u8)>, Intake) {
         ..SensorConfig::new(name, name, Kind::NmeaGnss)
     };
     let sensors = names.iter().enumerate().map(sensor).collect();
-    let mut intake = Intake::new(&IntakeConfig { ports, sensors, imu: None, rangings: Vec::new() });
+    let mut intake = Intake::new(&IntakeConfig { ports, sensors, ..IntakeConfig::default() });
     let mut ranks = Vec::new();
     for second in 0..40_i64 {
         for port in 0..2_u16 {
@@ -110,7 +110,7 @@ fn of_kind(kind: Kind, frames: impl Fn(u32) -> Vec<u8>) -> Vec<Message> {
     };
     let ports = vec![PortSpec { name: "bow".to_owned(), link }];
     let sensors = vec![sensor];
-    let mut intake = Intake::new(&IntakeConfig { ports, sensors, imu: None, rangings: Vec::new() });
+    let mut intake = Intake::new(&IntakeConfig { ports, sensors, ..IntakeConfig::default() });
     let mut passed = Vec::new();
     for second in 0..10_u32 {
         let late = i64::from(second) * 1_000_000_000 + 80_000_000;

@@ -3,7 +3,8 @@
 use crate::gnss::{novatel, rtcm, sbf, ubx};
 use crate::imu::{kvh, mip, sbg, stdbin, stim, xbus};
 use crate::log::{pd0, pd6};
-use crate::motion::{em, kmb};
+use crate::motion::{em, kmb, tss1};
+use crate::ngt1::NgtFrame;
 use crate::nmea::others::{self, Understood};
 use crate::stream::Protocol;
 
@@ -51,11 +52,22 @@ pub fn describe(protocol: Protocol, frame: &[u8]) -> Described {
         Protocol::Novatel => novatel(frame),
         Protocol::Kmb => plain("KMB", &kmb::Kmb::read(frame)),
         Protocol::Em3000 => plain("EM3000", &em::EmAttitude::read(frame)),
+        Protocol::Tss1 => plain("TSS1", &tss1::Tss1::read(frame)),
+        Protocol::Ngt1 => adapter(frame),
     }
 }
 
 fn described(name: impl Into<String>, read: Reading) -> Described {
     Described { name: name.into(), read }
+}
+
+/// A message of the bus goes by its parameter group.
+fn adapter(frame: &[u8]) -> Described {
+    match NgtFrame::read(frame) {
+        Ok(NgtFrame::Received(message)) => described(format!("PGN {}", message.pgn), Reading::Used),
+        Ok(NgtFrame::Other(command)) => described(format!("NGT {command:02X}"), Reading::Other),
+        Err(_) => described("NGT", Reading::Refused),
+    }
 }
 
 fn plain<T, E>(name: &str, read: &Result<T, E>) -> Described {

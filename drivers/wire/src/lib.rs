@@ -12,6 +12,7 @@ pub mod imu;
 mod layout;
 pub mod log;
 pub mod motion;
+pub mod ngt1;
 pub mod nmea;
 pub mod signalk;
 pub mod stream;

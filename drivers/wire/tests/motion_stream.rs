@@ -47,6 +47,18 @@ fn km_binary_is_found_between_other_bytes() {
 }
 
 #[test]
+fn tss1_is_found_between_other_lines_and_cut_telegrams() {
+    let whole: &[u8] = b":1A4770 -0016H 0429 -0680\r\n";
+    for cut_at in 0..whole.len() {
+        let stream =
+            [&whole[..cut_at], whole, b":BI,+1,+2,+3,+4,A\r\n$HEHDT,1.0,T\r\n", whole].concat();
+        for size in [1, 7, 100] {
+            assert_eq!(cut(Protocol::Tss1, &stream, size).0, [whole, whole], "{cut_at}");
+        }
+    }
+}
+
+#[test]
 fn random_bytes_hold_next_to_no_telegram_of_em3000() {
     let mut state = 1_u64;
     let mut byte = || {

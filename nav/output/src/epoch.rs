@@ -52,6 +52,8 @@ pub struct OutputEpoch {
     pub engines_differ: bool,
     /// What of the installation is found to be otherwise than configured.
     pub doubts: Doubts,
+    /// Which references that are watched are contradicted.
+    pub contradicted: Contradicted,
     /// What cannot be written on the disk.
     pub storage: StorageFaults,
     /// How the ship stands to the berth that is chosen or near.
@@ -86,6 +88,20 @@ impl Doubts {
             imu: false,
         }
     }
+}
+
+/// Title or description of an alert.
+pub type AlertText = insd_wire::nmea::Text<64>;
+
+/// Which references that are watched are contradicted: what is to be told of each quantity; `None` where all agree.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Contradicted {
+    /// Headings.
+    pub heading: Option<AlertText>,
+    /// Positions.
+    pub position: Option<AlertText>,
+    /// Roll and pitch.
+    pub attitude: Option<AlertText>,
 }
 
 /// Distance run since the start, m.
@@ -151,6 +167,7 @@ impl OutputEpoch {
             alignment: None,
             engines_differ: false,
             doubts: Doubts::default(),
+            contradicted: Contradicted::default(),
             storage: StorageFaults::default(),
             docking: None,
             stern: None,

@@ -22,7 +22,7 @@ mod redacted_epoch;
 mod schedule;
 mod station;
 
-pub use epoch::{Distance, Doubts, OutputEpoch, SatelliteGeometry, Variation};
+pub use epoch::{Contradicted, Distance, Doubts, OutputEpoch, SatelliteGeometry, Variation};
 pub use insd_wire::nmea::{CivilTime, Date, Sfi, Talker, TimeOfDay, TransmissionGroup};
 pub use lan::{Datagram, Lan, LanConfig};
 pub use manner::Manner;

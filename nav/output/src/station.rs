@@ -9,7 +9,7 @@ use insd_wire::nmea::{Acn, AlertCommand, Hbt};
 
 use crate::alerts::{AlertBoard, AlertConfig, Watch};
 use crate::docking::{BerthDesk, DockingConfig, HullPart};
-use crate::epoch::{Distance, Doubts, OutputEpoch, SatelliteGeometry, Variation};
+use crate::epoch::{Contradicted, Distance, Doubts, OutputEpoch, SatelliteGeometry, Variation};
 use crate::policy::Policy;
 use crate::port::{OutputPortConfig, Port, PortMessage};
 use crate::schedule::{Boundary, Due, Pacer, Rate, WakeUp};
@@ -44,6 +44,8 @@ pub struct Situation {
     pub engines_differ: bool,
     /// What of the installation is found to be otherwise than configured.
     pub doubts: Doubts,
+    /// Which references that are watched are contradicted.
+    pub contradicted: Contradicted,
     /// What cannot be written on the disk.
     pub storage: StorageFaults,
 }
@@ -244,6 +246,7 @@ impl OutputStation {
         let simulated = self.ports.iter().any(|port| port.config().manner.simulated);
         let limits = self.berths.config().limits;
         for (condition, holds) in self.watch.note(epoch, &policy, &limits, simulated) {
+            self.board.explain(condition, condition.detail(epoch), now);
             if holds {
                 self.board.raise(condition, now);
             } else {
@@ -309,6 +312,7 @@ fn epoch(
         alignment: moment.alignment,
         engines_differ: moment.engines_differ,
         doubts: moment.doubts,
+        contradicted: moment.contradicted,
         storage: moment.storage,
         ..OutputEpoch::unknown(boundary.time)
     }

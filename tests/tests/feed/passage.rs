@@ -139,6 +139,7 @@ impl Ship {
             passage.intake.handle(arrival);
             while let Some(taken) = passage.intake.poll_output() {
                 match taken {
+                    Intaken::Watched(_) => {}
                     Intaken::Event(event) => {
                         let when = (event.time - self.reception.offset).as_seconds();
                         passage.events.push((when, event.what));

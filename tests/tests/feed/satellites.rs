@@ -103,7 +103,7 @@ impl Taken {
                 match taken {
                     Intaken::Measured(received) => measured.push(received),
                     Intaken::Event(event) => happened.push((event.time, event.what)),
-                    Intaken::Temperature(..) => {}
+                    Intaken::Temperature(..) | Intaken::Watched(_) => {}
                 }
             }
         }

@@ -83,7 +83,7 @@ fn fed(voyage: &Voyage, encoding: Encoding) -> Measured {
 fn only_the_expected_events(all: &[Intaken], sensors: usize) {
     let events = all.iter().filter_map(|taken| match taken {
         Intaken::Event(event) => Some(&event.what),
-        Intaken::Measured(_) | Intaken::Temperature(..) => None,
+        Intaken::Measured(_) | Intaken::Temperature(..) | Intaken::Watched(_) => None,
     });
     let (mut spoke, mut chosen, mut qualities) = (0, 0, 0);
     for event in events {

@@ -5,6 +5,7 @@
 mod choice;
 mod faults;
 mod sound;
+mod watched;
 
 use std::sync::OnceLock;
 

@@ -20,3 +20,4 @@ mod saving;
 mod scene;
 mod screen;
 mod ship;
+mod watched;

@@ -111,7 +111,7 @@ fn advise(finding: &mut ConfigFinding, config: &Config) {
             let imus = config.sensors.iter().filter(|own| own.kind.role() == Role::Imu);
             imus.map(|own| own.name.as_str()).collect()
         }
-        ("ranging" | "camera", "sensor") => {
+        ("ranging" | "camera" | "watch", "sensor") => {
             config.sensors.iter().map(|own| own.name.as_str()).collect()
         }
         ("docking" | "ranging", "berth") => {

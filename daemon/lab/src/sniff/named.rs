@@ -4,7 +4,8 @@ use insd_wire::describe::{Reading, describe};
 use insd_wire::gnss::{novatel, sbf, ubx};
 use insd_wire::imu::{kvh, mip, sbg, stdbin, stim, xbus};
 use insd_wire::log::{pd0, pd6};
-use insd_wire::motion::{em, kmb};
+use insd_wire::motion::{em, kmb, tss1};
+use insd_wire::ngt1::NgtFrame;
 use insd_wire::nmea::others::{self, Understood};
 use insd_wire::nmea::{ChecksumPolicy, Frame, Talker};
 use insd_wire::stream::Protocol;
@@ -124,6 +125,8 @@ fn fault(protocol: Protocol, frame: &[u8]) -> Option<String> {
         Protocol::Novatel => told(novatel::OemLog::read(frame)),
         Protocol::Kmb => told(kmb::Kmb::read(frame)),
         Protocol::Em3000 => told(em::EmAttitude::read(frame)),
+        Protocol::Tss1 => told(tss1::Tss1::read(frame)),
+        Protocol::Ngt1 => told(NgtFrame::read(frame)),
     }
 }
 

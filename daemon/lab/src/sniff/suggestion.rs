@@ -115,7 +115,8 @@ impl Sensor {
 fn sensors(port: &PortReport) -> Vec<Sensor> {
     let binary = [
         imu(port, Protocol::Sbg, "sbg", |name| name.starts_with("IMU_")),
-        imu(port, Protocol::StdBin, "stdbin", |_| true),
+        imu(port, Protocol::StdBin, "stdbin", |_| true)
+            .map(|own| own.note("as a compass and not as an IMU: kind = \"stdbin_ins\"")),
         imu(port, Protocol::Mip, "mip", |_| true),
         imu(port, Protocol::Xbus, "xbus", |_| true),
         imu(port, Protocol::Kvh, "kvh", |_| true).map(|sensor| {
@@ -134,12 +135,11 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
             name.starts_with("RAWIMU") && name.ends_with('X')
         }),
         plain_sensor(port, Protocol::Novatel, "novatel_ins", "compass", "INSPVA"),
-        plain_sensor(port, Protocol::Kmb, "kmb", "motion", ""),
-        plain_sensor(port, Protocol::Em3000, "em3000", "motion", ""),
         plain_sensor(port, Protocol::Pd0, "pd0", "log", "").map(|log| mounted(log, port)),
         plain_sensor(port, Protocol::Pd6, "pd6", "log", "PD6 :B").map(|log| mounted(log, port)),
     ];
-    let mut sensors: Vec<Sensor> = binary.into_iter().flatten().collect();
+    let mut sensors: Vec<Sensor> =
+        binary.into_iter().chain(motion(port)).chain(adapted(port)).flatten().collect();
     let has_receiver = sensors.iter().any(|sensor| sensor.role == "gnss");
     match receiver(port) {
         Some(sensor) if !has_receiver => sensors.push(sensor),
@@ -170,6 +170,26 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         sensor.note("dialect must be stated: sbg, sbg_wassp, ixblue, novatel, trimble or applanix")
     }));
     sensors
+}
+
+/// Motion sensors by their telegrams.
+fn motion(port: &PortReport) -> [Option<Sensor>; 3] {
+    [
+        plain_sensor(port, Protocol::Kmb, "kmb", "motion", ""),
+        plain_sensor(port, Protocol::Em3000, "em3000", "motion", ""),
+        plain_sensor(port, Protocol::Tss1, "tss1", "motion", "")
+            .map(|own| own.note("it tells no heading: name it in a [[watch]] (docs/watch.md)")),
+    ]
+}
+
+/// Devices of a bus behind an adapter.
+fn adapted(port: &PortReport) -> [Option<Sensor>; 3] {
+    [
+        plain_sensor(port, Protocol::Ngt1, "n2k_gnss", "gnss", "PGN 129029"),
+        plain_sensor(port, Protocol::Ngt1, "n2k_heading", "compass", "PGN 127250"),
+        plain_sensor(port, Protocol::Ngt1, "n2k_log", "log", "PGN 130578")
+            .or_else(|| plain_sensor(port, Protocol::Ngt1, "n2k_log", "log", "PGN 128259")),
+    ]
 }
 
 /// Messages of a protocol that are used, or would be if lines without a checksum were taken.

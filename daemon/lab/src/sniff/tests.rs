@@ -289,8 +289,11 @@ fn the_advice_for_lines_without_a_checksum_works_as_it_is_pasted() {
     // the ship that is configured so
     let name = sensors[0].port.clone();
     let ports = vec![insd_intake::config::PortSpec { name, link: super::port::link("/dev/x") }];
-    let config =
-        insd_intake::config::IntakeConfig { ports, sensors, imu: None, rangings: Vec::new() };
+    let config = insd_intake::config::IntakeConfig {
+        ports,
+        sensors,
+        ..insd_intake::config::IntakeConfig::default()
+    };
     // nothing is wrong with what was pasted, but a ship needs an IMU besides
     assert!(config.faults().iter().all(|fault| fault.sensor.is_empty()), "{:?}", config.faults());
     let mut intake = insd_intake::Intake::new(&config);

@@ -37,7 +37,7 @@ impl Changes {
             instance: view.instance,
             manufacturer: view.manufacturer.map(|own| own.as_str().to_owned()),
             title: view.title.to_owned(),
-            description: view.description.to_owned(),
+            description: view.description.to_string(),
             priority: priority(view.priority),
             state: state(view.state),
             escalation: u32::from(view.escalation),

@@ -17,6 +17,7 @@ mod sky;
 mod spans;
 #[cfg(test)]
 mod tests;
+mod watched;
 
 use insd_base::{Event, ModeReason, Rejection, Span, Time, UtcTime};
 use insd_config::{Config, calendar};
@@ -171,6 +172,7 @@ impl Showcase {
         shown.samples = aids::samples(&slow.counts);
         shown.recording = program::recording(&self.config, slow);
         self.disputes.clone_from(&slow.disputes);
+        shown.watched = slow.watched.iter().map(|own| watched::shown(own, now)).collect();
         shown.estimates = slow.estimates.as_ref().map(engines::estimates);
         shown.standings = engines::standings(&slow.standings);
         shown.installation = engines::installation(&slow.findings);

@@ -15,6 +15,8 @@ use super::{
 const ALIGNMENT_GONE: f64 = 15.0;
 /// Satellites stand where they stood; but what becomes of them is not known for longer than the navigator takes their ranges as fresh, s.
 const SKY_GONE: f64 = 5.0;
+/// A comparison of which nothing new has come for so long is no more than history, s.
+const WATCH_GONE: f64 = 10.0;
 /// Measurements that a sensor may leave out before its row is called silent.
 const LEFT_OUT: f64 = 3.0;
 
@@ -35,6 +37,8 @@ impl Snapshot {
         shown.aids.iter_mut().for_each(|aid| aid.grow_older(passed, navigator));
         shown.inputs.iter_mut().for_each(|port| port.grow_older(passed, navigator));
         shown.sky.grow_older(now, passed, navigator);
+        shown.watched.iter_mut().for_each(|own| own.age_s = own.age_s.map(|age| age + passed));
+        shown.watched.retain(|own| own.age_s.is_none_or(|age| age <= WATCH_GONE));
         for alert in &mut shown.alerts {
             alert.since_s = alert.since_s.map(|since| since + passed);
         }

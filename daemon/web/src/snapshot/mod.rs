@@ -23,6 +23,7 @@ mod program;
 mod sensors;
 mod ship;
 mod sky;
+mod watched;
 
 pub use aids::{Cause, Rejected, Samples, ShownAid};
 pub use alerts::{Alert, ShownAlertState, ShownEvent, ShownPriority, ShownSeverity};
@@ -42,6 +43,7 @@ pub use ship::{
     Found, ShownEstimate, ShownEstimates, ShownHeave, ShownMotion, ShownSource, ShownStands,
 };
 pub use sky::{SatelliteFate, ShownSatellite, ShownSignal, ShownSky, SkyState};
+pub use watched::ShownWatch;
 
 use serde::{Deserialize, Serialize};
 
@@ -91,6 +93,8 @@ pub struct Snapshot {
     pub sensors: Vec<Sensor>,
     /// Which sensor is used for what, and why.
     pub choices: Vec<ShownChoice>,
+    /// Sensors that are watched and not used, each beside the ship's own word and beside each other.
+    pub watched: Vec<ShownWatch>,
     /// The satellites, and what becomes of each.
     pub sky: ShownSky,
     /// Ports that are listened to, in the order of the configuration.
@@ -140,6 +144,7 @@ impl Default for Snapshot {
             learning: None,
             sensors: Vec::new(),
             choices: Vec::new(),
+            watched: Vec::new(),
             sky: ShownSky::default(),
             inputs: Vec::new(),
             outputs: Vec::new(),

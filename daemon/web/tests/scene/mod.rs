@@ -108,6 +108,7 @@ impl Show {
             aids: plumbing::aids(t, self.scene),
             samples: plumbing::samples(t),
             alerts: self.alerts(t),
+            watched: plumbing::watched(self.scene),
             recording: Some(self.recording(t)),
             log: Log { level: self.level.clone(), repeats: 12, lost: 0 },
             events: self.events(),

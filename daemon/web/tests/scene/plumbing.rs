@@ -2,7 +2,8 @@
 
 use insd_web::snapshot::{
     Age, Bus, BusNode, BusState, Cause, OutputMessage, Rejected, Samples, Schedule, Sensor,
-    SensorState, ShownAid, ShownChoice, ShownInput, ShownOutput, ShownPortState, Snapshot,
+    SensorState, ShownAid, ShownChoice, ShownInput, ShownOutput, ShownPortState, ShownWatch,
+    Snapshot,
 };
 
 use super::{Scene, utc};
@@ -75,6 +76,29 @@ fn sensors(t: f64, scene: Scene) -> Vec<Sensor> {
         ..Sensor::default()
     };
     vec![imu, gnss, n2k, sensor("doppler", "pd6", "log", 2.0, &log), compass, waiting]
+}
+
+/// The ship's old compasses.
+pub(crate) fn watched(scene: Scene) -> Vec<ShownWatch> {
+    let differs = scene == Scene::Fault;
+    let row = |sensor: &str, against: Option<&str>, difference: f64, wrong: bool| ShownWatch {
+        sensor: sensor.to_owned(),
+        against: against.map(str::to_owned),
+        quantity: "heading".to_owned(),
+        difference_deg: Some(difference),
+        sigma_deg: Some(0.51),
+        limit_deg: Some(1.5),
+        differs: wrong,
+        wrong: wrong.then(|| "old gyro 2".to_owned()),
+        age_s: Some(0.4),
+        ..ShownWatch::default()
+    };
+    let off = if differs { 2.1 } else { 0.2 };
+    vec![
+        row("old gyro 1", None, 0.1, false),
+        row("old gyro 1", Some("old gyro 2"), 0.1 - off, differs),
+        row("old gyro 2", None, off, differs),
+    ]
 }
 
 fn choices(scene: Scene) -> Vec<ShownChoice> {

@@ -11,6 +11,7 @@ mod reference;
 mod satellites;
 mod sensor;
 mod sky;
+mod watch;
 
 use std::collections::VecDeque;
 
@@ -80,7 +81,7 @@ fn array(config: &IntakeConfig) -> Option<Array> {
 
 impl Core {
     pub(crate) fn new(config: &IntakeConfig) -> Self {
-        let mut numbers = [0_u8; 8];
+        let mut numbers = [0_u8; 9];
         let sensors = config.sensors.iter().map(|sensor| {
             let number = &mut numbers[sensor.kind.role() as usize];
             let own = Sensor::new(sensor, config, *number);
@@ -249,7 +250,7 @@ impl Core {
             Reading::Tracks(tracks) => self.tracks(index, stamp, came, tracks),
             Reading::Step(step) => self.step(index, stamp, came, step),
             Reading::Clock(epoch) => self.clock(index, stamp, came, epoch),
-            Reading::Shown(shown) => self.sensors[index].status.shown.enter(*shown),
+            Reading::Shown(shown) => self.shown(index, came, *shown),
             Reading::LeftOut(reason) => self.refuse(index, *reason),
             Reading::Idle => {}
         }

@@ -147,6 +147,8 @@ impl Core {
         let used = self.choose(quantity, index, valid, now);
         if !valid {
             self.refuse(index, Refusal::Invalid);
+        } else if self.sensors[index].watched {
+            self.watch_reference(index, &reference);
         } else if used {
             let number = u8::try_from(index).unwrap_or(u8::MAX);
             self.pass(index, now, Source::Reference(number), Message::Reference(reference));

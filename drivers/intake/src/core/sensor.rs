@@ -49,6 +49,8 @@ pub(crate) struct Sensor {
     pub(super) warmth: Warmth,
     /// Its number among the sensors of its role.
     pub(super) number: u8,
+    /// Whether it is watched, and not used.
+    pub(super) watched: bool,
 }
 
 impl Sensor {
@@ -80,16 +82,19 @@ impl Sensor {
             gravity: Gravity::default(),
             warmth: Warmth::default(),
             number,
+            watched: intake.watched.contains(&config.name),
         }
     }
 
+    /// What it may be chosen for.
     pub(super) fn quantities(&self) -> &'static [Quantity] {
         match self.config.kind.role() {
+            _ if self.watched => &[],
             Role::Imu => &[Quantity::Inertial],
             Role::Gnss if self.config.heading => &[Quantity::Gnss, Quantity::Heading],
             Role::Gnss => &[Quantity::Gnss],
             Role::Ranging if self.config.kind == Kind::Rls => &[Quantity::Heading],
-            Role::Base | Role::Ranging | Role::Camera => &[],
+            Role::Base | Role::Ranging | Role::Camera | Role::Attitude => &[],
             Role::Log => &[Quantity::BottomVelocity, Quantity::WaterVelocity],
             Role::Heading => &[Quantity::Heading],
             Role::Position if self.config.kind == Kind::Manual => {

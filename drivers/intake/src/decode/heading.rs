@@ -1,10 +1,14 @@
 //! Headings from compasses and other attitude sensors.
 
-use insd_base::units::wrap_two_pi;
+use insd_base::units::{wrap_pi, wrap_two_pi};
 use insd_wire::gnss::novatel as oem;
+use insd_wire::imu::stdbin::Telegram;
 use insd_wire::motion::em::{EmAttitude, EmStatus};
 use insd_wire::motion::kmb::Kmb;
-use insd_wire::nmea::{HeadingMode, Pashr, PashrStatus, PsatSource, Psxn, PsxnQuality, Sentence};
+use insd_wire::motion::tss1::Tss1;
+use insd_wire::nmea::{
+    HeadingMode, Pashr, PashrStatus, Position, PsatSource, Psxn, PsxnQuality, Sentence,
+};
 
 use super::Reading;
 use crate::config::SensorConfig;
@@ -48,6 +52,11 @@ impl HeadingState {
         sentence: &Sentence,
         config: &SensorConfig,
     ) -> Result<Vec<Reading>, Refusal> {
+        let tilt = match sentence {
+            Sentence::Psxn(Psxn::Motion { roll, pitch, .. }) => Some((*roll, *pitch)),
+            Sentence::Pashr(pashr) => Some((pashr.roll, pashr.pitch)),
+            _ => None,
+        };
         let reading = match sentence {
             Sentence::Hdt(hdt) => Some(told(hdt.heading, North::True, true)),
             Sentence::Ths(ths) => Some(told(ths.heading, North::True, is_measured(ths.mode))),
@@ -69,7 +78,11 @@ impl HeadingState {
             Sentence::PfecAttitude(attitude) => Some(told(attitude.heading, North::True, true)),
             _ => None,
         };
-        reading.map_or_else(|| Ok(vec![Reading::Idle]), |reading| finished(reading, config))
+        match (reading, tilt) {
+            (None, _) => Ok(vec![Reading::Idle]),
+            (Some(reading), Some(tilt)) if reading.valid => with_tilt(reading, tilt, config),
+            (Some(reading), _) => finished(reading, config),
+        }
     }
 
     fn psxn(&mut self, psxn: &Psxn) -> Option<HeadingReading> {
@@ -110,6 +123,33 @@ pub(super) fn em(bytes: &[u8], config: &SensorConfig) -> Result<Vec<Reading>, Re
     let shown = |angle: Option<f64>| angle.filter(|_| valid);
     let reading = told(telegram.heading, North::True, valid);
     with_tilt(reading, (shown(telegram.roll), shown(telegram.pitch)), config)
+}
+
+/// Heading, tilt and position of an Exail system.
+pub(super) fn stdbin(bytes: &[u8], config: &SensorConfig) -> Result<Vec<Reading>, Refusal> {
+    let telegram = Telegram::read(bytes).map_err(|_| Refusal::Malformed)?;
+    let navigation = &telegram.navigation;
+    let Some(attitude) = navigation.attitude else { return Ok(vec![Reading::Idle]) };
+    let valid = telegram.is_aligned();
+    let std = navigation.attitude_std.map(|[heading, ..]| heading).filter(|std| *std > 0.0);
+    let reading = HeadingReading { std, ..told(Some(attitude.heading), North::True, valid) };
+    let shown = |angle: f64| Some(angle).filter(|_| valid);
+    let mut readings = with_tilt(reading, (shown(attitude.roll), shown(attitude.pitch)), config)?;
+    // it is made of the same satellites as ours: something to watch, not to steer by
+    let place = navigation
+        .position
+        .filter(|_| valid)
+        .map(|at| Position { latitude: at.latitude, longitude: wrap_pi(at.longitude) });
+    readings.extend(place.map(|place| Reading::Place(Some(place))));
+    Ok(readings)
+}
+
+/// Tilt of TSS1. A sensor that has not settled stands behind none.
+pub(super) fn tss1(bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {
+    let telegram = Tss1::read(bytes).map_err(|_| Refusal::Malformed)?;
+    let shown = |angle: f64| Some(angle).filter(|_| telegram.settled);
+    let (roll, pitch) = (shown(telegram.roll), shown(telegram.pitch));
+    Ok(vec![Reading::Shown(ShownPart::Tilt { roll, pitch })])
 }
 
 fn with_tilt(

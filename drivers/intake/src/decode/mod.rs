@@ -123,6 +123,8 @@ impl Decoder {
             Kind::NovatelIns => heading::novatel(bytes, &self.config),
             Kind::Kmb => heading::kmb(bytes, &self.config),
             Kind::Em3000 => heading::em(bytes, &self.config),
+            Kind::Tss1 => heading::tss1(bytes),
+            Kind::StdbinIns => heading::stdbin(bytes, &self.config),
             Kind::Rtcm => Ok(gnss::rtcm(bytes)),
             Kind::RtcmBase => Ok(vec![Reading::Base(bytes.to_vec())]),
             Kind::Pd0 => self.log.pd0(bytes),

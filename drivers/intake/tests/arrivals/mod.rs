@@ -29,7 +29,7 @@ use insd_intake::{Intake, Intaken};
 use insd_wire::stream::Protocol;
 
 /// All kinds of sensors.
-const KINDS: [Kind; 27] = [
+const KINDS: [Kind; 33] = [
     Kind::Sbg,
     Kind::Stdbin,
     Kind::Mip,
@@ -57,6 +57,12 @@ const KINDS: [Kind; 27] = [
     Kind::Pfec,
     Kind::Kmb,
     Kind::Em3000,
+    Kind::Tss1,
+    Kind::StdbinIns,
+    Kind::N2kGnss,
+    Kind::N2kHeading,
+    Kind::N2kLog,
+    Kind::N2kPosition,
 ];
 
 const DIALECTS: [Dialect; 6] = [
@@ -69,7 +75,7 @@ const DIALECTS: [Dialect; 6] = [
 ];
 
 /// What an arrival may be.
-const KINDS_OF_ARRIVALS: u8 = 20;
+const KINDS_OF_ARRIVALS: u8 = 22;
 
 /// The ship's time ends here, s: a century is far beyond any voyage.
 const END: f64 = 3.2e9;

@@ -61,7 +61,7 @@ impl Bus {
     /// The description of a bus with these sensors.
     pub(crate) fn config(sensors: Vec<SensorConfig>) -> IntakeConfig {
         let port = PortSpec { name: "bus".to_owned(), link: Link::Can { bit_time: BIT } };
-        IntakeConfig { ports: vec![port], sensors, imu: None, rangings: Vec::new() }
+        IntakeConfig { ports: vec![port], sensors, ..IntakeConfig::default() }
     }
 
     pub(crate) fn new(sensors: Vec<SensorConfig>) -> Self {
@@ -122,7 +122,7 @@ impl Bus {
             match taken {
                 Intaken::Measured(received) => self.measured.push(received.message),
                 Intaken::Event(event) => self.events.push(event.what),
-                Intaken::Temperature(..) => {}
+                Intaken::Temperature(..) | Intaken::Watched(_) => {}
             }
         }
     }

@@ -45,6 +45,8 @@ impl Encoding {
             | Kind::NovatelIns
             | Kind::Kmb
             | Kind::Em3000
+            | Kind::Tss1
+            | Kind::StdbinIns
             | Kind::Psat
             | Kind::Ptnl
             | Kind::Pfec
@@ -235,8 +237,7 @@ impl FeedConfig {
                 .map(|(index, sensor)| PortSpec { name: name(index), link: link(sensor) })
                 .collect(),
             sensors: sensors.map(config).collect(),
-            imu: None,
-            rangings: Vec::new(),
+            ..IntakeConfig::default()
         }
     }
 }

@@ -27,6 +27,7 @@ use insd_base::units::DEG;
 
 use super::{fixed, whole};
 use crate::binary::{Fault, Reader};
+use crate::stream::Look;
 
 /// Bytes of the telegram.
 pub const LENGTH: usize = 27;
@@ -41,6 +42,36 @@ const CENTIMETRE: f64 = 0.01;
 const ANGLE: f64 = 0.01 * DEG;
 /// Largest number of four digits.
 const LARGEST: u16 = 9999;
+
+/// What stands at the start of some bytes: a telegram by the place of its colon and its line end and by all its characters, as there is no
+/// checksum.
+#[must_use]
+pub fn look(bytes: &[u8]) -> Look {
+    if bytes.first() != Some(&b':') {
+        return Look::Nothing;
+    }
+    let shape = bytes.iter().zip(0..LENGTH).all(|(byte, place)| fits(*byte, place));
+    match bytes.get(..LENGTH) {
+        _ if !shape => Look::Nothing,
+        None => Look::More(LENGTH),
+        Some(telegram) if Tss1::read(telegram).is_ok() => Look::Frame(LENGTH),
+        Some(_) => Look::Nothing,
+    }
+}
+
+/// Whether a character can stand at its place.
+fn fits(byte: u8, place: usize) -> bool {
+    match place {
+        0 => byte == b':',
+        1..=6 => byte.is_ascii_hexdigit(),
+        7 | 19 => byte == b' ',
+        8 | 14 | 20 => matches!(byte, b' ' | b'-'),
+        13 => Tss1Aiding::of_letter(byte).is_some(),
+        25 => byte == b'\r',
+        26 => byte == b'\n',
+        _ => byte.is_ascii_digit(),
+    }
+}
 
 /// What helps the sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

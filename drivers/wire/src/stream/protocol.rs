@@ -4,8 +4,8 @@ use super::Look;
 use crate::gnss::{novatel, rtcm, sbf, ubx};
 use crate::imu::{kvh, mip, sbg, stdbin, stim, xbus};
 use crate::log::{pd0, pd6};
-use crate::motion::{em, kmb};
-use crate::nmea;
+use crate::motion::{em, kmb, tss1};
+use crate::{ngt1, nmea};
 
 /// A way of framing bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -40,11 +40,15 @@ pub enum Protocol {
     Kmb,
     /// EM3000 of motion sensors.
     Em3000,
+    /// TSS1 of motion sensors.
+    Tss1,
+    /// Binary messages of Actisense's adapters to NMEA 2000.
+    Ngt1,
 }
 
 impl Protocol {
     /// Those that can be told from one another in one stream, in the order in which they are asked.
-    pub const ALL: [Protocol; 14] = [
+    pub const ALL: [Protocol; 16] = [
         Protocol::Nmea,
         Protocol::Ubx,
         Protocol::Sbf,
@@ -59,6 +63,8 @@ impl Protocol {
         Protocol::Pd6,
         Protocol::Novatel,
         Protocol::Kmb,
+        Protocol::Tss1,
+        Protocol::Ngt1,
     ];
 
     /// Those that are sought only where somebody says that they are spoken: a telegram of EM3000 has no checksum, and may stand at the
@@ -84,6 +90,8 @@ impl Protocol {
             Protocol::Novatel => "novatel",
             Protocol::Kmb => "kmb",
             Protocol::Em3000 => "em3000",
+            Protocol::Tss1 => "tss1",
+            Protocol::Ngt1 => "ngt1",
         }
     }
 
@@ -106,6 +114,8 @@ impl Protocol {
             Protocol::Novatel => novatel::look(bytes),
             Protocol::Kmb => kmb::look(bytes),
             Protocol::Em3000 => em::look(bytes),
+            Protocol::Tss1 => tss1::look(bytes),
+            Protocol::Ngt1 => ngt1::look(bytes),
         }
     }
 

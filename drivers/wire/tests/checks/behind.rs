@@ -15,6 +15,8 @@ use insd_wire::imu::{ImuReading, mip, sbg, stdbin, xbus};
 use insd_wire::log::{LogReading, pd0, pd6};
 use insd_wire::motion::em::EmAttitude;
 use insd_wire::motion::kmb::Kmb;
+use insd_wire::motion::tss1::Tss1;
+use insd_wire::ngt1::NgtFrame;
 use insd_wire::nmea::{ChecksumPolicy, Frame, PashrDialect, Sentence, TagBlock, Talker};
 use insd_wire::stream::Protocol;
 
@@ -39,6 +41,8 @@ pub(crate) fn look(protocol: Protocol, frame: &[u8]) {
         Protocol::Novatel => novatel(frame),
         Protocol::Kmb => kmb(frame),
         Protocol::Em3000 => em(frame),
+        Protocol::Tss1 => tss1(frame),
+        Protocol::Ngt1 => adapter(frame),
     }
 }
 
@@ -340,6 +344,22 @@ fn em(frame: &[u8]) {
     let read = |bytes: &[u8]| EmAttitude::read(bytes);
     let Some(told) = again(frame, AfterOnce, read, |told| told.write().to_vec()) else { return };
     assert!(is_finite([told.roll, told.pitch, told.heave, told.heading]), "{told:?}");
+}
+
+fn tss1(frame: &[u8]) {
+    let write = |told: &Tss1| told.write().map_or_else(Vec::new, Vec::from);
+    let Some(told) = again(frame, Everything, Tss1::read, write) else { return };
+    assert!(is_finite([told.roll, told.pitch, told.heave].map(Some)), "{told:?}");
+}
+
+fn adapter(frame: &[u8]) {
+    let Ok(NgtFrame::Received(_)) = NgtFrame::read(frame) else { return };
+    let write = |told: &NgtFrame| match told {
+        NgtFrame::Received(message) => message.write().unwrap_or_default(),
+        NgtFrame::Other(_) => Vec::new(),
+    };
+    let told = again(frame, Everything, NgtFrame::read, write);
+    assert!(told.is_some());
 }
 
 fn novatel(frame: &[u8]) {

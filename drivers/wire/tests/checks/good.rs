@@ -27,6 +27,8 @@ pub(crate) fn frames(protocol: Protocol, bytes: &[u8]) -> Vec<Vec<u8>> {
         Protocol::Novatel => vec![novatel_frame(*choice, rest)],
         Protocol::Kmb => vec![kmb_frame(bytes)],
         Protocol::Em3000 => vec![em_frame(*choice, rest)],
+        Protocol::Tss1 => vec![tss1_line(bytes)],
+        Protocol::Ngt1 => vec![ngt_frame(*choice, rest)],
     }
 }
 
@@ -259,6 +261,37 @@ fn em_frame(choice: u8, bytes: &[u8]) -> Vec<u8> {
     let mut body = filled(&bytes[..bytes.len().min(8)], 8);
     body[5] &= 1;
     [&[0x90 | choice & 0x0F, 0x90][..], &body].concat()
+}
+
+/// A telegram of TSS1 whose every character is one of those that can stand at its place.
+fn tss1_line(bytes: &[u8]) -> Vec<u8> {
+    let body = filled(&bytes[..bytes.len().min(24)], 24);
+    let of = |place: usize, set: &[u8]| chosen(set, body[place]);
+    let character = |place: usize| match place {
+        0..=5 => of(place, b"0123456789ABCDEFabcdef"),
+        6 | 18 => b' ',
+        7 | 13 | 19 => of(place, b" -"),
+        12 => of(place, b"UGHFughf"),
+        _ => of(place, b"0123456789"),
+    };
+    let inner: Vec<u8> = (0..24).map(character).collect();
+    [b":", &inner[..], b"\r\n"].concat()
+}
+
+/// A message of the bus of any contents, or any contents that are called one, or something of the adapter itself.
+fn ngt_frame(choice: u8, bytes: &[u8]) -> Vec<u8> {
+    let command = chosen(&[0x93, 0x93, 0x93, 0xA0], choice);
+    let mut contents = bytes[..bytes.len().min(234)].to_vec();
+    if choice & 0x80 == 0 && contents.len() > 10 {
+        contents[0] &= 7;
+        contents[3] &= 3;
+        contents[10] = (contents.len() - 11) as u8;
+    }
+    let mut plain = vec![command, contents.len() as u8];
+    plain.extend(contents);
+    plain.push(plain.iter().fold(0_u8, |sum, byte| sum.wrapping_sub(*byte)));
+    let doubled = plain.iter().flat_map(|byte| vec![*byte; if *byte == 0x10 { 2 } else { 1 }]);
+    [0x10, 0x02].into_iter().chain(doubled).chain([0x10, 0x03]).collect()
 }
 
 /// Names of the lines that are read, and of one that is not.

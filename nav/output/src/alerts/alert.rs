@@ -2,12 +2,13 @@
 
 use insd_base::{Span, Time, UtcTime};
 use insd_wire::nmea::{
-    AlertCategory, AlertCommand, AlertEntry, AlertPriority, AlertState, Alf, CivilTime, Text,
+    AlertCategory, AlertCommand, AlertEntry, AlertPriority, AlertState, Alf, CivilTime,
 };
 
 use super::conditions::Condition;
 use super::patience::{AlertConfig, Escalation};
 use super::view::AlertView;
+use crate::epoch::AlertText;
 use crate::schedule::Boundary;
 
 /// How long an alert stays silenced.
@@ -33,6 +34,8 @@ pub(super) struct Alert {
     /// Since when it asks to be acknowledged, or was last repeated.
     asks: Time,
     silenced: Time,
+    /// What it says instead of its usual description.
+    detail: Option<AlertText>,
     /// When it was last to be told, in the board's own count.
     pub(super) stamp: u64,
 }
@@ -49,6 +52,7 @@ impl Alert {
             changed: None,
             asks: Time::START,
             silenced: Time::START,
+            detail: None,
             stamp: 0,
         }
     }
@@ -65,6 +69,22 @@ impl Alert {
             _ => AlertState::Unacknowledged,
         };
         self.turn(state, now)
+    }
+
+    /// From now on it says something else; whether that is news to those who know of it.
+    pub(super) fn explain(&mut self, detail: Option<AlertText>, now: &Boundary) -> bool {
+        // what is over keeps the words under which it was raised
+        if detail.is_none() || detail == self.detail {
+            return false;
+        }
+        self.detail = detail;
+        let is_told = !matches!(self.state, AlertState::Normal | AlertState::Rectified);
+        is_told && self.turn(self.state, now)
+    }
+
+    fn description(&self) -> AlertText {
+        let usual = || AlertText::new(self.condition.description()).unwrap_or_default();
+        self.detail.unwrap_or_else(usual)
     }
 
     /// The condition is gone; whether that is new.
@@ -152,7 +172,7 @@ impl Alert {
             identifier: self.condition.alert().identifier,
             instance: self.condition.alert().instance,
             title: self.condition.title(),
-            description: self.condition.description(),
+            description: self.description(),
             priority: self.priority,
             state: self.state,
             escalation: self.escalation,
@@ -163,7 +183,6 @@ impl Alert {
 
     /// The two sentences that tell of it, their message not yet numbered.
     pub(super) fn sentences(&self) -> [Alf; 2] {
-        let text = |text| Text::new(text).unwrap_or_default();
         let title = Alf {
             sentences: 2,
             number: 1,
@@ -175,8 +194,8 @@ impl Alert {
             alert: self.condition.alert(),
             revision: self.revision(),
             escalation: Some(self.escalation),
-            text: text(self.condition.title()),
+            text: AlertText::new(self.condition.title()).unwrap_or_default(),
         };
-        title.with_description(text(self.condition.description()))
+        title.with_description(self.description())
     }
 }

@@ -9,6 +9,7 @@ use super::alert::Alert;
 use super::conditions::Condition;
 use super::patience::AlertConfig;
 use super::view::AlertView;
+use crate::epoch::AlertText;
 use crate::schedule::Boundary;
 
 /// A heartbeat counts for so many of its intervals: one may be lost.
@@ -64,6 +65,12 @@ impl AlertBoard {
     /// A condition holds; nothing changes if that was known.
     pub fn raise(&mut self, condition: Condition, now: &Boundary) {
         self.each(|alert| alert.condition == condition && alert.raise(now));
+    }
+
+    /// What an alert says from now on instead of its usual description; nothing changes without a text. Who knows of it is
+    /// told anew.
+    pub fn explain(&mut self, condition: Condition, detail: Option<AlertText>, now: &Boundary) {
+        self.each(|alert| alert.condition == condition && alert.explain(detail, now));
     }
 
     /// A condition is gone; nothing changes if that was known.

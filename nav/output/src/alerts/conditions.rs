@@ -4,7 +4,7 @@ use insd_base::{FixQuality, Integrity, Judgement, Mode, Party, Solution, Span, T
 use insd_wire::nmea::{AlertId, AlertPriority, HeadingMode, Manufacturer};
 
 use crate::docking::{Docking, DockingLimits};
-use crate::epoch::OutputEpoch;
+use crate::epoch::{AlertText, OutputEpoch};
 use crate::policy::Policy;
 
 /// Mnemonic under which our own alerts go, that of the PINSD sentences. It is not registered anywhere.
@@ -62,6 +62,12 @@ pub enum Condition {
     ApproachFast,
     /// A part of her is nearer to the quay that is chosen than the limit that is set, and still comes nearer.
     QuayNear,
+    /// A compass that is watched and not used is too far from our heading, or from another one.
+    HeadingMonitor,
+    /// The same of a position reference.
+    PositionMonitor,
+    /// The same of an attitude reference.
+    AttitudeMonitor,
 }
 
 /// An alert that there can be.
@@ -89,7 +95,7 @@ fn own(
 
 impl Condition {
     /// All of them, those that matter most first.
-    pub const ALL: [Condition; 23] = [
+    pub const ALL: [Condition; 26] = [
         Condition::SystemFault,
         Condition::HeadingLost,
         Condition::PositionLost,
@@ -100,6 +106,9 @@ impl Condition {
         Condition::EnginesDiffer,
         Condition::ApproachFast,
         Condition::QuayNear,
+        Condition::HeadingMonitor,
+        Condition::PositionMonitor,
+        Condition::AttitudeMonitor,
         Condition::HeadingDegraded,
         Condition::PositionEstimated,
         Condition::HeadingExcluded,
@@ -140,6 +149,17 @@ impl Condition {
         self.definition().description
     }
 
+    /// What it says at an epoch instead of its usual description, where there is something.
+    #[must_use]
+    pub fn detail(self, epoch: &OutputEpoch) -> Option<AlertText> {
+        match self {
+            Condition::HeadingMonitor => epoch.contradicted.heading,
+            Condition::PositionMonitor => epoch.contradicted.position,
+            Condition::AttitudeMonitor => epoch.contradicted.attitude,
+            _ => None,
+        }
+    }
+
     fn definition(self) -> Definition {
         use AlertPriority::{Caution, Warning};
         match self {
@@ -163,15 +183,7 @@ impl Condition {
             Condition::Simulated => {
                 own(10_006, Caution, ["Simulated data", "Do not use for navigation"], [0, 0])
             }
-            Condition::NotRecording => own(
-                10_030,
-                Caution,
-                ["Not recording", "Disk full or folder gone. See page"],
-                [0, 10],
-            ),
-            Condition::NotSaving => {
-                own(10_031, Caution, ["State not saved", "A restart would align anew"], [0, 10])
-            }
+            Condition::NotRecording | Condition::NotSaving => self.of_storage(),
             // the engines have already been apart, and close, for long enough
             Condition::EnginesDiffer => {
                 own(10_007, Warning, ["Engines differ", "Compare with another heading"], [0, 0])
@@ -190,6 +202,9 @@ impl Condition {
                 own(10_021, Caution, ["Installation", "Not as configured. See page"], [0, 10])
             }
             Condition::ApproachFast | Condition::QuayNear => self.of_approach(),
+            Condition::HeadingMonitor | Condition::PositionMonitor | Condition::AttitudeMonitor => {
+                self.of_watched()
+            }
             Condition::GnssExcluded
             | Condition::PositionDoubt
             | Condition::HeadingExcluded
@@ -197,6 +212,21 @@ impl Condition {
             | Condition::ImuDoubt
             | Condition::OnTrial
             | Condition::ReferenceExcluded => self.of_sensors(),
+        }
+    }
+
+    /// Those of what cannot be written.
+    fn of_storage(self) -> Definition {
+        use AlertPriority::Caution;
+        match self {
+            Condition::NotRecording => own(
+                10_030,
+                Caution,
+                ["Not recording", "Disk full or folder gone. See page"],
+                [0, 10],
+            ),
+            // the state of the next start
+            _ => own(10_031, Caution, ["State not saved", "A restart would align anew"], [0, 10]),
         }
     }
 
@@ -209,6 +239,21 @@ impl Condition {
             }
             // a part is near
             _ => own(10_041, Caution, ["Quay near", "Nearer than the limit and closing"], [1, 3]),
+        }
+    }
+
+    /// Those of references that are watched: they have differed for long enough.
+    fn of_watched(self) -> Definition {
+        use AlertPriority::{Caution, Warning};
+        match self {
+            Condition::HeadingMonitor => {
+                own(10_050, Warning, ["Heading monitor", "Compasses differ. See page"], [0, 10])
+            }
+            Condition::PositionMonitor => {
+                own(10_051, Warning, ["Position monitor", "Positions differ. See page"], [0, 10])
+            }
+            // how she leans
+            _ => own(10_052, Caution, ["Attitude monitor", "Tilts differ. See page"], [0, 10]),
         }
     }
 
@@ -326,13 +371,25 @@ impl Watch {
             Condition::Installation => epoch.doubts.installation,
             Condition::NotRecording => epoch.storage.recording,
             Condition::NotSaving => epoch.storage.state,
+            Condition::HeadingMonitor | Condition::PositionMonitor | Condition::AttitudeMonitor => {
+                condition.detail(epoch).is_some()
+            }
             Condition::ApproachFast | Condition::QuayNear => {
                 epoch.docking.is_some_and(|own| condition.holds_at(&own, approach))
             }
         };
-        let mut found = Condition::ALL.map(|condition| (condition, holds(condition)));
+        let found = Condition::ALL.map(|condition| (condition, holds(condition)));
+        self.settled(found, epoch.time)
+    }
+
+    /// What has held, or been gone, for long enough.
+    fn settled(
+        &mut self,
+        mut found: [(Condition, bool); Condition::ALL.len()],
+        now: Time,
+    ) -> [(Condition, bool); Condition::ALL.len()] {
         for ((condition, holds), latch) in found.iter_mut().zip(&mut self.latches) {
-            latch.note(*holds, epoch.time, condition.delay(*holds));
+            latch.note(*holds, now, condition.delay(*holds));
             *holds = latch.holds;
         }
         found

@@ -38,6 +38,7 @@ mod conditions;
 mod patience;
 mod view;
 
+pub use crate::epoch::AlertText;
 pub use board::{AlertBoard, Announcement};
 pub use conditions::{Condition, Watch};
 pub use patience::{AlertConfig, Escalation};

@@ -3,6 +3,8 @@
 use insd_base::UtcTime;
 use insd_wire::nmea::{AlertPriority, AlertState, Manufacturer};
 
+use crate::epoch::AlertText;
+
 /// How an alert stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AlertView {
@@ -15,7 +17,7 @@ pub struct AlertView {
     /// Its title, at most 16 characters.
     pub title: &'static str,
     /// What it means or what to do.
-    pub description: &'static str,
+    pub description: AlertText,
     /// How urgent it is now.
     pub priority: AlertPriority,
     /// Who knows of it.

@@ -12,7 +12,7 @@ pub(super) const CHANGES: &str = "ALF";
 /// An alert has two sentences, and the list of all there are has no more.
 pub(super) static ENTRIES: &[Entry] = &[
     Entry { name: CHANGES, talker: Some(Talker::IN), longest: 2 * Alf::LONGEST, make: alf },
-    Entry { name: "ALC", talker: Some(Talker::IN), longest: 6 * Alc::LONGEST, make: alc },
+    Entry { name: "ALC", talker: Some(Talker::IN), longest: 7 * Alc::LONGEST, make: alc },
 ];
 
 /// How an alert stands, or that a command about one is refused (ARC).

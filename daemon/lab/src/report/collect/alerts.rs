@@ -137,6 +137,7 @@ fn bit(state: AlertState) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use insd_output::alerts::AlertText;
 
     fn view(state: AlertState) -> AlertView {
         AlertView {
@@ -145,7 +146,7 @@ mod tests {
             identifier: 10_001,
             instance: None,
             title: "Heading lost",
-            description: "Use another heading",
+            description: AlertText::new("Use another heading").unwrap(),
             priority: AlertPriority::Warning,
             state,
             escalation: 0,

@@ -114,6 +114,7 @@ impl Collected {
             }
             Product::Order(obeyed) => self.journal.write(now, "order", words::order(obeyed)),
             Product::Vote(vote) => self.journal.write(now, "engines", words::vote(vote)),
+            Product::Watch(change) => self.journal.write(now, "watch", words::watch(change)),
             Product::Command(own) => {
                 let host = own.who.host.as_deref().unwrap_or("the bridge");
                 let outcome = if own.obeyed { "" } else { ", which was refused" };

@@ -55,7 +55,7 @@ pub(super) fn alerts(report: &VoyageReport) -> String {
             clock(own.raised),
             format!("{} {}", view.identifier, view.title),
             priority(view.priority).to_owned(),
-            view.description.to_owned(),
+            view.description.to_string(),
             own.acknowledged.map_or(never.to_owned(), clock),
             known(Some(own.rectified.map_or("still active".to_owned(), clock))),
             view.escalation.to_string(),

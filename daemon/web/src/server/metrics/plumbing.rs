@@ -37,6 +37,7 @@ pub(super) fn write(sheet: &mut Sheet, snapshot: &Snapshot) {
     satellites(sheet, snapshot);
     inputs(sheet, snapshot);
     outputs(sheet, snapshot);
+    watched(sheet, snapshot);
     aids(sheet, snapshot);
     buses(sheet, snapshot);
     others(sheet, snapshot);
@@ -65,6 +66,25 @@ fn sensors(sheet: &mut Sheet, snapshot: &Snapshot) {
     for (name, help, of) in SENSOR_COUNTS {
         let counter = sheet.counter(name, help, ["sensor"]);
         snapshot.sensors.iter().for_each(|sensor| counter.set(&[&sensor.name], of(sensor)));
+    }
+}
+
+fn watched(sheet: &mut Sheet, snapshot: &Snapshot) {
+    let labels = ["sensor", "against", "quantity"];
+    let angle =
+        sheet.gauge("watch_difference_degrees", "A watched sensor less another one", labels);
+    let name = |against: &Option<String>| against.clone().unwrap_or_else(|| "insd".to_owned());
+    for own in &snapshot.watched {
+        angle.set(&[&own.sensor, &name(&own.against), &own.quantity], own.difference_deg);
+    }
+    let way = sheet.gauge("watch_difference_meters", "How far two positions are apart", labels);
+    for own in &snapshot.watched {
+        way.set(&[&own.sensor, &name(&own.against), &own.quantity], own.difference_m);
+    }
+    let differs = sheet.gauge("watch_differs", "Whether it has been beyond its limit: 1", labels);
+    for own in &snapshot.watched {
+        let labels = [own.sensor.as_str(), &name(&own.against), &own.quantity];
+        differs.set(&labels, f64::from(u8::from(own.differs)));
     }
 }
 

@@ -16,6 +16,8 @@ const DAY: u32 = 864_000_000;
 /// dynamics exceeded, failure mode.
 const TIME_RECEIVED: u32 = 1 << 8;
 const UNUSABLE: u32 = 1 << 9 | 1 << 10 | 1 << 11 | 1 << 13 | 1 << 31;
+/// Bit of the first word of the algorithm status: first alignment, as in PIXSE,ALGSTS.
+const ALIGNMENT: u32 = 1 << 1;
 /// Bit of the second word of the system status: UTC detected.
 const UTC_DETECTED: u32 = 1 << 9;
 
@@ -53,6 +55,16 @@ fn length(vector: [f64; 3]) -> f64 {
 }
 
 impl Telegram {
+    /// Whether the system stands behind heading, roll and pitch: it is not in its first alignment, and its user status tells of no
+    /// anomaly. What it does not send speaks not against it.
+    #[must_use]
+    pub fn is_aligned(&self) -> bool {
+        let aligning =
+            self.navigation.algorithm_status.is_some_and(|[own, ..]| own & ALIGNMENT != 0);
+        let unusable = self.navigation.user_status.is_some_and(|[user]| user & UNUSABLE != 0);
+        !aligning && !unusable
+    }
+
     /// Angular rate and specific force about and along XV1 forward, XV2 to port, XV3 up; `None` unless
     /// both raw blocks are there. Valid if the user status tells of no anomaly, or is not there, and
     /// nothing in the telegram speaks against the raw blocks ([`Navigation::bears_raw`]).
