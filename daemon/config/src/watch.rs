@@ -1,7 +1,7 @@
 //! References that are watched and not used: `[[watch]]`.
 
 use insd_base::units::DEG;
-use insd_base::{Body, Span};
+use insd_base::Span;
 use insd_intake::config::{Role, SensorConfig};
 use insd_vessel::{WatchLimits, WatchPlan};
 use schemars::JsonSchema;
@@ -55,7 +55,7 @@ impl WatchSection {
         WatchPlan {
             sensor: index,
             name: self.sensor.clone(),
-            lever: sensor.lever().unwrap_or(Body::default()),
+            lever: sensor.lever().unwrap_or_default(),
             limits: WatchLimits {
                 heading: self.heading_deg * DEG,
                 position: self.position_m,

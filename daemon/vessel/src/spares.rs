@@ -309,7 +309,7 @@ impl Running {
                     self.engine.feel(time, celsius);
                     continue;
                 }
-                Intaken::Event(_) => continue,
+                Intaken::Event(_) | Intaken::Watched(_) => continue,
             };
             self.ears.gyros.hear(&received.message);
             self.engine.handle(&loosened(&received, &self.home));

@@ -60,7 +60,7 @@ fn told(
             },
         );
         for (sensor, error) in errors {
-            if (tenth as usize + sensor) % 10 == 0 {
+            if (tenth as usize + sensor).is_multiple_of(10) {
                 let value = WatchedValue::Heading(OWN + error * DEG);
                 let time = Time::from_seconds(now);
                 let told = Watched { sensor: *sensor, time, value, std: Some(0.5 * DEG) };
