@@ -48,6 +48,20 @@ pub enum StateAxes {
     Scalar,
 }
 
+impl StateAxes {
+    /// In files: `ecef`, `body`, `ned`, `computed_ned`, `scalar`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            StateAxes::Ecef => "ecef",
+            StateAxes::Body => "body",
+            StateAxes::Ned => "ned",
+            StateAxes::ComputedNed => "computed_ned",
+            StateAxes::Scalar => "scalar",
+        }
+    }
+}
+
 /// When a block is carried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Carried {

@@ -88,6 +88,7 @@ mod sideways;
 mod slow;
 mod sources;
 mod state;
+pub mod state_estimates;
 mod states;
 mod unrest;
 mod velocity_epoch;

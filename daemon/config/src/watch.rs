@@ -1,7 +1,7 @@
 //! References that are watched and not used: `[[watch]]`.
 
-use insd_base::units::DEG;
 use insd_base::Span;
+use insd_base::units::DEG;
 use insd_intake::config::{Role, SensorConfig};
 use insd_vessel::{WatchLimits, WatchPlan};
 use schemars::JsonSchema;

@@ -5,6 +5,7 @@ use insd_base::{
     Body, Disturbance, Estimates, Heave, Integrity, Judgement, Mode, Motion, Parties, Solution,
     Standing, Stands, Time,
 };
+use insd_nav::filter::state_estimates::StateEstimate;
 use insd_nav::judge::Judge;
 use insd_nav::{Estimator, Filter, Increment, Navigator};
 
@@ -58,6 +59,13 @@ impl Engine {
         let ship = self.ship()?;
         let estimates = ship.likeliest()?.filter().estimates(ship.is_moored());
         Some(Estimates { course_less_heading: self.surveyor.course_less_heading(), ..estimates })
+    }
+
+    /// Every error state that the filter carries, with its name, unit, axes, value and sigma; none until there is one.
+    #[must_use]
+    pub fn carried_states(&self) -> Vec<StateEstimate> {
+        let navigator = self.ship().and_then(Ship::likeliest);
+        navigator.map(|navigator| navigator.filter().carried_states()).unwrap_or_default()
     }
 
     /// The sea as a model of the velocity that it gives the ship; `None` until half a minute of it has

@@ -23,6 +23,7 @@ mod run;
 mod series;
 mod sky;
 mod stanford;
+mod state;
 mod statistics;
 mod stored;
 mod unknown;
@@ -48,6 +49,7 @@ pub use stanford::{
     AlertLimit, IntegrityReport, LevelsOfAxis, StanfordClass, StanfordPoint, Tally,
     share_of_independent,
 };
+pub use state::StateRow;
 pub use statistics::{Summary, mean, quantile, summarise, summarise_horizontal};
 pub use stored::{StoredEstimates, StoredFate};
 

@@ -67,6 +67,9 @@ pub struct ReplayArgs {
     /// Also write where each satellite of raw GNSS stood, and what became of it
     #[arg(long, value_name = "FILE.csv")]
     pub(super) sky: Option<PathBuf>,
+    /// Also write every error state that is carried, once a second: name, unit, axes, value and sigma
+    #[arg(long, value_name = "FILE.csv")]
+    pub(super) states: Option<PathBuf>,
     /// Also write what the alignment says of itself: phase, sigmas, forecast, sea
     #[arg(long, value_name = "FILE.csv")]
     pub(super) alignment_log: Option<PathBuf>,

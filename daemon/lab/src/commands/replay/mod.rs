@@ -5,6 +5,7 @@ mod recording;
 mod sent;
 mod sink;
 mod sky_log;
+mod states_log;
 mod voyage;
 mod without;
 

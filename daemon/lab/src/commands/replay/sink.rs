@@ -10,6 +10,7 @@ use insd_engine::{Engine, Output};
 
 use super::args::ReplayArgs;
 use super::sky_log::SkyLog;
+use super::states_log::StatesLog;
 use crate::commands::smooth::Afterwards;
 use crate::commands::summary::Summary;
 use crate::evaluation::{AlignmentRow, InnovationRow, RowWriter};
@@ -22,6 +23,7 @@ pub(super) struct Sink {
     innovations: Option<RowWriter<InnovationRow, OutputFile>>,
     alignment_log: Option<RowWriter<AlignmentRow, OutputFile>>,
     sky: Option<SkyLog>,
+    states: Option<StatesLog>,
     alignment: Vec<AlignmentStatus>,
     modes: Vec<(Time, Mode)>,
     departures: Vec<Time>,
@@ -48,6 +50,7 @@ impl Sink {
             innovations: args.innovations.as_ref().map(innovations).transpose()?,
             alignment_log: args.alignment_log.as_ref().map(log).transpose()?,
             sky: args.sky.as_deref().map(SkyLog::create).transpose()?,
+            states: args.states.as_deref().map(StatesLog::create).transpose()?,
             alignment: Vec::new(),
             modes: Vec::new(),
             departures: Vec::new(),
@@ -98,12 +101,11 @@ impl Sink {
         }
     }
 
-    /// Looks at the sky, if it is to be written, after each message that the engine has taken.
+    /// Looks at the sky and at the states, if they are to be written, after each message that the engine has taken.
     pub(super) fn look(&mut self, engine: &Engine) -> std::io::Result<()> {
-        match &mut self.sky {
-            Some(sky) => sky.look(engine, self.solved),
-            None => Ok(()),
-        }
+        let solved = self.solved;
+        self.sky.iter_mut().try_for_each(|sky| sky.look(engine, solved))?;
+        self.states.iter_mut().try_for_each(|states| states.look(engine, solved))
     }
 
     fn note(&mut self, event: &Event) {
@@ -166,6 +168,7 @@ impl Sink {
             file.finish()?.finish()?;
         }
         self.sky.map_or(Ok(()), SkyLog::finish)?;
+        self.states.map_or(Ok(()), StatesLog::finish)?;
         match self.innovations {
             Some(file) => file.finish()?.finish(),
             None => Ok(()),
