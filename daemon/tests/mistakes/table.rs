@@ -303,10 +303,10 @@ pub(crate) const TABLE: &[Mistake] = &[
         Add("[[sensor]]\nname = \"second\"\nport = \"gnss\"\nkind = \"ubx\""),
     ),
     row(
-        "NMEA 2000 on a serial line",
+        "IMU of a CAN bus on a serial line",
         Error,
         "kind-transport",
-        Write("kind = \"ubx\"", "kind = \"n2k_gnss\""),
+        Write("kind = \"ubx\"", "kind = \"can_imu\"\nlayout = \"sbg\""),
     ),
     row(
         "sensor on the pulse",
