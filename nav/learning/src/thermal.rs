@@ -17,7 +17,7 @@ const PRIOR: [f64; 3] = [10.0, 2.0, 1.0];
 const SHARED: f64 = 120.0;
 /// Labels that are heard before anything is taken away, and the range of temperatures, K.
 const FEWEST: u32 = 40;
-const RANGE: f64 = 4.0;
+pub(crate) const RANGE: f64 = 4.0;
 
 /// What is known of three axes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

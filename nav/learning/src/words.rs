@@ -2,7 +2,7 @@
 
 use crate::kept::{KeptGyros, KeptLog, KeptModel};
 use crate::shadow::ShadowScore;
-use crate::thermal::MIDDLE;
+use crate::thermal::{MIDDLE, RANGE};
 
 /// Knots in a metre per second, degrees in a radian, seconds in an hour.
 const KNOTS: f64 = 3600.0 / 1852.0;
@@ -74,12 +74,25 @@ fn of_log(lines: &mut Vec<String>, log: &KeptLog) {
 
 fn of_gyros(lines: &mut Vec<String>, gyros: &KeptGyros) {
     let [least, most] = gyros.range_c;
+    if most - least <= RANGE {
+        lines.push(format!("gyros from {least:.0} to {most:.0} degrees Celsius only: nothing is learnt of their temperature yet"));
+        return;
+    }
     lines.push(format!("gyros from {least:.0} to {most:.0} degrees Celsius, against {MIDDLE:.0}:"));
     let [cold, warm] = [least, most].map(|celsius| gyros.against_middle(celsius) * DEGREES * HOUR);
     for (i, axis) in ["forward", "starboard", "down"].iter().enumerate() {
         let (cold, warm) = (cold[i], warm[i]);
-        lines.push(format!("  {axis}: {cold:+.1} deg/h cold, {warm:+.1} deg/h warm"));
+        lines.push(format!(
+            "  {axis}: {:+.1} deg/h cold, {:+.1} deg/h warm",
+            plain(cold),
+            plain(warm)
+        ));
     }
+}
+
+/// To a tenth, and no zero with a sign.
+fn plain(value: f64) -> f64 {
+    (value * 10.0).round() / 10.0 + 0.0
 }
 
 #[cfg(test)]
@@ -109,5 +122,25 @@ mod tests {
     fn where_no_log_was_heard_nothing_is_said_of_one() {
         let told = words(&KeptModel::new(KeptLog::default(), None));
         assert_eq!(told, ["nothing is learnt of a log yet"]);
+    }
+
+    #[test]
+    fn gyros_that_were_always_as_warm_have_told_nothing_of_it() {
+        let gyros = KeptGyros {
+            looks: 50,
+            range_c: [31.0, 33.0],
+            bias_rad_s: [[0.0; 3]; 3],
+            covariance: [[0.0; 6]; 3],
+        };
+        let told = words(&KeptModel::new(KeptLog::default(), Some(gyros.clone())));
+        assert_eq!(
+            told[1],
+            "gyros from 31 to 33 degrees Celsius only: nothing is learnt of their temperature yet"
+        );
+        let told = words(&KeptModel::new(
+            KeptLog::default(),
+            Some(KeptGyros { range_c: [20.0, 40.0], ..gyros }),
+        ));
+        assert_eq!(told[2], "  forward: +0.0 deg/h cold, +0.0 deg/h warm");
     }
 }
