@@ -126,6 +126,23 @@ fn a_voyage_is_simulated_replayed_and_scored() {
 }
 
 #[test]
+fn every_state_that_is_carried_is_told_with_its_unit_and_sigma() {
+    let desk = Desk { dir: tempfile::tempdir().unwrap() };
+    fs::write(desk.path("short.toml"), SCENARIO_TEXT).unwrap();
+    told(&["simulate", &desk.name("short.toml"), "--seed", "1", "--out", &desk.voyage()], 0);
+    desk.replay("nav.csv", &["--states", &desk.name("states.csv")]);
+    let text = fs::read_to_string(desk.path("states.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows[0], ["t_s", "state", "component", "unit", "axes", "value", "sigma"]);
+    let last = rows.last().unwrap()[0];
+    let newest = || rows.iter().filter(|row| row[0] == last);
+    let count = |name: &str| newest().filter(|row| row[1] == name).count();
+    assert_eq!(["position", "gnss_delay", "poses"].map(count), [3, 1, 0], "she has no camera");
+    assert_eq!(newest().find(|row| row[1] == "attitude").unwrap()[3..6], ["rad", "ecef", ""]);
+    assert!(newest().all(|row| row[6].parse::<f64>().unwrap() >= 0.0));
+}
+
+#[test]
 fn satellites_are_scored_where_there_are_any_and_the_report_is_as_it_was_where_not() {
     let desk = Desk { dir: tempfile::tempdir().unwrap() };
     fs::write(desk.path("short.toml"), format!("{SCENARIO_TEXT}[raw]\n")).unwrap();
