@@ -75,7 +75,10 @@ fn of_log(lines: &mut Vec<String>, log: &KeptLog) {
 fn of_gyros(lines: &mut Vec<String>, gyros: &KeptGyros) {
     let [least, most] = gyros.range_c;
     if most - least <= RANGE {
-        lines.push(format!("gyros from {least:.0} to {most:.0} degrees Celsius only: nothing is learnt of their temperature yet"));
+        let near = 0.5 * (least + most);
+        lines.push(format!(
+            "gyros at {near:.0} degrees Celsius only: nothing is learnt of their temperature yet"
+        ));
         return;
     }
     lines.push(format!("gyros from {least:.0} to {most:.0} degrees Celsius, against {MIDDLE:.0}:"));
@@ -135,7 +138,7 @@ mod tests {
         let told = words(&KeptModel::new(KeptLog::default(), Some(gyros.clone())));
         assert_eq!(
             told[1],
-            "gyros from 31 to 33 degrees Celsius only: nothing is learnt of their temperature yet"
+            "gyros at 32 degrees Celsius only: nothing is learnt of their temperature yet"
         );
         let told = words(&KeptModel::new(
             KeptLog::default(),
