@@ -13,19 +13,7 @@ use insd_wire::ngt1::NgtFrame;
 
 use crate::core::{Came, Core};
 use crate::port::{Frame, Link, PortCounts};
-
-/// What a controller told of its bus.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct BusCounts {
-    /// Errors on the wire.
-    pub errors: u64,
-    /// Times that the controller left the bus.
-    pub offs: u64,
-    /// Frames that the kernel dropped.
-    pub dropped: u64,
-    /// What it said last of its state; errors and drops are none.
-    pub state: Option<BusEvent>,
-}
+use crate::status::BusCounts;
 
 /// The frames of one port.
 #[derive(Clone, Debug)]

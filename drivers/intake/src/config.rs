@@ -1,6 +1,6 @@
 //! What is plugged in: ports by their link, sensors by their format and place.
 
-use insd_base::Body;
+use insd_base::{Body, Time};
 use insd_wire::imu::can::LayoutChoice;
 pub use insd_wire::nmea::PashrDialect as Dialect;
 use insd_wire::stream::Protocol;
@@ -249,6 +249,11 @@ impl IntakeConfig {
 }
 
 impl SensorConfig {
+    /// Whether something came within the sensor's patience.
+    pub(crate) fn is_recent(&self, last: Option<Time>, now: Time) -> bool {
+        last.is_some_and(|last| (now - last).as_seconds() <= self.patience_s)
+    }
+
     /// A sensor of which nothing is said but what must be.
     #[must_use]
     pub fn new(name: &str, port: &str, kind: Kind) -> Self {

@@ -10,7 +10,16 @@ use insd_n2k::Name;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::decode::Role;
+/// What a message of a bus is to a sensor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// It tells what the sensor is for.
+    Says,
+    /// It would, but what it tells is not available.
+    SaysNothing,
+    /// It tells something beside.
+    Beside,
+}
 
 /// What the NAME of a sensor's device must be, as far as it is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]

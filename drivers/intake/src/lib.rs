@@ -15,6 +15,7 @@ pub mod config;
 pub mod decode;
 pub mod device;
 pub mod event;
+mod intaken;
 mod kind;
 pub mod mounting;
 pub mod port;
@@ -28,36 +29,23 @@ mod core;
 mod inertial;
 mod magnetic;
 
+pub use intaken::Intaken;
 pub use magnetic::variation;
 
 use insd_wire::stream::Protocol;
 
-use insd_base::{Arrival, Input, PortState, Received, Sent, Stamp, Time, UtcTime};
+use insd_base::{Arrival, Input, PortState, Sent, Stamp, Time, UtcTime};
 
 use crate::can::CanIntake;
 use crate::choice::Quantity;
 use crate::config::IntakeConfig;
 use crate::core::Core;
-use crate::event::{Happening, IntakeEvent};
+use crate::event::Happening;
 use crate::port::PortIntake;
 use crate::status::{ChoiceStatus, IntakeStatus, PortStatus, PortTold, SensorStatus, TimeStatus};
-use crate::watched::Watched;
 
 /// Time between looks for silences, s.
 const TICK: f64 = 0.1;
-
-/// What leaves the intake.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Intaken {
-    /// A measurement, for the engine.
-    Measured(Received),
-    /// The temperature of the IMU in use, degrees Celsius, about once a second.
-    Temperature(Time, f64),
-    /// What a sensor says that is watched and not used.
-    Watched(Watched),
-    /// Something worth telling.
-    Event(IntakeEvent),
-}
 
 /// All ports and sensors of a ship.
 #[derive(Clone, Debug)]

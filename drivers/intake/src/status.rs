@@ -2,16 +2,29 @@
 
 use std::collections::BTreeMap;
 
+use insd_base::can::BusEvent;
 use insd_base::{PortState, Time, UtcTime};
 use insd_n2k::Name;
 
 use crate::base::BaseStatus;
-use crate::can::BusCounts;
 use crate::choice::{Quantity, Why};
 use crate::clock::TimeQuality;
 use crate::device::Device;
 use crate::event::Refusal;
 use crate::port::PortCounts;
+
+/// What a controller told of its bus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct BusCounts {
+    /// Errors on the wire.
+    pub errors: u64,
+    /// Times that the controller left the bus.
+    pub offs: u64,
+    /// Frames that the kernel dropped.
+    pub dropped: u64,
+    /// What it said last of its state; errors and drops are none.
+    pub state: Option<BusEvent>,
+}
 
 /// One port.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,9 +5,9 @@ use insd_wire::gnss::EpochTime;
 use insd_wire::imu::ImuReading;
 
 use super::{Came, Core};
-use crate::Intaken;
 use crate::choice::Quantity;
 use crate::event::{Happening, Refusal};
+use crate::intaken::Intaken;
 use crate::sensor::{ImuChange, TimeBase};
 
 impl Core {

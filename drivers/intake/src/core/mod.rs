@@ -23,13 +23,13 @@ use self::array::Array;
 pub(crate) use self::came::Came;
 use insd_n2k::Name;
 
-use crate::Intaken;
 use crate::choice::{Choice, Chosen, Quantity};
 use crate::clock::{ShipUtc, SystemWatch};
 use crate::config::{IntakeConfig, Role, SensorConfig};
 use crate::decode::Reading;
 use crate::device::{Device, Heard};
 use crate::event::{Happening, IntakeEvent, Refusal};
+use crate::intaken::Intaken;
 use crate::magnetic::Variation;
 use crate::port::Frame;
 use crate::ranging::DockingAid;

@@ -3,7 +3,7 @@
 use insd_base::{ExternalReference, Span};
 
 use super::{Came, Core};
-use crate::Intaken;
+use crate::intaken::Intaken;
 use crate::status::ShownPart;
 use crate::watched::{Watched, WatchedValue};
 

@@ -4,7 +4,7 @@ use insd_wire::gnss::{nmea as sentences, novatel as oem, sbf as septentrio, ubx 
 use insd_wire::nmea::Sentence;
 use insd_wire::stream::Protocol;
 
-use super::Reading;
+use super::reading::Reading;
 use crate::event::Refusal;
 use crate::satellites::{RawReading, RawUse};
 

@@ -10,34 +10,10 @@ use insd_wire::nmea::{
     HeadingMode, Pashr, PashrStatus, Position, PsatSource, Psxn, PsxnQuality, Sentence,
 };
 
-use super::Reading;
+use super::reading::{HeadingReading, North, Reading};
 use crate::config::SensorConfig;
 use crate::event::Refusal;
 use crate::status::ShownPart;
-
-/// A heading.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HeadingReading {
-    /// Clockwise from north, rad.
-    pub heading: f64,
-    /// 1-sigma as the sensor claims, rad.
-    pub std: Option<f64>,
-    /// Which north.
-    pub north: North,
-    /// Whether the sensor stands behind it.
-    pub valid: bool,
-}
-
-/// Which north a heading counts from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum North {
-    /// Geographic north.
-    True,
-    /// Geographic north, by a magnetic compass and a stated variation.
-    Corrected,
-    /// Magnetic north; the variation must come from elsewhere.
-    Magnetic,
-}
 
 /// What a sensor said before that bears on what it says now.
 #[derive(Clone, Copy, Debug, Default)]

@@ -7,7 +7,7 @@ use insd_wire::imu::sbg::TimeReference;
 use insd_wire::imu::stim::{StimConfiguration, StimDatagram, StimFormat};
 use insd_wire::imu::{ImuReading, mip, sbg, stdbin, xbus};
 
-use super::Reading;
+use super::reading::Reading;
 use crate::config::{Kind, SensorConfig};
 use crate::event::Refusal;
 

@@ -1,34 +1,17 @@
 //! Logs: velocities in whatever axes into those of the ship.
 
 use insd_base::units::wrap_two_pi;
-use insd_base::{Attitude, GpsTime, LogReference, UtcTime};
+use insd_base::{Attitude, LogReference, UtcTime};
 use insd_wire::log::pd0::{Ensemble, Geometry};
 use insd_wire::log::pd6::Pd6;
 use insd_wire::log::{LogFrame, LogReading};
 use insd_wire::nmea::{NortekBottomTrack, Sentence, Vbw, VbwVelocity, Vhw};
 use nalgebra::{Matrix3, Vector3};
 
-use super::Reading;
+use super::reading::{Reading, ShipVelocity};
 use crate::config::Kind;
 use crate::event::Refusal;
 use crate::mounting::Mounting;
-
-/// A velocity of the ship, along forward, starboard and down.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShipVelocity {
-    /// Forward, starboard, down, m/s; what the log does not tell is `None`.
-    pub velocity: [Option<f64>; 3],
-    /// Over ground or through the water.
-    pub reference: LogReference,
-    /// 1-sigma of each component, m/s.
-    pub std: f64,
-    /// When, by the log's own account.
-    pub gps: Option<GpsTime>,
-    /// Time from the measurement to the message, s.
-    pub age: f64,
-    /// Whether the log stands behind it.
-    pub valid: bool,
-}
 
 /// What a log's messages must be read with.
 #[derive(Clone, Debug)]

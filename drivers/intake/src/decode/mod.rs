@@ -5,73 +5,20 @@ mod heading;
 mod imu;
 mod log;
 mod n2k;
+mod reading;
 
 use insd_base::Time;
 use insd_base::can::CanFrame;
 use insd_n2k::Message;
-use insd_wire::gnss::{EpochTime, GnssPart, PulseTime};
-use insd_wire::imu::ImuReading;
 use insd_wire::imu::can::{CanImu, CanPart};
-use insd_wire::nmea::{
-    ChecksumPolicy, Frame as NmeaFrame, Pinsd, PinsdStep, PinsdTracks, Position, Rls, Sentence,
-};
+use insd_wire::nmea::{ChecksumPolicy, Frame as NmeaFrame, Pinsd, Rls, Sentence};
 
 use crate::config::{Kind, SensorConfig};
+use crate::device::Role;
 use crate::event::Refusal;
 use crate::ranging::HeadDistance;
-use crate::satellites::RawReading;
-use crate::status::ShownPart;
 
-pub use heading::{HeadingReading, North};
-pub use log::ShipVelocity;
-
-/// What a frame says.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Reading {
-    /// A sample of an IMU.
-    Imu(ImuReading),
-    /// A part of a receiver's epoch.
-    Gnss(GnssPart),
-    /// What a raw message of a receiver says.
-    Raw(RawReading),
-    /// A frame of a base.
-    Base(Vec<u8>),
-    /// The time of a pulse.
-    Pulse(PulseTime),
-    /// A velocity in the ship's axes.
-    Velocity(ShipVelocity),
-    /// A heading.
-    Heading(HeadingReading),
-    /// A position that holds at its receipt, and its 1-sigma if one was given, m.
-    Fix(Position, Option<f64>),
-    /// A position, or that there is none, that is timed by its receipt.
-    Place(Option<Position>),
-    /// A distance of a docking aid.
-    Range(HeadDistance),
-    /// Points in an image of a camera.
-    Tracks(Box<PinsdTracks>),
-    /// How a camera moved.
-    Step(Box<PinsdStep>),
-    /// UTC beside the fixes of a receiver.
-    Clock(EpochTime),
-    /// Something that is shown and not used.
-    Shown(ShownPart),
-    /// A part of the frame is not taken, and why.
-    LeftOut(Refusal),
-    /// A good frame that says nothing which is used.
-    Idle,
-}
-
-/// What a message of a bus is to a sensor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Role {
-    /// It tells what the sensor is for.
-    Says,
-    /// It would, but what it tells is not available.
-    SaysNothing,
-    /// It tells something beside.
-    Beside,
-}
+pub use reading::{HeadingReading, North, Reading, ShipVelocity};
 
 /// Reads the frames of one sensor.
 #[derive(Clone, Debug)]

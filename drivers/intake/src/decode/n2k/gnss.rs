@@ -9,16 +9,16 @@
 //! System time (126992) and date (129033) are not needed where the fix tells both. A fix without a time
 //! takes that of the system time with its SID; else they tell UTC, if a satellite system is its source.
 
-use insd_base::{FixQuality, Time};
+use insd_base::{FixQuality, Geodetic, Time};
 use insd_n2k::pgn::{
     CourseSpeed, Dops, FixMethod, GnssPosition, Integrity, Known, North, PseudorangeNoise, Sid,
     SystemTime, TimeSource, utc,
 };
 use insd_wire::gnss::{EpochTime, GnssPart};
-use insd_wire::nmea::TimeOfDay;
+use insd_wire::nmea::{Position, TimeOfDay};
 
-use super::{Reading, geodetic};
 use crate::config::SensorConfig;
+use crate::decode::reading::Reading;
 use crate::event::Refusal;
 
 /// Messages with the same SID that are farther apart than this are of different epochs, s: the count
@@ -150,7 +150,7 @@ impl GnssState {
         begun: Time,
         config: &SensorConfig,
     ) -> Vec<Reading> {
-        let needed = !super::is_recent(self.timed, begun, config);
+        let needed = !config.is_recent(self.timed, begun);
         vec![told.filter(|_| needed).map_or(Reading::Idle, Reading::Clock)]
     }
 }
@@ -249,4 +249,15 @@ fn time_of_day(seconds: f64) -> Option<TimeOfDay> {
         second: (whole - minutes * 60) as u8,
         nanosecond: ((seconds - f64::from(whole)) * 1e9) as u32,
     })
+}
+
+/// The parts of a place; without a height only the first two.
+fn geodetic(
+    place: Option<(f64, f64)>,
+    height: Option<f64>,
+) -> (Option<Geodetic>, Option<Position>) {
+    let whole = place.zip(height);
+    let position =
+        whole.map(|((latitude, longitude), height)| Geodetic { latitude, longitude, height });
+    (position, place.map(|(latitude, longitude)| Position { latitude, longitude }))
 }

@@ -4,7 +4,7 @@
 
 mod gnss;
 
-use insd_base::{Geodetic, LogReference, Time};
+use insd_base::{LogReference, Time};
 use insd_n2k::Message;
 use insd_n2k::pgn::{
     Attitude, Direction, DistanceLog, Heading, Known, North as N2kNorth, PositionRapid, RateOfTurn,
@@ -12,10 +12,11 @@ use insd_n2k::pgn::{
 };
 use insd_wire::nmea::Position;
 
-use super::heading::{HeadingReading, North, finished, told};
+use super::heading::{finished, told};
 use super::log::{LogState, invalid};
-use super::{Reading, Role};
+use super::reading::{HeadingReading, North, Reading};
 use crate::config::{Kind, SensorConfig};
+use crate::device::Role;
 use crate::event::Refusal;
 use crate::status::ShownPart;
 
@@ -126,7 +127,7 @@ impl N2kState {
     ) -> Result<Vec<Reading>, Refusal> {
         let tilt = ShownPart::Tilt { roll: attitude.roll, pitch: attitude.pitch };
         let mut readings = vec![Reading::Shown(tilt)];
-        if config.yaw && !is_recent(self.heading, begun, config) {
+        if config.yaw && !config.is_recent(self.heading, begun) {
             let reading: HeadingReading = told(attitude.yaw, North::True, true);
             readings.extend(finished(reading, config)?);
         }
@@ -163,9 +164,9 @@ impl N2kState {
             (speed.ground, LogReference::Bottom, self.bottom),
             (speed.water, LogReference::Water, self.water),
         ];
-        let better = parts.iter().any(|(_, _, last)| is_recent(*last, begun, config));
+        let better = parts.iter().any(|(_, _, last)| config.is_recent(*last, begun));
         let told = parts.into_iter().filter_map(|(value, reference, last)| {
-            let value = value.filter(|_| !is_recent(last, begun, config))?;
+            let value = value.filter(|_| !config.is_recent(last, begun))?;
             let velocity = [Some(sign * value), None, None];
             Some(log.ship_velocity(velocity, reference, true))
         });
@@ -176,11 +177,6 @@ impl N2kState {
             false => readings,
         }
     }
-}
-
-/// Whether something came within the sensor's patience.
-fn is_recent(last: Option<Time>, now: Time, config: &SensorConfig) -> bool {
-    last.is_some_and(|last| (now - last).as_seconds() <= config.patience_s)
 }
 
 /// Over the bottom and through the water: forward, starboard, down.
@@ -194,15 +190,4 @@ fn components(own: &SpeedComponents) -> [[Option<f64>; 3]; 2] {
 fn position(place: &PositionRapid) -> Option<Position> {
     let (latitude, longitude) = place.latitude.zip(place.longitude)?;
     Some(Position { latitude, longitude })
-}
-
-/// The parts of a place; without a height only the first two.
-fn geodetic(
-    place: Option<(f64, f64)>,
-    height: Option<f64>,
-) -> (Option<Geodetic>, Option<Position>) {
-    let whole = place.zip(height);
-    let position =
-        whole.map(|((latitude, longitude), height)| Geodetic { latitude, longitude, height });
-    (position, place.map(|(latitude, longitude)| Position { latitude, longitude }))
 }
