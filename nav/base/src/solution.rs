@@ -156,7 +156,9 @@ impl SolutionSigma {
         Self::of(&all.map(|variance| variance.max(0.0).sqrt()))
     }
 
-    pub(crate) fn zip(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
+    /// Each component made of those of both.
+    #[must_use]
+    pub fn zip(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
         SolutionSigma {
             position: Ned(self.position.0.zip_map(&other.position.0, &of)),
             velocity: Ned(self.velocity.0.zip_map(&other.velocity.0, &of)),

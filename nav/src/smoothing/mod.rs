@@ -116,7 +116,8 @@ fn between(
     let share = if whole > 0.0 { (row.time - begin.time).as_seconds() / whole } else { 0.0 };
     let share = share.clamp(0.0, 1.0);
     let lacks = begin.error * (1.0 - share) + (end.error + moved) * share - row.moved;
-    told(row, &lacks, dating, &mean_sigma(&begin.sigma, &end.sigma, share))
+    let mean = |a: f64, b: f64| (a * a * (1.0 - share) + b * b * share).sqrt();
+    told(row, &lacks, dating, &begin.sigma.zip(&end.sigma, mean))
 }
 
 /// Where the pass is cut: what the filter told.
@@ -144,15 +145,4 @@ fn view_of(kept: &KeptEstimate, error: &Apart) -> View {
     nominal.attitude = UnitQuaternion::new(error.fixed_rows::<3>(6).into_owned()) * kept.attitude;
     nominal.gnss_delay = kept.delay + error[9];
     View::new(&nominal, &kept.rate, 0.0)
-}
-
-fn mean_sigma(a: &SolutionSigma, b: &SolutionSigma, share: f64) -> SolutionSigma {
-    let mean = |a: f64, b: f64| (a * a * (1.0 - share) + b * b * share).sqrt();
-    SolutionSigma {
-        position: Ned(a.position.0.zip_map(&b.position.0, mean)),
-        velocity: Ned(a.velocity.0.zip_map(&b.velocity.0, mean)),
-        roll: mean(a.roll, b.roll),
-        pitch: mean(a.pitch, b.pitch),
-        heading: mean(a.heading, b.heading),
-    }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Context;
-use insd_base::{Protection, Solution, SolutionSigma};
+use insd_base::{Protection, Solution};
 use insd_config::{BadInput, OutputFile};
 use insd_drivers::recording::NavWriter;
 use insd_engine::Engine;
@@ -71,12 +71,14 @@ impl Afterwards {
 
 /// A solution of the filter as it is known afterwards. Its protection levels are a promise that was made at the time, and stay.
 fn as_smoothed(solution: &Solution, row: &Smoothed) -> Solution {
+    // a claim that is lost to rounding is that of the filter
+    let sound = |own: f64, told: f64| if own.is_finite() && own > 0.0 { own } else { told };
     let none = Protection { horizontal: 0.0, vertical: 0.0 };
     let smoothed = Solution {
         position: row.position,
         velocity: row.velocity,
         attitude: row.attitude,
-        sigma: sound(&row.sigma, &solution.sigma),
+        sigma: row.sigma.zip(&solution.sigma, sound),
         hidden: none,
         ..*solution
     };
@@ -86,16 +88,4 @@ fn as_smoothed(solution: &Solution, row: &Smoothed) -> Solution {
         vertical: told.vertical - own.vertical,
     };
     Solution { hidden, ..smoothed }
-}
-
-/// A claim that is lost to rounding is that of the filter.
-fn sound(smoothed: &SolutionSigma, told: &SolutionSigma) -> SolutionSigma {
-    let or = |own: f64, told: f64| if own.is_finite() && own > 0.0 { own } else { told };
-    SolutionSigma {
-        position: insd_base::Ned(smoothed.position.0.zip_map(&told.position.0, or)),
-        velocity: insd_base::Ned(smoothed.velocity.0.zip_map(&told.velocity.0, or)),
-        roll: or(smoothed.roll, told.roll),
-        pitch: or(smoothed.pitch, told.pitch),
-        heading: or(smoothed.heading, told.heading),
-    }
 }
