@@ -58,7 +58,7 @@ enum Command {
     Integrity(integrity::IntegrityArgs),
     /// Run a scenario with many seeds and score errors and claims
     Campaign(campaign::CampaignArgs),
-    /// Learn from recorded voyages what repeats of the errors of log and gyros
+    /// Learn from recorded voyages what repeats of the errors of log and IMU
     Learn(learn::LearnArgs),
     /// How well the optimal filter could do in a scenario
     Limit(limit::LimitArgs),

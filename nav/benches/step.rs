@@ -207,7 +207,7 @@ fn covariance_propagation(
     mut run: Box<(Covariance, Stretch, LocalGravity, NavConfig)>,
 ) -> Box<(Covariance, Stretch, LocalGravity, NavConfig)> {
     let (covariance, stretch, gravity, config) = &mut *run;
-    let regime = Regime { rtk: false };
+    let regime = Regime { rtk: false, warmer: 0.0 };
     let passage = Passage { stretch, gradient: gravity.gradient(), config, regime };
     passage.propagate(black_box(covariance));
     run

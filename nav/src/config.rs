@@ -11,6 +11,7 @@ use crate::floors::Floors;
 use crate::judge::docket::Docket;
 use crate::protection::RiskModel;
 use crate::smoothing::plan::SmoothingPlan;
+use crate::thermal::ThermalModel;
 
 pub use camera::{CameraAid, OdometryModel};
 
@@ -287,6 +288,8 @@ pub struct NavConfig {
     pub covariance_interval: f64,
     /// How far everybody is believed at the begin.
     pub docket: Docket,
+    /// How the biases of the IMU follow its temperature, where earlier voyages told.
+    pub thermal: Option<ThermalModel>,
     /// What is kept of the way for smoothing, where that is wanted.
     pub smoothing: Option<SmoothingPlan>,
 }
@@ -322,6 +325,7 @@ impl NavConfig {
             risk: models.risk,
             covariance_interval: 0.1,
             docket: Docket::default(),
+            thermal: None,
             smoothing: None,
         }
     }

@@ -71,6 +71,8 @@ pub enum Carried {
     WithLog,
     /// From the first word of a log on, where what repeats of its errors is learnt.
     WithLearning,
+    /// From the time on when the IMU is otherwise warm than at the beginning.
+    WithTemperature,
     /// From the first heading of a reference on.
     WithHeading,
     /// From the first ranges of satellites on.
@@ -94,6 +96,8 @@ pub enum Carried {
 pub struct Regime {
     /// GNSS positions come from fixed carrier ambiguities.
     pub rtk: bool,
+    /// How much warmer the IMU is than when it was first felt, K.
+    pub warmer: f64,
 }
 
 /// How a block goes on by itself.

@@ -160,6 +160,26 @@ declare! {
     LOG_BY_TURN: 1, "log_by_turn", "m", Scalar, WithLearning,
         first: |config| config.log.shape.map_or(0.0, |shape| shape.by_turn.sigma), process: |_, _| Process::Constant,
         correction: Correction::Adds(|nominal| from_mut(&mut nominal.log_by_turn));
+    /// By what the biases of gyros change with the temperature of the IMU, body axes, rad/s/K, constant.
+    GYRO_THERMAL: 3, "gyro_thermal", "rad/s/K", Body, WithTemperature,
+        first: |config| config.thermal.map_or(config.imu.gyro.thermal_slope_std(), |known| known.gyro.slope_std()),
+        process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.gyro_thermal.as_mut_slice());
+    /// The bend of that change: by the square of how much warmer it is, body axes, rad/s/K^2, constant.
+    GYRO_THERMAL_BEND: 3, "gyro_thermal_bend", "rad/s/K^2", Body, WithTemperature,
+        first: |config| config.thermal.map_or(config.imu.gyro.thermal_bend_std(), |known| known.gyro.bend_std()),
+        process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.gyro_thermal_bend.as_mut_slice());
+    /// By what the biases of accelerometers change with it, body axes, m/s^2/K, constant.
+    ACCEL_THERMAL: 3, "accel_thermal", "m/s^2/K", Body, WithTemperature,
+        first: |config| config.thermal.map_or(config.imu.accel.thermal_slope_std(), |known| known.accel.slope_std()),
+        process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.accel_thermal.as_mut_slice());
+    /// The bend of that change, body axes, m/s^2/K^2, constant.
+    ACCEL_THERMAL_BEND: 3, "accel_thermal_bend", "m/s^2/K^2", Body, WithTemperature,
+        first: |config| config.thermal.map_or(config.imu.accel.thermal_bend_std(), |known| known.accel.bend_std()),
+        process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.accel_thermal_bend.as_mut_slice());
     /// Slowly varying part of the error of a reference's heading, in units of the sigma it states, Gauss-Markov.
     HEADING_ERROR: 1, "heading_error", "sigma", Scalar, WithHeading,
         first: |_| 1.0, process: |_, _| Process::of_sigmas(HEADING_ERROR_TIME),

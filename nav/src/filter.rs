@@ -90,6 +90,7 @@ mod sources;
 mod state;
 pub mod state_estimates;
 mod states;
+mod temperature;
 mod unrest;
 mod velocity_epoch;
 
@@ -237,7 +238,7 @@ impl Filter {
     }
 
     fn regime(&self) -> Regime {
-        Regime { rtk: self.receiver.is_rtk() }
+        Regime { rtk: self.receiver.is_rtk(), warmer: self.state.nominal.warmth.above }
     }
 
     /// The estimate with what aids need of it.
@@ -345,6 +346,10 @@ impl Estimator for Filter {
     fn advance(&mut self, increment: &Increment) {
         if let Some(companion) = self.companion_mut() {
             companion.advance(increment);
+        }
+        // before that filters are joined: they have to have the same states
+        if let Some(celsius) = increment.celsius.filter(|_| self.navigating) {
+            self.feel(celsius);
         }
         self.keep_rows(increment);
         let step = self.state.advance(increment);

@@ -217,6 +217,7 @@ impl Conditioner {
             rate_noise: jitter(&next.rate) + bridge.rotation_variance / missing,
             force_noise: jitter(&next.force) + bridge.velocity_variance / missing,
             bridged: Some(missing),
+            celsius: None,
         }
     }
 
@@ -288,6 +289,7 @@ fn compensated(
         rate_noise: Vector3::zeros(),
         force_noise: Vector3::zeros(),
         bridged: None,
+        celsius: None,
     }
 }
 

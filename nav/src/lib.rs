@@ -49,6 +49,7 @@ pub mod spread;
 pub mod strapdown;
 pub mod sway;
 pub mod symmetry;
+pub mod thermal;
 pub mod timeline;
 pub mod trust;
 pub mod wheels;

@@ -11,6 +11,15 @@ use crate::dimensions::{
     SATELLITES,
 };
 
+/// How warm the IMU is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Warmth {
+    /// Temperature at which changes with it are none, degrees Celsius.
+    pub reference: Option<f64>,
+    /// How much warmer it is, K; zero while nothing is made of it.
+    pub above: f64,
+}
+
 /// Estimated values of everything in the error state; units and axes as stated there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Nominal {
@@ -32,6 +41,16 @@ pub struct Nominal {
     pub accel_drift: Vector3<f64>,
     /// Accelerometer scale factor, ratio.
     pub accel_scale: Vector3<f64>,
+    /// By what gyro biases change with the temperature, rad/s/K.
+    pub gyro_thermal: Vector3<f64>,
+    /// The bend of that change, rad/s/K^2.
+    pub gyro_thermal_bend: Vector3<f64>,
+    /// By what accelerometer biases change with the temperature, m/s^2/K.
+    pub accel_thermal: Vector3<f64>,
+    /// The bend of that change, m/s^2/K^2.
+    pub accel_thermal_bend: Vector3<f64>,
+    /// What the temperature is against which they count: felt, not estimated.
+    pub warmth: Warmth,
     /// Slow GNSS position error, NED, sigmas.
     pub gnss_position_error: Vector3<f64>,
     /// Slow GNSS velocity error, NED, sigmas.
@@ -119,6 +138,11 @@ impl Nominal {
             accel_bias: Vector3::zeros(),
             accel_drift: Vector3::zeros(),
             accel_scale: Vector3::zeros(),
+            gyro_thermal: Vector3::zeros(),
+            gyro_thermal_bend: Vector3::zeros(),
+            accel_thermal: Vector3::zeros(),
+            accel_thermal_bend: Vector3::zeros(),
+            warmth: Warmth::default(),
             gnss_position_error: Vector3::zeros(),
             gnss_velocity_error: Vector3::zeros(),
             gnss_lever: Vector3::zeros(),

@@ -4,10 +4,10 @@
 //! C_true = (I + [phi x]) C_estimated):
 //!
 //! dr' = dv,
-//! dv' = G dr - 2 omega_ie x dv - f_e x phi - C_eb (b_a + d_a + diag(f_b) s_a),
-//! phi' = - omega_ie x phi - C_eb (b_g + d_g + diag(omega_b) s_g),
+//! dv' = G dr - 2 omega_ie x dv - f_e x phi - C_eb (b_a + d_a + diag(f_b) s_a + h_a w + k_a w^2),
+//! phi' = - omega_ie x phi - C_eb (b_g + d_g + diag(omega_b) s_g + h_g w + k_g w^2),
 //!
-//! G the gravity gradient. Every other state is constant, a random walk or Gauss-Markov. Only the
+//! G the gravity gradient, w by how much the IMU is warmer than where h and k were begun. Every other state is constant, a random walk or Gauss-Markov. Only the
 //! nine strapdown rows of the transition matrix differ from a diagonal, and all three errors of a
 //! triad enter through the same 9 x 3 matrix, which is what makes a step cheap.
 
@@ -19,12 +19,21 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 use crate::config::NavConfig;
 use crate::declaration::{Process, Regime};
 use crate::error_state::{
-    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ATTITUDE, Block, Covariance, DECLARATIONS, Effects,
-    Errors, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, POSITION, STRAPDOWN_STATES, VELOCITY, declaration,
+    ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ACCEL_THERMAL, ACCEL_THERMAL_BEND, ATTITUDE, Block,
+    Covariance, DECLARATIONS, Effects, Errors, GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, GYRO_THERMAL,
+    GYRO_THERMAL_BEND, POSITION, STRAPDOWN_STATES, VELOCITY, declaration,
 };
 use crate::increments::Increment;
 use crate::nominal::Nominal;
 use crate::strapdown::Step;
+
+/// Errors of a triad that every ship carries, and all: bias, drift, scale factor, and what the temperature does by itself and by its square.
+const TRIAD_ALWAYS: usize = 3;
+const TRIAD: usize = 5;
+const GYRO_ERRORS: [Block<3>; TRIAD] =
+    [GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE, GYRO_THERMAL, GYRO_THERMAL_BEND];
+const ACCEL_ERRORS: [Block<3>; TRIAD] =
+    [ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE, ACCEL_THERMAL, ACCEL_THERMAL_BEND];
 
 type Head = SMatrix<f64, STRAPDOWN_STATES, STRAPDOWN_STATES>;
 type Input = SMatrix<f64, STRAPDOWN_STATES, 3>;
@@ -168,14 +177,20 @@ impl Passage<'_> {
             return;
         }
         let rows = strapdown_rows(self.stretch, self.gradient);
-        let triad = |blocks: [Block<3>; 3], integral: Vector3<f64>| {
-            let scales = [Vector3::repeat(1.0), Vector3::repeat(1.0), integral / dt];
+        let warmer = self.regime.warmer;
+        let triad = |blocks: [Block<3>; TRIAD], integral: Vector3<f64>| {
+            let [bias, heat, bend] = [1.0, warmer, warmer * warmer].map(Vector3::repeat);
+            let scales = [bias, bias, integral / dt, heat, bend];
             let start = |i: usize| layout.start(blocks[i].key()).unwrap_or(layout.states());
-            std::array::from_fn::<_, 3, _>(|i| (start(i), scales[i]))
+            std::array::from_fn::<_, TRIAD, _>(|i| (start(i), scales[i]))
         };
-        let gyro = triad([GYRO_BIAS, GYRO_DRIFT, GYRO_SCALE], self.stretch.rotation);
-        let accel = triad([ACCEL_BIAS, ACCEL_DRIFT, ACCEL_SCALE], self.stretch.velocity);
-        let feeds = [Feed { by: rows.gyro, from: &gyro }, Feed { by: rows.accel, from: &accel }];
+        let gyro = triad(GYRO_ERRORS, self.stretch.rotation);
+        let accel = triad(ACCEL_ERRORS, self.stretch.velocity);
+        let carried = if layout.start(GYRO_THERMAL.key()).is_some() { TRIAD } else { TRIAD_ALWAYS };
+        let feeds = [
+            Feed { by: rows.gyro, from: &gyro[..carried] },
+            Feed { by: rows.accel, from: &accel[..carried] },
+        ];
         let mut decays = [Decay::NONE; DECLARATIONS.len()];
         let mut count = 0;
         for (place, std, time) in markov(layout, self.config, &self.regime) {

@@ -112,13 +112,17 @@ impl Nominal {
     /// Estimated gyro error.
     #[must_use]
     pub fn gyro_error(&self) -> TriadError {
-        TriadError { bias: self.gyro_bias + self.gyro_drift, scale: self.gyro_scale }
+        let above = self.warmth.above;
+        let of_heat = (self.gyro_thermal + self.gyro_thermal_bend * above) * above;
+        TriadError { bias: self.gyro_bias + self.gyro_drift + of_heat, scale: self.gyro_scale }
     }
 
     /// Estimated accelerometer error.
     #[must_use]
     pub fn accel_error(&self) -> TriadError {
-        TriadError { bias: self.accel_bias + self.accel_drift, scale: self.accel_scale }
+        let above = self.warmth.above;
+        let of_heat = (self.accel_thermal + self.accel_thermal_bend * above) * above;
+        TriadError { bias: self.accel_bias + self.accel_drift + of_heat, scale: self.accel_scale }
     }
 }
 

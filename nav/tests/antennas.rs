@@ -99,6 +99,7 @@ fn after_the_change(lever: Option<Body>) -> (f64, usize) {
             rate_noise: Vector3::zeros(),
             force_noise: Vector3::zeros(),
             bridged: None,
+            celsius: None,
         });
         if step % 100 == 99 {
             let received = match to < 60.5 {

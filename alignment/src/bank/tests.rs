@@ -46,6 +46,7 @@ fn increment(step: usize) -> Increment {
         rate_noise: Vector3::zeros(),
         force_noise: Vector3::zeros(),
         bridged: None,
+        celsius: None,
     }
 }
 

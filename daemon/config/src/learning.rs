@@ -13,7 +13,7 @@ use crate::output_file;
 /// Generations that stay beside the file, as FILE.1, the one before, to FILE.4.
 const BEFORE: u32 = 4;
 
-/// Learning what repeats of the errors of log and gyros while she is well aided (docs/learning.md).
+/// Learning what repeats of the errors of log and IMU while she is well aided (docs/learning.md).
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LearningSection {

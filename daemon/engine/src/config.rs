@@ -40,7 +40,7 @@ pub struct EngineConfig {
     /// Monitoring points of which the heave is wanted, from the IMU, body axes, m. The first is the IMU
     /// itself. Without any there is no heave.
     pub points: Vec<Body>,
-    /// Whether the errors of log and gyros that repeat are learnt while she is well aided (docs/learning.md).
+    /// Whether the errors of log and IMU that repeat are learnt while she is well aided (docs/learning.md).
     pub learning: bool,
     /// What was learnt on earlier voyages.
     pub learnt: Option<KeptModel>,

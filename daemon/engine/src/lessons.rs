@@ -1,12 +1,11 @@
 //! Lessons: the engine lets what learns look at the sensors while she is well aided, and does as it says.
 
-use insd_base::{
-    Event, ImuSample, LearntTurn, LogReference, LogVelocity, Message, Mode, Received, Time,
-};
+use insd_base::{Event, LearntTurn, LogReference, LogVelocity, Message, Mode, Received, Time};
 use insd_learning::{KeptModel, LabelLook, LearnerVerdict};
 use insd_nav::{Filter, Navigator};
 use nalgebra::Vector2;
 
+use crate::heat;
 use crate::learning::{Learning, LearningStatus};
 use crate::ship::Ship;
 use crate::{Engine, Stage};
@@ -26,7 +25,10 @@ impl Engine {
     pub fn offer_learnt(&mut self, model: &KeptModel) {
         let is_begun = self.machine.has_begun() || !matches!(self.stage, Stage::Levelling(_));
         if let Some(own) = self.learning.as_mut().filter(|_| !is_begun) {
-            **own = Learning::new(&self.nav, Some(model)).barred(own.is_barred());
+            let is_barred = own.is_barred();
+            **own = Learning::new(&self.nav, Some(model));
+            own.bar(is_barred);
+            self.nav.thermal = heat::of_earlier_voyages(Some(model), &self.nav);
         }
     }
 
@@ -44,35 +46,30 @@ impl Engine {
     #[must_use]
     pub fn learning(&self) -> Option<LearningStatus> {
         let kept = self.learnt()?;
-        Some(self.learning.as_ref()?.status(kept))
+        let is_heat_known = self.filter().and_then(Filter::found_thermal).is_some();
+        Some(self.learning.as_ref()?.status(kept, is_heat_known))
     }
 
     /// What is learnt, to be kept for the next voyage; `None` where nothing is.
     #[must_use]
     pub fn learnt(&self) -> Option<KeptModel> {
-        let mut kept = self.learning.as_ref()?.kept();
-        let filter = self.ship().and_then(Ship::likeliest).map(Navigator::filter);
+        let filter = self.filter();
+        let thermal = filter.and_then(Filter::found_thermal);
+        let mut kept = self.learning.as_ref()?.kept(thermal.as_ref());
         if let Some((found, covariance)) = filter.and_then(Filter::found_log) {
             kept.log = kept.log.with_found(&found, &covariance);
         }
         Some(kept)
     }
 
-    /// A sample as it is used.
-    pub(crate) fn without_heat(&mut self, sample: &ImuSample) -> ImuSample {
-        let usual = 1.0 / self.config.imu.rate;
-        self.learning.as_mut().map_or(*sample, |own| own.corrected(sample, usual))
+    /// The filter of the likeliest ship that navigates.
+    fn filter(&self) -> Option<&Filter> {
+        self.ship().and_then(Ship::likeliest).map(Navigator::filter)
     }
 
-    /// Looks at the biases of the gyros now and then while she is aided.
-    pub(crate) fn look_at_biases(&mut self, now: Time) {
-        let is_aided = self.machine.mode() == Mode::Aided;
-        let (Some(own), Stage::Running(line)) = (&mut self.learning, &self.stage) else { return };
-        let Ship::Navigating { navigator, .. } = line.estimator() else { return };
-        if is_aided && own.is_look_due(now) {
-            let found = navigator.filter().estimates(false);
-            own.hear_biases(now, (found.gyro_bias.0, found.gyro_bias_sigma.0));
-        }
+    /// Temperature of the IMU, degrees Celsius, if it is known.
+    pub(crate) fn felt(&self, now: Time) -> Option<f64> {
+        self.learning.as_ref()?.celsius(now)
     }
 
     /// Looks at a log beside the solution while she is aided.

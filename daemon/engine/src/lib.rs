@@ -16,6 +16,7 @@ mod config;
 mod disturbance;
 mod doubts;
 mod epochs;
+mod heat;
 mod heir;
 mod images;
 mod learning;
@@ -37,6 +38,7 @@ mod source;
 mod stamps;
 mod standings;
 mod surveyor;
+mod thermometer;
 mod trial;
 mod twin;
 pub mod vote;
@@ -150,6 +152,7 @@ impl Engine {
         nav.gnss.delay_std = config.time_std.unwrap_or(nav.gnss.delay_std);
         nav.gnss.stamps_std = nav.gnss.delay_std;
         nav.smoothing = config.smoothing_plan();
+        nav.thermal = heat::of_earlier_voyages(config.learnt.as_ref(), &nav);
         Engine {
             stamps: Stamps::new(1.0 / config.imu.rate),
             twin: None,
@@ -239,7 +242,6 @@ impl Engine {
         if let Some(step) = step {
             self.tell(Event::ImuClock { time: sample.time, step });
         }
-        let sample = self.without_heat(&sample);
         let increment = match self.conditioner.take(&sample) {
             Conditioned::Sample(increment) => {
                 self.begin_resumption(increment.from, 0.0);
@@ -251,6 +253,7 @@ impl Engine {
             }
             Conditioned::Rejected(reason) => return self.count_imu(reason),
         };
+        let increment = Increment { celsius: self.felt(increment.to), ..increment };
         self.counts.imu_samples += 1;
         self.surveyor.see_raw(&sample, increment.duration());
         self.heard = Some(receipt);
@@ -325,7 +328,6 @@ impl Engine {
                 for solution in solutions {
                     self.emit(solution);
                 }
-                self.look_at_biases(increment.to);
                 self.tell_alignment();
                 self.tell_standings();
                 self.tell_installation(increment.to);

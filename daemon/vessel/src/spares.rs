@@ -216,7 +216,7 @@ impl Redundancy {
     /// Offers the spares what was learnt of what they share with the first engine; their IMUs are others.
     pub(crate) fn offer_learnt(&mut self, model: &KeptModel) {
         let mut shared = model.clone();
-        shared.gyros = None;
+        shared.imu = None;
         self.spares.iter_mut().for_each(|own| own.engine.offer_learnt(&shared));
     }
 

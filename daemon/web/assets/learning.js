@@ -16,7 +16,7 @@ export function startLearning() {
 
 function used(own) {
   if (!own.may_be_used) return "not used: switched off";
-  const parts = [[own.uses_log, "log"], [own.uses_current, "current"], [own.uses_gyros, "gyros"]];
+  const parts = [[own.uses_log, "log"], [own.uses_current, "current"], [own.uses_temperature, "temperature of the IMU"]];
   const told = parts.filter(([is]) => is).map(([, name]) => name);
   return told.length ? `used: ${told.join(", ")}` : "not used yet";
 }

@@ -19,7 +19,25 @@ pub struct Triad {
     pub scale_std: f64,
 }
 
+/// By how much biases change with the temperature, 1-sigma, in units of the turn-on bias: over [`TEN_KELVIN`], and by the bend of that.
+/// Wide on purpose: few data sheets name it.
+const THERMAL_SLOPE: f64 = 2.0;
+const THERMAL_BEND: f64 = 1.0;
+const TEN_KELVIN: f64 = 10.0;
+
 impl Triad {
+    /// By what the bias changes with the temperature, 1-sigma, unit per K.
+    #[must_use]
+    pub fn thermal_slope_std(&self) -> f64 {
+        THERMAL_SLOPE * self.bias_std / TEN_KELVIN
+    }
+
+    /// By what that change bends, 1-sigma, unit per K^2.
+    #[must_use]
+    pub fn thermal_bend_std(&self) -> f64 {
+        THERMAL_BEND * self.bias_std / (TEN_KELVIN * TEN_KELVIN)
+    }
+
     /// Gyros by their data sheet: turn-on bias and in-run bias, deg/h; its time constant, s; angle random
     /// walk, deg/sqrt(h); scale factor, ppm.
     #[must_use]

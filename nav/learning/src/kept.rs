@@ -12,7 +12,7 @@ use crate::label::LENGTH;
 use crate::trained::Trained;
 
 /// The version that is written, and the only one that is read.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// Longest text that is read, bytes.
 pub const LONGEST: usize = 1 << 16;
 const SUM: &str = "checksum = ";
@@ -30,8 +30,8 @@ pub struct KeptModel {
     pub voyages: u32,
     /// The log and the current.
     pub log: KeptLog,
-    /// The gyros, where their temperature was told.
-    pub gyros: Option<KeptGyros>,
+    /// How the IMU follows its temperature, where that was told and has changed.
+    pub imu: Option<KeptThermal>,
 }
 
 /// What repeats of a log's errors, how the current goes on, and what it was worth.
@@ -63,18 +63,30 @@ pub struct KeptLog {
     pub trained: Trained,
 }
 
-/// How the biases of gyros follow the temperature: the constant, the slope per 10 K and the bend per (10 K)^2 about 30 degrees Celsius.
+/// How the biases of an IMU follow its temperature: slope at a reference and bend about it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct KeptGyros {
-    /// Looks that were learnt from.
-    pub looks: u32,
-    /// Range of temperatures, degrees Celsius.
+pub struct KeptThermal {
+    /// Temperature that the slopes are those at, degrees Celsius.
+    pub reference_c: f64,
+    /// Range of temperatures that it was learnt in, degrees Celsius.
     pub range_c: [f64; 2],
-    /// Coefficients of each axis, forward, starboard, down, rad/s.
-    pub bias_rad_s: [[f64; 3]; 3],
-    /// Lower triangle of the covariance of each, by rows, (rad/s)^2.
-    pub covariance: [[f64; 6]; 3],
+    /// Gyros, rad/s.
+    pub gyros: KeptTriad,
+    /// Accelerometers, m/s^2.
+    pub accelerometers: KeptTriad,
+}
+
+/// What is known of three axes, forward, starboard, down.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KeptTriad {
+    /// Slope of each, unit per K.
+    pub slope_per_k: [f64; 3],
+    /// Bend of each, unit per K^2.
+    pub bend_per_k2: [f64; 3],
+    /// Of each the variance of the slope, its covariance with the bend, and the variance of that.
+    pub covariance: [[f64; 3]; 3],
 }
 
 /// Why a text is no model.
@@ -97,14 +109,14 @@ pub enum KeptFault {
 impl KeptModel {
     /// A model of this version.
     #[must_use]
-    pub fn new(log: KeptLog, gyros: Option<KeptGyros>) -> Self {
-        KeptModel { version: VERSION, generation: 1, voyages: 1, log, gyros }
+    pub fn new(log: KeptLog, imu: Option<KeptThermal>) -> Self {
+        KeptModel { version: VERSION, generation: 1, voyages: 1, log, imu }
     }
 
     /// Whether nothing was learnt.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.log.labels == 0 && self.gyros.is_none()
+        self.log.labels == 0 && self.imu.is_none()
     }
 
     /// Hours that were learnt from.
@@ -154,15 +166,35 @@ impl KeptModel {
             && log.trained.is_sound()
             && numbers.clone().all(|x| x.is_finite())
             && log.shadow_with_m.len() == log.shadow_without_m.len()
-            && self.gyros.as_ref().is_none_or(KeptGyros::is_sound)
+            && self.imu.as_ref().is_none_or(KeptThermal::is_sound)
     }
 }
 
-impl KeptGyros {
+impl KeptThermal {
     fn is_sound(&self) -> bool {
         let [least, most] = self.range_c;
-        let all = self.bias_rad_s.iter().flatten().chain(self.covariance.iter().flatten());
-        (-100.0..=most).contains(&least) && most < 200.0 && all.clone().all(|x| x.abs() < 1.0)
+        (-100.0..=most).contains(&least)
+            && most < 200.0
+            && (-100.0..200.0).contains(&self.reference_c)
+            && self.gyros.is_sound()
+            && self.accelerometers.is_sound()
+    }
+}
+
+impl KeptTriad {
+    fn is_sound(&self) -> bool {
+        let mut values = self.slope_per_k.iter().chain(&self.bend_per_k2);
+        let is_covariance = |own: &[f64; 3]| {
+            let [slope, both, bend] = *own;
+            (0.0..1.0).contains(&slope) && (0.0..1.0).contains(&bend) && both * both <= slope * bend
+        };
+        values.all(|x| x.abs() < 1.0) && self.covariance.iter().all(is_covariance)
+    }
+
+    /// By how much the bias of each axis is other than at the reference, this many kelvins above it.
+    #[must_use]
+    pub fn change(&self, above: f64) -> [f64; 3] {
+        std::array::from_fn(|i| (self.slope_per_k[i] + self.bend_per_k2[i] * above) * above)
     }
 }
 

@@ -1,13 +1,14 @@
 //! What was learnt, in words.
 
-use crate::kept::{KeptGyros, KeptLog, KeptModel};
+use crate::kept::{KeptLog, KeptModel, KeptThermal, KeptTriad};
 use crate::shadow::ShadowScore;
-use crate::thermal::{MIDDLE, RANGE};
 
 /// Knots in a metre per second, degrees in a radian, seconds in an hour.
 const KNOTS: f64 = 3600.0 / 1852.0;
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 const HOUR: f64 = 3600.0;
+/// Standard gravity, m/s^2.
+const GRAVITY: f64 = 9.806_65;
 /// Speeds that the curve of a log is told at, knots.
 const SPEEDS: [f64; 4] = [6.0, 9.0, 12.0, 18.0];
 
@@ -26,8 +27,8 @@ pub fn words(model: &KeptModel) -> Vec<String> {
     } else {
         lines.push("nothing is learnt of a log yet".to_owned());
     }
-    if let Some(gyros) = &model.gyros {
-        of_gyros(&mut lines, gyros);
+    if let Some(imu) = &model.imu {
+        of_imu(&mut lines, imu);
     }
     lines
 }
@@ -72,24 +73,26 @@ fn of_log(lines: &mut Vec<String>, log: &KeptLog) {
     });
 }
 
-fn of_gyros(lines: &mut Vec<String>, gyros: &KeptGyros) {
-    let [least, most] = gyros.range_c;
-    if most - least <= RANGE {
-        let near = 0.5 * (least + most);
-        lines.push(format!(
-            "gyros at {near:.0} degrees Celsius only: nothing is learnt of their temperature yet"
-        ));
-        return;
-    }
-    lines.push(format!("gyros from {least:.0} to {most:.0} degrees Celsius, against {MIDDLE:.0}:"));
-    let [cold, warm] = [least, most].map(|celsius| gyros.against_middle(celsius) * DEGREES * HOUR);
+fn of_imu(lines: &mut Vec<String>, imu: &KeptThermal) {
+    let [least, most] = imu.range_c;
+    let middle = imu.reference_c;
+    lines.push(format!("IMU from {least:.0} to {most:.0} degrees Celsius, against {middle:.0}:"));
+    let ends = [least - middle, most - middle];
+    of_triad(lines, "gyro", &imu.gyros, ends, (DEGREES * HOUR, "deg/h"));
+    of_triad(lines, "accelerometer", &imu.accelerometers, ends, (1e3 / GRAVITY, "mg"));
+}
+
+fn of_triad(
+    lines: &mut Vec<String>,
+    name: &str,
+    triad: &KeptTriad,
+    ends: [f64; 2],
+    (factor, unit): (f64, &str),
+) {
+    let [cold, warm] = ends.map(|above| triad.change(above).map(|own| plain(own * factor)));
     for (i, axis) in ["forward", "starboard", "down"].iter().enumerate() {
         let (cold, warm) = (cold[i], warm[i]);
-        lines.push(format!(
-            "  {axis}: {:+.1} deg/h cold, {:+.1} deg/h warm",
-            plain(cold),
-            plain(warm)
-        ));
+        lines.push(format!("  {name} {axis}: {cold:+.1} {unit} cold, {warm:+.1} {unit} warm"));
     }
 }
 
@@ -128,22 +131,14 @@ mod tests {
     }
 
     #[test]
-    fn gyros_that_were_always_as_warm_have_told_nothing_of_it() {
-        let gyros = KeptGyros {
-            looks: 50,
-            range_c: [31.0, 33.0],
-            bias_rad_s: [[0.0; 3]; 3],
-            covariance: [[0.0; 6]; 3],
-        };
-        let told = words(&KeptModel::new(KeptLog::default(), Some(gyros.clone())));
-        assert_eq!(
-            told[1],
-            "gyros at 32 degrees Celsius only: nothing is learnt of their temperature yet"
-        );
-        let told = words(&KeptModel::new(
-            KeptLog::default(),
-            Some(KeptGyros { range_c: [20.0, 40.0], ..gyros }),
-        ));
-        assert_eq!(told[2], "  forward: +0.0 deg/h cold, +0.0 deg/h warm");
+    fn an_imu_that_follows_its_temperature_is_told_of_axis_by_axis() {
+        let gyros = KeptTriad { slope_per_k: [1e-5, 0.0, 0.0], ..KeptTriad::default() };
+        let accelerometers = KeptTriad { bend_per_k2: [0.0, 1e-4, 0.0], ..KeptTriad::default() };
+        let imu = KeptThermal { reference_c: 30.0, range_c: [20.0, 40.0], gyros, accelerometers };
+        let told = words(&KeptModel::new(KeptLog::default(), Some(imu)));
+        assert_eq!(told[1], "IMU from 20 to 40 degrees Celsius, against 30:");
+        assert_eq!(told[2], "  gyro forward: -20.6 deg/h cold, +20.6 deg/h warm");
+        assert_eq!(told[3], "  gyro starboard: +0.0 deg/h cold, +0.0 deg/h warm");
+        assert_eq!(told[6], "  accelerometer starboard: +1.0 mg cold, +1.0 mg warm");
     }
 }

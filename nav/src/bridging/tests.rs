@@ -33,6 +33,7 @@ fn learnt(until: f64, rate: impl Fn(f64) -> Vector3<f64>) -> Bridging {
             rate_noise: Vector3::zeros(),
             force_noise: Vector3::zeros(),
             bridged: None,
+            celsius: None,
         };
         bridging.learn(&increment, &middle);
     }

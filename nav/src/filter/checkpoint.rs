@@ -199,6 +199,7 @@ pub(super) mod tests {
             rate_noise: Vector3::zeros(),
             force_noise: Vector3::zeros(),
             bridged: None,
+            celsius: None,
         }
     }
 

@@ -28,6 +28,8 @@ pub struct Increment {
     pub force_noise: Vector3<f64>,
     /// Length of the gap that it is a part of, s, if it was made up over missing samples.
     pub bridged: Option<f64>,
+    /// Temperature of the IMU, degrees Celsius, if it is told.
+    pub celsius: Option<f64>,
 }
 
 impl Increment {

@@ -26,6 +26,7 @@ fn increment(step: i64) -> Increment {
         rate_noise: Vector3::zeros(),
         force_noise: Vector3::zeros(),
         bridged: None,
+        celsius: None,
     }
 }
 
@@ -102,7 +103,7 @@ fn the_transition_agrees_with_perturbed_mechanisations() {
     }
 }
 
-const REGIME: Regime = Regime { rtk: false };
+const REGIME: Regime = Regime { rtk: false, warmer: 0.0 };
 
 fn config() -> NavConfig {
     let gyro = Triad {

@@ -62,6 +62,7 @@ fn increment(to: f64) -> Increment {
         rate_noise: Vector3::zeros(),
         force_noise: Vector3::zeros(),
         bridged: None,
+        celsius: None,
     }
 }
 

@@ -228,6 +228,7 @@ impl Scene {
             rate_noise: Vector3::zeros(),
             force_noise: Vector3::zeros(),
             bridged: None,
+            celsius: None,
         };
         integrate(&mut self.truth, &self.gravity, &increment);
         increment.rotation += self.bias[0] * STEP + self.draw(ANGLE_WALK * STEP.sqrt());

@@ -77,6 +77,7 @@ impl Ship {
             rate_noise: Vector3::zeros(),
             force_noise: Vector3::zeros(),
             bridged: None,
+            celsius: None,
         };
         place.latitude += v.x * h / (meridian + place.height);
         place.longitude += v.y * h / ((prime + place.height) * place.latitude.cos());

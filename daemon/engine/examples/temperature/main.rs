@@ -2,7 +2,8 @@
 //! sheet, as real ones do; the log has a scale that follows the speed. Nobody lies.
 //!
 //! `temperature [SEEDS]`: normalised squares of the errors of each voyage, how long any measurement was refused in
-//! one piece, and by how much worse than its data sheet the IMU was found to be.
+//! one piece, and by how much worse than its data sheet the IMU was found to be; where nobody tells the temperature of the IMU, and where it
+//! is told.
 
 mod sail;
 mod systematic;
@@ -20,9 +21,12 @@ fn main() {
         Ok(scenario) => scenario,
         Err(fault) => return eprintln!("{fault}"),
     };
-    let one = |seed: u64| sail(&systematic::spoilt(simulate(&scenario, seed), seed));
-    let all: Vec<Outcome> = (1..=seeds).into_par_iter().map(one).collect();
-    println!("seed {}", Outcome::HEAD);
-    all.iter().zip(1..).for_each(|(one, seed): (_, u64)| println!("{seed:>4} {one}"));
-    println!("mean {}", Outcome::mean(&all));
+    for is_told in [false, true] {
+        let one = |seed: u64| sail(&systematic::spoilt(simulate(&scenario, seed), seed), is_told);
+        let all: Vec<Outcome> = (1..=seeds).into_par_iter().map(one).collect();
+        println!("temperature {}", if is_told { "told" } else { "not told" });
+        println!("seed {}", Outcome::HEAD);
+        all.iter().zip(1..).for_each(|(one, seed): (_, u64)| println!("{seed:>4} {one}"));
+        println!("mean {}", Outcome::mean(&all));
+    }
 }

@@ -4,8 +4,10 @@ use std::collections::HashMap;
 use std::fmt;
 
 use insd_base::units::wrap_pi;
-use insd_base::{Event, Finding, Mode, Solution, Truth, Voyage, earth};
+use insd_base::{Event, Finding, Mode, Solution, Truth, earth};
 use insd_engine::{Engine, EngineConfig, Output};
+
+use crate::systematic::Spoilt;
 
 /// Components that are judged.
 const COMPONENTS: usize = 9;
@@ -68,11 +70,16 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// Sails a voyage.
-pub(crate) fn sail(voyage: &Voyage) -> Outcome {
-    let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
+/// Sails a voyage; the temperature of the IMU is told or not.
+pub(crate) fn sail(spoilt: &Spoilt, is_told: bool) -> Outcome {
+    let voyage = &spoilt.voyage;
+    let config = EngineConfig::for_voyage(&voyage.header, 1.0);
+    let mut engine = Engine::new(EngineConfig { learning: is_told, ..config });
     let (mut outcome, mut refusals) = (Outcome::default(), Refusals::default());
     for received in voyage.received() {
+        if is_told {
+            engine.feel(received.receipt, spoilt.celsius(received.receipt.as_seconds()));
+        }
         engine.handle(&received);
         while let Some(output) = engine.poll_output() {
             match output {

@@ -9,6 +9,8 @@ use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
+/// Temperature at which the IMU was calibrated, degrees Celsius.
+const CALIBRATED: f64 = 25.0;
 /// Change of a bias with the temperature, 1-sigma, by the kelvin: gyros, rad/s, and accelerometers, m/s^2.
 const GYRO: f64 = 2.0 * DEG_PER_HOUR;
 const ACCEL: f64 = 1e-3;
@@ -51,8 +53,21 @@ impl Systematic {
     }
 }
 
+/// A voyage, and how warm its IMU is.
+pub(crate) struct Spoilt {
+    pub(crate) voyage: Voyage,
+    own: Systematic,
+}
+
+impl Spoilt {
+    /// Temperature of the IMU, degrees Celsius.
+    pub(crate) fn celsius(&self, t: f64) -> f64 {
+        CALIBRATED + self.own.warmth(t)
+    }
+}
+
 /// The voyage, with such errors.
-pub(crate) fn spoilt(mut voyage: Voyage, seed: u64) -> Voyage {
+pub(crate) fn spoilt(mut voyage: Voyage, seed: u64) -> Spoilt {
     let own = Systematic::drawn(seed);
     let interval = 1.0 / voyage.header.imu.rate;
     for sample in voyage.imu.iter_mut().map(|sample| &mut sample.message) {
@@ -66,5 +81,5 @@ pub(crate) fn spoilt(mut voyage: Voyage, seed: u64) -> Voyage {
     for u in voyage.log.iter_mut().filter_map(|log| log.message.u.as_mut()) {
         *u *= 1.0 + own.log[0] + own.log[1] * (*u / 10.0).powi(2);
     }
-    voyage
+    Spoilt { voyage, own }
 }

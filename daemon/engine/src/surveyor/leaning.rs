@@ -385,6 +385,7 @@ mod tests {
                 rate_noise: Vector3::zeros(),
                 force_noise: Vector3::zeros(),
                 bridged: None,
+                celsius: None,
             }
         }
 

@@ -104,6 +104,7 @@ mod tests {
                     rate_noise: Vector3::zeros(),
                     force_noise: Vector3::zeros(),
                     bridged: None,
+                    celsius: None,
                 },
                 0.01,
             );

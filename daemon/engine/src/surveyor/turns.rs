@@ -229,6 +229,7 @@ mod tests {
                 rate_noise: Vector3::zeros(),
                 force_noise: Vector3::zeros(),
                 bridged: None,
+                celsius: None,
             });
             if let Some((u, v)) = log(at) {
                 let time = fix.time;

@@ -1,4 +1,4 @@
-//! `insd learn`: what repeats of the errors of log and gyros, learnt from voyages and raw recordings.
+//! `insd learn`: what repeats of the errors of log and IMU, learnt from voyages and raw recordings.
 
 use std::fs;
 use std::path::{Path, PathBuf};

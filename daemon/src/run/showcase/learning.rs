@@ -6,12 +6,12 @@ use insd_web::snapshot::ShownLearning;
 /// What is shown of it.
 pub(super) fn learning(own: &LearningStatus) -> ShownLearning {
     let outage = own.kept.outage();
-    let [uses_log, uses_current, uses_gyros] = own.used;
+    let [uses_log, uses_current, uses_temperature] = own.used;
     ShownLearning {
         may_be_used: own.may_be_used,
         uses_log,
         uses_current,
-        uses_gyros,
+        uses_temperature,
         learnt_h: own.kept.hours(),
         voyages: own.kept.voyages,
         outage_m: outage.map(|[_, with]| with),
@@ -35,6 +35,6 @@ mod tests {
         assert!((shown.learnt_h - 41.0).abs() < 1e-9);
         assert_eq!((shown.outage_m, shown.outage_without_m), (Some(12.0), Some(25.0)));
         assert!(shown.words.iter().any(|line| line == "at 12 kn the log reads 1.4 % high"));
-        assert!((shown.uses_log, shown.uses_gyros) == (true, false));
+        assert!((shown.uses_log, shown.uses_temperature) == (true, false));
     }
 }

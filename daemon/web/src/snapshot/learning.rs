@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What is learnt of log, current and gyros while she is well aided.
+/// What is learnt of log, current and IMU while she is well aided.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ShownLearning {
@@ -12,8 +12,8 @@ pub struct ShownLearning {
     pub uses_log: bool,
     /// Whether the pace of the current is used.
     pub uses_current: bool,
-    /// Whether the bias of the gyros is taken away by their temperature.
-    pub uses_gyros: bool,
+    /// Whether biases of the IMU follow its temperature.
+    pub uses_temperature: bool,
     /// Hours that were learnt from.
     pub learnt_h: f64,
     /// Voyages that were learnt from, this one among them.

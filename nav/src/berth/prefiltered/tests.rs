@@ -68,6 +68,7 @@ pub(in crate::berth) fn increment(step: usize) -> Increment {
         rate_noise: Vector3::zeros(),
         force_noise: Vector3::zeros(),
         bridged: None,
+        celsius: None,
     }
 }
 

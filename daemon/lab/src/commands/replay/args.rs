@@ -50,7 +50,7 @@ pub struct ReplayArgs {
     /// Leave out what is named, between commas, to see what it gives
     #[arg(long, value_name = "WHAT", value_enum, value_delimiter = ',')]
     pub(super) without: Vec<Without>,
-    /// What was learnt of log and gyros on earlier voyages (`insd learn`)
+    /// What was learnt of log and IMU on earlier voyages (`insd learn`)
     #[arg(long, value_name = "FILE.toml")]
     pub(super) log_model: Option<PathBuf>,
     #[command(flatten)]

@@ -9,7 +9,7 @@ use crate::ranges::GnssUse;
 /// Something that a replay leaves out, to see what it gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(super) enum Without {
-    /// What is learnt of log and gyros while she is well aided.
+    /// What is learnt of log and IMU while she is well aided.
     Learning,
     /// Images of a camera and what was made of them.
     Camera,
