@@ -125,7 +125,11 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         imu(port, Protocol::Stim, "stim", |name| name != "STIM configuration").map(|sensor| {
             sensor.note("unless the unit sends its configuration, check [sensor.stim]")
         }),
+        imu(port, Protocol::VectorNav, "vectornav", |_| true)
+            .map(|own| own.note("as a compass and not as an IMU: kind = \"vectornav_ins\"")),
         ublox(port),
+        plain_sensor(port, Protocol::Gsof, "gsof", "gnss", "")
+            .map(|own| own.note("records 1, 2, 8 and 12 must be among what it sends")),
         plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF 4007")
             .or_else(|| plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF 4006"))
             .or_else(|| raw_only(port, Protocol::Sbf, "sbf", "SBF 4027"))
@@ -153,6 +157,9 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         .extend(own(port, "nortek", "log", "PNORBT").map(|sensor| {
             sensor.note("x forward, y to starboard, z down; else tell its mounting")
         }));
+    sensors.extend(plain_sensor(port, Protocol::Ad2cp, "ad2cp", "log", "AD2CP 17").map(|own| {
+        own.note("it must tell XYZ; x forward, y to starboard, z down; else tell its mounting")
+    }));
     sensors.extend(compasses(port));
     sensors.extend(own(port, "psxn", "psxn", "PSXN"));
     sensors.extend(own(port, "psat", "psat", "PSAT"));
