@@ -85,3 +85,12 @@ fn a_flipped_bit_and_a_record_cut_short_are_found() {
         assert!(Ad2cpBottomTrack::read(&bytes[..length]).is_err());
     }
 }
+
+#[test]
+fn a_scale_that_no_instrument_has_is_refused_whatever_its_sign() {
+    for exponent in [i8::MIN, -10, 10, i8::MAX] {
+        let mut track = tracks()[0];
+        track.head.exponent = exponent;
+        assert!(matches!(Ad2cpBottomTrack::read(&track.write()), Err(Fault::Range { .. })));
+    }
+}

@@ -160,7 +160,8 @@ impl Ad2cpBottomTrack {
         let data = frame.get(HEADER..).unwrap_or_default();
         let head = Ad2cpHead::read_fields(data)?;
         let beams = usize::from(head.beams >> 12);
-        if head.version != 1 || !(1..=BEAMS).contains(&beams) || head.exponent.abs() > 9 {
+        if head.version != 1 || !(1..=BEAMS).contains(&beams) || !(-9..=9).contains(&head.exponent)
+        {
             return Err(Fault::Range { field: "version, beams or velocity scaling" });
         }
         let mut reader = Reader::new(data);
