@@ -10,7 +10,7 @@ use insd_intake::mounting::{Direction, Mounting};
 use insd_intake::port::Link;
 use insd_intake::{Intake, Intaken};
 use insd_wire::gnss::gsof::{
-    AntennaLine, Movement, Page, Place, PositionSigma, PositionTime, Record, Report,
+    AntennaLine, GsofRecord, GsofReport, Movement, Page, Place, PositionSigma, PositionTime,
 };
 use insd_wire::imu::vectornav::VnMessage;
 use insd_wire::log::ad2cp::{Ad2cpBottomTrack, Ad2cpHead};
@@ -85,19 +85,19 @@ fn report(tick: u32, calculated: u8, padding: usize) -> Vec<u8> {
         dilution: 12,
     };
     let records = vec![
-        Record::Time(time),
-        Record::Place(Place { latitude: 0.6, longitude: 2.4, height: some(40.0) }),
-        Record::Other(70, vec![0; padding]),
-        Record::Movement(Movement {
+        GsofRecord::Time(time),
+        GsofRecord::Place(Place { latitude: 0.6, longitude: 2.4, height: some(40.0) }),
+        GsofRecord::Other(70, vec![0; padding]),
+        GsofRecord::Movement(Movement {
             flags: 1,
             speed: some(2.0),
             course: some(0.0),
             climb: some(0.5),
         }),
-        Record::Sigma(sigma),
-        Record::Line(line, None),
+        GsofRecord::Sigma(sigma),
+        GsofRecord::Line(line, None),
     ];
-    let pages = Page::pages((tick / 20) as u8, &Report { records }.write());
+    let pages = Page::pages((tick / 20) as u8, &GsofReport { records }.write());
     pages.iter().flat_map(Page::write).collect()
 }
 

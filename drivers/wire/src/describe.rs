@@ -92,7 +92,7 @@ fn gsof(frame: &[u8]) -> Described {
     if page.last > 0 {
         return described("GSOF", Reading::Used);
     }
-    match gsof::Report::read(&page.records) {
+    match gsof::GsofReport::read(&page.records) {
         Ok(report) if report.is_read() => described("GSOF", Reading::Used),
         Ok(_) => described("GSOF", Reading::Other),
         Err(_) => described("GSOF", Reading::Refused),

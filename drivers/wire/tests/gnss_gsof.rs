@@ -4,7 +4,7 @@
 
 use insd_base::{FixQuality, GpsTime};
 use insd_wire::gnss::EpochTime;
-use insd_wire::gnss::gsof::{Page, Pages, PositionTime, Record, Report};
+use insd_wire::gnss::gsof::{GsofRecord, GsofReport, Page, Pages, PositionTime};
 use insd_wire::stream::{Cutter, Look, Protocol};
 
 /// A report of the records whose values stand in the tests of `trimble-oss/trimble_driver_ros` (BSD-2-Clause, copyright Trimble Inc.):
@@ -30,7 +30,7 @@ fn near(found: Option<f64>, expected: f64) {
 
 #[test]
 fn a_report_has_the_values_of_the_makers_driver() {
-    let part = Report::read(&hex(REPORT)).unwrap().part().unwrap();
+    let part = GsofReport::read(&hex(REPORT)).unwrap().part().unwrap();
     let time = GpsTime::from_week(2225, 162_117_007_000_000);
     assert_eq!(part.epoch, Some(EpochTime::Gps(time)));
     assert_eq!((part.quality, part.satellites), (Some(FixQuality::Autonomous), Some(25)));
@@ -53,20 +53,20 @@ fn a_report_has_the_values_of_the_makers_driver() {
 
 #[test]
 fn a_fixed_line_of_two_antennas_is_a_heading_with_its_sigma() {
-    let heading = Report::read(&hex(REPORT)).unwrap().heading().unwrap();
+    let heading = GsofReport::read(&hex(REPORT)).unwrap().heading().unwrap();
     assert_eq!(heading.epoch, Some(EpochTime::TimeOfWeek(162_117_007_000_000)));
     near(heading.heading, 3.131_870_495_343_419);
     near(heading.heading_std, 0.000_027_109_908_8_f64.sqrt());
     let mut floating = hex(REPORT);
     let mode = floating.len() - 72 + 2 + 6;
     floating[mode] = 2;
-    assert_eq!(Report::read(&floating).unwrap().heading().unwrap().heading, None);
+    assert_eq!(GsofReport::read(&floating).unwrap().heading().unwrap().heading, None);
 }
 
 #[test]
 fn a_report_is_written_as_it_came_on_one_page_and_on_several() {
     let records = hex(REPORT);
-    assert_eq!(Report::read(&records).unwrap().write(), records);
+    assert_eq!(GsofReport::read(&records).unwrap().write(), records);
     let long = records.repeat(3);
     let pages = Page::pages(9, &long);
     assert_eq!(
@@ -111,8 +111,8 @@ fn qualities_are_those_of_the_flags_and_an_old_position_is_none() {
         let (milliseconds, week, satellites, initialisation) = (0, 2225, 9, 0);
         let time =
             PositionTime { milliseconds, week, satellites, calculated, corrected, initialisation };
-        let report = Report { records: vec![Record::Time(time)] };
-        Report::read(&report.write()).unwrap().part().unwrap().quality.unwrap()
+        let report = GsofReport { records: vec![GsofRecord::Time(time)] };
+        GsofReport::read(&report.write()).unwrap().part().unwrap().quality.unwrap()
     };
     for (corrected, quality) in [
         (0b000, FixQuality::Autonomous),
@@ -130,8 +130,8 @@ fn qualities_are_those_of_the_flags_and_an_old_position_is_none() {
 #[test]
 fn a_report_without_its_time_says_nothing_and_one_cut_short_is_refused() {
     let records = hex(REPORT);
-    assert_eq!(Report::read(&records[12..]).unwrap().part(), None);
+    assert_eq!(GsofReport::read(&records[12..]).unwrap().part(), None);
     for length in (1..12).chain(13..38) {
-        assert!(Report::read(&records[..length]).is_err(), "{length}");
+        assert!(GsofReport::read(&records[..length]).is_err(), "{length}");
     }
 }

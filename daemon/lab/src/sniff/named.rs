@@ -128,7 +128,7 @@ fn fault(protocol: Protocol, frame: &[u8]) -> Option<String> {
         Protocol::Tss1 => told(tss1::Tss1::read(frame)),
         Protocol::Ngt1 => told(NgtFrame::read(frame)),
         Protocol::Gsof => {
-            told(gsof::Page::open(frame).and_then(|page| gsof::Report::read(&page.records)))
+            told(gsof::Page::open(frame).and_then(|page| gsof::GsofReport::read(&page.records)))
         }
         Protocol::VectorNav => told(vectornav::VnMessage::read(frame)),
         Protocol::Ad2cp => told(ad2cp::Ad2cpBottomTrack::read(frame)),

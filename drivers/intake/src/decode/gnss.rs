@@ -1,6 +1,6 @@
 //! GNSS receivers.
 
-use insd_wire::gnss::gsof::{Page, Pages, Report};
+use insd_wire::gnss::gsof::{GsofReport, Page, Pages};
 use insd_wire::gnss::{nmea as sentences, novatel as oem, sbf as septentrio, ubx as ublox};
 use insd_wire::nmea::Sentence;
 use insd_wire::stream::Protocol;
@@ -31,7 +31,7 @@ pub(super) fn sbf(bytes: &[u8], raw: RawUse) -> Result<Vec<Reading>, Refusal> {
 pub(super) fn gsof(pages: &mut Pages, bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {
     let page = Page::open(bytes).map_err(|_| Refusal::Malformed)?;
     let Some(records) = pages.take(&page) else { return Ok(vec![Reading::Idle]) };
-    let report = Report::read(&records).map_err(|_| Refusal::Malformed)?;
+    let report = GsofReport::read(&records).map_err(|_| Refusal::Malformed)?;
     let parts = report.part().into_iter().chain(report.heading());
     Ok(or_idle(parts.map(Reading::Gnss).collect()))
 }

@@ -1,6 +1,6 @@
 //! GSOF, VectorNav's messages and AD2CP's bottom track as JSON.
 
-use insd_wire::gnss::gsof::{Page, Record, Report};
+use insd_wire::gnss::gsof::{GsofRecord, GsofReport, Page};
 use insd_wire::imu::vectornav::VnMessage;
 use insd_wire::log::ad2cp::Ad2cpBottomTrack;
 use serde_json::{Value, json};
@@ -8,15 +8,15 @@ use serde_json::{Value, json};
 /// The records of a report of one page, each as its type and its fields in their order.
 pub(crate) fn gsof(frame: &[u8]) -> (String, Value) {
     let page = Page::open(frame);
-    match page.and_then(|page| Report::read(&page.records)) {
+    match page.and_then(|page| GsofReport::read(&page.records)) {
         Ok(report) => ("GSOF".to_owned(), report.records.iter().map(record).collect()),
         Err(fault) => ("refused".to_owned(), json!(fault.to_string())),
     }
 }
 
-fn record(record: &Record) -> Value {
+fn record(record: &GsofRecord) -> Value {
     match record {
-        Record::Time(own) => json!([
+        GsofRecord::Time(own) => json!([
             1,
             own.milliseconds,
             own.week,
@@ -25,13 +25,13 @@ fn record(record: &Record) -> Value {
             own.corrected,
             own.initialisation
         ]),
-        Record::Place(own) => json!([2, own.latitude, own.longitude, own.height]),
-        Record::Movement(own) => json!([8, own.flags, own.speed, own.course, own.climb]),
-        Record::Dilutions(own) => {
+        GsofRecord::Place(own) => json!([2, own.latitude, own.longitude, own.height]),
+        GsofRecord::Movement(own) => json!([8, own.flags, own.speed, own.course, own.climb]),
+        GsofRecord::Dilutions(own) => {
             let [p, h, v, t] = own.dilutions;
             json!([9, p, h, v, t])
         }
-        Record::Sigma(own) => {
+        GsofRecord::Sigma(own) => {
             let [major, minor, orientation] = own.ellipse;
             json!([
                 12,
@@ -47,8 +47,8 @@ fn record(record: &Record) -> Value {
                 own.epochs
             ])
         }
-        Record::Now(own) => json!([16, own.milliseconds, own.week, own.utc_offset, own.flags]),
-        Record::Line(own, _) => {
+        GsofRecord::Now(own) => json!([16, own.milliseconds, own.week, own.utc_offset, own.flags]),
+        GsofRecord::Line(own, _) => {
             let [pitch, yaw, roll] = own.angles;
             json!([
                 27,
@@ -63,7 +63,7 @@ fn record(record: &Record) -> Value {
                 own.dilution
             ])
         }
-        Record::Other(kind, _) => json!([kind]),
+        GsofRecord::Other(kind, _) => json!([kind]),
     }
 }
 

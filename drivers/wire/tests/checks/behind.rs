@@ -377,12 +377,12 @@ fn novatel(frame: &[u8]) {
 
 /// The pages of a report are read as if each were one.
 fn gsof(frame: &[u8]) {
-    use gsof::{Page, Pages, Report};
+    use gsof::{GsofReport, Page, Pages};
     let Ok(page) = Page::open(frame) else { return };
     assert_eq!(page.write(), frame);
     make(Pages::default().take(&page));
-    let write = |report: &Report| report.write();
-    let Some(report) = again(&page.records, AfterOnce, Report::read, write) else { return };
+    let write = |report: &GsofReport| report.write();
+    let Some(report) = again(&page.records, AfterOnce, GsofReport::read, write) else { return };
     report.part().iter().chain(&report.heading()).for_each(is_sane_part);
 }
 

@@ -22,8 +22,8 @@ mod record;
 
 pub use frame::{Page, Pages, look};
 pub use record::{
-    AntennaLine, CurrentTime, Dilutions, LineVariances, Movement, Place, PositionSigma,
-    PositionTime, Record,
+    AntennaLine, CurrentTime, Dilutions, GsofRecord, LineVariances, Movement, Place, PositionSigma,
+    PositionTime,
 };
 
 use super::{EpochTime, GnssPart};
@@ -34,12 +34,12 @@ const MILLI: i64 = 1_000_000;
 
 /// A whole report.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct GsofReport {
     /// Its records, in their order.
-    pub records: Vec<Record>,
+    pub records: Vec<GsofRecord>,
 }
 
-impl Report {
+impl GsofReport {
     /// Reads the records of a report.
     ///
     /// # Errors
@@ -50,16 +50,16 @@ impl Report {
             let needed = usize::from(*length);
             let short = Fault::Short { needed, found: rest.len() };
             let (own, behind) = rest.split_at_checked(needed).ok_or(short)?;
-            records.push(Record::read(*kind, own)?);
+            records.push(GsofRecord::read(*kind, own)?);
             bytes = behind;
         }
-        if bytes.is_empty() { Ok(Report { records }) } else { Err(Fault::Frame) }
+        if bytes.is_empty() { Ok(GsofReport { records }) } else { Err(Fault::Frame) }
     }
 
     /// Its records as they stand in a report.
     #[must_use]
     pub fn write(&self) -> Vec<u8> {
-        let record = |record: &Record| {
+        let record = |record: &GsofRecord| {
             let (kind, mut own) = record.write();
             own.truncate(usize::from(u8::MAX));
             [&[kind, own.len() as u8][..], &own].concat()
@@ -70,14 +70,14 @@ impl Report {
     /// Whether any record of it is read.
     #[must_use]
     pub fn is_read(&self) -> bool {
-        self.records.iter().any(|record| !matches!(record, Record::Other(..)))
+        self.records.iter().any(|record| !matches!(record, GsofRecord::Other(..)))
     }
 
     /// What it says of its epoch; nothing without record 1, as it is not known then when that was and whether there is a fix.
     #[must_use]
     pub fn part(&self) -> Option<GnssPart> {
         let time = self.records.iter().find_map(|record| match record {
-            Record::Time(record) => Some(*record),
+            GsofRecord::Time(record) => Some(*record),
             _ => None,
         })?;
         let mut part = GnssPart { kind: "GSOF", ..GnssPart::default() };
@@ -96,7 +96,7 @@ impl Report {
     #[must_use]
     pub fn heading(&self) -> Option<GnssPart> {
         self.records.iter().find_map(|record| {
-            let Record::Line(line, behind) = record else { return None };
+            let GsofRecord::Line(line, behind) = record else { return None };
             let heading = line.heading();
             Some(GnssPart {
                 kind: "GSOF 27",

@@ -126,7 +126,7 @@ layout! {
 
 /// One record.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Record {
+pub enum GsofRecord {
     /// 1.
     Time(PositionTime),
     /// 2.
@@ -145,58 +145,58 @@ pub enum Record {
     Other(u8, Vec<u8>),
 }
 
-impl Record {
+impl GsofRecord {
     pub(super) fn read(kind: u8, bytes: &[u8]) -> Result<Self, crate::binary::Fault> {
         Ok(match kind {
-            1 => Record::Time(PositionTime::read_fields(bytes)?),
-            2 => Record::Place(Place::read_fields(bytes)?),
-            8 => Record::Movement(Movement::read_fields(bytes)?),
-            9 => Record::Dilutions(Dilutions::read_fields(bytes)?),
-            12 => Record::Sigma(PositionSigma::read_fields(bytes)?),
-            16 => Record::Now(CurrentTime::read_fields(bytes)?),
+            1 => GsofRecord::Time(PositionTime::read_fields(bytes)?),
+            2 => GsofRecord::Place(Place::read_fields(bytes)?),
+            8 => GsofRecord::Movement(Movement::read_fields(bytes)?),
+            9 => GsofRecord::Dilutions(Dilutions::read_fields(bytes)?),
+            12 => GsofRecord::Sigma(PositionSigma::read_fields(bytes)?),
+            16 => GsofRecord::Now(CurrentTime::read_fields(bytes)?),
             27 => {
                 let behind = bytes.get(42..).unwrap_or_default();
                 let line = AntennaLine::read_fields(bytes)?;
-                Record::Line(line, LineVariances::read_fields(behind).ok())
+                GsofRecord::Line(line, LineVariances::read_fields(behind).ok())
             }
-            _ => Record::Other(kind, bytes.to_vec()),
+            _ => GsofRecord::Other(kind, bytes.to_vec()),
         })
     }
 
     /// Its type and its bytes.
     pub(super) fn write(&self) -> (u8, Vec<u8>) {
         match self {
-            Record::Time(record) => (1, record.write_fields()),
-            Record::Place(record) => (2, record.write_fields()),
-            Record::Movement(record) => (8, record.write_fields()),
-            Record::Dilutions(record) => (9, record.write_fields()),
-            Record::Sigma(record) => (12, record.write_fields()),
-            Record::Now(record) => (16, record.write_fields()),
-            Record::Line(record, behind) => {
+            GsofRecord::Time(record) => (1, record.write_fields()),
+            GsofRecord::Place(record) => (2, record.write_fields()),
+            GsofRecord::Movement(record) => (8, record.write_fields()),
+            GsofRecord::Dilutions(record) => (9, record.write_fields()),
+            GsofRecord::Sigma(record) => (12, record.write_fields()),
+            GsofRecord::Now(record) => (16, record.write_fields()),
+            GsofRecord::Line(record, behind) => {
                 let behind = behind.map_or_else(Vec::new, |behind| behind.write_fields());
                 (27, [record.write_fields(), behind].concat())
             }
-            Record::Other(kind, bytes) => (*kind, bytes.clone()),
+            GsofRecord::Other(kind, bytes) => (*kind, bytes.clone()),
         }
     }
 
     /// Puts what it says of the report's epoch into what the others say.
     pub(super) fn tell(&self, part: &mut GnssPart) {
         match self {
-            Record::Time(record) => record.tell(part),
-            Record::Place(record) => {
+            GsofRecord::Time(record) => record.tell(part),
+            GsofRecord::Place(record) => {
                 let (latitude, longitude) = (record.latitude, record.longitude);
                 part.position =
                     record.height.map(|height| Geodetic { latitude, longitude, height });
             }
-            Record::Movement(record) => part.velocity = record.velocity(),
-            Record::Dilutions(record) => part.hdop = record.dilutions[1],
-            Record::Sigma(record) => {
+            GsofRecord::Movement(record) => part.velocity = record.velocity(),
+            GsofRecord::Dilutions(record) => part.hdop = record.dilutions[1],
+            GsofRecord::Sigma(record) => {
                 let sigmas = [record.north, record.east, record.up];
                 part.position_std = sigmas.map(|sigma| sigma.filter(|sigma| *sigma > 0.0));
             }
-            Record::Now(record) => part.leap_seconds = record.leap_seconds(),
-            Record::Line(..) | Record::Other(..) => {}
+            GsofRecord::Now(record) => part.leap_seconds = record.leap_seconds(),
+            GsofRecord::Line(..) | GsofRecord::Other(..) => {}
         }
     }
 }
