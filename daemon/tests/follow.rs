@@ -1,6 +1,6 @@
 //! What comes as a stream of JSON, and recordings read by another program.
 
-#![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
+#![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
 
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::Path;
