@@ -201,6 +201,26 @@ fn a_check_for_programs_has_severity_cause_place_value_and_advice() {
 }
 
 #[test]
+fn what_owners_have_is_a_sensor_by_its_kind() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = fs::read_to_string("../systemd/examples/minimal.toml").unwrap();
+    for kind in ["gsof", "vectornav", "vectornav_ins", "ad2cp"] {
+        let port = "kind = \"serial\", device = \"/dev/serial/by-id/usb-";
+        text.push_str(&format!(
+            "[[port]]\nname = \"{kind}\"\ntransport = {{ {port}{kind}\", baud = 921600 }}\n\
+             [[sensor]]\nname = \"{kind}\"\nport = \"{kind}\"\nkind = \"{kind}\"\npriority = 2\n"
+        ));
+    }
+    text.push_str("[[watch]]\nsensor = \"vectornav_ins\"\n");
+    let path = folder.path().join("insd.toml");
+    fs::write(&path, text).unwrap();
+    let mut command = insd();
+    command.arg("check-config").arg(&path);
+    let told = text_of(command);
+    assert!(told.contains("gsof") && told.contains("ad2cp"), "{told}");
+}
+
+#[test]
 fn warnings_end_a_check_only_where_it_is_strict() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("insd.toml");

@@ -394,6 +394,28 @@ pub(crate) const TABLE: &[Mistake] = &[
         Write("point = \"conning\"", "point = \"coning\""),
     ),
     row(
+        "misspelt compass that is to be watched",
+        Error,
+        "unknown-sensor",
+        Add(
+            "[[sensor]]\nname = \"old gyro\"\nport = \"bridge-in\"\nkind = \"compass\"\n[[watch]]\nsensor = \"old giro\"",
+        ),
+    ),
+    row(
+        "receiver that is to be watched as a compass",
+        Error,
+        "unknown-sensor",
+        Add("[[watch]]\nsensor = \"gnss\""),
+    ),
+    row(
+        "watched compass with a limit that everything is beyond",
+        Error,
+        "range",
+        Add(
+            "[[sensor]]\nname = \"gyro\"\nport = \"bridge-in\"\nkind = \"compass\"\n[[watch]]\nsensor = \"gyro\"\nheading_deg = 0.0",
+        ),
+    ),
+    row(
         "misspelt profile",
         Error,
         "unknown-profile",

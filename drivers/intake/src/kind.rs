@@ -20,6 +20,10 @@ pub enum Kind {
     Kvh,
     /// Sensonor STIM300 and 318: IMU.
     Stim,
+    /// VectorNav binary: IMU.
+    Vectornav,
+    /// Attitude of a VectorNav device; its heading is magnetic if it has no INS.
+    VectornavIns,
     /// A GNSS receiver that speaks NMEA 0183.
     NmeaGnss,
     /// A u-blox receiver.
@@ -30,6 +34,8 @@ pub enum Kind {
     Rtcm,
     /// A base station that sends corrections in RTCM 3: MSM4 to MSM7, and 1005 or 1006. It is not on board.
     RtcmBase,
+    /// A Trimble receiver by GSOF: records 1, 2, 8, 9, 12, 16; 27 as a heading.
+    Gsof,
     /// A NovAtel receiver: BESTPOS, BESTVEL, BESTGNSSPOS, BESTGNSSVEL, TIME; HEADING2 and DUALANTENNAHEADING as a heading.
     Novatel,
     /// The IMU of a NovAtel SPAN system: RAWIMUX, RAWIMUSX.
@@ -44,6 +50,8 @@ pub enum Kind {
     Pd6,
     /// A Nortek log: PNORBT6 to 9.
     Nortek,
+    /// A Nortek Signature by its binary bottom track records.
+    Ad2cp,
     /// A compass: HDT, THS; HDG and HDM if `magnetic` is set.
     Compass,
     /// Heading from PSXN,23 with its quality from PSXN,20.
@@ -121,18 +129,26 @@ impl Kind {
             | Kind::Xbus
             | Kind::Kvh
             | Kind::Stim
+            | Kind::Vectornav
             | Kind::NovatelImu
             | Kind::CanImu => Role::Imu,
-            Kind::NmeaGnss | Kind::Ubx | Kind::Sbf | Kind::Novatel | Kind::Rtcm | Kind::N2kGnss => {
-                Role::Gnss
+            Kind::NmeaGnss
+            | Kind::Ubx
+            | Kind::Sbf
+            | Kind::Gsof
+            | Kind::Novatel
+            | Kind::Rtcm
+            | Kind::N2kGnss => Role::Gnss,
+            Kind::NmeaLog | Kind::Pd0 | Kind::Pd6 | Kind::Nortek | Kind::Ad2cp | Kind::N2kLog => {
+                Role::Log
             }
-            Kind::NmeaLog | Kind::Pd0 | Kind::Pd6 | Kind::Nortek | Kind::N2kLog => Role::Log,
             Kind::Compass
             | Kind::Psxn
             | Kind::Pashr
             | Kind::Kmb
             | Kind::Em3000
             | Kind::StdbinIns
+            | Kind::VectornavIns
             | Kind::Psat
             | Kind::Ptnl
             | Kind::Pfec
@@ -159,6 +175,9 @@ impl Kind {
             Kind::Ubx => Protocol::Ubx,
             Kind::Sbf => Protocol::Sbf,
             Kind::Novatel | Kind::NovatelImu | Kind::NovatelIns => Protocol::Novatel,
+            Kind::Vectornav | Kind::VectornavIns => Protocol::VectorNav,
+            Kind::Gsof => Protocol::Gsof,
+            Kind::Ad2cp => Protocol::Ad2cp,
             Kind::Kmb => Protocol::Kmb,
             Kind::Em3000 => Protocol::Em3000,
             Kind::Tss1 => Protocol::Tss1,

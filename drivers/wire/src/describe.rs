@@ -1,8 +1,8 @@
 //! What a frame is called, for whoever looks at a port.
 
-use crate::gnss::{novatel, rtcm, sbf, ubx};
-use crate::imu::{kvh, mip, sbg, stdbin, stim, xbus};
-use crate::log::{pd0, pd6};
+use crate::gnss::{gsof, novatel, rtcm, sbf, ubx};
+use crate::imu::{kvh, mip, sbg, stdbin, stim, vectornav, xbus};
+use crate::log::{ad2cp, pd0, pd6};
 use crate::motion::{em, kmb, tss1};
 use crate::ngt1::NgtFrame;
 use crate::nmea::others::{self, Understood};
@@ -54,6 +54,12 @@ pub fn describe(protocol: Protocol, frame: &[u8]) -> Described {
         Protocol::Em3000 => plain("EM3000", &em::EmAttitude::read(frame)),
         Protocol::Tss1 => plain("TSS1", &tss1::Tss1::read(frame)),
         Protocol::Ngt1 => adapter(frame),
+        Protocol::Gsof => gsof(frame),
+        Protocol::VectorNav => or_other("VectorNav", &vectornav::VnMessage::read(frame)),
+        Protocol::Ad2cp => {
+            let id = frame.get(2).copied().unwrap_or_default();
+            or_other(&format!("AD2CP {id:02X}"), &ad2cp::Ad2cpBottomTrack::read(frame))
+        }
     }
 }
 
@@ -72,6 +78,25 @@ fn adapter(frame: &[u8]) -> Described {
 
 fn plain<T, E>(name: &str, read: &Result<T, E>) -> Described {
     described(name, if read.is_ok() { Reading::Used } else { Reading::Refused })
+}
+
+/// A message of a protocol that has others too.
+fn or_other<T>(name: &str, read: &Result<T, crate::binary::Fault>) -> Described {
+    let other = matches!(read, Err(crate::binary::Fault::OtherMessage));
+    if other { described(name, Reading::Other) } else { plain(name, read) }
+}
+
+/// A report of one page goes by whether its records are read; a page of several is used to put it together.
+fn gsof(frame: &[u8]) -> Described {
+    let Ok(page) = gsof::Page::open(frame) else { return described("GSOF", Reading::Refused) };
+    if page.last > 0 {
+        return described("GSOF", Reading::Used);
+    }
+    match gsof::GsofReport::read(&page.records) {
+        Ok(report) if report.is_read() => described("GSOF", Reading::Used),
+        Ok(_) => described("GSOF", Reading::Other),
+        Err(_) => described("GSOF", Reading::Refused),
+    }
 }
 
 fn nmea(frame: &[u8]) -> Described {

@@ -126,15 +126,22 @@ numbers! {
     f64 fraction |own| own;
 }
 
-/// A number as it stands, its least significant byte first.
+/// A number as it stands.
 #[derive(Clone, Copy)]
 pub(crate) struct Plain<N> {
     number: PhantomData<N>,
+    /// Its most significant byte is first.
+    big: bool,
 }
 
 /// A number, its least significant byte first.
 pub(crate) const fn le<N>() -> Plain<N> {
-    Plain { number: PhantomData }
+    Plain { number: PhantomData, big: false }
+}
+
+/// A number, its most significant byte first.
+pub(crate) const fn be<N>() -> Plain<N> {
+    Plain { number: PhantomData, big: true }
 }
 
 impl<N: Number> Form<N> for Plain<N> {
@@ -143,11 +150,17 @@ impl<N: Number> Form<N> for Plain<N> {
     }
 
     fn read(&self, bytes: &[u8]) -> Result<N, Fault> {
-        N::get(bytes)
+        match bytes.get(..N::SIZE).filter(|_| self.big) {
+            Some(own) => N::get(&own.iter().rev().copied().collect::<Vec<u8>>()),
+            None => N::get(bytes),
+        }
     }
 
     fn write(&self, value: &N, bytes: &mut [u8]) {
         value.put(bytes);
+        if let Some(own) = bytes.get_mut(..N::SIZE).filter(|_| self.big) {
+            own.reverse();
+        }
     }
 }
 
@@ -394,6 +407,8 @@ mod tests {
         12 flag: bool = bit(0);
         /// Another part of the same byte.
         12 part: u8 = bits(4, 3);
+        /// A number whose most significant byte is first.
+        14 turned: u16 = be();
         /// An angle.
         16 angle: f64 = le::<f64>().steps(1.0).within(2.0, "angle");
     }
@@ -405,6 +420,7 @@ mod tests {
         maybe: None,
         flag: true,
         part: 5,
+        turned: 0x5678,
         angle: 1.5,
     };
 
@@ -412,6 +428,7 @@ mod tests {
     fn what_a_table_writes_it_reads_and_bytes_between_its_fields_are_zeros() {
         let bytes = SAMPLE.write_fields();
         assert_eq!(bytes[..14], [0x34, 0x12, 7, 0, 100, 0, 0x38, 0xFF, 50, 0, 0xFF, 0xFF, 0x51, 0]);
+        assert_eq!(bytes[14..16], [0x56, 0x78]);
         assert_eq!(Sample::read_fields(&bytes), Ok(SAMPLE));
         assert_eq!(bytes.len(), 24);
     }

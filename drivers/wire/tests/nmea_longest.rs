@@ -10,10 +10,10 @@ use insd_base::FixQuality;
 use insd_base::units::KNOT;
 use insd_wire::nmea::{
     Acn, Alc, AlertCommand, AlertEntry, AlertId, AlertState, Alf, Arc, CivilTime, Date, Datum, Dtm,
-    Frame, Gbs, Gga, Gll, Gns, Gsa, Gst, Gsv, Hbt, Hcr, Hdg, Hdm, Hdt, HeadingCorrections,
-    HeadingMode, MAX_LEN, MAX_USED, Manufacturer, Pashr, PashrDialect, Position, PositionMode,
-    Psxn, Rmc, Rot, SatelliteInView, Sentence, Talker, Text, Ths, TimeOfDay, Txt, Vbw, VbwStern,
-    VbwVelocity, Vdr, Vhw, Vlw, Vtg, Xdr, XdrMeasurement, Zda, Zone,
+    Frame, Gbs, Gga, Glc, Gll, Gns, Gsa, Gst, Gsv, Hbt, Hcr, Hdg, Hdm, Hdt, HeadingCorrections,
+    HeadingMode, Lcd, LoranSignal, MAX_LEN, MAX_USED, Manufacturer, Pashr, PashrDialect, Position,
+    PositionMode, Psxn, Rmc, Rot, SatelliteInView, Sentence, Talker, Text, Ths, TimeOfDay, Txt,
+    Vbw, VbwStern, VbwVelocity, Vdr, Vhw, Vlw, Vtg, Xdr, XdrMeasurement, Zda, Zone,
 };
 use proptest::prelude::*;
 
@@ -103,10 +103,50 @@ fn worst() -> Ship {
 /// Every approved sentence with these values.
 fn sentences(ship: &Ship) -> Vec<Sentence> {
     let mut all = fixes(ship);
+    all.extend(loran(ship));
     all.extend(receivers(ship));
     all.extend(motion(ship));
     all.extend(texts(ship));
     all
+}
+
+fn loran(ship: &Ship) -> Vec<Sentence> {
+    let age = ship.age;
+    let (loran, signal) = (age.map(|_| 0.099_999_8), Some(LoranSignal::Weak));
+    let interval = age.map(|_| 0.0999);
+    let relative = age.map(|_| 999.0);
+    vec![
+        Sentence::Glc(Glc {
+            interval,
+            master: loran,
+            master_signal: signal,
+            first: loran,
+            first_signal: signal,
+            second: loran,
+            second_signal: signal,
+            third: loran,
+            third_signal: signal,
+            fourth: loran,
+            fourth_signal: signal,
+            fifth: loran,
+            fifth_signal: signal,
+        }),
+        Sentence::Lcd(Lcd {
+            interval,
+            master_snr: relative,
+            master_ecd: relative,
+            first_snr: relative,
+            first_ecd: relative,
+            second_snr: relative,
+            second_ecd: relative,
+            third_snr: relative,
+            third_ecd: relative,
+            fourth_snr: relative,
+            fourth_ecd: relative,
+            fifth_snr: relative,
+            fifth_ecd: relative,
+        }),
+    ]
 }
 
 fn fixes(ship: &Ship) -> Vec<Sentence> {

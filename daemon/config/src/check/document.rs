@@ -96,7 +96,7 @@ impl<'a> Document<'a> {
         let Some(name) = &place.name else { return Some(vec![bare]) };
         let is_named = |value: &Spanned<DeValue<'_>>| {
             let DeValue::Table(table) = value.get_ref() else { return false };
-            ["name", "port"].iter().any(|key| {
+            ["name", "port", "sensor"].iter().any(|key| {
                 member(table, key).and_then(|(_, own)| own.get_ref().as_str()) == Some(name)
             })
         };

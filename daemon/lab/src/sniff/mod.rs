@@ -6,6 +6,7 @@
 
 mod advice;
 pub mod bus;
+mod follow;
 mod message;
 mod named;
 mod plan;
@@ -25,6 +26,7 @@ use std::collections::BTreeMap;
 use insd_base::{Arrival, Input, PortId, Time};
 use insd_wire::stream::Protocol;
 
+pub use follow::Follower;
 pub use named::is_proof;
 pub use plan::{PortToHear, SuggestedTransport};
 use port::Port;

@@ -1,9 +1,9 @@
 //! What a frame is called on the wire, who sent it, and why it is refused.
 
 use insd_wire::describe::{Reading, describe};
-use insd_wire::gnss::{novatel, sbf, ubx};
-use insd_wire::imu::{kvh, mip, sbg, stdbin, stim, xbus};
-use insd_wire::log::{pd0, pd6};
+use insd_wire::gnss::{gsof, novatel, sbf, ubx};
+use insd_wire::imu::{kvh, mip, sbg, stdbin, stim, vectornav, xbus};
+use insd_wire::log::{ad2cp, pd0, pd6};
 use insd_wire::motion::{em, kmb, tss1};
 use insd_wire::ngt1::NgtFrame;
 use insd_wire::nmea::others::{self, Understood};
@@ -127,6 +127,11 @@ fn fault(protocol: Protocol, frame: &[u8]) -> Option<String> {
         Protocol::Em3000 => told(em::EmAttitude::read(frame)),
         Protocol::Tss1 => told(tss1::Tss1::read(frame)),
         Protocol::Ngt1 => told(NgtFrame::read(frame)),
+        Protocol::Gsof => {
+            told(gsof::Page::open(frame).and_then(|page| gsof::GsofReport::read(&page.records)))
+        }
+        Protocol::VectorNav => told(vectornav::VnMessage::read(frame)),
+        Protocol::Ad2cp => told(ad2cp::Ad2cpBottomTrack::read(frame)),
     }
 }
 

@@ -119,22 +119,32 @@ impl Port {
             Input::Can(frame) => {
                 self.speaks(stamp);
                 self.bus.frame(stamp, frame);
-                show(&Seen { port: &self.plan.name, stamp: *stamp, what: SeenWhat::Can(*frame) });
+                show(&Seen {
+                    port: &self.plan.name,
+                    timed: self.plan.timed,
+                    stamp: *stamp,
+                    what: SeenWhat::Can(*frame),
+                });
             }
             Input::Bus(event) => {
                 self.bus.event(*event);
-                show(&Seen { port: &self.plan.name, stamp: *stamp, what: SeenWhat::Bus(*event) });
+                show(&Seen {
+                    port: &self.plan.name,
+                    timed: self.plan.timed,
+                    stamp: *stamp,
+                    what: SeenWhat::Bus(*event),
+                });
             }
             Input::Pulse(pulse) => {
                 self.speaks(stamp);
                 self.pulses = Some(Pulses::with(self.pulses.take(), stamp, pulse));
                 let what = SeenWhat::Pulse { sequence: pulse.sequence };
-                show(&Seen { port: &self.plan.name, stamp: *stamp, what });
+                show(&Seen { port: &self.plan.name, timed: self.plan.timed, stamp: *stamp, what });
             }
             Input::State(state) => {
                 self.state(stamp, state, show);
                 let what = SeenWhat::State(state);
-                show(&Seen { port: &self.plan.name, stamp: *stamp, what });
+                show(&Seen { port: &self.plan.name, timed: self.plan.timed, stamp: *stamp, what });
             }
             Input::Tick | Input::Order(_) | Input::Storage(_) => {}
         }
@@ -156,12 +166,12 @@ impl Port {
         self.tail.extend_from_slice(bytes.get(from..).unwrap_or_default());
         let excess = self.tail.len().saturating_sub(TAIL);
         self.tail.drain(..excess);
-        let (kinds, name) = (&mut self.kinds, &self.plan.name);
-        self.intake.take(stamp, bytes, |frame| kinds.frame(name, stamp, frame, show));
+        let (kinds, plan) = (&mut self.kinds, &self.plan);
+        self.intake.take(stamp, bytes, |frame| kinds.frame(plan, stamp, frame, show));
         let stray = self.counts().skipped;
         if stray > self.stray_told {
             let what = SeenWhat::Stray { count: stray - self.stray_told, bytes };
-            show(&Seen { port: &self.plan.name, stamp: *stamp, what });
+            show(&Seen { port: &self.plan.name, timed: self.plan.timed, stamp: *stamp, what });
             self.stray_told = stray;
         }
     }
@@ -191,8 +201,8 @@ impl Port {
     }
 
     fn interrupt(&mut self, stamp: &Stamp, show: &mut impl FnMut(&Seen<'_>)) {
-        let (kinds, name) = (&mut self.kinds, &self.plan.name);
-        self.intake.interrupt(stamp, |frame| kinds.frame(name, stamp, frame, show));
+        let (kinds, plan) = (&mut self.kinds, &self.plan);
+        self.intake.interrupt(stamp, |frame| kinds.frame(plan, stamp, frame, show));
     }
 
     /// Goes on with another link, if it is another one.
@@ -273,7 +283,7 @@ impl Port {
 impl Kinds {
     fn frame(
         &mut self,
-        port: &str,
+        plan: &PortToHear,
         stamp: &Stamp,
         frame: &Frame<'_>,
         show: &mut impl FnMut(&Seen<'_>),
@@ -298,7 +308,8 @@ impl Kinds {
             bytes: frame.bytes,
         };
         let system = stamp.system.plus(frame.ended - stamp.monotonic);
-        show(&Seen { port, stamp: Stamp { monotonic: frame.ended, system }, what });
+        let stamp = Stamp { monotonic: frame.ended, system };
+        show(&Seen { port: &plan.name, timed: plan.timed, stamp, what });
     }
 
     /// The message of this name, made known if there is room.

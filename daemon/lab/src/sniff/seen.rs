@@ -9,6 +9,8 @@ use insd_wire::stream::Protocol;
 pub struct Seen<'a> {
     /// Name of its port.
     pub port: &'a str,
+    /// Whether the clocks at its receipt mean anything: not those of a file, which is read as fast as can be.
+    pub timed: bool,
     /// The clocks at its receipt: of a frame, when its last byte came.
     pub stamp: Stamp,
     /// What it is.

@@ -125,7 +125,11 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         imu(port, Protocol::Stim, "stim", |name| name != "STIM configuration").map(|sensor| {
             sensor.note("unless the unit sends its configuration, check [sensor.stim]")
         }),
+        imu(port, Protocol::VectorNav, "vectornav", |_| true)
+            .map(|own| own.note("as a compass and not as an IMU: kind = \"vectornav_ins\"")),
         ublox(port),
+        plain_sensor(port, Protocol::Gsof, "gsof", "gnss", "")
+            .map(|own| own.note("records 1, 2, 8 and 12 must be among what it sends")),
         plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF 4007")
             .or_else(|| plain_sensor(port, Protocol::Sbf, "sbf", "gnss", "SBF 4006"))
             .or_else(|| raw_only(port, Protocol::Sbf, "sbf", "SBF 4027"))
@@ -148,11 +152,7 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         None => {}
     }
     sensors.extend(loran(port));
-    sensors.extend(sentences(port, "nmea_log", "log", &["VBW", "VHW"]));
-    sensors
-        .extend(own(port, "nortek", "log", "PNORBT").map(|sensor| {
-            sensor.note("x forward, y to starboard, z down; else tell its mounting")
-        }));
+    sensors.extend(logs(port).into_iter().flatten());
     sensors.extend(compasses(port));
     sensors.extend(own(port, "psxn", "psxn", "PSXN"));
     sensors.extend(own(port, "psat", "psat", "PSAT"));
@@ -170,6 +170,19 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         sensor.note("dialect must be stated: sbg, sbg_wassp, ixblue, novatel, trimble or applanix")
     }));
     sensors
+}
+
+/// Logs by sentences and by records.
+fn logs(port: &PortReport) -> [Option<Sensor>; 3] {
+    [
+        sentences(port, "nmea_log", "log", &["VBW", "VHW"]),
+        own(port, "nortek", "log", "PNORBT")
+            .map(|sensor| sensor.note("x forward, y to starboard, z down; else tell its mounting")),
+        plain_sensor(port, Protocol::Ad2cp, "ad2cp", "log", "AD2CP 17").map(|sensor| {
+            sensor
+                .note("it must tell XYZ; x forward, y to starboard, z down; else tell its mounting")
+        }),
+    ]
 }
 
 /// Motion sensors by their telegrams.

@@ -354,6 +354,11 @@ fn what_owners_have_is_suggested_by_its_kind() {
     let oem = std::fs::read("../../fuzz/corpus/novatel/published.novatel").unwrap();
     let kinds: Vec<Kind> = of(&oem).into_iter().map(|(kind, _)| kind).collect();
     assert_eq!(kinds, [Kind::Novatel, Kind::NovatelImu, Kind::NovatelIns]);
+    let seed = |name: &str| std::fs::read(format!("../../fuzz/corpus/{name}")).unwrap();
+    let kinds = |name: &str| of(&seed(name)).into_iter().map(|own| own.0).collect::<Vec<_>>();
+    assert_eq!(kinds("gsof/published.gsof"), [Kind::Gsof]);
+    assert_eq!(kinds("vectornav/published.vectornav"), [Kind::Vectornav]);
+    assert_eq!(kinds("ad2cp/recorded.ad2cp"), [Kind::Ad2cp]);
     let kmb = std::fs::read("../../fuzz/corpus/kmb/telegrams.kmb").unwrap();
     assert_eq!(of(&kmb[..132]), [(Kind::Kmb, Vec::new())]);
 }

@@ -163,6 +163,11 @@ fn path(text: &str) -> Result<Address, String> {
     if text.is_empty() {
         return Err("expected a device, a file or an address".to_owned());
     }
+    if text == "-" {
+        let file = Transport::File(File { path: PathBuf::from("/dev/stdin") });
+        let plan = PortToHear { name: "-".to_owned(), timed: true, transport: None };
+        return Ok(Address { plan, source: Source::Port(Box::new(PortConfig::new(file))) });
+    }
     let whole = Path::new(text);
     let (path, rate) = match text.rsplit_once(',') {
         Some((path, rate)) if !whole.exists() => (Path::new(path), Some(baud(rate)?)),

@@ -33,13 +33,13 @@ pub(super) fn read(
     format: BusFile,
     plan: &PortToHear,
     protocols: &[Protocol],
-    show: bool,
+    form: frames::Form,
 ) -> anyhow::Result<SniffReport> {
     let stamp = Stamp { monotonic: Time::START, system: UtcTime::from_nanos(0) };
     let mut sniffed = Sniffed::new(protocols);
     sniffed.announce(PORT, plan.clone());
     sniffed.note(PORT, format.advice());
-    let mut shown = frames::Printer::new(show);
+    let mut shown = frames::Printer::new(form);
     if let Some(mut frames) = Frames::of(format) {
         let file = File::open(path).with_context(|| path.display().to_string())?;
         let (mut lines, mut line) = (BufReader::new(file), Vec::new());

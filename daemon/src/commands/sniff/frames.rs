@@ -1,11 +1,11 @@
-//! `--raw`: each frame as it comes.
+//! `--raw` and `--follow`: each frame as it comes, as text or as an object of JSON.
 
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
 
 use insd_base::UtcTime;
 use insd_lab::sniff::text::printable;
-use insd_lab::sniff::{Seen, SeenWhat};
+use insd_lab::sniff::{Follower, Seen, SeenWhat};
 use insd_wire::describe::Reading;
 
 /// Bytes of one line of a dump.
@@ -14,24 +14,42 @@ const ROW: usize = 16;
 /// Bytes of one frame that are printed.
 const MOST: usize = 1024;
 
+/// In which form what is seen is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    /// Not at all.
+    Nothing,
+    /// As text.
+    Text,
+    /// As objects of JSON, one a line.
+    Json,
+}
+
 /// Prints what is seen, until that fails.
 #[derive(Debug)]
 pub(super) struct Printer {
-    on: bool,
+    form: Form,
+    follower: Follower,
     failed: Option<io::Error>,
 }
 
 impl Printer {
-    /// A printer that prints, or does nothing.
-    pub(super) fn new(on: bool) -> Self {
-        Printer { on, failed: None }
+    /// A printer that prints in a form.
+    pub(super) fn new(form: Form) -> Self {
+        Printer { form, follower: Follower::default(), failed: None }
     }
 
     /// Prints it.
     pub(super) fn show(&mut self, seen: &Seen<'_>) {
-        if self.on && self.failed.is_none() {
-            self.failed = io::stdout().lock().write_all(lines(seen).as_bytes()).err();
+        if self.failed.is_some() {
+            return;
         }
+        let text = match self.form {
+            Form::Nothing => return,
+            Form::Text => lines(seen),
+            Form::Json => format!("{}\n", self.follower.object(seen)),
+        };
+        self.failed = io::stdout().lock().write_all(text.as_bytes()).err();
     }
 
     /// Whether its reader has seen enough.
@@ -125,7 +143,7 @@ mod tests {
             monotonic: Time::from_seconds(1.5),
             system: UtcTime::from_nanos(3_723_500_000_000),
         };
-        lines(&Seen { port: "gnss", stamp, what })
+        lines(&Seen { port: "gnss", timed: true, stamp, what })
     }
 
     #[test]

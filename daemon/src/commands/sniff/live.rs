@@ -45,8 +45,8 @@ pub(super) struct Style {
     pub(super) seconds: f64,
     /// The report is redrawn once a second.
     pub(super) redraw: bool,
-    /// Each frame is printed.
-    pub(super) frames: bool,
+    /// In which form each frame is printed.
+    pub(super) frames: frames::Form,
     /// Devices of CAN buses are asked who they are.
     pub(super) ask: bool,
 }

@@ -28,9 +28,9 @@ pub struct SniffArgs {
     #[arg(value_name = "PORT", required = true, value_parser = parse)]
     pub ports: Vec<Address>,
 
-    /// Listen for so long, once the ports are open; 0 until Ctrl-C
-    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = seconds)]
-    pub seconds: f64,
+    /// Listen for so long, once the ports are open; 0 until Ctrl-C [default: 10; with --follow 0]
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub seconds: Option<f64>,
 
     /// Only one report at the end, in a terminal too
     #[arg(long)]
@@ -39,6 +39,10 @@ pub struct SniffArgs {
     /// The report as JSON
     #[arg(long)]
     pub json: bool,
+
+    /// Instead of a report what comes, decoded, an object of JSON a line (docs/sniff.md)
+    #[arg(long, requires = "json")]
+    pub follow: bool,
 
     /// Look for this protocol only; may be given several times
     #[arg(long, value_name = "NAME", value_parser = protocol)]
@@ -53,6 +57,22 @@ pub struct SniffArgs {
     pub raw: bool,
 }
 
+impl SniffArgs {
+    /// For how long is listened, s; zero without end.
+    fn listening(&self) -> f64 {
+        self.seconds.unwrap_or(if self.follow { 0.0 } else { 10.0 })
+    }
+
+    /// In which form what comes is printed at once.
+    fn form(&self) -> frames::Form {
+        match (self.follow, self.raw) {
+            (true, _) => frames::Form::Json,
+            (false, true) => frames::Form::Text,
+            (false, false) => frames::Form::Nothing,
+        }
+    }
+}
+
 const PORTS: &str = "\
 PORT is one of
   /dev/ttyUSB0,115200          a serial line and its baud rate (8 bits, no parity)
@@ -64,6 +84,7 @@ PORT is one of
   can0                         a CAN bus: devices by NAME, product and messages
   can+tcp://FORMAT@HOST:PORT   a CAN gateway that speaks text: candump, ydwg, actisense,
   can+udp://FORMAT@ADDR:PORT   canboat-plain
+  -                            standard input, to its end
   capture.log                  a named pipe, or a file: what a device has said, a log of candump,
                                of canboat, of a gateway of NMEA 2000
   voyage.insdraw               a raw recording, or a folder with one
@@ -80,6 +101,7 @@ Exit status
 /// nothing comes that insd reads, is part of the report, and an error behind it.
 pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
     let protocols = if args.protocol.is_empty() { &Protocol::ALL[..] } else { &args.protocol[..] };
+    let form = args.form();
     let mut ports = Vec::new();
     let mut report = SniffReport { ports: Vec::new() };
     let mut mutes = Vec::new();
@@ -91,12 +113,12 @@ pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
                 search_s: address.search_s(),
             }),
             Source::Captured(path, format) => {
-                let read = captured::read(path, *format, &address.plan, protocols, args.raw)?;
+                let read = captured::read(path, *format, &address.plan, protocols, form)?;
                 mutes.extend(mute(&address.plan.name, &read.ports));
                 report.ports.extend(read.ports);
             }
             Source::Recording(path) => {
-                let read = recorded::read(path, &address.plan.name, protocols, args.raw)?;
+                let read = recorded::read(path, &address.plan.name, protocols, form)?;
                 mutes.extend(mute(&address.plan.name, &read.ports));
                 report.ports.extend(read.ports);
             }
@@ -105,12 +127,14 @@ pub fn run(args: &SniffArgs) -> anyhow::Result<()> {
     if !ports.is_empty() {
         let is_live = !(args.once || args.json || args.raw) && io::stdout().is_terminal();
         let style =
-            live::Style { seconds: args.seconds, redraw: is_live, frames: args.raw, ask: args.ask };
+            live::Style { seconds: args.listening(), redraw: is_live, frames: form, ask: args.ask };
         let heard = live::listen(ports, protocols, style)?.ports;
         mutes.extend(heard.iter().filter_map(|port| mute(&port.name, std::slice::from_ref(port))));
         report.ports.extend(heard);
     }
-    let text = if args.json {
+    let text = if args.follow {
+        String::new()
+    } else if args.json {
         serde_json::to_string_pretty(&report)? + "\n"
     } else if args.raw {
         format!("\n{}", text::report(&report))

@@ -16,7 +16,7 @@ pub(super) fn read(
     path: &Path,
     name: &str,
     protocols: &[Protocol],
-    show: bool,
+    form: frames::Form,
 ) -> anyhow::Result<SniffReport> {
     let reader = RawReader::open(path).map_err(|fault| BadInput(fault.to_string()))?;
     let mut sniffed = Sniffed::new(protocols);
@@ -25,7 +25,7 @@ pub(super) fn read(
         let plan = PortToHear { name: format!("{name}: {port}"), timed: true, transport: None };
         sniffed.announce(PortId(id), plan);
     }
-    let mut shown = frames::Printer::new(show);
+    let mut shown = frames::Printer::new(form);
     for arrival in reader {
         match arrival {
             Ok(arrival) => {

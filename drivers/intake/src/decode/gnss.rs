@@ -1,5 +1,6 @@
 //! GNSS receivers.
 
+use insd_wire::gnss::gsof::{GsofReport, Page, Pages};
 use insd_wire::gnss::{nmea as sentences, novatel as oem, sbf as septentrio, ubx as ublox};
 use insd_wire::nmea::Sentence;
 use insd_wire::stream::Protocol;
@@ -24,6 +25,15 @@ pub(super) fn sbf(bytes: &[u8], raw: RawUse) -> Result<Vec<Reading>, Refusal> {
     let is_epoch = matches!(message, septentrio::Message::MeasEpoch(_));
     let told = raw_reading(raw, is_epoch, || RawReading::of_sbf(&message));
     Ok(or_idle(part.into_iter().chain(pulse).chain(told).collect()))
+}
+
+/// A report, once all its pages have come.
+pub(super) fn gsof(pages: &mut Pages, bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {
+    let page = Page::open(bytes).map_err(|_| Refusal::Malformed)?;
+    let Some(records) = pages.take(&page) else { return Ok(vec![Reading::Idle]) };
+    let report = GsofReport::read(&records).map_err(|_| Refusal::Malformed)?;
+    let parts = report.part().into_iter().chain(report.heading());
+    Ok(or_idle(parts.map(Reading::Gnss).collect()))
 }
 
 /// A place of the receiver's own inertial filter is not one by satellites, and is left out.

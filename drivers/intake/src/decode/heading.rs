@@ -1,8 +1,10 @@
 //! Headings from compasses and other attitude sensors.
 
 use insd_base::units::{wrap_pi, wrap_two_pi};
+use insd_wire::binary::Fault;
 use insd_wire::gnss::novatel as oem;
 use insd_wire::imu::stdbin::Telegram;
+use insd_wire::imu::vectornav::VnMessage;
 use insd_wire::motion::em::{EmAttitude, EmStatus};
 use insd_wire::motion::kmb::Kmb;
 use insd_wire::motion::tss1::Tss1;
@@ -118,6 +120,22 @@ pub(super) fn stdbin(bytes: &[u8], config: &SensorConfig) -> Result<Vec<Reading>
         .map(|at| Position { latitude: at.latitude, longitude: wrap_pi(at.longitude) });
     readings.extend(place.map(|place| Reading::Place(Some(place))));
     Ok(readings)
+}
+
+/// Heading and tilt of a VectorNav device. One without an INS has north from its magnetometers.
+pub(super) fn vectornav(bytes: &[u8], config: &SensorConfig) -> Result<Vec<Reading>, Refusal> {
+    let message = match VnMessage::read(bytes) {
+        Err(Fault::OtherMessage) => return Ok(vec![Reading::Idle]),
+        read => read.map_err(|_| Refusal::Malformed)?,
+    };
+    let Some([yaw, pitch, roll]) = message.attitude else { return Ok(vec![Reading::Idle]) };
+    let finite = |angle: f64| Some(angle).filter(|angle| angle.is_finite());
+    let std = message.attitude_std.map(|[yaw, ..]| yaw).filter(|std| *std > 0.0);
+    let reading = match message.ins_status {
+        Some(_) => told(message.true_heading(), North::True, true),
+        None => told(finite(yaw), North::Magnetic, true),
+    };
+    with_tilt(HeadingReading { std, ..reading }, (finite(roll), finite(pitch)), config)
 }
 
 /// Tilt of TSS1. A sensor that has not settled stands behind none.

@@ -1,10 +1,12 @@
 //! IMUs.
 
 use insd_base::Span;
+use insd_wire::binary::Fault;
 use insd_wire::gnss::novatel;
 use insd_wire::imu::kvh::{KvhFormat, KvhMessage};
 use insd_wire::imu::sbg::TimeReference;
 use insd_wire::imu::stim::{StimConfiguration, StimDatagram, StimFormat};
+use insd_wire::imu::vectornav::VnMessage;
 use insd_wire::imu::{ImuReading, mip, sbg, stdbin, xbus};
 
 use super::reading::Reading;
@@ -36,6 +38,10 @@ impl ImuState {
             Kind::Stdbin => stdbin::Telegram::read(bytes).map_err(malformed)?.reading(),
             Kind::Mip => mip::Packet::read(bytes).map_err(malformed)?.reading(),
             Kind::Xbus => xbus::MtData2::read(bytes).map_err(malformed)?.reading(),
+            Kind::Vectornav => match VnMessage::read(bytes) {
+                Err(Fault::OtherMessage) => None,
+                read => read.map_err(malformed)?.reading(),
+            },
             Kind::NovatelImu => novatel::OemLog::read(bytes).map_err(malformed)?.imu(),
             Kind::Kvh => Some(KvhMessage::read(bytes).map_err(malformed)?.reading(&self.kvh)),
             _ => self.stim(bytes)?,

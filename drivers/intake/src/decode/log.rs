@@ -2,6 +2,8 @@
 
 use insd_base::units::wrap_two_pi;
 use insd_base::{Attitude, LogReference, UtcTime};
+use insd_wire::binary::Fault;
+use insd_wire::log::ad2cp::Ad2cpBottomTrack;
 use insd_wire::log::pd0::{Ensemble, Geometry};
 use insd_wire::log::pd6::Pd6;
 use insd_wire::log::{LogFrame, LogReading};
@@ -62,6 +64,18 @@ impl LogState {
             readings.push(invalid(LogReference::Bottom));
         }
         Ok(if readings.is_empty() { vec![Reading::Idle] } else { readings })
+    }
+
+    /// Records of other kinds say nothing.
+    pub(super) fn ad2cp(&mut self, bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {
+        let track = match Ad2cpBottomTrack::read(bytes) {
+            Err(Fault::OtherMessage) => return Ok(vec![Reading::Idle]),
+            read => read.map_err(|_| Refusal::Malformed)?,
+        };
+        match track.reading() {
+            Some(reading) => self.reading(&reading, None).map(|reading| vec![reading]),
+            None => Ok(vec![invalid(LogReference::Bottom)]),
+        }
     }
 
     pub(super) fn pd6(&mut self, bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {

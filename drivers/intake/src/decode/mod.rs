@@ -10,6 +10,7 @@ mod reading;
 use insd_base::Time;
 use insd_base::can::CanFrame;
 use insd_n2k::Message;
+use insd_wire::gnss::gsof::Pages;
 use insd_wire::imu::can::{CanImu, CanPart};
 use insd_wire::nmea::{ChecksumPolicy, Frame as NmeaFrame, Pinsd, Rls, Sentence};
 
@@ -27,6 +28,8 @@ pub struct Decoder {
     imu: imu::ImuState,
     log: log::LogState,
     heading: heading::HeadingState,
+    /// Pages of a report of GSOF that is not complete.
+    pages: Pages,
     n2k: n2k::N2kState,
     can: Option<CanImu>,
 }
@@ -40,6 +43,7 @@ impl Decoder {
             imu: imu::ImuState::new(config),
             log: log::LogState::new(config.kind, &config.mounting, config.velocity_std_mps),
             heading: heading::HeadingState::default(),
+            pages: Pages::default(),
             n2k: n2k::N2kState::default(),
             can: config
                 .layout
@@ -61,21 +65,25 @@ impl Decoder {
             | Kind::Xbus
             | Kind::Kvh
             | Kind::Stim
+            | Kind::Vectornav
             | Kind::NovatelImu => {
                 self.imu.read(self.config.kind, bytes).map(|reading| vec![reading])
             }
             Kind::Ubx => gnss::ubx(bytes, self.config.raw),
             Kind::Sbf => gnss::sbf(bytes, self.config.raw),
+            Kind::Gsof => gnss::gsof(&mut self.pages, bytes),
             Kind::Novatel => gnss::novatel(bytes),
             Kind::NovatelIns => heading::novatel(bytes, &self.config),
             Kind::Kmb => heading::kmb(bytes, &self.config),
             Kind::Em3000 => heading::em(bytes, &self.config),
             Kind::Tss1 => heading::tss1(bytes),
             Kind::StdbinIns => heading::stdbin(bytes, &self.config),
+            Kind::VectornavIns => heading::vectornav(bytes, &self.config),
             Kind::Rtcm => Ok(gnss::rtcm(bytes)),
             Kind::RtcmBase => Ok(vec![Reading::Base(bytes.to_vec())]),
             Kind::Pd0 => self.log.pd0(bytes),
             Kind::Pd6 => self.log.pd6(bytes),
+            Kind::Ad2cp => self.log.ad2cp(bytes),
             _ => self.read_sentence(bytes),
         }
     }

@@ -29,7 +29,7 @@ use insd_intake::{Intake, Intaken};
 use insd_wire::stream::Protocol;
 
 /// All kinds of sensors.
-const KINDS: [Kind; 33] = [
+const KINDS: [Kind; 37] = [
     Kind::Sbg,
     Kind::Stdbin,
     Kind::Mip,
@@ -59,6 +59,10 @@ const KINDS: [Kind; 33] = [
     Kind::Em3000,
     Kind::Tss1,
     Kind::StdbinIns,
+    Kind::Gsof,
+    Kind::Vectornav,
+    Kind::VectornavIns,
+    Kind::Ad2cp,
     Kind::N2kGnss,
     Kind::N2kHeading,
     Kind::N2kLog,

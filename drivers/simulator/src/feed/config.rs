@@ -40,6 +40,10 @@ impl Encoding {
             Kind::Psxn => Encoding::Psxn,
             Kind::Pashr => Encoding::Pashr,
             Kind::Rtcm
+            | Kind::Gsof
+            | Kind::Vectornav
+            | Kind::VectornavIns
+            | Kind::Ad2cp
             | Kind::Novatel
             | Kind::NovatelImu
             | Kind::NovatelIns

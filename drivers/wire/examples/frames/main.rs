@@ -3,6 +3,7 @@
 //! SI units and radians under the names that the makers' documents give the fields.
 
 mod novatel;
+mod owners;
 mod sbf;
 mod ubx;
 
@@ -61,6 +62,9 @@ fn line(file: &str, way: &str, cut: &Cut<'_>) -> Value {
         Protocol::Ubx => ubx::describe(cut.bytes),
         Protocol::Sbf => sbf::describe(cut.bytes),
         Protocol::Novatel => novatel::describe(cut.bytes),
+        Protocol::Gsof => owners::gsof(cut.bytes),
+        Protocol::VectorNav => owners::vectornav(cut.bytes),
+        Protocol::Ad2cp => owners::ad2cp(cut.bytes),
         Protocol::Rtcm => {
             let number = rtcm::Frame::open(cut.bytes).ok().and_then(|frame| frame.number());
             (number.map_or_else(|| "filler".to_owned(), |number| number.to_string()), Value::Null)

@@ -4,6 +4,7 @@
 //! and its covariances). Each becomes a [`GnssPart`]; whoever puts an epoch together knows by
 //! [`GnssPart::epoch`] which belong to each other.
 
+pub mod gsof;
 pub mod navigation;
 pub mod novatel;
 pub mod rtcm;

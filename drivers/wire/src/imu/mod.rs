@@ -10,6 +10,7 @@ pub mod rotation;
 pub mod sbg;
 pub mod stdbin;
 pub mod stim;
+pub mod vectornav;
 pub mod xbus;
 
 use insd_base::UtcTime;

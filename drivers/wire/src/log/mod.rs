@@ -1,5 +1,6 @@
 //! Doppler and electromagnetic logs with formats of their own (those that speak NMEA are there).
 
+pub mod ad2cp;
 pub mod pd0;
 pub mod pd6;
 

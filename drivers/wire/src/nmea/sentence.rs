@@ -4,7 +4,7 @@ use super::fault::Fault;
 use super::frame::Frame;
 use super::line::{Line, Talker};
 use super::{
-    Acn, Alc, Alf, Arc, Dtm, Gbs, Gga, Gll, Gns, Gsa, Gst, Gsv, Hbt, Hcr, Hdg, Hdm, Hdt,
+    Acn, Alc, Alf, Arc, Dtm, Gbs, Gga, Glc, Gll, Gns, Gsa, Gst, Gsv, Hbt, Hcr, Hdg, Hdm, Hdt, Lcd,
     NortekBeam, NortekBottomTrack, NortekGroundSpeed, Pashr, Pinsd, Psxn, Rls, Rmc, Rot, Ths, Txt,
     Vbw, Vdr, Vhw, Vlw, Vtg, Xdr, Zda,
 };
@@ -77,6 +77,8 @@ sentences! {
         Gbs,
         /// Position fix.
         Gga,
+        /// Time differences of Loran.
+        Glc,
         /// Geographic position.
         Gll,
         /// Position fix of several systems.
@@ -97,6 +99,8 @@ sentences! {
         Hdm,
         /// Heading.
         Hdt,
+        /// Signals of Loran.
+        Lcd,
         /// Recommended minimum.
         Rmc,
         /// Rate of turn.

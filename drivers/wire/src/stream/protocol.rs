@@ -1,9 +1,9 @@
 //! The protocols that a port can speak.
 
 use super::Look;
-use crate::gnss::{novatel, rtcm, sbf, ubx};
-use crate::imu::{kvh, mip, sbg, stdbin, stim, xbus};
-use crate::log::{pd0, pd6};
+use crate::gnss::{gsof, novatel, rtcm, sbf, ubx};
+use crate::imu::{kvh, mip, sbg, stdbin, stim, vectornav, xbus};
+use crate::log::{ad2cp, pd0, pd6};
 use crate::motion::{em, kmb, tss1};
 use crate::{ngt1, nmea};
 
@@ -44,11 +44,17 @@ pub enum Protocol {
     Tss1,
     /// Binary messages of Actisense's adapters to NMEA 2000.
     Ngt1,
+    /// Reports of Trimble receivers.
+    Gsof,
+    /// Binary messages of VectorNav.
+    VectorNav,
+    /// Records of Nortek's AD2CP instruments.
+    Ad2cp,
 }
 
 impl Protocol {
     /// Those that can be told from one another in one stream, in the order in which they are asked.
-    pub const ALL: [Protocol; 16] = [
+    pub const ALL: [Protocol; 19] = [
         Protocol::Nmea,
         Protocol::Ubx,
         Protocol::Sbf,
@@ -65,6 +71,9 @@ impl Protocol {
         Protocol::Kmb,
         Protocol::Tss1,
         Protocol::Ngt1,
+        Protocol::VectorNav,
+        Protocol::Ad2cp,
+        Protocol::Gsof,
     ];
 
     /// Those that are sought only where somebody says that they are spoken: a telegram of EM3000 has no checksum, and may stand at the
@@ -92,6 +101,9 @@ impl Protocol {
             Protocol::Em3000 => "em3000",
             Protocol::Tss1 => "tss1",
             Protocol::Ngt1 => "ngt1",
+            Protocol::Gsof => "gsof",
+            Protocol::VectorNav => "vectornav",
+            Protocol::Ad2cp => "ad2cp",
         }
     }
 
@@ -116,6 +128,9 @@ impl Protocol {
             Protocol::Em3000 => em::look(bytes),
             Protocol::Tss1 => tss1::look(bytes),
             Protocol::Ngt1 => ngt1::look(bytes),
+            Protocol::Gsof => gsof::look(bytes),
+            Protocol::VectorNav => vectornav::look(bytes),
+            Protocol::Ad2cp => ad2cp::look(bytes),
         }
     }
 

@@ -7,12 +7,13 @@ use insd_base::satellites::SatelliteEpoch;
 use insd_base::{GpsTime, LogReference};
 use insd_wire::gnss::navigation::NavigationAssembler;
 use insd_wire::gnss::{
-    GnssPart, Locks, NavigationWords, nmea as gnss_nmea, novatel, rtcm, sbf, ubx,
+    GnssPart, Locks, NavigationWords, gsof, nmea as gnss_nmea, novatel, rtcm, sbf, ubx,
 };
 use insd_wire::imu::kvh::{KvhFormat, KvhLinear, KvhMessage, KvhRotation, KvhTemperature};
 use insd_wire::imu::stim::{StimConfiguration, StimDatagram, StimFormat, StimKind, StimRange};
+use insd_wire::imu::vectornav::VnMessage;
 use insd_wire::imu::{ImuReading, mip, sbg, stdbin, xbus};
-use insd_wire::log::{LogReading, pd0, pd6};
+use insd_wire::log::{LogReading, ad2cp, pd0, pd6};
 use insd_wire::motion::em::EmAttitude;
 use insd_wire::motion::kmb::Kmb;
 use insd_wire::motion::tss1::Tss1;
@@ -43,6 +44,9 @@ pub(crate) fn look(protocol: Protocol, frame: &[u8]) {
         Protocol::Em3000 => em(frame),
         Protocol::Tss1 => tss1(frame),
         Protocol::Ngt1 => adapter(frame),
+        Protocol::Gsof => gsof(frame),
+        Protocol::VectorNav => vectornav(frame),
+        Protocol::Ad2cp => ad2cp(frame),
     }
 }
 
@@ -369,6 +373,32 @@ fn novatel(frame: &[u8]) {
     log.imu().iter().for_each(is_sane_sample);
     let told = log.attitude();
     assert!(told.is_none_or(|(heading, std)| is_finite([heading, std])), "{log:?}");
+}
+
+/// The pages of a report are read as if each were one.
+fn gsof(frame: &[u8]) {
+    use gsof::{GsofReport, Page, Pages};
+    let Ok(page) = Page::open(frame) else { return };
+    assert_eq!(page.write(), frame);
+    make(Pages::default().take(&page));
+    let write = |report: &GsofReport| report.write();
+    let Some(report) = again(&page.records, AfterOnce, GsofReport::read, write) else { return };
+    report.part().iter().chain(&report.heading()).for_each(is_sane_part);
+}
+
+fn vectornav(frame: &[u8]) {
+    let read = |bytes: &[u8]| VnMessage::read(bytes);
+    let Some(told) = again(frame, Everything, read, VnMessage::write) else { return };
+    told.reading().iter().filter(|sample| sample.valid).for_each(is_sane_sample);
+    assert!(is_finite([told.true_heading()]), "{told:?}");
+    make(told.utc());
+}
+
+fn ad2cp(frame: &[u8]) {
+    use ad2cp::Ad2cpBottomTrack;
+    let (read, write) = (Ad2cpBottomTrack::read, Ad2cpBottomTrack::write);
+    let Some(track) = again(frame, AfterOnce, read, write) else { return };
+    track.reading().iter().for_each(is_sane_log);
 }
 
 fn pd6(frame: &[u8]) {

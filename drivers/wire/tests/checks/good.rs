@@ -4,7 +4,8 @@
 //! Where the library makes the frame of any payload its own function is used. The others are made here,
 //! with sums of their own, from the layouts that the modules of the formats describe.
 
-use insd_wire::gnss::{novatel, rtcm, sbf, ubx};
+use insd_wire::gnss::{gsof, novatel, rtcm, sbf, ubx};
+use insd_wire::log::ad2cp;
 use insd_wire::nmea::{Sentence, checksum};
 use insd_wire::stream::{Look, Protocol};
 
@@ -29,6 +30,9 @@ pub(crate) fn frames(protocol: Protocol, bytes: &[u8]) -> Vec<Vec<u8>> {
         Protocol::Em3000 => vec![em_frame(*choice, rest)],
         Protocol::Tss1 => vec![tss1_line(bytes)],
         Protocol::Ngt1 => vec![ngt_frame(*choice, rest)],
+        Protocol::Gsof => gsof_pages(*choice, rest),
+        Protocol::VectorNav => vec![vectornav_frame(*choice, rest)],
+        Protocol::Ad2cp => vec![ad2cp_frame(*choice, rest)],
     }
 }
 
@@ -292,6 +296,54 @@ fn ngt_frame(choice: u8, bytes: &[u8]) -> Vec<u8> {
     plain.push(plain.iter().fold(0_u8, |sum, byte| sum.wrapping_sub(*byte)));
     let doubled = plain.iter().flat_map(|byte| vec![*byte; if *byte == 0x10 { 2 } else { 1 }]);
     [0x10, 0x02].into_iter().chain(doubled).chain([0x10, 0x03]).collect()
+}
+
+/// Types of the records that are read, and of one that is not, with the bytes that they have.
+const GSOF: [(u8, usize); 8] =
+    [(1, 10), (2, 24), (8, 13), (9, 16), (12, 38), (16, 9), (27, 70), (3, 24)];
+
+/// A report of records that the choice and then each record's first byte choose.
+fn gsof_pages(mut choice: u8, mut bytes: &[u8]) -> Vec<Vec<u8>> {
+    let mut records = Vec::new();
+    while records.len() < 1000 {
+        let (kind, length) = chosen(&GSOF, choice);
+        records.extend([kind, length as u8]);
+        records.extend(filled(&bytes[..bytes.len().min(length)], length));
+        let Some((next, rest)) = bytes[bytes.len().min(length)..].split_first() else { break };
+        (choice, bytes) = (*next, rest);
+    }
+    gsof::Page::pages(choice, &records).iter().map(gsof::Page::write).collect()
+}
+
+/// Groups and masks of which the fields have known sizes, by the choice; the rest is what stands in them.
+fn vectornav_frame(choice: u8, bytes: &[u8]) -> Vec<u8> {
+    const HEADS: [&[u8]; 6] = [
+        &[0xFA, 0x01, 0xFF, 0x7F],
+        &[0xFA, 0x04, 0xFF, 0x0F],
+        &[0xFA, 0x16, 0xFF, 0x03, 0xFF, 0x0F, 0x02, 0x01],
+        &[0xFA, 0x05, 0x08, 0x18, 0xD0, 0x00],
+        &[0xFA, 0x31, 0x08, 0x00, 0x02, 0x31, 0x01, 0x00],
+        &[0xFA, 0x08, 0xFF, 0x00],
+    ];
+    let head = chosen(&HEADS, choice);
+    let length = length_of(Protocol::VectorNav, head) - head.len() - 2;
+    let body = [&head[1..], &filled(bytes, length)].concat();
+    let crc = body.iter().fold(0_u16, |crc, byte| {
+        (0..8).fold(crc ^ u16::from(*byte) << 8, |crc, _| {
+            crc << 1 ^ if crc >> 15 == 1 { 0x1021 } else { 0 }
+        })
+    });
+    [&[0xFA][..], &body, &crc.to_be_bytes()].concat()
+}
+
+/// A record of bottom track of which version, offset, beams and scaling are sane, or most would be refused for them; or another.
+fn ad2cp_frame(choice: u8, bytes: &[u8]) -> Vec<u8> {
+    let mut data = filled(bytes, bytes.len().max(118));
+    data[0] = 1;
+    data[1] = if choice & 0x40 == 0 { 78 } else { data[1] };
+    data[31] = data[31] & 0x0F | 0x10 << (choice & 3).min(2);
+    data[60] = (-i16::from(data[60] % 10)) as u8;
+    ad2cp::frame(if choice & 0x80 == 0 { 0x17 } else { 0x15 }, &data)
 }
 
 /// Names of the lines that are read, and of one that is not.

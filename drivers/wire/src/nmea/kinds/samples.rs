@@ -6,10 +6,10 @@ use crate::nmea::alert::Alert;
 use crate::nmea::phoct::{Waves, WithState};
 use crate::nmea::table::Sampled;
 use crate::nmea::{
-    Acn, Arc, Dtm, Frame, Gst, Hbt, Hcr, Hdg, Hdm, Hdt, Line, MAX_LEN, PfecAttitude, Phcmp, Phinf,
-    Phlin, Phoct, Phspd, Phtro, PinsdAlignment, PinsdBerth, PinsdPartOfShip, PinsdProtection,
-    PinsdRange, PinsdSigma, PinsdStatus, PinsdStep, PsatHpr, Rls, Rot, Sentence, Talker, Ths, Vdr,
-    Vhw, Vlw, Vtg, checksum,
+    Acn, Arc, Dtm, Frame, Glc, Gst, Hbt, Hcr, Hdg, Hdm, Hdt, Lcd, Line, MAX_LEN, PfecAttitude,
+    Phcmp, Phinf, Phlin, Phoct, Phspd, Phtro, PinsdAlignment, PinsdBerth, PinsdPartOfShip,
+    PinsdProtection, PinsdRange, PinsdSigma, PinsdStatus, PinsdStep, PsatHpr, Rls, Rot, Sentence,
+    Talker, Ths, Vdr, Vhw, Vlw, Vtg, checksum,
 };
 
 /// Numbers without pattern, and always the same ones (splitmix64).
@@ -253,6 +253,8 @@ mod tests {
             Rls::sample,
             Rot::sample,
             Ths::sample,
+            Glc::sample,
+            Lcd::sample,
             Vdr::sample,
             Vhw::sample,
             Vlw::sample,

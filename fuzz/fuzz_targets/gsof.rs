@@ -1,0 +1,10 @@
+//! Any bytes as a stream of reports of GSOF, and as the contents of good frames.
+#![no_main]
+
+#[path = "../../drivers/wire/tests/checks/mod.rs"]
+mod checks;
+
+use insd_wire::stream::Protocol;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| checks::everything(Protocol::Gsof, bytes));
