@@ -3,6 +3,7 @@
 use insd_base::{Party, Time};
 use insd_estimation::{Innovation, Weighed};
 
+use super::rows::DOCKING_AIDS;
 use super::scatter::Scatter;
 
 /// An aid that is heard: each has noise and outliers of its own.
@@ -28,6 +29,16 @@ pub enum Aid {
     SparePosition,
     /// Its velocity.
     SpareVelocity,
+    /// Heading by several antennas.
+    Antennas,
+    /// Distance of the first docking aid.
+    Docking1,
+    /// Of the second.
+    Docking2,
+    /// Of the third.
+    Docking3,
+    /// Of the fourth.
+    Docking4,
     /// Mean sea level.
     SeaLevel,
 }
@@ -44,7 +55,22 @@ const SPIKES: u32 = 2;
 /// Noise that grows by so much, as a variance, spoils what was made of it; less comes by chance.
 const MUCH: f64 = 10.0;
 
+/// Docking aids that are judged one by one, by their numbers.
+const DOCKING: [Aid; DOCKING_AIDS] = [Aid::Docking1, Aid::Docking2, Aid::Docking3, Aid::Docking4];
+
 impl Aid {
+    /// The docking aid of a number, from 0; `None` of one too many.
+    #[must_use]
+    pub fn docking(number: u8) -> Option<Aid> {
+        DOCKING.get(usize::from(number)).copied()
+    }
+
+    /// Which docking aid it is.
+    #[must_use]
+    pub fn number_of_docking(self) -> Option<usize> {
+        DOCKING.iter().position(|own| *own == self)
+    }
+
     /// Who says it.
     #[must_use]
     pub fn party(self) -> Option<Party> {
@@ -54,6 +80,8 @@ impl Aid {
             Aid::Heading => Some(Party::Heading),
             Aid::ReferencePosition | Aid::ReferenceVelocity => Some(Party::Reference),
             Aid::SparePosition | Aid::SpareVelocity => Some(Party::Gnss2),
+            Aid::Antennas => Some(Party::Antennas),
+            Aid::Docking1 | Aid::Docking2 | Aid::Docking3 | Aid::Docking4 => Some(Party::Docking),
             Aid::SeaLevel => None,
         }
     }

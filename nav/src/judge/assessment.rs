@@ -5,6 +5,7 @@ use insd_base::{Fault, Party, Standing, Time};
 use super::aid::Aid;
 use super::alternative::Alternative;
 use super::charge::{Assessment, CERTAIN, Charge, DOUBT, Kind};
+use super::newcomers::MISTAKEN;
 use super::rows::{ALL, FaultGroup, OF_FALSE_PUSHES, OF_GYROS};
 use super::{CLOSE, Judge, SPAWN};
 
@@ -101,7 +102,9 @@ impl Judge {
                 let is_slow = *fault == Fault::GyroScale && age > QUICK;
                 let is_own_word = *fault == Fault::Slide;
                 let unsure = if is_own_word { unsure.min(OWN_WORD) } else { unsure };
-                let sized = onset.sized(group, unsure).filter(|sized| sized.value.norm() >= *least);
+                let is_blind = onset.is_blind_to(group);
+                let sized = (!is_blind).then(|| onset.sized(group, unsure)).flatten();
+                let sized = sized.filter(|sized| sized.value.norm() >= *least);
                 let is_unseen = self.began_unseen(*fault, onset.since, now);
                 // of receivers only it is the drift of one
                 let is_drift = group == OF_FALSE_PUSHES && !is_log_heard;
@@ -109,7 +112,9 @@ impl Judge {
                 let Some(sized) = sized.filter(|_| !is_none) else { continue };
                 let (fault, begun) = (*fault, onset.since);
                 let kind = Kind::Shaped { group, since: begun, sized };
-                let (weight, evidence) = (log_rate + step, sized.log_factor * unsure);
+                let is_mistake = self.is_from_begin(fault, begun);
+                let often = if is_mistake { MISTAKEN } else { log_rate + step };
+                let (weight, evidence) = (often, sized.log_factor * unsure);
                 all.push(Charge { fault, weight, evidence, begun, is_own_word, kind });
             }
         }
@@ -148,7 +153,9 @@ impl Judge {
     /// Whether a height or a place leaps, by somebody's word: no ship does that, and no mistake of the installation makes it.
     #[must_use]
     pub fn leaps(&self, whom: Party) -> bool {
-        self.leap(whom).or_else(|| self.far_jump(whom)).is_some()
+        whom == Party::Docking
+            || self.leap(whom).or_else(|| self.far_jump(whom)).is_some()
+            || self.most_of_it(whom).any(|charge| self.turns(charge))
     }
 
     /// The leap of somebody's height, where that is most of what there is: a receiver that hears reflections is off in height,
@@ -250,6 +257,9 @@ impl Judge {
     /// nothing else can tell them apart.
     fn rules_out(&self, first: &Charge, other: &Charge) -> bool {
         let gap = first.weight - other.weight;
+        if first.is_sudden() {
+            return gap > CERTAIN;
+        }
         let is_of_heading = first.party() == Party::Heading;
         let is_less = match (first.explained(), other.explained()) {
             (Some(own), Some(others)) if is_of_heading && self.is_coarse => own - others > SURE,

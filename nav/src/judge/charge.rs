@@ -74,6 +74,8 @@ impl Charge {
             Party::Log => Fault::LogNoise,
             Party::Heading => Fault::HeadingNoise,
             Party::Reference => Fault::ReferenceNoise,
+            Party::Antennas => Fault::AntennasNoise,
+            Party::Docking => Fault::DockingNoise,
         };
         let (evidence, begun, is_own_word) = (0.0, Time::START, false);
         Charge { fault, weight, evidence, begun, is_own_word, kind: Kind::Shapeless }
@@ -93,6 +95,16 @@ impl Charge {
             Kind::Shaped { sized, .. } => sized.value.norm(),
             Kind::Shapeless => 0.0,
         }
+    }
+
+    /// Whether it is of antennas that are moved, or of a docking aid that meets something else, which happens so much more often than anything else that explains
+    /// as much that being likelier is enough.
+    pub(super) fn is_sudden(&self) -> bool {
+        let is_it = matches!(
+            self.fault,
+            Fault::AntennasOffset | Fault::DockingJump(_) | Fault::DockingMark(_)
+        );
+        is_it && self.kind != Kind::Shapeless
     }
 
     pub(super) fn is_false_turn(&self) -> bool {
@@ -137,6 +149,13 @@ impl Charge {
     pub(super) fn lie_of_gnss(&self, age: f64) -> (Vector2<f64>, f64) {
         let Kind::Shaped { sized, .. } = self.kind else { return NO_LIE };
         let value = Vector2::new(sized.value.x, sized.value.y);
+        match self.fault {
+            Fault::AntennasOffset | Fault::DockingJump(_) | Fault::DockingMark(_) => {
+                return (value, 0.0);
+            }
+            Fault::AntennasDrift | Fault::DockingDrift(_) => return (value * age, value.x.abs()),
+            _ => {}
+        }
         growth(self.fault, age).map_or(NO_LIE, |(size, rate)| (value * size, value.norm() * rate))
     }
 }

@@ -9,6 +9,7 @@
 //! [`Party::Gnss`] and [`Party::Gnss2`], whichever they are; each keeps what it did when it takes another part, and is told
 //! by its own name.
 
+mod amends;
 mod of_imu;
 mod open;
 
@@ -19,6 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use super::aid::{Aid, agreement};
 use super::lie::LieOfGnss;
+use amends::Numbers;
 pub(crate) use open::OpenLie;
 
 /// Who agrees for so long is heard again, s; each time he relapses for twice as long, up to this.
@@ -102,6 +104,8 @@ pub struct Docket {
     alike: Option<Time>,
     /// What the receiver in use may be doing instead of what the IMU was convicted of.
     open: Option<OpenLie>,
+    /// Those who tell one number.
+    numbers: Numbers,
 }
 
 impl Docket {
@@ -261,7 +265,7 @@ impl Docket {
         let is_heard = match self.entries[self.place(party)].fault {
             Some(Fault::Velocity) => aid == Aid::GnssPosition,
             Some(Fault::Height) => true,
-            _ => false,
+            _ => self.hears_docking(aid),
         };
         self.is_excluded(party) && !is_heard
     }
@@ -316,6 +320,7 @@ impl Docket {
         }
         self.enter(party, Standing::Excluded, now);
         self.open = self.open.filter(|_| party != Party::Gnss);
+        self.leave_number_out(fault, lie.0.x, now);
         if party.is_receiver() {
             self.lies[self.lie_of(party)].find(lie.0, lie.1, now);
         }
@@ -349,7 +354,8 @@ impl Docket {
     /// Whoever is doubted, by what the last look gave.
     pub fn doubt(&mut self, fault: Option<Fault>, now: Time) {
         let party = fault.map(Fault::party);
-        for each in [Party::Gnss, Party::Gnss2, Party::Log, Party::Heading, Party::Reference] {
+        for each in Party::ALL.into_iter().filter(|each| !matches!(each, Party::Gnss3 | Party::Imu))
+        {
             match self.standing(each) {
                 Standing::Trusted if party == Some(each) => {
                     self.enter(each, Standing::Doubtful, now);
@@ -423,9 +429,11 @@ impl Docket {
     /// What is left when the navigator begins anew on the word of a receiver that was not trusted.
     #[must_use]
     pub fn begun_anew(&self, now: Time) -> Self {
-        let Docket { parts, lies, worse, by_one, alike, open, .. } = *self;
-        let mut anew = Docket { parts, lies, worse, by_one, alike, open, ..Docket::default() };
-        let others = [Party::Log, Party::Heading].into_iter().chain(Party::RECEIVERS);
+        let Docket { parts, lies, worse, by_one, alike, open, numbers, .. } = *self;
+        let mut anew =
+            Docket { parts, lies, worse, by_one, alike, open, numbers, ..Docket::default() };
+        let others = [Party::Log, Party::Heading, Party::Antennas, Party::Docking];
+        let others = others.into_iter().chain(Party::RECEIVERS);
         for named in others.filter(|named| *named != self.receiver_in_use()) {
             let own = &self.entries[named as usize];
             let is_left_out = matches!(own.standing, Standing::Excluded | Standing::Probation);
@@ -462,6 +470,7 @@ impl Docket {
         self.lies = self.lies.map(|lie| lie.shifted(by));
         self.alike = self.alike.map(|since| since + by);
         self.open = self.open.map(|lie| lie.shifted(by));
+        self.numbers = self.numbers.shifted(by);
         self
     }
 }

@@ -20,6 +20,7 @@ pub(crate) mod docket;
 mod evidence;
 mod hypotheses;
 mod lie;
+mod newcomers;
 mod noise;
 mod onset;
 mod pessimist;
@@ -46,8 +47,9 @@ use charge::{Assessment, Charge, DOUBT};
 use dissenter::{Dissenter, Success, log_likelihood};
 pub use docket::Docket;
 use onset::Onset;
+use newcomers::Newcomers;
 use pessimist::Pessimist;
-use rows::Direct;
+use rows::{Direct, USUAL_ROWS};
 pub use separation::Separation;
 use shadow::Shadow;
 pub use shadow::agitate;
@@ -104,6 +106,10 @@ pub struct Judge {
     is_coarse: bool,
     /// The IMU was not believed at all a while ago: where it and somebody else contradict each other it is at fault.
     imu_on_trial: bool,
+    /// How many faults may be, of those who have been heard.
+    rows: usize,
+    /// When antennas that are a compass, and each docking aid, were heard first.
+    newcomers: Newcomers,
 }
 
 impl Judge {
@@ -130,6 +136,8 @@ impl Judge {
             is_coarse: config.has_coarse_gyros(),
             imu_on_trial: docket.imu_doubted_since().is_some(),
             docket,
+            rows: USUAL_ROWS,
+            newcomers: Newcomers::default(),
         }
     }
 
@@ -137,6 +145,11 @@ impl Judge {
     #[must_use]
     pub fn docket(&self) -> &Docket {
         &self.docket
+    }
+
+    /// A docking aid, by its number, measures to a line or point, by its place.
+    pub fn note_mark(&mut self, number: usize, place: usize) {
+        self.docket.note_mark(number, place);
     }
 
     /// Begins anew with a navigator; the standing of all stays.
@@ -250,7 +263,8 @@ impl Judge {
         let Some(weighed) = self.shadow.weigh(innovation, 1.0) else { return };
         let is_outlier = weighed.nis() > OUTLIER * weighed.rows() as f64;
         let (is_first, is_heard) = self.hearings[aid as usize].count(is_outlier);
-        self.spawn(now, is_first);
+        let is_new = self.welcome(aid, now);
+        self.spawn(now, is_first || is_new);
         if !is_heard {
             return;
         }
@@ -311,7 +325,7 @@ impl Judge {
                 self.onsets.remove(i);
             }
         }
-        self.onsets.push(Onset::new(now));
+        self.onsets.push(Onset::new(now, self.rows));
     }
 
     /// How much likelier what was said since an instant is if the gyros have told so much too much since then, rad/s,
@@ -405,7 +419,12 @@ impl Judge {
         hearing.note(now);
         hearing.see(innovation);
         let is_calm = hearing.noise() < WILD;
-        self.docket.watch(party, now, agreement(weighed).filter(|_| is_calm));
+        let square = agreement(weighed).filter(|_| is_calm);
+        if matches!(party, Party::Antennas | Party::Docking) {
+            let sigmas = [weighed.sigma()[0], innovation.r[(0, 0)].sqrt()];
+            return self.docket.follow_number(aid, now, (weighed.z()[0], square), sigmas);
+        }
+        self.docket.watch(party, now, square);
     }
 
     /// Sees position and velocity of a receiver that is left out together, weighed by the navigator, whose own
@@ -453,7 +472,6 @@ impl Judge {
     /// Whether what somebody says with an aid is not to be used now.
     #[must_use]
     pub fn withholds(&self, aid: Aid) -> bool {
-        let is_doubted = |party| self.docket.standing(party) == Standing::Doubtful;
-        self.docket.leaves_out(aid) || aid.party().is_some_and(is_doubted)
+        self.docket.leaves_out(aid) || self.docket.doubts(aid)
     }
 }

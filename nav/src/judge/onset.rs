@@ -63,12 +63,12 @@ impl Sized {
 }
 
 impl Onset {
-    /// Everything may begin now.
+    /// Everything may begin now, so many faults.
     #[must_use]
-    pub(super) fn new(since: Time) -> Self {
+    pub(super) fn new(since: Time, rows: usize) -> Self {
         Onset {
             since,
-            effects: rows::at_onset(),
+            effects: rows::at_onset(rows),
             information: [Matrix3::zeros(); GROUPS],
             evidence: [Vector3::zeros(); GROUPS],
             aged: [0.0; GROUPS],
@@ -82,13 +82,22 @@ impl Onset {
         &mut self.effects
     }
 
+    /// So many faults may be.
+    pub(super) fn widen(&mut self, rows: usize) {
+        self.effects.widen(rows);
+    }
+
     /// Hears an innovation before it is absorbed, if it is.
     pub(super) fn hear(&mut self, now: Time, weighed: &Weighed, is_absorbed: bool, direct: Direct) {
         let age = (now - self.since).as_seconds();
         self.effects.conform(weighed.layout());
+        let causes = self.effects.causes();
+        let is_as_wide = direct.nrows() == causes;
+        let direct = if is_as_wide { direct } else { direct.resize_vertically(causes, 0.0) };
         let effect = weighed.effect_of(&self.effects, direct);
         let z = weighed.whitened();
-        for (i, group) in ALL.iter().enumerate() {
+        let is_carried = |group: &&FaultGroup| group.rows.end <= causes;
+        for (i, group) in ALL.iter().take_while(is_carried).enumerate() {
             let (start, width) = (group.rows.start, group.rows.len());
             let own = effect.rows(start, width);
             let mut information = self.information[i].view_mut((0, 0), (width, width));
@@ -187,7 +196,7 @@ mod tests {
     #[test]
     fn what_was_told_at_a_begin_was_told_for_a_short_time_and_what_is_told_evenly_for_all_of_it() {
         let told = |ages: std::ops::Range<u32>| {
-            let mut own = Onset::new(Time::START);
+            let mut own = Onset::new(Time::START, rows::USUAL_ROWS);
             for age in ages {
                 own.information[0][(0, 0)] += 1.0;
                 own.aged[0] += f64::from(age);
