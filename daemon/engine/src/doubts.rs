@@ -1,8 +1,6 @@
 //! What is found to be otherwise than configured, and what follows from it.
 
-use insd_base::{
-    Estimates, Event, Finding, GnssFix, Message, Mode, ModeReason, Received, Time,
-};
+use insd_base::{Estimates, Event, Finding, GnssFix, Message, Mode, ModeReason, Received, Time};
 use insd_nav::Estimator;
 use insd_nav::config::LeverFound;
 use insd_nav::filter::judged::ImuState;

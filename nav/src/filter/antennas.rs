@@ -2,16 +2,18 @@
 //!
 //! Cycles were told without the filter, so that nothing is counted twice but the phases of the epoch. What reflects goes on for minutes: it is a state.
 
-use insd_base::{Rejection, Source};
 use insd_base::satellites::{CompassPhases, CompassReading};
-use nalgebra::Matrix3;
+use insd_base::{Rejection, Source};
+use nalgebra::{Matrix1, Matrix3};
 
 use super::Filter;
+use super::antennas_followed::sky_of;
 use super::entry::{COMPASS_AID, Judged, NO_INNOVATION, enter};
 use crate::aids::{antenna_heading, antenna_phases};
 use crate::declaration::Carried;
 use crate::error_state::{
-    ANTENNA_AXES, ANTENNA_LINES, ANTENNA_REFLECTIONS, ANTENNA_ROWS, Innovation, LINE_UNKNOWN, LINES,
+    ANTENNA_AXES, ANTENNA_HEADING_ERROR, ANTENNA_LINES, ANTENNA_REFLECTIONS, ANTENNA_ROWS,
+    Innovation, LINE_UNKNOWN, LINES,
 };
 use crate::judge::{Aid, rows};
 use crate::report::{Outcome, Report};
@@ -63,6 +65,11 @@ impl Filter {
             return None;
         }
         self.begin_to_carry(Carried::WithAntennaHeading);
+        let (sky, is_other) = sky_of(told, &self.antennas.heard_sky);
+        self.antennas.heard_sky = sky;
+        if is_other {
+            self.forget_reflected_heading();
+        }
         let heading = told.attitude.heading;
         let mut innovation = antenna_heading::innovation(&self.view(), heading, std);
         innovation.r *= self.noise_of(Aid::Antennas);
@@ -70,7 +77,17 @@ impl Filter {
         Some(innovation)
     }
 
-    /// The same, and takes the heading of antennas of which another filter follows the phases.
+    /// What is reflected under another sky is another error of the heading.
+    fn forget_reflected_heading(&mut self) {
+        let unknown = Matrix1::new(OTHER_SKY);
+        self.state.nominal.antenna_heading_error = 0.0;
+        ANTENNA_HEADING_ERROR.renew(&mut self.state.covariance, &unknown);
+        if let Some(judge) = self.judge_now() {
+            judge.renew(ANTENNA_HEADING_ERROR, &unknown);
+        }
+    }
+
+    /// Lets the judge hear the heading, and takes it, of antennas of which another filter follows the phases.
     pub(super) fn hear_antennas(&mut self, told: &CompassPhases) {
         self.settle();
         if let Some(innovation) = self.judge_antennas(told) {
@@ -116,12 +133,8 @@ impl Filter {
 
     /// Under another sky reflections are others, and no news altogether: the ship that reflects is the same. They count as twice as large.
     fn seat_reflections(&mut self, told: &CompassPhases) {
-        let mut sky: Vec<_> = told.signals.iter().map(|signal| signal.satellite).collect();
-        sky.sort_unstable();
-        sky.dedup();
-        let before = std::mem::take(&mut self.antennas.sky);
-        let stayed = sky.iter().filter(|satellite| before.contains(satellite)).count();
-        if 3 * stayed < 2 * sky.len().max(before.len()) {
+        let (sky, is_other) = sky_of(told, &self.antennas.sky);
+        if is_other {
             self.state.nominal.antenna_reflections.fill(0.0);
             for row in 0..ANTENNA_ROWS {
                 self.state.covariance.renew_state(ANTENNA_REFLECTIONS.key(), row, OTHER_SKY);

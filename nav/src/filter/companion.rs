@@ -60,10 +60,7 @@ impl Filter {
     pub(super) fn accompany(&mut self, received: &Received) -> Option<Report> {
         let is_unheard = matches!(
             received.message,
-            Message::Ranges(_)
-                | Message::Rtk(_)
-                | Message::Camera(_)
-                | Message::Odometry(_)
+            Message::Ranges(_) | Message::Rtk(_) | Message::Camera(_) | Message::Odometry(_)
         );
         let before = self.companion.as_deref().map(|own| own.docket().numbers_out());
         if let Message::Compass(reading) = &received.message {

@@ -14,9 +14,7 @@ use super::ranging_standing::Mark;
 use crate::aids::ranging::{self, RangingPrediction};
 use crate::declaration::Carried;
 use crate::error_state::carried;
-use crate::error_state::{
-    ATTITUDE, Innovation, POSITION, RANGING_ERRORS, VELOCITY, Weighed,
-};
+use crate::error_state::{ATTITUDE, Innovation, POSITION, RANGING_ERRORS, VELOCITY, Weighed};
 use crate::judge::{Aid, Separation, rows};
 use crate::protection::RiskModel;
 use crate::report::{Outcome, Report};

@@ -54,7 +54,7 @@ impl Judge {
             for (group, of) in ALL.iter().enumerate() {
                 let rate = rate(of.fault, model) / 3600.0;
                 // who is not there does nothing
-                let is_there = rate > 0.0 && !onset.is_blind_to(group);
+                let is_there = rate > 0.0 && !onset.is_untold(group);
                 let unsure = unsure_of(onset, group, now);
                 let sized = is_there.then(|| onset.sized(group, unsure)).flatten();
                 let Some(sized) = sized else { continue };

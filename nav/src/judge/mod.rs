@@ -34,7 +34,7 @@ mod suspicion;
 mod verdict;
 
 use insd_base::{Integrity, Judgement, Parties, Party, Standing, Stands, Time};
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{SMatrix, UnitQuaternion, Vector3};
 
 use crate::config::NavConfig;
 use crate::declaration::Declaration;
@@ -46,8 +46,8 @@ pub use alternative::{Alternative, Ruling};
 use charge::{Assessment, Charge, DOUBT};
 use dissenter::{Dissenter, Success, log_likelihood};
 pub use docket::Docket;
-use onset::Onset;
 use newcomers::Newcomers;
+use onset::Onset;
 use pessimist::Pessimist;
 use rows::{Direct, USUAL_ROWS};
 pub use separation::Separation;
@@ -190,8 +190,8 @@ impl Judge {
         }
     }
 
-    /// The errors of a block of three states are no longer those of before, and known to a covariance.
-    pub fn renew(&mut self, block: Block<3>, covariance: &Matrix3<f64>) {
+    /// The errors of a block of states are no longer those of before, and known to a covariance.
+    pub fn renew<const W: usize>(&mut self, block: Block<W>, covariance: &SMatrix<f64, W, W>) {
         for shadow in self.shadows() {
             block.renew(&mut shadow.covariance, covariance);
             shadow.apart.scale_block(block, 0.0);
@@ -270,7 +270,7 @@ impl Judge {
         }
         for onset in &mut self.onsets {
             let age = (now - onset.since).as_seconds();
-            onset.hear(now, &weighed, aid.is_absorbed(), direct(age));
+            onset.hear((aid, now), &weighed, direct(age));
         }
         let likelihood = log_likelihood(&weighed);
         self.spare.hear((aid, now), innovation, &weighed, &self.shadow);
@@ -381,7 +381,8 @@ impl Judge {
         let astray = likeliest.and_then(|first| self.blamed_instead(&first, now));
         let foremost = likeliest.is_none().then(|| self.foremost_of_two(now)).flatten();
         let first = astray.or(likeliest).or(foremost).filter(|first| !is_excused(first));
-        let is_likely = self.assessment.total > DOUBT;
+        let is_new = first.is_some_and(|first| first.is_mistake && first.weight > first.needed());
+        let is_likely = self.assessment.total > DOUBT || is_new;
         self.in_doubt = is_likely || self.disputed.is_some();
         let suspect = first.filter(|_| is_likely);
         self.docket.doubt(suspect.map(|first| first.fault), now);

@@ -10,8 +10,9 @@ use super::{Judge, charge::Charge, charge::Kind};
 pub(super) const MISTAKEN: f64 = -4.6;
 /// What begins so soon after the first word was so from the begin, s.
 const AT_ONCE: f64 = 1.0;
-/// Antennas that turn by more than this of a sudden, rad, have been moved, or count other whole cycles.
+/// Antennas that turn by more than this of a sudden, rad, or go on to turn by this, rad/s, are moved, or count other whole cycles.
 const TURNED: f64 = 0.026;
+const TURNS: f64 = 3.5e-4;
 
 /// When each was heard first.
 #[derive(Clone, Copy, Debug, Default)]
@@ -55,8 +56,11 @@ impl Judge {
     pub(super) fn turns(&self, charge: &Charge) -> bool {
         let Kind::Shaped { since, sized, .. } = charge.kind else { return false };
         let later = |first: Time| (since - first).as_seconds() > AT_ONCE;
-        charge.fault == Fault::AntennasOffset
-            && sized.value.x.abs() > TURNED
-            && self.newcomers.antennas.is_some_and(later)
+        let least = match charge.fault {
+            Fault::AntennasOffset => TURNED,
+            Fault::AntennasDrift => TURNS,
+            _ => f64::INFINITY,
+        };
+        sized.value.x.abs() > least && self.newcomers.antennas.is_some_and(later)
     }
 }

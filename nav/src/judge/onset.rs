@@ -14,6 +14,7 @@
 use insd_base::{Party, Time};
 use nalgebra::{Cholesky, Matrix3, Vector3};
 
+use super::aid::Aid;
 use super::rows::{self, ALL, Direct, FaultGroup, GROUPS};
 use crate::error_state::{Block, Covariance, Effects, Errors, Weighed};
 
@@ -27,6 +28,8 @@ pub(super) struct Onset {
     evidence: [Vector3<f64>; GROUPS],
     /// Of the information of each group, times for how long a fault had lasted when it came, s.
     aged: [f64; GROUPS],
+    /// Whether anything was heard since that tells of it but the heading of antennas.
+    told: [bool; GROUPS],
     /// Sum of the normalised squares since, and how many components there were.
     misfit: f64,
     heard: f64,
@@ -72,6 +75,7 @@ impl Onset {
             information: [Matrix3::zeros(); GROUPS],
             evidence: [Vector3::zeros(); GROUPS],
             aged: [0.0; GROUPS],
+            told: [false; GROUPS],
             misfit: 0.0,
             heard: 0.0,
         }
@@ -88,7 +92,7 @@ impl Onset {
     }
 
     /// Hears an innovation before it is absorbed, if it is.
-    pub(super) fn hear(&mut self, now: Time, weighed: &Weighed, is_absorbed: bool, direct: Direct) {
+    pub(super) fn hear(&mut self, (aid, now): (Aid, Time), weighed: &Weighed, direct: Direct) {
         let age = (now - self.since).as_seconds();
         self.effects.conform(weighed.layout());
         let causes = self.effects.causes();
@@ -105,8 +109,9 @@ impl Onset {
             let mut evidence = self.evidence[i].rows_mut(0, width);
             evidence += own * &z;
             self.aged[i] += own.norm_squared() * age;
+            self.told[i] |= aid != Aid::Antennas && own.norm_squared() > 0.0;
         }
-        if is_absorbed {
+        if aid.is_absorbed() {
             weighed.pass_on(&mut self.effects, &effect);
         }
         self.misfit += z.norm_squared();
@@ -160,6 +165,13 @@ impl Onset {
     /// Whether nothing that was heard since could have told of a fault of a group.
     pub(super) fn is_blind_to(&self, group: usize) -> bool {
         self.information[group] == Matrix3::zeros()
+    }
+
+    /// Whether nothing was heard since that tells of a fault of a group where she is. The heading of antennas goes on where ranges are too few for a fix, and an
+    /// estimate by fixes alone knows nothing of those.
+    pub(super) fn is_untold(&self, group: usize) -> bool {
+        let is_own = ALL[group].fault.party() == Party::Antennas;
+        self.is_blind_to(group) || !(self.told[group] || is_own)
     }
 
     /// What a unit of each component of a group has done to blocks of three states, a column for each component.

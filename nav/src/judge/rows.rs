@@ -121,7 +121,7 @@ pub const ALL: [FaultGroup; GROUPS] = [
     group(Fault::SpareDrag, SPARE_DRAG, 2, [0.05, 3.0], SPARED),
     group(Fault::AccelBias, PUSH, 3, [0.3, 10.0], FAILED),
     group(Fault::AntennasOffset, ANTENNAS_OFFSET, 1, [0.01, 1.0], MOVED),
-    group(Fault::AntennasDrift, ANTENNAS_DRIFT, 1, [1e-5, 3e-3], FOULED),
+    group(Fault::AntennasDrift, ANTENNAS_DRIFT, 1, [1e-5, 3e-3], MOVED),
     docking_jump(0),
     docking_jump(1),
     docking_jump(2),

@@ -40,7 +40,12 @@ impl Amends {
     }
 
     /// Sees what he is off by now, the mean square of it if he agrees, the sigmas of that and of his noise; tells whether he is heard again.
-    fn see(&mut self, now: Time, (z, square): (f64, Option<f64>), [sigma, noise]: [f64; 2]) -> bool {
+    fn see(
+        &mut self,
+        now: Time,
+        (z, square): (f64, Option<f64>),
+        [sigma, noise]: [f64; 2],
+    ) -> bool {
         let before = self.last.replace((now, z));
         let step = before.filter(|(at, _)| (now - *at).as_seconds() < SUCCESSIVE);
         let step = step.map_or(0.0, |(_, before)| z - before);
