@@ -33,6 +33,9 @@ impl Judge {
             return false;
         }
         *first = Some(now);
+        if aid == Aid::Antennas {
+            self.docket.note_antennas();
+        }
         if rows > self.rows {
             self.rows = rows;
             self.onsets.iter_mut().for_each(|onset| onset.widen(rows));

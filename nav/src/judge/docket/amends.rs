@@ -3,7 +3,7 @@
 //! Agreement is worth nothing where the lie would not show, as with a navigator that has grown vaguer than it. So what he was off by is remembered: he is heard
 //! again after he has agreed with somebody who would see it, or went back by as much as he had come.
 
-use insd_base::{Fault, Party, Standing, Time};
+use insd_base::{Fault, Party, Span, Standing, Time};
 use serde::{Deserialize, Serialize};
 
 use super::{Docket, FORGOTTEN, LONGEST, QUARANTINE, STRAINED, UNDONE};
@@ -72,7 +72,7 @@ impl Amends {
         !self.is_out
     }
 
-    fn shifted(self, by: insd_base::Span) -> Self {
+    fn shifted(self, by: Span) -> Self {
         let convicted = self.convicted.map(|at| at + by);
         Amends { convicted, last: None, since: None, ..self }
     }
@@ -85,16 +85,31 @@ pub(super) struct Numbers {
     docking: [Amends; DOCKING_AIDS],
     /// What each measures to, by its place.
     marks: [Option<u8>; DOCKING_AIDS],
+    /// Antennas were heard.
+    has_antennas: bool,
 }
 
 impl Numbers {
-    pub(super) fn shifted(self, by: insd_base::Span) -> Self {
+    pub(super) fn shifted(self, by: Span) -> Self {
         let docking = self.docking.map(|own| own.shifted(by));
-        Numbers { antennas: self.antennas.shifted(by), docking, marks: self.marks }
+        Numbers { antennas: self.antennas.shifted(by), docking, ..self }
+    }
+
+    /// Whether anything has been heard of somebody.
+    pub(super) fn were_heard(&self, party: Party) -> bool {
+        if party == Party::Antennas {
+            return self.has_antennas;
+        }
+        self.marks.iter().any(Option::is_some)
     }
 }
 
 impl Docket {
+    /// Antennas that are a compass are heard.
+    pub fn note_antennas(&mut self) {
+        self.numbers.has_antennas = true;
+    }
+
     /// A docking aid, by its number, measures to a line or point, by its place.
     pub fn note_mark(&mut self, number: usize, place: usize) {
         if let Some(mark) = self.numbers.marks.get_mut(number) {
