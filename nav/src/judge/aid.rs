@@ -3,7 +3,6 @@
 use insd_base::{Party, Time};
 use insd_estimation::{Innovation, Weighed};
 
-use super::rows::DOCKING_AIDS;
 use super::scatter::Scatter;
 
 /// An aid that is heard: each has noise and outliers of its own.
@@ -55,7 +54,9 @@ const SPIKES: u32 = 2;
 /// Noise that grows by so much, as a variance, spoils what was made of it; less comes by chance.
 const MUCH: f64 = 10.0;
 
-/// Docking aids that are judged one by one, by their numbers.
+/// Docking aids that are judged one by one.
+pub(crate) const DOCKING_AIDS: usize = 4;
+/// They, by their numbers.
 const DOCKING: [Aid; DOCKING_AIDS] = [Aid::Docking1, Aid::Docking2, Aid::Docking3, Aid::Docking4];
 
 impl Aid {

@@ -9,8 +9,8 @@
 //! [`Party::Gnss`] and [`Party::Gnss2`], whichever they are; each keeps what it did when it takes another part, and is told
 //! by its own name.
 
-mod amends;
 mod anew;
+mod numbers;
 mod of_imu;
 mod open;
 
@@ -20,22 +20,12 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use super::aid::{Aid, agreement};
+use super::amends::{FORGOTTEN, LONGEST, Numbers, QUARANTINE, STRAINED, UNDONE};
 use super::lie::LieOfGnss;
-use amends::Numbers;
 pub(crate) use open::OpenLie;
 
-/// Who agrees for so long is heard again, s; each time he relapses for twice as long, up to this.
-const QUARANTINE: f64 = 60.0;
-const LONGEST: f64 = 3600.0;
-/// Relapses later than this are no relapses, s.
-const FORGOTTEN: f64 = 3600.0;
-/// Who agrees for so long after his lie was undone is heard again, s.
-const UNDONE: f64 = 5.0;
 /// An IMU that was found wrong and mended is doubted for so long, s.
 const MENDED: f64 = 600.0;
-
-/// Mean square of the innovations, of which one is expected, beyond which they do not agree, taken together.
-const STRAINED: f64 = 4.0;
 
 /// Sigmas of a radius that hold 95 %.
 const RADIUS: f64 = 2.448;

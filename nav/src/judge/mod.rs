@@ -12,6 +12,7 @@
 
 mod aid;
 mod alternative;
+mod amends;
 mod assessment;
 mod charge;
 mod claims;
@@ -32,6 +33,7 @@ mod separation;
 mod shadow;
 mod suspicion;
 mod verdict;
+mod welcome;
 
 use insd_base::{Integrity, Judgement, Parties, Party, Standing, Stands, Time};
 use nalgebra::{SMatrix, UnitQuaternion, Vector3};

@@ -8,6 +8,7 @@ use std::ops::Range;
 use insd_base::Fault;
 use nalgebra::{DMatrix, Matrix3, SMatrix, Vector3};
 
+use super::aid::DOCKING_AIDS;
 use crate::error_state::{
     ACCEL_BIAS, ATTITUDE, Effects, GNSS_DELAY, GYRO_BIAS, GYRO_SCALE, RANGING_MARKS, VELOCITY,
 };
@@ -43,8 +44,6 @@ const DOCKING_DRIFT: usize = DOCKING_JUMP + DOCKING_AIDS;
 const DOCKING_MARK: usize = DOCKING_DRIFT + DOCKING_AIDS;
 /// With all.
 pub const ROWS: usize = DOCKING_MARK + RANGING_MARKS;
-/// Docking aids that are judged one by one.
-pub const DOCKING_AIDS: usize = 4;
 
 /// What each fault adds to an innovation of itself, a row for each fault.
 pub type Direct = DMatrix<f64>;

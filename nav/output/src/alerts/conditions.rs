@@ -1,6 +1,6 @@
 //! Which alerts there are, and when each of them holds.
 
-use insd_base::{FixQuality, Integrity, Judgement, Mode, Party, Solution, Span, Time};
+use insd_base::{FixQuality, Integrity, Judgement, Mode, Parties, Party, Solution, Span, Time};
 use insd_wire::nmea::{AlertId, AlertPriority, HeadingMode, Manufacturer};
 
 use crate::docking::{Docking, DockingLimits};
@@ -365,9 +365,7 @@ impl Watch {
                 excluded.contains(Party::Gnss) || (is_spare_out && !is_aided)
             }
             Condition::PositionDoubt => integrity == Integrity::Contradiction,
-            Condition::HeadingExcluded => {
-                excluded.contains(Party::Heading) || excluded.contains(Party::Antennas)
-            }
+            Condition::HeadingExcluded => is_compass_out(excluded),
             Condition::DockingExcluded => excluded.contains(Party::Docking),
             Condition::LogExcluded => excluded.contains(Party::Log),
             Condition::ReferenceExcluded => excluded.contains(Party::Reference) || is_spare_out,
@@ -404,6 +402,11 @@ impl Watch {
         }
         found
     }
+}
+
+/// Whether a compass is left out.
+fn is_compass_out(excluded: Parties) -> bool {
+    [Party::Heading, Party::Antennas].iter().any(|own| excluded.contains(*own))
 }
 
 /// Whether a position is estimated. At the berth that is so by design, and only little certainty counts.

@@ -3,13 +3,20 @@
 //! Agreement is worth nothing where the lie would not show, as with a navigator that has grown vaguer than it. So what he was off by is remembered: he is heard
 //! again after he has agreed with somebody who would see it, or went back by as much as he had come.
 
-use insd_base::{Fault, Party, Span, Standing, Time};
+use insd_base::{Party, Span, Time};
 use serde::{Deserialize, Serialize};
 
-use super::{Docket, FORGOTTEN, LONGEST, QUARANTINE, STRAINED, UNDONE};
-use crate::judge::Aid;
-use crate::judge::rows::DOCKING_AIDS;
+use super::aid::DOCKING_AIDS;
 
+/// Who agrees for so long is heard again, s; each time he relapses for twice as long, up to this.
+pub(super) const QUARANTINE: f64 = 60.0;
+pub(super) const LONGEST: f64 = 3600.0;
+/// Relapses later than this are no relapses, s.
+pub(super) const FORGOTTEN: f64 = 3600.0;
+/// Who agrees for so long after his lie was undone is heard again, s.
+pub(super) const UNDONE: f64 = 5.0;
+/// Mean square of the innovations, of which one is expected, beyond which they do not agree, taken together.
+pub(super) const STRAINED: f64 = 4.0;
 /// A lie shows that is so many times what the navigator is unsure of.
 const SHOWS: f64 = 3.0;
 /// Who goes back by what he was off by, to this share of it and so many sigmas of his noise, is back, within so long, s.
@@ -20,7 +27,7 @@ const SUCCESSIVE: f64 = 3.0;
 /// What he was off by, and how he has agreed since.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Amends {
-    is_out: bool,
+    pub(super) is_out: bool,
     convicted: Option<Time>,
     off: f64,
     last: Option<(Time, f64)>,
@@ -32,7 +39,7 @@ pub(super) struct Amends {
 
 impl Amends {
     /// He is left out, as he is off by so much, or nobody knows by how much.
-    fn leave_out(&mut self, off: f64, now: Time) {
+    pub(super) fn leave_out(&mut self, off: f64, now: Time) {
         let is_relapse =
             self.convicted.is_some_and(|at| !self.is_out && (now - at).as_seconds() < FORGOTTEN);
         let needed = if is_relapse { (2.0 * self.needed).min(LONGEST) } else { QUARANTINE };
@@ -40,7 +47,7 @@ impl Amends {
     }
 
     /// Sees what he is off by now, the mean square of it if he agrees, the sigmas of that and of his noise; tells whether he is heard again.
-    fn see(
+    pub(super) fn see(
         &mut self,
         now: Time,
         (z, square): (f64, Option<f64>),
@@ -81,12 +88,12 @@ impl Amends {
 /// The compass of antennas, and each docking aid with its mark.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Numbers {
-    antennas: Amends,
-    docking: [Amends; DOCKING_AIDS],
+    pub(super) antennas: Amends,
+    pub(super) docking: [Amends; DOCKING_AIDS],
     /// What each measures to, by its place.
-    marks: [Option<u8>; DOCKING_AIDS],
+    pub(super) marks: [Option<u8>; DOCKING_AIDS],
     /// Antennas were heard.
-    has_antennas: bool,
+    pub(super) has_antennas: bool,
 }
 
 impl Numbers {
@@ -101,83 +108,6 @@ impl Numbers {
             return self.has_antennas;
         }
         self.marks.iter().any(Option::is_some)
-    }
-}
-
-impl Docket {
-    /// Antennas that are a compass are heard.
-    pub fn note_antennas(&mut self) {
-        self.numbers.has_antennas = true;
-    }
-
-    /// A docking aid, by its number, measures to a line or point, by its place.
-    pub fn note_mark(&mut self, number: usize, place: usize) {
-        if let Some(mark) = self.numbers.marks.get_mut(number) {
-            *mark = u8::try_from(place).ok();
-        }
-    }
-
-    /// Whether a fault is one of a docking aid.
-    fn concerns(&self, fault: Option<Fault>, number: usize) -> bool {
-        let is_it = |own: u8| usize::from(own) == number;
-        match fault {
-            Some(Fault::DockingJump(own) | Fault::DockingDrift(own)) => is_it(own),
-            Some(Fault::DockingMark(place)) => self.numbers.marks[number] == Some(place),
-            _ => true,
-        }
-    }
-
-    /// Whether somebody is suspected, so that what he says with an aid is not used.
-    #[must_use]
-    pub fn doubts(&self, aid: Aid) -> bool {
-        let Some(party) = aid.party() else { return false };
-        let fault = self.entries[self.place(party)].fault;
-        let is_it = aid.number_of_docking().is_none_or(|number| self.concerns(fault, number));
-        self.standing(party) == Standing::Doubtful && is_it
-    }
-
-    /// Whether a docking aid is heard, though another one is left out.
-    pub(super) fn hears_docking(&self, aid: Aid) -> bool {
-        aid.number_of_docking().is_some_and(|number| !self.numbers.docking[number].is_out)
-    }
-
-    /// Somebody who tells one number is left out for a fault, as he is off by so much.
-    pub(super) fn leave_number_out(&mut self, fault: Fault, off: f64, now: Time) {
-        if fault.party() == Party::Antennas {
-            self.numbers.antennas.leave_out(off, now);
-        }
-        let concerned = |number: &usize| self.concerns(Some(fault), *number);
-        let all: Vec<usize> = (0..DOCKING_AIDS).filter(concerned).collect();
-        for number in all.into_iter().filter(|_| fault.party() == Party::Docking) {
-            self.numbers.docking[number].leave_out(off, now);
-        }
-    }
-
-    /// Which of those are left out, a bit for each.
-    #[must_use]
-    pub fn numbers_out(&self) -> u8 {
-        let Numbers { antennas, docking, .. } = &self.numbers;
-        let all = std::iter::once(antennas).chain(docking).enumerate();
-        all.filter(|(_, own)| own.is_out).map(|(bit, _)| 1 << bit).sum()
-    }
-
-    /// Sees what somebody who tells one number, and is left out, is off by, with the mean square of it if he agrees, and the sigmas of that and of his noise.
-    pub fn follow_number(
-        &mut self,
-        aid: Aid,
-        now: Time,
-        told: (f64, Option<f64>),
-        sigmas: [f64; 2],
-    ) {
-        let Some(party) = aid.party() else { return };
-        let own = match aid.number_of_docking() {
-            Some(number) => &mut self.numbers.docking[number],
-            None => &mut self.numbers.antennas,
-        };
-        let is_heard = own.is_out && own.see(now, told, sigmas);
-        if is_heard && (party == Party::Antennas || self.numbers_out() & !1 == 0) {
-            self.enter(party, Standing::Trusted, now);
-        }
     }
 }
 
