@@ -207,11 +207,11 @@ fn named(seed: u64, wrong: impl Fn(f64, usize) -> f64) -> (f64, bool) {
     let is_out = |own: &Solution| own.judgement.excluded.contains(Party::Docking);
     let first = log.solutions.iter().position(is_out).unwrap();
     let at = log.solutions[first].time.as_seconds();
-    let innocent = log.solutions.iter().flat_map(|own| own.judgement.excluded.iter());
-    assert!(innocent.clone().all(|party| party == Party::Docking), "{seed}");
+    let mut all = log.solutions.iter().flat_map(|own| own.judgement.excluded.iter());
+    assert!(all.all(|party| party == Party::Docking), "{seed}");
     // she is made fast at 660 s, and nobody compares them from then on
-    let before = log.solutions[first..].iter().take_while(|own| own.time.as_seconds() < 655.0);
-    (at, before.clone().all(is_out))
+    let mut before = log.solutions[first..].iter().take_while(|own| own.time.as_seconds() < 655.0);
+    (at, before.all(is_out))
 }
 
 #[test]
