@@ -127,6 +127,10 @@ temperature seeds="9":
 faults draws="5" *kind:
     cargo run --release -p insd-engine --example faults -- {{draws}} {{kind}}
 
+# antennas that are a compass, and docking aids, that lie: whether and how soon it is told, and what it costs
+aid-faults seeds="10" *kind:
+    cargo run --release -p insd-lab --example aid_faults -- {{seeds}} {{kind}}
+
 # the recipes of docs/connect.md with gpsd, chrony and, where it is installed, Signal K
 conformance-connect *options:
     cargo build --release -p insd

@@ -79,6 +79,8 @@ pub enum Carried {
     WithRanges,
     /// From the first epoch of several antennas on.
     WithAntennas,
+    /// From the first heading on that several antennas tell to who does not follow their phases.
+    WithAntennaHeading,
     /// From the first reading of a docking aid on, while any is heard.
     WithRanging,
     /// From the first image or step of a camera on, while it is heard.

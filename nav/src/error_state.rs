@@ -230,6 +230,14 @@ declare! {
     ANTENNA_REFLECTIONS: ANTENNA_ROWS, "antenna_reflections", "sigma", Scalar, WithAntennas,
         first: |_| 1.0, process: |_, _| Process::of_sigmas(ANTENNA_REFLECTION_TIME),
         correction: Correction::Adds(|nominal| nominal.antenna_reflections.as_mut_slice());
+    /// What reflections add to a heading that several antennas tell, in units of its sigma, Gauss-Markov.
+    ANTENNA_HEADING_ERROR: 1, "antenna_heading_error", "sigma", Scalar, WithAntennaHeading,
+        first: |_| 1.0, process: |_, _| Process::of_sigmas(ANTENNA_REFLECTION_TIME),
+        correction: Correction::Adds(|nominal| from_mut(&mut nominal.antenna_heading_error));
+    /// By how much more the antennas sit turned than configured, rad, constant.
+    ANTENNA_HEADING_OFFSET: 1, "antenna_heading_offset", "rad", Scalar, WithAntennaHeading,
+        first: |config| config.antennas.axes_std.z, process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| from_mut(&mut nominal.antenna_heading_offset));
     /// What the survey of each line and point ashore that a docking aid measures to is off by, in units of its sigma, Gauss-Markov: of a line
     /// across it at its first end and at its second; of a point north, east and down.
     RANGING_ERRORS: 3 * RANGING_MARKS, "ranging_errors", "sigma", Scalar, WithRanging,

@@ -103,6 +103,10 @@ pub struct Nominal {
     pub antenna_axes: Vector3<f64>,
     /// What reflections add to each row of what antennas tell, sigmas.
     pub antenna_reflections: SVector<f64, ANTENNA_ROWS>,
+    /// What reflections add to a heading that several antennas tell, sigmas.
+    pub antenna_heading_error: f64,
+    /// By how much more the antennas sit turned than configured, rad.
+    pub antenna_heading_offset: f64,
     /// What the survey of each mark of docking aids is off by, sigmas.
     pub ranging_errors: SVector<f64, { 3 * RANGING_MARKS }>,
     /// By what each pose at the time of an image was corrected since it was first estimated, m and rad, ECEF axes.
@@ -169,6 +173,8 @@ impl Nominal {
             antenna_lines: SVector::zeros(),
             antenna_axes: Vector3::zeros(),
             antenna_reflections: SVector::zeros(),
+            antenna_heading_error: 0.0,
+            antenna_heading_offset: 0.0,
             ranging_errors: SVector::zeros(),
             poses: SVector::zeros(),
             landmarks: SVector::zeros(),

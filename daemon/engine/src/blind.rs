@@ -6,7 +6,7 @@
 
 use insd_alignment::EightState;
 use insd_base::units::{DEG, wrap_pi};
-use insd_base::{ExternalReference, Message, Received, Solution, Time};
+use insd_base::{ExternalReference, Fault, Message, Party, Received, Solution, Time};
 use insd_nav::{Estimator, Increment};
 
 /// What nobody has borne out is claimed to be no surer than this, rad.
@@ -37,13 +37,20 @@ pub(crate) enum Word {
 #[derive(Clone, Debug)]
 pub(crate) struct Blind {
     finder: Box<EightState>,
+    /// Who tells the heading.
+    whom: Party,
     differs_since: Option<Time>,
 }
 
 impl Blind {
     /// One that knows what a finder knows before it hears a heading.
-    pub(crate) fn beside(finder: &EightState) -> Self {
-        Blind { finder: Box::new(finder.clone()), differs_since: None }
+    pub(crate) fn beside(finder: &EightState, whom: Party) -> Self {
+        Blind { finder: Box::new(finder.clone()), whom, differs_since: None }
+    }
+
+    /// What whoever tells the heading does if it is not so.
+    pub(crate) fn fault(&self) -> Fault {
+        if self.whom == Party::Antennas { Fault::AntennasOffset } else { Fault::HeadingOffset }
     }
 
     pub(crate) fn finder(&self) -> &EightState {

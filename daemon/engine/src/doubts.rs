@@ -1,8 +1,6 @@
 //! What is found to be otherwise than configured, and what follows from it.
 
-use insd_base::{
-    Estimates, Event, Fault, Finding, GnssFix, Message, Mode, ModeReason, Received, Time,
-};
+use insd_base::{Estimates, Event, Finding, GnssFix, Message, Mode, ModeReason, Received, Time};
 use insd_nav::Estimator;
 use insd_nav::config::LeverFound;
 use insd_nav::filter::judged::ImuState;
@@ -63,7 +61,8 @@ impl Engine {
                 if self.docket().imu_doubted_since().is_some() {
                     return self.condemn_imu(time);
                 }
-                let docket = self.nav.docket.without(Fault::HeadingOffset, time);
+                let fault = line.estimator().fault_of_heading();
+                let docket = self.nav.docket.without(fault, time);
                 self.start_over(time, ModeReason::HeadingRefuted);
                 self.nav = self.nav.with_docket(docket);
                 return;

@@ -198,6 +198,14 @@ impl Ship {
         matches!(self, Ship::Navigating { blind: Some(_), .. })
     }
 
+    /// What whoever told the heading that she was found with did, if it is not so.
+    pub(crate) fn fault_of_heading(&self) -> Fault {
+        match self {
+            Ship::Navigating { blind: Some(blind), .. } => blind.fault(),
+            _ => Fault::HeadingOffset,
+        }
+    }
+
     /// Whether she is taken as lying at her berth.
     pub(crate) fn is_moored(&self) -> bool {
         match self {
@@ -337,8 +345,7 @@ impl Ship {
             Some(Word::Refuted) => {
                 let finder = blind.finder();
                 let Some(initial) = finder.initial_state() else { return };
-                let docket =
-                    navigator.filter().docket().without(Fault::HeadingOffset, finder.time());
+                let docket = navigator.filter().docket().without(blind.fault(), finder.time());
                 let config = finder.config().with_docket(docket);
                 let past = navigator.filter().past();
                 **navigator = Navigator::new(&config, &initial.at_berth(navigator.berth()));
@@ -364,6 +371,12 @@ impl Ship {
 /// it is only asked for when that is new.
 fn is_steerable(navigator: &Navigator) -> bool {
     navigator.filter().is_settled() && navigator.filter().heading_std() < STEERABLE
+}
+
+/// Whose a heading is that a message may tell.
+fn who_tells_heading(received: &Received) -> Party {
+    let is_of_antennas = matches!(received.message, Message::Compass(_));
+    if is_of_antennas { Party::Antennas } else { Party::Heading }
 }
 
 /// Whether a message is of a receiver that is not in use.
@@ -420,10 +433,11 @@ impl Estimator for Ship {
             _ if is_compared(received) => Report::default(),
             Ship::Aligning { bank, .. } => bank.apply(&as_heading(received)),
             Ship::InMotion { finder, blind, images, .. } => {
+                let whom = who_tells_heading(received);
                 let received = &as_heading(received);
-                let is_left_out = finder.config().docket.is_excluded(Party::Heading);
+                let is_left_out = finder.config().docket.is_excluded(whom);
                 if blind.is_none() && tells_heading(received) && !is_left_out {
-                    *blind = Some(Blind::beside(finder));
+                    *blind = Some(Blind::beside(finder, whom));
                 }
                 blind.iter_mut().for_each(|blind| blind.apply(received));
                 let heard = if is_left_out { without_heading(received) } else { received.clone() };

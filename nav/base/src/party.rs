@@ -23,11 +23,15 @@ pub enum Party {
     Reference,
     /// The IMU.
     Imu,
+    /// Several antennas of the hull that are a compass.
+    Antennas,
+    /// Docking aids: lasers, radios, local position references.
+    Docking,
 }
 
 impl Party {
     /// All of them.
-    pub const ALL: [Party; 7] = [
+    pub const ALL: [Party; 9] = [
         Party::Gnss,
         Party::Gnss2,
         Party::Gnss3,
@@ -35,6 +39,8 @@ impl Party {
         Party::Heading,
         Party::Reference,
         Party::Imu,
+        Party::Antennas,
+        Party::Docking,
     ];
 
     /// The receivers, in the order of the configuration.
@@ -64,6 +70,8 @@ impl Party {
             Party::Heading => "heading",
             Party::Reference => "reference",
             Party::Imu => "imu",
+            Party::Antennas => "antennas",
+            Party::Docking => "docking",
         }
     }
 }
@@ -79,6 +87,8 @@ impl fmt::Display for Party {
             Party::Heading => "the heading reference",
             Party::Reference => "the other reference",
             Party::Imu => "the IMU",
+            Party::Antennas => "the compass of antennas",
+            Party::Docking => "a docking aid",
         })
     }
 }
@@ -154,6 +164,20 @@ pub enum Fault {
     SpareDrag,
     /// It is wrong in a way that has no shape.
     SpareNoise,
+    /// What antennas tell of the heading is off.
+    AntennasOffset,
+    /// It drifts.
+    AntennasDrift,
+    /// It scatters by more than it says.
+    AntennasNoise,
+    /// A docking aid, by its number, tells distances that are off.
+    DockingJump(u8),
+    /// Its distances drift away.
+    DockingDrift(u8),
+    /// What docking aids measure to, by its place, is elsewhere than surveyed.
+    DockingMark(u8),
+    /// A docking aid scatters by more than it says.
+    DockingNoise,
     /// A gyro has another bias.
     GyroBias,
     /// An accelerometer has another bias.
@@ -178,6 +202,9 @@ impl Fault {
             Fault::LogGain | Fault::LogOffset | Fault::LogFlow | Fault::LogNoise => Party::Log,
             Fault::HeadingOffset | Fault::HeadingDrift | Fault::HeadingNoise => Party::Heading,
             Fault::ReferenceJump | Fault::ReferenceDrag | Fault::ReferenceNoise => Party::Reference,
+            Fault::AntennasOffset | Fault::AntennasDrift | Fault::AntennasNoise => Party::Antennas,
+            Fault::DockingJump(_) | Fault::DockingDrift(_) => Party::Docking,
+            Fault::DockingMark(_) | Fault::DockingNoise => Party::Docking,
             Fault::GyroBias | Fault::AccelBias | Fault::GyroScale => Party::Imu,
             Fault::ImuUseless | Fault::ImuWorse => Party::Imu,
         }
@@ -194,6 +221,8 @@ impl Fault {
                 | Fault::HeadingDrift
                 | Fault::ReferenceDrag
                 | Fault::SpareDrag
+                | Fault::AntennasDrift
+                | Fault::DockingDrift(_)
         )
     }
 
@@ -207,6 +236,8 @@ impl Fault {
                 | Fault::LogNoise
                 | Fault::HeadingNoise
                 | Fault::ReferenceNoise
+                | Fault::AntennasNoise
+                | Fault::DockingNoise
         )
     }
 
@@ -235,6 +266,13 @@ impl Fault {
             Fault::SpareJump => "spare_jump",
             Fault::SpareDrag => "spare_drag",
             Fault::SpareNoise => "spare_noise",
+            Fault::AntennasOffset => "antennas_offset",
+            Fault::AntennasDrift => "antennas_drift",
+            Fault::AntennasNoise => "antennas_noise",
+            Fault::DockingJump(_) => "docking_jump",
+            Fault::DockingDrift(_) => "docking_drift",
+            Fault::DockingMark(_) => "docking_mark",
+            Fault::DockingNoise => "docking_noise",
             Fault::GyroBias => "gyro_bias",
             Fault::AccelBias => "accel_bias",
             Fault::GyroScale => "gyro_scale",
@@ -258,12 +296,20 @@ impl fmt::Display for Fault {
             Fault::GnssNoise | Fault::LogNoise | Fault::HeadingNoise | Fault::ReferenceNoise => {
                 "scatters by more than it says"
             }
+            Fault::AntennasNoise | Fault::DockingNoise => "scatters by more than it says",
             Fault::SpareNoise => "is elsewhere than the one in use",
             Fault::LogGain => "has another scale than before, or is turned",
             Fault::LogOffset => "is off along or athwart",
             Fault::LogFlow => "is off as if it tracked the water",
-            Fault::HeadingOffset => "is off by an angle",
-            Fault::HeadingDrift => "drifts",
+            Fault::HeadingOffset | Fault::AntennasOffset => "is off by an angle",
+            Fault::HeadingDrift | Fault::AntennasDrift => "drifts",
+            Fault::DockingJump(number) => {
+                return write!(f, "(number {}) is off by a distance", u16::from(*number) + 1);
+            }
+            Fault::DockingDrift(number) => {
+                return write!(f, "(number {}) drifts away", u16::from(*number) + 1);
+            }
+            Fault::DockingMark(_) => "measures to a line or point that is elsewhere than surveyed",
             Fault::GyroBias => "has a gyro with another bias than before",
             Fault::AccelBias => "has an accelerometer with another bias than before",
             Fault::GyroScale => "has a gyro with another scale than before",
@@ -339,7 +385,7 @@ impl fmt::Display for ReceiverChange {
 
 /// Some of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash)]
-pub struct Parties(u8);
+pub struct Parties(u16);
 
 impl Parties {
     /// With one more.

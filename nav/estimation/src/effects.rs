@@ -67,6 +67,14 @@ impl Effects {
         self.rows = rows;
     }
 
+    /// Takes on so many causes: those that are new have no effect yet.
+    pub fn widen(&mut self, causes: usize) {
+        if causes > self.causes() {
+            let rows = std::mem::replace(&mut self.rows, DMatrix::zeros(0, 0));
+            self.rows = rows.resize_vertically(causes, 0.0);
+        }
+    }
+
     /// Sets what some causes, from `first` on, a row of `value` each, do to a block.
     pub fn set<const R: usize, const W: usize>(
         &mut self,

@@ -37,8 +37,8 @@ struct Columns<'a> {
 
 /// Shares of the variance of a phase that reflections and what is new in each epoch are. Residuals of real antennas on roofs are 0.6 to 0.8 reflections
 /// (docs/compass.md); both are taken for a little more than there is.
-const REFLECTED: f64 = 0.7;
-const WHITE: f64 = 0.5;
+pub(super) const REFLECTED: f64 = 0.7;
+pub(super) const WHITE: f64 = 0.5;
 
 /// Innovation of an epoch. `lines`: those that are carried, in their places, at most [`LINES`]; phases of others are not used. `None` where it tells nothing.
 #[must_use]

@@ -1,6 +1,7 @@
 //! Aids: one file each, all of the same shape. From the estimate and a measurement to an innovation
 //! with its measurement matrix and noise; nothing is changed here.
 
+pub mod antenna_heading;
 pub mod antenna_phases;
 pub mod berth;
 pub mod gnss_position;

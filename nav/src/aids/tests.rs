@@ -35,6 +35,8 @@ fn estimate() -> Nominal {
     nominal.log_by_turn = -6.0;
     nominal.sea_level = 24.0;
     nominal.heading_error = 0.4;
+    nominal.antenna_heading_error = -0.6;
+    nominal.antenna_heading_offset = 0.01;
     nominal.receiver_clock = Vector2::new(120.0, 0.3);
     nominal.system_offsets = Vector3::new(5.0, -3.0, 2.0);
     nominal.range_errors[7] = 0.6;
@@ -106,6 +108,7 @@ type Entry = (&'static str, fn(&View) -> Rows);
 
 fn ranging_table() -> Vec<Entry> {
     vec![
+        ("antenna_heading", |view| rows(&antenna_heading::innovation(view, 2.25, 0.02))),
         ("ranging_across", |view| ranging_rows(view, by_quay(RangingBeam::Across))),
         ("ranging_ashore", |view| ranging_rows(view, by_quay(RangingBeam::Ashore(40.0)))),
         ("ranging_aboard", |view| {

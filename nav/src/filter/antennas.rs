@@ -2,21 +2,27 @@
 //!
 //! Cycles were told without the filter, so that nothing is counted twice but the phases of the epoch. What reflects goes on for minutes: it is a state.
 
-use insd_base::Source;
 use insd_base::satellites::{CompassPhases, CompassReading};
-use nalgebra::Matrix3;
+use insd_base::{Rejection, Source};
+use nalgebra::{Matrix1, Matrix3};
 
 use super::Filter;
-use super::entry::{COMPASS_AID, enter};
-use crate::aids::antenna_phases;
+use super::antennas_followed::sky_of;
+use super::entry::{COMPASS_AID, Judged, NO_INNOVATION, enter};
+use crate::aids::{antenna_heading, antenna_phases};
 use crate::declaration::Carried;
 use crate::error_state::{
-    ANTENNA_AXES, ANTENNA_LINES, ANTENNA_REFLECTIONS, ANTENNA_ROWS, LINE_UNKNOWN, LINES,
+    ANTENNA_AXES, ANTENNA_HEADING_ERROR, ANTENNA_LINES, ANTENNA_REFLECTIONS, ANTENNA_ROWS,
+    Innovation, LINE_UNKNOWN, LINES,
 };
+use crate::judge::{Aid, rows};
 use crate::report::{Outcome, Report};
 
 /// Variance of what reflects under another sky than before, in that of one epoch.
 const OTHER_SKY: f64 = 2.0;
+/// A heading that is less sure than this, rad, 1-sigma, tells the judge nothing, and none is surer than that.
+const UNSURE: f64 = 0.1;
+const SUREST: f64 = 1e-3;
 /// After so many epochs in a row that contradict the filter its lines are not those of the antennas.
 const CONTRADICTED: u8 = 5;
 
@@ -31,6 +37,15 @@ impl Filter {
         if !self.navigating {
             return;
         }
+        if self.companion.is_none() {
+            self.judge_antennas(told);
+        }
+        if self.withholds(Aid::Antennas) {
+            let outcome = Outcome::Rejected(Rejection::SourceSuspect);
+            let judged = Judged { outcome, log_likelihood: 0.0, innovation: NO_INNOVATION };
+            enter(report, reading.time, source, COMPASS_AID, &judged);
+            return;
+        }
         self.begin_with_antennas();
         self.seat_lines(told, reading.run);
         self.seat_reflections(told);
@@ -40,6 +55,46 @@ impl Filter {
         let judged = self.gated(&innovation, None);
         let outcome = enter(report, reading.time, source, COMPASS_AID, &judged);
         self.note_compass(outcome);
+    }
+
+    /// Lets the judge hear the heading that antennas tell. Gives it as it is to be used by who does not follow their phases.
+    fn judge_antennas(&mut self, told: &CompassPhases) -> Option<Innovation> {
+        let stated = told.covariance[(2, 2)] - self.config.antennas.axes_std.z.powi(2);
+        let std = stated.max(SUREST * SUREST).sqrt();
+        if std > UNSURE || self.court.judge.is_none() {
+            return None;
+        }
+        self.begin_to_carry(Carried::WithAntennaHeading);
+        let (sky, is_other) = sky_of(told, &self.antennas.heard_sky);
+        self.antennas.heard_sky = sky;
+        if is_other {
+            self.forget_reflected_heading();
+        }
+        let heading = told.attitude.heading;
+        let mut innovation = antenna_heading::innovation(&self.view(), heading, std);
+        innovation.r *= self.noise_of(Aid::Antennas);
+        self.consult(Aid::Antennas, &innovation, rows::of_antennas);
+        Some(innovation)
+    }
+
+    /// What is reflected under another sky is another error of the heading.
+    fn forget_reflected_heading(&mut self) {
+        let unknown = Matrix1::new(OTHER_SKY);
+        self.state.nominal.antenna_heading_error = 0.0;
+        ANTENNA_HEADING_ERROR.renew(&mut self.state.covariance, &unknown);
+        if let Some(judge) = self.judge_now() {
+            judge.renew(ANTENNA_HEADING_ERROR, &unknown);
+        }
+    }
+
+    /// Lets the judge hear the heading, and takes it, of antennas of which another filter follows the phases.
+    pub(super) fn hear_antennas(&mut self, told: &CompassPhases) {
+        self.settle();
+        if let Some(innovation) = self.judge_antennas(told) {
+            let refused = self.withholds(Aid::Antennas).then_some(Rejection::SourceSuspect);
+            self.gated(&innovation, refused);
+        }
+        self.heed();
     }
 
     /// Their states join; how they sit is known better about one axis than about another.
@@ -78,12 +133,8 @@ impl Filter {
 
     /// Under another sky reflections are others, and no news altogether: the ship that reflects is the same. They count as twice as large.
     fn seat_reflections(&mut self, told: &CompassPhases) {
-        let mut sky: Vec<_> = told.signals.iter().map(|signal| signal.satellite).collect();
-        sky.sort_unstable();
-        sky.dedup();
-        let before = std::mem::take(&mut self.antennas.sky);
-        let stayed = sky.iter().filter(|satellite| before.contains(satellite)).count();
-        if 3 * stayed < 2 * sky.len().max(before.len()) {
+        let (sky, is_other) = sky_of(told, &self.antennas.sky);
+        if is_other {
             self.state.nominal.antenna_reflections.fill(0.0);
             for row in 0..ANTENNA_ROWS {
                 self.state.covariance.renew_state(ANTENNA_REFLECTIONS.key(), row, OTHER_SKY);

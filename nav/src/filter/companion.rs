@@ -60,16 +60,27 @@ impl Filter {
     pub(super) fn accompany(&mut self, received: &Received) -> Option<Report> {
         let is_unheard = matches!(
             received.message,
-            Message::Ranges(_)
-                | Message::Rtk(_)
-                | Message::Compass(_)
-                | Message::Camera(_)
-                | Message::Odometry(_)
+            Message::Ranges(_) | Message::Rtk(_) | Message::Camera(_) | Message::Odometry(_)
         );
+        let before = self.companion.as_deref().map(|own| own.docket().numbers_out());
+        if let Message::Compass(reading) = &received.message {
+            let told = reading.told.as_ref().ok()?;
+            self.companion_mut()?.hear_antennas(told);
+            let mut report = Report::default();
+            if self.are_new_out(before) {
+                self.go_on_without_ranges(&mut report);
+                return Some(report);
+            }
+            return None;
+        }
         if is_unheard {
             return None;
         }
         let mut report = self.companion_mut()?.apply(received);
+        if self.are_new_out(before) {
+            self.go_on_without_ranges(&mut report);
+            return Some(report);
+        }
         let companion = self.companion.as_deref()?;
         let sigmas = self.apart_from(companion);
         let has_found_antenna = companion.has_mended_antenna() && !self.has_mended_antenna();
@@ -95,6 +106,12 @@ impl Filter {
         }
         self.claim_both();
         None
+    }
+
+    /// Whether antennas or a docking aid that this filter has followed are found to lie.
+    fn are_new_out(&self, before: Option<u8>) -> bool {
+        let now = self.companion.as_deref().map(|own| own.docket().numbers_out());
+        now.zip(before).is_some_and(|(now, before)| now & !before != 0)
     }
 
     /// While the two are apart, or the judge is in doubt, what is claimed covers it.

@@ -14,8 +14,8 @@ use super::ranging_standing::Mark;
 use crate::aids::ranging::{self, RangingPrediction};
 use crate::declaration::Carried;
 use crate::error_state::carried;
-use crate::error_state::{ATTITUDE, POSITION, RANGING_ERRORS, VELOCITY, Weighed};
-use crate::judge::Separation;
+use crate::error_state::{ATTITUDE, Innovation, POSITION, RANGING_ERRORS, VELOCITY, Weighed};
+use crate::judge::{Aid, Separation, rows};
 use crate::protection::RiskModel;
 use crate::report::{Outcome, Report};
 
@@ -36,8 +36,10 @@ impl Filter {
         report: &mut Report,
     ) {
         let (judged, used_place) = match self.foresee(reading) {
-            Ok((place, weighed)) => {
-                let judged = self.take_ranging(&weighed, source, report);
+            Ok((place, innovation, weighed)) => {
+                let number = if let Source::Ranging(number) = source { number } else { u8::MAX };
+                let is_withheld = self.judge_ranging((number, place), &innovation);
+                let judged = self.take_ranging(&weighed, (number, is_withheld), report);
                 (judged, (judged.outcome == Outcome::Accepted).then_some(place))
             }
             Err(reason) => {
@@ -54,7 +56,10 @@ impl Filter {
     }
 
     /// A reading beside what is expected of it, and the place of its mark; or why it is nothing to the ship.
-    fn foresee(&mut self, reading: &RangingReading) -> Result<(usize, Weighed), Rejection> {
+    fn foresee(
+        &mut self,
+        reading: &RangingReading,
+    ) -> Result<(usize, Innovation, Weighed), Rejection> {
         if !is_distance(reading) {
             return Err(Rejection::OutOfRange);
         }
@@ -69,15 +74,31 @@ impl Filter {
         let more = self.bent_ranging(&prediction);
         let innovation = ranging::innovation(&prediction, reading, place, more);
         let weighed = innovation.weigh(&self.state.covariance).ok_or(Rejection::OutOfRange)?;
-        Ok((place, weighed))
+        Ok((place, innovation, weighed))
     }
 
-    fn take_ranging(&mut self, weighed: &Weighed, source: Source, report: &mut Report) -> Judged {
+    /// Lets the judge hear a docking aid; tells whether it is left out.
+    fn judge_ranging(&mut self, (number, place): (u8, usize), innovation: &Innovation) -> bool {
+        let Some(aid) = Aid::docking(number) else { return false };
+        if let Some(judge) = self.judge_now() {
+            judge.note_mark(number.into(), place);
+        }
+        let own = usize::from(number);
+        self.consult(aid, innovation, |age| rows::of_docking(own, place, age));
+        self.withholds(aid)
+    }
+
+    fn take_ranging(
+        &mut self,
+        weighed: &Weighed,
+        (number, is_withheld): (u8, bool),
+        report: &mut Report,
+    ) -> Judged {
         let now = self.state.time;
         let agrees = weighed.nis() <= self.gate.limit(weighed.rows());
-        let number = if let Source::Ranging(number) = source { number } else { u8::MAX };
         let standing = self.rangings.standings.get_mut(usize::from(number));
         let (is_used, turn) = standing.map_or((agrees, None), |own| own.hear(now, agrees));
+        let is_used = is_used && !is_withheld;
         report.rangings.extend(turn.map(|turn| (now, number, turn)));
         let log_likelihood = self.bounded_likelihood(weighed);
         let refusal = if agrees { Rejection::SourceSuspect } else { Rejection::ChiSquare };

@@ -28,6 +28,16 @@ pub enum Aid {
     SparePosition,
     /// Its velocity.
     SpareVelocity,
+    /// Heading by several antennas.
+    Antennas,
+    /// Distance of the first docking aid.
+    Docking1,
+    /// Of the second.
+    Docking2,
+    /// Of the third.
+    Docking3,
+    /// Of the fourth.
+    Docking4,
     /// Mean sea level.
     SeaLevel,
 }
@@ -44,7 +54,24 @@ const SPIKES: u32 = 2;
 /// Noise that grows by so much, as a variance, spoils what was made of it; less comes by chance.
 const MUCH: f64 = 10.0;
 
+/// Docking aids that are judged one by one.
+pub(crate) const DOCKING_AIDS: usize = 4;
+/// They, by their numbers.
+const DOCKING: [Aid; DOCKING_AIDS] = [Aid::Docking1, Aid::Docking2, Aid::Docking3, Aid::Docking4];
+
 impl Aid {
+    /// The docking aid of a number, from 0; `None` of one too many.
+    #[must_use]
+    pub fn docking(number: u8) -> Option<Aid> {
+        DOCKING.get(usize::from(number)).copied()
+    }
+
+    /// Which docking aid it is.
+    #[must_use]
+    pub fn number_of_docking(self) -> Option<usize> {
+        DOCKING.iter().position(|own| *own == self)
+    }
+
     /// Who says it.
     #[must_use]
     pub fn party(self) -> Option<Party> {
@@ -54,6 +81,8 @@ impl Aid {
             Aid::Heading => Some(Party::Heading),
             Aid::ReferencePosition | Aid::ReferenceVelocity => Some(Party::Reference),
             Aid::SparePosition | Aid::SpareVelocity => Some(Party::Gnss2),
+            Aid::Antennas => Some(Party::Antennas),
+            Aid::Docking1 | Aid::Docking2 | Aid::Docking3 | Aid::Docking4 => Some(Party::Docking),
             Aid::SeaLevel => None,
         }
     }

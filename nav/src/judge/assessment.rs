@@ -4,14 +4,14 @@ use insd_base::{Fault, Party, Standing, Time};
 
 use super::aid::Aid;
 use super::alternative::Alternative;
-use super::charge::{Assessment, CERTAIN, Charge, DOUBT, Kind};
+use super::charge::{Assessment, CERTAIN, Charge, DOUBT, Kind, LIKELY};
+use super::newcomers::MISTAKEN;
 use super::rows::{ALL, FaultGroup, OF_FALSE_PUSHES, OF_GYROS};
 use super::{CLOSE, Judge, SPAWN};
 
 /// Mean square of the innovations, of which one is expected, that a fault may leave unexplained.
 const UNEXPLAINED: f64 = 4.0;
-/// Somebody is likely to lie from such odds on, as a logarithm, until they are below those;
-const LIKELY: f64 = 2.3;
+/// Somebody is likely to lie until the odds are below those, as a logarithm;
 const UNLIKELY: f64 = 0.9;
 /// the claims cover what may be, as far as three sigmas, from one in nine on.
 const COVER: f64 = 0.12;
@@ -61,7 +61,7 @@ impl Judge {
         let mut charges: Vec<Charge> = Vec::new();
         let mut total = 0.0;
         for mut charge in all {
-            let is_own_word = charge.is_own_word && !is_of_spare;
+            let is_own_word = charge.is_own_word && !is_of_spare || charge.is_mistake;
             let own = if is_own_word { worth.min(OWN_WORD) } else { worth };
             charge.weight += charge.evidence / own;
             charge.weight += if charge.party() == Party::Imu { relapse } else { 0.0 };
@@ -100,8 +100,13 @@ impl Judge {
             for (group, FaultGroup { fault, least, log_rate, .. }) in ALL.iter().enumerate() {
                 let is_slow = *fault == Fault::GyroScale && age > QUICK;
                 let is_own_word = *fault == Fault::Slide;
-                let unsure = if is_own_word { unsure.min(OWN_WORD) } else { unsure };
-                let sized = onset.sized(group, unsure).filter(|sized| sized.value.norm() >= *least);
+                let is_mistake = self.is_from_begin(*fault, onset.since);
+                // a mistake is told of at its begin, and is worth no less for what comes later
+                let is_lasting = is_own_word || is_mistake;
+                let unsure = if is_lasting { unsure.min(OWN_WORD) } else { unsure };
+                let is_blind = onset.is_blind_to(group);
+                let sized = (!is_blind).then(|| onset.sized(group, unsure)).flatten();
+                let sized = sized.filter(|sized| sized.value.norm() >= *least);
                 let is_unseen = self.began_unseen(*fault, onset.since, now);
                 // of receivers only it is the drift of one
                 let is_drift = group == OF_FALSE_PUSHES && !is_log_heard;
@@ -109,8 +114,9 @@ impl Judge {
                 let Some(sized) = sized.filter(|_| !is_none) else { continue };
                 let (fault, begun) = (*fault, onset.since);
                 let kind = Kind::Shaped { group, since: begun, sized };
-                let (weight, evidence) = (log_rate + step, sized.log_factor * unsure);
-                all.push(Charge { fault, weight, evidence, begun, is_own_word, kind });
+                let often = if is_mistake { MISTAKEN } else { log_rate + step };
+                let (weight, evidence) = (often, sized.log_factor * unsure);
+                all.push(Charge { fault, weight, evidence, begun, is_own_word, is_mistake, kind });
             }
         }
         let most = all.iter().filter_map(Charge::explained).fold(0.0, f64::max);
@@ -148,7 +154,9 @@ impl Judge {
     /// Whether a height or a place leaps, by somebody's word: no ship does that, and no mistake of the installation makes it.
     #[must_use]
     pub fn leaps(&self, whom: Party) -> bool {
-        self.leap(whom).or_else(|| self.far_jump(whom)).is_some()
+        whom == Party::Docking
+            || self.leap(whom).or_else(|| self.far_jump(whom)).is_some()
+            || self.most_of_it(whom).any(|charge| self.turns(charge))
     }
 
     /// The leap of somebody's height, where that is most of what there is: a receiver that hears reflections is off in height,
@@ -243,13 +251,16 @@ impl Judge {
     pub(super) fn is_certain(&self, first: &Charge) -> bool {
         let of_others = |other: &&Charge| other.party() != first.party() && self.explains(other);
         let mut others = self.assessment.charges.iter().filter(of_others);
-        first.weight > DOUBT && others.all(|other| self.rules_out(first, other))
+        first.weight > first.needed() && others.all(|other| self.rules_out(first, other))
     }
 
     /// Whether one who may be guilty leaves nothing to another: is likelier, and explains more, or is likelier by far where
     /// nothing else can tell them apart.
     fn rules_out(&self, first: &Charge, other: &Charge) -> bool {
         let gap = first.weight - other.weight;
+        if first.is_sudden() {
+            return gap > CERTAIN;
+        }
         let is_of_heading = first.party() == Party::Heading;
         let is_less = match (first.explained(), other.explained()) {
             (Some(own), Some(others)) if is_of_heading && self.is_coarse => own - others > SURE,

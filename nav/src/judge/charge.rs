@@ -12,6 +12,8 @@ use super::rows::{OF_FALSE_PUSHES, OF_FALSE_TURNS};
 /// is found to.
 pub(super) const DOUBT: f64 = 6.9;
 pub(super) const CERTAIN: f64 = 6.9;
+/// Somebody is likely to lie from such odds on, as a logarithm.
+pub(super) const LIKELY: f64 = 2.3;
 /// A height that changes by more at once leaps, m.
 const LEAP: f64 = 5.0;
 /// A place that changes by more at once does, m.
@@ -38,6 +40,8 @@ pub(super) struct Charge {
     pub(super) begun: Time,
     /// It is how somebody contradicts himself: no model of the ship stands between his words.
     pub(super) is_own_word: bool,
+    /// It is a mistake that was there when somebody was heard first: nobody has borne him out since, and nothing is lost where he is left out.
+    pub(super) is_mistake: bool,
     pub(super) kind: Kind,
 }
 
@@ -55,6 +59,11 @@ pub(super) struct Assessment {
 }
 
 impl Charge {
+    /// How likely it must be to be taken for so, as a logarithm.
+    pub(super) fn needed(&self) -> f64 {
+        if self.is_mistake { LIKELY } else { DOUBT }
+    }
+
     pub(super) fn party(&self) -> Party {
         self.fault.party()
     }
@@ -74,9 +83,12 @@ impl Charge {
             Party::Log => Fault::LogNoise,
             Party::Heading => Fault::HeadingNoise,
             Party::Reference => Fault::ReferenceNoise,
+            Party::Antennas => Fault::AntennasNoise,
+            Party::Docking => Fault::DockingNoise,
         };
         let (evidence, begun, is_own_word) = (0.0, Time::START, false);
-        Charge { fault, weight, evidence, begun, is_own_word, kind: Kind::Shapeless }
+        let (is_mistake, kind) = (false, Kind::Shapeless);
+        Charge { fault, weight, evidence, begun, is_own_word, is_mistake, kind }
     }
 
     /// What it explains of the normalised squares, where that can be said.
@@ -93,6 +105,16 @@ impl Charge {
             Kind::Shaped { sized, .. } => sized.value.norm(),
             Kind::Shapeless => 0.0,
         }
+    }
+
+    /// Whether it is of antennas that are moved, or of a docking aid that meets something else, which happens so much more often than anything else that explains
+    /// as much that being likelier is enough.
+    pub(super) fn is_sudden(&self) -> bool {
+        let is_it = matches!(
+            self.fault,
+            Fault::AntennasOffset | Fault::DockingJump(_) | Fault::DockingMark(_)
+        );
+        is_it && self.kind != Kind::Shapeless
     }
 
     pub(super) fn is_false_turn(&self) -> bool {
@@ -137,6 +159,13 @@ impl Charge {
     pub(super) fn lie_of_gnss(&self, age: f64) -> (Vector2<f64>, f64) {
         let Kind::Shaped { sized, .. } = self.kind else { return NO_LIE };
         let value = Vector2::new(sized.value.x, sized.value.y);
+        match self.fault {
+            Fault::AntennasOffset | Fault::DockingJump(_) | Fault::DockingMark(_) => {
+                return (value, 0.0);
+            }
+            Fault::AntennasDrift | Fault::DockingDrift(_) => return (value * age, value.x.abs()),
+            _ => {}
+        }
         growth(self.fault, age).map_or(NO_LIE, |(size, rate)| (value * size, value.norm() * rate))
     }
 }

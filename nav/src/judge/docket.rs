@@ -9,30 +9,23 @@
 //! [`Party::Gnss`] and [`Party::Gnss2`], whichever they are; each keeps what it did when it takes another part, and is told
 //! by its own name.
 
+mod anew;
+mod numbers;
 mod of_imu;
 mod open;
 
-use insd_base::{Fault, Integrity, Judgement, Parties, Party, Span, Standing, Stands, Time};
+use insd_base::{Fault, Integrity, Judgement, Parties, Party, Standing, Stands, Time};
 use insd_estimation::Weighed;
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use super::aid::{Aid, agreement};
+use super::amends::{FORGOTTEN, LONGEST, Numbers, QUARANTINE, STRAINED, UNDONE};
 use super::lie::LieOfGnss;
 pub(crate) use open::OpenLie;
 
-/// Who agrees for so long is heard again, s; each time he relapses for twice as long, up to this.
-const QUARANTINE: f64 = 60.0;
-const LONGEST: f64 = 3600.0;
-/// Relapses later than this are no relapses, s.
-const FORGOTTEN: f64 = 3600.0;
-/// Who agrees for so long after his lie was undone is heard again, s.
-const UNDONE: f64 = 5.0;
 /// An IMU that was found wrong and mended is doubted for so long, s.
 const MENDED: f64 = 600.0;
-
-/// Mean square of the innovations, of which one is expected, beyond which they do not agree, taken together.
-const STRAINED: f64 = 4.0;
 
 /// Sigmas of a radius that hold 95 %.
 const RADIUS: f64 = 2.448;
@@ -102,6 +95,8 @@ pub struct Docket {
     alike: Option<Time>,
     /// What the receiver in use may be doing instead of what the IMU was convicted of.
     open: Option<OpenLie>,
+    /// Those who tell one number.
+    numbers: Numbers,
 }
 
 impl Docket {
@@ -239,9 +234,15 @@ impl Docket {
     /// How all stand, each by its own name.
     pub fn all(&self) -> impl Iterator<Item = Stands> {
         let heard = usize::from(self.parts.heard);
-        let is_there = move |party: Party| !party.is_receiver() || (party as usize) < heard;
+        let is_there = move |(party, entry): &(Party, Entry)| match party {
+            Party::Antennas | Party::Docking => {
+                entry.standing != Standing::Trusted || self.numbers.were_heard(*party)
+            }
+            receiver if receiver.is_receiver() => (*receiver as usize) < heard,
+            _ => true,
+        };
         let all = Party::ALL.into_iter().zip(self.entries);
-        all.filter(move |(party, _)| is_there(*party)).map(|(party, entry)| {
+        all.filter(is_there).map(|(party, entry)| {
             let Entry { standing, since, fault, .. } = entry;
             Stands { party, standing, since, fault }
         })
@@ -261,7 +262,7 @@ impl Docket {
         let is_heard = match self.entries[self.place(party)].fault {
             Some(Fault::Velocity) => aid == Aid::GnssPosition,
             Some(Fault::Height) => true,
-            _ => false,
+            _ => self.hears_docking(aid),
         };
         self.is_excluded(party) && !is_heard
     }
@@ -316,6 +317,7 @@ impl Docket {
         }
         self.enter(party, Standing::Excluded, now);
         self.open = self.open.filter(|_| party != Party::Gnss);
+        self.leave_number_out(fault, lie.0.x, now);
         if party.is_receiver() {
             self.lies[self.lie_of(party)].find(lie.0, lie.1, now);
         }
@@ -349,7 +351,8 @@ impl Docket {
     /// Whoever is doubted, by what the last look gave.
     pub fn doubt(&mut self, fault: Option<Fault>, now: Time) {
         let party = fault.map(Fault::party);
-        for each in [Party::Gnss, Party::Gnss2, Party::Log, Party::Heading, Party::Reference] {
+        for each in Party::ALL.into_iter().filter(|each| !matches!(each, Party::Gnss3 | Party::Imu))
+        {
             match self.standing(each) {
                 Standing::Trusted if party == Some(each) => {
                     self.enter(each, Standing::Doubtful, now);
@@ -416,53 +419,6 @@ impl Docket {
             }
         }
         self.enter(party, standing, now);
-    }
-}
-
-impl Docket {
-    /// What is left when the navigator begins anew on the word of a receiver that was not trusted.
-    #[must_use]
-    pub fn begun_anew(&self, now: Time) -> Self {
-        let Docket { parts, lies, worse, by_one, alike, open, .. } = *self;
-        let mut anew = Docket { parts, lies, worse, by_one, alike, open, ..Docket::default() };
-        let others = [Party::Log, Party::Heading].into_iter().chain(Party::RECEIVERS);
-        for named in others.filter(|named| *named != self.receiver_in_use()) {
-            let own = &self.entries[named as usize];
-            let is_left_out = matches!(own.standing, Standing::Excluded | Standing::Probation);
-            if is_left_out && !self.is_named_by_a_doubted_imu(own) {
-                anew.entries[named as usize] = *own;
-            }
-        }
-        if self.standing(Party::Imu) == Standing::Doubtful {
-            anew.entries[Party::Imu as usize] = self.entries[Party::Imu as usize];
-        }
-        let own = self.lie_of(Party::Gnss);
-        if self.is_excluded(Party::Gnss) {
-            anew.acquit(Party::Gnss, now);
-        } else if anew.lies[own].unproven.is_some() {
-            anew.enter(Party::Gnss, Standing::Probation, now);
-        }
-        anew.lies[own] = anew.lies[own].forgotten();
-        anew
-    }
-
-    /// Whether somebody was named while the IMU was itself in doubt: it was held against that.
-    fn is_named_by_a_doubted_imu(&self, own: &Entry) -> bool {
-        let imu = &self.entries[Party::Imu as usize];
-        matches!(imu.standing, Standing::Doubtful | Standing::Excluded) && own.since >= imu.since
-    }
-
-    /// The same on a time line that is later by a span.
-    #[must_use]
-    pub fn shifted(mut self, by: Span) -> Self {
-        for entry in &mut self.entries {
-            entry.since = entry.since + by;
-            entry.agreeing_since = None;
-        }
-        self.lies = self.lies.map(|lie| lie.shifted(by));
-        self.alike = self.alike.map(|since| since + by);
-        self.open = self.open.map(|lie| lie.shifted(by));
-        self
     }
 }
 

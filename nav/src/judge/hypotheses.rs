@@ -23,7 +23,9 @@ fn rate(fault: Fault, model: &RiskModel) -> f64 {
         }
         (Party::Gnss, _) => (model.receiver_deceived, 5.0),
         (Party::Log, _) => (model.log_fails, 4.0),
-        (Party::Heading, _) => (model.heading_fails, 3.0),
+        (Party::Heading | Party::Antennas, _) => (model.heading_fails, 3.0),
+        // what they measure to is weighed beside the states of their surveys
+        (Party::Docking, _) => (0.0, 1.0),
         (Party::Imu, _) => (model.imu_fails, 3.0),
         (Party::Reference, _) => (model.receiver_fails, 3.0),
         // no estimate takes anything of a receiver that is only compared
@@ -52,7 +54,7 @@ impl Judge {
             for (group, of) in ALL.iter().enumerate() {
                 let rate = rate(of.fault, model) / 3600.0;
                 // who is not there does nothing
-                let is_there = rate > 0.0 && !onset.is_blind_to(group);
+                let is_there = rate > 0.0 && !onset.is_untold(group);
                 let unsure = unsure_of(onset, group, now);
                 let sized = is_there.then(|| onset.sized(group, unsure)).flatten();
                 let Some(sized) = sized else { continue };

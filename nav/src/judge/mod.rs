@@ -12,6 +12,7 @@
 
 mod aid;
 mod alternative;
+mod amends;
 mod assessment;
 mod charge;
 mod claims;
@@ -20,6 +21,7 @@ pub(crate) mod docket;
 mod evidence;
 mod hypotheses;
 mod lie;
+mod newcomers;
 mod noise;
 mod onset;
 mod pessimist;
@@ -31,9 +33,10 @@ mod separation;
 mod shadow;
 mod suspicion;
 mod verdict;
+mod welcome;
 
 use insd_base::{Integrity, Judgement, Parties, Party, Standing, Stands, Time};
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{SMatrix, UnitQuaternion, Vector3};
 
 use crate::config::NavConfig;
 use crate::declaration::Declaration;
@@ -45,9 +48,10 @@ pub use alternative::{Alternative, Ruling};
 use charge::{Assessment, Charge, DOUBT};
 use dissenter::{Dissenter, Success, log_likelihood};
 pub use docket::Docket;
+use newcomers::Newcomers;
 use onset::Onset;
 use pessimist::Pessimist;
-use rows::Direct;
+use rows::{Direct, USUAL_ROWS};
 pub use separation::Separation;
 use shadow::Shadow;
 pub use shadow::agitate;
@@ -104,6 +108,10 @@ pub struct Judge {
     is_coarse: bool,
     /// The IMU was not believed at all a while ago: where it and somebody else contradict each other it is at fault.
     imu_on_trial: bool,
+    /// How many faults may be, of those who have been heard.
+    rows: usize,
+    /// When antennas that are a compass, and each docking aid, were heard first.
+    newcomers: Newcomers,
 }
 
 impl Judge {
@@ -130,6 +138,8 @@ impl Judge {
             is_coarse: config.has_coarse_gyros(),
             imu_on_trial: docket.imu_doubted_since().is_some(),
             docket,
+            rows: USUAL_ROWS,
+            newcomers: Newcomers::default(),
         }
     }
 
@@ -137,6 +147,11 @@ impl Judge {
     #[must_use]
     pub fn docket(&self) -> &Docket {
         &self.docket
+    }
+
+    /// A docking aid, by its number, measures to a line or point, by its place.
+    pub fn note_mark(&mut self, number: usize, place: usize) {
+        self.docket.note_mark(number, place);
     }
 
     /// Begins anew with a navigator; the standing of all stays.
@@ -177,8 +192,8 @@ impl Judge {
         }
     }
 
-    /// The errors of a block of three states are no longer those of before, and known to a covariance.
-    pub fn renew(&mut self, block: Block<3>, covariance: &Matrix3<f64>) {
+    /// The errors of a block of states are no longer those of before, and known to a covariance.
+    pub fn renew<const W: usize>(&mut self, block: Block<W>, covariance: &SMatrix<f64, W, W>) {
         for shadow in self.shadows() {
             block.renew(&mut shadow.covariance, covariance);
             shadow.apart.scale_block(block, 0.0);
@@ -250,13 +265,14 @@ impl Judge {
         let Some(weighed) = self.shadow.weigh(innovation, 1.0) else { return };
         let is_outlier = weighed.nis() > OUTLIER * weighed.rows() as f64;
         let (is_first, is_heard) = self.hearings[aid as usize].count(is_outlier);
-        self.spawn(now, is_first);
+        let is_new = self.welcome(aid, now);
+        self.spawn(now, is_first || is_new);
         if !is_heard {
             return;
         }
         for onset in &mut self.onsets {
             let age = (now - onset.since).as_seconds();
-            onset.hear(now, &weighed, aid.is_absorbed(), direct(age));
+            onset.hear((aid, now), &weighed, direct(age));
         }
         let likelihood = log_likelihood(&weighed);
         self.spare.hear((aid, now), innovation, &weighed, &self.shadow);
@@ -311,7 +327,7 @@ impl Judge {
                 self.onsets.remove(i);
             }
         }
-        self.onsets.push(Onset::new(now));
+        self.onsets.push(Onset::new(now, self.rows));
     }
 
     /// How much likelier what was said since an instant is if the gyros have told so much too much since then, rad/s,
@@ -367,7 +383,8 @@ impl Judge {
         let astray = likeliest.and_then(|first| self.blamed_instead(&first, now));
         let foremost = likeliest.is_none().then(|| self.foremost_of_two(now)).flatten();
         let first = astray.or(likeliest).or(foremost).filter(|first| !is_excused(first));
-        let is_likely = self.assessment.total > DOUBT;
+        let is_new = first.is_some_and(|first| first.is_mistake && first.weight > first.needed());
+        let is_likely = self.assessment.total > DOUBT || is_new;
         self.in_doubt = is_likely || self.disputed.is_some();
         let suspect = first.filter(|_| is_likely);
         self.docket.doubt(suspect.map(|first| first.fault), now);
@@ -405,7 +422,12 @@ impl Judge {
         hearing.note(now);
         hearing.see(innovation);
         let is_calm = hearing.noise() < WILD;
-        self.docket.watch(party, now, agreement(weighed).filter(|_| is_calm));
+        let square = agreement(weighed).filter(|_| is_calm);
+        if matches!(party, Party::Antennas | Party::Docking) {
+            let sigmas = [weighed.sigma()[0], innovation.r[(0, 0)].sqrt()];
+            return self.docket.follow_number(aid, now, (weighed.z()[0], square), sigmas);
+        }
+        self.docket.watch(party, now, square);
     }
 
     /// Sees position and velocity of a receiver that is left out together, weighed by the navigator, whose own
@@ -453,7 +475,6 @@ impl Judge {
     /// Whether what somebody says with an aid is not to be used now.
     #[must_use]
     pub fn withholds(&self, aid: Aid) -> bool {
-        let is_doubted = |party| self.docket.standing(party) == Standing::Doubtful;
-        self.docket.leaves_out(aid) || aid.party().is_some_and(is_doubted)
+        self.docket.leaves_out(aid) || self.docket.doubts(aid)
     }
 }

@@ -14,6 +14,7 @@
 use insd_base::{Party, Time};
 use nalgebra::{Cholesky, Matrix3, Vector3};
 
+use super::aid::Aid;
 use super::rows::{self, ALL, Direct, FaultGroup, GROUPS};
 use crate::error_state::{Block, Covariance, Effects, Errors, Weighed};
 
@@ -27,6 +28,8 @@ pub(super) struct Onset {
     evidence: [Vector3<f64>; GROUPS],
     /// Of the information of each group, times for how long a fault had lasted when it came, s.
     aged: [f64; GROUPS],
+    /// Whether anything was heard since that tells of it but the heading of antennas.
+    told: [bool; GROUPS],
     /// Sum of the normalised squares since, and how many components there were.
     misfit: f64,
     heard: f64,
@@ -63,15 +66,16 @@ impl Sized {
 }
 
 impl Onset {
-    /// Everything may begin now.
+    /// Everything may begin now, so many faults.
     #[must_use]
-    pub(super) fn new(since: Time) -> Self {
+    pub(super) fn new(since: Time, rows: usize) -> Self {
         Onset {
             since,
-            effects: rows::at_onset(),
+            effects: rows::at_onset(rows),
             information: [Matrix3::zeros(); GROUPS],
             evidence: [Vector3::zeros(); GROUPS],
             aged: [0.0; GROUPS],
+            told: [false; GROUPS],
             misfit: 0.0,
             heard: 0.0,
         }
@@ -82,13 +86,22 @@ impl Onset {
         &mut self.effects
     }
 
+    /// So many faults may be.
+    pub(super) fn widen(&mut self, rows: usize) {
+        self.effects.widen(rows);
+    }
+
     /// Hears an innovation before it is absorbed, if it is.
-    pub(super) fn hear(&mut self, now: Time, weighed: &Weighed, is_absorbed: bool, direct: Direct) {
+    pub(super) fn hear(&mut self, (aid, now): (Aid, Time), weighed: &Weighed, direct: Direct) {
         let age = (now - self.since).as_seconds();
         self.effects.conform(weighed.layout());
+        let causes = self.effects.causes();
+        let is_as_wide = direct.nrows() == causes;
+        let direct = if is_as_wide { direct } else { direct.resize_vertically(causes, 0.0) };
         let effect = weighed.effect_of(&self.effects, direct);
         let z = weighed.whitened();
-        for (i, group) in ALL.iter().enumerate() {
+        let is_carried = |group: &&FaultGroup| group.rows.end <= causes;
+        for (i, group) in ALL.iter().take_while(is_carried).enumerate() {
             let (start, width) = (group.rows.start, group.rows.len());
             let own = effect.rows(start, width);
             let mut information = self.information[i].view_mut((0, 0), (width, width));
@@ -96,8 +109,9 @@ impl Onset {
             let mut evidence = self.evidence[i].rows_mut(0, width);
             evidence += own * &z;
             self.aged[i] += own.norm_squared() * age;
+            self.told[i] |= aid != Aid::Antennas && own.norm_squared() > 0.0;
         }
-        if is_absorbed {
+        if aid.is_absorbed() {
             weighed.pass_on(&mut self.effects, &effect);
         }
         self.misfit += z.norm_squared();
@@ -153,6 +167,13 @@ impl Onset {
         self.information[group] == Matrix3::zeros()
     }
 
+    /// Whether nothing was heard since that tells of a fault of a group where she is. The heading of antennas goes on where ranges are too few for a fix, and an
+    /// estimate by fixes alone knows nothing of those.
+    pub(super) fn is_untold(&self, group: usize) -> bool {
+        let is_own = ALL[group].fault.party() == Party::Antennas;
+        self.is_blind_to(group) || !(self.told[group] || is_own)
+    }
+
     /// What a unit of each component of a group has done to blocks of three states, a column for each component.
     pub(super) fn places(&self, group: &FaultGroup, blocks: [Block<3>; 2]) -> [Matrix3<f64>; 2] {
         let width = group.rows.len();
@@ -187,7 +208,7 @@ mod tests {
     #[test]
     fn what_was_told_at_a_begin_was_told_for_a_short_time_and_what_is_told_evenly_for_all_of_it() {
         let told = |ages: std::ops::Range<u32>| {
-            let mut own = Onset::new(Time::START);
+            let mut own = Onset::new(Time::START, rows::USUAL_ROWS);
             for age in ages {
                 own.information[0][(0, 0)] += 1.0;
                 own.aged[0] += f64::from(age);

@@ -8,8 +8,9 @@ use std::ops::Range;
 use insd_base::Fault;
 use nalgebra::{DMatrix, Matrix3, SMatrix, Vector3};
 
+use super::aid::DOCKING_AIDS;
 use crate::error_state::{
-    ACCEL_BIAS, ATTITUDE, Effects, GNSS_DELAY, GYRO_BIAS, GYRO_SCALE, VELOCITY,
+    ACCEL_BIAS, ATTITUDE, Effects, GNSS_DELAY, GYRO_BIAS, GYRO_SCALE, RANGING_MARKS, VELOCITY,
 };
 
 const GNSS_JUMP: usize = 0;
@@ -32,8 +33,17 @@ const TURN: usize = 34;
 const SPARE_JUMP: usize = 37;
 const SPARE_DRAG: usize = 39;
 const PUSH: usize = 41;
-/// How many there are.
-pub const ROWS: usize = 44;
+/// How many there are of a ship without antennas that are a compass, and without docking aids.
+pub const USUAL_ROWS: usize = 44;
+const ANTENNAS_OFFSET: usize = 44;
+const ANTENNAS_DRIFT: usize = 45;
+/// With the former.
+pub const ROWS_WITH_ANTENNAS: usize = 46;
+const DOCKING_JUMP: usize = 46;
+const DOCKING_DRIFT: usize = DOCKING_JUMP + DOCKING_AIDS;
+const DOCKING_MARK: usize = DOCKING_DRIFT + DOCKING_AIDS;
+/// With all.
+pub const ROWS: usize = DOCKING_MARK + RANGING_MARKS;
 
 /// What each fault adds to an innovation of itself, a row for each fault.
 pub type Direct = DMatrix<f64>;
@@ -70,6 +80,10 @@ const DISTURBED: f64 = -15.1;
 const SPARED: f64 = -14.4;
 /// A log that fouls, or a compass: once in a hundred.
 const FOULED: f64 = -12.8;
+/// Antennas of which one is moved, or whole cycles are wrong: once in ten.
+const MOVED: f64 = -10.0;
+/// A docking aid, through whose beam anybody walks: the same.
+const HIDDEN: f64 = -10.5;
 /// A part that fails: once in some ten thousand.
 const FAILED: f64 = -17.4;
 
@@ -80,7 +94,7 @@ pub const OF_FALSE_TURNS: usize = 14;
 /// The one of accelerometers that told a push that was none, or none that was.
 pub const OF_FALSE_PUSHES: usize = 20;
 /// How many groups there are.
-pub const GROUPS: usize = 21;
+pub const GROUPS: usize = 35;
 
 /// All groups.
 pub const ALL: [FaultGroup; GROUPS] = [
@@ -105,13 +119,42 @@ pub const ALL: [FaultGroup; GROUPS] = [
     group(Fault::SpareJump, SPARE_JUMP, 2, [5.0, 1e3], SPARED),
     group(Fault::SpareDrag, SPARE_DRAG, 2, [0.05, 3.0], SPARED),
     group(Fault::AccelBias, PUSH, 3, [0.3, 10.0], FAILED),
+    group(Fault::AntennasOffset, ANTENNAS_OFFSET, 1, [0.01, 1.0], MOVED),
+    group(Fault::AntennasDrift, ANTENNAS_DRIFT, 1, [1e-5, 3e-3], MOVED),
+    docking_jump(0),
+    docking_jump(1),
+    docking_jump(2),
+    docking_jump(3),
+    docking_drift(0),
+    docking_drift(1),
+    docking_drift(2),
+    docking_drift(3),
+    docking_mark(0),
+    docking_mark(1),
+    docking_mark(2),
+    docking_mark(3),
 ];
 
+const fn docking_jump(number: u8) -> FaultGroup {
+    let row = DOCKING_JUMP + number as usize;
+    group(Fault::DockingJump(number), row, 1, [0.1, 5.0], HIDDEN)
+}
+
+const fn docking_drift(number: u8) -> FaultGroup {
+    let row = DOCKING_DRIFT + number as usize;
+    group(Fault::DockingDrift(number), row, 1, [0.003, 0.3], HIDDEN)
+}
+
+const fn docking_mark(place: u8) -> FaultGroup {
+    let row = DOCKING_MARK + place as usize;
+    group(Fault::DockingMark(place), row, 1, [0.1, 5.0], FOULED)
+}
+
 /// The effects at an onset: gyros and accelerometers have another bias or scale factor from then on, or have
-/// told a turn or a push that was none, and the receiver has another delay.
+/// told a turn or a push that was none, and the receiver has another delay. So many faults may be.
 #[must_use]
-pub fn at_onset() -> Effects {
-    let mut effects = Effects::none(ROWS);
+pub fn at_onset(rows: usize) -> Effects {
+    let mut effects = Effects::none(rows.max(USUAL_ROWS));
     for (start, block) in [
         (GYRO, GYRO_BIAS),
         (ACCEL, ACCEL_BIAS),
@@ -128,7 +171,7 @@ pub fn at_onset() -> Effects {
 /// Of nothing that is measured, so many rows.
 #[must_use]
 pub fn untouched(rows: usize) -> Direct {
-    Direct::zeros(ROWS, rows)
+    Direct::zeros(USUAL_ROWS, rows)
 }
 
 fn put<const M: usize, const W: usize>(
@@ -215,6 +258,25 @@ pub fn of_spare_position(age: f64) -> Direct {
 pub fn of_spare_velocity() -> Direct {
     let mut direct = untouched(2);
     put(&mut direct, SPARE_DRAG, &SMatrix::<f64, 2, 2>::identity());
+    direct
+}
+
+/// Of a heading by several antennas.
+#[must_use]
+pub fn of_antennas(age: f64) -> Direct {
+    let mut direct = Direct::zeros(ROWS_WITH_ANTENNAS, 1);
+    direct[ANTENNAS_OFFSET] = 1.0;
+    direct[ANTENNAS_DRIFT] = age;
+    direct
+}
+
+/// Of a distance of a docking aid, by its number, that measures to a line or point, by its place among the states.
+#[must_use]
+pub fn of_docking(number: usize, place: usize, age: f64) -> Direct {
+    let mut direct = Direct::zeros(ROWS, 1);
+    direct[DOCKING_JUMP + number] = 1.0;
+    direct[DOCKING_DRIFT + number] = age;
+    direct[DOCKING_MARK + place] = 1.0;
     direct
 }
 

@@ -1,15 +1,18 @@
 //! Four antennas on one clock: how a ship with a MEMS IMU comes to her heading, and what she says of a wrong installation.
 
+use std::sync::Arc;
+
 use insd_base::earth::{c_ne, ecef};
 use insd_base::satellites::CompassFault;
 use insd_base::units::{DEG, wrap_pi};
-use insd_base::{Event, Finding, Message, Received, Solution, Truth, Voyage};
+use insd_base::{Event, Finding, Message, Party, Received, Solution, Truth, Voyage};
 use insd_engine::EngineConfig;
 use insd_gnss::ArrayRanging;
 use insd_lab::ranges::{Epochs, RangeMaker};
+use insd_nav::config::AntennaModel;
 use insd_simulator::{RawGnss, Scenario, raw_gnss, simulate};
 use insd_tests::sailing::{Logbook, sail_messages};
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 use crate::figure;
 use crate::satellites::epochs;
@@ -156,5 +159,45 @@ fn antennas_that_all_stand_one_place_on_are_claimed_by_what_the_course_contradic
     assert!(all.iter().any(|(off, _)| off.abs() > 60.0 * DEG), "{all:?}");
     for (off, sigma) in all {
         assert!(off.abs() < 3.0 * sigma, "{} of {}", off / DEG, sigma / DEG);
+    }
+}
+
+/// A square that is knocked by an angle at three minutes: phases are those of antennas that are turned back.
+fn knocked(all: &mut [Received], by: f64) {
+    for received in all {
+        let Message::Compass(reading) = &mut received.message else { continue };
+        let reading = Arc::make_mut(reading);
+        let Ok(told) = &mut reading.told else { continue };
+        if reading.time.as_seconds() >= KNOCKED {
+            told.attitude.heading += by;
+            let turned = Rotation3::from_axis_angle(&Vector3::z_axis(), -by);
+            for phase in told.signals.iter_mut().flat_map(|own| &mut own.phases) {
+                phase.lever = turned * phase.lever;
+            }
+        }
+    }
+}
+
+/// When, s.
+const KNOCKED: f64 = 180.0;
+
+#[test]
+fn antennas_that_are_knocked_are_named_within_ten_seconds_and_turn_no_heading() {
+    for seed in [1, 2] {
+        let scenario = berthing();
+        let (voyage, raw) = (simulate(&scenario, seed), raw_gnss(&scenario, seed).unwrap());
+        let mut all = messages(&voyage, &raw, &SQUARE);
+        knocked(&mut all, 3.0 * DEG);
+        let mut config = EngineConfig::for_voyage(&voyage.header, 1.0);
+        config.models.antennas = AntennaModel::of(&SQUARE.map(Vector3::from), 0.002);
+        let log = sail_messages(&config, &all, 100);
+        let is_named = |own: &&Solution| own.judgement.excluded.contains(Party::Antennas);
+        let first = log.solutions.iter().find(is_named).unwrap().time.as_seconds();
+        assert!((KNOCKED..KNOCKED + 10.0).contains(&first), "{seed}: {first}");
+        let late = log.solutions.iter().filter(|own| own.time.as_seconds() > first);
+        assert!(late.clone().all(|own| own.judgement.excluded.contains(Party::Antennas)));
+        for (off, sigma) in headings_after(KNOCKED, &log.solutions, &voyage.truth) {
+            assert!(off.abs() < 3.0 * sigma, "{seed}: {} of {}", off / DEG, sigma / DEG);
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Going alongside with docking aids on the quay and no satellites.
 
 use insd_base::{
-    Body, Event, Geodetic, Message, RangingBeam, RangingLine, RangingReading, RangingTarget,
+    Body, Event, Geodetic, Message, Party, RangingBeam, RangingLine, RangingReading, RangingTarget,
     RangingTurn, Received, Solution, Source, Time, Truth, Voyage, earth,
 };
 use insd_engine::EngineConfig;
@@ -198,4 +198,42 @@ fn a_laser_that_meets_something_else_is_not_used_and_said_so_until_it_agrees_aga
     let expected = [(572.0, 0, RangingTurn::Contradicted), (595.0, 0, RangingTurn::Agrees)];
     assert_eq!(turns, expected);
     assert!(percentile_95(&across(&log.solutions, &voyage.truth)) < 0.10);
+}
+
+/// When somebody is named first, and whether he is to the end, with docking aids that lie so.
+fn named(seed: u64, wrong: impl Fn(f64, usize) -> f64) -> (f64, bool) {
+    let voyage = simulate(&berthing(), seed);
+    let log = sail(&voyage, readings(&voyage, &mut Dice::new(seed), wrong));
+    let is_out = |own: &Solution| own.judgement.excluded.contains(Party::Docking);
+    let first = log.solutions.iter().position(is_out).unwrap();
+    let at = log.solutions[first].time.as_seconds();
+    let mut all = log.solutions.iter().flat_map(|own| own.judgement.excluded.iter());
+    assert!(all.all(|party| party == Party::Docking), "{seed}");
+    // she is made fast at 660 s, and nobody compares them from then on
+    let mut before = log.solutions[first..].iter().take_while(|own| own.time.as_seconds() < 655.0);
+    (at, before.all(is_out))
+}
+
+#[test]
+fn a_laser_whose_zero_or_whose_line_is_wrong_is_named_within_ten_seconds_and_for_good() {
+    for seed in [1, 2] {
+        for heads in [1, 2] {
+            let (at, lasts) = named(seed, |_, head| if head < heads { 5.0 } else { 0.0 });
+            assert!(at < 571.0 && lasts, "{seed}, {heads} heads: {at} s, {lasts}");
+        }
+    }
+}
+
+#[test]
+fn a_laser_that_jumps_or_drifts_is_named_within_ten_seconds_and_not_heard_again_without_satellites()
+{
+    let since = 580.0;
+    let lies: [fn(f64) -> f64; 2] = [|_| 2.0, |age| 0.05 * age];
+    for lie in lies {
+        let wrong = |time: f64, head| {
+            if head == 0 && time >= since { lie(time - since) } else { 0.0 }
+        };
+        let (at, lasts) = named(2, wrong);
+        assert!((since..since + 10.0).contains(&at) && lasts, "{at} s, {lasts}");
+    }
 }

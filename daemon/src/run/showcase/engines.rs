@@ -81,6 +81,10 @@ fn advice(stands: &base::Stands, all: &[base::Stands]) -> Option<&'static str> {
             Some("Compare with the magnetic compass, and the course on a leading line.")
         }
         (_, Party::Reference) => Some("Look at its receiver and its antenna."),
+        (_, Party::Antennas) => {
+            Some("Compare with another compass. Look whether an antenna was moved.")
+        }
+        (_, Party::Docking) => Some("Compare with the eye. Look at its head and at the berth."),
         (_, Party::Imu) => {
             Some("Use another heading, roll and pitch. Look at the IMU's cable and mounting.")
         }

@@ -89,7 +89,7 @@ pub struct ShownMotion {
     /// Whether the position may be relied on, as in `nav.csv`: `available`, `unavailable`, `fault`; `None` while
     /// nobody compares the sensors.
     pub integrity: Option<String>,
-    /// Who is left out: `gnss` (the first receiver), `gnss2`, `gnss3`, `log`, `heading`, `reference`, `imu`.
+    /// Who is left out: `gnss` (the first receiver), `gnss2`, `gnss3`, `log`, `heading`, `reference`, `imu`, `antennas`, `docking`.
     pub excluded: Vec<String>,
     /// The best source that the position lives by; `None` before the ship navigates.
     pub source: Option<ShownSource>,
@@ -170,7 +170,7 @@ pub struct ShownEstimate {
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ShownStands {
-    /// Who: `gnss` (the first receiver), `gnss2`, `gnss3` (others, once heard), `log`, `heading`, `reference`, `imu`.
+    /// Who: `gnss` (the first receiver), `gnss2`, `gnss3` (others, once heard), `log`, `heading`, `reference`, `imu`, `antennas`, `docking` (once heard).
     pub name: String,
     /// How far it is believed: `trusted`, `doubtful`, `excluded`, `probation`.
     pub standing: String,

@@ -1,6 +1,6 @@
 //! Which alerts there are, and when each of them holds.
 
-use insd_base::{FixQuality, Integrity, Judgement, Mode, Party, Solution, Span, Time};
+use insd_base::{FixQuality, Integrity, Judgement, Mode, Parties, Party, Solution, Span, Time};
 use insd_wire::nmea::{AlertId, AlertPriority, HeadingMode, Manufacturer};
 
 use crate::docking::{Docking, DockingLimits};
@@ -46,6 +46,8 @@ pub enum Condition {
     LogExcluded,
     /// Another reference of position, or another receiver than the first, contradicts the others and is left out.
     ReferenceExcluded,
+    /// A docking aid contradicts the others and is left out.
+    DockingExcluded,
     /// The IMU contradicts the others.
     ImuDoubt,
     /// GNSS is used again that was found to lie, and nothing shows that it does not any more.
@@ -95,7 +97,7 @@ fn own(
 
 impl Condition {
     /// All of them, those that matter most first.
-    pub const ALL: [Condition; 26] = [
+    pub const ALL: [Condition; 27] = [
         Condition::SystemFault,
         Condition::HeadingLost,
         Condition::PositionLost,
@@ -114,6 +116,7 @@ impl Condition {
         Condition::HeadingExcluded,
         Condition::LogExcluded,
         Condition::ReferenceExcluded,
+        Condition::DockingExcluded,
         Condition::OnTrial,
         Condition::AlertLimit,
         Condition::BadData,
@@ -211,6 +214,7 @@ impl Condition {
             | Condition::LogExcluded
             | Condition::ImuDoubt
             | Condition::OnTrial
+            | Condition::DockingExcluded
             | Condition::ReferenceExcluded => self.of_sensors(),
         }
     }
@@ -285,6 +289,9 @@ impl Condition {
             Condition::OnTrial => {
                 own(10_015, Caution, ["Source on trial", "Was excluded. Not yet trusted"], [0, 10])
             }
+            Condition::DockingExcluded => {
+                own(10_023, Caution, ["Docking aid out", "Contradicted. See page"], [0, 10])
+            }
             // another reference of position
             _ => own(10_022, Caution, ["2nd pos. doubt", "Contradicted. See page"], [0, 10]),
         }
@@ -358,7 +365,8 @@ impl Watch {
                 excluded.contains(Party::Gnss) || (is_spare_out && !is_aided)
             }
             Condition::PositionDoubt => integrity == Integrity::Contradiction,
-            Condition::HeadingExcluded => excluded.contains(Party::Heading),
+            Condition::HeadingExcluded => is_compass_out(excluded),
+            Condition::DockingExcluded => excluded.contains(Party::Docking),
             Condition::LogExcluded => excluded.contains(Party::Log),
             Condition::ReferenceExcluded => excluded.contains(Party::Reference) || is_spare_out,
             Condition::ImuDoubt => {
@@ -394,6 +402,11 @@ impl Watch {
         }
         found
     }
+}
+
+/// Whether a compass is left out.
+fn is_compass_out(excluded: Parties) -> bool {
+    [Party::Heading, Party::Antennas].iter().any(|own| excluded.contains(*own))
 }
 
 /// Whether a position is estimated. At the berth that is so by design, and only little certainty counts.

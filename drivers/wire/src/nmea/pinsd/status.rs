@@ -112,6 +112,8 @@ const LETTERS: [(Party, char); Party::ALL.len()] = [
     (Party::Heading, 'H'),
     (Party::Reference, 'R'),
     (Party::Imu, 'I'),
+    (Party::Antennas, 'C'),
+    (Party::Docking, 'D'),
 ];
 
 impl From<Integrity> for PinsdIntegrity {
@@ -156,7 +158,7 @@ impl From<Mode> for PinsdMode {
 sentence! {
     /// What the system does, and how good that is. A line that ends before one of the last four fields is one of an
     /// older version.
-    part PinsdStatus "PINSD" "STA", longest 73: Eq;
+    part PinsdStatus "PINSD" "STA", longest 75: Eq;
     /// UTC.
     1 time: Option<TimeOfDay> = Clock(2);
     /// What it does.
