@@ -30,14 +30,16 @@ pub(crate) struct Messages {
 
 impl Messages {
     /// Takes one in.
-    pub(crate) fn take(&mut self, received: Received) {
+    pub(crate) fn take(&mut self, received: &Received) {
         let receipt = received.receipt;
-        match received.message {
-            Message::Imu(message) => self.imu.push(Heard { receipt, message }),
-            Message::Gnss(message) => self.gnss.push(Heard { receipt, message }),
-            Message::Log(message) => self.log.push(Heard { receipt, message }),
-            Message::Reference(message) => self.reference.push(Heard { receipt, message }),
-            Message::Ranging(message) => self.ranging.push(Heard { receipt, message }),
+        match &received.message {
+            Message::Imu(message) => self.imu.push(Heard { receipt, message: *message }),
+            Message::Gnss(message) => self.gnss.push(Heard { receipt, message: *message }),
+            Message::Log(message) => self.log.push(Heard { receipt, message: *message }),
+            Message::Reference(message) => {
+                self.reference.push(Heard { receipt, message: *message });
+            }
+            Message::Ranging(message) => self.ranging.push(Heard { receipt, message: *message }),
             Message::Ranges(_) => self.count("ranges"),
             Message::Base(_) => self.count("base"),
             Message::Rtk(_) => self.count("rtk"),

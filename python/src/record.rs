@@ -59,7 +59,7 @@ pub(crate) fn read_recording(
     detached(py, || {
         let mut raw = RawRun::open(&path, config.as_deref(), run)?;
         let mut messages = Messages::default();
-        let intake = raw.hear(|_, _| {}, |received| messages.take(received))?;
+        let intake = raw.hear(|_, _| {}, |received| messages.take(&received))?;
         let start = intake.utc_at(Time::START);
         Ok(Recording {
             program: raw.header().map(|own| own.program.clone()),

@@ -168,7 +168,7 @@ pub(crate) fn campaign(
     words.option("rate", rate);
     words.option("jobs", jobs);
     words.push("--");
-    words.push(scenario.word());
+    words.push(&scenario.word());
     let words = words.into_inner();
     let text = detached(py, || {
         let all = reports(&options::<CampaignArgs>(&words)?)?;

@@ -67,7 +67,7 @@ pub(crate) fn replay(
     words.path("stored-state", stored_state.as_ref());
     words.path("log-model", log_model.as_ref());
     words.push("--");
-    words.push(voyage.path().display());
+    words.push(&voyage.path().to_string_lossy());
     let words = words.into_inner();
     detached(py, || {
         let replayed = rows(&options::<ReplayOptions>(&words)?)?;

@@ -55,7 +55,7 @@ impl Voyage {
     fn messages(&self) -> anyhow::Result<Messages> {
         let mut messages = Messages::default();
         for received in VoyageReader::open(&self.directory)? {
-            messages.take(received?);
+            messages.take(&received?);
         }
         Ok(messages)
     }
@@ -160,7 +160,7 @@ pub(crate) fn convert(
         words.path("config", config.as_ref());
         words.option("run", Some(run));
         words.push("--");
-        words.push(recording.display());
+        words.push(&recording.to_string_lossy());
         words.into_inner()
     };
     detached(py, || {

@@ -18,8 +18,8 @@ impl Words {
     }
 
     /// What stands without a name.
-    pub(crate) fn push(&mut self, word: impl ToString) {
-        self.0.push(word.to_string());
+    pub(crate) fn push(&mut self, word: &str) {
+        self.0.push(word.to_owned());
     }
 
     /// An option with its value, if one is given. In one word, as a value may begin with a dash.
