@@ -100,10 +100,10 @@ class Case:
         if own != expected:
             self.complaints.append(f"{what}: {own}, not {expected}")
 
-    def place(self, what, row, latitude, longitude, height, half=HALF_METRE):
+    def place(self, what, row, latitude, longitude, height):
         self.same(f"{what} {row['t_s']} latitude", latitude, float(row["lat_deg"]), HALF_DEGREE)
         self.same(f"{what} {row['t_s']} longitude", longitude, float(row["lon_deg"]), HALF_DEGREE)
-        self.same(f"{what} {row['t_s']} height", height, float(row["height_m"]), half)
+        self.same(f"{what} {row['t_s']} height", height, float(row["height_m"]), HALF_METRE)
 
     def time(self, what, row, own):
         expected = START + datetime.timedelta(seconds=float(row["t_s"]))
@@ -116,9 +116,8 @@ def gpx(case):
     points = [point for segment in track.segments for point in segment.points]
     case.count("gpx points", len(points), len(case.told))
     for row, point in zip(case.told, points):
-        # two roundings: of the height over the sea, and of the sea over the ellipsoid
         height = point.elevation + float(point.geoid_height)
-        case.place("gpx", row, point.latitude, point.longitude, height, 2.1 * HALF_METRE)
+        case.place("gpx", row, point.latitude, point.longitude, height)
         case.time("gpx", row, point.time)
     return f"{len(points)} points in {len(track.segments)} segments"
 

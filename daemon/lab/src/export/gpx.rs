@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use insd_drivers::recording::NavRow;
 
 use super::stretch::stretches;
-use super::track::{SolutionTrack, degrees, escaped, metres, undulation};
+use super::track::{SolutionTrack, degrees, escaped, metres, over_sea};
 
 const HEAD: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <gpx version="1.1" creator="insd" xmlns="http://www.topografix.com/GPX/1/1" xmlns:insd="urn:insd:gpx:1">
@@ -28,8 +28,7 @@ pub(super) fn write(track: &SolutionTrack<'_>, mut target: impl Write) -> io::Re
 
 fn point(track: &SolutionTrack<'_>, row: &NavRow, target: &mut impl Write) -> io::Result<()> {
     let (place, sigma) = (&row.solution.position, &row.solution.sigma.position.0);
-    let ([latitude, longitude], above) = (degrees(place), undulation(place));
-    let elevation = place.height - above;
+    let ([latitude, longitude], [elevation, sea]) = (degrees(place), over_sea(place));
     write!(
         target,
         "<trkpt lat=\"{latitude:.10}\" lon=\"{longitude:.10}\"><ele>{elevation:.5}</ele>"
@@ -37,7 +36,7 @@ fn point(track: &SolutionTrack<'_>, row: &NavRow, target: &mut impl Write) -> io
     if let Some(utc) = track.utc(row.solution.time) {
         write!(target, "<time>{utc}</time>")?;
     }
-    write!(target, "<geoidheight>{above:.5}</geoidheight><extensions>")?;
+    write!(target, "<geoidheight>{sea:.5}</geoidheight><extensions>")?;
     for (name, value) in ["std_n_m", "std_e_m", "std_d_m"].iter().zip(sigma) {
         write!(target, "<insd:{name}>{}</insd:{name}>", metres(*value))?;
     }

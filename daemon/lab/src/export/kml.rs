@@ -10,7 +10,7 @@ use insd_drivers::recording::NavRow;
 
 use super::pose::moved;
 use super::stretch::{Stretch, stretches};
-use super::track::{SolutionTrack, degrees, escaped, undulation};
+use super::track::{SolutionTrack, degrees, escaped, over_sea};
 
 const HEAD: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <kml xmlns="http://www.opengis.net/kml/2.2">
@@ -76,7 +76,7 @@ fn line(
     for row in stretch.rows {
         let place = &row.solution.position;
         let [latitude, longitude] = degrees(place);
-        let height = place.height - undulation(place);
+        let [height, _] = over_sea(place);
         write!(target, "{longitude:.10},{latitude:.10},{height:.5} ")?;
     }
     writeln!(target, "</coordinates></{kind}></Placemark>")

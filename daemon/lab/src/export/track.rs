@@ -47,9 +47,10 @@ pub(super) fn metres(value: f64) -> f64 {
     rounded(value, METRE_PLACES)
 }
 
-/// Height of mean sea level over the ellipsoid, m.
-pub(super) fn undulation(place: &Geodetic) -> f64 {
-    geoid::undulation(place).unwrap_or_default()
+/// Height over mean sea level, and that of mean sea level over the ellipsoid, m: their sum is the height as `nav.csv` has it.
+pub(super) fn over_sea(place: &Geodetic) -> [f64; 2] {
+    let sea = metres(geoid::undulation(place).unwrap_or_default());
+    [metres(place.height) - sea, sea]
 }
 
 /// A text within XML.
