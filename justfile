@@ -242,6 +242,22 @@ conformance-outputs *options:
         --first ais=GNS --first autopilot=RMC --first phins=HDT --first others=PRDID \
         --rot-damping ais=1 --rot-damping autopilot=0.5 {{options}}
 
+# the Python package: wheel, tests, notebooks; needs python3 with venv, and PyPI
+python:
+    cargo build --release -p insd
+    python/check "${CARGO_TARGET_DIR:-target}/release/insd"
+
+# independent readers on what `insd convert --to` writes; needs PyPI
+conformance-convert:
+    #!/usr/bin/env bash
+    set -euo pipefail
+    cargo build --release -p insd
+    venv=${CARGO_TARGET_DIR:-target}/conformance/convert
+    [ -x "$venv/bin/pip" ] || python3 -m venv "$venv"
+    "$venv/bin/pip" install --quiet mcap==1.6.0 gpxpy==1.6.2 geojson==3.3.0 fastkml==1.4.0 rosbags==0.11.9 \
+        jsonschema==4.26.0 foxglove-sdk==0.30.3 protobuf
+    "$venv/bin/python" tests/conformance/convert.py "${CARGO_TARGET_DIR:-target}/release/insd"
+
 # all that CI does
 ci:
     .ci/run

@@ -5,8 +5,8 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use insd_config::{BadInput, Config};
-use insd_drivers::recording::RecordingError;
+use insd_config::Config;
+use insd_lab::blame;
 use insd_lab::commands::{
     campaign, convert, evaluate, feed, integrity, learn, limit, replay, report, simulate, smooth,
 };
@@ -140,16 +140,7 @@ pub fn exit_code(fault: &anyhow::Error) -> ExitCode {
     if fault.is::<integrity::Hazardous>() {
         return ExitCode::from(HAZARDOUS);
     }
-    let is_bad_input = fault.chain().any(|cause| {
-        cause.is::<BadInput>()
-            || cause.is::<csv::Error>()
-            || cause.downcast_ref::<RecordingError>().is_some_and(is_about_input)
-    });
-    ExitCode::from(if is_bad_input { BAD_INPUT } else { FAILURE })
-}
-
-fn is_about_input(fault: &RecordingError) -> bool {
-    !matches!(fault, RecordingError::Write { .. })
+    ExitCode::from(if blame::is_bad_input(fault) { BAD_INPUT } else { FAILURE })
 }
 
 #[cfg(test)]

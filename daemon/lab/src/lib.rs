@@ -4,11 +4,13 @@
 
 #![warn(clippy::print_stdout)] // it panics when the reader has gone: `terminal::print` does not
 
+pub mod blame;
 mod camera_table;
 mod camera_voyage;
 pub mod commands;
 pub mod demo;
 pub mod evaluation;
+pub mod export;
 pub mod pty;
 pub mod ranges;
 pub mod raw_receivers;

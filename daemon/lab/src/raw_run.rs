@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use insd_base::Arrival;
+use insd_base::{Arrival, Received};
 use insd_config::{BadInput, Config};
 use insd_drivers::raw::{EXTENSION, FileHeader, RawFault, RawRead, RawReader};
+use insd_intake::{Intake, Intaken};
 
 /// The arrivals of one run, and the configuration that it had.
 pub struct RawRun {
@@ -70,6 +71,30 @@ impl RawRun {
             eprintln!("run {} of {runs} was read; choose another with --run", self.run);
         }
         Ok(())
+    }
+
+    /// Hands over the arrivals in their order, each with the intake that has just heard it, and what was measured. Gives the
+    /// intake as it is at the end.
+    ///
+    /// # Errors
+    /// As [`RawRun::for_each`].
+    pub fn hear(
+        &mut self,
+        mut arrived: impl FnMut(&Arrival, &Intake),
+        mut measured: impl FnMut(Received),
+    ) -> anyhow::Result<Intake> {
+        let mut intake = Intake::new(&self.config.intake());
+        self.for_each(|arrival| {
+            intake.handle(arrival);
+            arrived(arrival, &intake);
+            while let Some(taken) = intake.poll_output() {
+                if let Intaken::Measured(received) = taken {
+                    measured(received);
+                }
+            }
+            Ok(())
+        })?;
+        Ok(intake)
     }
 
     /// Hands over the arrivals in their order, and between them what is wrong with the recording, that

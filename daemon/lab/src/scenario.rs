@@ -35,6 +35,14 @@ pub fn find(word: &str, sets: &[Override]) -> anyhow::Result<Named> {
     }
 }
 
+/// Reads a scenario from its text, and sets some of its keys.
+///
+/// # Errors
+/// What is wrong in it, with its line.
+pub fn of_text(name: &str, text: &str, sets: &[Override]) -> anyhow::Result<Named> {
+    parse(name, name, text, sets)
+}
+
 fn parse(name: &str, place: &str, text: &str, sets: &[Override]) -> anyhow::Result<Named> {
     let scenario = Scenario::with_overrides(text, sets)
         .map_err(|fault| BadInput(format!("{place}: {fault}")))?;

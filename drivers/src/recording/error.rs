@@ -1,7 +1,7 @@
 //! What ends the reading or writing of a recording.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::report::{BadRow, FileReport};
 
@@ -120,6 +120,29 @@ pub enum RecordingError {
         /// Each with its place.
         faults: Vec<String>,
     },
+}
+
+impl RecordingError {
+    /// The file, and the number of the line that is to blame, if it is one.
+    #[must_use]
+    pub fn place(&self) -> (&Path, Option<u64>) {
+        match self {
+            Self::NotADirectory(file)
+            | Self::Missing { file, .. }
+            | Self::Write { file, .. }
+            | Self::TooManyBadRows { file, .. }
+            | Self::Toml { file, .. }
+            | Self::Header { file, .. } => (file, None),
+            Self::Read { file, line, .. } | Self::LineTooLong { file, line, .. } => {
+                (file, Some(*line))
+            }
+            Self::NotText { file, .. }
+            | Self::MissingColumns { file, .. }
+            | Self::RepeatedColumn { file, .. } => (file, Some(1)),
+            Self::BadField { file, bad } => (file, Some(bad.line)),
+            Self::NoRows { file, report } => (file, Some(report.lines)),
+        }
+    }
 }
 
 fn no_rows(report: &FileReport) -> String {

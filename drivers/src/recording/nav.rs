@@ -4,11 +4,11 @@ use std::f64::consts::TAU;
 use std::io::{self, Write};
 use std::path::Path;
 
-use insd_base::{Ned, SatelliteId, SatelliteInnovation, Solution, SolutionSource};
+use insd_base::{Availability, SatelliteId, SatelliteInnovation, Solution, SolutionSource};
 
 use super::error::RecordingError;
 use super::nav_row::NavRow;
-use super::nav_satellites::NavSatellites;
+use super::nav_telling::{MAX_SIGMA, NavTelling};
 use super::number::{Zeros, push_fixed, push_time};
 use super::reader::{Rows, read_all};
 use super::rows::NAV;
@@ -16,8 +16,6 @@ use super::rows::NAV;
 const DEGREE_PLACES: usize = 10;
 const METRE_PLACES: usize = 5;
 const ANGLE_PLACES: usize = 6;
-/// Claimed where a standard deviation is not finite or larger, in the unit of the column.
-const MAX_SIGMA: f64 = 1e6;
 
 /// Writes `nav.csv`: fixed decimal places (latitude and longitude 10, heights and velocities 5,
 /// angles 6, standard deviations 5 in m and 6 in m/s and deg), the same bytes for the same
@@ -25,9 +23,8 @@ const MAX_SIGMA: f64 = 1e6;
 #[derive(Debug)]
 pub struct NavWriter<W: Write> {
     target: W,
-    row: Vec<u8>,
-    left_out: u64,
-    satellites: NavSatellites,
+    line: Vec<u8>,
+    telling: NavTelling,
 }
 
 impl<W: Write> NavWriter<W> {
@@ -37,8 +34,7 @@ impl<W: Write> NavWriter<W> {
     /// The target cannot be written.
     pub fn new(mut target: W) -> io::Result<Self> {
         writeln!(target, "{}", NAV.join(","))?;
-        let (row, satellites) = (Vec::with_capacity(256), NavSatellites::default());
-        Ok(NavWriter { target, row, left_out: 0, satellites })
+        Ok(NavWriter { target, line: Vec::with_capacity(256), telling: NavTelling::default() })
     }
 
     /// Writes one row. A solution that is not finite is left out and counted.
@@ -46,34 +42,31 @@ impl<W: Write> NavWriter<W> {
     /// # Errors
     /// The target cannot be written.
     pub fn write(&mut self, solution: &Solution) -> io::Result<()> {
-        if !is_finite(solution) {
-            self.left_out += 1;
-            return Ok(());
-        }
-        self.row.clear();
-        push_state(&mut self.row, solution);
-        push_sigmas(&mut self.row, solution);
-        self.row.push(b',');
-        self.row.extend_from_slice(solution.mode.as_str().as_bytes());
-        push_judgement(&mut self.row, solution, &self.satellites);
-        self.row.push(b'\n');
-        self.target.write_all(&self.row)
+        let Some(row) = self.telling.row(solution) else { return Ok(()) };
+        self.line.clear();
+        push_state(&mut self.line, solution);
+        push_sigmas(&mut self.line, solution);
+        self.line.push(b',');
+        self.line.extend_from_slice(solution.mode.as_str().as_bytes());
+        push_judgement(&mut self.line, &row);
+        self.line.push(b'\n');
+        self.target.write_all(&self.line)
     }
 
     /// A satellite is left out of the solutions from now on, or used again: the rows name it.
     pub fn leave_out(&mut self, satellite: SatelliteId, is_excluded: bool) {
-        self.satellites.leave_out(satellite, is_excluded);
+        self.telling.leave_out(satellite, is_excluded);
     }
 
     /// Takes note of what a satellite told: the rows say of how many the ranges are in use.
     pub fn hear_satellite(&mut self, told: &SatelliteInnovation) {
-        self.satellites.hear(told);
+        self.telling.hear_satellite(told);
     }
 
     /// Solutions that were left out because they were not finite.
     #[must_use]
     pub fn left_out(&self) -> u64 {
-        self.left_out
+        self.telling.left_out()
     }
 
     /// Flushes and gives the target back.
@@ -122,27 +115,19 @@ fn push_state(row: &mut Vec<u8>, solution: &Solution) {
 }
 
 /// Protection levels, whether they may be relied on, who is left out, and of how many satellites the ranges are in use.
-fn push_judgement(row: &mut Vec<u8>, solution: &Solution, satellites: &NavSatellites) {
-    let levels = solution.protection();
-    push_sigma(row, levels.horizontal, METRE_PLACES);
-    push_sigma(row, levels.vertical, METRE_PLACES);
-    row.push(b',');
-    row.extend_from_slice(solution.availability().as_str().as_bytes());
-    row.push(b',');
-    let parties = solution.judgement.excluded.iter().map(|party| party.as_str().to_owned());
-    let all = parties.chain(satellites.excluded().map(SatelliteId::to_string));
-    for (at, name) in all.enumerate() {
-        if at > 0 {
-            row.push(b' ');
-        }
-        row.extend_from_slice(name.as_bytes());
+fn push_judgement(line: &mut Vec<u8>, row: &NavRow) {
+    push_sigma(line, row.horizontal_level.unwrap_or(f64::INFINITY), METRE_PLACES);
+    push_sigma(line, row.vertical_level.unwrap_or(f64::INFINITY), METRE_PLACES);
+    line.push(b',');
+    line.extend_from_slice(row.integrity.map_or("", Availability::as_str).as_bytes());
+    line.push(b',');
+    line.extend_from_slice(row.excluded.join(" ").as_bytes());
+    line.push(b',');
+    if let Some(used) = row.satellites {
+        line.extend_from_slice(used.to_string().as_bytes());
     }
-    row.push(b',');
-    if let Some(used) = satellites.used(solution.time) {
-        row.extend_from_slice(used.to_string().as_bytes());
-    }
-    row.push(b',');
-    row.extend_from_slice(solution.source.map_or("", SolutionSource::as_str).as_bytes());
+    line.push(b',');
+    line.extend_from_slice(row.solution.source.map_or("", SolutionSource::as_str).as_bytes());
 }
 
 fn push_sigmas(row: &mut Vec<u8>, solution: &Solution) {
@@ -167,15 +152,6 @@ fn push(row: &mut Vec<u8>, value: f64, places: usize) {
 fn push_sigma(row: &mut Vec<u8>, sigma: f64, places: usize) {
     let known = if sigma.is_finite() { sigma } else { MAX_SIGMA };
     push(row, known.clamp(10_f64.powi(-(places as i32)), MAX_SIGMA), places);
-}
-
-fn is_finite(solution: &Solution) -> bool {
-    let (position, attitude) = (&solution.position, &solution.attitude);
-    let Ned(velocity) = &solution.velocity;
-    let angles = [position.latitude, position.longitude, attitude.roll, attitude.pitch];
-    angles.iter().chain(velocity).all(|value| value.is_finite())
-        && position.height.is_finite()
-        && attitude.heading.is_finite()
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 use insd_base::{Availability, Solution, SolutionSource, Time};
 
 use super::fields::Fields;
-use super::report::{BadRow, RowFault};
+use super::reader::Rows;
+use super::report::{BadRow, FileReport, RowFault};
 use super::rows::{NAV, solution};
 use super::table::Row;
 
@@ -33,6 +34,14 @@ pub struct NavRow {
     pub excluded: Vec<String>,
     /// Of how many satellites the ranges are in use.
     pub satellites: Option<u32>,
+}
+
+impl Rows<NavRow> {
+    /// Rows that never were in a file, with all columns.
+    #[must_use]
+    pub fn told(rows: Vec<NavRow>) -> Self {
+        Rows { rows, report: FileReport::default(), columns: NAV.to_vec() }
+    }
 }
 
 impl Row for NavRow {

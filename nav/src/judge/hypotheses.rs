@@ -23,9 +23,9 @@ fn rate(fault: Fault, model: &RiskModel) -> f64 {
         }
         (Party::Gnss, _) => (model.receiver_deceived, 5.0),
         (Party::Log, _) => (model.log_fails, 4.0),
-        (Party::Heading | Party::Antennas, _) => (model.heading_fails, 3.0),
-        // what they measure to is weighed beside the states of their surveys
-        (Party::Docking, _) => (0.0, 1.0),
+        (Party::Heading, _) => (model.heading_fails, 3.0),
+        // the levels are of the filter with ranges, where phases and surveys are weighed beside states of their own
+        (Party::Antennas | Party::Docking, _) => (0.0, 1.0),
         (Party::Imu, _) => (model.imu_fails, 3.0),
         (Party::Reference, _) => (model.receiver_fails, 3.0),
         // no estimate takes anything of a receiver that is only compared

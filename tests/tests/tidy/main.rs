@@ -92,7 +92,7 @@ const IMPURE: [&str; 15] = [
 const PUBLISHED: [&str; 3] = ["insd-base", "insd-estimation", "insd-nav"];
 
 /// Which crates of the house a crate may use. The daemon sees all; tests may see all.
-const ARROWS: [(&str, &[&str]); 20] = [
+const ARROWS: [(&str, &[&str]); 21] = [
     ("insd-base", &[]),
     ("insd-estimation", &[]),
     ("insd-gnss", &["insd-base"]),
@@ -158,6 +158,7 @@ const ARROWS: [(&str, &[&str]); 20] = [
             "insd-wire",
         ],
     ),
+    ("insd-python", &["insd-base", "insd-config", "insd-drivers", "insd-lab", "insd-simulator"]),
 ];
 
 /// Public types that still have a namesake in another crate, all below the daemon: the list only shrinks.

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use insd_base::{Solution, Time};
+use insd_base::{Solution, Time, Truth};
 use insd_config::BadInput;
-use insd_drivers::recording::{read_nav_rows, read_truth_rows};
+use insd_drivers::recording::{NavRow, Rows, read_nav_rows, read_truth_rows};
 
 use crate::evaluation::plot::Picture;
 use crate::evaluation::{
-    ErrorReport, Evidence, WithSatellites, drifts, errors, outages, read_rows,
+    ErrorReport, Evidence, VoyageErrors, WithSatellites, drifts, errors, outages, read_rows,
 };
 
 /// Options of `insd evaluate`.
@@ -53,22 +53,8 @@ pub struct EvaluateArgs {
 pub fn run(args: &EvaluateArgs) -> anyhow::Result<()> {
     let nav = read_nav_rows(&args.nav)?;
     let truth = read_truth_rows(&args.truth)?;
-    let from = args.from.map(Time::from_seconds);
-    let solutions: Vec<Solution> = nav.rows.iter().map(|row| row.solution).collect();
-    let found = errors(&solutions, &truth.rows, from);
-    if found.epochs.is_empty() {
-        let (nav, truth) = (args.nav.display(), args.truth.display());
-        return Err(BadInput(format!("{nav} and {truth} have no common time to compare")).into());
-    }
-    let drifts = drifts(&outages(&solutions), &found.epochs);
-    let report = ErrorReport {
-        nav: args.nav.display().to_string(),
-        truth: args.truth.display().to_string(),
-        skipped_nav_rows: nav.report.faulty(),
-        skipped_truth_rows: truth.report.faulty(),
-        satellites: WithSatellites::all(&nav.rows, &found),
-        ..ErrorReport::new(&found, drifts, Evidence::new(&nav, &found, from))
-    };
+    let names = [&args.nav, &args.truth].map(|file| file.display().to_string());
+    let (report, found) = score(names, &nav, &truth, args.from.map(Time::from_seconds))?;
     if args.json {
         crate::terminal::print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
     } else {
@@ -87,4 +73,34 @@ pub fn run(args: &EvaluateArgs) -> anyhow::Result<()> {
         sky: sky.as_deref().unwrap_or_default(),
     }
     .draw(file)
+}
+
+/// The report of a solution against truth from a time on, and the errors that it is made of; `names` of both are told in it.
+///
+/// # Errors
+/// The two have no common time.
+pub fn score(
+    names: [String; 2],
+    nav: &Rows<NavRow>,
+    truth: &Rows<Truth>,
+    from: Option<Time>,
+) -> Result<(ErrorReport, VoyageErrors), BadInput> {
+    let solutions: Vec<Solution> = nav.rows.iter().map(|row| row.solution).collect();
+    let found = errors(&solutions, &truth.rows, from);
+    let [nav_name, truth_name] = names;
+    if found.epochs.is_empty() {
+        return Err(BadInput(format!(
+            "{nav_name} and {truth_name} have no common time to compare"
+        )));
+    }
+    let drifts = drifts(&outages(&solutions), &found.epochs);
+    let report = ErrorReport {
+        nav: nav_name,
+        truth: truth_name,
+        skipped_nav_rows: nav.report.faulty(),
+        skipped_truth_rows: truth.report.faulty(),
+        satellites: WithSatellites::all(&nav.rows, &found),
+        ..ErrorReport::new(&found, drifts, Evidence::new(nav, &found, from))
+    };
+    Ok((report, found))
 }

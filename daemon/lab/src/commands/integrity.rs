@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use insd_base::{Solution, Time};
+use insd_base::{Solution, Time, Truth};
 use insd_config::BadInput;
-use insd_drivers::recording::{read_nav_rows, read_truth_rows};
+use insd_drivers::recording::{NavRow, Rows, read_nav_rows, read_truth_rows};
 
 use crate::evaluation::plot::StanfordChart;
 use crate::evaluation::{AlertLimit, IntegrityReport, errors};
@@ -63,24 +63,10 @@ pub struct Hazardous {
 pub fn run(args: &IntegrityArgs) -> anyhow::Result<()> {
     let nav = read_nav_rows(&args.nav)?;
     let truth = read_truth_rows(&args.truth)?;
-    let name = args.nav.display();
-    if !nav.has("hpl_m") {
-        return Err(
-            BadInput(format!("{name}: no column hpl_m, so there is no level to judge")).into()
-        );
-    }
-    let solutions: Vec<Solution> = nav.rows.iter().map(|row| row.solution).collect();
-    let found = errors(&solutions, &truth.rows, args.from.map(Time::from_seconds));
-    let vertical = args.vertical_alert_limit.unwrap_or(args.alert_limit).limit_m;
-    let report = IntegrityReport {
-        nav: name.to_string(),
-        truth: args.truth.display().to_string(),
-        ..IntegrityReport::new(&nav, &found, args.alert_limit, vertical)
-    };
-    if report.horizontal.epochs == 0 {
-        let truth = args.truth.display();
-        return Err(BadInput(format!("{name} and {truth} have no common time to compare")).into());
-    }
+    let names = [&args.nav, &args.truth].map(|file| file.display().to_string());
+    let limits = [Some(args.alert_limit), args.vertical_alert_limit];
+    let limits = limits.map(|limit| limit.unwrap_or(args.alert_limit));
+    let report = judge(names, &nav, &truth, limits, args.from.map(Time::from_seconds))?;
     if args.json {
         crate::terminal::print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
     } else {
@@ -94,4 +80,34 @@ pub fn run(args: &IntegrityArgs) -> anyhow::Result<()> {
         0 => Ok(()),
         epochs => Err(Hazardous { epochs }.into()),
     }
+}
+
+/// Errors from a time on against the levels that were told with them, at alert limits of the horizontal error and of that of
+/// the height; `names` of solution and truth are told in the report.
+///
+/// # Errors
+/// The solution tells no levels, or the two have no common time.
+pub fn judge(
+    names: [String; 2],
+    nav: &Rows<NavRow>,
+    truth: &Rows<Truth>,
+    limits: [AlertLimit; 2],
+    from: Option<Time>,
+) -> Result<IntegrityReport, BadInput> {
+    let [nav_name, truth_name] = names;
+    if !nav.has("hpl_m") {
+        return Err(BadInput(format!(
+            "{nav_name}: no column hpl_m, so there is no level to judge"
+        )));
+    }
+    let solutions: Vec<Solution> = nav.rows.iter().map(|row| row.solution).collect();
+    let found = errors(&solutions, &truth.rows, from);
+    let [horizontal, vertical] = limits;
+    let report = IntegrityReport::new(nav, &found, horizontal, vertical.limit_m);
+    if report.horizontal.epochs == 0 {
+        return Err(BadInput(format!(
+            "{nav_name} and {truth_name} have no common time to compare"
+        )));
+    }
+    Ok(IntegrityReport { nav: nav_name, truth: truth_name, ..report })
 }

@@ -22,6 +22,23 @@ pub use outage::SensorOutage;
 
 use std::path::PathBuf;
 
+use insd_config::BadInput;
+
+/// The options of a command out of words as they stand on its command line.
+///
+/// # Errors
+/// What the command line would say.
+pub fn options<A: clap::Args>(words: &[String]) -> Result<A, BadInput> {
+    let command = clap::Command::new("insd").no_binary_name(true).disable_help_flag(true);
+    let told = |fault: clap::Error| {
+        let text = fault.to_string();
+        let first = text.split("\n\n").next().unwrap_or_default();
+        BadInput(first.trim_start_matches("error: ").trim().to_owned())
+    };
+    let matches = A::augment_args(command).try_get_matches_from(words).map_err(told)?;
+    A::from_arg_matches(&matches).map_err(told)
+}
+
 /// The rate that a command line may ask for, Hz.
 fn rate(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {

@@ -1,6 +1,6 @@
 //! `insd simulate`: makes a voyage directory with truth.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use insd_drivers::recording::{Compression, write_camera, write_raw, write_voyage};
@@ -38,21 +38,38 @@ pub struct SimulateArgs {
 /// # Errors
 /// The scenario is faulty or the directory cannot be written.
 pub fn run(args: &SimulateArgs) -> anyhow::Result<()> {
-    let SimulateArgs { scenario: Some(word), seed: Some(seed), out: Some(out), .. } = args else {
-        return Ok(crate::terminal::print(&scenario::list())?);
-    };
-    let scenario = scenario::find(word, &args.sets)?;
-    let voyage = simulate(&scenario.scenario, *seed);
-    let compression = if args.compress { Compression::Zstd } else { Compression::None };
+    match (&args.scenario, args.seed, &args.out) {
+        (Some(word), Some(seed), Some(out)) => {
+            let compression = if args.compress { Compression::Zstd } else { Compression::None };
+            let scenario = scenario::find(word, &args.sets)?;
+            let written = write(&scenario, seed, out, compression)?;
+            eprintln!("{written}");
+            Ok(())
+        }
+        _ => Ok(crate::terminal::print(&scenario::list())?),
+    }
+}
+
+/// Writes the voyage of a scenario, and tells in a line what it holds.
+///
+/// # Errors
+/// The directory cannot be written.
+pub fn write(
+    scenario: &scenario::Named,
+    seed: u64,
+    out: &Path,
+    compression: Compression,
+) -> anyhow::Result<String> {
+    let voyage = simulate(&scenario.scenario, seed);
     write_voyage(out, &voyage, compression).context("cannot write the voyage")?;
-    let raw = raw_gnss(&scenario.scenario, *seed).map(|raw| files(&raw)).transpose()?;
+    let raw = raw_gnss(&scenario.scenario, seed).map(|raw| files(&raw)).transpose()?;
     write_raw(out, raw.as_ref(), compression).context("cannot write the raw GNSS")?;
-    let footage = footage(&scenario.scenario, *seed);
+    let footage = footage(&scenario.scenario, seed);
     let seen = footage.as_ref().map(camera::files).transpose()?;
     write_camera(out, seen.as_ref(), compression).context("cannot write the camera's files")?;
     let antennas = raw.map(|raw| format!(", {} antennas raw", raw.antennas.len()));
     let images = footage.map(|footage| format!(", {} images", footage.frames.len()));
-    eprintln!(
+    Ok(format!(
         "{}, seed {}: {} imu, {} gnss, {} log, {} reference, {} truth rows{}{} in {}",
         scenario.name,
         seed,
@@ -64,6 +81,5 @@ pub fn run(args: &SimulateArgs) -> anyhow::Result<()> {
         antennas.unwrap_or_default(),
         images.unwrap_or_default(),
         out.display()
-    );
-    Ok(())
+    ))
 }

@@ -36,7 +36,7 @@ pub use campaign::{CampaignReport, ComponentEstimates, OutageEstimates};
 pub use component::{Component, Unit};
 pub use drift::{Drift, Outage, drifts, outages};
 pub use errors::{EpochError, EpochsLeftOut, VoyageErrors, errors, normalised};
-pub use evidence::{Evidence, Exclusion, FaultsTold, Pieces, Share, Use, Worst};
+pub use evidence::{Evidence, Exclusion, FaultsTold, Pieces, Share, Use, Worst, is_told};
 pub use innovation::InnovationRow;
 pub use instants::{AlignmentMoment, Instant, InstantEstimates, moments};
 pub use interval::MeanOfRuns;

@@ -35,6 +35,21 @@ struct Variation {
 /// # Errors
 /// The scenario or a file of runs is faulty, or no seed gave a solution.
 pub fn run(args: &CampaignArgs) -> anyhow::Result<()> {
+    let reports = reports(args)?;
+    crate::terminal::print(&text(&reports, args.json)?)?;
+    match reports.iter().find(|report| report.is_silent()) {
+        Some(silent) => {
+            Err(BadInput(format!("{}: no seed gave a solution", silent.scenario)).into())
+        }
+        None => Ok(()),
+    }
+}
+
+/// The report of each variation of the scenario: one, unless keys are swept.
+///
+/// # Errors
+/// The scenario or a file of runs is faulty.
+pub fn reports(args: &CampaignArgs) -> anyhow::Result<Vec<CampaignReport>> {
     let is_merged = !args.merge.is_empty();
     let mut kept = if is_merged { merge::merge(&args.merge)? } else { sail(args)? };
     if let (true, Some(path)) = (is_merged, &args.runs) {
@@ -47,14 +62,7 @@ pub fn run(args: &CampaignArgs) -> anyhow::Result<()> {
         let yardstick = declared.yardstick.as_ref();
         CampaignReport::new(&declared.scenario, runs, yardstick).out_of(declared.seeds())
     };
-    let reports: Vec<CampaignReport> = declared.iter().map(report).collect();
-    crate::terminal::print(&text(&reports, args.json)?)?;
-    match reports.iter().find(|report| report.is_silent()) {
-        Some(silent) => {
-            Err(BadInput(format!("{}: no seed gave a solution", silent.scenario)).into())
-        }
-        None => Ok(()),
-    }
+    Ok(declared.iter().map(report).collect())
 }
 
 fn text(reports: &[CampaignReport], as_json: bool) -> anyhow::Result<String> {

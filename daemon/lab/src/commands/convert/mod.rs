@@ -1,37 +1,23 @@
-//! `insd convert`: a voyage directory, or files of RINEX, out of a raw recording.
+//! `insd convert`: a voyage directory, or files of RINEX, out of a raw recording; a solution in the formats of other programs.
 
+mod args;
 mod raw;
+mod solution;
+mod start;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::Context as _;
-use insd_base::{Message, Received, Stamped, Time, Voyage, VoyageHeader};
+use insd_base::{Arrival, Message, Received, Stamped, Voyage, VoyageHeader};
 use insd_config::BadInput;
 use insd_drivers::recording::{Compression, write_raw, write_voyage};
-use insd_intake::{Intake, Intaken};
+use insd_intake::Intake;
 use insd_rinex::{write_navigation, write_observations};
 
+pub use self::args::ConvertArgs;
+use self::start::start_utc;
 use crate::raw_receivers::{RawReceiver, RawReceivers};
 use crate::raw_run::RawRun;
-
-/// Options of `insd convert`.
-#[derive(Clone, Debug, clap::Args)]
-pub struct ConvertArgs {
-    /// Raw recording: one of its files, or its folder
-    pub recording: PathBuf,
-    /// Voyage directory to make, with `raw/` if a receiver sent raw messages
-    #[arg(long, value_name = "DIR", required_unless_present = "rinex")]
-    pub out: Option<PathBuf>,
-    /// Folder for RINEX 3.05: of each receiver that sent raw messages NAME.obs, what it measured, and NAME.nav, what the satellites broadcast
-    #[arg(long, value_name = "DIR")]
-    pub rinex: Option<PathBuf>,
-    /// Another configuration than the one it was made with
-    #[arg(long, value_name = "FILE")]
-    pub config: Option<PathBuf>,
-    /// Of a recording that spans restarts of the program: which run, from 1
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub run: u32,
-}
 
 /// Runs the command. Times in the voyage are those of the ship's time line, whose start in UTC is what was
 /// known at the end; each row has its time of receipt. Times in RINEX are those of the receiver's own clock.
@@ -39,37 +25,44 @@ pub struct ConvertArgs {
 /// # Errors
 /// The recording cannot be read, UTC never became known in it, no receiver sent raw messages and RINEX is wanted, or the files cannot be written.
 pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
+    eprint!("{}", write(args)?);
+    Ok(())
+}
+
+/// Does what the command is asked for, and tells in lines what was written.
+///
+/// # Errors
+/// As [`run`].
+pub fn write(args: &ConvertArgs) -> anyhow::Result<String> {
+    if let (Some(format), Some(out)) = (args.to, &args.out) {
+        return solution::write(args, format, out);
+    }
     let mut raw = RawRun::open(&args.recording, args.config.as_deref(), args.run)?;
-    let mut intake = Intake::new(&raw.config.intake());
     let mut receivers = RawReceivers::new(&raw.config.intake());
     let mut measured = Vec::new();
-    raw.for_each(|arrival| {
-        intake.handle(arrival);
+    let arrived = |arrival: &Arrival, intake: &Intake| {
         let utc = intake.utc_at(arrival.stamp.monotonic);
         receivers.take(arrival, Some(utc.unwrap_or(arrival.stamp.system).to_gps()));
-        while let Some(taken) = intake.poll_output() {
-            if let Intaken::Measured(received) = taken
-                && args.out.is_some()
-            {
-                measured.push(received);
-            }
+    };
+    let intake = raw.hear(arrived, |received| {
+        if args.out.is_some() {
+            measured.push(received);
         }
-        Ok(())
     })?;
+    let mut told = String::new();
     if let Some(folder) = &args.rinex {
-        rinex(&receivers, folder, &args.recording)?;
+        told.push_str(&rinex(&receivers, folder, &args.recording)?);
     }
-    match &args.out {
-        Some(out) => {
-            let antennas = raw::antennas(receivers.told());
-            voyage(args, &raw, &intake, &measured, out, &antennas)
-        }
-        None => Ok(()),
+    if let Some(out) = &args.out {
+        let antennas = raw::antennas(receivers.told());
+        voyage(args, &raw, &intake, &measured, out, &antennas)?;
+        told.push_str(&summary(&measured, &antennas));
     }
+    Ok(told)
 }
 
 /// Writes the files of each receiver.
-fn rinex(receivers: &RawReceivers, folder: &Path, recording: &Path) -> anyhow::Result<()> {
+fn rinex(receivers: &RawReceivers, folder: &Path, recording: &Path) -> anyhow::Result<String> {
     let told: Vec<&RawReceiver> = receivers.told().collect();
     if told.is_empty() {
         let what = "no receiver sent raw messages";
@@ -77,6 +70,7 @@ fn rinex(receivers: &RawReceivers, folder: &Path, recording: &Path) -> anyhow::R
     }
     let fault = |path: &Path| format!("{}: cannot be written", path.display());
     std::fs::create_dir_all(folder).with_context(|| fault(folder))?;
+    let mut lines = String::new();
     for own in told {
         let name = plain(&own.name);
         let models: Vec<_> = own.ionosphere.iter().map(|(whose, own)| (*whose, *own)).collect();
@@ -89,9 +83,12 @@ fn rinex(receivers: &RawReceivers, folder: &Path, recording: &Path) -> anyhow::R
             std::fs::write(&path, text).with_context(|| fault(&path))?;
         }
         let (epochs, records) = (own.epochs.len(), own.records.len());
-        eprintln!("{}: {epochs} epochs, {records} orbits, {} refused", own.name, own.refused);
+        lines.push_str(&format!(
+            "{}: {epochs} epochs, {records} orbits, {} refused\n",
+            own.name, own.refused
+        ));
     }
-    Ok(())
+    Ok(lines)
 }
 
 /// A name that is one of a file.
@@ -108,7 +105,7 @@ fn voyage(
     out: &Path,
     antennas: &[&RawReceiver],
 ) -> anyhow::Result<()> {
-    let Some(start) = intake.utc_at(Time::START) else {
+    let Some(start_utc) = start_utc(intake)? else {
         let what = "UTC never became known: no receiver told the time";
         return Err(BadInput(format!("{}: {what}", args.recording.display())).into());
     };
@@ -119,7 +116,7 @@ fn voyage(
     lever_arms.gnss = antennas.first().and_then(|own| own.lever).unwrap_or(lever_arms.gnss);
     let mut voyage = Voyage {
         header: VoyageHeader {
-            start_utc: jiff::Timestamp::from_nanosecond(start.as_nanos().into())?.to_string(),
+            start_utc,
             start: engine.start,
             initial: engine.initial,
             imu: engine.imu,
@@ -137,25 +134,36 @@ fn voyage(
         enter(&mut voyage, received);
     }
     sort(&mut voyage);
-    eprintln!(
-        "{} IMU samples, {} fixes, {} log velocities, {} references",
-        voyage.imu.len(),
-        voyage.gnss.len(),
-        voyage.log.len(),
-        voyage.reference.len()
+    write_voyage(out, &voyage, Compression::Zstd)?;
+    let files = Some(&files).filter(|_| !antennas.is_empty());
+    Ok(write_raw(out, files, Compression::Zstd)?)
+}
+
+/// What was written, in lines.
+fn summary(measured: &[Received], antennas: &[&RawReceiver]) -> String {
+    let count = |is_one: fn(&Message) -> bool| {
+        measured.iter().filter(|received| is_one(&received.message)).count()
+    };
+    let mut lines = format!(
+        "{} IMU samples, {} fixes, {} log velocities, {} references\n",
+        count(|message| matches!(message, Message::Imu(_))),
+        count(|message| matches!(message, Message::Gnss(fix) if fix.rank == 0)),
+        count(|message| matches!(message, Message::Log(_))),
+        count(|message| matches!(message, Message::Reference(_))),
     );
     for (own, number) in antennas.iter().zip(1..) {
         let (epochs, orbits) = (own.epochs.len(), own.records.len());
-        eprintln!("raw/a{number}.obs: {}, {epochs} epochs, {orbits} orbits", own.name);
+        lines.push_str(&format!(
+            "raw/a{number}.obs: {}, {epochs} epochs, {orbits} orbits\n",
+            own.name
+        ));
     }
     let of_base = raw::of_base(measured);
     if let Some(first) = of_base.first().filter(|_| !antennas.is_empty()) {
         let moves = if first.is_moving { ", which moves" } else { "" };
-        eprintln!("raw/base.obs: {} epochs of a base{moves}", of_base.len());
+        lines.push_str(&format!("raw/base.obs: {} epochs of a base{moves}\n", of_base.len()));
     }
-    write_voyage(out, &voyage, Compression::Zstd)?;
-    let files = Some(&files).filter(|_| !antennas.is_empty());
-    Ok(write_raw(out, files, Compression::Zstd)?)
+    lines
 }
 
 fn enter(voyage: &mut Voyage, received: &Received) {

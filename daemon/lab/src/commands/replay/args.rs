@@ -16,11 +16,18 @@ pub type Tell = fn(&Names, &Product);
 /// Options of `insd replay`.
 #[derive(Clone, Debug, clap::Args)]
 pub struct ReplayArgs {
-    /// Voyage directory, or a raw recording: one of its files, or its folder
-    pub(super) dir: PathBuf,
     /// File to write the solution to
     #[arg(long, value_name = "NAV.csv")]
     pub(super) out: PathBuf,
+    #[command(flatten)]
+    pub(super) options: ReplayOptions,
+}
+
+/// What is replayed, and how; where the solution goes is another matter.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ReplayOptions {
+    /// Voyage directory, or a raw recording: one of its files, or its folder
+    pub(super) dir: PathBuf,
     /// Solutions per second [default: 10; of a raw recording, those of its configuration]
     #[arg(long, value_name = "HZ", value_parser = super::super::rate)]
     pub(super) rate: Option<f64>,

@@ -1,6 +1,7 @@
 //! `insd replay`: a recorded voyage through the same engine as the daemon, without a clock.
 
 mod args;
+mod destination;
 mod recording;
 mod sent;
 mod sink;
@@ -13,14 +14,25 @@ use insd_config::BadInput;
 
 use super::smooth::Afterwards;
 
-pub use args::{ReplayArgs, Tell};
+pub use args::{ReplayArgs, ReplayOptions, Tell};
+pub(in crate::commands) use destination::Destination;
+pub use destination::Replayed;
 
 /// Runs the command. What it writes is a function of the recording and the options alone.
 ///
 /// # Errors
 /// The recording cannot be read or the output not written.
 pub fn run(args: &ReplayArgs, tell: Tell) -> anyhow::Result<()> {
-    run_to_end(args, tell, None)
+    let destination = Destination::file(&args.out)?;
+    run_to_end(&args.options, tell, None, destination).map(drop)
+}
+
+/// The rows that the command would write, and what it would say.
+///
+/// # Errors
+/// The recording cannot be read, or what else is to be written cannot be.
+pub fn rows(options: &ReplayOptions) -> anyhow::Result<Replayed> {
+    run_to_end(options, |_, _| {}, None, Destination::memory())
 }
 
 /// The same, and back again.
@@ -29,12 +41,18 @@ pub(super) fn run_and_smooth(
     tell: Tell,
     afterwards: Afterwards,
 ) -> anyhow::Result<()> {
-    run_to_end(args, tell, Some(afterwards))
+    let destination = Destination::file(&args.out)?;
+    run_to_end(&args.options, tell, Some(afterwards), destination).map(drop)
 }
 
-fn run_to_end(args: &ReplayArgs, tell: Tell, afterwards: Option<Afterwards>) -> anyhow::Result<()> {
+fn run_to_end(
+    args: &ReplayOptions,
+    tell: Tell,
+    afterwards: Option<Afterwards>,
+    destination: Destination,
+) -> anyhow::Result<Replayed> {
     if args.dir.join("voyage.toml").exists() || !crate::raw_run::is_recording(&args.dir) {
-        return voyage::run(args, afterwards);
+        return voyage::run(args, afterwards, destination);
     }
     let only_voyages = [
         ("--outage", !args.outages.is_empty()),
@@ -46,5 +64,5 @@ fn run_to_end(args: &ReplayArgs, tell: Tell, afterwards: Option<Afterwards>) -> 
         let hint = "make a voyage of it with `insd convert` first";
         return Err(BadInput(format!("{option} is for voyage directories: {hint}")).into());
     }
-    recording::run(args, tell, afterwards)
+    recording::run(args, tell, afterwards, destination)
 }

@@ -4,7 +4,8 @@ use anyhow::Context;
 use insd_config::stored;
 use insd_vessel::{Names, Pipeline, Product};
 
-use super::args::{ReplayArgs, Tell};
+use super::args::{ReplayOptions, Tell};
+use super::destination::{Destination, Replayed};
 use super::sent::Sent;
 use super::sink::Sink;
 use crate::commands::smooth::Afterwards;
@@ -12,10 +13,11 @@ use crate::raw_run::RawRun;
 
 /// Replays a recording.
 pub(super) fn run(
-    args: &ReplayArgs,
+    args: &ReplayOptions,
     tell: Tell,
     afterwards: Option<Afterwards>,
-) -> anyhow::Result<()> {
+    destination: Destination,
+) -> anyhow::Result<Replayed> {
     let mut raw = RawRun::open(&args.dir, args.config.as_deref(), args.run)?;
     let mut engine = raw.config.engine();
     engine.output_rate = args.rate.unwrap_or(engine.output_rate);
@@ -24,7 +26,7 @@ pub(super) fn run(
     engine.stored = args.stored_state.as_deref().map(stored::read).transpose()?;
     let mut pipeline = Pipeline::new(raw.config.plan_with(engine), raw.config.clone());
     let names = Names::of(&raw.config.intake());
-    let mut sink = Sink::create(args, afterwards)?;
+    let mut sink = Sink::create(args, afterwards, destination)?;
     let sent = args.sent.as_deref().map(|folder| Sent::create(folder, &raw.config));
     let mut sent = sent.transpose()?;
     raw.for_each(|arrival| {
@@ -43,7 +45,7 @@ pub(super) fn run(
         sink.look(pipeline.engine_in_use()).context("cannot write the sky")
     })?;
     sink.smooth(pipeline.engine_in_use());
-    eprint!("{}", sink.summary(pipeline.counts(), 0, Vec::new()));
+    sink.say(pipeline.counts(), 0, Vec::new());
     sent.map_or(Ok(()), Sent::finish)?;
     sink.finish()
 }

@@ -1,14 +1,14 @@
 //! Where the outputs of the engine go.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::Context;
 use insd_base::{AlignmentStatus, Counts, Event, Finding, Mode, SatelliteId, Stands, Time};
 use insd_config::OutputFile;
-use insd_drivers::recording::{FileReport, NavWriter};
+use insd_drivers::recording::FileReport;
 use insd_engine::{Engine, Output};
 
-use super::args::ReplayArgs;
+use super::args::ReplayOptions;
+use super::destination::{Destination, Replayed};
 use super::sky_log::SkyLog;
 use super::states_log::StatesLog;
 use crate::commands::smooth::Afterwards;
@@ -17,7 +17,7 @@ use crate::evaluation::{AlignmentRow, InnovationRow, RowWriter};
 
 /// Where the outputs of the engine go.
 pub(super) struct Sink {
-    nav: NavWriter<OutputFile>,
+    nav: Destination,
     /// Where they are smoothed before they are written.
     afterwards: Option<Afterwards>,
     innovations: Option<RowWriter<InnovationRow, OutputFile>>,
@@ -39,13 +39,14 @@ pub(super) struct Sink {
 
 impl Sink {
     pub(super) fn create(
-        args: &ReplayArgs,
+        args: &ReplayOptions,
         afterwards: Option<Afterwards>,
+        nav: Destination,
     ) -> anyhow::Result<Self> {
         let innovations = |path: &PathBuf| OutputFile::create(path).map(RowWriter::new);
         let log = |path: &PathBuf| OutputFile::create(path).map(RowWriter::new);
         Ok(Sink {
-            nav: open_nav(&args.out)?,
+            nav,
             afterwards,
             innovations: args.innovations.as_ref().map(innovations).transpose()?,
             alignment_log: args.alignment_log.as_ref().map(log).transpose()?,
@@ -127,15 +128,10 @@ impl Sink {
         }
     }
 
-    /// All of it in words, with what the engine counted, the messages dropped on request, and what the
+    /// Says all of it in words, with what the engine counted, the messages dropped on request, and what the
     /// files of a voyage lacked.
-    pub(super) fn summary<'a>(
-        &'a self,
-        counts: &'a Counts,
-        dropped: u64,
-        files: Vec<&'a FileReport>,
-    ) -> Summary<'a> {
-        Summary {
+    pub(super) fn say(&mut self, counts: &Counts, dropped: u64, files: Vec<&FileReport>) {
+        let summary = Summary {
             solutions: self.solutions,
             left_out: self.nav.left_out(),
             alignment: &self.alignment,
@@ -149,7 +145,9 @@ impl Sink {
             counts,
             dropped,
             files,
-        }
+        };
+        let summary = summary.to_string();
+        self.nav.say(summary);
     }
 
     /// The voyage is over.
@@ -159,23 +157,19 @@ impl Sink {
         }
     }
 
-    pub(super) fn finish(mut self) -> anyhow::Result<()> {
+    pub(super) fn finish(mut self) -> anyhow::Result<Replayed> {
         if let Some(afterwards) = &self.afterwards {
             afterwards.write(&mut self.nav)?;
         }
-        self.nav.finish().context("cannot write the solution")?.finish()?;
+        let replayed = self.nav.finish()?;
         if let Some(file) = self.alignment_log {
             file.finish()?.finish()?;
         }
         self.sky.map_or(Ok(()), SkyLog::finish)?;
         self.states.map_or(Ok(()), StatesLog::finish)?;
-        match self.innovations {
-            Some(file) => file.finish()?.finish(),
-            None => Ok(()),
+        if let Some(file) = self.innovations {
+            file.finish()?.finish()?;
         }
+        Ok(replayed)
     }
-}
-
-fn open_nav(path: &Path) -> anyhow::Result<NavWriter<OutputFile>> {
-    NavWriter::new(OutputFile::create(path)?).context("cannot write the solution")
 }

@@ -10,7 +10,8 @@ use insd_engine::{Engine, EngineConfig};
 use insd_vessel::Outputs;
 
 use super::super::learn;
-use super::args::ReplayArgs;
+use super::args::ReplayOptions;
+use super::destination::{Destination, Replayed};
 use super::sent::Sent;
 use super::sink::Sink;
 use super::without::Without;
@@ -24,7 +25,11 @@ use crate::raw_voyage::RawVoyage;
 const RATE: f64 = 10.0;
 
 /// Replays a voyage.
-pub(super) fn run(args: &ReplayArgs, afterwards: Option<Afterwards>) -> anyhow::Result<()> {
+pub(super) fn run(
+    args: &ReplayOptions,
+    afterwards: Option<Afterwards>,
+    destination: Destination,
+) -> anyhow::Result<Replayed> {
     let mut reader = VoyageReader::open(&args.dir)?;
     let mut config = asked(args, &reader, afterwards.as_ref())?;
     let mut temperature = TemperatureReader::open(&args.dir)?;
@@ -37,7 +42,7 @@ pub(super) fn run(args: &ReplayArgs, afterwards: Option<Afterwards>) -> anyhow::
     let mut ports = Ports::of(args, &reader.header().start_utc)?;
     config.points = ports.as_ref().map(|ports| ports.levers.clone()).unwrap_or_default();
     let mut engine = Engine::new(config);
-    let (mut sink, mut dropped) = (Sink::create(args, afterwards)?, 0_u64);
+    let (mut sink, mut dropped) = (Sink::create(args, afterwards, destination)?, 0_u64);
     let gnss = Without::gnss(&args.without, args.gnss)?;
     let start_utc = &reader.header().start_utc;
     let mut raw = RawVoyage::open(&args.dir, gnss, &args.masks, &table, start_utc)?;
@@ -71,23 +76,18 @@ pub(super) fn run(args: &ReplayArgs, afterwards: Option<Afterwards>) -> anyhow::
     }
     ports.map_or(Ok(()), |ports| ports.sent.finish())?;
     sink.smooth(&engine);
-    let files = reader
-        .skipped()
-        .into_iter()
-        .chain(camera.report())
-        .chain(temperature.as_ref().map(TemperatureReader::report))
-        .collect();
-    eprint!("{}", sink.summary(engine.counts(), dropped, files));
-    sink.finish()?;
-    match &args.save_state {
-        Some(path) => save(path, &engine, &reader.header().start_utc),
-        None => Ok(()),
-    }
+    let warmth = temperature.as_ref().map(TemperatureReader::report);
+    let files = reader.skipped().into_iter().chain(camera.report()).chain(warmth).collect();
+    sink.say(engine.counts(), dropped, files);
+    let replayed = sink.finish()?;
+    let start_utc = &reader.header().start_utc;
+    args.save_state.iter().try_for_each(|path| save(path, &engine, start_utc))?;
+    Ok(replayed)
 }
 
 /// What the options ask of the engine.
 fn asked(
-    args: &ReplayArgs,
+    args: &ReplayOptions,
     reader: &VoyageReader,
     afterwards: Option<&Afterwards>,
 ) -> anyhow::Result<EngineConfig> {
@@ -114,7 +114,7 @@ struct Ports {
 }
 
 impl Ports {
-    fn of(args: &ReplayArgs, start_utc: &str) -> anyhow::Result<Option<Self>> {
+    fn of(args: &ReplayOptions, start_utc: &str) -> anyhow::Result<Option<Self>> {
         let Some(folder) = &args.sent else { return Ok(None) };
         let Some(file) = &args.config else {
             return Err(

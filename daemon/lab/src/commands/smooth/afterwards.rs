@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use anyhow::Context;
 use insd_base::{Protection, Solution};
 use insd_config::{BadInput, OutputFile};
-use insd_drivers::recording::NavWriter;
 use insd_engine::Engine;
 use insd_nav::smoothing::{Smoothed, SmoothedVoyage};
 
 use super::sbet::SbetRow;
+use crate::commands::replay::Destination;
 use crate::evaluation::RowWriter;
 
 /// The solutions of the filter, which are told when they have been smoothed.
@@ -54,7 +54,7 @@ impl Afterwards {
     ///
     /// # Errors
     /// There is no solution at all, or the output cannot be written.
-    pub(in crate::commands) fn write(&self, nav: &mut NavWriter<OutputFile>) -> anyhow::Result<()> {
+    pub(in crate::commands) fn write(&self, nav: &mut Destination) -> anyhow::Result<()> {
         if self.solutions.is_empty() {
             return Err(BadInput("the recording has no solution to smooth".to_owned()).into());
         }

@@ -187,7 +187,8 @@ pub(super) fn in_order(nav: &Rows<NavRow>) -> Vec<&NavRow> {
 }
 
 /// Whether a row is told as a solution that may be used.
-pub(super) fn is_told(row: &NavRow) -> bool {
+#[must_use]
+pub fn is_told(row: &NavRow) -> bool {
     let is_none = matches!(row.solution.mode, Mode::Fault | Mode::Standby | Mode::CoarseAlignment);
     !is_none && row.integrity != Some(Availability::Fault)
 }
