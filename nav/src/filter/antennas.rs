@@ -20,6 +20,8 @@ use crate::report::{Outcome, Report};
 
 /// Variance of what reflects under another sky than before, in that of one epoch.
 const OTHER_SKY: f64 = 2.0;
+/// A filter that has had no fix for so long drifts, s.
+const UNFIXED: f64 = 3.0;
 /// A heading that is less sure than this, rad, 1-sigma, tells the judge nothing, and none is surer than that.
 const UNSURE: f64 = 0.1;
 const SUREST: f64 = 1e-3;
@@ -87,8 +89,13 @@ impl Filter {
         }
     }
 
-    /// Lets the judge hear the heading, and takes it, of antennas of which another filter follows the phases.
+    /// Lets the judge hear the heading, and takes it, of antennas of which another filter follows the phases. Without fixes this one drifts, and
+    /// what it would make of somebody's lie is nothing that happens to the other, whose ranges go on.
     pub(super) fn hear_antennas(&mut self, told: &CompassPhases) {
+        let fixed = self.receiver.trust.last_used();
+        if fixed.is_none_or(|last| (self.state.time - last).as_seconds() > UNFIXED) {
+            return;
+        }
         self.settle();
         if let Some(innovation) = self.judge_antennas(told) {
             let refused = self.withholds(Aid::Antennas).then_some(Rejection::SourceSuspect);

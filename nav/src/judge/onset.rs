@@ -28,7 +28,7 @@ pub(super) struct Onset {
     evidence: [Vector3<f64>; GROUPS],
     /// Of the information of each group, times for how long a fault had lasted when it came, s.
     aged: [f64; GROUPS],
-    /// Whether anything was heard since that tells of it but the heading of antennas.
+    /// Whether anything was heard since that tells of it but, beside antennas, their heading and the sea level.
     told: [bool; GROUPS],
     /// Sum of the normalised squares since, and how many components there were.
     misfit: f64,
@@ -100,6 +100,8 @@ impl Onset {
         let direct = if is_as_wide { direct } else { direct.resize_vertically(causes, 0.0) };
         let effect = weighed.effect_of(&self.effects, direct);
         let z = weighed.whitened();
+        let has_antennas = causes > rows::USUAL_ROWS;
+        let tells_place = !(has_antennas && matches!(aid, Aid::Antennas | Aid::SeaLevel));
         let is_carried = |group: &&FaultGroup| group.rows.end <= causes;
         for (i, group) in ALL.iter().take_while(is_carried).enumerate() {
             let (start, width) = (group.rows.start, group.rows.len());
@@ -109,7 +111,7 @@ impl Onset {
             let mut evidence = self.evidence[i].rows_mut(0, width);
             evidence += own * &z;
             self.aged[i] += own.norm_squared() * age;
-            self.told[i] |= aid != Aid::Antennas && own.norm_squared() > 0.0;
+            self.told[i] |= tells_place && own.norm_squared() > 0.0;
         }
         if aid.is_absorbed() {
             weighed.pass_on(&mut self.effects, &effect);
