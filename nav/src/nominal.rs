@@ -13,7 +13,7 @@ use crate::dimensions::{
 
 /// How warm the IMU is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Warmth {
+pub struct ThermalReading {
     /// Temperature at which changes with it are none, degrees Celsius.
     pub reference: Option<f64>,
     /// How much warmer it is, K; zero while nothing is made of it.
@@ -50,7 +50,7 @@ pub struct Nominal {
     /// The bend of that change, m/s^2/K^2.
     pub accel_thermal_bend: Vector3<f64>,
     /// What the temperature is against which they count: felt, not estimated.
-    pub warmth: Warmth,
+    pub warmth: ThermalReading,
     /// Slow GNSS position error, NED, sigmas.
     pub gnss_position_error: Vector3<f64>,
     /// Slow GNSS velocity error, NED, sigmas.
@@ -146,7 +146,7 @@ impl Nominal {
             gyro_thermal_bend: Vector3::zeros(),
             accel_thermal: Vector3::zeros(),
             accel_thermal_bend: Vector3::zeros(),
-            warmth: Warmth::default(),
+            warmth: ThermalReading::default(),
             gnss_position_error: Vector3::zeros(),
             gnss_velocity_error: Vector3::zeros(),
             gnss_lever: Vector3::zeros(),

@@ -158,7 +158,7 @@ fn push_sigma(row: &mut Vec<u8>, sigma: f64, places: usize) {
 mod tests {
     use super::*;
     use insd_base::{
-        Attitude, Availability, Body, Geodetic, Integrity, Judgement, Mode, Parties, Party,
+        Attitude, Availability, Body, Geodetic, Integrity, Judgement, Mode, Ned, Parties, Party,
         SolutionSigma, Time,
     };
 

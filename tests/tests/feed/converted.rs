@@ -46,6 +46,8 @@ fn converted_of(recorded: &Recorded) -> (TempDir, PathBuf) {
         rinex: None,
         config: None,
         run: 1,
+        to: None,
+        start_utc: None,
     };
     convert::run(&args).unwrap();
     (desk, voyage)
