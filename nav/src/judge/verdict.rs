@@ -260,12 +260,13 @@ impl Judge {
     /// where the IMU was blamed.
     pub fn disbelieve(&mut self, whom: Party, now: Time) -> Option<Ruling> {
         self.docket.doubt(None, now);
+        let charge = Charge::shapeless(whom, DOUBT);
         let is_blamed = |since: Time| (now - since).as_seconds() < MEANWHILE;
         if self.docket.imu_doubted_since().is_some_and(is_blamed) {
-            self.docket.clear_imu();
-            return None;
+            self.docket.absolve_imu(now);
+            self.imu_on_trial = false;
+            return Some(Ruling { fault: charge.fault, mended: None });
         }
-        let charge = Charge::shapeless(whom, DOUBT);
         if self.lies_another(whom) || self.is_another_likelier(whom) {
             return Some(Ruling { fault: charge.fault, mended: None });
         }

@@ -79,9 +79,13 @@ impl Docket {
         (imu.since, imu.fault) = (now, Some(Fault::ImuUseless));
     }
 
-    /// The IMU may have been blamed for somebody else's lie: it is not named.
-    pub(in crate::judge) fn clear_imu(&mut self) {
+    /// The IMU was blamed for somebody else's lie: it is believed again, and what the receiver might have done instead is nothing.
+    pub(in crate::judge) fn absolve_imu(&mut self, now: Time) {
         self.by_one = true;
+        if !self.condemned {
+            (self.restless, self.open) = (None, None);
+            self.enter(Party::Imu, Standing::Trusted, now);
+        }
     }
 
     /// The IMU is right as far as is seen now.
@@ -113,5 +117,18 @@ mod tests {
         };
         assert!(after(1800.0));
         assert!(!after(3700.0));
+    }
+
+    #[test]
+    fn an_imu_that_was_blamed_for_another_is_believed_again_unless_it_is_of_no_use() {
+        let (blamed, found) = (Time::from_seconds(100.0), Time::from_seconds(110.0));
+        let mut docket = Docket::default();
+        docket.disbelieve_imu(blamed);
+        docket.absolve_imu(found);
+        assert_eq!(docket.imu_doubted_since(), None);
+        assert!(!docket.is_restless() && docket.open_lie().is_none());
+        docket.condemn_imu(blamed);
+        docket.absolve_imu(found);
+        assert_eq!(docket.imu_doubted_since(), Some(blamed));
     }
 }
