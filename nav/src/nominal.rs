@@ -20,6 +20,14 @@ pub struct ThermalReading {
     pub above: f64,
 }
 
+impl ThermalReading {
+    /// What a slope, unit per K, and a bend, unit per K^2, come to at this temperature.
+    #[must_use]
+    pub fn change(&self, slope: &Vector3<f64>, bend: &Vector3<f64>) -> Vector3<f64> {
+        (slope + bend * self.above) * self.above
+    }
+}
+
 /// Estimated values of everything in the error state; units and axes as stated there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Nominal {

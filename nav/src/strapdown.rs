@@ -112,16 +112,14 @@ impl Nominal {
     /// Estimated gyro error.
     #[must_use]
     pub fn gyro_error(&self) -> TriadError {
-        let above = self.warmth.above;
-        let of_heat = (self.gyro_thermal + self.gyro_thermal_bend * above) * above;
+        let of_heat = self.warmth.change(&self.gyro_thermal, &self.gyro_thermal_bend);
         TriadError { bias: self.gyro_bias + self.gyro_drift + of_heat, scale: self.gyro_scale }
     }
 
     /// Estimated accelerometer error.
     #[must_use]
     pub fn accel_error(&self) -> TriadError {
-        let above = self.warmth.above;
-        let of_heat = (self.accel_thermal + self.accel_thermal_bend * above) * above;
+        let of_heat = self.warmth.change(&self.accel_thermal, &self.accel_thermal_bend);
         TriadError { bias: self.accel_bias + self.accel_drift + of_heat, scale: self.accel_scale }
     }
 }
