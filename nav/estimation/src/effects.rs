@@ -25,6 +25,16 @@ impl Effects {
         Effects { layout, rows }
     }
 
+    /// Of one cause that does this.
+    #[must_use]
+    pub fn of(error: &Errors) -> Self {
+        let values = error.values();
+        Effects::new(
+            error.layout().clone(),
+            DMatrix::from_row_slice(1, values.len(), values.as_slice()),
+        )
+    }
+
     /// Of errors that are their own causes.
     pub(crate) fn identity(layout: &Layout) -> Self {
         Effects::new(layout.clone(), DMatrix::identity(layout.states(), layout.states()))

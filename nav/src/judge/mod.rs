@@ -13,6 +13,7 @@
 mod aid;
 mod alternative;
 mod amends;
+mod appeal;
 mod assessment;
 mod charge;
 mod claims;
@@ -45,6 +46,7 @@ use crate::propagation::Passage;
 pub use aid::Aid;
 use aid::{AIDS, Hearing, agreement};
 pub use alternative::{Alternative, Ruling};
+use appeal::Appeal;
 use charge::{Assessment, Charge, DOUBT};
 use dissenter::{Dissenter, Success, log_likelihood};
 pub use docket::Docket;
@@ -101,6 +103,8 @@ pub struct Judge {
     suspicions: Vec<Suspicion>,
     /// What of its lies the levels allowed for at the last looks, and where it is left out for a leap, at the last one before that.
     allowed: Allowed,
+    /// What the receiver may have been doing in place of what the IMU was found to do, while that is still heard.
+    appeal: Option<Box<Appeal>>,
     docket: Docket,
     /// Since when the log scatters wildly.
     wild: Option<Time>,
@@ -134,6 +138,7 @@ impl Judge {
             accused: None,
             suspicions: Vec::new(),
             allowed: Allowed::default(),
+            appeal: None,
             wild: None,
             is_coarse: config.has_coarse_gyros(),
             imu_on_trial: docket.imu_doubted_since().is_some(),
@@ -167,6 +172,7 @@ impl Judge {
         (self.spawned, self.accused, self.in_doubt) = (None, None, false);
         (self.suspect, self.disputed) = (None, None);
         self.assessment = Assessment::default();
+        self.keep_new_appeal();
     }
 
     fn shadows(&mut self) -> impl Iterator<Item = &mut Shadow> {
@@ -177,6 +183,11 @@ impl Judge {
     /// The navigator's estimate was corrected.
     pub fn corrected(&mut self, error: &Errors) {
         self.shadows().for_each(|shadow| shadow.apart -= error);
+    }
+
+    /// What is known of the navigator's errors changes, in the same way of all estimates.
+    pub fn change(&mut self, of: impl Fn(&mut Covariance)) {
+        self.shadows().for_each(|shadow| of(&mut shadow.covariance));
     }
 
     /// A block of states is carried from now on.
@@ -201,6 +212,7 @@ impl Judge {
         for onset in &mut self.onsets {
             onset.effects_mut().scale_block(block, 0.0);
         }
+        self.appeal.iter_mut().for_each(|own| own.effects_mut().scale_block(block, 0.0));
     }
 
     /// The unit of a block of states has grown: their numbers are what they were, times a factor.
@@ -212,6 +224,7 @@ impl Judge {
         for onset in &mut self.onsets {
             onset.effects_mut().scale_block(block, factor);
         }
+        self.appeal.iter_mut().for_each(|own| own.effects_mut().scale_block(block, factor));
     }
 
     /// Carries everything over a stretch.
@@ -224,6 +237,7 @@ impl Judge {
                 dissenter.agitate(passage.stretch.duration);
             }
             self.onsets.iter_mut().for_each(|onset| passing.effects(onset.effects_mut()));
+            self.appeal.iter_mut().for_each(|own| passing.effects(own.effects_mut()));
         });
         let worse = Passage { config: &passage.config.with_worse_imu(), ..*passage };
         worse.over(&layout, |passing| self.pessimist.shadow.propagate(passing));
@@ -274,6 +288,7 @@ impl Judge {
             let age = (now - onset.since).as_seconds();
             onset.hear((aid, now), &weighed, direct(age));
         }
+        self.hear_appeal((aid, now), &weighed, attitude, &direct);
         let likelihood = log_likelihood(&weighed);
         self.spare.hear((aid, now), innovation, &weighed, &self.shadow);
         if aid.is_absorbed() {

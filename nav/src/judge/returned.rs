@@ -58,16 +58,16 @@ impl Judge {
         }
     }
 
-    /// The IMU is convicted: what the receiver may have done instead, by what the levels allowed for at the last look, is left open.
-    pub(super) fn leave_lie_open(&mut self, now: Time) {
+    /// The IMU is convicted: what the receiver may have done instead, by what the levels allowed for at the last look, is left open; gives it.
+    pub(super) fn leave_lie_open(&mut self, now: Time) -> Option<Charge> {
         let look = self.allowed.looks.last();
         let likeliest =
             look.and_then(|(_, all)| all.iter().max_by(|a, b| a.chance.total_cmp(&b.chance)));
-        let Some(Separation { cause, chance, .. }) = likeliest.copied() else { return };
+        let Separation { cause, chance, .. } = *likeliest?;
         let is_it =
             |charge: &&Charge| matches!(charge.kind, Kind::Shaped { group, .. } if group == cause);
-        let Some(charge) = self.assessment.charges.iter().find(is_it) else { return };
-        let Kind::Shaped { since, sized, .. } = charge.kind else { return };
+        let charge = *self.assessment.charges.iter().find(is_it)?;
+        let Kind::Shaped { since, sized, .. } = charge.kind else { return None };
         self.docket.leave_lie_open(OpenLie {
             fault: charge.fault,
             since,
@@ -75,6 +75,7 @@ impl Judge {
             covariance: sized.covariance().fixed_view::<2, 2>(0, 0).into(),
             left: (now, chance),
         });
+        Some(charge)
     }
 
     /// Keeps what the receiver is suspected of, by what a look has found.

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use insd_base::Fault;
-use nalgebra::{DMatrix, Matrix3, SMatrix, Vector3};
+use nalgebra::{DMatrix, Matrix3, SMatrix, Vector2, Vector3};
 
 use super::aid::DOCKING_AIDS;
 use crate::error_state::{
@@ -94,7 +94,7 @@ pub const OF_FALSE_TURNS: usize = 14;
 /// The one of accelerometers that told a push that was none, or none that was.
 pub const OF_FALSE_PUSHES: usize = 20;
 /// How many groups there are.
-pub const GROUPS: usize = 35;
+pub const GROUPS: usize = 36;
 
 /// All groups.
 pub const ALL: [FaultGroup; GROUPS] = [
@@ -119,6 +119,8 @@ pub const ALL: [FaultGroup; GROUPS] = [
     group(Fault::SpareJump, SPARE_JUMP, 2, [5.0, 1e3], SPARED),
     group(Fault::SpareDrag, SPARE_DRAG, 2, [0.05, 3.0], SPARED),
     group(Fault::AccelBias, PUSH, 3, [0.3, 10.0], FAILED),
+    // alone: that the others tell well that they have none is no reason against it
+    group(Fault::GyroBias, GYRO + 2, 1, [2e-5, 0.02], FAILED),
     group(Fault::AntennasOffset, ANTENNAS_OFFSET, 1, [0.01, 1.0], MOVED),
     group(Fault::AntennasDrift, ANTENNAS_DRIFT, 1, [1e-5, 3e-3], MOVED),
     docking_jump(0),
@@ -214,6 +216,30 @@ pub fn of_log(through: &Vector3<f64>, c_nb: &Matrix3<f64>) -> Direct {
     put(&mut direct, LOG_OFFSET, &SMatrix::<f64, 2, 3>::identity());
     put(&mut direct, LOG_FLOW, &c_nb.fixed_rows::<2>(0).into_owned());
     direct
+}
+
+/// An axis along which a log measures, by what is told of its faults: level, in the body's axes and towards north and east.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    /// Forward and starboard.
+    pub body: Vector2<f64>,
+    /// North and east.
+    pub level: Vector2<f64>,
+}
+
+/// The axis of a row of a log, and the level one to the right of it; zero of what is no log.
+#[must_use]
+pub fn axes_of_log(direct: &Direct, row: usize) -> [Axis; 2] {
+    let [body, level] =
+        [LOG_OFFSET, LOG_FLOW].map(|at| Vector2::new(direct[(at, row)], direct[(at + 1, row)]));
+    let right = |axis: Vector2<f64>| Vector2::new(-axis.y, axis.x);
+    [Axis { body, level }, Axis { body: right(body), level: right(level) }]
+}
+
+/// What the log should say along the two, m/s.
+#[must_use]
+pub fn told_by_log(direct: &Direct, row: usize) -> [f64; 2] {
+    [direct[(LOG_GAIN, row)], -direct[(LOG_GAIN + 1, row)]]
 }
 
 /// Of a heading.

@@ -77,7 +77,7 @@ impl Judge {
     /// with that; else it is not believed for a while.
     fn convict_imu(&mut self, charge: &Charge, now: Time) -> Ruling {
         self.docket.note_witnesses(self.witnesses(now), now);
-        self.leave_lie_open(now);
+        let lie = self.leave_lie_open(now);
         let push = self.false_push(charge);
         if push.is_some() {
             self.docket.note_alike(now);
@@ -96,6 +96,7 @@ impl Judge {
             GYRO_SCALE.inflate(&mut mended.covariance, WRONG_SCALE * WRONG_SCALE);
         }
         self.docket.convict(plain.fault, now, NO_LIE);
+        self.hear_both(lie, &plain, now);
         Ruling { fault: plain.fault, mended: Some(mended) }
     }
 
@@ -115,6 +116,10 @@ impl Judge {
         self.disputed = self.explained_by_another(self.pessimist.gain);
         if self.disputed.is_some() || !self.pessimist.is_right(now) {
             return None;
+        }
+        // who else it may be than somebody who has nothing but the receiver to compare the IMU with cannot tell
+        if self.witnesses(now) < 2 {
+            self.leave_lie_open(now);
         }
         // a step is proven; what biases do that no aid sees, to the heading above all, asks for another
         self.docket = self.docket.with_worse_imu().with_worse_imu();

@@ -53,6 +53,12 @@ impl Docket {
         self.open = Some(lie);
     }
 
+    /// What was left open is so likely by what was heard since, or is none any more.
+    pub(in crate::judge) fn weigh_open_lie(&mut self, chance: Option<f64>) {
+        let weighed = |lie: OpenLie, chance| OpenLie { left: (lie.left.0, chance), ..lie };
+        self.open = self.open.zip(chance).map(|(lie, chance)| weighed(lie, chance));
+    }
+
     /// The receiver in use is followed though it contradicts the others, as nobody can tell who is right: the position may be off by so much, m.
     pub(in crate::judge) fn follow_contradicted(&mut self, off: f64, now: Time) {
         let grown = self.open.and_then(|lie| lie.grown(now));
