@@ -97,10 +97,24 @@ pub struct LogModel {
 /// Errors of a log that depend on speed and rate of turn, as they are known before they are estimated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogShape {
-    /// Change of the scale factor with the speed, 1/(m/s).
-    pub by_speed: Estimate,
-    /// What is added to starboard by the rate of turn, m.
-    pub by_turn: Estimate,
+    /// Change of the scale factor and of the turn with the speed, forward and starboard, 1/(m/s).
+    pub by_speed: [Estimate; 2],
+    /// What is added forward by the size of the rate of turn, and to starboard by the rate, m.
+    pub by_turn: [Estimate; 2],
+}
+
+impl LogShape {
+    /// 1-sigma of both changes with the speed, that of the less certain one, 1/(m/s).
+    #[must_use]
+    pub fn by_speed_std(&self) -> f64 {
+        self.by_speed[0].sigma.max(self.by_speed[1].sigma)
+    }
+
+    /// The same of what is added by the rate of turn, m.
+    #[must_use]
+    pub fn by_turn_std(&self) -> f64 {
+        self.by_turn[0].sigma.max(self.by_turn[1].sigma)
+    }
 }
 
 /// Ship and sea.

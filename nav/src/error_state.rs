@@ -152,14 +152,14 @@ declare! {
     LOG_MISALIGNMENT: 2, "log_misalignment", "rad", Body, WithLog,
         first: |config| config.log.misalignment_std, process: |_, _| Process::Constant,
         correction: Correction::Adds(|nominal| nominal.log_misalignment.as_mut_slice());
-    /// By what the scale factor of a log changes with the speed, 1/(m/s), constant.
-    LOG_BY_SPEED: 1, "log_by_speed", "s/m", Scalar, WithLearning,
-        first: |config| config.log.shape.map_or(0.0, |shape| shape.by_speed.sigma), process: |_, _| Process::Constant,
-        correction: Correction::Adds(|nominal| from_mut(&mut nominal.log_by_speed));
-    /// What a log adds to starboard while she turns, by the rate of turn, m, constant.
-    LOG_BY_TURN: 1, "log_by_turn", "m", Scalar, WithLearning,
-        first: |config| config.log.shape.map_or(0.0, |shape| shape.by_turn.sigma), process: |_, _| Process::Constant,
-        correction: Correction::Adds(|nominal| from_mut(&mut nominal.log_by_turn));
+    /// By what the scale factor of a log and its turn change with the speed, forward and starboard, 1/(m/s), constant.
+    LOG_BY_SPEED: 2, "log_by_speed", "s/m", Body, WithLearning,
+        first: |config| config.log.shape.map_or(0.0, |shape| shape.by_speed_std()), process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.log_by_speed.as_mut_slice());
+    /// What a log adds while she turns, forward by the size of the rate of turn and to starboard by the rate, m, constant.
+    LOG_BY_TURN: 2, "log_by_turn", "m", Body, WithLearning,
+        first: |config| config.log.shape.map_or(0.0, |shape| shape.by_turn_std()), process: |_, _| Process::Constant,
+        correction: Correction::Adds(|nominal| nominal.log_by_turn.as_mut_slice());
     /// By what the biases of gyros change with the temperature of the IMU, body axes, rad/s/K, constant.
     GYRO_THERMAL: 3, "gyro_thermal", "rad/s/K", Body, WithTemperature,
         first: |config| config.thermal.map_or(config.imu.gyro.thermal_slope_std(), |known| known.gyro.slope_std()),

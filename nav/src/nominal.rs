@@ -81,10 +81,10 @@ pub struct Nominal {
     pub log_scale: f64,
     /// Log misalignment about starboard and down, rad.
     pub log_misalignment: Vector2<f64>,
-    /// By what the scale factor of the log changes with the speed, 1/(m/s).
-    pub log_by_speed: f64,
-    /// What it adds to starboard while she turns, by the rate of turn, m.
-    pub log_by_turn: f64,
+    /// By what the scale factor of the log and its turn change with the speed, 1/(m/s).
+    pub log_by_speed: Vector2<f64>,
+    /// What it adds while she turns, forward by the size of the rate of turn and to starboard by the rate, m.
+    pub log_by_turn: Vector2<f64>,
     /// Mean height, m.
     pub sea_level: f64,
     /// Slow error of a reference's heading, sigmas.
@@ -166,8 +166,8 @@ impl Nominal {
             sway_velocity: Vector4::zeros(),
             log_scale: 0.0,
             log_misalignment: Vector2::zeros(),
-            log_by_speed: 0.0,
-            log_by_turn: 0.0,
+            log_by_speed: Vector2::zeros(),
+            log_by_turn: Vector2::zeros(),
             sea_level: position.height,
             heading_error: 0.0,
             receiver_clock: Vector2::zeros(),

@@ -13,6 +13,8 @@ use crate::thermometer::Thermometer;
 
 /// A temperature is that of the IMU for so long, s.
 const FRESH: f64 = 60.0;
+/// Of what repeats of a log, its changes with the speed and with the turn, each forward and to starboard.
+const SHAPE: [[usize; 2]; 2] = [[1, 4], [2, 5]];
 
 /// What is learnt, and what of it is in use.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,9 +28,9 @@ pub(crate) struct Learning {
     range: Option<[f64; 2]>,
     /// How the current goes on before anything is learnt, 1-sigma, m/s, and time constant, s.
     unknown_waters: (f64, f64),
-    /// What the filter is told of the log before it learns itself: value and 1-sigma by speed, 1/(m/s), and by turn, m. What this voyage
-    /// has told it learns itself, and nothing is counted twice.
-    before: [(f64, f64); 2],
+    /// What the filter is told of the log before it learns itself: value and 1-sigma by speed, 1/(m/s), and by turn, m, each forward and to
+    /// starboard. What this voyage has told it learns itself, and nothing is counted twice.
+    before: [[(f64, f64); 2]; 2],
     /// Voyages before, and how often the model of them was written.
     earlier: (u32, u32),
     /// It may not be used; biases stay what they were when that was said.
@@ -67,9 +69,10 @@ impl Learning {
             thermometer: Thermometer::default(),
             range: imu.map(|own| own.range_c),
             unknown_waters: (config.log.current_std, config.log.current_time),
-            before: log.map_or([(0.0, PRIOR[1]), (0.0, PRIOR[3])], |kept| {
+            before: log.map_or(SHAPE.map(|own| own.map(|i| (0.0, PRIOR[i]))), |kept| {
                 let (found, covariance) = kept.belief();
-                [1, 3].map(|i| (found[i], covariance[(i, i)].max(0.0).sqrt()))
+                let of = |i: usize| (found[i], covariance[(i, i)].max(0.0).sqrt());
+                SHAPE.map(|own| own.map(of))
             }),
             earlier: kept.map_or((0, 0), |kept| (kept.voyages, kept.generation)),
             is_barred: false,
@@ -106,7 +109,8 @@ impl Learning {
 
     /// What the filter is told of the log.
     fn shape(&self) -> LogShape {
-        let [by_speed, by_turn] = self.before.map(|(value, sigma)| Estimate { value, sigma });
+        let [by_speed, by_turn] =
+            self.before.map(|own| own.map(|(value, sigma)| Estimate { value, sigma }));
         LogShape { by_speed, by_turn }
     }
 

@@ -4,17 +4,23 @@
 //! reason.
 
 use crc::{CRC_32_ISO_HDLC, Crc};
-use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
+use nalgebra::{Matrix5, Matrix6, Vector5, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::current::CurrentModel;
 use crate::label::LENGTH;
+use crate::model::REPEAT;
 use crate::trained::Trained;
 
 /// The version that is written, and the only one that is read.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 /// Longest text that is read, bytes.
 pub const LONGEST: usize = 1 << 16;
+/// Values of the covariance of what repeats of a log.
+const TRIANGLE: usize = REPEAT * (REPEAT + 1) / 2;
+/// Of what repeats, the turn of the log; and what a filter finds, in its order.
+const TURN: usize = 3;
+const FOUND: [usize; 5] = [0, 1, 4, 2, 5];
 const SUM: &str = "checksum = ";
 
 static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
@@ -44,12 +50,16 @@ pub struct KeptLog {
     pub scale: f64,
     /// Its change with the speed, 1/(m/s).
     pub scale_by_speed_s_m: f64,
+    /// What it adds forward by the size of the rate of turn, m.
+    pub forward_by_turn_m: f64,
     /// Turn of the log, rad.
     pub turn_rad: f64,
+    /// Its change with the speed, rad/(m/s).
+    pub turn_by_speed_s_m: f64,
     /// What it adds to starboard by the rate of turn, m.
     pub slide_m: f64,
     /// Lower triangle of their covariance, by rows.
-    pub covariance: [f64; 10],
+    pub covariance: [f64; TRIANGLE],
     /// 1-sigma of the current, each component, m/s.
     pub current_std_mps: f64,
     /// Its time constant, s.
@@ -154,15 +164,18 @@ impl KeptModel {
 
     fn is_sound(&self) -> bool {
         let log = &self.log;
-        let small = [log.scale, log.turn_rad, log.scale_by_speed_s_m].iter().all(|x| x.abs() < 0.5);
+        let ratios = [log.scale, log.scale_by_speed_s_m, log.turn_rad, log.turn_by_speed_s_m];
+        let lengths = [log.forward_by_turn_m, log.slide_m];
+        let small =
+            ratios.iter().all(|x| x.abs() < 0.5) && lengths.iter().all(|x| x.abs() < 1000.0);
         let current = (1e-3..=5.0).contains(&log.current_std_mps)
             && (60.0..=1e6).contains(&log.current_time_s);
-        let variances = [0, 2, 5, 9].iter().all(|i| (0.0..1e6).contains(&log.covariance[*i]));
+        let is_variance = |i: usize| (0.0..1e6).contains(&log.covariance[in_triangle(i, i)]);
+        let variances = (0..REPEAT).all(is_variance);
         let numbers = log.covariance.iter().chain(&log.shadow_with_m).chain(&log.shadow_without_m);
         small
             && current
             && variances
-            && log.slide_m.abs() < 1000.0
             && log.trained.is_sound()
             && numbers.clone().all(|x| x.is_finite())
             && log.shadow_with_m.len() == log.shadow_without_m.len()
@@ -205,42 +218,49 @@ pub(crate) fn in_triangle(i: usize, j: usize) -> usize {
 }
 
 impl KeptLog {
-    /// Scale, slope, s/m, turn of the log, rad, slide, m, and their covariance.
+    /// Scale, its slope, s/m, what turns add forward, m, turn of the log, rad, its slope, s/m, slide, m, and their covariance.
     #[must_use]
-    pub fn belief(&self) -> (Vector4<f64>, Matrix4<f64>) {
-        let x = Vector4::new(self.scale, self.scale_by_speed_s_m, self.turn_rad, self.slide_m);
-        (x, Matrix4::from_fn(|i, j| self.covariance[in_triangle(i, j)]))
+    pub fn belief(&self) -> (Vector6<f64>, Matrix6<f64>) {
+        let x = Vector6::new(
+            self.scale,
+            self.scale_by_speed_s_m,
+            self.forward_by_turn_m,
+            self.turn_rad,
+            self.turn_by_speed_s_m,
+            self.slide_m,
+        );
+        (x, Matrix6::from_fn(|i, j| self.covariance[in_triangle(i, j)]))
     }
 
-    /// With scale factor, change with the speed and slide as a filter has found them together with all else, and their covariance: the heading that
+    /// With all but the turn of the log (scale factor, its change with the speed and that of the turn, what turns add forward and to starboard) as a filter has found them together with all else, and their covariance: the heading that
     /// labels are told in leans to what a log says in a turn, and they see less of the slide than there is.
     #[must_use]
-    pub fn with_found(mut self, found: &Vector3<f64>, covariance: &Matrix3<f64>) -> Self {
-        (self.scale, self.scale_by_speed_s_m, self.slide_m) = (found.x, found.y, found.z);
-        let turn = self.covariance[5];
-        let at = |i: usize, j: usize| covariance[(i, j)];
-        self.covariance =
-            [at(0, 0), at(1, 0), at(1, 1), 0.0, 0.0, turn, at(2, 0), at(2, 1), 0.0, at(2, 2)];
+    pub fn with_found(self, found: &Vector5<f64>, covariance: &Matrix5<f64>) -> Self {
+        let (mut x, before) = self.belief();
+        let mut p = Matrix6::zeros();
+        p[(TURN, TURN)] = before[(TURN, TURN)];
+        for (i, to) in FOUND.into_iter().enumerate() {
+            x[to] = found[i];
+            FOUND
+                .into_iter()
+                .enumerate()
+                .for_each(|(j, other)| p[(to, other)] = covariance[(i, j)]);
+        }
+        self.with_belief(&x, &p)
+    }
+
+    fn with_belief(mut self, x: &Vector6<f64>, p: &Matrix6<f64>) -> Self {
+        (self.scale, self.scale_by_speed_s_m, self.forward_by_turn_m) = (x[0], x[1], x[2]);
+        (self.turn_rad, self.turn_by_speed_s_m, self.slide_m) = (x[3], x[4], x[5]);
+        for i in 0..REPEAT {
+            (0..=i).for_each(|j| self.covariance[in_triangle(i, j)] = p[(i, j)]);
+        }
         self
     }
 
     /// Of values with their covariance and a current.
-    pub(crate) fn of(x: &Vector4<f64>, p: &Matrix4<f64>, current: &CurrentModel) -> Self {
-        let mut covariance = [0.0; 10];
-        for i in 0..4 {
-            for j in 0..=i {
-                covariance[i * (i + 1) / 2 + j] = p[(i, j)];
-            }
-        }
-        KeptLog {
-            scale: x[0],
-            scale_by_speed_s_m: x[1],
-            turn_rad: x[2],
-            slide_m: x[3],
-            covariance,
-            current_std_mps: current.std,
-            current_time_s: current.time,
-            ..KeptLog::default()
-        }
+    pub(crate) fn of(x: &Vector6<f64>, p: &Matrix6<f64>, current: &CurrentModel) -> Self {
+        let (current_std_mps, current_time_s) = (current.std, current.time);
+        KeptLog { current_std_mps, current_time_s, ..KeptLog::default() }.with_belief(x, p)
     }
 }

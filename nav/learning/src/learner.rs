@@ -22,7 +22,9 @@ const WIDER: f64 = 1.25;
 /// Labels before anything is used.
 const FEWEST: u32 = 40;
 /// A log that is begun anew with nothing known explains what is heard better by this, as a logarithm: the log is another.
-const OTHER: f64 = 8.0;
+const OTHER: f64 = 7.0;
+/// and than one that is known, whatever the current, by this.
+const HARDLY: f64 = 3.0;
 /// Of the last labels so many refused: the log is another.
 const LAST: usize = 10;
 const REFUSED: usize = 6;
@@ -154,10 +156,11 @@ impl Learner {
             rival.hear(label);
         });
         self.rivalled += 1;
-        // with the same current: a livelier one would explain what a log that was turned says, too
-        let likeliest = likeliest(&self.rivals);
-        let of = |all: &[LogErrors]| all[likeliest].score();
-        of(&self.rivals) - of(&self.notions) > OTHER
+        // with the same current: a livelier one would explain what a log that was turned says, too, but hardly as well
+        let rival = likeliest(&self.rivals);
+        let [other, same] = [&self.rivals, &self.notions].map(|all| all[rival].score());
+        let livelier = self.notions[self.best()].score();
+        other - same > OTHER && other - livelier > HARDLY
     }
 
     /// How it stands.

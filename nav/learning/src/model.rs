@@ -2,23 +2,29 @@
 //!
 //! With u and v what the log says, r the rate of turn and psi the heading, forward and starboard:
 //!
-//! e_u = k u + s |u| u           - (cos psi c_N + sin psi c_E) + w,
-//! e_v = m u + t r               - (cos psi c_E - sin psi c_N) + w,
+//! e_u = k u + s |u| u + b |r|   - (cos psi c_N + sin psi c_E) + w,
+//! e_v = m u + q |u| u + t r     - (cos psi c_E - sin psi c_N) + w,
 //!
-//! k a scale factor, s its change with the speed, m a turn of the log, t what a hull adds as it slides through a turn.
-//! x = [k, s, m, t, c_N, c_E]; the first four hardly change (fouling), c is Gauss-Markov. Kalman filter with the update in
+//! k a scale factor, s its change with the speed, m a turn of the log, q its change with the speed, b and t what a hull adds as it slides through
+//! a turn. x = [k, s, b, m, q, t, c_N, c_E]; the first six hardly change (fouling), c is Gauss-Markov. Kalman filter with the update in
 //! Joseph's form (Bucy and Joseph, Filtering for Stochastic Processes, 1968). Held by
 //! `what_repeats_is_found_beside_a_current_that_wanders`.
 
-use nalgebra::{Matrix2, Matrix2x6, Matrix6, Vector2, Vector4, Vector6};
+use nalgebra::{Matrix2, SMatrix, SVector, Vector2, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::current::CurrentModel;
 use crate::kept::KeptLog;
 use crate::label::{LENGTH, Label};
 
-/// 1-sigma of scale, slope, s/m, turn of the log, rad, and slide, m, before anything is known.
-pub const PRIOR: [f64; 4] = [0.03, 0.003, 0.01, 5.0];
+/// How many values repeat: of each axis that at any speed, its change with the speed, and what a turn adds.
+pub const REPEAT: usize = 6;
+/// With the current.
+const ALL: usize = REPEAT + 2;
+/// 1-sigma before anything is known: scale, its slope, s/m, what turns add forward, m; turn of the log, rad, its slope, s/m, and slide, m.
+pub const PRIOR: [f64; REPEAT] = [0.03, 0.005, 5.0, 0.01, 0.003, 5.0];
+/// The slide.
+const SLIDE: usize = 5;
 /// A log fouls by so much a day, 1-sigma, of each in units of its prior.
 const FOULS: f64 = 0.07;
 /// What is not of this model, 1-sigma in a label, m/s.
@@ -32,8 +38,8 @@ const DAY: f64 = 86_400.0;
 /// What repeats, with the covariance that is known to.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LogErrors {
-    x: Vector6<f64>,
-    p: Matrix6<f64>,
+    x: SVector<f64, ALL>,
+    p: SMatrix<f64, ALL, ALL>,
     current: CurrentModel,
     last: Option<f64>,
     /// Sum of the log-likelihoods of what was heard.
@@ -52,17 +58,17 @@ impl LogErrors {
     #[must_use]
     pub fn unknown(current: CurrentModel) -> Self {
         let c = current.std;
-        let std = Vector6::new(PRIOR[0], PRIOR[1], PRIOR[2], PRIOR[3], c, c);
-        let p = Matrix6::from_diagonal(&std.component_mul(&std));
-        LogErrors { x: Vector6::zeros(), p, current, last: None, score: 0.0 }
+        let std = SVector::<f64, ALL>::from_fn(|i, _| PRIOR.get(i).copied().unwrap_or(c));
+        let p = SMatrix::from_diagonal(&std.component_mul(&std));
+        LogErrors { x: SVector::zeros(), p, current, last: None, score: 0.0 }
     }
 
     /// What was kept of an earlier voyage, in unknown waters.
     pub(crate) fn known(kept: &KeptLog, current: CurrentModel) -> Self {
         let mut own = Self::unknown(current);
         let (x, p) = kept.belief();
-        own.x.fixed_rows_mut::<4>(0).copy_from(&x);
-        own.p.fixed_view_mut::<4, 4>(0, 0).copy_from(&p);
+        own.x.fixed_rows_mut::<REPEAT>(0).copy_from(&x);
+        own.p.fixed_view_mut::<REPEAT, REPEAT>(0, 0).copy_from(&p);
         let is_same = current.std == kept.current_std_mps && current.time == kept.current_time_s;
         own.score = if is_same { FAMILIAR } else { 0.0 };
         own
@@ -70,27 +76,27 @@ impl LogErrors {
 
     /// What was learnt of the slide may have been too little: it is as uncertain as at first.
     pub(crate) fn unsettle_slide(&mut self) {
-        self.p.row_mut(3).fill(0.0);
-        self.p.column_mut(3).fill(0.0);
-        self.p[(3, 3)] = PRIOR[3] * PRIOR[3];
+        self.p.row_mut(SLIDE).fill(0.0);
+        self.p.column_mut(SLIDE).fill(0.0);
+        self.p[(SLIDE, SLIDE)] = PRIOR[SLIDE] * PRIOR[SLIDE];
     }
 
     /// What is kept of it.
     pub(crate) fn kept(&self) -> KeptLog {
-        let p = self.p.fixed_view::<4, 4>(0, 0).into_owned();
+        let p = self.p.fixed_view::<REPEAT, REPEAT>(0, 0).into_owned();
         KeptLog::of(&self.values(), &p, &self.current)
     }
 
-    /// Scale, slope, s/m, turn of the log, rad, slide, m.
+    /// Scale, its slope, s/m, what turns add forward, m; turn of the log, rad, its slope, s/m, slide, m.
     #[must_use]
-    pub fn values(&self) -> Vector4<f64> {
-        self.x.fixed_rows::<4>(0).into_owned()
+    pub fn values(&self) -> Vector6<f64> {
+        self.x.fixed_rows::<REPEAT>(0).into_owned()
     }
 
     /// Their 1-sigmas.
     #[must_use]
-    pub fn stds(&self) -> Vector4<f64> {
-        self.p.diagonal().fixed_rows::<4>(0).map(|variance| variance.max(0.0).sqrt())
+    pub fn stds(&self) -> Vector6<f64> {
+        self.p.diagonal().fixed_rows::<REPEAT>(0).map(|variance| variance.max(0.0).sqrt())
     }
 
     /// How the current goes on.
@@ -109,7 +115,7 @@ impl LogErrors {
     #[must_use]
     pub fn repeats(&self, label: &Label) -> Vector2<f64> {
         let mut known = self.x;
-        known.fixed_rows_mut::<2>(4).fill(0.0);
+        known.fixed_rows_mut::<2>(REPEAT).fill(0.0);
         rows(label) * known
     }
 
@@ -127,7 +133,7 @@ impl LogErrors {
             return Heard { is_used: false };
         }
         let k = self.p * h.transpose() * inverse;
-        let left = Matrix6::identity() - k * h;
+        let left = SMatrix::<f64, ALL, ALL>::identity() - k * h;
         self.x += k * off;
         self.p =
             left * self.p * left.transpose() + k * Matrix2::from_diagonal(&noise) * k.transpose();
@@ -138,7 +144,7 @@ impl LogErrors {
     fn carry(&mut self, now: f64) {
         let dt = self.last.replace(now).map_or(LENGTH, |last| (now - last).max(0.0));
         let left = (-dt / self.current.time).exp();
-        for i in 4..6 {
+        for i in REPEAT..ALL {
             self.x[i] *= left;
             self.p.row_mut(i).scale_mut(left);
             self.p.column_mut(i).scale_mut(left);
@@ -152,20 +158,25 @@ impl LogErrors {
     }
 }
 
-fn rows(label: &Label) -> Matrix2x6<f64> {
+fn rows(label: &Label) -> SMatrix<f64, 2, ALL> {
     let (u, (cos, sin)) = (label.told.x, (label.bow.x, label.bow.y));
-    Matrix2x6::new(
+    let (square, turn) = (u.abs() * u, label.turn);
+    SMatrix::<f64, 2, ALL>::from_row_slice(&[
         u,
-        u.abs() * u,
+        square,
+        turn.abs(),
+        0.0,
         0.0,
         0.0,
         -cos,
         -sin, //
         0.0,
         0.0,
+        0.0,
         u,
-        label.turn,
+        square,
+        turn,
         sin,
         -cos,
-    )
+    ])
 }

@@ -11,6 +11,8 @@ const HOUR: f64 = 3600.0;
 const GRAVITY: f64 = 9.806_65;
 /// Speeds that the curve of a log is told at, knots.
 const SPEEDS: [f64; 4] = [6.0, 9.0, 12.0, 18.0];
+/// Those that its turn is told at.
+const SLOW_AND_FAST: [f64; 2] = [6.0, 18.0];
 
 /// A model in words, line by line.
 #[must_use]
@@ -55,9 +57,14 @@ fn of_log(lines: &mut Vec<String>, log: &KeptLog) {
             "learnt from {least:.0} to {most:.0} kn and {turns} half minutes in turns{enough}"
         ));
     }
-    lines.push(format!("it is turned by {:.2} deg", log.turn_rad * DEGREES));
-    let slide = log.slide_m / DEGREES;
-    lines.push(format!("it reads {slide:.3} m/s to starboard for each deg/s of turn to starboard"));
+    let turned = SLOW_AND_FAST.map(|knots| {
+        format!("{:.2}", (log.turn_rad + log.turn_by_speed_s_m * knots / KNOTS) * DEGREES)
+    });
+    lines.push(format!("it is turned by {} deg at 6 kn and by {} at 18", turned[0], turned[1]));
+    let (slide, forward) = (log.slide_m / DEGREES, log.forward_by_turn_m / DEGREES);
+    lines.push(format!(
+        "for each deg/s of turn to starboard it reads {slide:.3} m/s to starboard and {forward:.3} m/s ahead"
+    ));
     let (std, time) = (log.current_std_mps, log.current_time_s / HOUR);
     lines.push(format!("currents of {std:.2} m/s that go on for {time:.1} h"));
     let shadow = ShadowScore::after(log);

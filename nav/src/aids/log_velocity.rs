@@ -14,7 +14,7 @@
 
 use insd_base::attitude::skew;
 use insd_base::{LogReference, LogVelocity};
-use nalgebra::{Matrix3, Vector1, Vector3};
+use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector1, Vector2, Vector3};
 
 use super::View;
 use crate::error_state::{
@@ -52,9 +52,11 @@ pub fn predict(
     let m = Vector3::new(0.0, view.nominal.log_misalignment.x, view.nominal.log_misalignment.y);
     let linear = (Matrix3::identity() - skew(&m)) * (1.0 + view.nominal.log_scale);
     let (by_speed, by_turn) = (view.nominal.log_by_speed, view.nominal.log_by_turn);
-    let own = Vector3::new(by_speed * u.x.abs() * u.x, by_turn * turn, 0.0);
+    let (square, turns) = (u.x.abs() * u.x, Vector2::new(turn.abs(), turn));
+    let own = (by_speed * square + by_turn.component_mul(&turns)).push(0.0);
     let mut gain = linear;
-    gain[(0, 0)] += 2.0 * by_speed * u.x.abs();
+    let by_forward = by_speed * (2.0 * u.x.abs());
+    (gain[(0, 0)], gain[(1, 0)]) = (gain[(0, 0)] + by_forward.x, gain[(1, 0)] + by_forward.y);
     let mut h = Jacobian::none(3);
     h.set(VELOCITY, &(gain * c_be));
     let by_gyro = gain * skew(lever);
@@ -70,8 +72,9 @@ pub fn predict(
     h.set(LOG_SCALE, &(u - m.cross(&u)));
     let by_turn = skew(&u) * (1.0 + view.nominal.log_scale);
     h.set(LOG_MISALIGNMENT, &by_turn.fixed_columns::<2>(1).into_owned());
-    h.set(LOG_BY_SPEED, &Vector3::new(u.x.abs() * u.x, 0.0, 0.0));
-    h.set(LOG_BY_TURN, &Vector3::new(0.0, turn, 0.0));
+    let level = Matrix3x2::identity();
+    h.set(LOG_BY_SPEED, &(level * square));
+    h.set(LOG_BY_TURN, &(level * Matrix2::from_diagonal(&turns)));
     let swing_noise = by_gyro * by_gyro.transpose() * view.rate_variance;
     let by_lever = gain * skew(&view.rate);
     Prediction { velocity: linear * u + own, h, by_lever, swing_noise }

@@ -31,8 +31,8 @@ fn estimate() -> Nominal {
     nominal.sway = Vector4::new(-0.1, 0.4, 0.2, 0.1);
     nominal.log_scale = 0.01;
     nominal.log_misalignment = Vector2::new(0.02, -0.03);
-    nominal.log_by_speed = 0.004;
-    nominal.log_by_turn = -6.0;
+    nominal.log_by_speed = Vector2::new(0.004, -0.003);
+    nominal.log_by_turn = Vector2::new(-4.0, -6.0);
     nominal.sea_level = 24.0;
     nominal.heading_error = 0.4;
     nominal.antenna_heading_error = -0.6;

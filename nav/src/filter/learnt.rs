@@ -1,12 +1,14 @@
 //! What is learnt of a log over hours, and what the filter makes of it.
 
 use insd_base::LogVelocity;
-use nalgebra::{Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix5, Vector2, Vector5};
 
 use super::Filter;
 use crate::config::LogShape;
 use crate::declaration::Carried;
-use crate::error_state::{ATTITUDE, LOG_BY_SPEED, LOG_BY_TURN, LOG_SCALE, VELOCITY};
+use crate::error_state::{
+    ATTITUDE, Covariance, LOG_BY_SPEED, LOG_BY_TURN, LOG_MISALIGNMENT, LOG_SCALE, VELOCITY,
+};
 
 /// A log beside the estimate, horizontal, body axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,32 +63,29 @@ impl Filter {
         (log.shape, (log.current_std, log.current_time))
     }
 
-    /// Scale factor of the log and its shape as they are estimated, and the covariance of scale factor, ratio, change with the speed, 1/(m/s), and of
-    /// what is added by the rate of turn, m; `None` where they are not.
+    /// Scale factor of the log and its shape as they are estimated: scale factor, ratio, its change with the speed and that of the turn,
+    /// 1/(m/s), and what is added forward and to starboard by the rate of turn, m; with their covariance. `None` where they are not.
     #[must_use]
-    pub fn found_log(&self) -> Option<(Vector3<f64>, Matrix3<f64>)> {
+    pub fn found_log(&self) -> Option<(Vector5<f64>, Matrix5<f64>)> {
         let (nominal, p) = (&self.state.nominal, &self.state.covariance);
         if !p.has(LOG_BY_TURN) {
             return None;
         }
-        let found = Vector3::new(nominal.log_scale, nominal.log_by_speed, nominal.log_by_turn);
-        let mut own = Matrix3::zeros();
-        let tied = [
-            LOG_SCALE.covariance_with(LOG_BY_SPEED, p).x,
-            LOG_SCALE.covariance_with(LOG_BY_TURN, p).x,
-            LOG_BY_SPEED.covariance_with(LOG_BY_TURN, p).x,
-        ];
-        for (at, tied) in [(0, 1), (0, 2), (1, 2)].into_iter().zip(tied) {
-            (own[at], own[(at.1, at.0)]) = (tied, tied);
-        }
-        for (i, block) in [LOG_SCALE, LOG_BY_SPEED, LOG_BY_TURN].into_iter().enumerate() {
-            own[(i, i)] = block.covariance(p).x;
-        }
+        let (by_speed, by_turn) = (nominal.log_by_speed, nominal.log_by_turn);
+        let found = Vector5::new(nominal.log_scale, by_speed.x, by_speed.y, by_turn.x, by_turn.y);
+        let mut own = Matrix5::zeros();
+        own.fixed_view_mut::<1, 1>(0, 0).copy_from(&LOG_SCALE.covariance(p));
+        own.fixed_view_mut::<1, 2>(0, 1).copy_from(&LOG_SCALE.covariance_with(LOG_BY_SPEED, p));
+        own.fixed_view_mut::<1, 2>(0, 3).copy_from(&LOG_SCALE.covariance_with(LOG_BY_TURN, p));
+        own.fixed_view_mut::<2, 2>(1, 1).copy_from(&LOG_BY_SPEED.covariance(p));
+        own.fixed_view_mut::<2, 2>(1, 3).copy_from(&LOG_BY_SPEED.covariance_with(LOG_BY_TURN, p));
+        own.fixed_view_mut::<2, 2>(3, 3).copy_from(&LOG_BY_TURN.covariance(p));
+        own.fill_lower_triangle_with_upper_triangle();
         Some((found, own))
     }
 
-    /// A log speaks: what is known of its shape is carried from now on. The scale factor makes up for it at this speed, so that nothing
-    /// steps.
+    /// A log speaks: what is known of its shape is carried from now on. Scale factor and misalignment make up for it at this speed, so that
+    /// nothing steps.
     pub(super) fn begin_to_learn(&mut self) {
         let Some(shape) = self.config.log.shape else { return };
         if self.state.covariance.has(LOG_BY_SPEED) {
@@ -94,17 +93,25 @@ impl Filter {
         }
         self.begin_to_carry(Carried::WithLearning);
         let speed = self.speed_through_water();
-        self.state.nominal.log_by_speed = shape.by_speed.value;
-        self.state.nominal.log_by_turn = shape.by_turn.value;
-        self.state.nominal.log_scale -= shape.by_speed.value * speed;
+        let nominal = &mut self.state.nominal;
+        nominal.log_by_speed = shape.by_speed.map(|own| own.value).into();
+        nominal.log_by_turn = shape.by_turn.map(|own| own.value).into();
+        nominal.log_scale -= nominal.log_by_speed.x * speed;
+        nominal.log_misalignment.y += nominal.log_by_speed.y * speed;
+        // that at this speed is as well known as before: what its change with the speed is not known by is the scale factor's at none
+        tie_shape(&mut self.state.covariance, -speed);
+        if let Some(judge) = self.judge_now() {
+            judge.change(|covariance| tie_shape(covariance, -speed));
+        }
     }
 
-    /// What its shape comes to at this speed is the scale factor's from now on.
+    /// What its shape comes to at this speed is the scale factor's and the misalignment's from now on.
     fn end_to_learn(&mut self) {
         let speed = self.speed_through_water();
-        let variance = LOG_BY_SPEED.covariance(&self.state.covariance).x * speed * speed;
-        LOG_SCALE.inflate(&mut self.state.covariance, variance.max(0.0));
-        self.state.nominal.log_scale += self.state.nominal.log_by_speed * speed;
+        tie_shape(&mut self.state.covariance, speed);
+        let nominal = &mut self.state.nominal;
+        nominal.log_scale += nominal.log_by_speed.x * speed;
+        nominal.log_misalignment.y -= nominal.log_by_speed.y * speed;
         self.end_to_carry(Carried::WithLearning);
         self.restart_judge();
     }
@@ -114,5 +121,15 @@ impl Filter {
         let view = self.view();
         let (velocity, current) = (view.v_n(), self.state.nominal.current);
         (velocity.xy() - current).norm()
+    }
+}
+
+/// Errors of scale factor and misalignment become those at another speed, so much higher, m/s: k <- k + s v, and m <- m - q v, which turns the other way.
+fn tie_shape(covariance: &mut Covariance, speed: f64) {
+    let start = |key| covariance.layout().start(key);
+    let at = (start(LOG_SCALE.key()), start(LOG_MISALIGNMENT.key()), start(LOG_BY_SPEED.key()));
+    let (Some(scale), Some(misalignment), Some(by_speed)) = at else { return };
+    for (pair, speed) in [((scale, by_speed), speed), ((misalignment + 1, by_speed + 1), -speed)] {
+        covariance.carry_pair(pair, &Matrix2::new(1.0, speed, 0.0, 1.0), &Matrix2::zeros());
     }
 }

@@ -5,6 +5,7 @@ use rand_pcg::Pcg64;
 
 use super::*;
 use crate::kept::{KeptFault, KeptModel};
+use crate::model::REPEAT;
 
 /// A log and a sea.
 #[derive(Clone, Copy)]
@@ -76,11 +77,11 @@ fn sailed(truth: &Truth, labels: u32, seed: u64) -> Learner {
 fn what_repeats_is_found_beside_a_current_that_wanders() {
     let own = sailed(&REPEATS, 720, 1);
     let (found, std) = (own.model().values(), own.model().stds());
-    let truth = [REPEATS.scale, REPEATS.slope, REPEATS.turn, REPEATS.slide];
-    for i in 0..4 {
+    let truth = [REPEATS.scale, REPEATS.slope, 0.0, REPEATS.turn, 0.0, REPEATS.slide];
+    for i in 0..REPEAT {
         assert!((found[i] - truth[i]).abs() < 4.0 * std[i], "{i}: {found} {std}");
     }
-    assert!(std[0] < 0.01 && std[3] < 0.5, "{std}");
+    assert!(std[0] < 0.01 && std[5] < 0.5, "{std}");
     assert!(own.standing().is_used);
 }
 
