@@ -136,6 +136,11 @@ conformance-connect *options:
     cargo build --release -p insd
     tests/conformance/connect.py target/release/insd {{options}}
 
+# a ship that reports ashore through a broker that goes away, kills and 2 kB/s, into PostgreSQL; needs Debian's mosquitto and postgresql, and root
+conformance-fleet *options:
+    cargo build --release -p insd
+    tests/conformance/fleet.py target/release/insd {{options}}
+
 # what the daemon costs at 200 samples a second with ten outputs, and how soon it speaks
 footprint seconds="60":
     cargo build --release

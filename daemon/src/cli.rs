@@ -15,7 +15,9 @@ use insd_lab::demo;
 use crate::clock::HostClock;
 #[cfg(feature = "vision")]
 use crate::commands::camera;
-use crate::commands::{check_config, doctor, example_config, generate, monitor, ports, run, sniff};
+use crate::commands::{
+    check_config, doctor, example_config, fleet, generate, monitor, ports, run, sniff,
+};
 use crate::logging::Log;
 use crate::run::open_demo;
 
@@ -70,6 +72,9 @@ enum Command {
     ExampleConfig(example_config::ExampleConfigArgs),
     /// Be the sensors of a simulated ship, in real time, each on a pseudo terminal
     Feed(feed::FeedArgs),
+    /// Ashore: take in what ships tell a broker, show all of them on one sheet, simulate a fleet
+    #[command(subcommand)]
+    Fleet(fleet::FleetCommand),
     /// List the ports of this computer, with the names to use in a configuration
     Ports(ports::PortsArgs),
     /// Listen to ports and tell what comes: formats, rates, damage, what may be wrong
@@ -83,11 +88,12 @@ enum Command {
 }
 
 impl Cli {
-    /// What is logged where the environment (`RUST_LOG`) says nothing: the daemon tells what happens,
+    /// What is logged where the environment (`RUST_LOG`) says nothing: services tell what happens,
     /// the other commands only what is wrong.
     #[must_use]
     pub fn log_level(&self) -> &'static str {
-        if matches!(self.command, Command::Run(_)) { "info" } else { "warn" }
+        let is_service = matches!(self.command, Command::Run(_) | Command::Fleet(_));
+        if is_service { "info" } else { "warn" }
     }
 
     /// Runs the command.
@@ -118,6 +124,7 @@ impl Cli {
             Command::Doctor(args) => doctor::run(&args),
             Command::ExampleConfig(args) => example_config::run(&args),
             Command::Feed(args) => feed::run(&args, &HostClock::start()),
+            Command::Fleet(command) => fleet::run(command),
             Command::Generate(args) => generate::run(&args, &Cli::command()),
             Command::Ports(args) => ports::run(&args),
             Command::Sniff(args) => sniff::run(&args),

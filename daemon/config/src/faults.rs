@@ -3,6 +3,7 @@
 use crate::berths;
 use crate::cameras;
 use crate::file::Config;
+use crate::fleets;
 use crate::rangings;
 use crate::spares;
 use crate::watches;
@@ -29,6 +30,7 @@ pub(super) fn of(config: &Config) -> Vec<String> {
     faults.extend(cameras::faults(config));
     faults.extend(watches::faults(config));
     nodes(config, &mut faults);
+    faults.extend(fleets::faults(config));
     faults.extend(
         config
             .state

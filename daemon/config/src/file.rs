@@ -9,6 +9,7 @@ use serde::Deserialize;
 
 use crate::berth::{BerthSection, DockingSection};
 use crate::camera::CameraSection;
+use crate::fleet::FleetSection;
 use crate::imu::ImuModel;
 use crate::learning::LearningSection;
 use crate::models::{
@@ -81,6 +82,9 @@ pub struct Config {
     /// Nodes of NMEA 2000 on CAN ports.
     #[serde(default, rename = "node")]
     pub nodes: Vec<NodeSection>,
+    /// Fleets that are told.
+    #[serde(default, rename = "fleet")]
+    pub fleets: Vec<FleetSection>,
     /// Recording of all that arrives.
     pub recording: Option<RecordingSection>,
     /// Where chronyd listens for time.

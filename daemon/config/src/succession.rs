@@ -39,6 +39,7 @@ impl Config {
         keep("protection", self.protection == before.protection);
         keep("spare", self.spares == before.spares);
         keep("node", self.nodes == before.nodes);
+        keep("fleet", self.fleets == before.fleets);
         keep("recording", self.recording == before.recording);
         keep("chrony", self.chrony == before.chrony);
         keep("state", self.state == before.state);
@@ -51,6 +52,7 @@ impl Config {
         self.protection = before.protection;
         self.spares.clone_from(&before.spares);
         self.nodes.clone_from(&before.nodes);
+        self.fleets.clone_from(&before.fleets);
         self.recording.clone_from(&before.recording);
         self.chrony.clone_from(&before.chrony);
         self.state.clone_from(&before.state);

@@ -102,6 +102,12 @@ fn summary(config: &Config) -> String {
     for node in &config.nodes {
         line("node", &node.port, &format!("NMEA 2000, address {} first", node.address));
     }
+    for fleet in &config.fleets {
+        let budget =
+            fleet.budget_bytes_h.map_or("no limit".to_owned(), |own| format!("{own} bytes/h"));
+        let to = format!("MQTT to {}:{} as {}, {budget}", fleet.host, fleet.port(), fleet.ship);
+        line("fleet", &fleet.name, &to);
+    }
     if let Some(recording) = &config.recording {
         let quota = recording.quota_mb.map_or("no quota".to_owned(), |mb| format!("{mb} MB"));
         line("recording", &recording.folder.display().to_string(), &quota);

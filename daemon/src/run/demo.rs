@@ -35,7 +35,8 @@ struct DemoPage {
 pub fn open(config: &Config, text: &str, log: &Log) -> anyhow::Result<Box<dyn Onlooker>> {
     let clock = HostClock::start();
     let origin = Origin { clock, started: clock.now(), configuration: None, hash: hash(text) };
-    let mut page = page::open(config, origin, log).ok_or_else(|| {
+    let opened = page::open(config, origin, log).filter(|page| page.handle.is_some());
+    let mut page = opened.ok_or_else(|| {
         anyhow::anyhow!("no status page at {}: is another one there?", config.web.listen)
     })?;
     page.showcase.configure(config, text);

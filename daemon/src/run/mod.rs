@@ -5,6 +5,7 @@ mod bus;
 mod connections;
 mod control;
 mod demo;
+mod fleet;
 mod headline;
 mod heart;
 mod journal;
@@ -41,6 +42,8 @@ use crate::state::{self, Folders, Remains, Saver};
 use alert_journal::AlertJournal;
 use connections::Connections;
 pub use demo::open as open_demo;
+use fleet::Fleets;
+pub(crate) use fleet::login;
 use headline::Headline;
 use heart::Heart;
 use journal::{Audience, Journal};
@@ -87,10 +90,10 @@ pub fn run(config: &Config, text: &str, options: &RunOptions, log: &Log) -> anyh
         (env!("CARGO_PKG_VERSION"), configuration.as_ref().map(|own| own.display()));
     tracing::info!(target: SECURITY, version, file = file.map(tracing::field::display), hash, "insd starts");
     let page = page::open(config, Origin { clock, started: clock.now(), configuration, hash }, log);
-    let (showcase, orders, _page) = match page {
-        Some(page) => (Some(page.showcase), Some(page.orders), Some(page.handle)),
-        None => (None, None, None),
-    };
+    let fleets = Fleets::start(config, page.as_ref().map(|page| &page.viewer), clock);
+    let page = page.map(|page| (page.showcase, (page.orders, page.handle)));
+    let (showcase, (orders, _page)) =
+        page.map_or((None, (None, None)), |(own, rest)| (Some(own), rest));
     let heart = Heart::default();
     let worker = Worker {
         connections,
@@ -99,6 +102,7 @@ pub fn run(config: &Config, text: &str, options: &RunOptions, log: &Log) -> anyh
         controls,
         recorder: config.recording.as_ref().map(|own| start_recorder(own, text)).transpose()?,
         saver: start_saver(&config.state)?,
+        fleets,
         nav: options.nav.as_deref().map(open_nav).transpose()?,
         journal: Journal::start(audience(headline, showcase))
             .context("cannot start the journal")?,

@@ -1,32 +1,43 @@
-//! The status page, if there is to be one.
+//! What is shown of the ship: to browsers by the status page, and to fleets.
 
 use insd_config::{Config, WebSection};
 use insd_web::orders::{self, OrderReceiver};
-use insd_web::{Listen, WebConfig, WebHandle};
+use insd_web::{Listen, Viewer, WebConfig, WebHandle};
 
 use super::showcase::{Origin, Showcase};
 use crate::logging::Log;
 
-/// The page, and its two ends inside.
+/// What is shown, and who may look.
 pub(super) struct Page {
     pub(super) showcase: Showcase,
-    pub(super) orders: OrderReceiver,
+    pub(super) viewer: Viewer,
+    /// Orders of the status page, if there is one.
+    pub(super) orders: Option<OrderReceiver>,
     /// Held to keep it open.
-    pub(super) handle: WebHandle,
+    pub(super) handle: Option<WebHandle>,
 }
 
-/// Opens the page. A ship sails without it, too: what is wrong is told.
+/// Opens what is asked for; `None` if nobody is to look. A ship sails without it, too: what is wrong is told.
 pub(super) fn open(config: &Config, origin: Origin, log: &Log) -> Option<Page> {
-    if !config.web.enabled {
+    let (publisher, viewer) = insd_web::channel();
+    let (handle, orders) = serve(&config.web, &viewer).unzip();
+    if handle.is_none() && config.fleets.is_empty() {
         return None;
     }
-    let (publisher, viewer) = insd_web::channel();
+    let showcase = Showcase::new(publisher, log.clone(), config, origin);
+    Some(Page { showcase, viewer, orders, handle })
+}
+
+/// Opens the status page.
+fn serve(section: &WebSection, viewer: &Viewer) -> Option<(WebHandle, OrderReceiver)> {
+    if !section.enabled {
+        return None;
+    }
     let (sender, orders) = orders::channel();
-    match insd_web::start(web_config(&config.web), viewer, sender) {
+    match insd_web::start(web_config(section), viewer.clone(), sender) {
         Ok(handle) => {
             tracing::info!(address = %handle.address(), "status page");
-            let showcase = Showcase::new(publisher, log.clone(), config, origin);
-            Some(Page { showcase, orders, handle })
+            Some((handle, orders))
         }
         Err(fault) => {
             tracing::error!(%fault, "no status page");

@@ -16,6 +16,7 @@ use insd_vessel::{Obeyed, Pipeline, Product, Spoken};
 
 use super::connections::{Connections, NOWHERE};
 use super::control::Control;
+use super::fleet::Fleets;
 use super::heart::{Heart, Progress};
 use super::journal::{Journal, Note};
 use super::report::{Alongside, Report, Slow};
@@ -47,6 +48,7 @@ pub(super) struct Worker {
     pub(super) controls: mpsc::Receiver<Control>,
     pub(super) recorder: Option<Recorder>,
     pub(super) saver: Option<Saver>,
+    pub(super) fleets: Fleets,
     pub(super) nav: Option<NavWriter<OutputFile>>,
     pub(super) journal: Journal,
     pub(super) clock: HostClock,
@@ -183,6 +185,7 @@ impl Worker {
         let faults = StorageFaults {
             recording: self.recorder.as_ref().is_some_and(|own| own.state().is_failing()),
             state: self.saver.as_ref().is_some_and(|own| own.state().fault.is_some()),
+            fleet: self.fleets.is_failing(),
         };
         if faults == self.agenda.storage {
             return Ok(());

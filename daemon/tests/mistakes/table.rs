@@ -422,6 +422,34 @@ pub(crate) const TABLE: &[Mistake] = &[
         Write("profile = \"ecdis\"", "profile = \"ekdis\""),
     ),
     row("misspelt message", Error, "unknown-word", Write("HDT = 10.0", "HTD = 10.0")),
+    row(
+        "fleet whose broker is written as a URL",
+        Error,
+        "range",
+        Add("[[fleet]]\nname = \"shore\"\nhost = \"mqtt://shore.example\"\nship = \"imo9074729\""),
+    ),
+    row(
+        "ship whose name would be two levels of a topic",
+        Error,
+        "range",
+        Add("[[fleet]]\nname = \"shore\"\nhost = \"shore.example\"\nship = \"fleet/ada\""),
+    ),
+    row(
+        "password for a broker that goes over the network as it is",
+        Warning,
+        "fleet-open",
+        Add(
+            "[[fleet]]\nname = \"shore\"\nhost = \"shore.example\"\nship = \"imo9074729\"\nuser = \"ada\"\npassword_file = \"/etc/insd/fleet\"\ntls = false",
+        ),
+    ),
+    row(
+        "budget of a fleet that what is to be sent goes beyond",
+        Warning,
+        "fleet-budget",
+        Add(
+            "[[fleet]]\nname = \"shore\"\nhost = \"shore.example\"\nship = \"imo9074729\"\nhistory_s = 1.0\nbudget_bytes_h = 60000",
+        ),
+    ),
     row("recording without a quota", Warning, "recording-quota", Write("quota_mb = 20000", "")),
     row(
         "simulated sensors, and nobody is told",

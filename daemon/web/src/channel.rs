@@ -51,6 +51,12 @@ impl Viewer {
     pub(crate) fn latest(&self) -> Option<Arc<Numbered>> {
         self.0.latest.load_full()
     }
+
+    /// Looks at the newest snapshot and its number, which counts from 1; `None` before the first. It is as it was
+    /// published: who shows it lets time go on ([`Snapshot::after`]).
+    pub fn look<R>(&self, look: impl FnOnce(u64, &Snapshot) -> R) -> Option<R> {
+        self.latest().map(|latest| look(latest.number, &latest.snapshot))
+    }
 }
 
 #[cfg(test)]

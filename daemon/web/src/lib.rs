@@ -19,4 +19,4 @@ pub use config::{Listen, MIN_TOKEN, WebConfig, WebError};
 /// Target of the lines of the journal that are about security: no level switches them off.
 pub const SECURITY: &str = "security";
 pub use orders::{OrderReceiver, OrderSender, PageOrder, Request};
-pub use server::{WebHandle, start};
+pub use server::{FleetBoardText, WebHandle, start, start_fleet};

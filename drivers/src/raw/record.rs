@@ -94,7 +94,8 @@ impl Encoder {
             Input::Sent(sent) => put_sent(bytes, sent),
             Input::Storage(faults) => {
                 put(bytes, more::STORAGE);
-                put(bytes, u64::from(faults.recording) | u64::from(faults.state) << 1);
+                let all = [faults.recording, faults.state, faults.fleet].map(u64::from);
+                put(bytes, all[0] | all[1] << 1 | all[2] << 2);
             }
             Input::Tick => {}
         }
@@ -294,8 +295,8 @@ fn take_more(bytes: &mut &[u8]) -> Option<Input> {
         }
         more::STORAGE => {
             let faults = take(bytes)?;
-            let [recording, state] = [1, 2].map(|bit| faults & bit != 0);
-            (faults <= 3).then_some(Input::Storage(StorageFaults { recording, state }))?
+            let [recording, state, fleet] = [1, 2, 4].map(|bit| faults & bit != 0);
+            (faults <= 7).then_some(Input::Storage(StorageFaults { recording, state, fleet }))?
         }
         _ => return None,
     })

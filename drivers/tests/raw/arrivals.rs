@@ -43,8 +43,9 @@ fn input() -> impl Strategy<Value = Input> {
         1 => order().prop_map(Input::Order),
         1 => (".{0,20}", any::<bool>(), vec(any::<u8>(), 0..60))
             .prop_map(|(host, may_command, bytes)| Input::Sent(Sent { host, may_command, bytes })),
-        1 => any::<(bool, bool)>()
-            .prop_map(|(recording, state)| Input::Storage(StorageFaults { recording, state })),
+        1 => any::<[bool; 3]>().prop_map(|[recording, state, fleet]| {
+            Input::Storage(StorageFaults { recording, state, fleet })
+        }),
     ]
 }
 

@@ -128,6 +128,8 @@ pub struct StorageFaults {
     pub recording: bool,
     /// What the next start goes on from.
     pub state: bool,
+    /// What waits for a fleet.
+    pub fleet: bool,
 }
 
 /// What is not measured but ordered.

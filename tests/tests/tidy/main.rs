@@ -92,7 +92,7 @@ const IMPURE: [&str; 15] = [
 const PUBLISHED: [&str; 3] = ["insd-base", "insd-estimation", "insd-nav"];
 
 /// Which crates of the house a crate may use. The daemon sees all; tests may see all.
-const ARROWS: [(&str, &[&str]); 21] = [
+const ARROWS: [(&str, &[&str]); 22] = [
     ("insd-base", &[]),
     ("insd-estimation", &[]),
     ("insd-gnss", &["insd-base"]),
@@ -122,6 +122,7 @@ const ARROWS: [(&str, &[&str]); 21] = [
         ],
     ),
     ("insd-web", &[]),
+    ("insd-fleet", &["insd-base", "insd-web"]),
     (
         "insd-config",
         &[

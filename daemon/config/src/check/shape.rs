@@ -78,7 +78,7 @@ pub struct ConfigKey {
 }
 
 /// Units by the end of a key's name; the longest that fits counts.
-const UNITS: [(&str, &str); 15] = [
+const UNITS: [(&str, &str); 16] = [
     ("_deg_sqrt_h", "deg/sqrt(h)"),
     ("_mps_sqrt_h", "(m/s)/sqrt(h)"),
     ("_deg_h", "deg/h"),
@@ -92,6 +92,7 @@ const UNITS: [(&str, &str); 15] = [
     ("_m", "m"),
     ("_s", "s"),
     ("_g", "g"),
+    ("_bytes_h", "bytes/h"),
     ("_bytes", "bytes"),
     ("baud", "baud"),
 ];

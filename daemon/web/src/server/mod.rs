@@ -5,6 +5,7 @@ mod access;
 mod alerts;
 mod api;
 mod door;
+mod fleet;
 mod frame;
 mod guard;
 mod hall;
@@ -32,6 +33,7 @@ use crate::config::{WebConfig, WebError};
 use crate::orders::OrderSender;
 
 use door::Door;
+pub use fleet::FleetBoardText;
 use hall::Hall;
 use room::Room;
 
@@ -75,29 +77,69 @@ pub fn start(
     orders: OrderSender,
 ) -> Result<WebHandle, WebError> {
     let door = Door::new(config.listen)?;
-    let address = door.address()?;
-    let runtime = Builder::new_current_thread().enable_all().build()?;
     let hall = Arc::new(Hall::new(config.token, &config.allowed_hosts, orders));
-    let (stop, stopped) = watch::channel(false);
-    let room = Room::new(config.max_clients, config.max_per_address);
-    let run = move || run(runtime, door, &viewer, &hall, &room, stopped);
-    let thread = std::thread::Builder::new().name("web".to_owned()).spawn(run)?;
-    Ok(WebHandle { address, stop, thread: Some(thread) })
+    let house = House {
+        door,
+        router: router(&hall),
+        viewer: Some(viewer),
+        hall,
+        room: Room::new(config.max_clients, config.max_per_address),
+    };
+    house.open()
 }
 
-fn run(
-    runtime: Runtime,
+/// Starts a page that shows a fleet, on a thread of its own, with the guards of the status page. `board` tells the ships
+/// as an object of JSON; nothing can be changed there.
+///
+/// # Errors
+/// As of [`start`].
+pub fn start_fleet(config: WebConfig, board: FleetBoardText) -> Result<WebHandle, WebError> {
+    let door = Door::new(config.listen)?;
+    let (orders, _) = crate::orders::channel();
+    let hall = Arc::new(Hall::new(None, &config.allowed_hosts, orders));
+    let house = House {
+        door,
+        router: guarded(fleet::routes(board), &hall),
+        viewer: None,
+        hall,
+        room: Room::new(config.max_clients, config.max_per_address),
+    };
+    house.open()
+}
+
+/// What the thread needs.
+struct House {
     door: Door,
-    viewer: &Viewer,
-    hall: &Arc<Hall>,
-    room: &Room,
-    mut stopped: watch::Receiver<bool>,
-) {
-    let router = router(hall);
+    router: Router,
+    /// Whose snapshots are shown, if any are.
+    viewer: Option<Viewer>,
+    hall: Arc<Hall>,
+    room: Room,
+}
+
+impl House {
+    fn open(self) -> Result<WebHandle, WebError> {
+        let address = self.door.address()?;
+        let runtime = Builder::new_current_thread().enable_all().build()?;
+        let (stop, stopped) = watch::channel(false);
+        let run = move || run(runtime, self, stopped);
+        let thread = std::thread::Builder::new().name("web".to_owned()).spawn(run)?;
+        Ok(WebHandle { address, stop, thread: Some(thread) })
+    }
+}
+
+fn run(runtime: Runtime, house: House, mut stopped: watch::Receiver<bool>) {
+    let House { door, router, viewer, hall, room } = house;
+    let show = async {
+        match &viewer {
+            Some(viewer) => hall::pump(viewer, &hall).await,
+            None => std::future::pending().await,
+        }
+    };
     runtime.block_on(async {
         tokio::select! {
-            () = hall::pump(viewer, hall) => {}
-            ended = accept::accept(door, router, hall, room) => {
+            () = show => {}
+            ended = accept::accept(door, router, &hall, &room) => {
                 if let Err(fault) = ended {
                     tracing::warn!(%fault, "the status page cannot be served");
                 }
@@ -110,7 +152,7 @@ fn run(
 }
 
 fn router(hall: &Arc<Hall>) -> Router {
-    Router::new()
+    let routes = Router::new()
         .route("/", get(page::index))
         .route("/favicon.ico", get(page::icon))
         .route("/assets/{name}", get(page::asset))
@@ -126,7 +168,13 @@ fn router(hall: &Arc<Hall>) -> Router {
         .route("/api/v1/alerts/{id}/silence", post(alerts::silence))
         .route("/api/v1/berth", post(alerts::berth))
         .route("/api/v1/learning", post(alerts::learning))
-        .route("/api/v1/log-level", post(alerts::log_level))
+        .route("/api/v1/log-level", post(alerts::log_level));
+    guarded(routes, hall)
+}
+
+/// What holds for every request.
+fn guarded(routes: Router<Arc<Hall>>, hall: &Arc<Hall>) -> Router {
+    routes
         .fallback(guard::not_found)
         .layer(DefaultBodyLimit::max(MAX_BODY))
         .layer(axum::middleware::from_fn_with_state(Arc::clone(hall), guard::guard))

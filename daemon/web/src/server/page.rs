@@ -20,6 +20,10 @@ pub(super) async fn index(headers: HeaderMap) -> Response {
     file("index.html", &headers)
 }
 
+pub(super) async fn fleet(headers: HeaderMap) -> Response {
+    file("fleet.html", &headers)
+}
+
 pub(super) async fn icon(headers: HeaderMap) -> Response {
     file("icon.svg", &headers)
 }

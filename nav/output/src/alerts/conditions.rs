@@ -60,6 +60,8 @@ pub enum Condition {
     NotRecording,
     /// What the next start goes on from cannot be saved.
     NotSaving,
+    /// What waits for a fleet cannot be put away.
+    NotSpooling,
     /// At the berth that is chosen she would touch faster than the limit that is set.
     ApproachFast,
     /// A part of her is nearer to the quay that is chosen than the limit that is set, and still comes nearer.
@@ -97,7 +99,7 @@ fn own(
 
 impl Condition {
     /// All of them, those that matter most first.
-    pub const ALL: [Condition; 27] = [
+    pub const ALL: [Condition; 28] = [
         Condition::SystemFault,
         Condition::HeadingLost,
         Condition::PositionLost,
@@ -123,6 +125,7 @@ impl Condition {
         Condition::Installation,
         Condition::NotRecording,
         Condition::NotSaving,
+        Condition::NotSpooling,
         Condition::NoUtc,
         Condition::Simulated,
     ];
@@ -186,7 +189,9 @@ impl Condition {
             Condition::Simulated => {
                 own(10_006, Caution, ["Simulated data", "Do not use for navigation"], [0, 0])
             }
-            Condition::NotRecording | Condition::NotSaving => self.of_storage(),
+            Condition::NotRecording | Condition::NotSaving | Condition::NotSpooling => {
+                self.of_storage()
+            }
             // the engines have already been apart, and close, for long enough
             Condition::EnginesDiffer => {
                 own(10_007, Warning, ["Engines differ", "Compare with another heading"], [0, 0])
@@ -227,6 +232,12 @@ impl Condition {
                 10_030,
                 Caution,
                 ["Not recording", "Disk full or folder gone. See page"],
+                [0, 10],
+            ),
+            Condition::NotSpooling => own(
+                10_032,
+                Caution,
+                ["Fleet not told", "Disk full or folder gone. See log"],
                 [0, 10],
             ),
             // the state of the next start
@@ -379,6 +390,7 @@ impl Watch {
             Condition::Installation => epoch.doubts.installation,
             Condition::NotRecording => epoch.storage.recording,
             Condition::NotSaving => epoch.storage.state,
+            Condition::NotSpooling => epoch.storage.fleet,
             Condition::HeadingMonitor | Condition::PositionMonitor | Condition::AttitudeMonitor => {
                 condition.detail(epoch).is_some()
             }

@@ -233,7 +233,7 @@ fn identifiers_are_our_own_or_those_of_a_standard_and_each_is_used_once() {
 fn what_cannot_be_written_is_told_at_once_and_no_more_when_it_can_be_for_a_while() {
     let mut look = Look::of_a_sound_ship();
     let faults = |recording, state| {
-        let storage = StorageFaults { recording, state };
+        let storage = StorageFaults { recording, state, fleet: false };
         move |epoch: OutputEpoch| OutputEpoch { storage, ..epoch }
     };
     assert_eq!(look.at(0.1, faults(true, false)), [Condition::NotRecording]);
@@ -241,4 +241,7 @@ fn what_cannot_be_written_is_told_at_once_and_no_more_when_it_can_be_for_a_while
     assert_eq!(look.at(9.9, faults(false, true)), [Condition::NotRecording, Condition::NotSaving]);
     assert_eq!(look.at(0.5, faults(false, true)), [Condition::NotSaving]);
     assert_eq!(look.at(11.0, faults(false, false)), []);
+    let storage = StorageFaults { fleet: true, ..StorageFaults::default() };
+    let unspooled = move |epoch: OutputEpoch| OutputEpoch { storage, ..epoch };
+    assert_eq!(look.at(0.1, unspooled), [Condition::NotSpooling]);
 }

@@ -1,6 +1,7 @@
 //! What is allowed, and yet wrong on nearly every ship: what installers get wrong.
 
 mod berths;
+mod fleets;
 mod found;
 mod imu;
 mod outputs;
@@ -24,5 +25,6 @@ pub(super) fn all(config: &Config) -> Vec<ConfigFinding> {
     sensors::look(config, &mut found);
     outputs::look(config, &mut found);
     berths::look(config, &mut found);
+    fleets::look(config, &mut found);
     found.0
 }
