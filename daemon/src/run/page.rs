@@ -1,6 +1,6 @@
 //! The status page, if there is to be one.
 
-use insd_config::{Config, WebSection};
+use insd_config::Config;
 use insd_web::orders::{self, OrderReceiver};
 use insd_web::{Listen, WebConfig, WebHandle};
 
@@ -22,7 +22,7 @@ pub(super) fn open(config: &Config, origin: Origin, log: &Log) -> Option<Page> {
     }
     let (publisher, viewer) = insd_web::channel();
     let (sender, orders) = orders::channel();
-    match insd_web::start(web_config(&config.web), viewer, sender) {
+    match insd_web::start(web_config(config), viewer, sender) {
         Ok(handle) => {
             tracing::info!(address = %handle.address(), "status page");
             let showcase = Showcase::new(publisher, log.clone(), config, origin);
@@ -35,12 +35,14 @@ pub(super) fn open(config: &Config, origin: Origin, log: &Log) -> Option<Page> {
     }
 }
 
-fn web_config(section: &WebSection) -> WebConfig {
+fn web_config(config: &Config) -> WebConfig {
+    let section = &config.web;
     WebConfig {
         listen: Listen::Address(section.listen),
         token: section.token_file.as_deref().and_then(token),
         allowed_hosts: section.hosts.clone(),
         max_per_address: section.max_per_address,
+        language: config.ship.language,
         ..WebConfig::default()
     }
 }

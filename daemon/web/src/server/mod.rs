@@ -14,6 +14,7 @@ mod page;
 mod room;
 mod stall;
 mod stream;
+mod texts;
 mod track;
 
 use std::net::SocketAddr;
@@ -77,7 +78,7 @@ pub fn start(
     let door = Door::new(config.listen)?;
     let address = door.address()?;
     let runtime = Builder::new_current_thread().enable_all().build()?;
-    let hall = Arc::new(Hall::new(config.token, &config.allowed_hosts, orders));
+    let hall = Arc::new(Hall::new(config.token, &config.allowed_hosts, config.language, orders));
     let (stop, stopped) = watch::channel(false);
     let room = Room::new(config.max_clients, config.max_per_address);
     let run = move || run(runtime, door, &viewer, &hall, &room, stopped);
@@ -122,6 +123,8 @@ fn router(hall: &Arc<Hall>) -> Router {
         .route("/api/v1/history", get(api::history))
         .route("/api/v1/orders", get(api::orders))
         .route("/api/v1/schema", get(api::schema))
+        .route("/api/v1/texts", get(texts::languages))
+        .route("/api/v1/texts/{language}", get(texts::texts))
         .route("/api/v1/alerts/{id}/acknowledge", post(alerts::acknowledge))
         .route("/api/v1/alerts/{id}/silence", post(alerts::silence))
         .route("/api/v1/berth", post(alerts::berth))

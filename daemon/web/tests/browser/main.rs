@@ -10,6 +10,7 @@
 
 mod docking;
 mod driver;
+mod language;
 mod live;
 mod look;
 mod pictures;
