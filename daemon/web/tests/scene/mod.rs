@@ -174,7 +174,7 @@ impl Show {
         };
         match slot.filter(|slot| asks(**slot) && self.scene == Scene::Fault) {
             Some(slot) => *slot = state,
-            None => return Err("there is nothing to acknowledge".to_owned()),
+            None => return Err("there is no such alert, or it cannot be done to it".to_owned()),
         }
         Ok(())
     }
