@@ -4,6 +4,7 @@ use insd_base::Body;
 use insd_drivers::ports::Transport;
 use insd_intake::config::{Role, SensorConfig};
 use insd_intake::sensor::TimeBase;
+use insd_languages::Language;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -104,6 +105,14 @@ pub struct Config {
 }
 
 impl Config {
+    /// The language that a text of a configuration tells, sound or not; English where it tells none.
+    #[must_use]
+    pub fn language_of(text: &str) -> Language {
+        let table = toml::from_str::<toml::Table>(text).unwrap_or_default();
+        let told = table.get("ship").and_then(|ship| ship.get("language")?.as_str());
+        told.and_then(|code| code.parse().ok()).unwrap_or_default()
+    }
+
     /// What the navigator is to assume.
     pub(crate) fn assumed(&self) -> Sections<'_> {
         let Config { alignment, model, gate, floor, protection, .. } = self;

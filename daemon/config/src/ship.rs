@@ -1,6 +1,7 @@
 //! Ship and start.
 
 use insd_base::VesselKind;
+use insd_languages::Language;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -45,6 +46,9 @@ pub struct ShipSection {
     #[serde(alias = "gnss_delay_std_s")]
     #[schemars(extend("x-alias" = "gnss_delay_std_s"))]
     pub time_std_s: Option<f64>,
+    /// What people aboard read: `en` or `ja`. Of the page whoever looks at it may choose another.
+    #[serde(default)]
+    pub language: Language,
     /// Real-time priority of the engine's thread, 1 to 99; that of the ports is one less. 0 for none.
     #[serde(default = "twenty")]
     pub priority: Option<u8>,

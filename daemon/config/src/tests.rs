@@ -1,6 +1,7 @@
 use insd_base::{Body, CanId};
 use insd_intake::config::{IntakeConfig, Kind, PortSpec, SensorConfig};
 use insd_intake::port::Link;
+use insd_languages::Language;
 use insd_n2k::NameParts;
 use insd_wire::imu::can::{LayoutChoice, Shipped};
 use serde::Deserialize;
@@ -220,4 +221,15 @@ fn a_name_that_is_not_there_or_there_twice_is_a_fault() {
     let twice = SHIPPED.replace("name = \"network\"", "name = \"ecdis\"");
     let fault = Config::of_text(&twice).unwrap_err();
     assert!(fault.contains("expected a name that no other output has"), "{fault}");
+}
+
+#[test]
+fn the_language_is_told_by_a_file_with_faults_as_well() {
+    let japanese = SHIPPED.replacen("[ship]", "[ship]\nlanguage = \"ja\"", 1);
+    assert_eq!(Config::of_text(&japanese).unwrap().ship.language, Language::Japanese);
+    let faulty = japanese.replace("lat_deg = 35.44", "lat_deg = 135.44");
+    assert_eq!(Config::language_of(&faulty), Language::Japanese);
+    for english in [SHIPPED, "", "no file of this kind", "[ship]\nlanguage = \"fr\""] {
+        assert_eq!(Config::language_of(english), Language::English);
+    }
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use insd_config::{BadInput, Config, OutputSection, Severity, check};
 use insd_drivers::ports::{Destination, Transport};
 use insd_lab::terminal::print;
+use insd_languages::{Language, filled};
 
 use crate::doctor::{Diagnosis, text};
 
@@ -29,6 +30,9 @@ pub struct CheckConfigArgs {
     /// Warnings count as errors do
     #[arg(long)]
     strict: bool,
+    /// Language of what is told: en or ja. Left out: the one that the file tells
+    #[arg(long, value_name = "CODE")]
+    language: Option<Language>,
 }
 
 /// Runs the command.
@@ -39,8 +43,10 @@ pub fn run(args: &CheckConfigArgs) -> anyhow::Result<()> {
     let text = read(&args.file)?;
     let diagnosis = Diagnosis::of_text(&text);
     let config = check::examine(&text).config.filter(|_| diagnosis.accepted);
-    let summary = config.as_ref().map(summary).unwrap_or_default();
-    Outcome { file: &args.file, json: args.json, strict: args.strict }.tell(&diagnosis, &summary)
+    let language = args.language.unwrap_or_else(|| Config::language_of(&text));
+    let summary = config.map(|config| summary(&config, language)).unwrap_or_default();
+    let outcome = Outcome { file: &args.file, json: args.json, strict: args.strict, language };
+    outcome.tell(&diagnosis, &summary)
 }
 
 /// The text of a configuration, with the overrides of the environment.
@@ -57,17 +63,19 @@ pub(super) struct Outcome<'a> {
     pub(super) file: &'a Path,
     pub(super) json: bool,
     pub(super) strict: bool,
+    pub(super) language: Language,
 }
 
 impl Outcome<'_> {
     /// Prints what was found and, for people, a summary below it.
     pub(super) fn tell(&self, diagnosis: &Diagnosis, summary: &str) -> anyhow::Result<()> {
         let (file, sum) = (self.file.display(), text::sum(diagnosis));
+        let told = self.language.catalogue().said(&sum);
         // what was found counts, whether it is read or not
         let printed = print(&if self.json {
             serde_json::to_string_pretty(diagnosis)? + "\n"
         } else {
-            format!("{}{file}: {sum}\n{summary}", text::report(diagnosis))
+            format!("{}{file}: {told}\n{summary}", text::report(diagnosis, self.language))
         });
         if diagnosis.count(Severity::Error) > 0 {
             return Err(BadInput(format!("{file}: {sum}")).into());
@@ -80,10 +88,17 @@ impl Outcome<'_> {
 }
 
 /// What a configuration amounts to, a line for each thing in it.
-fn summary(config: &Config) -> String {
-    let mut text = String::new();
+fn summary(config: &Config, language: Language) -> String {
+    let (mut text, catalogue) = (String::new(), language.catalogue());
     let mut line = |kind: &str, name: &str, what: &str| {
-        let _ = writeln!(text, "  {kind:<9} {name}: {what}");
+        let _ = match language {
+            Language::English => writeln!(text, "  {kind:<9} {name}: {what}"),
+            _ => {
+                let (own, what) = (format!("check.list_{kind}"), catalogue.said(what));
+                let values = [("name", name), ("what_text", what.as_str())];
+                writeln!(text, "  {}", filled(catalogue.text(&own), &values))
+            }
+        };
     };
     for port in &config.ports {
         line("port", &port.name, &input(&port.transport));

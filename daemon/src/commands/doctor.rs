@@ -4,7 +4,8 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use insd_config::BadInput;
+use insd_config::{BadInput, Config};
+use insd_languages::Language;
 
 use super::check_config::{Outcome, read};
 use crate::doctor::{Diagnosis, Extent, Person};
@@ -34,6 +35,9 @@ pub struct DoctorArgs {
     /// Warnings count as errors do
     #[arg(long)]
     strict: bool,
+    /// Language of what is told: en or ja. Left out: the one that the file tells
+    #[arg(long, value_name = "CODE")]
+    language: Option<Language>,
 }
 
 /// Runs the command.
@@ -62,5 +66,7 @@ pub fn run(args: &DoctorArgs) -> anyhow::Result<()> {
     }
     let extent = Extent { listen, person, file: Some(args.file.clone()) };
     let diagnosis = Diagnosis::of_ship(&text, &extent)?;
-    Outcome { file: &args.file, json: args.json, strict: args.strict }.tell(&diagnosis, "")
+    let language = args.language.unwrap_or_else(|| Config::language_of(&text));
+    let outcome = Outcome { file: &args.file, json: args.json, strict: args.strict, language };
+    outcome.tell(&diagnosis, "")
 }

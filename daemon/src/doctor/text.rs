@@ -4,19 +4,20 @@ use std::fmt::Write as _;
 
 use insd_config::check::{ConfigFinding, Severity};
 use insd_lab::sniff::report::PortReport;
+use insd_languages::Language;
 
 use super::Diagnosis;
 
-/// Every finding with what to do about it, what arrives, and the sum.
+/// Every finding with what to do about it, what arrives, and the sum. What the catalogue of the language does not have stays English.
 #[must_use]
-pub fn report(diagnosis: &Diagnosis) -> String {
-    let mut text = String::new();
+pub fn report(diagnosis: &Diagnosis, language: Language) -> String {
+    let (mut text, catalogue) = (String::new(), language.catalogue());
     for finding in &diagnosis.findings {
         let severity = finding.severity.name();
         let plain = ConfigFinding { advice: None, ..finding.clone() };
-        let _ = writeln!(text, "{severity}: {plain}");
+        let _ = writeln!(text, "{}", catalogue.said(&format!("{severity}: {plain}")));
         if let Some(advice) = &finding.advice {
-            let _ = writeln!(text, "    {advice}");
+            let _ = writeln!(text, "    {}", catalogue.said(advice));
         }
     }
     for port in diagnosis.heard.iter().flat_map(|heard| &heard.ports) {

@@ -1,6 +1,6 @@
 //! What is shown of the ship: to browsers by the status page, and to fleets.
 
-use insd_config::{Config, WebSection};
+use insd_config::Config;
 use insd_web::orders::{self, OrderReceiver};
 use insd_web::{Listen, Viewer, WebConfig, WebHandle};
 
@@ -20,7 +20,7 @@ pub(super) struct Page {
 /// Opens what is asked for; `None` if nobody is to look. A ship sails without it, too: what is wrong is told.
 pub(super) fn open(config: &Config, origin: Origin, log: &Log) -> Option<Page> {
     let (publisher, viewer) = insd_web::channel();
-    let (handle, orders) = serve(&config.web, &viewer).unzip();
+    let (handle, orders) = serve(config, &viewer).unzip();
     if handle.is_none() && config.fleets.is_empty() {
         return None;
     }
@@ -29,12 +29,12 @@ pub(super) fn open(config: &Config, origin: Origin, log: &Log) -> Option<Page> {
 }
 
 /// Opens the status page.
-fn serve(section: &WebSection, viewer: &Viewer) -> Option<(WebHandle, OrderReceiver)> {
-    if !section.enabled {
+fn serve(config: &Config, viewer: &Viewer) -> Option<(WebHandle, OrderReceiver)> {
+    if !config.web.enabled {
         return None;
     }
     let (sender, orders) = orders::channel();
-    match insd_web::start(web_config(section), viewer.clone(), sender) {
+    match insd_web::start(web_config(config), viewer.clone(), sender) {
         Ok(handle) => {
             tracing::info!(address = %handle.address(), "status page");
             Some((handle, orders))
@@ -46,12 +46,14 @@ fn serve(section: &WebSection, viewer: &Viewer) -> Option<(WebHandle, OrderRecei
     }
 }
 
-fn web_config(section: &WebSection) -> WebConfig {
+fn web_config(config: &Config) -> WebConfig {
+    let section = &config.web;
     WebConfig {
         listen: Listen::Address(section.listen),
         token: section.token_file.as_deref().and_then(token),
         allowed_hosts: section.hosts.clone(),
         max_per_address: section.max_per_address,
+        language: config.ship.language,
         ..WebConfig::default()
     }
 }

@@ -8,6 +8,8 @@ mod world;
 
 use insd_config::{Config, ConfigFinding, Examined, Severity, check::examine};
 
+use insd_languages::Language;
+
 use table::{Mistake, TABLE};
 
 /// A ship as she should be.
@@ -122,4 +124,35 @@ fn the_documentation_shows_this_table() {
     }
     let shown = std::fs::read_to_string(DOCS).unwrap_or_default();
     assert_eq!(shown, documented(), "INSD_WRITE_DOCS=1 writes it");
+}
+
+#[test]
+fn every_mistake_is_told_in_japanese_with_what_to_do_about_it() {
+    let catalogue = Language::Japanese.catalogue();
+    let mut english = Vec::new();
+    for mistake in TABLE {
+        // of the syntax of TOML its reader tells, in English
+        let Some(finding) = mistake.found().filter(|own| own.cause != "syntax") else { continue };
+        let plain = ConfigFinding { advice: None, ..finding.clone() };
+        let line = format!("{}: {plain}", finding.severity.name());
+        // what is to be written is no sentence
+        let is_sentence = |advice: &String| {
+            advice.contains(' ') && !advice.contains(" = ") && !advice.starts_with('[')
+        };
+        for text in std::iter::once(line).chain(finding.advice.filter(is_sentence)) {
+            if catalogue.sentence(&text).is_none() {
+                english.push(text);
+            }
+        }
+    }
+    assert!(english.is_empty(), "not in the catalogue:\n{}", english.join("\n"));
+}
+
+#[test]
+fn a_sum_is_told_in_japanese() {
+    let catalogue = Language::Japanese.catalogue();
+    let text = "ship: 1 error, 2 warnings, 1 note; insd does not start with this";
+    let told = catalogue.said(text.trim_start_matches("ship: "));
+    assert_eq!(told, "誤り1件、警告2件、注記1件。この設定では insd は始動しない");
+    assert_eq!(catalogue.said("no faults"), "誤りなし");
 }

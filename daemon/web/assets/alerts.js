@@ -3,6 +3,7 @@
 import { byId, keep, make, recall, setAttr, setClass, setText, show, svg } from "./dom.js";
 import { clock, duration, words } from "./format.js";
 import { order, load } from "./stream.js";
+import { said, t } from "./texts.js";
 
 const SHAPES = {
   emergency_alarm: "M12 2 23 21H1Z", alarm: "M12 2 23 21H1Z",
@@ -35,9 +36,9 @@ export function startAlerts() {
   load("api/v1/orders").then((answer) => { readOnly = answer.enabled ? null : answer.why; tellToken(); }).catch(() => {});
 }
 
-function tellToken() {
-  const text = readOnly ? `Read only: ${readOnly}.`
-    : token ? "A token is set for this tab." : "Without a token nothing can be changed here.";
+// Whether something can be changed here, and why not.
+export function tellToken() {
+  const text = readOnly ? t("read_only", { why: said(readOnly) }) : t(token ? "token_set" : "token_none");
   setText(byId("token-state"), text);
   byId("token").disabled = Boolean(readOnly);
   byId("token-save").disabled = Boolean(readOnly);
@@ -49,7 +50,7 @@ function tellToken() {
 export const mayChange = () => Boolean(token) && !readOnly;
 
 export const give = (path, body) =>
-  order(path, token, body).catch(() => ({ done: false, text: "the program cannot be reached" }));
+  order(path, token, body).catch(() => ({ done: false, text: t("unreachable") }));
 
 function build(alert) {
   const icon = document.createElementNS("http://www.w3.org/2000/svg", "svg");
@@ -57,8 +58,8 @@ function build(alert) {
   const shape = svg(icon, "path", { class: "alert-shape" });
   const mark = svg(icon, "text", { x: 12, y: 18 });
   const [title, text, facts, outcome] = [make("strong"), make("span"), make("small"), make("small", { role: "status" })];
-  const buttons = [["acknowledge", "Acknowledge"], ["silence", "Silence"]].map(([verb, label]) => {
-    const button = make("button", { type: "button", "aria-label": `${label}: ${alert.title}`, class: verb }, label);
+  const buttons = ["acknowledge", "silence"].map((verb) => {
+    const button = make("button", { type: "button", class: verb });
     button.addEventListener("click", async () => {
       const answer = await give(`api/v1/alerts/${alert.id}/${verb}`, { instance: alert.instance });
       setText(outcome, answer.done ? "" : answer.text);
@@ -74,11 +75,19 @@ function update(row, alert) {
   setClass(row.item, `alert ${alert.priority} ${alert.state}`);
   setAttr(row.shape, "d", SHAPES[alert.priority] ?? SHAPES.unknown);
   setText(row.mark, MARKS[alert.state] ?? "");
-  setText(row.title, alert.title);
-  setText(row.text, alert.description);
+  const title = said(alert.title);
+  setText(row.title, title);
+  setText(row.text, said(alert.description));
+  for (const button of row.buttons) {
+    const verb = t(button.className);
+    setText(button, verb);
+    setAttr(button, "aria-label", t("of_alert", { verb, title }));
+  }
   const maker = alert.manufacturer ? `${alert.manufacturer} ` : "";
-  const again = alert.escalation > 0 ? ` · raised again ${alert.escalation}×` : "";
-  setText(row.facts, `${words(alert.priority)} · ${words(alert.state)} · ${maker}${alert.id}${alert.instance ? `.${alert.instance}` : ""} · since ${clock(alert.changed_utc)} (${duration(alert.since_s)})${again}`);
+  const again = alert.escalation > 0 ? t("raised_again", { times: alert.escalation }) : "";
+  const number = `${maker}${alert.id}${alert.instance ? `.${alert.instance}` : ""}`;
+  const [clockTime, time] = [clock(alert.changed_utc), duration(alert.since_s)];
+  setText(row.facts, t("alert_facts", { priority: words(alert.priority), state: words(alert.state), number, clock: clockTime, time, again }));
   const [acknowledge, silence] = row.buttons;
   show(acknowledge, asks(alert.state) || alert.state === "rectified");
   show(silence, alert.state === "unacknowledged");
@@ -103,7 +112,7 @@ export function alerts(data, link) {
     if (list.children[k] !== row.item) list.insertBefore(row.item, list.children[k] ?? null);
   });
   const areKnown = link !== "silent" && link !== "lost";
-  setText(byId("no-alerts"), areKnown ? "No active alerts." : "Whether there are alerts is not known.");
+  setText(byId("no-alerts"), t(areKnown ? "alerts_none" : "alerts_unknown"));
   setClass(byId("no-alerts"), areKnown ? "empty good" : "empty");
   show(byId("no-alerts"), sorted.length === 0);
   const open = sorted.filter((alert) => asks(alert.state));
@@ -121,8 +130,8 @@ function strip(open) {
   show(node, open.length > 0);
   if (open.length === 0) return;
   setClass(node, `strip ${open[0].priority}`);
-  const more = open.length > 1 ? ` (${open.length - 1} more)` : "";
-  setText(node, `${words(open[0].priority).toUpperCase()}: ${open[0].title}. ${open[0].description}.${more}`);
+  const more = open.length > 1 ? t("alerts_more", { n: open.length - 1 }) : "";
+  setText(node, t("alert_strip", { priority: words(open[0].priority).toUpperCase(), title: said(open[0].title), description: said(open[0].description), more }));
 }
 
 // New alarms interrupt whoever listens, the rest waits its turn.
@@ -133,9 +142,9 @@ function speak(sorted) {
       const old = before.get(name);
       if (old && old.state === alert.state && old.priority === alert.priority) continue;
       const urgent = ["alarm", "emergency_alarm"].includes(alert.priority) && alert.state === "unacknowledged";
-      setText(byId(urgent ? "say-now" : "say"), `${words(alert.priority)} ${words(alert.state)}: ${alert.title}`);
+      setText(byId(urgent ? "say-now" : "say"), t("say_alert", { priority: words(alert.priority), state: words(alert.state), title: said(alert.title) }));
     }
-    for (const [name, alert] of before) if (!now.has(name)) setText(byId("say"), `${alert.title}: normal`);
+    for (const [name, alert] of before) if (!now.has(name)) setText(byId("say"), t("say_normal", { title: said(alert.title) }));
   }
   before = now;
 }

@@ -2,27 +2,29 @@
 
 import { byId, fill, make, right, setAttr, setClass, setText, show, svg } from "./dom.js";
 import { DASH, clock, duration, fixed, known, words } from "./format.js";
+import { said, t } from "./texts.js";
 
 const PHASES = ["levelling", "searching", "fine", "aligned"];
-const LIMITS = {
-  gyro_bias: "bias of the gyros", random_walk: "random walk of the gyros", sea: "motion of the ship", latitude: "latitude",
-};
+const LIMITS = { gyro_bias: "limit_gyro_bias", random_walk: "limit_random_walk", sea: "limit_sea", latitude: "limit_latitude" };
 const LACKS = {
-  time: "too early to foresee", manoeuvres: "depends on manoeuvres", gnss_velocity: "no GNSS velocity",
-  aid: "no GNSS velocity, no log, no reference", method: "no forecast with this method",
+  time: "lack_time", manoeuvres: "lack_manoeuvres", gnss_velocity: "lack_gnss_velocity", aid: "lack_aid", method: "lack_method",
 };
 
 function readiness(alignment) {
-  const limit = LIMITS[alignment.limited_by] ?? "";
+  const limited = LIMITS[alignment.limited_by];
+  const limit = limited ? t(limited) : "";
   switch (alignment.forecast) {
-    case "reached": return ["Aligned", alignment.text];
+    case "reached": return [t("ready_reached"), said(alignment.text)];
     case "expected": {
-      const at = alignment.ready_utc ? ` at ${clock(alignment.ready_utc)} UTC` : "";
-      return [`Ready in ${duration(alignment.ready_in_s)}${at}`, limit ? `limited by: ${limit}` : ""];
+      const time = duration(alignment.ready_in_s);
+      const when = alignment.ready_utc ? t("ready_at", { time, clock: clock(alignment.ready_utc) }) : t("ready_in", { time });
+      return [when, limit ? t("limited_by", { limit }) : ""];
     }
-    case "unreachable":
-      return ["Out of reach", `at best ${fixed(alignment.best_deg, 2)}°${limit ? `, limited by: ${limit}` : ""}`];
-    default: return ["Not foreseeable", LACKS[alignment.lacks] ?? ""];
+    case "unreachable": {
+      const best = fixed(alignment.best_deg, 2);
+      return [t("ready_never"), limit ? t("ready_best_limited", { best, limit }) : t("ready_best", { best })];
+    }
+    default: return [t("ready_unknown"), alignment.lacks in LACKS ? t(LACKS[alignment.lacks]) : ""];
   }
 }
 
@@ -43,8 +45,8 @@ export function alignment(data) {
   setText(byId("ready-when"), when);
   setText(byId("ready-why"), why);
   const told = known(now?.told_at_s) ? data.time.at_s - now.told_at_s : 0;
-  const where = now?.moored ? "at the berth" : "under way";
-  setText(byId("align-place"), now ? `${where}${told > 1 ? `, told ${fixed(told, 0)} s ago` : ""}` : "");
+  const where = t(now?.moored ? "at_berth" : "under_way");
+  setText(byId("align-place"), !now ? "" : told > 1 ? t("told_ago", { where, s: fixed(told, 0) }) : where);
   const part = known(now?.progress) ? Math.max(0, Math.min(1, now.progress)) : null;
   setAttr(byId("progress-fill"), "width", part === null ? 0 : (part * 100).toFixed(1));
   if (part === null) byId("progress").removeAttribute("aria-valuenow");
@@ -64,7 +66,7 @@ export function modes(data) {
   fill(byId("modes"), newest.map((change) => [
     change.utc ? clock(change.utc) : `${fixed(change.at_s, 0)} s`,
     { text: words(change.to), cls: `state ${modeTone(change.to)}` },
-    { text: change.reason ?? DASH, cls: "wrap" },
+    { text: said(change.reason) || DASH, cls: "wrap" },
   ]));
   timeline(byId("timeline"), data);
 }
@@ -84,7 +86,7 @@ function timeline(root, data) {
     setAttr(node, "width", Math.max(2, bar.x2 - bar.x1).toFixed(1));
     setAttr(node, "class", `tone-${bar.tone}`);
   });
-  setAttr(root, "aria-label", `Modes of the last ${duration(now - from)}: ${bars.map((bar) => words(bar.name)).join(", ")}`);
+  setAttr(root, "aria-label", t("modes_spoken", { time: duration(now - from), modes: bars.map((bar) => words(bar.name)).join(", ") }));
 }
 
 export function disturbance(data) {
@@ -92,16 +94,16 @@ export function disturbance(data) {
   const card = byId("disturbance-card");
   card.classList.toggle("without", !found);
   show(byId("no-disturbance"), !found);
-  const order = known(found?.order) ? `, order ${found.order}` : "";
-  const window = known(found?.window_s) ? `, window ${fixed(found.window_s, 0)} s` : "";
-  const radius = known(found?.radius) ? `, radius ${fixed(found.radius, 3)}` : "";
+  const order = known(found?.order) ? t("disturbance_order", { n: found.order }) : "";
+  const window = known(found?.window_s) ? t("disturbance_window", { n: fixed(found.window_s, 0) }) : "";
+  const radius = known(found?.radius) ? t("disturbance_radius", { n: fixed(found.radius, 3) }) : "";
   setText(byId("disturbance-method"), found ? `${words(found.method)}${order}${window}${radius}` : "");
   const isPlace = found?.quantity === "displacement";
-  setText(byId("disturbance-quantity"), isPlace ? "displacement, m²/Hz" : "velocity, (m/s)²/Hz");
-  setText(byId("disturbance-fit"), found?.fit ? `The model is ${found.fit.text}.` : "");
+  setText(byId("density"), t(isPlace ? "density_displacement" : "density_velocity"));
+  setText(byId("disturbance-fit"), found?.fit ? t("disturbance_fit", { fit: said(found.fit.text) }) : "");
   const left = (axis) => (isPlace ? `${fixed(axis.residual_m, 3)} m` : `${fixed(axis.residual_mps, 4)} m/s`);
   fill(byId("ar"), (found?.axes ?? []).map((axis) => [
-    axis.name, right(fixed(axis.dominant_period_s, 1)), right(left(axis)),
+    words(axis.name), right(fixed(axis.dominant_period_s, 1)), right(left(axis)),
     { text: axis.coefficients.map((one) => fixed(one, 3)).join("  ") || DASH, cls: "num wrap" },
   ]));
 }

@@ -1,16 +1,18 @@
 // The page: takes the data as they come and shows them with the next picture of the screen.
 
 import { byId, binder, keep, recall, setAttr, setClass, setText, show } from "./dom.js";
-import { clock } from "./format.js";
+import { clock, words } from "./format.js";
+import { startLanguage } from "./language.js";
+import { t } from "./texts.js";
 import { after } from "./age.js";
 import { follow, load } from "./stream.js";
 import { rose, horizon, turn, qualities, source, speak } from "./instruments.js";
 import { chart } from "./chart.js";
 import { history, plot, sigmaPlot, spectrum } from "./plots.js";
 import { sensors, watched, ports, measurements, system } from "./tables.js";
-import { sky } from "./sky.js";
+import { sky, relabel } from "./sky.js";
 import { alignment, disturbance, modes, modeTone } from "./alignment.js";
-import { alerts, startAlerts } from "./alerts.js";
+import { alerts, startAlerts, tellToken } from "./alerts.js";
 import * as bridge from "./bridge.js";
 import { docking, plan, startDocking } from "./docking.js";
 import { learning, startLearning } from "./learning.js";
@@ -87,7 +89,7 @@ function drawWhole() {
   bridge.alerts(alerts(data, link), link !== "silent" && link !== "lost");
   speak(data.motion);
   sheet.speak();
-  const what = link === "silent" || link === "lost" ? `⚠ ${LINKS[link]}` : data.mode.name.replaceAll("_", " ");
+  const what = link === "silent" || link === "lost" ? `⚠ ${t(LINKS[link])}` : words(data.mode.name);
   document.title = `${data.program.unit ?? "insd"}: ${what}`;
 }
 
@@ -136,17 +138,17 @@ function catchUp() {
   bridge.catchUp(() => { due.plots = true; wake(); });
 }
 
-const LINKS = { connecting: "connecting", live: "live", connected: "no motion", silent: "no new data", lost: "connection lost" };
+const LINKS = { connecting: "link_connecting", live: "link_live", connected: "link_connected", silent: "link_silent", lost: "link_lost" };
 
 function enter() {
-  setText(byId("link"), LINKS[link]);
+  setText(byId("link"), t(LINKS[link]));
+  byId("link").dataset.state = link;
   setClass(byId("link"), `badge link ${link}`);
   const stale = link === "silent" || link === "lost";
   document.body.classList.toggle("stale", stale && came !== null);
   document.body.classList.toggle("waiting", came === null);
-  const last = came ? ` Last data ${clock(came.time.utc ?? came.time.system_utc)} UTC.` : "";
-  const what = link === "silent" ? "The navigator sends no new data." : "Connection lost.";
-  setText(byId("lost"), `${what}${last} Nothing below is the present.`);
+  const last = came ? t("last_data", { clock: clock(came.time.utc ?? came.time.system_utc) }) : "";
+  setText(byId("lost"), t(link === "silent" ? "lost_silent" : "lost_lost", { last }));
   show(byId("lost"), stale && came !== null);
 }
 
@@ -181,8 +183,22 @@ function redraw() {
   wake();
 }
 
+// What is shown is said again in another language.
+function translate() {
+  enter();
+  relabel();
+  tellToken();
+  if (came) {
+    due.live = due.whole = true;
+    redraw();
+  }
+}
+
 window.addEventListener("resize", redraw);
 window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+await startLanguage(translate);
+relabel();
+enter();
 startTheme();
 bridge.startView(redraw);
 startAlerts();

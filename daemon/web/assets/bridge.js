@@ -4,6 +4,7 @@ import { byId, keep, make, recall, setClass, setText, show } from "./dom.js";
 import { fixed, known, words } from "./format.js";
 import { history, plot } from "./plots.js";
 import { load } from "./stream.js";
+import { said, t } from "./texts.js";
 
 // What is plotted: two hours, a point every ten seconds.
 const past = history(7200, 9.5);
@@ -51,10 +52,10 @@ export function alerts(sorted, areKnown) {
   sorted.slice(0, ROOM).forEach((alert, k) => {
     const node = list.children[k] ?? list.appendChild(make("li"));
     setClass(node, `b-alert ${alert.priority} ${alert.state}`);
-    setText(node, `${words(alert.priority)}: ${alert.title}${alert.state === "rectified" ? " (over)" : ""}`);
+    setText(node, t(alert.state === "rectified" ? "bridge_over" : "bridge_alert", { priority: words(alert.priority), title: said(alert.title) }));
   });
   const more = sorted.length - ROOM;
-  const text = sorted.length === 0 ? (areKnown ? "none" : "not known") : more > 0 ? `and ${more} more` : "";
+  const text = sorted.length === 0 ? t(areKnown ? "bridge_none" : "bridge_unknown") : more > 0 ? t("bridge_more", { n: more }) : "";
   setText(byId("b-more"), text);
 }
 

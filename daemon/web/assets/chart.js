@@ -1,8 +1,9 @@
 // The track on a plain sheet: graticule, scale, where the ship is and how sure that is. It knows no land
 // and no depths, and never looks as if it did.
 
-import { fitted, colour, byId, setAttr } from "./dom.js";
+import { fitted, colour, lettering, byId, setAttr } from "./dom.js";
 import { known, lat as latText, lon as lonText, metres } from "./format.js";
+import { t } from "./texts.js";
 
 const RAD = Math.PI / 180;
 // Metres of a degree of latitude; of longitude times the cosine of the latitude.
@@ -116,7 +117,7 @@ export function chart(canvas) {
     },
     speak() {
       if (known(motion?.lat_deg)) {
-        setAttr(canvas, "aria-label", `Ship at ${latText(motion.lat_deg)}, ${lonText(motion.lon_deg)}, within ${metres(motion.ellipse_major_m)} metres`);
+        setAttr(canvas, "aria-label", t("say_track", { lat: latText(motion.lat_deg), lon: lonText(motion.lon_deg), sigma: metres(motion.ellipse_major_m) }));
       }
     },
   };
@@ -152,7 +153,7 @@ function graticule(context, width, height, view, to) {
   context.strokeStyle = colour("grid");
   context.fillStyle = colour("dim");
   context.lineWidth = 1;
-  context.font = "11px system-ui, sans-serif";
+  context.font = lettering(11);
   const lines = (size, wanted) => STEPS.find((step) => step * size * view.scale >= wanted) ?? 30;
   const stepLat = lines(DEGREE, 70);
   const halfLat = height / 2 / (DEGREE * view.scale);
@@ -268,7 +269,7 @@ function ruler(context, width, height, scale) {
   context.lineTo(x + pixels, y);
   context.lineTo(x + pixels, y - 5);
   context.stroke();
-  context.font = "11px system-ui, sans-serif";
+  context.font = lettering(11);
   context.textAlign = "right";
   context.fillText(`${length} ${nautical ? "NM" : "m"}`, x + pixels, y + 13);
   context.textAlign = "left";

@@ -3,6 +3,7 @@
 import { byId, make, setAttr, setClass, setText, show, svg } from "./dom.js";
 import { fixed, known, sigma, duration, words, DASH } from "./format.js";
 import { give, mayChange } from "./alerts.js";
+import { said, t } from "./texts.js";
 
 // Slower than this she neither closes nor opens, m/s; and this straight she is parallel, deg.
 const STILL = 0.005;
@@ -37,7 +38,7 @@ function number(id, text) {
 
 function sure(value, level) {
   const own = known(value) ? `1σ ${sigma(value, value < 0.0995 ? 3 : 2)}` : "";
-  return known(level) ? `${own} · level ${fixed(level, 2)} m` : own;
+  return known(level) ? t("level", { own, level: fixed(level, 2) }) : own;
 }
 
 function part(name, point, limits) {
@@ -45,59 +46,57 @@ function part(name, point, limits) {
   const fast = known(point?.closing_mps) && known(limits.contact_speed_mps) && point.closing_mps > limits.contact_speed_mps;
   setText(byId(`d-${name}-sure`), sure(point?.sigma_distance_m, point?.level_m));
   number(`d-${name}-closing`, sized(point?.closing_mps));
-  const over = fast ? ` ⚠ over ${fixed(limits.contact_speed_mps, 2)}` : near ? ` ⚠ within ${fixed(limits.distance_m, 1)} m` : "";
-  setText(byId(`d-${name}-way`), way(point?.closing_mps, ["closing", "opening"], "still") + over);
+  const over = fast ? t("over_limit", { limit: fixed(limits.contact_speed_mps, 2) }) : near ? t("within_limit", { limit: fixed(limits.distance_m, 1) }) : "";
+  setText(byId(`d-${name}-way`), way(point?.closing_mps, [t("closing"), t("opening")], t("still")) + over);
   setText(byId(`d-${name}-speed-sure`), known(point?.sigma_closing_mps) ? `1σ ${sigma(point.sigma_closing_mps, 3)}` : "");
-  const along = known(point?.along_mps) ? `${sized(point.along_mps)} m/s ${way(point.along_mps, ["ahead", "astern"], "along the quay")}` : "";
+  const along = known(point?.along_mps) ? `${sized(point.along_mps)} m/s ${way(point.along_mps, [t("ahead"), t("astern")], t("along_quay"))}` : "";
   setText(byId(`d-${name}-along`), along);
   setClass(byId(`d-${name}`), `d-tile d-${name}${near ? " near" : ""}${fast ? " fast" : ""}`);
 }
 
-const SAID = { valid: "valid", doubtful: "doubtful", not_valid: "not valid" };
-
 // What is to be shown, and how far it may be relied on.
 function judged(docking) {
   if (!docking) return ["not_valid", ""];
-  if (docking.freshness === "old") return ["not_valid", "what is shown is not new"];
-  return [docking.state, docking.why ?? ""];
+  if (docking.freshness === "old") return ["not_valid", t("not_new")];
+  return [docking.state, said(docking.why)];
 }
 
 function head(data, [state, why]) {
   const { docking, berths } = data;
-  setText(byId("d-name"), docking?.berth ?? (berths?.length ? "No berth is near" : "No berth is configured"));
-  const side = docking?.side ? `, ${docking.side} side to` : "";
-  setText(byId("d-choice"), docking ? `${docking.choice === "chosen" ? "chosen" : "the nearest, not chosen"}${side}` : "");
-  setText(byId("d-state"), SAID[state] ?? words(state));
+  setText(byId("d-name"), docking?.berth ?? t(berths?.length ? "berth_none_near" : "berth_none"));
+  const side = docking?.side ? t(docking.side === "port" ? "side_port" : "side_starboard") : "";
+  setText(byId("d-choice"), docking ? t(docking.choice === "chosen" ? "berth_chosen" : "berth_nearest") + side : "");
+  setText(byId("d-state"), words(state));
   setClass(byId("d-state"), `d-state ${state}`);
   setText(byId("d-why"), why);
-  const told = JSON.stringify(berths ?? []);
+  const told = JSON.stringify([t("berth_any"), ...(berths ?? [])]);
   const select = byId("d-berth");
   if (told !== names) {
     names = told;
-    select.replaceChildren(make("option", { value: "" }, "The nearest"), ...(berths ?? []).map((name) => make("option", { value: name }, name)));
+    select.replaceChildren(make("option", { value: "" }, t("berth_any")), ...(berths ?? []).map((name) => make("option", { value: name }, name)));
   }
   if (document.activeElement !== select) select.value = docking?.choice === "chosen" ? docking.berth : "";
   select.disabled = !mayChange() || !berths?.length;
-  setAttr(select, "title", mayChange() ? "" : "A token is needed: type it in below the alerts of the page");
+  setAttr(select, "title", mayChange() ? "" : t("token_missing"));
 }
 
 function middle(docking) {
   const angle = docking?.angle_deg;
   number("d-angle", known(angle) ? fixed(Math.abs(angle), 1) : DASH);
-  setText(byId("d-angle-way"), !known(angle) ? "" : Math.abs(angle) < PARALLEL ? "parallel" : angle > 0 ? "bow in" : "bow out");
+  setText(byId("d-angle-way"), !known(angle) ? "" : t(Math.abs(angle) < PARALLEL ? "parallel" : angle > 0 ? "bow_in" : "bow_out"));
   setText(byId("d-angle-sure"), known(docking?.sigma_angle_deg) ? `1σ ${sigma(docking.sigma_angle_deg, 2)}` : "");
   const contact = docking?.contact;
-  setText(byId("d-contact-part"), contact ? (contact.part === "manifold" ? "amidships" : contact.part) : "");
+  setText(byId("d-contact-part"), !contact ? "" : contact.part === "manifold" ? t("amidships") : words(contact.part));
   number("d-contact-speed", known(contact?.speed_mps) ? fixed(contact.speed_mps, 2) : DASH);
-  const when = known(contact?.in_s) ? `in ${duration(contact.in_s)} ${sigma(contact.sigma_in_s, contact.sigma_in_s < 9.5 ? 1 : 0)}, going on so` : "";
-  setText(byId("d-contact-when"), contact ? when : docking?.side ? "none while she goes on so" : "");
+  const when = known(contact?.in_s) ? t("contact_in", { time: duration(contact.in_s), sigma: sigma(contact.sigma_in_s, contact.sigma_in_s < 9.5 ? 1 : 0) }) : "";
+  setText(byId("d-contact-when"), contact ? when : docking?.side ? t("contact_none") : "");
   const limit = docking?.contact_speed_limit_mps;
   byId("d-contact").classList.toggle("fast", known(limit) && known(contact?.speed_mps) && contact.speed_mps > limit);
   show(byId("d-manifold"), Boolean(docking?.manifold));
   const { above_m: above, sigma_above_m: aboveSure } = docking?.manifold ?? {};
-  setText(byId("d-above"), known(above) ? `${fixed(above, 1)} ${sigma(aboveSure, 1)} m above it` : "");
+  setText(byId("d-above"), known(above) ? t("above_it", { height: fixed(above, 1), sigma: sigma(aboveSure, 1) }) : "");
   const place = docking?.manifold?.place_m;
-  setText(byId("d-place"), known(place) ? `${fixed(place, 1)} m along quay` : "");
+  setText(byId("d-place"), known(place) ? t("along_m", { n: fixed(place, 1) }) : "");
 }
 
 export function docking(data) {

@@ -50,12 +50,12 @@ function fillCell(row, column, cell) {
   const { text = DASH, cls = "", sub, title } = typeof cell === "object" && cell ? cell : { text: cell };
   let node = row.cells[column];
   if (!node) {
-    // on a phone each cell stands in a line of its own, with the heading of its column
-    const heading = row.closest("table").tHead.rows[0].cells[column]?.textContent ?? "";
-    node = column === 0 ? make("th", { scope: "row" }) : make("td", { "data-head": heading });
+    node = column === 0 ? make("th", { scope: "row" }) : make("td");
     node.append(make("span"));
     row.append(node);
   }
+  // on a phone each cell stands in a line of its own, with the heading of its column
+  if (column > 0) setAttr(node, "data-head", row.closest("table").tHead.rows[0].cells[column]?.textContent ?? "");
   setText(node.firstChild, String(text));
   setClass(node, cls);
   if (sub !== undefined) {
@@ -114,6 +114,9 @@ export function recall(store, name) {
 export function keep(store, name, value) {
   try { window[store].setItem(name, value); } catch { /* then it is forgotten with the page */ }
 }
+
+// The letters of the page, for a canvas.
+export const lettering = (pixels) => `${pixels}px ${getComputedStyle(document.body).fontFamily}`;
 
 // A colour of the theme.
 export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();

@@ -1,5 +1,7 @@
 // Values as text. What is unknown is a dash, never a zero.
 
+import { said, t, word } from "./texts.js";
+
 export const DASH = "–";
 
 export const known = (value) => typeof value === "number" && Number.isFinite(value);
@@ -54,10 +56,10 @@ export function duration(seconds) {
   if (!known(seconds)) return DASH;
   const s = Math.max(0, Math.floor(seconds));
   const [d, h, m] = [Math.floor(s / 86400), Math.floor(s / 3600) % 24, Math.floor(s / 60) % 60];
-  if (d > 0) return `${d} d ${h} h`;
-  if (h > 0) return `${h} h ${String(m).padStart(2, "0")} min`;
-  if (m > 0) return `${m} min ${String(s % 60).padStart(2, "0")} s`;
-  return `${s} s`;
+  if (d > 0) return t("days", { d, h });
+  if (h > 0) return t("hours", { h, m: String(m).padStart(2, "0") });
+  if (m > 0) return t("minutes", { m, s: String(s % 60).padStart(2, "0") });
+  return t("seconds", { s });
 }
 
 export function age(seconds) {
@@ -85,7 +87,7 @@ export function rate(value) {
 
 export const percent = (part) => (known(part) ? `${fixed(part * 100, part < 0.1 ? 1 : 0)} %` : DASH);
 
-export const words = (text) => (text ? String(text).replaceAll("_", " ") : DASH);
+export const words = (code) => (code ? word(code) : DASH);
 
 // UTC is told as of RFC 3339: it is cut, not reckoned with
 export const clock = (utc) => (utc ? utc.slice(11, 19) : DASH);
@@ -102,7 +104,7 @@ const plain = (value) => (value === null || value === undefined || value === "" 
 
 // the formats that the page names in data-as
 export const formats = {
-  plain, lat, lon, metres, berth, duration, bytes, count, words, date, datetime, smalltime,
+  plain, said: (text) => said(text) || DASH, lat, lon, metres, berth, duration, bytes, count, words, date, datetime, smalltime,
   bearing: (value) => bearing(value), bearing0: (value) => bearing(value, 0),
   fixed0: (v) => fixed(v, 0), fixed1: (v) => fixed(v, 1), fixed2: (v) => fixed(v, 2), fixed3: (v) => fixed(v, 3),
   signed1: (v) => signed(v, 1), signed2: (v) => signed(v, 2),

@@ -2,6 +2,7 @@
 
 import { svg, setAttr, setText, setClass, show, byId } from "./dom.js";
 import { bearing, duration, fixed, signed, known, sigma, words, DASH } from "./format.js";
+import { said, t } from "./texts.js";
 
 const RAD = Math.PI / 180;
 const point = (radius, degrees) => [radius * Math.sin(degrees * RAD), -radius * Math.cos(degrees * RAD)];
@@ -34,7 +35,7 @@ export function rose(root) {
   svg(root, "path", { d: "M0 -105 7 -119 -7 -119Z", class: "lubber" });
   const value = svg(root, "text", { y: 8, class: "big" }, DASH);
   const doubtText = svg(root, "text", { y: 32, class: "doubt-text" }, "");
-  const label = svg(root, "text", { y: -28, class: "label" }, "HEADING T");
+  const label = svg(root, "text", { y: -28, class: "label" }, "");
 
   return (motion) => {
     const { heading_deg: heading, sigma_heading_deg: sure, course_deg: track } = motion ?? {};
@@ -49,15 +50,15 @@ export function rose(root) {
     if (known(track)) setAttr(course, "transform", `rotate(${track.toFixed(2)})`);
     const isValid = motion?.heading_quality !== "not_valid";
     setClass(value, isValid ? "big" : "big not-valid");
-    setText(label, isValid ? "HEADING T" : "NOT VALID");
+    setText(label, t(isValid ? "heading_true" : "heading_not_valid"));
   };
 }
 
 // What may be trusted of the motion. A value that is not valid is never large: style.css looks for these.
 export function qualities(motion) {
   const { heading_quality: heading, position_quality: position, velocity_quality: velocity, level_quality: level } = motion ?? {};
-  const old = motion?.freshness === "old" ? "old, " : "";
-  const tell = (quality) => (quality ? old + words(quality) : "");
+  const isOld = motion?.freshness === "old";
+  const tell = (quality) => (!quality ? "" : isOld ? t("old", { quality: words(quality) }) : words(quality));
   for (const [id, quality] of [["heading-quality", heading], ["position-quality", position], ["level-quality", level === "not_valid" ? level : ""]]) {
     setText(byId(id), tell(quality));
   }
@@ -71,8 +72,8 @@ export function qualities(motion) {
 export function source(motion) {
   const own = motion?.source;
   show(byId("source"), Boolean(own));
-  const since = known(own?.since_s) ? ` for ${duration(own.since_s)}` : "";
-  setText(byId("source-why"), `${since}${own?.reason ? `: ${own.reason}` : ""}`);
+  const since = known(own?.since_s) ? t("source_for", { time: duration(own.since_s) }) : "";
+  setText(byId("source-why"), own?.reason ? t("source_because", { since, reason: said(own.reason) }) : since);
 }
 
 // Pixels of a degree of pitch.
@@ -145,7 +146,7 @@ export function turn(root) {
 
 // What instruments say to those who cannot see them; once a second is enough.
 export function speak(motion) {
-  setAttr(byId("rose"), "aria-label", `Heading ${bearing(motion?.heading_deg)} degrees, plus or minus ${fixed(motion?.sigma_heading_deg, 3)}`);
-  setAttr(byId("horizon"), "aria-label", `Roll ${signed(motion?.roll_deg, 1)}, pitch ${signed(motion?.pitch_deg, 1)} degrees`);
-  setAttr(byId("turn"), "aria-label", `Rate of turn ${signed(motion?.rate_of_turn_deg_min, 1)} degrees a minute`);
+  setAttr(byId("rose"), "aria-label", t("say_heading", { heading: bearing(motion?.heading_deg), sigma: fixed(motion?.sigma_heading_deg, 3) }));
+  setAttr(byId("horizon"), "aria-label", t("say_level", { roll: signed(motion?.roll_deg, 1), pitch: signed(motion?.pitch_deg, 1) }));
+  setAttr(byId("turn"), "aria-label", t("say_turn", { rate: signed(motion?.rate_of_turn_deg_min, 1) }));
 }

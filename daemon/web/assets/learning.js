@@ -3,6 +3,7 @@
 import { byId, make, setAttr, setText, show } from "./dom.js";
 import { fixed, known } from "./format.js";
 import { give, mayChange } from "./alerts.js";
+import { said, t } from "./texts.js";
 
 let allowed = true;
 let shown = "";
@@ -15,10 +16,10 @@ export function startLearning() {
 }
 
 function used(own) {
-  if (!own.may_be_used) return "not used: switched off";
-  const parts = [[own.uses_log, "log"], [own.uses_current, "current"], [own.uses_temperature, "temperature of the IMU"]];
+  if (!own.may_be_used) return t("learning_off");
+  const parts = [[own.uses_log, t("learning_log")], [own.uses_current, t("learning_current")], [own.uses_temperature, t("learning_temperature")]];
   const told = parts.filter(([is]) => is).map(([, name]) => name);
-  return told.length ? `used: ${told.join(", ")}` : "not used yet";
+  return told.length ? t("learning_used", { what: told.join(", ") }) : t("learning_not_yet");
 }
 
 export function learning(data) {
@@ -27,12 +28,12 @@ export function learning(data) {
   show(byId("learning-switch"), Boolean(own));
   setText(byId("learning-use"), own ? used(own) : "");
   allowed = own?.may_be_used ?? true;
-  setText(byId("learning-switch"), allowed ? "Do not use" : "Use");
+  setText(byId("learning-switch"), t(allowed ? "learning_stop" : "learning_start"));
   byId("learning-switch").disabled = !mayChange();
-  setAttr(byId("learning-switch"), "title", mayChange() ? "" : "A token is needed: type it in below the alerts");
+  setAttr(byId("learning-switch"), "title", mayChange() ? "" : t("token_missing"));
   const outage = known(own?.outage_m) && known(own?.outage_without_m);
-  setText(byId("learning-outage"), outage ? `If GNSS failed now: ${fixed(own.outage_m, 0)} m in 5 min, without learning ${fixed(own.outage_without_m, 0)}.` : "");
-  const told = own?.words ?? [];
+  setText(byId("learning-outage"), outage ? t("learning_outage", { with: fixed(own.outage_m, 0), without: fixed(own.outage_without_m, 0) }) : "");
+  const told = (own?.words ?? []).map(said);
   if (told.join("\n") === shown) return;
   shown = told.join("\n");
   byId("learning-words").replaceChildren(...told.map((line) => make("li", {}, line)));

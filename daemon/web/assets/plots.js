@@ -1,7 +1,8 @@
 // Lines over time and over frequency.
 
-import { fitted, colour } from "./dom.js";
+import { fitted, colour, lettering } from "./dom.js";
 import { known } from "./format.js";
+import { word, t } from "./texts.js";
 
 // What is plotted: ten minutes at one a second.
 const SPAN = 600;
@@ -57,7 +58,7 @@ const decimals = (step) => Math.max(0, Math.min(6, Math.ceil(-Math.log10(step) -
 
 function frame(context, width, height) {
   const box = { left: 44, right: width - 16, top: 6, bottom: height - 18 };
-  context.font = "11px system-ui, sans-serif";
+  context.font = lettering(11);
   context.lineWidth = 1;
   context.fillStyle = colour("dim");
   context.strokeStyle = colour("grid");
@@ -106,7 +107,7 @@ function curve(context, box, points, x, y) {
 function minutes(context, box, x, now, span = SPAN) {
   const step = (box.right - box.left < 300 ? 5 : 2) * (span / SPAN);
   for (let minute = 0; minute <= span / 60; minute += step) {
-    column(context, box, x(now - minute * 60), minute === 0 ? "now" : `−${minute} min`);
+    column(context, box, x(now - minute * 60), minute === 0 ? t("now_plot") : t("minutes_ago", { m: minute }));
   }
 }
 
@@ -188,6 +189,6 @@ export function spectrum(canvas, axes) {
     curve(context, box, axis.model, x, y);
     context.fillStyle = context.strokeStyle;
     context.textAlign = "right";
-    context.fillText(`${axis.name}`, box.right - 4, box.top + 14 + 14 * index);
+    context.fillText(word(axis.name), box.right - 4, box.top + 14 + 14 * index);
   });
 }

@@ -2,6 +2,7 @@
 
 import { byId, fill, make, right, setAttr, setText, show, svg } from "./dom.js";
 import { DASH, bearing, count, duration, fixed, known, words } from "./format.js";
+import { said, t } from "./texts.js";
 
 const RAD = Math.PI / 180;
 // radius of the horizon in the picture
@@ -15,21 +16,19 @@ const circle = (r) => `M${-r} 0a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 
 
 // What becomes of a satellite: a shape of its own, words and a tone. Those that are used come last.
 const FATES = {
-  left_out: { line: "M-5.5 -5.5H5.5V5.5H-5.5ZM-5.5 -5.5L5.5 5.5M5.5 -5.5L-5.5 5.5", text: "left out", tone: "bad" },
-  refused: { line: `${circle(5)}M-3.5 3.5L3.5 -3.5`, text: "not usable", tone: "calm" },
-  crowded: { line: "M0 -6L6 5H-6Z", text: "not needed", tone: "calm" },
-  waiting: { line: circle(5), text: "not used yet", tone: "calm" },
-  code_only: { solid: "M0 -5.5A5.5 5.5 0 0 0 0 5.5Z", line: circle(5.5), text: "code only", tone: "busy" },
-  used: { solid: circle(5.5), line: circle(5.5), text: "used", tone: "good" },
+  left_out: { line: "M-5.5 -5.5H5.5V5.5H-5.5ZM-5.5 -5.5L5.5 5.5M5.5 -5.5L-5.5 5.5", text: "fate_left_out", tone: "bad" },
+  refused: { line: `${circle(5)}M-3.5 3.5L3.5 -3.5`, text: "fate_refused", tone: "calm" },
+  crowded: { line: "M0 -6L6 5H-6Z", text: "fate_crowded", tone: "calm" },
+  waiting: { line: circle(5), text: "fate_waiting", tone: "calm" },
+  code_only: { solid: "M0 -5.5A5.5 5.5 0 0 0 0 5.5Z", line: circle(5.5), text: "fate_code_only", tone: "busy" },
+  used: { solid: circle(5.5), line: circle(5.5), text: "fate_used", tone: "good" },
 };
 const ORDER = Object.keys(FATES);
 const fateOf = (satellite) => (satellite.fate in FATES ? satellite.fate : "waiting");
 const byFate = (satellites) => [...satellites].sort((a, b) => ORDER.indexOf(fateOf(a)) - ORDER.indexOf(fateOf(b)));
 
 const WHY_NOT = {
-  fixes_only: "The receiver sends fixes only: nothing is known of single satellites.",
-  silent: "What the receiver measures of each satellite is not told any more.",
-  no_receiver: "No satellite receiver is heard.",
+  fixes_only: "sky_fixes_only", silent: "sky_silent", no_receiver: "sky_no_receiver",
 };
 
 function mark(parent, fate) {
@@ -93,7 +92,7 @@ function plot(root) {
   const bow = svg(root, "path", { d: `M0 ${-HORIZON} 6 ${-HORIZON - 9} -6 ${-HORIZON - 9}Z`, class: "lubber" });
   const all = svg(root, "g");
   let shown = "";
-  return (satellites, heading) => {
+  const draw = (satellites, heading) => {
     setAttr(bow, "visibility", known(heading) ? "visible" : "hidden");
     if (known(heading)) setAttr(bow, "transform", `rotate(${heading.toFixed(1)})`);
     // those that are used are drawn last, above the others
@@ -111,10 +110,11 @@ function plot(root) {
       const fate = fateOf(satellite);
       const group = mark(all, fate);
       setAttr(group, "transform", `translate(${at.x.toFixed(1)} ${at.y.toFixed(1)}) scale(${scale})`);
-      svg(group, "title", {}, `${satellite.name}: ${FATES[fate].text}`);
+      svg(group, "title", {}, `${satellite.name}: ${t(FATES[fate].text)}`);
       svg(all, "text", { x: names[k].x.toFixed(1), y: (names[k].y + letters * 0.36).toFixed(1), class: `sat-name ${fate}`, "font-size": letters }, satellite.name);
     });
   };
+  return { draw, again: () => { shown = ""; } };
 }
 
 const strengths = (satellite) =>
@@ -131,7 +131,7 @@ function column(satellite) {
     return bar;
   });
   const most = levels.filter(known).length > 0 ? Math.max(...levels.filter(known)) : null;
-  return make("li", { class: `cn0 ${fate}`, title: `${satellite.name}: ${strengths(satellite)} dB Hz, ${FATES[fate].text}` },
+  return make("li", { class: `cn0 ${fate}`, title: `${satellite.name}: ${strengths(satellite)} dB Hz, ${t(FATES[fate].text)}` },
     make("span", { class: "num" }, fixed(most, 0)), make("span", { class: "cn0-bars" }, ...bars), icon(fate), make("span", {}, satellite.name));
 }
 
@@ -139,22 +139,28 @@ function row(satellite) {
   const fate = FATES[fateOf(satellite)];
   return [
     { text: satellite.name, title: satellite.system },
-    { text: fate.text, cls: `state ${fate.tone}`, sub: known(satellite.left_out_for_s) ? `for ${duration(satellite.left_out_for_s)}` : "" },
+    { text: t(fate.text), cls: `state ${fate.tone}`, sub: known(satellite.left_out_for_s) ? t("sky_for", { time: duration(satellite.left_out_for_s) }) : "" },
     right(fixed(satellite.elevation_deg, 0)), right(bearing(satellite.azimuth_deg, 0)),
-    { text: strengths(satellite), cls: "num" }, { text: satellite.text ?? DASH, cls: "wrap" },
+    { text: strengths(satellite), cls: "num" }, { text: said(satellite.text) || DASH, cls: "wrap" },
   ];
 }
 
 function legend() {
-  const items = Object.entries(FATES).reverse().map(([fate, { text }]) => make("li", {}, icon(fate), text));
+  const items = Object.entries(FATES).reverse().map(([fate, { text }]) => make("li", {}, icon(fate), t(text)));
   const bow = make("span", { class: "sat-icon" });
   svg(svg(bow, "svg", { viewBox: "-8 -8 16 16", "aria-hidden": "true" }), "path", { d: "M0 5 6 -4 -6 -4Z", class: "lubber" });
-  byId("sky-legend").replaceChildren(...items, make("li", {}, bow, "her bow"));
+  byId("sky-legend").replaceChildren(...items, make("li", {}, bow, t("her_bow")));
 }
 
 const picture = plot(byId("sky-plot"));
-legend();
 let columns = "";
+
+// Another language is shown: what is drawn once is drawn again.
+export function relabel() {
+  legend();
+  columns = "";
+  picture.again();
+}
 
 export function sky(data) {
   const { state, used, satellites = [], refused = [] } = data.sky ?? {};
@@ -162,17 +168,17 @@ export function sky(data) {
   for (const id of ["sky-box", "signals-card"]) show(byId(id), isTold && satellites.length > 0);
   show(byId("no-sky"), !isTold || satellites.length === 0);
   byId("sky-card").classList.toggle("without", byId("sky-box").hidden);
-  setText(byId("no-sky"), isTold ? "The receiver hears no satellite." : WHY_NOT[state] ?? "Nothing is known of the satellites.");
-  const tally = isTold ? `${count(used)} of ${satellites.length} used` : "";
+  setText(byId("no-sky"), t(isTold ? "sky_empty" : WHY_NOT[state] ?? "sky_unknown"));
+  const tally = isTold ? t("sky_tally", { used: count(used), all: satellites.length }) : "";
   setText(byId("sky-tally"), tally);
-  setAttr(byId("sky-plot"), "aria-label", `Sky: ${tally || "not known"}`);
-  picture(satellites, data.motion?.heading_deg);
+  setAttr(byId("sky-plot"), "aria-label", tally ? t("sky_spoken", { tally }) : t("sky_spoken_unknown"));
+  picture.draw(satellites, data.motion?.heading_deg);
   const elsewhere = satellites.filter((satellite) => !spot(satellite)).map((satellite) => satellite.name);
-  setText(byId("sky-elsewhere"), elsewhere.length > 0 ? `Not in the picture, as no orbit of theirs holds: ${elsewhere.join(", ")}` : "");
+  setText(byId("sky-elsewhere"), elsewhere.length > 0 ? t("sky_elsewhere", { names: elsewhere.join(", ") }) : "");
   const key = JSON.stringify(satellites.map(({ name, fate, signals }) => [name, fate, signals]));
   if (key !== columns) byId("cn0").replaceChildren(...satellites.map(column));
   columns = key;
   fill(byId("sky-table"), byFate(satellites).map(row));
   const since = refused.filter((cause) => cause.count > 0).map((cause) => `${words(cause.reason)} ${count(cause.count)}`).join(", ");
-  setText(byId("sky-refused"), since ? `Not usable since the start, one counted in each epoch: ${since}` : "");
+  setText(byId("sky-refused"), since ? t("sky_refused", { causes: since }) : "");
 }

@@ -1,5 +1,7 @@
 // The data as they come: server-sent events, and what to do when they do not.
 
+import { said, t } from "./texts.js";
+
 // Pause before another attempt where the browser has given up, ms.
 const PAUSE = 1500;
 
@@ -43,7 +45,7 @@ export async function order(path, token, body) {
     headers: { "Authorization": `Bearer ${token}`, "Content-Type": "application/json" },
     body: JSON.stringify(body),
   });
-  if (answer.ok) return { done: true, text: "done" };
-  const fault = await answer.json().catch(() => ({ error: `refused (${answer.status})` }));
-  return { done: false, text: fault.error };
+  if (answer.ok) return { done: true, text: t("done") };
+  const fault = await answer.json().catch(() => ({ error: t("refused", { status: answer.status }) }));
+  return { done: false, text: said(fault.error) };
 }

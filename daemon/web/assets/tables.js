@@ -2,6 +2,7 @@
 
 import { byId, fill, right, bad, setText, setClass, show, make } from "./dom.js";
 import { DASH, age, bytes, clock, count, fixed, known, percent, rate, bearing, words } from "./format.js";
+import { said, t } from "./texts.js";
 
 const SENSOR_TONES = { valid: "good", received: "calm", waiting: "calm", rejected: "bad", silent: "bad" };
 const PORT_TONES = { open: "good", waiting: "calm", ended: "calm", silent: "warn", absent: "bad", lost: "bad" };
@@ -12,13 +13,16 @@ const state = (word, tones) => ({ text: words(word), cls: `state ${tones[word] ?
 const causes = (list) =>
   (list ?? []).filter((cause) => cause.count > 0).map((cause) => `${words(cause.reason)} ${count(cause.count)}`).join(", ");
 
+// What an IMU measures is no mode of navigation.
+const quantity = (code) => (code === "inertial" ? t("quantity_inertial") : words(code));
+
 function says(sensor) {
   const parts = [
-    sensor.fix,
-    known(sensor.satellites) ? `${sensor.satellites} satellites` : null,
-    sensor.status?.join(", ") || (sensor.status_word ? `status 0x${sensor.status_word.toString(16).toUpperCase().padStart(4, "0")}` : null),
+    said(sensor.fix),
+    known(sensor.satellites) ? t("satellites_n", { n: sensor.satellites }) : null,
+    sensor.status?.map(said).join(", ") || (sensor.status_word ? t("status_word", { word: sensor.status_word.toString(16).toUpperCase().padStart(4, "0") }) : null),
     known(sensor.temperature_c) ? `${fixed(sensor.temperature_c, 1)} °C` : null,
-    sensor.device,
+    said(sensor.device),
   ];
   return parts.filter(Boolean).join(" · ") || DASH;
 }
@@ -28,9 +32,9 @@ const lost = (choice) => !choice.sensor && Boolean(choice.why);
 
 export function sensors(data) {
   fill(byId("sensor-table"), data.sensors.map((sensor) => [
-    { text: sensor.name, sub: `${words(sensor.kind)} on ${sensor.port}` },
+    { text: sensor.name, sub: t("on_port", { kind: words(sensor.kind), port: sensor.port }) },
     state(sensor.state, SENSOR_TONES),
-    { text: sensor.used_for.map(words).join(", ") || DASH, sub: sensor.why ? words(sensor.why) : "" },
+    { text: sensor.used_for.map(quantity).join(", ") || DASH, sub: sensor.why ? words(sensor.why) : "" },
     right(rate(sensor.rate_hz)),
     right(age(sensor.age_s), sensor.state === "silent" ? "is-bad" : ""),
     says(sensor),
@@ -39,8 +43,10 @@ export function sensors(data) {
     { text: causes(sensor.refused) || DASH, cls: "wrap" },
   ]));
   const list = byId("choices");
-  const lines = data.choices.map((choice) =>
-    `${words(choice.quantity)}: ${choice.sensor ?? "none"}${choice.sensor || lost(choice) ? (choice.why ? ` (${words(choice.why)})` : "") : ""}`);
+  const lines = data.choices.map((choice) => {
+    const values = { quantity: quantity(choice.quantity), sensor: choice.sensor ?? t("none"), why: words(choice.why) };
+    return t(choice.why && (choice.sensor || lost(choice)) ? "choice_why" : "choice", values);
+  });
   while (list.children.length > lines.length) list.lastChild.remove();
   lines.forEach((line, k) => {
     if (!list.children[k]) list.append(make("li"));
@@ -52,7 +58,7 @@ export function sensors(data) {
 export function watched(data) {
   const all = data.watched ?? [];
   const told = (one, name) => (known(one[`${name}_m`]) ? `${fixed(one[`${name}_m`], 0)} m` : `${fixed(one[`${name}_deg`], 2)}°`);
-  const verdict = (one) => (one.differs ? (one.wrong ? `${one.wrong} is wrong` : "differ, not known who is wrong") : "within its limit");
+  const verdict = (one) => (!one.differs ? t("within") : one.wrong ? t("is_wrong", { name: one.wrong }) : t("differ_unknown"));
   fill(byId("watch-table"), all.map((one) => [
     one.sensor, one.against ?? "insd", words(one.quantity),
     right(told(one, "difference"), one.differs ? "is-bad" : ""), right(told(one, "sigma")), right(told(one, "limit")),
@@ -67,16 +73,16 @@ export function ports(data) {
     state(port.state, PORT_TONES),
     right(rate(port.rate_bytes_s)), right(age(port.age_s)), right(bytes(port.bytes)), right(count(port.frames)),
     bad(port.damaged), bad(port.skipped_bytes), bad(port.overrun_bytes), bad(port.refused), bad(port.reopened),
-    { text: port.last_error ?? DASH, cls: "wrap" },
+    { text: said(port.last_error) || DASH, cls: "wrap" },
   ]));
   fill(byId("outputs"), data.outputs.map(output));
   const { epochs, late, skipped } = data.schedule;
-  setText(byId("schedule"), !known(epochs) ? "" : `${count(epochs)} epochs, ${count(late)} late by more than 1 ms, ${count(skipped)} skipped`);
+  setText(byId("schedule"), !known(epochs) ? "" : t("schedule", { epochs: count(epochs), late: count(late), skipped: count(skipped) }));
   show(byId("bus-card"), data.buses.length > 0);
   fill(byId("buses"), data.buses.map((bus) => [
     bus.port, state(bus.state, BUS_TONES), right(percent(bus.load)), right(rate(bus.rate_hz)),
     bad(bus.errors), bad(bus.offs), bad(bus.dropped),
-    bus.node_state ? { text: `${words(bus.node_state)}, address ${bus.address ?? DASH}`, sub: bus.name ?? "" } : DASH,
+    bus.node_state ? { text: t("address", { state: words(bus.node_state), address: bus.address ?? DASH }), sub: bus.name ?? "" } : DASH,
     { text: bus.nodes.map((node) => `${node.address}: ${node.name}`).join(", ") || DASH, cls: "wrap" },
   ]));
 }
@@ -86,10 +92,10 @@ function output(port) {
   const ms = (value) => right(known(value) ? fixed(value, value < 10 ? 2 : 0) : DASH);
   const names = port.messages.map((message) => `${message.name}${known(message.rate_hz) ? ` ${Number(message.rate_hz.toPrecision(3))} Hz` : ""}`);
   const details = port.messages.map((message) =>
-    `${message.name}: ${message.sent} sent, ${message.dropped} dropped, p99 ${fixed(message.age_ms?.p99, 1)} ms`);
+    t("message_details", { name: message.name, sent: message.sent, dropped: message.dropped, p99: fixed(message.age_ms?.p99, 1) }));
   return [
-    { text: port.name, sub: `${port.transport} · ${port.what}${port.point ? ` · at ${port.point}` : ""}` },
-    { ...state(port.state, PORT_TONES), sub: port.last_error ?? "" },
+    { text: port.name, sub: `${port.transport} · ${port.what}${port.point ? ` · ${t("at_point", { point: port.point })}` : ""}` },
+    { ...state(port.state, PORT_TONES), sub: said(port.last_error) },
     right(rate(port.rate_bytes_s)),
     right(percent(load), load > 0.9 ? "is-bad" : ""),
     right(count(port.sent)), bad(port.dropped), right(count(port.waiting)),
@@ -109,13 +115,13 @@ function gauge(value) {
 export function measurements(data) {
   fill(byId("aids"), data.aids.map((aid) => [
     words(aid.name),
-    aid.in_use ? { text: "used", cls: "state good" } : { text: "not used", cls: "state warn" },
+    aid.in_use ? { text: t("in_use_yes"), cls: "state good" } : { text: t("in_use_no"), cls: "state warn" },
     right(age(aid.age_s)), right(count(aid.accepted)), bad(aid.rejected),
     gauge(aid.last_normalised_innovation),
     { text: causes(aid.reasons) || DASH, cls: "wrap" },
   ]));
   const { used, gaps, duplicates, out_of_order: late, out_of_range: wild } = data.samples;
-  setText(byId("samples"), known(used) ? `IMU: ${count(used)} samples, ${gaps} gaps, ${duplicates + late + wild} refused` : "");
+  setText(byId("samples"), known(used) ? t("samples", { used: count(used), gaps, refused: duplicates + late + wild }) : "");
   const newest = [...data.rejections].reverse();
   fill(byId("rejections"), newest.map((one) => [
     one.utc ? clock(one.utc) + one.utc.slice(19, 21) : `${fixed(one.at_s, 1)} s`, one.source, words(one.aid), words(one.reason),
@@ -129,38 +135,41 @@ export function system(data) {
   const engines = data.engines.map((engine) => [
     engine.name, words(engine.mode), right(bearing(engine.heading_deg, 2)), right(fixed(engine.sigma_heading_deg, 3)),
     engine.differs.length > 0
-      ? { text: `differs: ${engine.differs.map(words).join(", ")}`, cls: "state bad" }
-      : { text: engine.in_use ? "in use" : engine.healthy ? "in reserve" : "left out", cls: `state ${engine.in_use ? "good" : "calm"}` },
+      ? { text: t("differs", { what: engine.differs.map(words).join(", ") }), cls: "state bad" }
+      : { text: t(engine.in_use ? "engine_in_use" : engine.healthy ? "engine_reserve" : "engine_out"), cls: `state ${engine.in_use ? "good" : "calm"}` },
   ]);
   fill(byId("engines"), engines);
   const recording = data.recording;
   const node = byId("recording-state");
-  setText(node, recording ? `${words(recording.state)}${recording.last_error ? `: ${recording.last_error}` : ""}` : "off");
+  setText(node, recording ? `${words(recording.state)}${recording.last_error ? `: ${recording.last_error}` : ""}` : t("off"));
   setClass(node, recording?.state === "failing" ? "is-bad" : "");
   estimates(data.estimates);
   standings(data.standings ?? []);
   installation(data.installation ?? []);
   fill(byId("events"), [...data.events].reverse().map((event) => [
-    event.utc ? clock(event.utc) : `${fixed(event.at_s, 1)} s`, state(event.severity, SEVERITIES), { text: event.text, cls: "wrap" },
+    event.utc ? clock(event.utc) : `${fixed(event.at_s, 1)} s`, state(event.severity, SEVERITIES), { text: said(event.text), cls: "wrap" },
   ]));
 }
 
-const AXES = ["forward", "starboard", "down"];
+const AXES = ["axis_forward", "axis_starboard", "axis_down"];
 
 const STANDINGS = { doubtful: "is-bad", excluded: "is-bad" };
-const PARTIES = { gnss: "GNSS", gnss2: "second GNSS", gnss3: "third GNSS", log: "log", heading: "compass", reference: "second position", imu: "IMU" };
+const PARTIES = {
+  gnss: "party_gnss", gnss2: "party_gnss2", gnss3: "party_gnss3", log: "party_log", heading: "party_heading", reference: "party_reference",
+  imu: "party_imu", antennas: "party_antennas", docking: "party_docking",
+};
 
 function standings(all) {
   const list = byId("standings");
-  const key = JSON.stringify(all);
+  const key = JSON.stringify([t("believed"), all]);
   if (list.dataset.shown === key) return;
   list.dataset.shown = key;
   list.replaceChildren(...all.map((one) => {
     const item = document.createElement("li");
     item.className = STANDINGS[one.standing] ?? "";
-    const told = one.standing === "trusted" && !one.text ? "believed" : one.text;
-    const advice = one.advice ? ` ${one.advice}` : "";
-    item.textContent = `${PARTIES[one.name] ?? one.name}: ${told}.${advice}`;
+    const told = one.standing === "trusted" && !one.text ? t("believed") : said(one.text);
+    const advice = one.advice ? ` ${said(one.advice)}` : "";
+    item.textContent = t("standing", { who: one.name in PARTIES ? t(PARTIES[one.name]) : one.name, what: told, advice });
     return item;
   }));
   show(byId("believed"), all.some((one) => one.standing !== "trusted"));
@@ -168,12 +177,12 @@ function standings(all) {
 
 function installation(findings) {
   const list = byId("findings");
-  const key = JSON.stringify(findings);
+  const key = JSON.stringify(findings.map((found) => said(found.text)));
   if (list.dataset.shown === key) return;
   list.dataset.shown = key;
   list.replaceChildren(...findings.map((found) => {
     const item = document.createElement("li");
-    item.textContent = found.text;
+    item.textContent = said(found.text);
     return item;
   }));
   show(byId("found"), findings.length > 0);
@@ -184,12 +193,12 @@ function estimates(found) {
   const add = (what, estimate, unit, digits) => {
     if (estimate) rows.push([what, right(fixed(estimate.value, digits)), right(fixed(estimate.sigma, digits)), unit]);
   };
-  found?.gyro_bias_deg_h.forEach((one, k) => add(`gyro bias ${AXES[k]}`, one, "°/h", 4));
-  found?.accel_bias_ug.forEach((one, k) => add(`accelerometer bias ${AXES[k]}`, one, "µg", 0));
-  add("scale of the log", found?.log_scale_ppm, "ppm", 0);
-  add("misalignment of the log", found?.log_misalignment_deg, "°", 2);
-  found?.gnss_lever_m.forEach((one, k) => add(`GNSS lever arm ${AXES[k]}`, one, "m", 2));
-  add("delay of the GNSS", found?.gnss_delay_s, "s", 3);
-  add("course less heading", found?.course_less_heading_deg, "°", 1);
+  found?.gyro_bias_deg_h.forEach((one, k) => add(t("gyro_bias", { axis: t(AXES[k]) }), one, "°/h", 4));
+  found?.accel_bias_ug.forEach((one, k) => add(t("accel_bias", { axis: t(AXES[k]) }), one, "µg", 0));
+  add(t("log_scale"), found?.log_scale_ppm, "ppm", 0);
+  add(t("log_misalignment"), found?.log_misalignment_deg, "°", 2);
+  found?.gnss_lever_m.forEach((one, k) => add(t("gnss_lever", { axis: t(AXES[k]) }), one, "m", 2));
+  add(t("gnss_delay"), found?.gnss_delay_s, "s", 3);
+  add(t("course_less_heading"), found?.course_less_heading_deg, "°", 1);
   fill(byId("estimates"), rows);
 }

@@ -2,6 +2,8 @@
 
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
 
+use insd_languages::Language;
+
 /// Fewest characters of a token.
 pub const MIN_TOKEN: usize = 16;
 
@@ -30,6 +32,8 @@ pub struct WebConfig {
     pub max_clients: usize,
     /// Most connections of one address at a time, likewise. Behind a reverse proxy all have one address.
     pub max_per_address: usize,
+    /// The language of who has not chosen one on the page.
+    pub language: Language,
 }
 
 impl Default for WebConfig {
@@ -41,6 +45,7 @@ impl Default for WebConfig {
             allowed_hosts: Vec::new(),
             max_clients: 600,
             max_per_address: 16,
+            language: Language::default(),
         }
     }
 }

@@ -6,12 +6,13 @@
 mod house;
 mod scene;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead, BufReader, Write};
 use std::net::SocketAddr;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use insd_languages::Language;
 use insd_web::snapshot::{SensorState, ShownAlertState, Snapshot};
 use insd_web::{Listen, WebConfig, WebError};
 
@@ -281,6 +282,23 @@ fn with_a_token_that_could_be_guessed_the_page_is_read_only_and_says_why() {
     assert!(house.get("/api/v1/orders").contains(why));
     let answer = house.post("/api/v1/log-level", Some(short), "{\"level\":\"info\"}");
     assert!(answer.starts_with("HTTP/1.1 403") && answer.contains(why), "{answer}");
+}
+
+#[test]
+fn the_texts_of_each_language_are_there_and_the_interface_speaks_english() {
+    let house = House::open(WebConfig { language: Language::Japanese, ..WebConfig::default() });
+    let told: Value = serde_json::from_str(body(&house.get("/api/v1/texts"))).unwrap();
+    assert_eq!(told["configured"], "ja");
+    assert_eq!(told["languages"][1]["name"], "日本語");
+    let keys = ["en", "ja"].map(|code| {
+        let texts = house.get(&format!("/api/v1/texts/{code}"));
+        let texts: BTreeMap<String, String> = serde_json::from_str(body(&texts)).unwrap();
+        texts.into_keys().collect::<Vec<_>>()
+    });
+    assert_eq!(keys[0], keys[1]);
+    assert!(keys[0].iter().all(|key| !key.starts_with("check.") && !key.starts_with("report.")));
+    assert!(house.get("/api/v1/texts/fr").starts_with("HTTP/1.1 404"));
+    assert!(house.get("/api/v1/status").contains("GNSS is used"));
 }
 
 #[test]

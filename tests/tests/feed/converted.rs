@@ -73,7 +73,7 @@ fn raw_messages_of_a_recording_become_files_of_its_voyage_which_sails_by_satelli
     assert_eq!(header["raw"]["rate_hz"].as_float(), Some(1.0));
     assert_eq!(header["raw"]["antennas_m"][0], header["lever_arms_m"]["gnss"]);
 
-    let page = VoyageReport::of_voyage(&voyage).unwrap().html();
+    let page = VoyageReport::of_voyage(&voyage).unwrap().html(insd_languages::Language::English);
     let row = |aid: &str| {
         let (_, rest) = page.split_once(&format!("<td>{aid}</td>")).unwrap();
         let digits = rest
@@ -100,7 +100,8 @@ fn a_voyage_has_no_raw_gnss_where_none_was_sent_or_the_ship_did_not_read_it() {
         let voyage = desk.path().join("voyage");
         assert_eq!(read_raw(&voyage, 1).unwrap(), None);
         assert!(!header(&voyage).contains_key("raw"));
-        let page = VoyageReport::of_voyage(&voyage).unwrap().html();
+        let page =
+            VoyageReport::of_voyage(&voyage).unwrap().html(insd_languages::Language::English);
         assert!(page.contains("GNSS position") && !page.contains("atellite code"));
         assert!(!page.contains("Satellites in use"));
     }

@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 
 use insd_base::{Input, PortState};
 use insd_lab::report::VoyageReport;
+use insd_languages::Language;
 use insd_simulator::{Scenario, simulate};
 use insd_tests::feed::{Encoding, noise};
 use insd_tests::recorded::{Recorded, alert};
@@ -98,7 +99,7 @@ fn eventful() -> &'static (TempDir, String) {
 }
 
 fn page(recording: &Path) -> String {
-    VoyageReport::of_recording(recording, None, 1).unwrap().html()
+    VoyageReport::of_recording(recording, None, 1).unwrap().html(Language::English)
 }
 
 fn file_of(folder: &Path) -> PathBuf {
@@ -222,4 +223,32 @@ fn a_recording_without_arrivals_is_refused() {
         assert!(fault.is::<insd_config::BadInput>(), "{fault:?}");
         assert!(fault.to_string().contains(words), "{fault}");
     }
+}
+
+/// English words in headings, heads of tables, captions and notes of a page.
+fn english_in_its_frame(page: &str) -> Vec<String> {
+    let framed = ["h2>", "h3>", "th>", "th ", "b>", "p class=\"note\"", "p class=\"unknown\""];
+    let texts = page.split('<').filter(|own| framed.iter().any(|tag| own.starts_with(tag)));
+    let texts = texts.filter_map(|own| Some(own.split_once('>')?.1));
+    let words = texts.flat_map(|text| text.split(|c: char| !c.is_ascii_lowercase()));
+    words.filter(|word| word.len() > 2).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_page_is_japanese_where_that_is_asked_for_and_holds_the_same() {
+    let (folder, english) = eventful();
+    let recording = folder.path().join("recording");
+    let report = VoyageReport::of_recording(&recording, None, 1).unwrap();
+    assert_eq!(report.language(), Language::English);
+    let japanese = report.html(Language::Japanese);
+    for text in ["<html lang=\"ja\">", "<h2>主要諸元</h2>", "装置異常", "測位", "不明"]
+    {
+        assert!(japanese.contains(text), "{text}");
+    }
+    for tag in ["<td", "<svg", "<rect", "<p", "<tr", "<path"] {
+        assert_eq!(japanese.matches(tag).count(), english.matches(tag).count(), "{tag}");
+    }
+    assert!(!english_in_its_frame(english).is_empty());
+    assert_eq!(english_in_its_frame(&japanese), Vec::<String>::new());
+    assert!(!japanese.contains("<img") && japanese.contains("&lt;img src=x"));
 }

@@ -24,7 +24,7 @@ const FILE_LIMIT: usize = 500;
 const FUNCTION_LIMIT: usize = 60;
 
 /// Crates without I/O, clock, thread, log or randomness.
-const PURE: [&str; 15] = [
+const PURE: [&str; 16] = [
     "insd-base",
     "insd-estimation",
     "insd-gnss",
@@ -40,6 +40,7 @@ const PURE: [&str; 15] = [
     "insd-vision",
     "insd-engine",
     "insd-vessel",
+    "insd-languages",
 ];
 
 /// What a pure crate may depend on beside the house's own crates: all of it without side effects.
@@ -92,7 +93,7 @@ const IMPURE: [&str; 15] = [
 const PUBLISHED: [&str; 3] = ["insd-base", "insd-estimation", "insd-nav"];
 
 /// Which crates of the house a crate may use. The daemon sees all; tests may see all.
-const ARROWS: [(&str, &[&str]); 22] = [
+const ARROWS: [(&str, &[&str]); 23] = [
     ("insd-base", &[]),
     ("insd-estimation", &[]),
     ("insd-gnss", &["insd-base"]),
@@ -121,8 +122,9 @@ const ARROWS: [(&str, &[&str]); 22] = [
             "insd-wire",
         ],
     ),
-    ("insd-web", &[]),
     ("insd-fleet", &["insd-base", "insd-web"]),
+    ("insd-languages", &[]),
+    ("insd-web", &["insd-languages"]),
     (
         "insd-config",
         &[
@@ -131,6 +133,7 @@ const ARROWS: [(&str, &[&str]); 22] = [
             "insd-drivers",
             "insd-engine",
             "insd-intake",
+            "insd-languages",
             "insd-n2k",
             "insd-nav",
             "insd-output",
@@ -149,6 +152,7 @@ const ARROWS: [(&str, &[&str]); 22] = [
             "insd-engine",
             "insd-gnss",
             "insd-intake",
+            "insd-languages",
             "insd-learning",
             "insd-n2k",
             "insd-nav",

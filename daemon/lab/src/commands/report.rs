@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use insd_config::{BadInput, OutputFile};
+use insd_languages::Language;
 
 use crate::raw_run::is_recording;
 use crate::report::VoyageReport;
@@ -23,6 +24,9 @@ pub struct ReportArgs {
     /// Another configuration than the one it was made with
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
+    /// Language of the page: en or ja. Left out: the one that its configuration tells
+    #[arg(long, value_name = "CODE")]
+    language: Option<Language>,
 }
 
 /// Runs the command. The page is a function of the recording and the options alone.
@@ -42,8 +46,9 @@ pub fn run(args: &ReportArgs) -> anyhow::Result<()> {
     } else {
         VoyageReport::of_recording(path, args.config.as_deref(), args.run)?
     };
+    let language = args.language.unwrap_or_else(|| report.language());
     let mut file = OutputFile::create(&args.out)?;
-    let written = file.write_all(report.html().as_bytes());
+    let written = file.write_all(report.html(language).as_bytes());
     written.with_context(|| format!("{}: cannot be written", args.out.display()))?;
     file.finish()
 }

@@ -12,13 +12,23 @@ mod page;
 mod source;
 mod statistics;
 mod times;
+mod translated;
 
 pub use gathered::VoyageReport;
+use insd_config::Config;
+use insd_languages::Language;
 
 impl VoyageReport {
-    /// The page.
+    /// The language that the configuration of the recording tells; English where there is none.
     #[must_use]
-    pub fn html(&self) -> String {
-        page::page(self)
+    pub fn language(&self) -> Language {
+        Config::language_of(self.config.as_deref().unwrap_or_default())
+    }
+
+    /// The page, in a language.
+    #[must_use]
+    pub fn html(&self, language: Language) -> String {
+        let page = page::page(self);
+        if language == Language::English { page } else { translated::page(&page, language) }
     }
 }

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use axum::body::Bytes;
+use insd_languages::Language;
 use tokio::sync::watch;
 use tokio::time::{Instant, MissedTickBehavior, interval};
 
@@ -36,6 +37,8 @@ pub(super) struct Hall {
     pub(super) clients: AtomicUsize,
     pub(super) access: Access,
     pub(super) orders: OrderSender,
+    /// The language of who has not chosen one.
+    pub(super) language: Language,
 }
 
 #[derive(Debug)]
@@ -45,7 +48,12 @@ struct Past {
 }
 
 impl Hall {
-    pub(super) fn new(token: Option<String>, hosts: &[String], orders: OrderSender) -> Self {
+    pub(super) fn new(
+        token: Option<String>,
+        hosts: &[String],
+        language: Language,
+        orders: OrderSender,
+    ) -> Self {
         Hall {
             frames: watch::Sender::new(None),
             alive: AtomicBool::new(false),
@@ -53,6 +61,7 @@ impl Hall {
             clients: AtomicUsize::new(0),
             access: Access::new(token, hosts),
             orders,
+            language,
         }
     }
 

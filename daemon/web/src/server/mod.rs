@@ -15,6 +15,7 @@ mod page;
 mod room;
 mod stall;
 mod stream;
+mod texts;
 mod track;
 
 use std::net::SocketAddr;
@@ -77,7 +78,7 @@ pub fn start(
     orders: OrderSender,
 ) -> Result<WebHandle, WebError> {
     let door = Door::new(config.listen)?;
-    let hall = Arc::new(Hall::new(config.token, &config.allowed_hosts, orders));
+    let hall = Arc::new(Hall::new(config.token, &config.allowed_hosts, config.language, orders));
     let house = House {
         door,
         router: router(&hall),
@@ -96,7 +97,7 @@ pub fn start(
 pub fn start_fleet(config: WebConfig, board: FleetBoardText) -> Result<WebHandle, WebError> {
     let door = Door::new(config.listen)?;
     let (orders, _) = crate::orders::channel();
-    let hall = Arc::new(Hall::new(None, &config.allowed_hosts, orders));
+    let hall = Arc::new(Hall::new(None, &config.allowed_hosts, config.language, orders));
     let house = House {
         door,
         router: guarded(fleet::routes(board), &hall),
@@ -164,6 +165,8 @@ fn router(hall: &Arc<Hall>) -> Router {
         .route("/api/v1/history", get(api::history))
         .route("/api/v1/orders", get(api::orders))
         .route("/api/v1/schema", get(api::schema))
+        .route("/api/v1/texts", get(texts::languages))
+        .route("/api/v1/texts/{language}", get(texts::texts))
         .route("/api/v1/alerts/{id}/acknowledge", post(alerts::acknowledge))
         .route("/api/v1/alerts/{id}/silence", post(alerts::silence))
         .route("/api/v1/berth", post(alerts::berth))

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use insd_languages::Language;
 use insd_web::{Listen, OrderSender, Viewer, WebConfig, WebHandle};
 
 use crate::scene::{STEP, Scene, Show};
@@ -18,6 +19,7 @@ pub(crate) struct Live {
     viewer: Viewer,
     sender: OrderSender,
     handle: Option<WebHandle>,
+    language: Language,
     stop: Arc<AtomicBool>,
     still: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
@@ -27,6 +29,15 @@ impl Live {
     /// Serves a scene at any free port.
     pub(crate) fn new(scene: Scene) -> Self {
         Live::of(Show::new(scene))
+    }
+
+    /// In a language that is configured.
+    pub(crate) fn in_language(show: Show, language: Language) -> Self {
+        let mut live = Live::of(show);
+        live.language = language;
+        live.close();
+        live.open();
+        live
     }
 
     /// The same; what has been before is gone through at twenty times its pace.
@@ -51,7 +62,9 @@ impl Live {
             }
         });
         let thread = Some(thread);
-        let mut live = Live { address, viewer, sender, handle: None, stop, still, thread };
+        let language = Language::default();
+        let mut live =
+            Live { address, viewer, sender, handle: None, language, stop, still, thread };
         live.open();
         live
     }
@@ -61,6 +74,7 @@ impl Live {
         let config = WebConfig {
             listen: Listen::Address(self.address),
             token: Some(TOKEN.to_owned()),
+            language: self.language,
             ..WebConfig::default()
         };
         let page = insd_web::start(config, self.viewer.clone(), self.sender.clone());

@@ -1,7 +1,7 @@
 //! The page in a browser: headless Chromium, driven by chromedriver.
 //!
 //! ```text
-//! apt-get install --no-install-recommends chromium chromium-driver
+//! apt-get install --no-install-recommends chromium chromium-driver fonts-noto-cjk
 //! cargo test -p insd-web --test browser -- --ignored
 //! INSD_PICTURES=docs/page cargo test -p insd-web --test browser -- --ignored pictures
 //! ```
@@ -10,6 +10,7 @@
 
 mod docking;
 mod driver;
+mod language;
 mod live;
 mod look;
 mod pictures;

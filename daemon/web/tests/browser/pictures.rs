@@ -10,10 +10,10 @@ use crate::scene::{Scene, Show};
 /// Largest picture, bytes.
 const LARGEST: usize = 300_000;
 
-/// Name, scene, size, light, and how far down.
+/// Name, scene, size, light, and how far down; what ends on `-ja` is Japanese.
 type Picture = (&'static str, Scene, [u32; 2], &'static str, &'static str);
 
-const PICTURES: [Picture; 14] = [
+const PICTURES: [Picture; 16] = [
     ("underway", Scene::Underway, [1920, 1080], "day", "#ship"),
     ("underway-dusk", Scene::Underway, [1600, 900], "dusk", "#ship"),
     ("underway-night", Scene::Underway, [1600, 900], "night", "#ship"),
@@ -28,6 +28,8 @@ const PICTURES: [Picture; 14] = [
     ("fault", Scene::Fault, [1280, 860], "dusk", "#alerts"),
     ("phone", Scene::Underway, [390, 844], "day", "#ship"),
     ("phone-sensors", Scene::Fault, [390, 844], "night", "#sensors"),
+    ("bridge-ja", Scene::Fault, [1920, 1080], "day", "#bridge"),
+    ("phone-ja", Scene::Underway, [390, 844], "day", "#ship"),
 ];
 
 #[test]
@@ -44,15 +46,19 @@ fn pictures() {
     browser.be_calm();
     for (name, scene, [width, height], theme, place) in PICTURES {
         let live = lives.iter().find(|(own, _)| *own == scene).map(|(_, live)| live).unwrap();
+        let language = if name.ends_with("-ja") { "ja" } else { "en" };
         browser.size(width, height);
         browser.go(&live.url());
         let view = ["bridge", "docking"].into_iter().find(|view| place == format!("#{view}"));
         let view = view.unwrap_or("page");
         browser.run(&format!(
-            "localStorage.setItem('theme', '{theme}'); localStorage.setItem('view', '{view}')"
+            "localStorage.setItem('theme', '{theme}'); localStorage.setItem('view', '{view}');
+             localStorage.setItem('language', '{language}')"
         ));
         browser.go(&live.url());
-        browser.until("data come", || browser.text("#link") == "live");
+        browser.until("data come", || {
+            browser.run("return document.getElementById('link').dataset.state") == "live"
+        });
         let down = "if (!['#ship', '#bridge', '#docking'].includes('PLACE')) document.querySelector('PLACE').scrollIntoView()";
         browser.run(&down.replace("PLACE", place));
         std::thread::sleep(Duration::from_millis(2500));

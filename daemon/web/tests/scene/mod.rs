@@ -174,17 +174,17 @@ impl Show {
         };
         match slot.filter(|slot| asks(**slot) && self.scene == Scene::Fault) {
             Some(slot) => *slot = state,
-            None => return Err("there is nothing to acknowledge".to_owned()),
+            None => return Err("there is no such alert, or it cannot be done to it".to_owned()),
         }
         Ok(())
     }
 
     fn mode(&self, t: f64) -> ShownMode {
         let (name, since_s, reason) = match self.scene {
-            Scene::Alignment => ("fine_alignment", t - 60.0, "one heading is left of twenty-four"),
-            Scene::Underway => ("aided", t - 180.0, "GNSS position and velocity in use"),
+            Scene::Alignment => ("fine_alignment", t - 60.0, "it is known which way is down"),
+            Scene::Underway => ("aided", t - 180.0, "GNSS is used"),
             Scene::Fault => {
-                ("dead_reckoning", t - 240.0, "no GNSS for 10 s; the Doppler log is in use")
+                ("dead_reckoning", t - 240.0, "a log or a reference carries her, without GNSS")
             }
         };
         ShownMode { name: name.to_owned(), since_s, reason: Some(reason.to_owned()) }
@@ -199,15 +199,20 @@ impl Show {
             reason: Some(reason.to_owned()),
         };
         let mut modes = vec![
-            change(0.0, None, "coarse_alignment", "the first samples of the IMU"),
-            change(60.0, Some("coarse_alignment"), "fine_alignment", "one heading is left"),
+            change(0.0, None, "coarse_alignment", "the IMU sends data"),
+            change(
+                60.0,
+                Some("coarse_alignment"),
+                "fine_alignment",
+                "it is known which way is down",
+            ),
         ];
         if self.scene != Scene::Alignment {
-            let reason = "heading within 0.12° of 0.12°";
+            let reason = "the heading is as good as is asked for";
             modes.push(change(180.0, Some("fine_alignment"), "aided", reason));
         }
         if self.scene == Scene::Fault {
-            let reason = "no GNSS for 10 s; the Doppler log is in use";
+            let reason = "a log or a reference carries her, without GNSS";
             modes.push(change(240.0, Some("aided"), "dead_reckoning", reason));
         }
         modes

@@ -142,11 +142,13 @@ pub(super) fn alignment(t: f64, scene: Scene) -> ShownAlignment {
     let forecast = if moored { "expected" } else { "reached" };
     let target = 0.17;
     let text = if moored {
+        let minutes = (ready - t) / 60.0;
         format!(
-            "fine, heading to {sigma:.2} deg, within {target} deg expected at {ready:.0} s (motion of the ship)"
+            "a heading of {target} deg, 1 sigma, is expected in {minutes:.0} min; \
+             the motion of the ship at her berth limits it"
         )
     } else {
-        format!("aligned, heading to {sigma:.2} deg, within {target} deg since 180 s")
+        format!("a heading of {target} deg, 1 sigma, is reached")
     };
     ShownAlignment {
         told_at_s: t,
