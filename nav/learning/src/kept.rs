@@ -9,13 +9,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::current::CurrentModel;
 use crate::label::LENGTH;
-use crate::model::REPEAT;
 use crate::trained::Trained;
 
 /// The version that is written, and the only one that is read.
 const VERSION: u32 = 3;
 /// Longest text that is read, bytes.
 pub const LONGEST: usize = 1 << 16;
+/// How many values repeat: of each axis that at any speed, its change with the speed, and what a turn adds.
+pub const REPEAT: usize = 6;
 /// Values of the covariance of what repeats of a log.
 const TRIANGLE: usize = REPEAT * (REPEAT + 1) / 2;
 /// Of what repeats, the turn of the log; and what a filter finds, in its order.

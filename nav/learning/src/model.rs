@@ -14,11 +14,9 @@ use nalgebra::{Matrix2, SMatrix, SVector, Vector2, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::current::CurrentModel;
-use crate::kept::KeptLog;
+use crate::kept::{KeptLog, REPEAT};
 use crate::label::{LENGTH, Label};
 
-/// How many values repeat: of each axis that at any speed, its change with the speed, and what a turn adds.
-pub const REPEAT: usize = 6;
 /// With the current.
 const ALL: usize = REPEAT + 2;
 /// 1-sigma before anything is known: scale, its slope, s/m, what turns add forward, m; turn of the log, rad, its slope, s/m, and slide, m.

@@ -12,16 +12,11 @@
 use insd_base::Time;
 use nalgebra::{DMatrix, UnitQuaternion, Vector2};
 
-use super::Judge;
-use super::aid::Aid;
-use super::assessment::{WORST, unsure};
-use super::charge::{Charge, Kind};
-use super::onset::Onset;
 use super::rows::{self, ALL, Axis, Direct, FaultGroup};
 use crate::error_state::{ATTITUDE, CURRENT, Effects, Errors, VELOCITY, Weighed};
 
 /// What is less likely than this is of no account any more.
-const DISMISSED: f64 = 1e-8;
+pub(super) const DISMISSED: f64 = 1e-8;
 /// A heading that the two differ by more, rad, is no small error in what else they tell.
 const LARGE: f64 = 0.5;
 
@@ -42,76 +37,54 @@ pub(super) struct Appeal {
     is_new: bool,
 }
 
-impl Judge {
-    /// The estimate is mended for a fault of the IMU; what the receiver may have done instead goes on to be heard.
-    pub(super) fn hear_both(&mut self, lie: Option<Charge>, mended: &Charge, now: Time) {
-        let appeal = lie.and_then(|lie| self.appeal_of(&lie, mended, now));
-        self.appeal = appeal.map(Box::new);
-    }
-
-    fn appeal_of(&self, lie: &Charge, mended: &Charge, now: Time) -> Option<Appeal> {
-        let Kind::Shaped { group, since, sized } = lie.kind else { return None };
-        let (_, chance) = self.docket.open_lie()?.left;
-        let mut lacks = self.done_by(lie)?;
-        lacks -= &self.done_by(mended)?;
-        Some(Appeal {
-            group,
-            since,
-            heard: now,
-            size: sized.value.xy(),
-            effects: Effects::of(&lacks),
-            chance,
-            odds: 0.0,
-            is_new: true,
-        })
-    }
-
-    /// What a fault has done to the estimate.
-    fn done_by(&self, charge: &Charge) -> Option<Errors> {
-        let Kind::Shaped { group, since, sized } = charge.kind else { return None };
-        let group = &ALL[group];
-        let of = |onset: &Onset| {
-            onset.effects_of(group).total(&sized.value.as_slice()[..group.rows.len()])
-        };
-        self.begun(since).map(of)
-    }
-
-    /// The judge begins anew: after the verdict both go on to be heard, later the estimate is another.
-    pub(super) fn keep_new_appeal(&mut self) {
-        self.appeal = self.appeal.take().filter(|appeal| appeal.is_new);
-        self.appeal.iter_mut().for_each(|appeal| appeal.is_new = false);
-    }
-
-    /// Hears an innovation for both; `direct` is what faults add to it, `attitude` the navigator's.
-    pub(super) fn hear_appeal(
-        &mut self,
-        (aid, now): (Aid, Time),
-        weighed: &Weighed,
-        attitude: &UnitQuaternion<f64>,
-        direct: impl Fn(f64) -> Direct,
-    ) {
-        let Some(appeal) = self.appeal.as_mut().filter(|own| !own.is_new) else { return };
-        let direct = direct((now - appeal.since).as_seconds());
-        appeal.hear((aid, now), weighed, attitude, &direct);
-        let chance = appeal.chance_now();
-        let is_dismissed = chance < DISMISSED;
-        self.docket.weigh_open_lie((!is_dismissed).then_some(chance));
-        if is_dismissed || appeal.turned(attitude).abs() > LARGE {
-            self.appeal = None;
-        }
-    }
-}
-
 impl Appeal {
+    /// That the receiver does what a group has, of such a size, since then, and was so likely; `lacks` is what the estimate lacks then.
+    pub(super) fn new(
+        (group, since): (usize, Time),
+        size: Vector2<f64>,
+        (lacks, chance): (&Errors, f64),
+        heard: Time,
+    ) -> Self {
+        let effects = Effects::of(lacks);
+        Appeal { group, since, heard, size, effects, chance, odds: 0.0, is_new: true }
+    }
+
+    /// Whether the judge has not begun anew since the verdict.
+    pub(super) fn is_new(&self) -> bool {
+        self.is_new
+    }
+
+    /// The judge has begun anew.
+    pub(super) fn begin(&mut self) {
+        self.is_new = false;
+    }
+
+    /// For how long the receiver would have lied, s.
+    pub(super) fn age(&self, now: Time) -> f64 {
+        (now - self.since).as_seconds()
+    }
+
+    /// For how long both are heard, s.
+    pub(super) fn heard_for(&self, now: Time) -> f64 {
+        (now - self.heard).as_seconds()
+    }
+
+    /// Whether the headings of the two differ by so much that nothing else is linear.
+    pub(super) fn is_beyond(&self, attitude: &UnitQuaternion<f64>) -> bool {
+        self.turned(attitude).abs() > LARGE
+    }
+
     /// Its effects, to be carried along with the errors.
     pub(super) fn effects_mut(&mut self) -> &mut Effects {
         &mut self.effects
     }
 
-    fn hear(
+    /// Hears an innovation, which is worth so many times less than it says, and is `absorbed` by the estimate or not; `direct` is what faults add to it,
+    /// `attitude` the navigator's.
+    pub(super) fn hear(
         &mut self,
-        (aid, now): (Aid, Time),
-        weighed: &Weighed,
+        (weighed, absorbed): (&Weighed, bool),
+        worth: f64,
         attitude: &UnitQuaternion<f64>,
         direct: &Direct,
     ) {
@@ -122,8 +95,8 @@ impl Appeal {
         (0..own.ncols()).for_each(|row| told[row] += self.bent(attitude, direct, row));
         let effect = weighed.effect_of(&self.effects, told);
         let gain = effect.transpose().dot(&weighed.whitened()) - 0.5 * effect.norm_squared();
-        self.odds += gain / unsure((now - self.heard).as_seconds(), WORST);
-        if aid.is_absorbed() {
+        self.odds += gain / worth;
+        if absorbed {
             weighed.pass_on(&mut self.effects, &effect);
         }
     }
@@ -151,7 +124,7 @@ impl Appeal {
     }
 
     /// How likely it is now.
-    fn chance_now(&self) -> f64 {
+    pub(super) fn chance_now(&self) -> f64 {
         let odds = self.chance / (1.0 - self.chance).max(DISMISSED) * self.odds.exp();
         if odds.is_finite() { odds / (1.0 + odds) } else { 1.0 }
     }

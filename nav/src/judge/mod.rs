@@ -15,6 +15,7 @@ mod alternative;
 mod amends;
 mod appeal;
 mod assessment;
+mod both_heard;
 mod charge;
 mod claims;
 mod dissenter;

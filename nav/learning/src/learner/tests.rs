@@ -4,8 +4,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
 use super::*;
-use crate::kept::{KeptFault, KeptModel};
-use crate::model::REPEAT;
+use crate::kept::{KeptFault, KeptModel, REPEAT};
 
 /// A log and a sea.
 #[derive(Clone, Copy)]
