@@ -117,8 +117,8 @@ impl Judge {
         if self.disputed.is_some() || !self.pessimist.is_right(now) {
             return None;
         }
-        // who else it may be than somebody who has nothing but the receiver to compare the IMU with cannot tell
-        if self.witnesses(now) < 2 {
+        // nobody but the receiver contradicts it, which may creep away: fine gyros and accelerometers are hardly ever worse, coarse ones often
+        if self.witnesses(now) < 2 && !self.is_coarse {
             self.leave_lie_open(now);
         }
         // a step is proven; what biases do that no aid sees, to the heading above all, asks for another
