@@ -6,7 +6,7 @@ use super::aid::Aid;
 use super::alternative::Alternative;
 use super::charge::{Assessment, CERTAIN, Charge, DOUBT, Kind, LIKELY};
 use super::newcomers::MISTAKEN;
-use super::rows::{ALL, FaultGroup, OF_FALSE_PUSHES, OF_GYROS};
+use super::rows::{ALL, FaultGroup, OF_FALSE_PUSHES, OF_GYROS, OF_ONE_GYRO};
 use super::{CLOSE, Judge, SPAWN};
 
 /// Mean square of the innovations, of which one is expected, that a fault may leave unexplained.
@@ -93,6 +93,7 @@ impl Judge {
     fn all_charges(&self, now: Time, worst: f64) -> Vec<Charge> {
         let mut all: Vec<Charge> = Vec::new();
         let is_log_heard = self.is_witness(Aid::Log, now);
+        let may_be_two = self.docket.may_be_two(now);
         for onset in &self.onsets {
             let age = (now - onset.since).as_seconds();
             let step = (age * CLOSE).max(1.0).ln();
@@ -110,7 +111,9 @@ impl Judge {
                 let is_unseen = self.began_unseen(*fault, onset.since, now);
                 // of receivers only it is the drift of one
                 let is_drift = group == OF_FALSE_PUSHES && !is_log_heard;
-                let is_none = is_slow || is_unseen || is_drift;
+                // what two say that lie alike is no reason to blame one gyro after the other
+                let is_forced = group == OF_ONE_GYRO && may_be_two;
+                let is_none = is_slow || is_unseen || is_drift || is_forced;
                 let Some(sized) = sized.filter(|_| !is_none) else { continue };
                 let (fault, begun) = (*fault, onset.since);
                 let kind = Kind::Shaped { group, since: begun, sized };

@@ -93,6 +93,8 @@ pub const OF_GYROS: usize = 13;
 pub const OF_FALSE_TURNS: usize = 14;
 /// The one of accelerometers that told a push that was none, or none that was.
 pub const OF_FALSE_PUSHES: usize = 20;
+/// The one of the gyro about the vertical, alone.
+pub const OF_ONE_GYRO: usize = 21;
 /// How many groups there are.
 pub const GROUPS: usize = 36;
 
@@ -320,5 +322,6 @@ mod tests {
         assert_eq!(ALL[OF_GYROS].rows.start, GYRO);
         assert_eq!(ALL[OF_FALSE_TURNS].rows.start, TURN);
         assert_eq!(ALL[OF_FALSE_PUSHES].rows.start, PUSH);
+        assert_eq!(ALL[OF_ONE_GYRO].rows, GYRO + 2..GYRO + 3);
     }
 }

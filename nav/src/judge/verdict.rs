@@ -96,7 +96,8 @@ impl Judge {
             GYRO_SCALE.inflate(&mut mended.covariance, WRONG_SCALE * WRONG_SCALE);
         }
         self.docket.convict(plain.fault, now, NO_LIE);
-        self.hear_both(lie, &plain, now);
+        // two that lie alike bear each other out
+        self.hear_both(lie.filter(|_| push.is_none()), &plain, now);
         Ruling { fault: plain.fault, mended: Some(mended) }
     }
 
