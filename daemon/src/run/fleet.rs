@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use insd_base::Span;
 use insd_config::{Config, FleetSection, PayloadKind};
+use insd_drivers::ports::read_password;
 use insd_fleet::{BrokerPlan, FleetHandle, FleetPayload, FleetPlan};
 use insd_web::Viewer;
 
@@ -72,19 +73,16 @@ fn plan(section: &FleetSection, state: Option<&Path>) -> Result<FleetPlan, Strin
     })
 }
 
-/// User and password for a broker; the password is the first line of its file.
+/// User and password for a broker.
 ///
 /// # Errors
-/// The file cannot be read.
+/// The file of the password cannot be read, others can read it, or there is none in it.
 pub(crate) fn login(
     user: Option<&str>,
     file: Option<&Path>,
 ) -> Result<Option<(String, String)>, String> {
     let Some(user) = user else { return Ok(None) };
-    let password = file.map_or(Ok(String::new()), |file| {
-        let text = std::fs::read_to_string(file)
-            .map_err(|fault| format!("{}: {fault}", file.display()))?;
-        Ok::<_, String>(text.lines().next().unwrap_or_default().to_owned())
-    })?;
-    Ok(Some((user.to_owned(), password)))
+    let read =
+        |file: &Path| read_password(file).map_err(|fault| format!("{}: {fault}", file.display()));
+    Ok(Some((user.to_owned(), file.map_or(Ok(String::new()), read)?)))
 }

@@ -78,7 +78,7 @@ pub use found::{FoundKind, FoundPort, list};
 pub use handle::{OutputPort, PortHandle};
 pub use hosts::{Hosts, Network, NoNetwork};
 pub use judge::{Judge, Judgement};
-pub use ntrip::Ntrip;
+pub use ntrip::{Ntrip, read_password};
 pub use outgoing::{AgeStatus, Outgoing, OutputStatus, SlotStatus};
 pub use queue::{FRAME, Queue, Receiver, WAITING_LIMIT, queue};
 pub use run::{spawn, spawn_output};

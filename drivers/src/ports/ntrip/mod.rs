@@ -22,6 +22,7 @@ use self::answer::Answer;
 use self::chunks::Chunks;
 pub use self::config::Ntrip;
 pub(super) use self::secret::password;
+pub use self::secret::read_password;
 pub(super) use self::tls::secure;
 use self::watch::Watch;
 use super::outbox::Outbox;

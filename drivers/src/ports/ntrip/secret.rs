@@ -20,7 +20,7 @@ const OTHERS: u32 = 0o077;
 /// In words, without a byte of it: it is not there, others may read it, or it is none.
 pub(in super::super) fn password(config: &Ntrip) -> Result<String, String> {
     let Some(path) = path(config)? else { return Ok(String::new()) };
-    read(&path).map_err(|fault| format!("password: {}: {fault}", path.display()))
+    read_password(&path).map_err(|fault| format!("password: {}: {fault}", path.display()))
 }
 
 fn path(config: &Ntrip) -> Result<Option<PathBuf>, String> {
@@ -31,8 +31,11 @@ fn path(config: &Ntrip) -> Result<Option<PathBuf>, String> {
     Ok(Some(Path::new(&directory).join(name)))
 }
 
-/// The first line of a file. It is opened once, so that what is looked at is what is read.
-fn read(path: &Path) -> Result<String, String> {
+/// The first line of a file that nobody else can read. It is opened once, so that what is looked at is what is read.
+///
+/// # Errors
+/// In words, without a byte of it: it is not there, others may read it, or it is none.
+pub fn read_password(path: &Path) -> Result<String, String> {
     let file = File::open(path).map_err(|error| error.to_string())?;
     let mode = file.metadata().map_err(|error| error.to_string())?.permissions().mode();
     if mode & OTHERS != 0 {
