@@ -44,17 +44,7 @@ fn the_titles_of_alerts_are_short_and_each_its_own() {
 
 #[test]
 fn every_mode_and_every_reason_of_a_change_has_its_words() {
-    let modes = [
-        Mode::Standby,
-        Mode::CoarseAlignment,
-        Mode::FineAlignment,
-        Mode::InMotionAlignment,
-        Mode::Aided,
-        Mode::DeadReckoning,
-        Mode::Inertial,
-        Mode::Fault,
-    ];
-    none_lacks(modes.map(|mode| words::mode(mode).to_owned()));
+    none_lacks(Mode::ALL.map(|mode| words::mode(mode).to_owned()));
     let reasons = [
         ModeReason::ImuHeard,
         ModeReason::ImuSilent,

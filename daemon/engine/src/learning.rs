@@ -1,6 +1,7 @@
 //! What is learnt of the sensors while the ship is well aided, for the time when she is not.
 
 use insd_base::{Estimate, Span, Time};
+use insd_learning::kept::{BY_SPEED, BY_TURN};
 use insd_learning::model::PRIOR;
 use insd_learning::{Collector, KeptModel, KeptThermal, LabelLook, Learner, LearnerVerdict};
 use insd_nav::NavConfig;
@@ -14,7 +15,7 @@ use crate::thermometer::Thermometer;
 /// A temperature is that of the IMU for so long, s.
 const FRESH: f64 = 60.0;
 /// Of what repeats of a log, its changes with the speed and with the turn, each forward and to starboard.
-const SHAPE: [[usize; 2]; 2] = [[1, 4], [2, 5]];
+const SHAPE: [[usize; 2]; 2] = [BY_SPEED, BY_TURN];
 
 /// What is learnt, and what of it is in use.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

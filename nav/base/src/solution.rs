@@ -30,6 +30,18 @@ pub enum Mode {
 }
 
 impl Mode {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Mode::Standby,
+        Mode::CoarseAlignment,
+        Mode::FineAlignment,
+        Mode::InMotionAlignment,
+        Mode::Aided,
+        Mode::DeadReckoning,
+        Mode::Inertial,
+        Mode::Fault,
+    ];
+
     /// Its word, as in `nav.csv`.
     #[must_use]
     pub fn as_str(self) -> &'static str {
@@ -48,18 +60,7 @@ impl Mode {
     /// The mode of a word of `nav.csv`.
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
-        [
-            Mode::Standby,
-            Mode::CoarseAlignment,
-            Mode::FineAlignment,
-            Mode::InMotionAlignment,
-            Mode::Aided,
-            Mode::DeadReckoning,
-            Mode::Inertial,
-            Mode::Fault,
-        ]
-        .into_iter()
-        .find(|mode| mode.as_str() == word)
+        Mode::ALL.into_iter().find(|mode| mode.as_str() == word)
     }
 
     /// Whether the heading is good enough to steer and navigate by.

@@ -19,9 +19,14 @@ pub const LONGEST: usize = 1 << 16;
 pub const REPEAT: usize = 6;
 /// Values of the covariance of what repeats of a log.
 const TRIANGLE: usize = REPEAT * (REPEAT + 1) / 2;
-/// Of what repeats, the turn of the log; and what a filter finds, in its order.
+/// Of what repeats, the turn of the log.
 const TURN: usize = 3;
-const FOUND: [usize; 5] = [0, 1, 4, 2, 5];
+/// Its changes with the speed, forward and to starboard.
+pub const BY_SPEED: [usize; 2] = [1, 4];
+/// And what turns add.
+pub const BY_TURN: [usize; 2] = [2, 5];
+/// What a filter finds, in its order.
+const FOUND: [usize; 5] = [0, BY_SPEED[0], BY_SPEED[1], BY_TURN[0], BY_TURN[1]];
 const SUM: &str = "checksum = ";
 
 static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
@@ -233,8 +238,8 @@ impl KeptLog {
         (x, Matrix6::from_fn(|i, j| self.covariance[in_triangle(i, j)]))
     }
 
-    /// With all but the turn of the log (scale factor, its change with the speed and that of the turn, what turns add forward and to starboard) as a filter has found them together with all else, and their covariance: the heading that
-    /// labels are told in leans to what a log says in a turn, and they see less of the slide than there is.
+    /// With all but the turn of the log (scale factor, its change with the speed and that of the turn, what turns add forward and
+    /// to starboard) as a filter has found them together with all else, and their covariance: the heading that labels are told in leans to what a log says in a turn, and they see less of the slide than there is.
     #[must_use]
     pub fn with_found(self, found: &Vector5<f64>, covariance: &Matrix5<f64>) -> Self {
         let (mut x, before) = self.belief();

@@ -14,7 +14,7 @@ use nalgebra::{Matrix2, SMatrix, SVector, Vector2, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::current::CurrentModel;
-use crate::kept::{KeptLog, REPEAT};
+use crate::kept::{BY_TURN, KeptLog, REPEAT};
 use crate::label::{LENGTH, Label};
 
 /// With the current.
@@ -22,7 +22,7 @@ const ALL: usize = REPEAT + 2;
 /// 1-sigma before anything is known: scale, its slope, s/m, what turns add forward, m; turn of the log, rad, its slope, s/m, and slide, m.
 pub const PRIOR: [f64; REPEAT] = [0.03, 0.005, 5.0, 0.01, 0.003, 5.0];
 /// The slide.
-const SLIDE: usize = 5;
+const SLIDE: usize = BY_TURN[1];
 /// A log fouls by so much a day, 1-sigma, of each in units of its prior.
 const FOULS: f64 = 0.07;
 /// What is not of this model, 1-sigma in a label, m/s.

@@ -10,7 +10,7 @@
 //! that a log sees are turned by it as a whole: what is not linear of that is what tells a circle from a straight line.
 
 use insd_base::Time;
-use nalgebra::{DMatrix, UnitQuaternion, Vector2};
+use nalgebra::{DMatrix, UnitQuaternion, Vector2, Vector3};
 
 use super::rows::{self, ALL, Axis, Direct, FaultGroup};
 use crate::error_state::{ATTITUDE, CURRENT, Effects, Errors, VELOCITY, Weighed};
@@ -71,7 +71,7 @@ impl Appeal {
 
     /// Whether the headings of the two differ by so much that nothing else is linear.
     pub(super) fn is_beyond(&self, attitude: &UnitQuaternion<f64>) -> bool {
-        self.turned(attitude).abs() > LARGE
+        self.apart(attitude).turned.abs() > LARGE
     }
 
     /// Its effects, to be carried along with the errors.
@@ -92,7 +92,8 @@ impl Appeal {
         let FaultGroup { rows, .. } = &ALL[self.group];
         let own = direct.rows(rows.start, rows.len());
         let mut told = DMatrix::from_fn(1, own.ncols(), |_, row| own.column(row).dot(&self.size));
-        (0..own.ncols()).for_each(|row| told[row] += self.bent(attitude, direct, row));
+        let apart = self.apart(attitude);
+        (0..own.ncols()).for_each(|row| told[row] += apart.bent(direct, row));
         let effect = weighed.effect_of(&self.effects, told);
         let gain = effect.transpose().dot(&weighed.whitened()) - 0.5 * effect.norm_squared();
         self.odds += gain / worth;
@@ -101,26 +102,15 @@ impl Appeal {
         }
     }
 
-    /// By how much the headings of the two differ, rad.
-    fn turned(&self, attitude: &UnitQuaternion<f64>) -> f64 {
-        let turned = self.effects.total(&[1.0]).of(ATTITUDE);
-        attitude.inverse_transform_vector(&turned).z
-    }
-
-    /// What a velocity through the water adds to a row of a log as it is turned by more than a little, m/s; nothing to others.
-    ///
-    /// With a its axis, b the one to the right of it, v the velocity and d what the estimate lacks of that, the angle p:
-    /// cos(p) a (v + d) + sin(p) b (v + d) - a v, of which a d + p b v is what is linear.
-    fn bent(&self, attitude: &UnitQuaternion<f64>, direct: &Direct, row: usize) -> f64 {
-        let [along, aside] = rows::axes_of_log(direct, row);
-        let [through, across] = rows::told_by_log(direct, row);
+    /// By how much the two differ as a log sees it.
+    fn apart(&self, attitude: &UnitQuaternion<f64>) -> Apart {
         let lacks = self.effects.total(&[1.0]);
-        let by_velocity = attitude.inverse_transform_vector(&lacks.of(VELOCITY));
-        let current = lacks.of(CURRENT);
-        let less = |axis: &Axis| axis.body.dot(&by_velocity.xy()) - axis.level.dot(&current);
-        let angle = self.turned(attitude);
-        let (sin, cos) = angle.sin_cos();
-        (cos - 1.0) * (through + less(&along)) + sin * less(&aside) + (sin - angle) * across
+        let to_body = |own: Vector3<f64>| attitude.inverse_transform_vector(&own);
+        Apart {
+            turned: to_body(lacks.of(ATTITUDE)).z,
+            velocity: to_body(lacks.of(VELOCITY)).xy(),
+            current: lacks.of(CURRENT),
+        }
     }
 
     /// How likely it is now.
@@ -130,11 +120,33 @@ impl Appeal {
     }
 }
 
+/// What the navigator's estimate lacks of the heading, rad, of the velocity, body axes, and of the current, north and east, m/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Apart {
+    turned: f64,
+    velocity: Vector2<f64>,
+    current: Vector2<f64>,
+}
+
+impl Apart {
+    /// What a velocity through the water adds to a row of a log as it is turned by more than a little, m/s; nothing to others.
+    ///
+    /// With a its axis, b the one to the right of it, v the velocity and d what the estimate lacks of that, the angle p:
+    /// cos(p) a (v + d) + sin(p) b (v + d) - a v, of which a d + p b v is what is linear.
+    fn bent(&self, direct: &Direct, row: usize) -> f64 {
+        let [along, aside] = rows::axes_of_log(direct, row);
+        let [through, across] = rows::told_by_log(direct, row);
+        let less = |axis: &Axis| axis.body.dot(&self.velocity) - axis.level.dot(&self.current);
+        let (sin, cos) = self.turned.sin_cos();
+        (cos - 1.0) * (through + less(&along)) + sin * less(&aside) + (sin - self.turned) * across
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::judge::rows::of_log;
-    use nalgebra::{Matrix3, Vector3};
+    use nalgebra::Matrix3;
 
     /// What an estimate lacks of heading, velocity and current.
     fn appeal(turned: f64, velocity: Vector3<f64>, current: Vector2<f64>) -> Appeal {
@@ -167,10 +179,10 @@ mod tests {
         let linear = less - Vector3::new(0.0, 0.0, turned).cross(&through);
         let still = UnitQuaternion::identity();
         for axis in 0..2 {
-            let bent = own.bent(&still, &direct, axis);
+            let bent = own.apart(&still).bent(&direct, axis);
             assert!((bent - (whole - linear)[axis]).abs() < 1e-12, "{axis}: {bent}");
         }
-        assert!(own.bent(&still, &rows::of_gnss_velocity(10.0), 0).abs() < 1e-12);
+        assert!(own.apart(&still).bent(&rows::of_gnss_velocity(10.0), 0).abs() < 1e-12);
     }
 
     #[test]

@@ -42,7 +42,7 @@ use nalgebra::{SMatrix, UnitQuaternion, Vector3};
 
 use crate::config::NavConfig;
 use crate::declaration::Declaration;
-use crate::error_state::{Block, Covariance, Errors, Innovation, Weighed};
+use crate::error_state::{Block, Covariance, Effects, Errors, Innovation, Weighed};
 use crate::propagation::Passage;
 pub use aid::Aid;
 use aid::{AIDS, Hearing, agreement};
@@ -181,6 +181,12 @@ impl Judge {
         [&mut self.shadow, &mut self.pessimist.shadow].into_iter().chain(others)
     }
 
+    /// What is carried along with the errors beside them.
+    fn all_effects(&mut self) -> impl Iterator<Item = &mut Effects> {
+        let of_appeal = self.appeal.iter_mut().map(|appeal| appeal.effects_mut());
+        self.onsets.iter_mut().map(Onset::effects_mut).chain(of_appeal)
+    }
+
     /// The navigator's estimate was corrected.
     pub fn corrected(&mut self, error: &Errors) {
         self.shadows().for_each(|shadow| shadow.apart -= error);
@@ -210,10 +216,7 @@ impl Judge {
             block.renew(&mut shadow.covariance, covariance);
             shadow.apart.scale_block(block, 0.0);
         }
-        for onset in &mut self.onsets {
-            onset.effects_mut().scale_block(block, 0.0);
-        }
-        self.appeal.iter_mut().for_each(|own| own.effects_mut().scale_block(block, 0.0));
+        self.all_effects().for_each(|own| own.scale_block(block, 0.0));
     }
 
     /// The unit of a block of states has grown: their numbers are what they were, times a factor.
@@ -222,10 +225,7 @@ impl Judge {
             block.rescale(&mut shadow.covariance, factor);
             shadow.apart.scale_block(block, factor);
         }
-        for onset in &mut self.onsets {
-            onset.effects_mut().scale_block(block, factor);
-        }
-        self.appeal.iter_mut().for_each(|own| own.effects_mut().scale_block(block, factor));
+        self.all_effects().for_each(|own| own.scale_block(block, factor));
     }
 
     /// Carries everything over a stretch.
@@ -237,8 +237,7 @@ impl Judge {
                 dissenter.shadow.propagate(passing);
                 dissenter.agitate(passage.stretch.duration);
             }
-            self.onsets.iter_mut().for_each(|onset| passing.effects(onset.effects_mut()));
-            self.appeal.iter_mut().for_each(|own| passing.effects(own.effects_mut()));
+            self.all_effects().for_each(|own| passing.effects(own));
         });
         let worse = Passage { config: &passage.config.with_worse_imu(), ..*passage };
         worse.over(&layout, |passing| self.pessimist.shadow.propagate(passing));
