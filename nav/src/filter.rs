@@ -45,6 +45,7 @@ mod antennas;
 mod antennas_followed;
 mod bent;
 mod camera;
+mod camera_sight;
 mod camera_standing;
 pub mod checkpoint;
 mod companion;

@@ -1,5 +1,7 @@
 //! A camera: `[camera]`, how it looks at the world.
 
+use std::path::PathBuf;
+
 use insd_base::units::DEG;
 use insd_base::{Body, CameraModel};
 use insd_nav::config::{CameraAid, OdometryModel};
@@ -32,6 +34,8 @@ pub struct CameraSection {
     pub axes_std_deg: Option<f64>,
     /// By how much its images may be taken later than they are stamped, beyond `latency_s` of the sensor, 1-sigma, s.
     pub delay_std_s: Option<f64>,
+    /// A picture of what it sees, PNG or JPEG, that its front end writes anew again and again: shown on the page to who asks for it.
+    pub picture: Option<PathBuf>,
     /// What of it is used.
     #[serde(default, rename = "use")]
     pub way: CameraTold,
@@ -71,6 +75,9 @@ impl CameraSection {
         }
         if self.size_px.contains(&0) {
             return Err(("size_px", "width and height, above zero"));
+        }
+        if self.picture.as_ref().is_some_and(|path| !path.is_absolute()) {
+            return Err(("picture", "the whole path of a file, from / on"));
         }
         self.look_at_sigmas()?;
         let model = CameraModel {

@@ -16,6 +16,7 @@ mod config;
 mod disturbance;
 mod doubts;
 mod epochs;
+mod eyes;
 mod heat;
 mod heir;
 mod images;

@@ -107,6 +107,7 @@ fn slow(sight: &DemoSight<'_>) -> Slow {
         watched: Vec::new(),
         estimates: engine.estimates(),
         sky: engine.sky(),
+        camera: engine.camera(),
         standings: engine.standings().collect(),
         findings: engine.findings().to_vec(),
         disturbance: engine.disturbance(),

@@ -53,6 +53,7 @@ fn web_config(config: &Config) -> WebConfig {
         token: section.token_file.as_deref().and_then(token),
         allowed_hosts: section.hosts.clone(),
         max_per_address: section.max_per_address,
+        picture: config.camera.as_ref().and_then(|camera| camera.picture.clone()),
         language: config.ship.language,
         ..WebConfig::default()
     }

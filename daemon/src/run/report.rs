@@ -2,8 +2,8 @@
 
 use insd_base::satellites::Sky;
 use insd_base::{
-    AlignmentStatus, Counts, Disturbance, Estimates, Finding, Heave, Mode, Motion, Stamp, Stands,
-    Time, UtcTime,
+    AlignmentStatus, CameraSight, Counts, Disturbance, Estimates, Finding, Heave, Mode, Motion,
+    Stamp, Stands, Time, UtcTime,
 };
 use insd_drivers::raw::RecorderState;
 use insd_engine::LearningStatus;
@@ -59,6 +59,8 @@ pub(super) struct Slow {
     pub(super) estimates: Option<Estimates>,
     /// The satellites, if a receiver tells what it measures of each.
     pub(super) sky: Option<Sky>,
+    /// The camera, if the navigator uses one.
+    pub(super) camera: Option<CameraSight>,
     /// How all stand with whom she is navigated by.
     pub(super) standings: Vec<Stands>,
     /// What of the installation is found to be otherwise than configured.

@@ -270,6 +270,7 @@ impl Worker {
             watched: self.pipeline.watched(now),
             estimates: self.pipeline.engine_in_use().estimates(),
             sky: self.pipeline.engine_in_use().sky(),
+            camera: self.pipeline.engine_in_use().camera(),
             standings: self.pipeline.engine_in_use().standings().collect(),
             findings: self.pipeline.engine_in_use().findings().to_vec(),
             learning: self.pipeline.engine_in_use().learning(),

@@ -51,6 +51,7 @@ function forgotten(data, time) {
     engines: data.engines.map(({ name }) => ({ name, mode: "", in_use: false, healthy: false, differs: [] })),
     sensors: data.sensors.map(row), choices: [], watched: [],
     sky: { state: "unknown", satellites: [], refused: data.sky?.refused ?? [] },
+    camera: data.camera && { sensor: data.camera.sensor, state: "unknown", has_picture: data.camera.has_picture },
     inputs: data.inputs.map(row), outputs: data.outputs.map(row),
     buses: data.buses.map((bus) => ({ ...row(bus), port: bus.port })),
     aids: data.aids.map(({ name }) => ({ name, in_use: false, reasons: [] })),

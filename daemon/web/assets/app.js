@@ -15,6 +15,7 @@ import { alignment, disturbance, modes, modeTone } from "./alignment.js";
 import { alerts, startAlerts, tellToken } from "./alerts.js";
 import * as bridge from "./bridge.js";
 import { docking, plan, startDocking } from "./docking.js";
+import { camera, relabelCamera, startCamera } from "./camera.js";
 import { learning, startLearning } from "./learning.js";
 
 const bind = binder(document);
@@ -80,6 +81,7 @@ function drawWhole() {
   sensors(data);
   watched(data);
   sky(data);
+  camera(data);
   learning(data);
   ports(data);
   measurements(data);
@@ -187,6 +189,7 @@ function redraw() {
 function translate() {
   enter();
   relabel();
+  relabelCamera();
   tellToken();
   if (came) {
     due.live = due.whole = true;
@@ -198,11 +201,13 @@ window.addEventListener("resize", redraw);
 window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
 await startLanguage(translate);
 relabel();
+relabelCamera();
 enter();
 startTheme();
 bridge.startView(redraw);
 startAlerts();
 startDocking();
 startLearning();
+startCamera();
 setInterval(() => { if (performance.now() - at > LOOK) age(false); }, LOOK);
 follow({ onData: take, onLink });

@@ -1,6 +1,7 @@
 //! What the page is told at its start, and why it may not start.
 
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::path::PathBuf;
 
 use insd_languages::Language;
 
@@ -32,6 +33,8 @@ pub struct WebConfig {
     pub max_clients: usize,
     /// Most connections of one address at a time, likewise. Behind a reverse proxy all have one address.
     pub max_per_address: usize,
+    /// A picture of what the camera sees, which somebody else writes anew again and again.
+    pub picture: Option<PathBuf>,
     /// The language of who has not chosen one on the page.
     pub language: Language,
 }
@@ -45,6 +48,7 @@ impl Default for WebConfig {
             allowed_hosts: Vec::new(),
             max_clients: 600,
             max_per_address: 16,
+            picture: None,
             language: Language::default(),
         }
     }

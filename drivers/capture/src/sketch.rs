@@ -52,6 +52,16 @@ impl Sketch {
         }
     }
 
+    /// Writes a PNG over another one: who reads finds one or the other, whole.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn replace(&self, path: &Path) -> Result<(), CaptureFault> {
+        let beside = path.with_extension("part");
+        self.write(&beside)?;
+        std::fs::rename(&beside, path).map_err(|fault| CaptureFault::io(&path.display(), fault))
+    }
+
     /// Writes a PNG.
     ///
     /// # Errors
@@ -80,7 +90,7 @@ mod tests {
         let mut sketch = Sketch::over([8, 4], &[10; 32]);
         sketch.line([-3.0, 1.0], [20.0, 1.0], [255, 255, 255]);
         sketch.line([0.0, f64::NAN], [1.0, 1.0], [255, 255, 255]);
-        sketch.write(&path).unwrap();
+        sketch.replace(&path).unwrap();
         let read = read_image(&path).unwrap();
         assert_eq!(
             (read.size, &read.pixels[..8], &read.pixels[8..16]),

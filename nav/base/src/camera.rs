@@ -4,6 +4,7 @@ use std::fmt;
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector2, Vector3};
 
+use crate::estimates::Estimate;
 use crate::frames::Body;
 use crate::time::Time;
 
@@ -68,6 +69,27 @@ pub enum CameraTurn {
     Doubtful,
     /// What it sees agrees with the ship again, and is used.
     Agrees,
+}
+
+/// A camera as the navigator has it, for those who look on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraSight {
+    /// When the last image was taken that the navigator used.
+    pub time: Time,
+    /// Points in that image; `None` where steps of a visual odometry are used.
+    pub points: Option<usize>,
+    /// Poses that are held, from which points were seen.
+    pub poses: usize,
+    /// Points that are held as places.
+    pub landmarks: usize,
+    /// What it sees is looked at and not used.
+    pub is_doubted: bool,
+    /// How it sits otherwise than configured: a small turn about forward, starboard, down, rad.
+    pub turned: Body,
+    /// Its 1-sigma.
+    pub turned_sigma: Body,
+    /// By how much images are taken later than they are stamped, s.
+    pub delay: Estimate,
 }
 
 impl CameraTurn {

@@ -47,7 +47,7 @@ pub use alignment::{
     AlignmentPhase, AlignmentStatus, AttitudeSigma, Forecast, Lack, Limiting, SeaEstimate,
 };
 pub use attitude::Attitude;
-pub use camera::{CameraFrame, CameraModel, CameraTurn, ImagePoint, VisualOdometry};
+pub use camera::{CameraFrame, CameraModel, CameraSight, CameraTurn, ImagePoint, VisualOdometry};
 pub use can::{BusEvent, CanFrame, CanId};
 pub use estimates::{Disturbance, Estimate, Estimates, SeaQuantity};
 pub use events::{

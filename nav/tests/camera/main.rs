@@ -129,6 +129,24 @@ fn the_same_image_again_and_again_tells_nothing() {
 }
 
 #[test]
+fn who_looks_on_is_told_what_is_held_of_a_camera_and_that_it_is_doubted() {
+    let mut scene = Scene::new(5, Trouble::Usual);
+    assert_eq!(scene.filter().camera_sight(), None);
+    scene.sail(20.0);
+    let sight = scene.filter().camera_sight().unwrap();
+    assert!(!sight.is_doubted && sight.points.unwrap() > 15, "{sight:?}");
+    assert!(sight.poses > 2 && (scene.filter().time() - sight.time).as_seconds() < 1.0);
+    assert!(sight.turned_sigma.0.min() > 0.0 && sight.delay.sigma > 0.0);
+    let mut noise = Scene::new(5, Trouble::Noise);
+    noise.sail(20.0);
+    assert!(noise.filter().camera_sight().unwrap().is_doubted);
+    let mut steps = Scene::new(5, Trouble::Odometry);
+    steps.sail(20.0);
+    let sight = steps.filter().camera_sight().unwrap();
+    assert_eq!((sight.points, sight.landmarks), (None, 0));
+}
+
+#[test]
 fn states_of_a_camera_leave_a_minute_after_it() {
     let mut scene = Scene::new(2, Trouble::Usual);
     let before = scene.filter().covariance().states();

@@ -1,8 +1,10 @@
 //! `insd camera`: what a camera sees, and the tracks of its images for a recording.
 
+mod album;
 mod attitude;
 mod check;
 mod options;
+mod scene;
 mod sender;
 mod source;
 mod summary;

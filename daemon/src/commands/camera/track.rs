@@ -8,6 +8,7 @@ use insd_capture::TimedImage;
 use insd_drivers::recording::{FEATURES_HEAD, feature_rows};
 use insd_vision::{Hints, Tracked};
 
+use super::album::Album;
 use super::options::CameraOptions;
 use super::sender::TrackSender;
 use super::source::SourceOptions;
@@ -25,6 +26,9 @@ pub(super) struct TrackArgs {
     /// Send each image at once as $PINSD,TRK by UDP, to a port of kind camera
     #[arg(long, value_name = "HOST:PORT")]
     send: Option<String>,
+    /// Write a picture of what is seen every two seconds, over the one before, for the status page
+    #[arg(long, value_name = "PNG")]
+    picture: Option<PathBuf>,
     /// Write the same sentences to a file
     #[arg(long, value_name = "FILE")]
     sentences: Option<PathBuf>,
@@ -35,11 +39,17 @@ pub(super) fn run(args: &TrackArgs) -> anyhow::Result<()> {
     let camera = args.camera.camera()?;
     let mut table = format!("{FEATURES_HEAD}\n");
     let mut sender = TrackSender::open(args.send.as_deref(), args.sentences.as_deref())?;
-    let seen = |_: TimedImage, tracked: &Tracked, _: &Hints| {
+    let mut album = args.picture.as_deref().map(Album::new);
+    let seen = |image: TimedImage, tracked: &Tracked, hints: &Hints| {
         if args.out.is_some() {
             table.push_str(&feature_rows(&tracked.frame));
         }
         sender.tell(&tracked.frame);
+        let outcome = album.as_mut().map(|album| album.add(&camera, image, tracked, hints));
+        if let Some(Err(fault)) = outcome {
+            eprintln!("insd: {fault}; no more pictures");
+            album = None;
+        }
     };
     let (counts, _) = args.source.follow(&args.camera, &camera, seen)?;
     if let Some(out) = &args.out {

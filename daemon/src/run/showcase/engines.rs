@@ -102,13 +102,13 @@ pub(super) fn installation(findings: &[base::Finding]) -> Vec<Found> {
     findings.iter().map(found).collect()
 }
 
-fn triad(value: &Body, sigma: &Body, unit: f64) -> Vec<ShownEstimate> {
+pub(super) fn triad(value: &Body, sigma: &Body, unit: f64) -> Vec<ShownEstimate> {
     let pairs = value.0.iter().zip(sigma.0.iter());
     let one = |(value, sigma): (&f64, &f64)| base::Estimate { value: *value, sigma: *sigma };
     pairs.map(|pair| estimate(&one(pair), unit)).collect()
 }
 
-fn estimate(own: &base::Estimate, unit: f64) -> ShownEstimate {
+pub(super) fn estimate(own: &base::Estimate, unit: f64) -> ShownEstimate {
     ShownEstimate { value: Some(own.value / unit), sigma: Some(own.sigma / unit) }
 }
 

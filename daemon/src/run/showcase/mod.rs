@@ -4,6 +4,7 @@
 mod aids;
 mod alerts;
 mod alignment;
+mod camera;
 mod docking;
 mod engines;
 mod learning;
@@ -164,6 +165,7 @@ impl Showcase {
         shown.sensors = sensors::sensors(&self.config, slow, &self.sensor_rates, now);
         shown.choices = sensors::choices(&self.config, slow);
         shown.sky = sky::sky(&self.config, slow, now);
+        shown.camera = camera::camera(&self.config, slow);
         shown.inputs = ports::inputs(&self.config, slow, &self.input_rates, now);
         shown.outputs = ports::outputs(&self.config, slow, &self.output_rates);
         shown.buses = ports::buses(&self.config, slow);

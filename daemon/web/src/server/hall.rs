@@ -1,5 +1,6 @@
 //! What all connections share, and the task that keeps it new.
 
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -39,6 +40,8 @@ pub(super) struct Hall {
     pub(super) orders: OrderSender,
     /// The language of who has not chosen one.
     pub(super) language: Language,
+    /// A picture of what the camera sees.
+    pub(super) picture: Option<PathBuf>,
 }
 
 #[derive(Debug)]
@@ -62,6 +65,7 @@ impl Hall {
             access: Access::new(token, hosts),
             orders,
             language,
+            picture: None,
         }
     }
 

@@ -12,6 +12,7 @@ mod hall;
 mod history;
 mod metrics;
 mod page;
+mod picture;
 mod room;
 mod stall;
 mod stream;
@@ -78,7 +79,9 @@ pub fn start(
     orders: OrderSender,
 ) -> Result<WebHandle, WebError> {
     let door = Door::new(config.listen)?;
-    let hall = Arc::new(Hall::new(config.token, &config.allowed_hosts, config.language, orders));
+    let mut hall = Hall::new(config.token, &config.allowed_hosts, config.language, orders);
+    hall.picture = config.picture;
+    let hall = Arc::new(hall);
     let house = House {
         door,
         router: router(&hall),
@@ -164,6 +167,7 @@ fn router(hall: &Arc<Hall>) -> Router {
         .route("/api/v1/track", get(api::track))
         .route("/api/v1/history", get(api::history))
         .route("/api/v1/orders", get(api::orders))
+        .route("/api/v1/camera", get(picture::picture))
         .route("/api/v1/schema", get(api::schema))
         .route("/api/v1/texts", get(texts::languages))
         .route("/api/v1/texts/{language}", get(texts::texts))

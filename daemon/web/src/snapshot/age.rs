@@ -6,15 +6,17 @@
 
 use super::freshness::{Freshness, GONE};
 use super::{
-    BusState, RecordingState, Sensor, SensorState, ShownAid, ShownAlignment, ShownEngine,
-    ShownInput, ShownMode, ShownMotion, ShownOutput, ShownPortState, ShownSky, SkyState, Snapshot,
-    TimeInfo,
+    BusState, CameraState, RecordingState, Sensor, SensorState, ShownAid, ShownAlignment,
+    ShownCamera, ShownEngine, ShownInput, ShownMode, ShownMotion, ShownOutput, ShownPortState,
+    ShownSky, SkyState, Snapshot, TimeInfo,
 };
 
 /// What the alignment says is repeated every 10 s; when it is older than this nobody aligns, s.
 const ALIGNMENT_GONE: f64 = 15.0;
 /// Satellites stand where they stood; but what becomes of them is not known for longer than the navigator takes their ranges as fresh, s.
 const SKY_GONE: f64 = 5.0;
+/// After so long without an image that was looked at nobody knows what becomes of the next, s.
+const CAMERA_GONE: f64 = 5.0;
 /// A comparison of which nothing new has come for so long is no more than history, s.
 const WATCH_GONE: f64 = 10.0;
 /// Measurements that a sensor may leave out before its row is called silent.
@@ -37,6 +39,7 @@ impl Snapshot {
         shown.aids.iter_mut().for_each(|aid| aid.grow_older(passed, navigator));
         shown.inputs.iter_mut().for_each(|port| port.grow_older(passed, navigator));
         shown.sky.grow_older(now, passed, navigator);
+        shown.camera.iter_mut().for_each(|camera| camera.grow_older(now, navigator));
         shown.watched.iter_mut().for_each(|own| own.age_s = own.age_s.map(|age| age + passed));
         shown.watched.retain(|own| own.age_s.is_none_or(|age| age <= WATCH_GONE));
         for alert in &mut shown.alerts {
@@ -203,6 +206,21 @@ impl ShownSky {
     }
 }
 
+impl ShownCamera {
+    fn grow_older(&mut self, now: f64, navigator: Freshness) {
+        let is_old = self.valid_at_s.is_none_or(|at| now - at > CAMERA_GONE);
+        if navigator == Freshness::Gone {
+            self.state = CameraState::Unknown;
+        } else if is_old && self.is_looked_at() {
+            self.state = CameraState::Silent;
+        }
+        if !self.is_looked_at() {
+            (self.valid_at_s, self.points, self.poses, self.landmarks) = (None, None, None, None);
+            (self.turned, self.delay) = (Vec::new(), None);
+        }
+    }
+}
+
 impl ShownInput {
     fn grow_older(&mut self, passed: f64, navigator: Freshness) {
         self.age_s = self.age_s.map(|age| age + passed);
@@ -315,6 +333,20 @@ mod tests {
         assert_eq!((&gone.motion, gone.mode.name.as_str()), (&None, "fault"));
         assert_eq!((gone.time.utc, gone.time.told_ago_s), (None, 1.2));
         assert!(gone.sensors.iter().all(|sensor| sensor.state == SensorState::Unknown));
+    }
+
+    #[test]
+    fn a_camera_is_silent_when_its_last_image_is_old_and_unknown_when_nobody_tells_of_it() {
+        let mut snapshot = sailing();
+        let (state, at) = (CameraState::Used, snapshot.time.at_s);
+        let own =
+            ShownCamera { state, valid_at_s: Some(at), points: Some(40), ..Default::default() };
+        snapshot.camera = Some(own);
+        assert_eq!(snapshot.after(0.5).camera.unwrap().points, Some(40));
+        snapshot.time.at_s += 5.1;
+        let late = snapshot.after(0.1).camera.unwrap();
+        assert_eq!((late.state, late.points), (CameraState::Silent, None));
+        assert_eq!(snapshot.after(2.0).camera.unwrap().state, CameraState::Unknown);
     }
 
     #[test]

@@ -15,6 +15,7 @@ mod age;
 mod aids;
 mod alerts;
 mod alignment;
+mod camera;
 mod docking;
 mod freshness;
 mod learning;
@@ -28,6 +29,7 @@ mod watched;
 pub use aids::{Cause, Rejected, Samples, ShownAid};
 pub use alerts::{Alert, ShownAlertState, ShownEvent, ShownPriority, ShownSeverity};
 pub use alignment::{DisturbanceAxis, ShownAlignment, ShownDisturbance, ShownFit};
+pub use camera::{CameraState, ShownCamera};
 pub use docking::{ShownContact, ShownDocking, ShownDockingPoint, ShownQuay};
 pub use freshness::{Freshness, GONE, OLD};
 pub use learning::ShownLearning;
@@ -97,6 +99,8 @@ pub struct Snapshot {
     pub watched: Vec<ShownWatch>,
     /// The satellites, and what becomes of each.
     pub sky: ShownSky,
+    /// The camera, and what the navigator makes of it; `None` where none is configured.
+    pub camera: Option<ShownCamera>,
     /// Ports that are listened to, in the order of the configuration.
     pub inputs: Vec<ShownInput>,
     /// Ports that are written to, in the order of the configuration.
@@ -146,6 +150,7 @@ impl Default for Snapshot {
             choices: Vec::new(),
             watched: Vec::new(),
             sky: ShownSky::default(),
+            camera: None,
             inputs: Vec::new(),
             outputs: Vec::new(),
             buses: Vec::new(),

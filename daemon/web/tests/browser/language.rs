@@ -121,7 +121,7 @@ fn no_english_is_left_on_the_japanese_page_but_names() {
 /// Names of the scenes' ship, of her sensors, ports and files, of systems, units and keys, and what the operating system says.
 const NAMES: &str = "insd Example Moxa autopilot backbone baud blox bridge can compass dev doppler ecdis echo etc eth fix and gnss \
     gyro hand hot imu lan lib log main min old port ppm pps pulse recording sbg serial socketcan sounder toml tty ubx udp usb var \
-    Pier manual Galileo lever Input device error left output space";
+    Pier eyes manual Galileo lever Input device error left output space";
 
 #[test]
 #[ignore = "needs chromium and chromedriver"]

@@ -1,6 +1,7 @@
 //! A page whose scene goes on by itself.
 
 use std::net::{SocketAddr, TcpListener};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
@@ -20,6 +21,8 @@ pub(crate) struct Live {
     sender: OrderSender,
     handle: Option<WebHandle>,
     language: Language,
+    /// Where the front end of its camera would write.
+    folder: tempfile::TempDir,
     stop: Arc<AtomicBool>,
     still: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
@@ -63,10 +66,17 @@ impl Live {
         });
         let thread = Some(thread);
         let language = Language::default();
+        let folder = tempfile::tempdir().unwrap();
+        let handle = None;
         let mut live =
-            Live { address, viewer, sender, handle: None, language, stop, still, thread };
+            Live { address, viewer, sender, handle, language, folder, stop, still, thread };
         live.open();
         live
+    }
+
+    /// The picture of its camera.
+    pub(crate) fn picture(&self) -> PathBuf {
+        self.folder.path().join("seen.png")
     }
 
     /// Opens the page, again and at the same address.
@@ -75,6 +85,7 @@ impl Live {
             listen: Listen::Address(self.address),
             token: Some(TOKEN.to_owned()),
             language: self.language,
+            picture: Some(self.picture()),
             ..WebConfig::default()
         };
         let page = insd_web::start(config, self.viewer.clone(), self.sender.clone());

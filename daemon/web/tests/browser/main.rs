@@ -8,6 +8,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
 
+mod camera;
 mod docking;
 mod driver;
 mod language;

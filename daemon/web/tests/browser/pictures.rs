@@ -13,7 +13,7 @@ const LARGEST: usize = 300_000;
 /// Name, scene, size, light, and how far down; what ends on `-ja` is Japanese.
 type Picture = (&'static str, Scene, [u32; 2], &'static str, &'static str);
 
-const PICTURES: [Picture; 16] = [
+const PICTURES: [Picture; 17] = [
     ("underway", Scene::Underway, [1920, 1080], "day", "#ship"),
     ("underway-dusk", Scene::Underway, [1600, 900], "dusk", "#ship"),
     ("underway-night", Scene::Underway, [1600, 900], "night", "#ship"),
@@ -25,6 +25,7 @@ const PICTURES: [Picture; 16] = [
     ("docking-phone-night", Scene::Fault, [390, 844], "night", "#docking"),
     ("alignment", Scene::Alignment, [1280, 800], "day", "#alignment"),
     ("satellites", Scene::Underway, [1440, 860], "day", "#satellites"),
+    ("camera", Scene::Underway, [1280, 720], "day", "#camera"),
     ("fault", Scene::Fault, [1280, 860], "dusk", "#alerts"),
     ("phone", Scene::Underway, [390, 844], "day", "#ship"),
     ("phone-sensors", Scene::Fault, [390, 844], "night", "#sensors"),

@@ -104,6 +104,7 @@ impl Show {
             installation: ship::installation(self.scene),
             learning: (self.scene == Scene::Underway).then(|| self.learning()),
             sky: sky::sky(t, self.scene),
+            camera: Some(plumbing::camera(t, self.scene)),
             rejections: plumbing::rejections(t, self.scene),
             aids: plumbing::aids(t, self.scene),
             samples: plumbing::samples(t),

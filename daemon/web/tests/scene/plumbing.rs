@@ -1,9 +1,9 @@
 //! Sensors, ports and measurements of the made-up ship.
 
 use insd_web::snapshot::{
-    Age, Bus, BusNode, BusState, Cause, OutputMessage, Rejected, Samples, Schedule, Sensor,
-    SensorState, ShownAid, ShownChoice, ShownInput, ShownOutput, ShownPortState, ShownWatch,
-    Snapshot,
+    Age, Bus, BusNode, BusState, CameraState, Cause, OutputMessage, Rejected, Samples, Schedule,
+    Sensor, SensorState, ShownAid, ShownCamera, ShownChoice, ShownEstimate, ShownInput,
+    ShownOutput, ShownPortState, ShownWatch, Snapshot,
 };
 
 use super::{Scene, utc};
@@ -24,6 +24,34 @@ pub(super) fn fill(snapshot: &mut Snapshot, t: f64, scene: Scene) {
     snapshot.outputs = outputs(t, scene);
     snapshot.buses = vec![bus(t)];
     snapshot.schedule = Schedule { epochs: count(t, 40.0), late: 3, skipped: 0 };
+}
+
+/// A camera that looks to starboard; in the fault its lens is wet.
+pub(super) fn camera(t: f64, scene: Scene) -> ShownCamera {
+    let state = match scene {
+        Scene::Alignment => CameraState::Waiting,
+        Scene::Underway => CameraState::Used,
+        Scene::Fault => CameraState::Doubtful,
+    };
+    let own = ShownCamera {
+        sensor: "eyes".to_owned(),
+        state,
+        has_picture: true,
+        ..ShownCamera::default()
+    };
+    if !own.is_looked_at() {
+        return own;
+    }
+    let estimate = |value, sigma| ShownEstimate { value: Some(value), sigma: Some(sigma) };
+    ShownCamera {
+        valid_at_s: Some(t - 0.1),
+        points: Some(if scene == Scene::Fault { 9 } else { 84 }),
+        poses: Some(10),
+        landmarks: Some(12),
+        turned: vec![estimate(0.31, 0.12), estimate(-0.84, 0.1), estimate(0.22, 0.19)],
+        delay: Some(estimate(0.012, 0.004)),
+        ..own
+    }
 }
 
 fn sensors(t: f64, scene: Scene) -> Vec<Sensor> {

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::snapshot::{Sensor, ShownInput, ShownOutput, ShownPortState, SkyState, Snapshot};
+use crate::snapshot::{
+    CameraState, Sensor, ShownInput, ShownOutput, ShownPortState, SkyState, Snapshot,
+};
 
 use super::sheet::Sheet;
 use super::ship::word;
@@ -35,6 +37,7 @@ const SENSOR_COUNTS: [Count<Sensor>; 2] = [
 pub(super) fn write(sheet: &mut Sheet, snapshot: &Snapshot) {
     sensors(sheet, snapshot);
     satellites(sheet, snapshot);
+    camera(sheet, snapshot);
     inputs(sheet, snapshot);
     outputs(sheet, snapshot);
     watched(sheet, snapshot);
@@ -116,6 +119,13 @@ fn satellites(sheet: &mut Sheet, snapshot: &Snapshot) {
             strength.set(&[&own.name, &signal.code], signal.cn0_db_hz);
         }
     }
+}
+
+fn camera(sheet: &mut Sheet, snapshot: &Snapshot) {
+    let Some(own) = &snapshot.camera else { return };
+    let is_used = f64::from(u8::from(own.state == CameraState::Used));
+    sheet.value("camera_in_use", "Whether what the camera sees is used: 1", Some(is_used));
+    sheet.value("camera_points", "Points in its last image", own.points.map(f64::from));
 }
 
 fn inputs(sheet: &mut Sheet, snapshot: &Snapshot) {
