@@ -75,6 +75,8 @@ pub enum Carried {
     WithTemperature,
     /// From the first heading of a reference on.
     WithHeading,
+    /// From the first position of a reference on that tells of an error which stays.
+    WithPosition,
     /// From the first ranges of satellites on.
     WithRanges,
     /// From the first epoch of several antennas on.

@@ -49,6 +49,8 @@ const CAMERA_DELAY_WALK: f64 = 1e-5;
 
 /// How long the slow part of the error of a reference's heading lasts, s.
 const HEADING_ERROR_TIME: f64 = 600.0;
+/// Time of what stays of a reference's position, s: with the weather and the season, and as she sails on.
+const POSITION_ERROR_TIME: f64 = 10_800.0;
 /// 1-sigma of the mean height before anything is known of it, m.
 pub(crate) const SEA_LEVEL_UNKNOWN: f64 = 30.0;
 
@@ -184,6 +186,10 @@ declare! {
     HEADING_ERROR: 1, "heading_error", "sigma", Scalar, WithHeading,
         first: |_| 1.0, process: |_, _| Process::of_sigmas(HEADING_ERROR_TIME),
         correction: Correction::Adds(|nominal| from_mut(&mut nominal.heading_error));
+    /// What stays for hours of the error of a reference's position, north and east, in units of the sigma it states for that, Gauss-Markov.
+    POSITION_ERROR: 2, "position_error", "sigma", Ned, WithPosition,
+        first: |_| 1.0, process: |_, _| Process::of_sigmas(POSITION_ERROR_TIME),
+        correction: Correction::Adds(|nominal| nominal.position_error.as_mut_slice());
     /// Clock of the receiver of ranges against GPS time and its drift, m and m/s.
     RECEIVER_CLOCK: 2, "receiver_clock", "m, m/s", Scalar, WithRanges,
         first: |_| CLOCK_UNKNOWN, process: |_, _| Process::Clock,

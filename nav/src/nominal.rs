@@ -89,6 +89,8 @@ pub struct Nominal {
     pub sea_level: f64,
     /// Slow error of a reference's heading, sigmas.
     pub heading_error: f64,
+    /// What stays of the error of a reference's position, north and east, in units of the sigma it states for that.
+    pub position_error: Vector2<f64>,
     /// Clock of the receiver of ranges ahead, m, and its drift, m/s.
     pub receiver_clock: Vector2<f64>,
     /// What it adds for Galileo, BeiDou and GLONASS, m.
@@ -170,6 +172,7 @@ impl Nominal {
             log_by_turn: Vector2::zeros(),
             sea_level: position.height,
             heading_error: 0.0,
+            position_error: Vector2::zeros(),
             receiver_clock: Vector2::zeros(),
             system_offsets: Vector3::zeros(),
             range_errors: SVector::zeros(),

@@ -53,13 +53,9 @@ pub(crate) fn as_heading(received: &Received) -> Received {
     };
     let reference = ExternalReference {
         time: reading.time,
-        v_north: None,
-        v_east: None,
-        velocity_std: None,
-        position: None,
-        position_std: None,
         heading: Some(heading),
         heading_std: Some(std),
+        ..ExternalReference::default()
     };
     Received { message: Message::Reference(reference), ..*received }
 }

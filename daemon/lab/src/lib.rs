@@ -17,6 +17,7 @@ pub mod raw_receivers;
 pub mod raw_run;
 mod raw_table;
 mod raw_voyage;
+mod reference_table;
 pub mod report;
 pub mod scenario;
 pub mod sniff;

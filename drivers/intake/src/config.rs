@@ -105,6 +105,9 @@ pub struct SensorConfig {
     /// 1-sigma of a position that states none, m.
     #[serde(default = "ten")]
     pub position_std_m: f64,
+    /// 1-sigma of what stays for hours of the error of a position from elsewhere, beside that, m: of Loran, what the corrections of the ground leave.
+    #[serde(default)]
+    pub position_lasting_std_m: Option<f64>,
     /// Offset that is added to a heading, deg: how the compass or the baseline of antennas sits.
     #[serde(default)]
     pub heading_offset_deg: f64,
@@ -278,6 +281,7 @@ impl SensorConfig {
             heading_std_deg: one_degree(),
             velocity_std_mps: tenth(),
             position_std_m: ten(),
+            position_lasting_std_m: None,
             heading_offset_deg: 0.0,
             heading: false,
             magnetic: false,
@@ -342,6 +346,12 @@ impl SensorConfig {
         expect(positive(self.heading_std_deg), "heading_std_deg", "a number above 0");
         expect(positive(self.velocity_std_mps), "velocity_std_mps", "a number above 0");
         expect(positive(self.position_std_m), "position_std_m", "a number above 0");
+        let lasting = self.position_lasting_std_m;
+        let is_placed = matches!(self.kind, Kind::NmeaPosition | Kind::N2kPosition);
+        let expected =
+            "a number above 0, of a position from elsewhere: nmea_position, n2k_position";
+        let is_said = lasting.is_none_or(|std| positive(std) && is_placed);
+        expect(is_said, "position_lasting_std_m", expected);
         let offset = self.heading_offset_deg.abs() <= 360.0;
         expect(offset, "heading_offset_deg", "-360 to 360");
         let stated = self.kind != Kind::Pashr || self.dialect.is_some();

@@ -201,6 +201,7 @@ fn external_reference(time: Time, fields: &Fields<'_>) -> Result<ExternalReferen
         velocity_std: fields.number(6)?,
         position: fields.latitude_longitude(3)?,
         position_std: fields.number(7)?,
+        position_lasting_std: None,
         heading,
         heading_std: fields.number(8)?.map(f64::to_radians),
     })

@@ -60,8 +60,10 @@ pub struct ExternalReference {
     pub velocity_std: Option<f64>,
     /// Latitude and longitude (height is not used).
     pub position: Option<Geodetic>,
-    /// 1-sigma of each horizontal component, m.
+    /// 1-sigma of each horizontal component, m, of what is over within minutes.
     pub position_std: Option<f64>,
+    /// 1-sigma of what stays for hours besides, m, as the propagation of Loran over land; `None` where there is no such part.
+    pub position_lasting_std: Option<f64>,
     /// True heading, rad.
     pub heading: Option<f64>,
     /// 1-sigma of the heading, rad.

@@ -35,6 +35,7 @@ fn estimate() -> Nominal {
     nominal.log_by_turn = Vector2::new(-4.0, -6.0);
     nominal.sea_level = 24.0;
     nominal.heading_error = 0.4;
+    nominal.position_error = Vector2::new(0.7, -1.1);
     nominal.antenna_heading_error = -0.6;
     nominal.antenna_heading_offset = 0.01;
     nominal.receiver_clock = Vector2::new(120.0, 0.3);
@@ -178,6 +179,10 @@ fn table() -> Vec<Entry> {
         ("reference_position", |view| {
             let berth = Geodetic::from_degrees(52.000_01, 179.900_02, 0.0);
             rows(&reference_position::innovation(view, &berth, 0.3))
+        }),
+        ("reference_position with an error that stays", |view| {
+            let there = Geodetic::from_degrees(52.000_01, 179.900_02, 0.0);
+            rows(&reference_position::with_lasting_error(view, &there, 15.0, 100.0))
         }),
     ]
 }

@@ -87,7 +87,14 @@ impl Filter {
             let stated = floored(reference.position_std, range, "reference_position", report);
             let std =
                 stated * self.noise_of(Aid::ReferencePosition).sqrt() * self.repeats(reference);
-            let innovation = reference_position::innovation(&self.view(), &position, std);
+            let innovation = match reference.position_lasting_std {
+                Some(lasting) => {
+                    self.begin_to_carry(Carried::WithPosition);
+                    let view = self.view();
+                    reference_position::with_lasting_error(&view, &position, std, lasting)
+                }
+                None => reference_position::innovation(&self.view(), &position, std),
+            };
             let aid = Aid::ReferencePosition;
             self.consult(aid, &innovation, rows::of_reference_position);
             let judged = self.gated(&innovation, self.withheld(aid));

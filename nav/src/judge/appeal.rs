@@ -27,7 +27,7 @@ pub(super) struct Appeal {
     /// Since when the receiver would lie, and since when both are heard.
     since: Time,
     heard: Time,
-    size: Vector2<f64>,
+    size: Vector3<f64>,
     /// What the estimate would lack, of the one cause that there is.
     effects: Effects,
     /// How likely it was, and how much likelier, as a logarithm, it has become.
@@ -41,7 +41,7 @@ impl Appeal {
     /// That the receiver does what a group has, of such a size, since then, and was so likely; `lacks` is what the estimate lacks then.
     pub(super) fn new(
         (group, since): (usize, Time),
-        size: Vector2<f64>,
+        size: Vector3<f64>,
         (lacks, chance): (&Errors, f64),
         heard: Time,
     ) -> Self {
@@ -91,7 +91,8 @@ impl Appeal {
         self.effects.conform(weighed.layout());
         let FaultGroup { rows, .. } = &ALL[self.group];
         let own = direct.rows(rows.start, rows.len());
-        let mut told = DMatrix::from_fn(1, own.ncols(), |_, row| own.column(row).dot(&self.size));
+        let size = self.size.rows(0, rows.len());
+        let mut told = DMatrix::from_fn(1, own.ncols(), |_, row| own.column(row).dot(&size));
         let apart = self.apart(attitude);
         (0..own.ncols()).for_each(|row| told[row] += apart.bent(direct, row));
         let effect = weighed.effect_of(&self.effects, told);
@@ -158,7 +159,7 @@ mod tests {
             group: 4,
             since: Time::START,
             heard: Time::START,
-            size: Vector2::new(0.0, 0.002),
+            size: Vector3::new(0.0, 0.002, 0.0),
             effects: Effects::of(&lacks),
             chance: 0.1,
             odds: 0.0,

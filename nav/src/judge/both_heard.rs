@@ -24,7 +24,7 @@ impl Judge {
         let (_, chance) = self.docket.open_lie()?.left;
         let mut lacks = self.done_by(lie)?;
         lacks -= &self.done_by(mended)?;
-        Some(Appeal::new((group, since), sized.value.xy(), (&lacks, chance), now))
+        Some(Appeal::new((group, since), sized.value, (&lacks, chance), now))
     }
 
     /// What a fault has done to the estimate.

@@ -316,7 +316,8 @@ impl Docket {
             return;
         }
         self.enter(party, Standing::Excluded, now);
-        self.open = self.open.filter(|_| party != Party::Gnss);
+        // a distance that has gone into the estimate stays there, whatever the receiver is left out for now
+        self.open = self.open.filter(|lie| party != Party::Gnss || lie.fault == Fault::Jump);
         self.leave_number_out(fault, lie.0.x, now);
         if party.is_receiver() {
             self.lies[self.lie_of(party)].find(lie.0, lie.1, now);

@@ -7,7 +7,7 @@ use super::Judge;
 use super::alternative::{Alternative, Ruling};
 use super::charge::{Charge, Kind};
 use super::docket::OpenLie;
-use super::lie::is_growing;
+use super::lie::{growth, is_growing};
 use super::rows::ALL;
 use super::separation::Separation;
 use super::suspicion::{Suspicion, UNTIDY, chance_of_end};
@@ -67,6 +67,20 @@ impl Judge {
         let is_it =
             |charge: &&Charge| matches!(charge.kind, Kind::Shaped { group, .. } if group == cause);
         let charge = *self.assessment.charges.iter().find(is_it)?;
+        self.keep_open(charge, chance, now)
+    }
+
+    /// The receiver is convicted of telling the past, and its time set right: that it is off by a distance instead is left open; gives that. The two differ as
+    /// soon as she turns or goes at another speed.
+    pub(super) fn leave_distance_open(&mut self, now: Time) -> Option<Charge> {
+        let is_off =
+            |charge: &&Charge| charge.party() == Party::Gnss && growth(charge.fault, 0.0).is_some();
+        let charge = *self.assessment.charges.iter().find(is_off)?;
+        let chance = (charge.weight - self.assessment.total).exp();
+        self.keep_open(charge, chance, now)
+    }
+
+    fn keep_open(&mut self, charge: Charge, chance: f64, now: Time) -> Option<Charge> {
         let Kind::Shaped { since, sized, .. } = charge.kind else { return None };
         self.docket.leave_lie_open(OpenLie {
             fault: charge.fault,

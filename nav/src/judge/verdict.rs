@@ -64,6 +64,8 @@ impl Judge {
         }
         if let Some(late) = charge.lateness() {
             if late.abs() < SET_BACK {
+                let distance = self.leave_distance_open(now);
+                self.hear_both(distance, charge, now);
                 return Ruling { fault: charge.fault, mended: Some(mended) };
             }
             mended.error.scale_block(GNSS_DELAY, 0.0);

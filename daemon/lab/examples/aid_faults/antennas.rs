@@ -148,6 +148,7 @@ fn compass(truth: &[Truth], lie: Lie, seed: u64) -> Vec<Received> {
             velocity_std: None,
             position: None,
             position_std: None,
+            position_lasting_std: None,
             heading: Some(heading.rem_euclid(std::f64::consts::TAU)),
             heading_std: Some(COMPASS * DEG),
         };

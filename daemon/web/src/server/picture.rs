@@ -122,7 +122,8 @@ mod tests {
         let path = folder.path().join("seen.png");
         std::fs::write(&path, PNG).unwrap();
         let file = std::fs::File::options().write(true).open(&path).unwrap();
-        file.set_modified(std::time::SystemTime::now() - Duration::from_secs(40)).unwrap();
+        let written = file.metadata().unwrap().modified().unwrap();
+        file.set_modified(written - Duration::from_secs(40)).unwrap();
         assert!(read_of(&path).unwrap_err().contains("older than 30 s"));
     }
 }

@@ -70,6 +70,7 @@ impl Core {
         let sensor = &self.sensors[index];
         let (number, role) = (sensor.number, sensor.config.kind.role());
         let default_std = sensor.config.position_std_m;
+        let lasting_std = sensor.config.position_lasting_std_m;
         let time = time - Span::from_seconds(sensor.config.delay_s);
         let fix = GnssFix { lever: sensor.config.lever(), ..epoch.fix(time) };
         self.validity(index, now, epoch.is_valid() || epoch.is_compass(), 0);
@@ -87,6 +88,7 @@ impl Core {
                 time,
                 position: fix.position,
                 position_std: std.filter(|std| std.is_finite()).or(Some(default_std)),
+                position_lasting_std: lasting_std,
                 ..ExternalReference::default()
             };
             self.reference(Quantity::Position, index, now, epoch.is_valid(), reference);

@@ -39,6 +39,7 @@ pub(crate) fn messages(
             velocity_std: speed_std,
             position: at_berth.then_some(*berth),
             position_std: at_berth.then(|| motion.sway_std(t).max(SURVEY_STD)),
+            position_lasting_std: None,
             heading: heading_std.map(heading),
             heading_std,
         }

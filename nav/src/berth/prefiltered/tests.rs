@@ -130,6 +130,7 @@ fn named(at: f64) -> Received {
         velocity_std: None,
         position: Some(place),
         position_std: Some(0.5),
+        position_lasting_std: None,
         heading: None,
         heading_std: None,
     };

@@ -20,6 +20,7 @@ use crate::camera_voyage::CameraVoyage;
 use crate::commands::smooth::Afterwards;
 use crate::raw_table::RawTable;
 use crate::raw_voyage::RawVoyage;
+use crate::reference_table::ReferenceTable;
 
 /// Solutions per second where nothing else is asked for.
 const RATE: f64 = 10.0;
@@ -39,6 +40,7 @@ pub(super) fn run(
     let mut camera =
         way.map(|way| CameraVoyage::open(&args.dir, way)).transpose()?.unwrap_or_default();
     config.models.camera = way.map(|way| camera_table::read(&args.dir, way)).transpose()?.flatten();
+    let reference = ReferenceTable::read(&args.dir)?;
     let mut ports = Ports::of(args, &reader.header().start_utc)?;
     config.points = ports.as_ref().map(|ports| ports.levers.clone()).unwrap_or_default();
     let mut engine = Engine::new(config);
@@ -47,7 +49,7 @@ pub(super) fn run(
     let start_utc = &reader.header().start_utc;
     let mut raw = RawVoyage::open(&args.dir, gnss, &args.masks, &table, start_utc)?;
     for received in &mut reader {
-        let received = received?;
+        let received = reference.told(received?);
         for ranges in raw.until(received.receipt) {
             if args.outages.iter().any(|outage| outage.drops(&ranges)) {
                 dropped += 1;
