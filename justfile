@@ -26,6 +26,11 @@ vm *options:
 deb *options:
     systemd/package {{options}}
 
+# insd in a container, made of its package; see docs/container.md
+container *options:
+    systemd/package
+    podman build -f contrib/container/Containerfile -t insd {{options}} "${CARGO_TARGET_DIR:-target}/debian"
+
 # the package for arm64, built soon, installed and started under emulation; see tests/arm64/README.md. Not in CI: it is one more build of everything
 arm64:
     tests/arm64/prepare
