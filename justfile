@@ -26,6 +26,25 @@ vm *options:
 deb *options:
     systemd/package {{options}}
 
+# insd in a container, made of its package; see docs/container.md
+container *options:
+    systemd/package
+    podman build -f contrib/container/Containerfile -t insd {{options}} "${CARGO_TARGET_DIR:-target}/debian"
+
+# the package for arm64, built soon, installed and started under emulation; see tests/arm64/README.md. Not in CI: it is one more build of everything
+arm64:
+    tests/arm64/prepare
+    cargo build --release -p insd
+    tests/arm64/run "$(INSD_ARCH=arm64 INSD_PROFILE=trial systemd/package)" "${CARGO_TARGET_DIR:-target}/release/insd"
+
+# the package of this commit twice, in places that have nothing in common: are they the same bytes? Two release builds
+reproducible arch="":
+    contrib/release/reproducible {{arch}}
+
+# all files of a release, signed; see docs/release.md
+release key folder="target/release-files" *options:
+    contrib/release/make {{options}} {{key}} {{folder}}
+
 # the package installed, started, hurt, upgraded and purged in a small Debian, see tests/vm/README.md
 vm-service:
     tests/vm/prepare service
