@@ -48,6 +48,7 @@ pub(super) fn run(
     let mut raw = RawVoyage::open(&args.dir, gnss, &args.masks, &table, start_utc)?;
     for received in &mut reader {
         let received = received?;
+        sink.hear(received.receipt);
         for ranges in raw.until(received.receipt) {
             if args.outages.iter().any(|outage| outage.drops(&ranges)) {
                 dropped += 1;
