@@ -143,12 +143,12 @@ temperature seeds="9":
     cargo run --release -p insd-engine --example temperature -- {{seeds}}
 
 # voyages with a sensor that lies, all kinds, both grades, every suite of sensors: what it costs, who is told and named
-faults draws="5" *kind:
-    cargo run --release -p insd-engine --example faults -- {{draws}} {{kind}}
+faults draws="5" *options:
+    cargo run --release -p insd-lab --example faults -- {{draws}} {{options}}
 
 # antennas that are a compass, and docking aids, that lie: whether and how soon it is told, and what it costs
-aid-faults seeds="10" *kind:
-    cargo run --release -p insd-lab --example aid_faults -- {{seeds}} {{kind}}
+aid-faults seeds="10" *options:
+    cargo run --release -p insd-lab --example aid_faults -- {{seeds}} {{options}}
 
 # the recipes of docs/connect.md with gpsd, chrony and, where it is installed, Signal K
 conformance-connect *options:
@@ -159,6 +159,11 @@ conformance-connect *options:
 conformance-fleet *options:
     cargo build --release -p insd
     tests/conformance/fleet.py target/release/insd {{options}}
+
+# the same over TLS with certificates that are made for it
+conformance-fleet-tls *options:
+    cargo build --release -p insd --features tls
+    tests/conformance/fleet.py target/release/insd --tls {{options}}
 
 # what the daemon costs at 200 samples a second with ten outputs, and how soon it speaks
 footprint seconds="60":
@@ -231,9 +236,9 @@ satellites-campaign seeds="20":
     cargo run --release -p insd-tests --example satellites_campaign -- "${CARGO_TARGET_DIR:-target}/release/insd" {{seeds}} docs/satellites.md
 
 # simulated ports in which something is wrong, spoofers and satellites and bases: do protection levels hold? A table of docs/protection.md; half an hour for 50 seeds
-integrity-campaign seeds="50" *page:
+integrity-campaign seeds="50" *options:
     cargo build --release
-    cargo run --release -p insd-tests --example integrity_campaign -- "${CARGO_TARGET_DIR:-target}/release/insd" {{seeds}} {{page}}
+    cargo run --release -p insd-tests --example integrity_campaign -- "${CARGO_TARGET_DIR:-target}/release/insd" {{seeds}} {{options}}
 
 # ships at their berths in all seas, on all moorings, with all grades: the table of docs/figures.md; ten minutes for 24 seeds
 berth-campaign seeds="24":

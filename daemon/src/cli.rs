@@ -8,7 +8,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 use insd_config::Config;
 use insd_lab::blame;
 use insd_lab::commands::{
-    campaign, convert, evaluate, feed, integrity, learn, limit, replay, report, simulate, smooth,
+    batch, campaign, convert, evaluate, feed, integrity, learn, limit, replay, report, simulate,
+    smooth,
 };
 use insd_lab::demo;
 
@@ -60,6 +61,8 @@ enum Command {
     Integrity(integrity::IntegrityArgs),
     /// Run a scenario with many seeds and score errors and claims
     Campaign(campaign::CampaignArgs),
+    /// Run an archive of voyages and raw recordings through the navigator: one line for each
+    Batch(batch::BatchArgs),
     /// Learn from recorded voyages what repeats of the errors of log and IMU
     Learn(learn::LearnArgs),
     /// How well the optimal filter could do in a scenario
@@ -118,6 +121,7 @@ impl Cli {
             Command::Evaluate(args) => evaluate::run(&args),
             Command::Integrity(args) => integrity::run(&args),
             Command::Campaign(args) => campaign::run(&args),
+            Command::Batch(args) => batch::run(&args),
             Command::Learn(args) => learn::run(&args),
             Command::Limit(args) => limit::run(&args),
             Command::CheckConfig(args) => check_config::run(&args),

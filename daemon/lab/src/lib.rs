@@ -11,6 +11,7 @@ pub mod commands;
 pub mod demo;
 pub mod evaluation;
 pub mod export;
+pub mod parts;
 pub mod pty;
 pub mod ranges;
 pub mod raw_receivers;

@@ -58,19 +58,35 @@ impl RawRun {
     /// The first that `each` returns; or there is no such run.
     pub fn for_each(
         &mut self,
-        mut each: impl FnMut(&Arrival) -> anyhow::Result<()>,
+        each: impl FnMut(&Arrival) -> anyhow::Result<()>,
     ) -> anyhow::Result<()> {
-        let runs = self.walk(|item| match item {
+        let runs = self.for_each_of_run(each)?;
+        self.tell_other_runs(runs);
+        Ok(())
+    }
+
+    /// The same, and gives the number of runs without a word about them.
+    ///
+    /// # Errors
+    /// As [`RawRun::for_each`].
+    pub fn for_each_of_run(
+        &mut self,
+        mut each: impl FnMut(&Arrival) -> anyhow::Result<()>,
+    ) -> anyhow::Result<u32> {
+        self.walk(|item| match item {
             Ok(arrival) => each(&arrival),
             Err(fault) => {
                 eprintln!("{fault}");
                 Ok(())
             }
-        })?;
+        })
+    }
+
+    /// Tells on standard error that there are other runs than the one that was read.
+    pub fn tell_other_runs(&self, runs: u32) {
         if runs > 1 {
             eprintln!("run {} of {runs} was read; choose another with --run", self.run);
         }
-        Ok(())
     }
 
     /// Hands over the arrivals in their order, each with the intake that has just heard it, and what was measured. Gives the

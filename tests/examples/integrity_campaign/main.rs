@@ -6,25 +6,44 @@
 //!
 //! Each kind of fault has so many voyages, which differ in port, ship, IMU, with a log or without, size, satellite and onset; they are made in
 //! `target/integrity-campaign`. Spoofers and honest voyages are replayed by fixes alone, too. Without a page the table is printed. In the environment
-//! `KIND=spoofer` takes the kinds whose name begins so, `SEED=3` one of the seeds, `KEEP=1` keeps the voyages, and `CASES=1` tells each.
+//! `KIND=spoofer` takes the kinds whose name begins so, `SEED=3` one of the seeds, `KEEP=1` keeps the voyages, and `CASES=1` tells each. Options as
+//! those of `insd campaign` sail it in parts and put parts together.
 
 mod case;
 mod outcome;
 mod table;
 
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use clap::Parser as _;
+use insd_lab::parts::{CaseList, CaseRun, PartsArgs, gather};
+use insd_lab::scenario;
 use insd_tests::pages;
 use insd_tests::programs::run;
-use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use serde::{Deserialize, Serialize};
 
 use case::{Case, KINDS, Kind, SCENARIO};
 use outcome::{Outcome, outcome};
 
+/// What is sailed.
+#[derive(Debug, clap::Parser)]
+struct Args {
+    /// The program, as target/release/insd
+    program: String,
+    /// Voyages of each kind
+    #[arg(default_value_t = 50)]
+    seeds: u64,
+    /// Page whose table is to be made anew
+    page: Option<String>,
+    #[command(flatten)]
+    parts: PartsArgs,
+}
+
 /// What a voyage is replayed with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 enum Way {
     /// Ranges of satellites.
     Tight,
@@ -34,32 +53,57 @@ enum Way {
 
 type Failed = Box<dyn Error + Send + Sync>;
 
+/// What the ways of a voyage gave.
+type Outcomes = Vec<(Way, Outcome)>;
+
 fn main() -> Result<(), Failed> {
-    let mut arguments = std::env::args().skip(1);
-    let program = arguments.next().ok_or("which insd? target/release/insd")?;
-    let seeds: u64 = arguments.next().map_or(Ok(50), |seeds| seeds.parse())?;
+    let args = Args::parse();
     let only = std::env::var("KIND").unwrap_or_default();
     let one: Option<u64> = std::env::var("SEED").ok().and_then(|seed| seed.parse().ok());
-    let seeds = one.map_or(1..=seeds, |seed| seed..=seed);
+    let seeds = one.map_or(1..=args.seeds, |seed| seed..=seed);
+    let kinds = KINDS.into_iter().filter(|kind| kind.name().starts_with(&only));
+    let cases: BTreeMap<String, Case> = kinds
+        .clone()
+        .flat_map(|kind| seeds.clone().map(move |seed| (name(kind, seed), Case::new(kind, seed))))
+        .collect();
+    let names = kinds.flat_map(|kind| seeds.clone().map(move |seed| name(kind, seed)));
+    let content = format!("{:?} {cases:?}", scenario::find(SCENARIO, &[])?.scenario);
+    let declared = CaseList::new("integrity counts", "", names.collect(), &content);
+    let kept = gather(&args.parts, vec![declared], |_, name: &String| {
+        let case = cases.get(name).ok_or_else(|| anyhow::anyhow!("{name}: no such case"))?;
+        let score = sail(&args.program, case).map_err(|why| anyhow::anyhow!("{why}"))?;
+        Ok(CaseRun { case: name.clone(), score })
+    })?;
+    let kept = kept.into_cases();
+    eprint!("{}", kept.lack());
+    let table = table::HEAD.to_owned() + &rows(&kept.runs).concat();
+    Ok(pages::put(args.page, "integrity-campaign", &table)?)
+}
+
+fn name(kind: Kind, seed: u64) -> String {
+    format!("{}|{seed}", kind.name())
+}
+
+/// A row for each kind and way.
+fn rows(runs: &[CaseRun<Outcomes>]) -> Vec<String> {
+    let kind = |run: &CaseRun<Outcomes>| {
+        run.case.rsplit_once('|').map_or_else(String::new, |(kind, _)| kind.to_owned())
+    };
     let mut rows = Vec::new();
-    for kind in KINDS.into_iter().filter(|kind| kind.name().starts_with(&only)) {
-        let cases = seeds.clone().into_par_iter().map(|seed| Case::new(kind, seed));
-        let sailed: Result<Vec<_>, Failed> = cases.map(|case| sail(&program, &case)).collect();
-        let sailed: Vec<(Case, Way, Outcome)> = sailed?.into_iter().flatten().collect();
+    for of_kind in runs.chunk_by(|a, b| kind(a) == kind(b)) {
         for way in [Way::Tight, Way::Loose] {
+            let all = of_kind.iter().flat_map(|run| &run.score);
             let own: Vec<&Outcome> =
-                sailed.iter().filter(|own| own.1 == way).map(|own| &own.2).collect();
-            let name = format!("{}{}", kind.name(), if way == Way::Loose { ", fixes" } else { "" });
+                all.filter(|own| own.0 == way).map(|(_, outcome)| outcome).collect();
+            let name = kind(&of_kind[0]) + if way == Way::Loose { ", fixes" } else { "" };
             rows.extend((!own.is_empty()).then(|| table::row(&name, &own)));
         }
-        eprint!("{}", rows.last().map_or("", String::as_str));
     }
-    let table = table::HEAD.to_owned() + &rows.concat();
-    Ok(pages::put(arguments.next(), "integrity-campaign", &table)?)
+    rows
 }
 
 /// Makes a voyage and replays it.
-fn sail(program: &str, case: &Case) -> Result<Vec<(Case, Way, Outcome)>, Failed> {
+fn sail(program: &str, case: &Case) -> Result<Outcomes, Failed> {
     let word = case.kind.name().replace(' ', "-");
     let folder = PathBuf::from(format!("target/integrity-campaign/{word}-{}", case.seed));
     let voyage = folder.join("voyage");
@@ -73,7 +117,7 @@ fn sail(program: &str, case: &Case) -> Result<Vec<(Case, Way, Outcome)>, Failed>
         let outcome = replay(program, &voyage, *way, case.wrong)
             .map_err(|why| format!("{word} {}: {why}", case.seed))?;
         tell(case, *way, &outcome);
-        sailed.push((case.clone(), *way, outcome));
+        sailed.push((*way, outcome));
     }
     if std::env::var_os("KEEP").is_none() {
         std::fs::remove_dir_all(&folder)?;

@@ -6,6 +6,7 @@ use std::path::Path;
 use insd_base::{Availability, Party, Solution};
 use insd_drivers::recording::{NavRow, read_nav_rows, read_truth_rows};
 use insd_lab::evaluation::{AlertLimit, IntegrityReport, StanfordClass, StanfordPoint, errors};
+use serde::{Deserialize, Serialize};
 
 /// Alert limit of a harbour, m.
 const LIMIT: f64 = 10.0;
@@ -15,7 +16,7 @@ const SETTLED: f64 = 120.0;
 const PATIENCE: f64 = 10.0;
 
 /// What a voyage gave.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Outcome {
     pub(crate) epochs: usize,
     pub(crate) available: usize,

@@ -4,6 +4,7 @@ use insd_base::units::{DEG, wrap_pi};
 use insd_base::{Integrity, Mode, Party, Received, Solution, Time, Truth, Voyage, earth};
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_nav::judge::Judge;
+use serde::{Deserialize, Serialize};
 
 /// What is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +26,7 @@ pub(crate) struct Case {
 }
 
 /// What it came to.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Score {
     /// When it was told that somebody lies, or who, after it began, s.
     told: Option<f64>,

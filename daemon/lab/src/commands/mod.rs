@@ -1,6 +1,7 @@
 //! One command, one file.
 
 pub mod alignment;
+pub mod batch;
 mod camera;
 pub mod campaign;
 pub mod convert;

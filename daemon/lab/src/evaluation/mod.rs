@@ -42,6 +42,7 @@ pub use instants::{AlignmentMoment, Instant, InstantEstimates, moments};
 pub use interval::MeanOfRuns;
 pub use promises::{Promise, PromiseEstimates};
 pub use report::ErrorReport;
+pub(crate) use report::summaries;
 pub use rows::{RowWriter, read_rows};
 pub use run::{Run, Yardstick};
 pub use sky::SkyRow;

@@ -48,7 +48,7 @@ pub struct ErrorReport {
 }
 
 /// Figures of all components and of the horizontal position.
-pub(super) fn summaries(errors: &VoyageErrors) -> BTreeMap<&'static str, Option<Summary>> {
+pub(crate) fn summaries(errors: &VoyageErrors) -> BTreeMap<&'static str, Option<Summary>> {
     let each = Component::ALL.map(|c| (c.name(), summarise(&errors.epochs, c)));
     let mut all = BTreeMap::from(each);
     all.insert(HORIZONTAL, summarise_horizontal(&errors.epochs));

@@ -17,6 +17,7 @@ mod alerts;
 mod alignment;
 mod camera;
 mod docking;
+mod fleets;
 mod freshness;
 mod learning;
 mod ports;
@@ -31,6 +32,7 @@ pub use alerts::{Alert, ShownAlertState, ShownEvent, ShownPriority, ShownSeverit
 pub use alignment::{DisturbanceAxis, ShownAlignment, ShownDisturbance, ShownFit};
 pub use camera::{CameraState, ShownCamera};
 pub use docking::{ShownContact, ShownDocking, ShownDockingPoint, ShownQuay};
+pub use fleets::ShownFleet;
 pub use freshness::{Freshness, GONE, OLD};
 pub use learning::ShownLearning;
 pub use ports::{
@@ -123,6 +125,8 @@ pub struct Snapshot {
     pub recording: Option<ShownRecording>,
     /// What is saved for the next start; `None` if nothing is.
     pub saving: Option<Saving>,
+    /// Fleets that are told, in the order of the configuration.
+    pub fleets: Vec<ShownFleet>,
     /// The journal.
     pub log: Log,
     /// The last lines of the journal, oldest first, at most [`MAX_EVENTS`].
@@ -162,6 +166,7 @@ impl Default for Snapshot {
             disturbance: None,
             recording: None,
             saving: None,
+            fleets: Vec::new(),
             log: Log::default(),
             events: Vec::new(),
         }

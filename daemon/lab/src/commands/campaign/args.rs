@@ -1,15 +1,14 @@
 //! The command line of a campaign.
 
 use std::ops::Range;
-use std::path::PathBuf;
 
 use insd_simulator::Override;
 
 use super::super::alignment::AlignmentArgs;
 use super::super::outage::SensorOutage;
 use super::super::{rate, seconds, stored_start};
-use super::shard::Share;
 use super::sweep::Sweep;
+use crate::parts::PartsArgs;
 
 /// Options of `insd campaign`.
 ///
@@ -17,10 +16,11 @@ use super::sweep::Sweep;
 #[derive(Clone, Debug, clap::Args)]
 pub struct CampaignArgs {
     /// Scenario file, or name or number of a shipped scenario
-    #[arg(required_unless_present = "merge")]
+    #[arg(required_unless_present = "merge", conflicts_with = "merge")]
     pub(super) scenario: Option<String>,
     /// Seeds A to B, B left out
-    #[arg(long, value_name = "A..B", value_parser = seeds, required_unless_present = "merge")]
+    #[arg(long, value_name = "A..B", value_parser = seeds, required_unless_present = "merge",
+        conflicts_with = "merge")]
     pub(super) seeds: Option<Range<u64>>,
     /// Leave out what is before this time, s
     #[arg(long, value_name = "T", value_parser = seconds)]
@@ -51,22 +51,8 @@ pub struct CampaignArgs {
     /// Take a sensor (imu, gnss, log, reference, camera) away while FROM <= t_s < TO; may be repeated
     #[arg(long = "outage", value_name = "SENSOR:FROM..TO")]
     pub(super) outages: Vec<SensorOutage>,
-    /// Voyages at once; if not given SLURM_CPUS_PER_TASK, or what the system grants of its processors
-    #[arg(long, value_name = "N")]
-    pub(super) jobs: Option<usize>,
-    /// Write a line of JSON with the scores of each voyage as soon as it is done
-    #[arg(long, value_name = "FILE")]
-    pub(super) runs: Option<PathBuf>,
-    /// Go on with the file of --runs: what is in it is not sailed again
-    #[arg(long, requires = "runs", conflicts_with = "merge")]
-    pub(super) resume: bool,
-    /// Sail every Nth voyage only, from the Kth on (0 to N - 1); auto takes K and N from Slurm, auto/N takes K
-    /// from Slurm or Kubernetes
-    #[arg(long, value_name = "K/N", conflicts_with = "merge")]
-    pub(super) shard: Option<Share>,
-    /// Sail nothing: put the runs of these files together
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["scenario", "seeds"])]
-    pub(super) merge: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) parts: PartsArgs,
 }
 
 impl CampaignArgs {

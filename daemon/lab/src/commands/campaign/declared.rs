@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use insd_config::BadInput;
 use serde::{Deserialize, Serialize};
 
 use super::args::CampaignArgs;
-use crate::evaluation::Yardstick;
+use crate::evaluation::{Run, Yardstick};
+use crate::parts::{CampaignDeclaration, checksum};
 use crate::scenario;
 
 /// One variation of a campaign. Runs of two files may be put together if this is the same in both.
@@ -49,9 +49,7 @@ impl Declared {
             options: args.words(),
             yardstick,
         };
-        let crc = crc::Crc::<u64>::new(&crc::CRC_64_XZ);
-        let all = format!("{own:?} {:?}", named.scenario);
-        own.id = format!("{:016x}", crc.checksum(all.as_bytes()));
+        own.id = checksum(&format!("{own:?} {:?}", named.scenario));
         own
     }
 
@@ -59,31 +57,45 @@ impl Declared {
     pub(super) fn seeds(&self) -> Range<u64> {
         self.from_seed..self.to_seed
     }
+}
 
-    /// Whether another is the same.
-    ///
-    /// # Errors
-    /// What differs.
-    pub(super) fn is_same(
-        &self,
-        other: &Declared,
-        own: &str,
-        others: &str,
-    ) -> Result<(), BadInput> {
-        let seeds = |of: &Declared| format!("{}..{}", of.from_seed, of.to_seed);
-        let pairs = [
-            ("version", self.insd.clone(), other.insd.clone()),
-            ("scenario", self.scenario.clone(), other.scenario.clone()),
-            ("sweep", self.sweep.join(" "), other.sweep.join(" ")),
-            ("seeds", seeds(self), seeds(other)),
-            ("options", self.options.clone(), other.options.clone()),
-            ("content of the scenario", self.id.clone(), other.id.clone()),
-        ];
-        match pairs.into_iter().find(|(_, own, other)| own != other) {
-            None => Ok(()),
-            Some((what, here, there)) => Err(BadInput(format!(
-                "{others} is of another campaign than {own}: {what} is {there} there and {here} here"
-            ))),
-        }
+impl CampaignDeclaration for Declared {
+    type Key = u64;
+    type Run = Run;
+    const KEY: &'static str = "seed";
+
+    fn id(&self) -> &str {
+        &self.id
+    }
+
+    fn keys(&self) -> Vec<u64> {
+        self.seeds().collect()
+    }
+
+    fn key_of(run: &Run) -> u64 {
+        run.seed
+    }
+
+    fn has_key(&self, key: &u64) -> bool {
+        self.seeds().contains(key)
+    }
+
+    fn range(&self) -> String {
+        format!("{}..{}", self.from_seed, self.to_seed)
+    }
+
+    fn is_counterpart_of(&self, other: &Self) -> bool {
+        self.sweep == other.sweep
+    }
+
+    fn facts(&self) -> Vec<(&'static str, String)> {
+        vec![
+            ("version", self.insd.clone()),
+            ("scenario", self.scenario.clone()),
+            ("sweep", self.sweep.join(" ")),
+            ("seeds", self.range()),
+            ("options", self.options.clone()),
+            ("content of the scenario", self.id.clone()),
+        ]
     }
 }

@@ -2,26 +2,19 @@
 
 mod args;
 mod declared;
-mod kept;
-mod merge;
 mod sail;
-mod shard;
 mod sweep;
 
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
 
-use indicatif::{ProgressBar, ProgressStyle};
 use insd_config::BadInput;
 use insd_simulator::Override;
-use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 pub use self::args::CampaignArgs;
 use self::declared::Declared;
-use self::kept::{Keeper, Kept};
-use self::shard::Shard;
 use super::limit as limits;
-use crate::evaluation::{CampaignReport, Run, Yardstick};
+use crate::evaluation::{CampaignReport, Yardstick};
+use crate::parts;
 use crate::scenario;
 
 /// One scenario of a campaign with all that is set in it.
@@ -50,12 +43,14 @@ pub fn run(args: &CampaignArgs) -> anyhow::Result<()> {
 /// # Errors
 /// The scenario or a file of runs is faulty.
 pub fn reports(args: &CampaignArgs) -> anyhow::Result<Vec<CampaignReport>> {
-    let is_merged = !args.merge.is_empty();
-    let mut kept = if is_merged { merge::merge(&args.merge)? } else { sail(args)? };
-    if let (true, Some(path)) = (is_merged, &args.runs) {
-        let mut keeper = Keeper::create(path, &kept.declared)?;
-        keeper.keep_all(&kept)?;
-    }
+    let seeds = args.seeds.clone().unwrap_or_default();
+    let is_sailed = !args.parts.is_merge();
+    let variations = if is_sailed { variations(args, &seeds)? } else { Vec::new() };
+    let declared = variations.iter().map(|own| own.declared.clone()).collect();
+    let mut kept = parts::gather(&args.parts, declared, |index, seed| {
+        let Variation { named, declared } = &variations[index];
+        Ok(sail::run_seed(&named.scenario, *seed, declared.yardstick.as_ref(), args))
+    })?;
     let declared = std::mem::take(&mut kept.declared);
     let report = |declared: &Declared| {
         let runs = kept.take_runs(declared);
@@ -73,67 +68,6 @@ fn text(reports: &[CampaignReport], as_json: bool) -> anyhow::Result<String> {
     })
 }
 
-/// Sails what belongs to this shard and is not in the file of runs yet.
-fn sail(args: &CampaignArgs) -> anyhow::Result<Kept> {
-    let seeds = args.seeds.clone().unwrap_or_default();
-    let variations = variations(args, &seeds)?;
-    let declared: Vec<Declared> = variations.iter().map(|own| own.declared.clone()).collect();
-    let (keeper, mut kept) = keeper(args, &declared)?;
-    let open = open_voyages(&declared, &seeds, shard(args)?, &kept);
-    let bar = progress_bar(open.len() as u64)?;
-    let keeper = Mutex::new(keeper);
-    let score = |(index, seed): (usize, u64)| {
-        let Variation { named, declared } = &variations[index];
-        let run = sail::run_seed(&named.scenario, seed, declared.yardstick.as_ref(), args);
-        if let Some(keeper) = keeper.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
-            keeper.keep(declared, &run)?;
-        }
-        bar.inc(1);
-        Ok((index, run))
-    };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs(args)).build()?;
-    let sailed: anyhow::Result<Vec<(usize, Run)>> =
-        pool.install(|| open.into_par_iter().map(score).collect());
-    bar.finish_and_clear();
-    sailed?.into_iter().for_each(|(index, run)| kept.add(&declared[index], run));
-    kept.declared = declared;
-    Ok(kept)
-}
-
-fn keeper(args: &CampaignArgs, declared: &[Declared]) -> anyhow::Result<(Option<Keeper>, Kept)> {
-    match &args.runs {
-        Some(path) if args.resume => {
-            Keeper::resume(path, declared).map(|(keeper, kept)| (Some(keeper), kept))
-        }
-        Some(path) => Ok((Some(Keeper::create(path, declared)?), Kept::default())),
-        None => Ok((None, Kept::default())),
-    }
-}
-
-/// The voyages of a shard, as variation and seed, without those that are kept.
-fn open_voyages(
-    declared: &[Declared],
-    seeds: &Range<u64>,
-    shard: Shard,
-    kept: &Kept,
-) -> Vec<(usize, u64)> {
-    let done: Vec<_> = declared.iter().map(|declared| kept.seeds(declared)).collect();
-    let all = (0..declared.len()).flat_map(|index| seeds.clone().map(move |seed| (index, seed)));
-    let own = all.enumerate().filter(|(number, _)| shard.holds(*number));
-    own.map(|(_, voyage)| voyage).filter(|(index, seed)| !done[*index].contains(seed)).collect()
-}
-
-fn shard(args: &CampaignArgs) -> anyhow::Result<Shard> {
-    let Some(share) = args.shard else { return Ok(Shard::ALL) };
-    Ok(share.resolve(|name| std::env::var(name).ok()).map_err(BadInput)?)
-}
-
-/// Voyages at once; 0 for what the system grants.
-fn jobs(args: &CampaignArgs) -> usize {
-    let granted = || std::env::var("SLURM_CPUS_PER_TASK").ok()?.parse().ok();
-    args.jobs.or_else(granted).unwrap_or(0)
-}
-
 fn variations(args: &CampaignArgs, seeds: &Range<u64>) -> anyhow::Result<Vec<Variation>> {
     let word = args.scenario.as_deref().unwrap_or_default();
     let variation = |swept: Vec<Override>| {
@@ -144,11 +78,6 @@ fn variations(args: &CampaignArgs, seeds: &Range<u64>) -> anyhow::Result<Vec<Var
         Ok(Variation { named, declared })
     };
     sweep::variations(&args.sweeps).into_iter().map(variation).collect()
-}
-
-fn progress_bar(length: u64) -> anyhow::Result<ProgressBar> {
-    let style = "{wide_bar:.cyan/blue} {pos}/{len} voyages, {elapsed} gone, {eta} to go";
-    Ok(ProgressBar::new(length).with_style(ProgressStyle::with_template(style)?))
 }
 
 /// What the heading is held against, if instants are asked for or the ship is moored.

@@ -7,6 +7,7 @@ mod sent;
 mod sink;
 mod sky_log;
 mod states_log;
+mod sums;
 mod voyage;
 mod without;
 
@@ -17,6 +18,8 @@ use super::smooth::Afterwards;
 pub use args::{ReplayArgs, ReplayOptions, Tell};
 pub(in crate::commands) use destination::Destination;
 pub use destination::Replayed;
+pub use sums::ReplaySums;
+pub(in crate::commands) use sums::{Summed, Summing};
 
 /// Runs the command. What it writes is a function of the recording and the options alone.
 ///
@@ -35,7 +38,16 @@ pub fn rows(options: &ReplayOptions) -> anyhow::Result<Replayed> {
     run_to_end(options, |_, _| {}, None, Destination::memory())
 }
 
-/// The same, and back again.
+/// What the replay comes to in counts and sums, with its rows if they are to be kept.
+pub(super) fn summed(
+    options: &ReplayOptions,
+    summing: Summing,
+    keeps_rows: bool,
+) -> anyhow::Result<Replayed> {
+    run_to_end(options, |_, _| {}, None, Destination::summing(summing, keeps_rows))
+}
+
+/// A replay to a file, and back again.
 pub(super) fn run_and_smooth(
     args: &ReplayArgs,
     tell: Tell,

@@ -29,7 +29,8 @@ pub(super) fn run(
     let mut sink = Sink::create(args, afterwards, destination)?;
     let sent = args.sent.as_deref().map(|folder| Sent::create(folder, &raw.config));
     let mut sent = sent.transpose()?;
-    raw.for_each(|arrival| {
+    let runs = raw.for_each_of_run(|arrival| {
+        sink.hear(arrival.stamp.monotonic);
         let mut written = Ok(());
         pipeline.handle(arrival, |product| {
             tell(&names, &product);
@@ -44,6 +45,9 @@ pub(super) fn run(
         written.context("cannot write what comes of it")?;
         sink.look(pipeline.engine_in_use()).context("cannot write the sky")
     })?;
+    if !sink.read(raw.read(), runs, raw.header().map(|header| &header.program)) {
+        raw.tell_other_runs(runs);
+    }
     sink.smooth(pipeline.engine_in_use());
     sink.say(pipeline.counts(), 0, Vec::new());
     sent.map_or(Ok(()), Sent::finish)?;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use insd_base::{AlignmentStatus, Counts, Event, Finding, Mode, SatelliteId, Stands, Time};
 use insd_config::OutputFile;
+use insd_drivers::raw::RawRead;
 use insd_drivers::recording::FileReport;
 use insd_engine::{Engine, Output};
 
@@ -131,6 +132,7 @@ impl Sink {
     /// Says all of it in words, with what the engine counted, the messages dropped on request, and what the
     /// files of a voyage lacked.
     pub(super) fn say(&mut self, counts: &Counts, dropped: u64, files: Vec<&FileReport>) {
+        self.nav.end(counts, &files);
         let summary = Summary {
             solutions: self.solutions,
             left_out: self.nav.left_out(),
@@ -148,6 +150,16 @@ impl Sink {
         };
         let summary = summary.to_string();
         self.nav.say(summary);
+    }
+
+    /// A message was received.
+    pub(super) fn hear(&mut self, at: Time) {
+        self.nav.hear(at);
+    }
+
+    /// A raw recording was read, with so many runs, of a program. Gives whether that is summed up.
+    pub(super) fn read(&mut self, read: RawRead, runs: u32, program: Option<&String>) -> bool {
+        self.nav.read(read, runs, program)
     }
 
     /// The voyage is over.

@@ -34,13 +34,12 @@ pub(super) fn run(
     let mut reader = VoyageReader::open(&args.dir)?;
     let mut config = asked(args, &reader, afterwards.as_ref())?;
     let mut temperature = TemperatureReader::open(&args.dir)?;
-    let table = RawTable::read(&args.dir)?;
+    let (table, reference) = (RawTable::read(&args.dir)?, ReferenceTable::read(&args.dir)?);
     config.models.ranges = table.model();
     let way = Without::camera(&args.without, args.camera)?;
     let mut camera =
         way.map(|way| CameraVoyage::open(&args.dir, way)).transpose()?.unwrap_or_default();
     config.models.camera = way.map(|way| camera_table::read(&args.dir, way)).transpose()?.flatten();
-    let reference = ReferenceTable::read(&args.dir)?;
     let mut ports = Ports::of(args, &reader.header().start_utc)?;
     config.points = ports.as_ref().map(|ports| ports.levers.clone()).unwrap_or_default();
     let mut engine = Engine::new(config);
@@ -50,6 +49,7 @@ pub(super) fn run(
     let mut raw = RawVoyage::open(&args.dir, gnss, &args.masks, &table, start_utc)?;
     for received in &mut reader {
         let received = reference.told(received?);
+        sink.hear(received.receipt);
         for ranges in raw.until(received.receipt) {
             if args.outages.iter().any(|outage| outage.drops(&ranges)) {
                 dropped += 1;

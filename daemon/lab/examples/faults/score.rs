@@ -9,6 +9,8 @@ use std::fmt;
 
 use insd_simulator::lies::{Case, Class, Culprit, Grade, ImuLie, Lie, Told};
 
+use serde::{Deserialize, Serialize};
+
 use crate::sail::Row;
 
 const LIMITS: [f64; 2] = [10.0, 100.0];
@@ -29,7 +31,7 @@ const BACK: (f64, f64) = (10.0, 300.0);
 const DEG: f64 = std::f64::consts::PI / 180.0;
 
 /// What came of a case.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Score {
     pub(crate) held: bool,
     hmi: bool,
@@ -154,12 +156,21 @@ fn covers(case: &Case, rows: &[&Row]) -> bool {
     told.is_empty() || covered.count() as f64 >= 0.99 * told.len() as f64
 }
 
-/// Alarms, and the share of the rows after ten minutes that are usable at 100 m.
-pub(crate) fn honest(rows: &[Row]) -> (f64, f64) {
+/// What came of an hour in which nobody lies.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Honest {
+    /// How often somebody is named.
+    pub(crate) alarms: f64,
+    /// The share of the rows after ten minutes that are usable at 100 m.
+    pub(crate) usable: f64,
+}
+
+/// Judges a voyage without a liar.
+pub(crate) fn honest(rows: &[Row]) -> Honest {
     let raised = rows.windows(2).filter(|two| two[0].excluded.len() < two[1].excluded.len());
     let late: Vec<&Row> = rows.iter().filter(|row| row.time > 600.0).collect();
     let usable = late.iter().filter(|row| row.told && row.level <= LIMITS[1]).count() as f64;
-    (raised.count() as f64, usable / late.len().max(1) as f64)
+    Honest { alarms: raised.count() as f64, usable: usable / late.len().max(1) as f64 }
 }
 
 /// Scores of many cases.

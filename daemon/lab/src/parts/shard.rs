@@ -7,17 +7,18 @@ const MOST: u64 = 1_000_000;
 
 /// The `index`th of `of` shares, counted from 0: every `of`th voyage, so that all are equally long.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Shard {
+pub struct Shard {
     index: u64,
     of: u64,
 }
 
 impl Shard {
     /// All voyages.
-    pub(super) const ALL: Shard = Shard { index: 0, of: 1 };
+    pub const ALL: Shard = Shard { index: 0, of: 1 };
 
     /// Whether the voyage with this number, from 0 on, belongs to it.
-    pub(super) fn holds(self, voyage: usize) -> bool {
+    #[must_use]
+    pub fn holds(self, voyage: usize) -> bool {
         voyage as u64 % self.of == self.index
     }
 
@@ -34,7 +35,7 @@ impl Shard {
 
 /// What `--shard` says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Share {
+pub enum ShardChoice {
     /// This one.
     Stated(Shard),
     /// The one that the job system has given out, of so many if it does not tell.
@@ -44,33 +45,30 @@ pub(super) enum Share {
     },
 }
 
-impl FromStr for Share {
+impl FromStr for ShardChoice {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
         let expected = || "expected K/N with K from 0 to N - 1, auto, or auto/N".to_owned();
         let number = |text: &str| text.parse::<u64>().map_err(|_| expected());
         match text.split_once('/') {
-            Some(("auto", of)) => Ok(Share::Given { of: Some(number(of)?) }),
-            Some((index, of)) => Ok(Share::Stated(Shard::new(number(index)?, number(of)?)?)),
-            None if text == "auto" => Ok(Share::Given { of: None }),
+            Some(("auto", of)) => Ok(ShardChoice::Given { of: Some(number(of)?) }),
+            Some((index, of)) => Ok(ShardChoice::Stated(Shard::new(number(index)?, number(of)?)?)),
+            None if text == "auto" => Ok(ShardChoice::Given { of: None }),
             None => Err(expected()),
         }
     }
 }
 
-impl Share {
+impl ShardChoice {
     /// The shard, with what the environment says.
     ///
     /// # Errors
     /// No job system has given one out, or it does not say how many there are.
-    pub(super) fn resolve(
-        self,
-        variable: impl Fn(&str) -> Option<String>,
-    ) -> Result<Shard, String> {
+    pub fn resolve(self, variable: impl Fn(&str) -> Option<String>) -> Result<Shard, String> {
         let of = match self {
-            Share::Stated(shard) => return Ok(shard),
-            Share::Given { of } => of,
+            ShardChoice::Stated(shard) => return Ok(shard),
+            ShardChoice::Given { of } => of,
         };
         let number = |name: &str| variable(name).and_then(|text| text.trim().parse::<u64>().ok());
         if let Some(task) = number("SLURM_ARRAY_TASK_ID") {
@@ -98,7 +96,7 @@ mod tests {
     use super::*;
 
     fn resolved(text: &str, set: &[(&str, &str)]) -> Result<Shard, String> {
-        let share: Share = text.parse()?;
+        let share: ShardChoice = text.parse()?;
         share.resolve(|name| {
             set.iter().find(|(own, _)| *own == name).map(|(_, value)| (*value).to_owned())
         })
@@ -131,7 +129,7 @@ mod tests {
     #[test]
     fn what_is_no_shard_is_told() {
         for text in ["", "3", "4/4", "a/4", "auto/x", "0/0"] {
-            assert!(text.parse::<Share>().is_err(), "{text}");
+            assert!(text.parse::<ShardChoice>().is_err(), "{text}");
         }
         assert!(resolved("auto", &[]).unwrap_err().contains("--shard K/N"));
         assert!(resolved("auto", &[("JOB_COMPLETION_INDEX", "1")]).unwrap_err().contains("auto/N"));

@@ -4,18 +4,18 @@ use std::path::PathBuf;
 
 use insd_config::BadInput;
 
-use super::declared::Declared;
-use super::kept::Kept;
+use super::declaration::CampaignDeclaration;
+use super::kept::KeptRuns;
 
 /// Reads all files.
 ///
 /// # Errors
-/// One cannot be read, is of another campaign, or has a seed that another has, too.
-pub(super) fn merge(paths: &[PathBuf]) -> anyhow::Result<Kept> {
-    let mut whole = Kept::default();
+/// One cannot be read, is of another campaign, or has a run that another has, too.
+pub(super) fn merge<D: CampaignDeclaration>(paths: &[PathBuf]) -> anyhow::Result<KeptRuns<D>> {
+    let mut whole = KeptRuns::<D>::default();
     let mut first = String::new();
     for path in paths {
-        let kept = Kept::read(path)?;
+        let kept = KeptRuns::<D>::read(path)?;
         let name = path.display().to_string();
         if kept.declared.is_empty() {
             return Err(BadInput(format!("{name}: no line says what campaign it is of")).into());
@@ -30,14 +30,14 @@ pub(super) fn merge(paths: &[PathBuf]) -> anyhow::Result<Kept> {
     Ok(whole)
 }
 
-fn same_campaigns(
-    own: &[Declared],
-    others: &[Declared],
+fn same_campaigns<D: CampaignDeclaration>(
+    own: &[D],
+    others: &[D],
     here: &str,
     there: &str,
 ) -> Result<(), BadInput> {
     for declared in own {
-        let matching = others.iter().find(|other| other.sweep == declared.sweep);
+        let matching = others.iter().find(|other| other.is_counterpart_of(declared));
         // with another sweep the first of each tells the difference
         let other = matching.or(others.first());
         other.map_or(Ok(()), |other| declared.is_same(other, here, there))?;
@@ -49,13 +49,18 @@ fn same_campaigns(
     }
 }
 
-fn take_over(whole: &mut Kept, kept: Kept, name: &str) -> Result<(), BadInput> {
+fn take_over<D: CampaignDeclaration>(
+    whole: &mut KeptRuns<D>,
+    kept: KeptRuns<D>,
+    name: &str,
+) -> Result<(), BadInput> {
     for (id, runs) in kept.runs {
         let own = whole.runs.entry(id).or_default();
-        for (seed, (line, run)) in runs {
-            if own.insert(seed, (line, run)).is_some() {
+        for (key, (line, run)) in runs {
+            if own.insert(key.clone(), (line, run)).is_some() {
                 return Err(BadInput(format!(
-                    "{name}:{line}: seed {seed} is in a file before it already"
+                    "{name}:{line}: {} {key} is in a file before it already",
+                    D::KEY
                 )));
             }
         }

@@ -2,7 +2,7 @@
 //!
 //! A line is written at once when its voyage is done, so that a job that is killed loses no more than the voyages it was at.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::{Path, PathBuf};
@@ -10,37 +10,45 @@ use std::path::{Path, PathBuf};
 use insd_config::BadInput;
 use serde::{Deserialize, Serialize};
 
-use super::declared::Declared;
-use crate::evaluation::Run;
+use super::declaration::CampaignDeclaration;
 
 /// One line. Its own names come first, so that people can read it.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged)]
-enum Line {
+enum Line<D, R> {
     /// What the campaign is.
     Campaign {
         /// One variation of it.
-        campaign: Declared,
+        campaign: D,
     },
     /// A voyage.
     Run {
         /// Of which campaign.
         id: String,
         /// Its scores.
-        run: Run,
+        run: R,
     },
 }
 
 /// What stands in a file of runs.
-#[derive(Debug, Default)]
-pub(super) struct Kept {
+pub struct KeptRuns<D: CampaignDeclaration> {
     /// What the campaign is, one for each variation.
-    pub(super) declared: Vec<Declared>,
-    /// The line and the run of each seed, by the campaign's id.
-    pub(super) runs: BTreeMap<String, BTreeMap<u64, (usize, Run)>>,
+    pub declared: Vec<D>,
+    /// The line and the run of each key, by the campaign's id.
+    pub(super) runs: BTreeMap<String, RunsByKey<D>>,
 }
 
-impl Kept {
+/// Line and run by key.
+pub(super) type RunsByKey<D> =
+    BTreeMap<<D as CampaignDeclaration>::Key, (usize, <D as CampaignDeclaration>::Run)>;
+
+impl<D: CampaignDeclaration> Default for KeptRuns<D> {
+    fn default() -> Self {
+        KeptRuns { declared: Vec::new(), runs: BTreeMap::new() }
+    }
+}
+
+impl<D: CampaignDeclaration> KeptRuns<D> {
     /// Reads a file.
     ///
     /// # Errors
@@ -48,7 +56,7 @@ impl Kept {
     pub(super) fn read(path: &Path) -> anyhow::Result<Self> {
         let file =
             File::open(path).map_err(|fault| BadInput(format!("{}: {fault}", path.display())))?;
-        let mut kept = Kept::default();
+        let mut kept = KeptRuns::default();
         for (index, line) in BufReader::new(file).lines().enumerate() {
             let said = line
                 .map_err(|fault| fault.to_string())
@@ -59,7 +67,7 @@ impl Kept {
     }
 
     fn take(&mut self, number: usize, line: &str) -> Result<(), String> {
-        let read = serde_json::from_str(line);
+        let read = serde_json::from_str::<Line<D, D::Run>>(line);
         match read.map_err(|fault| format!("no line of a campaign's runs: {fault}"))? {
             Line::Campaign { campaign } if self.declared.contains(&campaign) => Ok(()),
             Line::Campaign { campaign } => {
@@ -70,33 +78,33 @@ impl Kept {
         }
     }
 
-    fn take_run(&mut self, number: usize, id: String, run: Run) -> Result<(), String> {
-        let seed = run.seed;
-        let of = self.declared.iter().find(|declared| declared.id == id);
+    fn take_run(&mut self, number: usize, id: String, run: D::Run) -> Result<(), String> {
+        let key = D::key_of(&run);
+        let of = self.declared.iter().find(|declared| declared.id() == id);
         let of = of.ok_or_else(|| format!("no line before it says what campaign {id} is"))?;
-        if !of.seeds().contains(&seed) {
-            return Err(format!("seed {seed} is not one of {}..{}", of.from_seed, of.to_seed));
+        if !of.has_key(&key) {
+            return Err(format!("{} {key} is not one of {}", D::KEY, of.range()));
         }
-        match self.runs.entry(id).or_default().insert(seed, (number, run)) {
+        match self.runs.entry(id).or_default().insert(key.clone(), (number, run)) {
             None => Ok(()),
-            Some((before, _)) => Err(format!("seed {seed} stands in line {before} already")),
+            Some((before, _)) => Err(format!("{} {key} stands in line {before} already", D::KEY)),
         }
     }
 
-    /// The seeds that are there of a variation.
-    pub(super) fn seeds(&self, of: &Declared) -> BTreeSet<u64> {
-        self.runs.get(&of.id).map(|runs| runs.keys().copied().collect()).unwrap_or_default()
+    /// Whether a run of a variation is there.
+    pub fn has(&self, of: &D, key: &D::Key) -> bool {
+        self.runs.get(of.id()).is_some_and(|runs| runs.contains_key(key))
     }
 
     /// Adds a run that was just sailed.
-    pub(super) fn add(&mut self, of: &Declared, run: Run) {
-        self.runs.entry(of.id.clone()).or_default().insert(run.seed, (0, run));
+    pub(super) fn add(&mut self, of: &D, run: D::Run) {
+        self.runs.entry(of.id().to_owned()).or_default().insert(D::key_of(&run), (0, run));
     }
 
-    /// The runs of a variation, in order of their seeds.
-    pub(super) fn take_runs(&mut self, of: &Declared) -> Vec<Run> {
-        let runs = self.runs.remove(&of.id).unwrap_or_default();
-        runs.into_values().map(|(_, run)| run).collect()
+    /// The runs of a variation, in the order of its keys.
+    pub fn take_runs(&mut self, of: &D) -> Vec<D::Run> {
+        let mut runs = self.runs.remove(of.id()).unwrap_or_default();
+        of.keys().iter().filter_map(|key| Some(runs.remove(key)?.1)).collect()
     }
 }
 
@@ -112,7 +120,10 @@ impl Keeper {
     ///
     /// # Errors
     /// It is there already, or cannot be written.
-    pub(super) fn create(path: &Path, declared: &[Declared]) -> anyhow::Result<Self> {
+    pub(super) fn create<D: CampaignDeclaration>(
+        path: &Path,
+        declared: &[D],
+    ) -> anyhow::Result<Self> {
         let made = OpenOptions::new().append(true).create_new(true).open(path);
         let file = made.map_err(|fault| match fault.kind() {
             std::io::ErrorKind::AlreadyExists => {
@@ -130,18 +141,21 @@ impl Keeper {
     ///
     /// # Errors
     /// It is not of this campaign, somebody else writes to it, or it cannot be read or written.
-    pub(super) fn resume(path: &Path, declared: &[Declared]) -> anyhow::Result<(Self, Kept)> {
+    pub(super) fn resume<D: CampaignDeclaration>(
+        path: &Path,
+        declared: &[D],
+    ) -> anyhow::Result<(Self, KeptRuns<D>)> {
         if !path.exists() {
-            return Ok((Self::create(path, declared)?, Kept::default()));
+            return Ok((Self::create(path, declared)?, KeptRuns::default()));
         }
         let opened = OpenOptions::new().read(true).append(true).open(path);
         let file = opened.map_err(|fault| BadInput(format!("{}: {fault}", path.display())))?;
         let mut keeper = Keeper { path: path.to_owned(), file };
         keeper.lock()?;
         keeper.drop_torn_line()?;
-        let kept = Kept::read(path)?;
+        let kept = KeptRuns::<D>::read(path)?;
         for own in declared {
-            match kept.declared.iter().find(|there| there.sweep == own.sweep) {
+            match kept.declared.iter().find(|there| there.is_counterpart_of(own)) {
                 Some(there) => own.is_same(there, "this campaign", &path.display().to_string())?,
                 None => keeper.declare(own)?,
             }
@@ -171,31 +185,40 @@ impl Keeper {
         Ok(())
     }
 
-    fn declare(&mut self, declared: &Declared) -> anyhow::Result<()> {
-        self.write(&Line::Campaign { campaign: declared.clone() })
+    fn declare<D: CampaignDeclaration>(&mut self, declared: &D) -> anyhow::Result<()> {
+        self.write(&Line::<D, D::Run>::Campaign { campaign: declared.clone() })
     }
 
     /// Writes a run.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub(super) fn keep(&mut self, of: &Declared, run: &Run) -> anyhow::Result<()> {
-        self.write(&Line::Run { id: of.id.clone(), run: run.clone() })
+    pub(super) fn keep<D: CampaignDeclaration>(
+        &mut self,
+        of: &D,
+        run: &D::Run,
+    ) -> anyhow::Result<()> {
+        self.write(&Line::<D, D::Run>::Run { id: of.id().to_owned(), run: run.clone() })
     }
 
-    /// Writes all runs, in order of variations and seeds.
+    /// Writes all runs, in the order of variations and their keys.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub(super) fn keep_all(&mut self, kept: &Kept) -> anyhow::Result<()> {
+    pub(super) fn keep_all<D: CampaignDeclaration>(
+        &mut self,
+        kept: &KeptRuns<D>,
+    ) -> anyhow::Result<()> {
         for declared in &kept.declared {
-            let runs = kept.runs.get(&declared.id).into_iter().flatten();
-            runs.map(|(_, (_, run))| run).try_for_each(|run| self.keep(declared, run))?;
+            let runs = kept.runs.get(declared.id());
+            let keys = declared.keys();
+            let runs = keys.iter().filter_map(|key| runs?.get(key));
+            runs.map(|(_, run)| run).try_for_each(|run| self.keep(declared, run))?;
         }
         Ok(())
     }
 
-    fn write(&mut self, line: &Line) -> anyhow::Result<()> {
+    fn write(&mut self, line: &impl Serialize) -> anyhow::Result<()> {
         let text = serde_json::to_string(line)? + "\n";
         let written = self.file.write_all(text.as_bytes()).and_then(|()| self.file.flush());
         written.map_err(|fault| anyhow::anyhow!("{}: {fault}", self.path.display()))
