@@ -47,6 +47,7 @@ fn converted_of(recorded: &Recorded) -> (TempDir, PathBuf) {
         config: None,
         run: 1,
         to: None,
+        imu: false,
         start_utc: None,
     };
     convert::run(&args).unwrap();

@@ -62,7 +62,11 @@ mod tests {
     fn what_may_not_be_relied_on_has_no_place() {
         let rows = [row(0.0, 10.0, Mode::Fault), row(0.1, 10.0, Mode::Aided)];
         let mut text = Vec::new();
-        write(&SolutionTrack { name: "a \"b\"", rows: &rows, calendar: None }, &mut text).unwrap();
+        write(
+            &SolutionTrack { name: "a \"b\"", rows: &rows, calendar: None, imu: None },
+            &mut text,
+        )
+        .unwrap();
         let all: Value = serde_json::from_slice(&text).unwrap();
         assert_eq!(all["name"], "a \"b\"");
         let [fault, aided] = [&all["features"][0], &all["features"][1]];

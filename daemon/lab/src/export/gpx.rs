@@ -56,7 +56,7 @@ mod tests {
         let rows = [row(0.0, 10.0, Mode::Fault), row(0.1, -10.0, Mode::DeadReckoning)];
         let mut text = Vec::new();
         let calendar = VoyageCalendar::new("2026-05-01T08:00:00Z");
-        write(&SolutionTrack { name: "a<b", rows: &rows, calendar }, &mut text).unwrap();
+        write(&SolutionTrack { name: "a<b", rows: &rows, calendar, imu: None }, &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
         assert!(text.contains("<name>a&lt;b</name>"), "{text}");
         assert_eq!(text.matches("<trkpt").count(), 1);

@@ -115,7 +115,8 @@ mod tests {
         let rows: Vec<NavRow> =
             (0..70).map(|second| row(f64::from(second), 10.0, mode(second))).collect();
         let mut text = Vec::new();
-        write(&SolutionTrack { name: "x", rows: &rows, calendar: None }, &mut text).unwrap();
+        write(&SolutionTrack { name: "x", rows: &rows, calendar: None, imu: None }, &mut text)
+            .unwrap();
         let text = String::from_utf8(text).unwrap();
         assert_eq!(text.matches("<Polygon>").count(), 2);
         assert_eq!(text.matches("<LineString>").count(), 1);

@@ -1,4 +1,4 @@
-//! MCAP with JSON messages of Foxglove: `/position`, `/pose` and `/log`. Altitudes are over the ellipsoid; poses stand east, north
+//! MCAP with JSON messages of Foxglove: `/position`, `/pose` and `/log`, and on request the IMU in one of ours. Altitudes are over the ellipsoid; poses stand east, north
 //! and up of the first place that is told, axes of the ship forward, left, up.
 //!
 //! Neither position nor pose is sent while nothing may be relied on, and no pose before the heading is found; `/log` says so when that
@@ -9,11 +9,13 @@ use std::io::Write;
 use insd_base::Time;
 use insd_config::VoyageCalendar;
 use insd_drivers::recording::NavRow;
+use nalgebra::Vector3;
 use serde_json::{Value, json};
 
+use super::imu::{self, Reading, Readings};
 use super::mcap_file::{Encoding, McapFile};
 use super::pose::{ENU_NED, Plane};
-use super::schemas::{LOCATION_FIX, LOG, POSE_IN_FRAME};
+use super::schemas::{IMU, LOCATION_FIX, LOG, POSE_IN_FRAME};
 use super::stretch::{Stretch, stretches};
 use super::track::{NoUtc, SolutionTrack, degrees, metres};
 
@@ -31,18 +33,25 @@ pub(super) fn write(track: &SolutionTrack<'_>, target: impl Write) -> anyhow::Re
         journal.file.channel("/pose", &POSE_IN_FRAME)?,
         journal.file.channel("/log", &LOG)?,
     ];
+    let mut imu = match track.imu {
+        Some(_) => Some((journal.file.channel(imu::TOPIC, &IMU)?, Readings::of(track.imu))),
+        None => None,
+    };
     let first = stretches(track.rows).find(|stretch| stretch.is_told);
     let plane = first.map(|own| Plane::at(&own.rows[0].solution.position));
     for stretch in stretches(track.rows) {
+        journal.catch_up(&mut imu, Some(stretch.rows[0].solution.time))?;
         journal.write(log, stretch.rows[0].solution.time, said(&stretch))?;
         let Some(plane) = plane.as_ref().filter(|_| stretch.is_told) else { continue };
         for row in stretch.rows {
+            journal.catch_up(&mut imu, Some(row.solution.time))?;
             journal.write(position, row.solution.time, fix(row))?;
             if stretch.mode.is_navigating() {
                 journal.write(pose, row.solution.time, stands(plane, row))?;
             }
         }
     }
+    journal.catch_up(&mut imu, None)?;
     Ok(journal.file.finish()?)
 }
 
@@ -53,6 +62,19 @@ struct Journal<W: Write> {
 }
 
 impl<W: Write> Journal<W> {
+    /// Tells what the IMU measured up to a time, or all that is left.
+    fn catch_up(
+        &mut self,
+        imu: &mut Option<(u16, Readings<'_>)>,
+        until: Option<Time>,
+    ) -> anyhow::Result<()> {
+        let Some((channel, readings)) = imu else { return Ok(()) };
+        while let Some(own) = readings.next_until(until) {
+            self.write(*channel, own.time, measured(&own))?;
+        }
+        Ok(())
+    }
+
     /// Writes a message with its time.
     fn write(&mut self, channel: u16, time: Time, mut message: Value) -> anyhow::Result<()> {
         let nanos = u64::try_from(self.calendar.utc(time).as_nanos()).unwrap_or_default();
@@ -89,6 +111,15 @@ fn stands(plane: &Plane, row: &NavRow) -> Value {
     })
 }
 
+fn measured(own: &Reading) -> Value {
+    let vector = |own: &Vector3<f64>| json!({ "x": own.x, "y": own.y, "z": own.z });
+    json!({
+        "frame_id": imu::FRAME,
+        "angular_velocity": vector(&own.rate),
+        "linear_acceleration": vector(&own.force),
+    })
+}
+
 fn said(stretch: &Stretch<'_>) -> Value {
     let mode = stretch.mode.as_str();
     let (level, words) = match stretch.is_told {
@@ -119,7 +150,7 @@ mod tests {
         let rows = [row(0.0, 10.0, Mode::Fault), row(0.1, 10.0, Mode::FineAlignment)];
         let calendar = VoyageCalendar::new("2026-05-01T08:00:00Z");
         let mut bytes = Vec::new();
-        write(&SolutionTrack { name: "x", rows: &rows, calendar }, &mut bytes).unwrap();
+        write(&SolutionTrack { name: "x", rows: &rows, calendar, imu: None }, &mut bytes).unwrap();
         let text = String::from_utf8_lossy(&bytes);
         // the schema, which stands there twice, names it, too
         let is_value = |(at, name): &(usize, &str)| {
@@ -135,7 +166,7 @@ mod tests {
     #[test]
     fn without_utc_nothing_is_written() {
         let rows = [row(0.0, 10.0, Mode::Aided)];
-        let track = SolutionTrack { name: "x", rows: &rows, calendar: None };
+        let track = SolutionTrack { name: "x", rows: &rows, calendar: None, imu: None };
         assert!(write(&track, Vec::new()).unwrap_err().is::<NoUtc>());
     }
 }

@@ -6,6 +6,7 @@
 mod cdr;
 mod geojson;
 mod gpx;
+mod imu;
 mod kml;
 mod mcap;
 mod mcap_file;
@@ -20,6 +21,7 @@ use std::path::Path;
 
 use insd_config::OutputFile;
 
+pub use imu::ImuTrack;
 pub use track::{NoUtc, SolutionTrack};
 
 /// A format of other programs.
@@ -31,9 +33,9 @@ pub enum Format {
     Kml,
     /// GeoJSON (RFC 7946): a line for each mode, for QGIS.
     Geojson,
-    /// MCAP with JSON messages of Foxglove: positions with covariance, poses, changes of the mode.
+    /// MCAP with JSON messages of Foxglove: positions with covariance, poses, changes of the mode, on request the IMU.
     Mcap,
-    /// A folder with a bag of ROS 2: NavSatFix and Odometry.
+    /// A folder with a bag of ROS 2: NavSatFix and Odometry, on request Imu.
     Ros2bag,
 }
 

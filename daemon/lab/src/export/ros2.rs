@@ -1,4 +1,5 @@
-//! A bag of ROS 2 without ROS: `/fix` (`sensor_msgs/NavSatFix`) and `/odom` (`nav_msgs/Odometry`) in an MCAP file with `metadata.yaml` beside it.
+//! A bag of ROS 2 without ROS: `/fix` (`sensor_msgs/NavSatFix`) and `/odom` (`nav_msgs/Odometry`) in an MCAP file
+//! with `metadata.yaml` beside it; on request `/imu/data_raw` (`sensor_msgs/Imu`).
 //!
 //! Axes are those of REP 103. Where nothing may be relied on `/fix` says `STATUS_NO_FIX` with numbers that are none (NaN), and no
 //! odometry is sent, nor before the heading is found. Rates of turn are not told (NaN): `nav.csv` does not hold them.
@@ -12,9 +13,10 @@ use insd_drivers::recording::NavRow;
 use nalgebra::{Matrix3, Vector3};
 
 use super::cdr::Cdr;
+use super::imu::{self, Reading, Readings};
 use super::mcap_file::{Encoding, McapFile};
 use super::pose::{ENU_NED, FRD_FLU, Plane};
-use super::ros2_schemas::{NAV_SAT_FIX, ODOMETRY};
+use super::ros2_schemas::{IMU, NAV_SAT_FIX, ODOMETRY};
 use super::schemas::Schema;
 use super::stretch::stretches;
 use super::track::{NoUtc, SolutionTrack, degrees, metres};
@@ -32,41 +34,102 @@ pub(super) fn write(track: &SolutionTrack<'_>, folder: &Path) -> anyhow::Result<
     let calendar = track.calendar.ok_or(NoUtc)?;
     std::fs::create_dir_all(folder)?;
     let mut target = OutputFile::create(&folder.join(BAG))?;
-    let counts = messages(track, calendar, &mut target)?;
+    let (topics, span) = messages(track, calendar, &mut target)?;
     target.finish()?;
     let mut metadata = OutputFile::create(&folder.join("metadata.yaml"))?;
-    metadata.write_all(described(track, calendar, counts).as_bytes())?;
+    metadata.write_all(described(&topics, span).as_bytes())?;
     metadata.finish()
 }
 
-/// Writes the messages; gives how many there are of both.
+/// What a bag has of a topic.
+struct Topic {
+    name: &'static str,
+    schema: &'static Schema,
+    count: u64,
+}
+
+/// Writes the messages; gives how many there are of each topic, and when the first and the last one is, ns.
 fn messages(
     track: &SolutionTrack<'_>,
     calendar: VoyageCalendar,
     target: impl Write,
-) -> io::Result<[u64; 2]> {
-    let mut file = McapFile::new(target, Encoding::ROS2)?;
-    let fix = file.channel("/fix", &NAV_SAT_FIX)?;
-    let odometry = file.channel("/odom", &ODOMETRY)?;
+) -> io::Result<(Vec<Topic>, (u64, u64))> {
+    let mut bag = Bag {
+        file: McapFile::new(target, Encoding::ROS2)?,
+        calendar,
+        topics: Vec::new(),
+        span: None,
+    };
+    let fix = bag.topic("/fix", &NAV_SAT_FIX)?;
+    let odometry = bag.topic("/odom", &ODOMETRY)?;
+    let mut imu = match track.imu {
+        Some(_) => Some((bag.topic(imu::TOPIC, &IMU)?, Readings::of(track.imu))),
+        None => None,
+    };
     let first = stretches(track.rows).find(|stretch| stretch.is_told);
     let plane = first.map(|own| Plane::at(&own.rows[0].solution.position));
-    let mut counts = [0, 0];
     for stretch in stretches(track.rows) {
         for row in stretch.rows {
-            let nanos = nanos(calendar, row.solution.time);
-            file.write(fix, nanos, &fixed(row, nanos, stretch.is_told))?;
-            counts[0] += 1;
+            let time = row.solution.time;
+            bag.catch_up(&mut imu, Some(time))?;
+            bag.write(fix, time, |nanos| fixed(row, nanos, stretch.is_told))?;
             if let Some(plane) = &plane
                 && stretch.is_told
                 && stretch.mode.is_navigating()
             {
-                file.write(odometry, nanos, &moving(plane, row, nanos))?;
-                counts[1] += 1;
+                bag.write(odometry, time, |nanos| moving(plane, row, nanos))?;
             }
         }
     }
-    file.finish()?;
-    Ok(counts)
+    bag.catch_up(&mut imu, None)?;
+    bag.file.finish()?;
+    Ok((bag.topics, bag.span.unwrap_or_default()))
+}
+
+/// A bag in the making.
+struct Bag<W: Write> {
+    file: McapFile<W>,
+    calendar: VoyageCalendar,
+    topics: Vec<Topic>,
+    /// First and last message, ns.
+    span: Option<(u64, u64)>,
+}
+
+impl<W: Write> Bag<W> {
+    /// Declares a topic, and gives its number.
+    fn topic(&mut self, name: &'static str, schema: &'static Schema) -> io::Result<u16> {
+        self.topics.push(Topic { name, schema, count: 0 });
+        self.file.channel(name, schema)
+    }
+
+    fn write(
+        &mut self,
+        topic: u16,
+        time: Time,
+        message: impl FnOnce(u64) -> Vec<u8>,
+    ) -> io::Result<()> {
+        let nanos = nanos(self.calendar, time);
+        let (first, last) = self.span.unwrap_or((nanos, nanos));
+        self.span = Some((first.min(nanos), last.max(nanos)));
+        // channels are numbered from 1
+        if let Some(own) = self.topics.get_mut(usize::from(topic) - 1) {
+            own.count += 1;
+        }
+        self.file.write(topic, nanos, &message(nanos))
+    }
+
+    /// Tells what the IMU measured up to a time, or all that is left.
+    fn catch_up(
+        &mut self,
+        imu: &mut Option<(u16, Readings<'_>)>,
+        until: Option<Time>,
+    ) -> io::Result<()> {
+        let Some((topic, readings)) = imu else { return Ok(()) };
+        while let Some(own) = readings.next_until(until) {
+            self.write(*topic, own.time, |nanos| measured(&own, nanos))?;
+        }
+        Ok(())
+    }
 }
 
 fn nanos(calendar: VoyageCalendar, time: Time) -> u64 {
@@ -114,6 +177,18 @@ fn moving(plane: &Plane, row: &NavRow, nanos: u64) -> Vec<u8> {
     message.into_bytes()
 }
 
+/// `sensor_msgs/Imu`: no orientation, which its first covariance says with -1, and covariances that are not known, which are zero.
+fn measured(own: &Reading, nanos: u64) -> Vec<u8> {
+    let mut message = headed(nanos, imu::FRAME);
+    message.f64s(&[0.0, 0.0, 0.0, 1.0]);
+    message.f64s(&[-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    message.f64s(&own.rate);
+    message.f64s(&[0.0; 9]);
+    message.f64s(&own.force);
+    message.f64s(&[0.0; 9]);
+    message.into_bytes()
+}
+
 fn squared(sigma: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::from_diagonal(&sigma.component_mul(sigma))
 }
@@ -137,19 +212,16 @@ fn both(first: &Matrix3<f64>, second: &Matrix3<f64>) -> [f64; 36] {
 }
 
 /// `metadata.yaml` of rosbag2, version 5.
-fn described(track: &SolutionTrack<'_>, calendar: VoyageCalendar, counts: [u64; 2]) -> String {
-    let ends = [track.rows.first(), track.rows.last()];
-    let [begin, end] = ends.map(|row| row.map_or(0, |row| nanos(calendar, row.solution.time)));
-    let (span, all) = (end - begin, counts[0] + counts[1]);
-    let topic = |(topic, schema, count): (&str, &Schema, u64)| {
+fn described(topics: &[Topic], (begin, end): (u64, u64)) -> String {
+    let (span, all) = (end - begin, topics.iter().map(|topic| topic.count).sum::<u64>());
+    let topic = |topic: &Topic| {
         format!(
-            "    - topic_metadata:\n        name: {topic}\n        type: {}\n        serialization_format: cdr\n        \
-             offered_qos_profiles: \"\"\n      message_count: {count}\n",
-            schema.name
+            "    - topic_metadata:\n        name: {}\n        type: {}\n        serialization_format: cdr\n        \
+             offered_qos_profiles: \"\"\n      message_count: {}\n",
+            topic.name, topic.schema.name, topic.count
         )
     };
-    let topics =
-        [("/fix", &NAV_SAT_FIX, counts[0]), ("/odom", &ODOMETRY, counts[1])].map(topic).concat();
+    let topics: String = topics.iter().map(topic).collect();
     format!(
         "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: mcap\n  duration:\n    nanoseconds: {span}\n  \
          starting_time:\n    nanoseconds_since_epoch: {begin}\n  message_count: {all}\n  topics_with_message_count:\n{topics}  \

@@ -35,3 +35,13 @@ pub(super) const LOG: Schema = Schema {
 "level":{"title":"foxglove.LogLevel","oneOf":[{"title":"UNKNOWN","const":0},{"title":"DEBUG","const":1},{"title":"INFO","const":2},{"title":"WARNING","const":3},{"title":"ERROR","const":4},{"title":"FATAL","const":5}]},
 "message":{"type":"string"},"name":{"type":"string"},"file":{"type":"string"},"line":{"type":"integer","minimum":0}}}"#,
 };
+
+/// What an IMU measured. Foxglove has no message of its own for it; it draws any whose schema it knows.
+pub(super) const IMU: Schema = Schema {
+    name: "insd.Imu",
+    text: r#"{"title":"insd.Imu","type":"object","properties":{
+"timestamp":{"type":"object","title":"time","properties":{"sec":{"type":"integer","minimum":0},"nsec":{"type":"integer","minimum":0,"maximum":999999999}}},
+"frame_id":{"type":"string"},
+"angular_velocity":{"title":"foxglove.Vector3","type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"}}},
+"linear_acceleration":{"title":"foxglove.Vector3","type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"}}}}}"#,
+};

@@ -4,6 +4,8 @@ use insd_base::{Geodetic, Time, geoid};
 use insd_config::VoyageCalendar;
 use insd_drivers::recording::NavRow;
 
+use super::imu::ImuTrack;
+
 /// Decimal places of latitude and longitude, deg, as in `nav.csv`.
 const DEGREE_PLACES: i32 = 10;
 /// Decimal places of heights and sigmas, m, as in `nav.csv`.
@@ -17,6 +19,8 @@ pub struct SolutionTrack<'a> {
     pub rows: &'a [NavRow],
     /// UTC of its times, where it is known.
     pub calendar: Option<VoyageCalendar>,
+    /// What the IMU measured, if that is to be told, too.
+    pub imu: Option<&'a ImuTrack>,
 }
 
 /// A format that tells every instant in UTC, of a solution of which it is not known.

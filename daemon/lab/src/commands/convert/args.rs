@@ -15,6 +15,9 @@ pub struct ConvertArgs {
     /// Write the solution in the format of other programs, replaying what is no nav.csv
     #[arg(long, value_enum, requires = "out", conflicts_with = "rinex")]
     pub to: Option<Format>,
+    /// With --to mcap or ros2bag: also each sample of the IMU, forward, left, up
+    #[arg(long, requires = "to")]
+    pub imu: bool,
     /// With --to: UTC of t_s = 0, where it is not that of the voyage or recording
     #[arg(long, value_name = "RFC 3339", requires = "to")]
     pub start_utc: Option<String>,

@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
+use insd_base::{Message, Received};
 use insd_config::{BadInput, VoyageCalendar};
-use insd_drivers::recording::{NavRow, read_header, read_nav_rows};
+use insd_drivers::recording::{NavRow, VoyageReader, read_header, read_nav_rows};
 
 use super::args::ConvertArgs;
 use super::start::start_utc;
 use crate::commands::options;
 use crate::commands::replay::{self, ReplayOptions};
-use crate::export::{self, Format, NoUtc, SolutionTrack};
+use crate::export::{self, Format, ImuTrack, NoUtc, SolutionTrack};
 use crate::raw_run::{RawRun, is_recording};
 
 /// Writes it, and tells in a line what was written.
@@ -21,8 +22,37 @@ pub(super) fn write(args: &ConvertArgs, format: Format, out: &Path) -> anyhow::R
     let mut rows = rows(args)?;
     rows.sort_by_key(|row| row.solution.time);
     let name = args.recording.file_stem().unwrap_or(args.recording.as_os_str()).to_string_lossy();
-    export::write(&SolutionTrack { name: &name, rows: &rows, calendar }, format, out)?;
-    Ok(format!("{} rows in {}\n", rows.len(), out.display()))
+    let imu = if args.imu { Some(imu(args, format)?) } else { None };
+    let imu = imu.as_ref();
+    export::write(&SolutionTrack { name: &name, rows: &rows, calendar, imu }, format, out)?;
+    let samples = imu.map_or(String::new(), |imu| format!(" and {} samples of the IMU", imu.len()));
+    Ok(format!("{} rows{samples} in {}\n", rows.len(), out.display()))
+}
+
+/// What the IMU of a voyage or recording measured.
+fn imu(args: &ConvertArgs, format: Format) -> anyhow::Result<ImuTrack> {
+    let recording = &args.recording;
+    if !matches!(format, Format::Mcap | Format::Ros2bag) || is_nav(recording) {
+        let hint = "--imu is for a voyage or recording and --to mcap or ros2bag";
+        return Err(BadInput(hint.to_owned()).into());
+    }
+    let mut samples = Vec::new();
+    let mut take = |received: Received| {
+        if let Message::Imu(sample) = received.message {
+            samples.push(sample);
+        }
+    };
+    if recording.join("voyage.toml").exists() {
+        let rate = read_header(recording)?.imu.rate;
+        for received in VoyageReader::open(recording)? {
+            take(received?);
+        }
+        return Ok(ImuTrack::new(samples, rate));
+    }
+    let mut raw = RawRun::open(recording, args.config.as_deref(), args.run)?;
+    let rate = raw.config.engine().imu.rate;
+    raw.hear(|_, _| {}, take)?;
+    Ok(ImuTrack::new(samples, rate))
 }
 
 fn rows(args: &ConvertArgs) -> anyhow::Result<Vec<NavRow>> {
