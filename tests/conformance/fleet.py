@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """A ship that reports ashore by docs/fleet.md, through everything that goes wrong: mosquitto, PostgreSQL, `insd fleet sink`.
 
-    tests/conformance/fleet.py INSD [--keep FOLDER]
+    tests/conformance/fleet.py INSD [--tls] [--keep FOLDER]
 
 INSD is the program. It is the ship (`insd feed` and `insd run`) and the shore; between them are Debian's mosquitto and
 a link that this script makes slow and cuts. In turn: the broker goes away; the daemon is killed while it is away and
 started again; what it knew of acknowledgements is taken from it, so that all it has is sent twice; the broker comes
 back behind 2 kB/s; the link is cut twice in the middle of a message; the sink is killed and started again. Then every record that the ship wrote down, by its key, must be in the database or still on her
 disk, and none twice. What stands in the spool is read here by the table of docs/fleet.md, not by insd.
+
+With --tls ship, sink and broker speak TLS with certificates that openssl has just made, through the same link, and a ship that believes another
+authority must be refused; INSD must have been built with `--features tls`.
 
 Needs root, as PostgreSQL must not run as root and is given to its own user. Ends with 1 if something is lost.
 """
@@ -104,11 +107,34 @@ def spooled(folder):
     return keys
 
 
+def authority(folder, name):
+    """A certificate that signs others, and its key."""
+    key, certificate = folder / f"{name}.key", folder / f"{name}.pem"
+    words = ["-newkey", "rsa:2048", "-nodes", "-days", "2", "-subj", f"/CN={name}", "-keyout", key, "-out", certificate]
+    openssl("req", "-x509", *words)
+    return certificate, key
+
+
+def openssl(*words):
+    subprocess.run(["openssl", *map(str, words)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def certificates(folder):
+    """Files of a broker at 127.0.0.1, signed by an authority of ours; and an authority that has signed nothing."""
+    certificate, key = authority(folder, "authority")
+    authority(folder, "stranger")
+    request, extensions = folder / "broker.csr", folder / "broker.ext"
+    extensions.write_text("subjectAltName=IP:127.0.0.1,DNS:localhost\n")
+    openssl("req", "-newkey", "rsa:2048", "-nodes", "-subj", "/CN=broker", "-keyout", folder / "broker.key", "-out", request)
+    signed = ["-CA", certificate, "-CAkey", key, "-CAcreateserial", "-days", "2", "-extfile", extensions]
+    openssl("x509", "-req", "-in", request, *signed, "-out", folder / "broker.pem")
+
+
 class Shore:
     """Database, broker and sink."""
 
-    def __init__(self, insd, folder):
-        self.insd, self.folder = insd, folder
+    def __init__(self, insd, folder, tls):
+        self.insd, self.folder, self.tls = insd, folder, tls
         self.port, self.page = free_port(), free_port()
         self.database = f"host={folder} dbname=postgres user=postgres"
         self.processes = {}
@@ -125,7 +151,10 @@ class Shore:
         (folder / "mosquitto.conf").write_text(
             f"listener {self.port} 127.0.0.1\nallow_anonymous true\nuser root\npersistence true\n"
             f"persistence_location {folder}/broker/\nmax_inflight_messages 1000\nmax_queued_messages 100000\n"
+            + (f"cafile {folder}/authority.pem\ncertfile {folder}/broker.pem\nkeyfile {folder}/broker.key\n" if tls else "")
         )
+        if tls:
+            certificates(folder)
 
     def as_postgres(self, program, *words):
         command = ["runuser", "-u", "postgres", "--", f"{POSTGRES[-1]}/{program}", *words]
@@ -145,6 +174,8 @@ class Shore:
 
     def sink(self):
         words = ["--broker", f"127.0.0.1:{self.port}", "--postgres", self.database]
+        if self.tls:
+            words += ["--tls", "--tls-ca-file", str(self.folder / "authority.pem")]
         self.begin("sink", self.insd, "fleet", "sink", *words, "--page", f"127.0.0.1:{self.page}")
 
     def query(self, text):
@@ -166,11 +197,19 @@ class Shore:
         self.as_postgres("pg_ctl", "-D", str(self.folder / "database"), "-m", "immediate", "stop")
 
 
-def configuration(folder, link, page):
+def configuration(folder, link, page, tls):
     text = SHIP.read_text().replace("/run/insd-sensors", str(folder / "sensors"))
     text = text.replace("127.0.0.1:10120", f"127.0.0.1:{free_port()}")
-    fleet = f'host = "127.0.0.1"\nport = {link}\n'
-    return text + f"""
+    believed = lambda name: f'tls = true\ntls_ca_file = "{folder}/{name}.pem"\n' if tls else ""
+    broker = f'host = "127.0.0.1"\nport = {link}\n'
+    fleet = broker + believed("authority")
+    stranger = f"""
+[[fleet]]
+name = "stranger"
+ship = "imo3"
+{broker}{believed("stranger")}state_s = 1.0
+"""
+    return text + (stranger if tls else "") + f"""
 [state]
 folder = "{folder}/state"
 
@@ -212,7 +251,7 @@ def voyage(shore, insd, folder):
     shore.broker()
     shore.sink()
     link = Link(shore.port)
-    (folder / "insd.toml").write_text(configuration(folder, link.address, page))
+    (folder / "insd.toml").write_text(configuration(folder, link.address, page, shore.tls))
     ship = lambda: shore.begin("ship", insd, "run", "--config", str(folder / "insd.toml"))
     spool = folder / "state/fleet/log"
     shore.begin("feed", insd, "feed", "--folder", str(folder / "sensors"))
@@ -222,6 +261,8 @@ def voyage(shore, insd, folder):
     wait("records in the database", 40, lambda: shore.query("select to_regclass('insd_history')") != [[""]] and len(shore.keys()) > 20)
     wait("the ship on the sheet", 20, lambda: shore.board().get("imo2", {}).get("state"))
 
+    if shore.tls and "imo3" in shore.board():
+        sys.exit("FAILED: a ship has spoken to a broker whose certificate she does not believe")
     shore.end("mosquitto")
     time.sleep(10)
     print("the broker is away, and the daemon killed", flush=True)
@@ -275,12 +316,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("insd")
     parser.add_argument("--keep", type=pathlib.Path, help="leave logs there")
+    parser.add_argument("--tls", action="store_true", help="over TLS")
     options = parser.parse_args()
     insd = str(pathlib.Path(options.insd).resolve())
     if not (shutil.which("mosquitto", path="/usr/sbin:/usr/bin") and POSTGRES):
         sys.exit("mosquitto and postgresql are needed")
     folder = pathlib.Path(tempfile.mkdtemp(prefix="insd-fleet-"))
-    shore = Shore(insd, folder)
+    shore = Shore(insd, folder, options.tls)
     try:
         judge(shore, folder, voyage(shore, insd, folder))
     finally:

@@ -76,6 +76,9 @@ pub enum PayloadKind {
     Json,
     /// Deltas of Signal K.
     SignalK,
+    /// Packages of ISO 19848 with DNV's names of channels.
+    #[serde(rename = "iso19848")]
+    Iso19848,
 }
 
 fn prefix() -> String {
@@ -139,7 +142,7 @@ impl FleetSection {
         expect(is_word(&self.ship), "ship", "1 to 64 characters without / + # and blanks");
         let is_topic = !self.topic.is_empty() && self.topic.split('/').all(is_word);
         expect(is_topic, "topic", "words with / between them, without + # and blanks");
-        let is_named = self.payload == PayloadKind::Json || self.ship.starts_with("urn:mrn:");
+        let is_named = self.payload != PayloadKind::SignalK || self.ship.starts_with("urn:mrn:");
         expect(is_named, "ship", "for Signal K a name that begins with urn:mrn:");
         let is_login = self.user.is_some() || self.password_file.is_none();
         expect(is_login, "password_file", "a user with it");

@@ -12,6 +12,7 @@
 
 pub mod budget;
 mod courier;
+mod iso19848;
 pub mod key;
 mod link;
 pub mod payload;
@@ -20,6 +21,7 @@ mod signal_k;
 pub mod simulate;
 pub mod sink;
 pub mod spool;
+mod steady;
 mod tls;
 mod told;
 mod watch;

@@ -9,6 +9,7 @@
 use insd_base::Span;
 use serde_json::{Map, Value, json};
 
+use crate::iso19848;
 use crate::key::{RecordKey, RunId};
 use crate::plan::{FleetPayload, FleetPlan};
 use crate::signal_k;
@@ -81,6 +82,7 @@ fn message(
     let text = match plan.payload {
         FleetPayload::Json => envelope(&plan.ship, plan.ship_name.as_deref(), keys.0, records),
         FleetPayload::SignalK => signal_k::delta(&plan.ship, records),
+        FleetPayload::Iso19848 => iso19848::package(&plan.ship, records),
     };
     let wanted = what == SpoolClass::History.name() && plan.packs(SpoolClass::History);
     let (payload, content) = packed(text, wanted);

@@ -14,6 +14,8 @@ pub enum FleetPayload {
     Json,
     /// Deltas of Signal K.
     SignalK,
+    /// Packages of ISO 19848.
+    Iso19848,
 }
 
 /// Where the broker is, and as who it is called.

@@ -103,6 +103,7 @@ fn slow(sight: &DemoSight<'_>) -> Slow {
         nodes: Vec::new(),
         recorder: None,
         saver: None,
+        fleets: Vec::new(),
         disputes: Vec::new(),
         watched: Vec::new(),
         estimates: engine.estimates(),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use insd_base::Span;
 use insd_config::{Config, FleetSection, PayloadKind};
 use insd_drivers::ports::read_password;
-use insd_fleet::{BrokerPlan, FleetHandle, FleetPayload, FleetPlan};
+use insd_fleet::{BrokerPlan, FleetHandle, FleetPayload, FleetPlan, FleetStatus};
 use insd_web::Viewer;
 
 use crate::clock::HostClock;
@@ -16,7 +16,7 @@ const MEGABYTE: u64 = 1 << 20;
 
 /// Those who tell the fleets. They end when this is dropped.
 #[derive(Debug, Default)]
-pub(super) struct Fleets(Vec<FleetHandle>);
+pub(super) struct Fleets(Vec<(String, FleetHandle)>);
 
 impl Fleets {
     /// Starts one for each fleet. A ship sails without them, too: what is wrong is told.
@@ -29,14 +29,21 @@ impl Fleets {
                 let now = Arc::new(move || clock.now());
                 insd_fleet::start(plan, viewer.clone(), now).map_err(|fault| fault.to_string())
             });
-            begun.map_err(|fault| tracing::error!(fleet = section.name, fault, "not told")).ok()
+            let begun =
+                begun.map_err(|fault| tracing::error!(fleet = section.name, fault, "not told"));
+            Some((section.name.clone(), begun.ok()?))
         };
         Fleets(config.fleets.iter().filter_map(start).collect())
     }
 
     /// Whether what waits for one of them cannot be put away.
     pub(super) fn is_failing(&self) -> bool {
-        self.0.iter().any(|own| own.status().disk_fault.is_some())
+        self.0.iter().any(|(_, own)| own.status().disk_fault.is_some())
+    }
+
+    /// How each of them is told, by its name.
+    pub(super) fn status(&self) -> Vec<(String, FleetStatus)> {
+        self.0.iter().map(|(name, own)| (name.clone(), own.status())).collect()
     }
 }
 
@@ -67,6 +74,7 @@ fn plan(section: &FleetSection, state: Option<&Path>) -> Result<FleetPlan, Strin
         payload: match section.payload {
             PayloadKind::Json => FleetPayload::Json,
             PayloadKind::SignalK => FleetPayload::SignalK,
+            PayloadKind::Iso19848 => FleetPayload::Iso19848,
         },
         compress: section.compress,
         expiry: some(section.expiry_s),

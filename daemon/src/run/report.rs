@@ -7,6 +7,7 @@ use insd_base::{
 };
 use insd_drivers::raw::RecorderState;
 use insd_engine::LearningStatus;
+use insd_fleet::FleetStatus;
 use insd_intake::status::IntakeStatus;
 use insd_n2k::node::NodeStatus;
 use insd_output::alerts::AlertView;
@@ -53,6 +54,8 @@ pub(super) struct Slow {
     pub(super) nodes: Vec<(String, NodeStatus)>,
     pub(super) recorder: Option<RecorderState>,
     pub(super) saver: Option<SaverState>,
+    /// How each fleet is told, by its name.
+    pub(super) fleets: Vec<(String, FleetStatus)>,
     pub(super) disputes: Vec<Dispute>,
     /// How each reference that is watched stands.
     pub(super) watched: Vec<WatchComparison>,

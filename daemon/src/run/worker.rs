@@ -266,6 +266,7 @@ impl Worker {
             nodes: self.connections.buses.status(),
             recorder: self.recorder.as_ref().map(Recorder::state),
             saver: self.saver.as_ref().map(Saver::state),
+            fleets: self.fleets.status(),
             disputes: self.pipeline.disputes(),
             watched: self.pipeline.watched(now),
             estimates: self.pipeline.engine_in_use().estimates(),

@@ -12,6 +12,7 @@ use super::status::{FleetStatus, Shared};
 use crate::key::{RecordKey, RunId};
 use crate::plan::FleetPlan;
 use crate::spool::{Spool, SpoolBatch, SpoolClass, SpoolRecord};
+use crate::steady::SteadyUtc;
 use crate::watch::{AlertWatch, Interval};
 use crate::{payload, told};
 
@@ -44,6 +45,8 @@ pub(super) struct Clerk {
     seen: (u64, Time),
     /// UTC as the ship knows it.
     utc: Option<UtcTime>,
+    /// By which what waits grows too old.
+    steady: SteadyUtc,
 }
 
 impl Clerk {
@@ -61,6 +64,7 @@ impl Clerk {
             alerts: AlertWatch::default(),
             seen: (0, Time::START),
             utc: None,
+            steady: SteadyUtc::default(),
         })
     }
 
@@ -101,6 +105,9 @@ impl Clerk {
         let age = (now - self.seen.1).as_seconds();
         let snapshot = self.viewer.look(|_, own| own.after(age))?;
         self.utc = snapshot.time.utc.as_deref().and_then(utc_of);
+        if let Some(utc) = self.utc {
+            self.steady.hear(now, utc);
+        }
         Some(snapshot)
     }
 
@@ -130,7 +137,8 @@ impl Clerk {
     /// The next records to send.
     pub(super) fn batch(&mut self, class: SpoolClass, plan: &FleetPlan) -> Option<SpoolBatch> {
         let expired = self
-            .utc
+            .steady
+            .utc()
             .zip(plan.expiry)
             .map(|(utc, span)| utc.plus(Span::from_nanos(-span.as_nanos())));
         let bytes = if plan.packs(class) { PACKED } else { PLAIN };

@@ -51,6 +51,8 @@ pub struct Spool {
     shelves: [Shelf; 2],
     quota: u64,
     losses: SpoolLosses,
+    /// The newest UTC that was met in each class: what comes behind it cannot be older, whatever its own UTC is.
+    newest: [Option<UtcTime>; 2],
 }
 
 impl Spool {
@@ -64,7 +66,8 @@ impl Spool {
         let [history, alerts] = SpoolClass::ALL;
         let open = |class: SpoolClass| Shelf::open(&folder.join(class.name()), segment);
         let shelves = [open(history)?, open(alerts)?];
-        let mut spool = Spool { shelves, quota, losses: SpoolLosses::default() };
+        let losses = SpoolLosses::default();
+        let mut spool = Spool { shelves, quota, losses, newest: [None; 2] };
         spool.keep_quota();
         Ok(spool)
     }
@@ -81,7 +84,7 @@ impl Spool {
     }
 
     /// The oldest records that were not acknowledged, so many and so many bytes of text at the most; what is
-    /// older than `expired` is left out.
+    /// older than `expired` is left out, unless a record before it is not: then a clock has been set back.
     ///
     /// # Errors
     /// They cannot be read.
@@ -94,8 +97,12 @@ impl Spool {
         loop {
             let Some((records, end)) = self.shelf(class).oldest(most)? else { return Ok(None) };
             let all = records.len();
-            let is_wanted =
-                |own: &SpoolRecord| own.utc.zip(expired).is_none_or(|(utc, limit)| utc >= limit);
+            let newest = &mut self.newest[class as usize];
+            let is_wanted = |own: &SpoolRecord| {
+                *newest = own.utc.max(*newest);
+                let utc = own.utc.and(*newest);
+                utc.zip(expired).is_none_or(|(utc, limit)| utc >= limit)
+            };
             let records: Vec<SpoolRecord> = records.into_iter().filter(is_wanted).collect();
             self.losses.expired += (all - records.len()) as u64;
             if records.is_empty() {

@@ -159,6 +159,35 @@ fn what_is_older_than_anybody_wants_to_know_is_left_out_and_counted() {
 }
 
 #[test]
+fn steps_of_the_clock_lose_nothing_and_change_no_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut spool = Spool::open(folder.path(), QUOTA).unwrap();
+    let stepped = |sequence: u64| {
+        let own = record(sequence);
+        let days = match sequence {
+            31..=40 => -20 * 365,
+            61..=70 => 1024 * 7,
+            _ => 0,
+        };
+        let utc =
+            own.utc.map(|utc| utc.plus(insd_base::Span::from_nanos(days * 86_400 * 1_000_000_000)));
+        SpoolRecord { utc, ..own }
+    };
+    (1..101).for_each(|own| spool.append(SpoolClass::History, &stepped(own)).unwrap());
+    let limit = record(1).utc;
+    let mut all = Vec::new();
+    while let Some(batch) = spool.oldest(SpoolClass::History, (7, MANY.1), limit).unwrap() {
+        // what was sent and not acknowledged comes again as it was
+        let again = spool.oldest(SpoolClass::History, (7, MANY.1), limit).unwrap().unwrap();
+        assert_eq!(again, batch);
+        all.extend(batch.records.iter().map(|own| own.key.sequence));
+        spool.acknowledge(&batch).unwrap();
+    }
+    assert_eq!(all, (1..101).collect::<Vec<_>>());
+    assert_eq!(spool.losses(), SpoolLosses::default());
+}
+
+#[test]
 fn a_batch_holds_records_of_one_run() {
     let folder = tempfile::tempdir().unwrap();
     let mut spool = Spool::open(folder.path(), QUOTA).unwrap();

@@ -181,6 +181,7 @@ impl Showcase {
             shown.disturbance = Some(engines::disturbance(disturbance));
         }
         shown.saving = slow.saver.as_ref().map(program::saving);
+        shown.fleets = slow.fleets.iter().map(program::fleet).collect();
         shown.log.lost = slow.untold;
         shown.log.level = self.log.level();
         shown.log.repeats = self.log.repeats().total();

@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use crc::{CRC_32_ISO_HDLC, Crc};
 use insd_base::Stamp;
 use insd_config::{Config, calendar};
+use insd_fleet::FleetStatus;
+use insd_fleet::spool::SpoolLosses;
 use insd_intake::clock::TimeQuality;
 use insd_intake::status::TimeStatus;
-use insd_web::snapshot::{Program, RecordingState, Saving, ShownRecording};
+use insd_web::snapshot::{Program, RecordingState, Saving, ShownFleet, ShownRecording};
 use rustix::time::{ClockId, clock_gettime};
 
 use super::super::report::Slow;
@@ -84,4 +86,21 @@ pub(super) fn recording(config: &Config, slow: &Slow) -> Option<ShownRecording> 
 
 pub(super) fn saving(state: &SaverState) -> Saving {
     Saving { saved: state.saved, failed: state.failed, last_error: state.fault.clone() }
+}
+
+pub(super) fn fleet((name, status): &(String, FleetStatus)) -> ShownFleet {
+    let SpoolLosses { quota, expired, unwritten, damaged_bytes } = status.losses;
+    ShownFleet {
+        name: name.clone(),
+        connected: status.is_connected,
+        sent_messages: status.messages,
+        sent_bytes: status.bytes,
+        waiting: status.waiting,
+        lost_quota: quota,
+        lost_expired: expired,
+        lost_unwritten: unwritten,
+        damaged_bytes,
+        disk_fault: status.disk_fault.clone(),
+        link_fault: status.link_fault.clone(),
+    }
 }

@@ -16,6 +16,7 @@ mod aids;
 mod alerts;
 mod alignment;
 mod docking;
+mod fleets;
 mod freshness;
 mod learning;
 mod ports;
@@ -29,6 +30,7 @@ pub use aids::{Cause, Rejected, Samples, ShownAid};
 pub use alerts::{Alert, ShownAlertState, ShownEvent, ShownPriority, ShownSeverity};
 pub use alignment::{DisturbanceAxis, ShownAlignment, ShownDisturbance, ShownFit};
 pub use docking::{ShownContact, ShownDocking, ShownDockingPoint, ShownQuay};
+pub use fleets::ShownFleet;
 pub use freshness::{Freshness, GONE, OLD};
 pub use learning::ShownLearning;
 pub use ports::{
@@ -119,6 +121,8 @@ pub struct Snapshot {
     pub recording: Option<ShownRecording>,
     /// What is saved for the next start; `None` if nothing is.
     pub saving: Option<Saving>,
+    /// Fleets that are told, in the order of the configuration.
+    pub fleets: Vec<ShownFleet>,
     /// The journal.
     pub log: Log,
     /// The last lines of the journal, oldest first, at most [`MAX_EVENTS`].
@@ -157,6 +161,7 @@ impl Default for Snapshot {
             disturbance: None,
             recording: None,
             saving: None,
+            fleets: Vec::new(),
             log: Log::default(),
             events: Vec::new(),
         }

@@ -10,8 +10,9 @@ mod ship;
 mod sky;
 
 use insd_web::snapshot::{
-    Alert, Log, Program, RecordingState, ShownAlertState, ShownEngine, ShownEvent, ShownLearning,
-    ShownMode, ShownPriority, ShownRecording, ShownSeverity, ShownTransition, Snapshot, TimeInfo,
+    Alert, Log, Program, RecordingState, ShownAlertState, ShownEngine, ShownEvent, ShownFleet,
+    ShownLearning, ShownMode, ShownPriority, ShownRecording, ShownSeverity, ShownTransition,
+    Snapshot, TimeInfo,
 };
 use insd_web::{OrderReceiver, PageOrder};
 
@@ -110,6 +111,7 @@ impl Show {
             alerts: self.alerts(t),
             watched: plumbing::watched(self.scene),
             recording: Some(self.recording(t)),
+            fleets: self.fleets(t),
             log: Log { level: self.level.clone(), repeats: 12, lost: 0 },
             events: self.events(),
             ..Snapshot::default()
@@ -272,6 +274,19 @@ impl Show {
                 281.0,
             ),
         ]
+    }
+
+    fn fleets(&self, t: f64) -> Vec<ShownFleet> {
+        let fault = self.scene == Scene::Fault;
+        vec![ShownFleet {
+            name: "shore".to_owned(),
+            connected: !fault,
+            sent_messages: (t / 60.0) as u64,
+            sent_bytes: (t * 35.0) as u64,
+            waiting: if fault { 1200 } else { 3 },
+            link_fault: fault.then(|| "the connection has ended".to_owned()),
+            ..ShownFleet::default()
+        }]
     }
 
     fn recording(&self, t: f64) -> ShownRecording {

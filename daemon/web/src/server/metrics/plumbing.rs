@@ -40,6 +40,7 @@ pub(super) fn write(sheet: &mut Sheet, snapshot: &Snapshot) {
     watched(sheet, snapshot);
     aids(sheet, snapshot);
     buses(sheet, snapshot);
+    fleets(sheet, snapshot);
     others(sheet, snapshot);
 }
 
@@ -195,6 +196,28 @@ fn buses(sheet: &mut Sheet, snapshot: &Snapshot) {
         load.set(&[&bus.port], bus.load);
         errors.set(&[&bus.port], bus.errors);
         offs.set(&[&bus.port], bus.offs);
+    }
+}
+
+fn fleets(sheet: &mut Sheet, snapshot: &Snapshot) {
+    if snapshot.fleets.is_empty() {
+        return;
+    }
+    let up = sheet.gauge("fleet_up", "Whether the broker is connected: 1", ["fleet"]);
+    let sent =
+        sheet.counter("fleet_sent_messages", "Messages that the broker has taken", ["fleet"]);
+    let bytes = sheet.counter("fleet_sent_bytes", "Bytes of their payloads", ["fleet"]);
+    let waiting = sheet.gauge("fleet_waiting_records", "Records not ashore yet", ["fleet"]);
+    let lost = sheet.counter("fleet_lost_records", "Records never sent", ["fleet", "reason"]);
+    for fleet in &snapshot.fleets {
+        let name = fleet.name.as_str();
+        up.set(&[name], f64::from(u8::from(fleet.connected)));
+        sent.set(&[name], fleet.sent_messages);
+        bytes.set(&[name], fleet.sent_bytes);
+        waiting.set(&[name], fleet.waiting as f64);
+        lost.set(&[name, "quota"], fleet.lost_quota);
+        lost.set(&[name, "expired"], fleet.lost_expired);
+        lost.set(&[name, "unwritten"], fleet.lost_unwritten);
     }
 }
 
