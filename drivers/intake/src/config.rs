@@ -346,12 +346,8 @@ impl SensorConfig {
         expect(positive(self.heading_std_deg), "heading_std_deg", "a number above 0");
         expect(positive(self.velocity_std_mps), "velocity_std_mps", "a number above 0");
         expect(positive(self.position_std_m), "position_std_m", "a number above 0");
-        let lasting = self.position_lasting_std_m;
-        let is_placed = matches!(self.kind, Kind::NmeaPosition | Kind::N2kPosition);
-        let expected =
-            "a number above 0, of a position from elsewhere: nmea_position, n2k_position";
-        let is_said = lasting.is_none_or(|std| positive(std) && is_placed);
-        expect(is_said, "position_lasting_std_m", expected);
+        let expected = "a number above 0, of nmea_position or n2k_position alone";
+        expect(self.may_last(), "position_lasting_std_m", expected);
         let offset = self.heading_offset_deg.abs() <= 360.0;
         expect(offset, "heading_offset_deg", "-360 to 360");
         let stated = self.kind != Kind::Pashr || self.dialect.is_some();
@@ -365,6 +361,13 @@ impl SensorConfig {
         for fault in self.layout.iter().flat_map(|layout| layout.layout().faults()) {
             expect(false, "layout", &fault);
         }
+    }
+
+    /// Whether what stays of the error of a position is told of one from elsewhere alone.
+    fn may_last(&self) -> bool {
+        let is_placed = matches!(self.kind, Kind::NmeaPosition | Kind::N2kPosition);
+        let is_one = |std: f64| std.is_finite() && std > 0.0 && is_placed;
+        self.position_lasting_std_m.is_none_or(is_one)
     }
 
     fn look_at_array(

@@ -18,6 +18,11 @@ use crate::error_state::{all_states, no_errors};
 
 const MEASURED_RATE: Vector3<f64> = Vector3::new(0.02, -0.05, 0.03);
 
+/// Where a reference has her.
+fn there() -> Geodetic {
+    Geodetic::from_degrees(52.000_01, 179.900_02, 0.0)
+}
+
 fn estimate() -> Nominal {
     let attitude = Attitude { roll: 0.2, pitch: -0.1, heading: 2.2 };
     let place = Geodetic::from_degrees(52.0, 179.9, 25.0);
@@ -176,13 +181,9 @@ fn table() -> Vec<Entry> {
         ("reference_velocity", |view| {
             rows(&reference_velocity::innovation(view, &Vector2::new(5.0, -3.0), 0.1))
         }),
-        ("reference_position", |view| {
-            let berth = Geodetic::from_degrees(52.000_01, 179.900_02, 0.0);
-            rows(&reference_position::innovation(view, &berth, 0.3))
-        }),
+        ("reference_position", |view| rows(&reference_position::innovation(view, &there(), 0.3))),
         ("reference_position with an error that stays", |view| {
-            let there = Geodetic::from_degrees(52.000_01, 179.900_02, 0.0);
-            rows(&reference_position::with_lasting_error(view, &there, 15.0, 100.0))
+            rows(&reference_position::with_lasting_error(view, &there(), 15.0, 100.0))
         }),
     ]
 }
