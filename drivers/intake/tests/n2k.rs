@@ -294,6 +294,16 @@ fn a_position_is_timed_by_its_receipt_and_the_first_bit_of_its_frame() {
 }
 
 #[test]
+fn what_stays_of_the_error_of_a_position_is_told_with_it() {
+    let mut own = sensor(Kind::N2kPosition);
+    own.position_lasting_std_m = Some(100.0);
+    let mut bus = Bus::new(vec![own]);
+    bus.wait(0.1);
+    bus.send(1, &PositionRapid { latitude: Some(0.5), longitude: Some(-1.0) });
+    assert_eq!(bus.references()[0].position_lasting_std, Some(100.0));
+}
+
+#[test]
 fn two_devices_with_the_same_group_do_not_mix_and_a_move_is_no_interruption() {
     let mut bus = Bus::new(vec![sensor(Kind::N2kHeading)]);
     let told = |own: f64| heading(Some(own), Some(North::True), None);

@@ -58,6 +58,7 @@ impl Core {
                 height,
             }),
             position_std: Some(config.position_std_m),
+            position_lasting_std: config.position_lasting_std_m,
             ..ExternalReference::default()
         };
         self.reference(Quantity::Position, index, now, valid, reference);
