@@ -2,6 +2,7 @@
 
 import { byId, fill, right, setAttr, setClass, setText, show } from "./dom.js";
 import { count, fixed, known } from "./format.js";
+import { AXES } from "./tables.js";
 import { said, t } from "./texts.js";
 
 // time between two pictures, ms: the front end writes one every two seconds
@@ -11,7 +12,6 @@ const STATES = {
   used: ["camera_used", "good"], doubtful: ["camera_doubtful", "bad"], waiting: ["camera_waiting", "calm"],
   silent: ["camera_silent", "warn"],
 };
-const AXES = ["axis_forward", "axis_starboard", "axis_down"];
 
 let wanted = false;
 let turn = 0;

@@ -151,7 +151,7 @@ export function system(data) {
   ]));
 }
 
-const AXES = ["axis_forward", "axis_starboard", "axis_down"];
+export const AXES = ["axis_forward", "axis_starboard", "axis_down"];
 
 const STANDINGS = { doubtful: "is-bad", excluded: "is-bad" };
 const PARTIES = {

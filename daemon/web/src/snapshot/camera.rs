@@ -38,7 +38,7 @@ pub struct ShownCamera {
     pub poses: Option<u32>,
     /// Points of the quay that are held as places.
     pub landmarks: Option<u32>,
-    /// How it is found to sit otherwise than configured: clockwise, up, to starboard, deg.
+    /// How it is found to sit otherwise than configured: a small turn about the ship's forward, starboard and down axes, deg.
     pub turned: Vec<ShownEstimate>,
     /// By how much its images are taken later than they are stamped, s.
     pub delay: Option<ShownEstimate>,
