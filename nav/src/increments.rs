@@ -38,6 +38,9 @@ pub struct Conditioner {
     jitter: f64,
     last: Option<Last>,
     leap: Option<Time>,
+    /// Time of a sample that was left out as a spike, until the next.
+    #[serde(skip)]
+    spike: Option<Time>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -87,6 +90,7 @@ impl Conditioner {
             jitter: 0.0,
             last: None,
             leap: None,
+            spike: None,
         }
     }
 
@@ -94,7 +98,7 @@ impl Conditioner {
     #[must_use]
     pub fn shifted(self, by: Span) -> Self {
         let last = self.last.map(|last| Last { time: last.time + by, ..last });
-        Conditioner { last, leap: None, ..self }
+        Conditioner { last, leap: None, spike: None, ..self }
     }
 
     /// What is kept for the next start of the program.
@@ -114,6 +118,7 @@ impl Conditioner {
             jitter: self.jitter,
             last: self.last,
             leap: self.leap,
+            spike: None,
         }
     }
 
@@ -138,7 +143,8 @@ impl Conditioner {
     ///
     /// An interval within 1.5 nominal ones is taken as it is (uneven stamps: the increments cover
     /// (last, this]); beyond that the sample covers the last nominal interval and the time before it
-    /// is a gap, bridged as [`Bridging`] has learnt to. The first sample covers a nominal interval.
+    /// is a gap, bridged as [`Bridging`] has learnt to. A sample that was left out as a spike is such a gap, up to
+    /// its stamp. The first sample covers a nominal interval.
     pub fn take(&mut self, sample: &ImuSample) -> Conditioned {
         let Some(last) = self.last else {
             return self.first(sample);
@@ -155,11 +161,13 @@ impl Conditioner {
         }
         let gap = elapsed > GAP * self.nominal;
         let duration = if gap { self.coverage_after_gap(sample, &last) } else { elapsed };
+        self.spike = None;
         let Some(mean) = mean_of(sample, duration) else {
             return Conditioned::Rejected(Rejection::OutOfRange);
         };
         let changes = [mean.rate - last.mean.rate, mean.force - last.mean.force];
         if self.spikes.see(changes) {
+            self.spike = Some(sample.time);
             return Conditioned::Rejected(Rejection::Spike);
         }
         self.last = Some(Last { time: sample.time, mean });
@@ -188,9 +196,13 @@ impl Conditioner {
         }
     }
 
-    /// How much time the sample after a gap covers, s: a nominal interval, unless the stamps jitter.
-    /// Then gravity is the better clock: the specific force is much the same before and after.
+    /// How much time the sample after a gap covers, s: that since a spike, else a nominal interval, unless the stamps
+    /// jitter. Then gravity is the better clock: the specific force is much the same before and after.
     fn coverage_after_gap(&self, sample: &ImuSample, last: &Last) -> f64 {
+        let since_spike = self.spike.map_or(0.0, |spike| (sample.time - spike).as_seconds());
+        if since_spike > 0.0 && since_spike <= GAP * self.nominal {
+            return since_spike;
+        }
         let jitters = self.jitter.sqrt() > JITTERING * self.nominal;
         let before = last.mean.force.norm();
         if !jitters || before <= 0.0 {

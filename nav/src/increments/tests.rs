@@ -55,6 +55,23 @@ fn a_gap_is_bridged_and_an_uneven_stamp_is_not_a_gap() {
 }
 
 #[test]
+fn a_late_stamp_costs_no_more_than_its_neighbours() {
+    let mut conditioner = Conditioner::new(&imu(100.0));
+    // stamped a ninth of an interval late, as may be the first after a restart: gravity seems to be a tenth less, which
+    // is just no spike; in the next, as she rises, it is one
+    let late = |k: u32| if k < 500 { 0.0 } else { 1.12e-3 };
+    let force = |k: u32| if k <= 500 { 9.9 } else { 9.95 };
+    let refused: Vec<u32> = (0..1000)
+        .filter(|k| {
+            let mut stamped = sample(0.01 * f64::from(*k) + late(*k), 100.0);
+            stamped.delta_velocity = Body::new(0.0, 0.0, -force(*k) / 100.0);
+            matches!(conditioner.take(&stamped), Conditioned::Rejected(_))
+        })
+        .collect();
+    assert_eq!(refused, [501]);
+}
+
+#[test]
 fn the_parts_of_a_split_increment_make_the_whole() {
     let mut conditioner = Conditioner::new(&imu(100.0));
     conditioner.take(&sample(0.01, 100.0));
