@@ -7,13 +7,11 @@
 //! 4 cm and 50 cm. EGM96 itself is good to half a metre to a metre, and the sea lies within 2 m of it beside
 //! its tides.
 
+mod grid;
+
 use crate::frames::Geodetic;
+use grid::{COLUMNS, GRID, ROWS};
 
-/// Big-endian numbers of 16 bits, cm: rows from the north pole, each from Greenwich to the east.
-static GRID: &[u8; ROWS * COLUMNS * 2] = include_bytes!("../data/egm96-15.dac");
-
-const ROWS: usize = 721;
-const COLUMNS: usize = 1440;
 /// Half the way round the Earth.
 const HALF: i64 = COLUMNS as i64 / 2;
 /// Points of the grid in a radian.
@@ -64,8 +62,7 @@ fn value(row: i64, column: i64) -> Option<i16> {
         _ => (row, column),
     };
     let index = row * COLUMNS as i64 + column.rem_euclid(COLUMNS as i64);
-    let bytes = GRID.get(2 * usize::try_from(index).ok()?..)?.first_chunk()?;
-    Some(i16::from_be_bytes(*bytes))
+    GRID.get(usize::try_from(index).ok()?).copied()
 }
 
 #[cfg(test)]
