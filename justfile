@@ -165,6 +165,11 @@ conformance-fleet-tls *options:
     cargo build --release -p insd --features tls
     tests/conformance/fleet.py target/release/insd --tls {{options}}
 
+# the dashboard and the alert rules ashore, by a Prometheus that asks the page of a made-up ship; needs Debian's prometheus
+conformance-dashboard:
+    cargo build -p insd-web --example show
+    tests/conformance/dashboard.py "${CARGO_TARGET_DIR:-target}/debug/examples/show"
+
 # what the daemon costs at 200 samples a second with ten outputs, and how soon it speaks
 footprint seconds="60":
     cargo build --release

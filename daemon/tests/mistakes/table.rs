@@ -380,6 +380,15 @@ pub(crate) const TABLE: &[Mistake] = &[
         Write(UDP, "kind = \"tcp-client\", address = \"192.168.1.20\""),
     ),
     row(
+        "Signal K server that is not asked",
+        Warning,
+        "server-unasked",
+        Add(
+            "[[port]]\nname = \"boat\"\ntransport = { kind = \"tcp-client\", address = \"192.168.1.40:8375\" }\n\
+             [[sensor]]\nname = \"boat compass\"\nport = \"boat\"\nkind = \"signalk_heading\"\nsource = \"n2k.115\"",
+        ),
+    ),
+    row(
         "output that comes back as an input",
         Warning,
         "hears-itself",

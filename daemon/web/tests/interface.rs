@@ -178,6 +178,35 @@ fn health_ends_when_the_engine_publishes_no_more() {
     assert!(house.get("/api/v1/status").starts_with("HTTP/1.1 200"));
 }
 
+/// Names of metrics in a text.
+fn metrics(text: &str) -> BTreeSet<String> {
+    let words = text.split(|own: char| !own.is_ascii_alphanumeric() && own != '_');
+    let named = words.filter(|word| word.starts_with("insd_") && !word.ends_with('_'));
+    named.map(|name| name.trim_end_matches("_total").to_owned()).collect()
+}
+
+#[test]
+fn every_metric_that_a_page_of_docs_a_dashboard_or_a_rule_names_is_told() {
+    let mut told = BTreeSet::new();
+    for scene in [Scene::Alignment, Scene::Underway, Scene::Fault] {
+        let mut house = House::open(WebConfig::default());
+        house.show = Show::new(scene);
+        std::thread::sleep(Duration::from_millis(110));
+        house.publish();
+        told.extend(metrics(body(&house.get("/metrics"))));
+    }
+    let section = PAGE.split("## Metrics").nth(1).unwrap().split("## Fields").next().unwrap();
+    for text in [
+        section,
+        include_str!("../../../contrib/grafana/insd.json"),
+        include_str!("../../../contrib/prometheus/insd.rules.yml"),
+        include_str!("../../../contrib/prometheus/insd.test.yml"),
+    ] {
+        let unknown: Vec<String> = metrics(text).difference(&told).cloned().collect();
+        assert!(unknown.is_empty(), "{unknown:?} are not among {told:?}");
+    }
+}
+
 #[test]
 fn before_the_first_snapshot_there_is_nothing_to_show() {
     let (_publisher, viewer) = insd_web::channel();

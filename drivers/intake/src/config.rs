@@ -127,6 +127,9 @@ pub struct SensorConfig {
     /// Which device of NMEA 2000; any one that sends what the sensor's kind consists of if left out.
     #[serde(default)]
     pub device: Option<DeviceFilter>,
+    /// Of a Signal K server: who told it, `$source` in its data browser. It is never guessed: the server may hand on what we told it.
+    #[serde(default)]
+    pub source: Option<String>,
     /// Whether the yaw of an attitude (127257) is the heading of a device that sends none (127250).
     #[serde(default)]
     pub yaw: bool,
@@ -288,6 +291,7 @@ impl SensorConfig {
             no_checksum: false,
             dialect: None,
             device: None,
+            source: None,
             yaw: false,
             altitude_above_geoid: false,
             layout: None,
@@ -336,6 +340,7 @@ impl SensorConfig {
         let expected = "a receiver that sends more than raw data, if it is off: ubx, sbf";
         expect(self.raw == RawUse::Tight || has_raw, "raw", expected);
         self.look_at_array(config, &mut expect);
+        self.look_at_speaker(&mut expect);
         expect(self.base.fault().is_none(), "base", self.base.fault().unwrap_or_default());
         let is_base = self.kind == Kind::RtcmBase || self.base == BaseSettings::default();
         expect(is_base, "base", "a base station, for only that has one");
@@ -346,7 +351,7 @@ impl SensorConfig {
         expect(positive(self.heading_std_deg), "heading_std_deg", "a number above 0");
         expect(positive(self.velocity_std_mps), "velocity_std_mps", "a number above 0");
         expect(positive(self.position_std_m), "position_std_m", "a number above 0");
-        let expected = "a number above 0, of nmea_position or n2k_position alone";
+        let expected = "a number above 0, of nmea_position, n2k_position or signalk_position alone";
         expect(self.may_last(), "position_lasting_std_m", expected);
         let offset = self.heading_offset_deg.abs() <= 360.0;
         expect(offset, "heading_offset_deg", "-360 to 360");
@@ -354,8 +359,6 @@ impl SensorConfig {
         let expected = "the dialect of PASHR: sbg, sbg_wassp, ixblue, novatel, trimble, applanix";
         expect(stated, "dialect", expected);
         expect(self.stim.format(1.0).is_some(), "stim.range_g", "2, 5, 10, 30 or 80");
-        let filtered = self.device.is_none() || self.kind.is_n2k();
-        expect(filtered, "device", "a sensor of NMEA 2000, for only those have a NAME");
         let laid_out = self.layout.is_some() == (self.kind == Kind::CanImu);
         expect(laid_out, "layout", "the table of frames of a can_imu, and of no other sensor");
         for fault in self.layout.iter().flat_map(|layout| layout.layout().faults()) {
@@ -363,9 +366,19 @@ impl SensorConfig {
         }
     }
 
+    /// Who of many on the same wire it is.
+    fn look_at_speaker(&self, expect: &mut impl FnMut(bool, &'static str, &str)) {
+        let filtered = self.device.is_none() || self.kind.is_n2k();
+        expect(filtered, "device", "a sensor of NMEA 2000, for only those have a NAME");
+        let is_told = self.source.is_some() == self.kind.is_signalk();
+        let expected = "who told it to the Signal K server, of a sensor of one and of no other";
+        expect(is_told, "source", expected);
+    }
+
     /// Whether what stays of the error of a position is told of one from elsewhere alone.
     fn may_last(&self) -> bool {
-        let is_placed = matches!(self.kind, Kind::NmeaPosition | Kind::N2kPosition);
+        let is_placed =
+            matches!(self.kind, Kind::NmeaPosition | Kind::N2kPosition | Kind::SignalkPosition);
         let is_one = |std: f64| std.is_finite() && std > 0.0 && is_placed;
         self.position_lasting_std_m.is_none_or(is_one)
     }

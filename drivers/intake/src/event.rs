@@ -38,9 +38,11 @@ pub enum Refusal {
     Frame,
     /// A frame of the sample is missing, or a sentence of an image.
     Incomplete,
-    /// It is from another device of the bus than the one that is listened to.
+    /// It is from another device of the bus, or another source of a server, than the one that is listened to.
     OtherDevice,
-    /// An epoch of satellites that was told already, or is older than the one before; an image or a step of the same time again.
+    /// It is of another ship than this one, or nothing says that it is of this one.
+    OtherShip,
+    /// An epoch of satellites that was told already, or is older than the one before; an image or a step of the same time again; a value that a server repeats.
     Repeated,
     /// No satellite of an epoch has an orbit that can be used, or nobody knows yet where the antenna is.
     NoOrbit,
@@ -68,6 +70,7 @@ impl Refusal {
             Refusal::Frame => "frame",
             Refusal::Incomplete => "incomplete",
             Refusal::OtherDevice => "other_device",
+            Refusal::OtherShip => "other_ship",
             Refusal::Repeated => "repeated",
             Refusal::NoOrbit => "no_orbit",
             Refusal::Broadcast => "broadcast",

@@ -76,6 +76,12 @@ pub enum Kind {
     NmeaPosition,
     /// Positions and headings typed in by an operator (PINSD).
     Manual,
+    /// Heading of a Signal K server: `navigation.headingTrue`, or `headingMagnetic` if `magnetic` is set.
+    SignalkHeading,
+    /// Speed through the water of a Signal K server: `navigation.speedThroughWater`.
+    SignalkLog,
+    /// A position of a Signal K server that is not of the ship's receivers: `navigation.position`.
+    SignalkPosition,
     /// Docking aids that tell a distance each: PINSD,RNG. What they measure to stands in `[[ranging]]`.
     Ranging,
     /// A local position reference, CyScan or RadaScan: RLS. Where its targets are stands in `[[ranging]]`, and the direction of its axis A in
@@ -139,9 +145,13 @@ impl Kind {
             | Kind::Novatel
             | Kind::Rtcm
             | Kind::N2kGnss => Role::Gnss,
-            Kind::NmeaLog | Kind::Pd0 | Kind::Pd6 | Kind::Nortek | Kind::Ad2cp | Kind::N2kLog => {
-                Role::Log
-            }
+            Kind::NmeaLog
+            | Kind::Pd0
+            | Kind::Pd6
+            | Kind::Nortek
+            | Kind::Ad2cp
+            | Kind::SignalkLog
+            | Kind::N2kLog => Role::Log,
             Kind::Compass
             | Kind::Psxn
             | Kind::Pashr
@@ -153,9 +163,12 @@ impl Kind {
             | Kind::Ptnl
             | Kind::Pfec
             | Kind::NovatelIns
+            | Kind::SignalkHeading
             | Kind::N2kHeading => Role::Heading,
             Kind::Tss1 => Role::Attitude,
-            Kind::NmeaPosition | Kind::Manual | Kind::N2kPosition => Role::Position,
+            Kind::NmeaPosition | Kind::SignalkPosition | Kind::Manual | Kind::N2kPosition => {
+                Role::Position
+            }
             Kind::Ranging | Kind::Rls => Role::Ranging,
             Kind::RtcmBase => Role::Base,
             Kind::Camera => Role::Camera,
@@ -184,6 +197,7 @@ impl Kind {
             Kind::Rtcm | Kind::RtcmBase => Protocol::Rtcm,
             Kind::Pd0 => Protocol::Pd0,
             Kind::Pd6 => Protocol::Pd6,
+            Kind::SignalkHeading | Kind::SignalkLog | Kind::SignalkPosition => Protocol::SignalK,
             Kind::NmeaGnss
             | Kind::NmeaLog
             | Kind::Nortek
@@ -208,5 +222,11 @@ impl Kind {
     #[must_use]
     pub fn is_n2k(self) -> bool {
         matches!(self, Kind::N2kGnss | Kind::N2kHeading | Kind::N2kLog | Kind::N2kPosition)
+    }
+
+    /// Whether a Signal K server tells it.
+    #[must_use]
+    pub fn is_signalk(self) -> bool {
+        self.protocol() == Some(Protocol::SignalK)
     }
 }

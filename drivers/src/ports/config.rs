@@ -168,6 +168,10 @@ pub struct Udp {
 pub struct TcpClient {
     /// Host and port, for example `192.168.1.20:10110`.
     pub address: String,
+    /// A line that is sent when the server has answered, for one that tells nothing unasked; of a server
+    /// that is listened to nothing else is ever written. Left out: nothing.
+    #[serde(default)]
+    pub ask: Option<String>,
 }
 
 /// A TCP server to be.

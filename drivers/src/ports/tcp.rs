@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use insd_base::{Closed, Stamp};
 use socket2::{SockRef, TcpKeepalive};
+use tokio::io::AsyncWriteExt;
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::mpsc;
 use tokio::task::{AbortHandle, JoinSet};
@@ -55,12 +56,17 @@ pub(super) async fn call(
     outbox: Option<&Outbox>,
 ) -> Outcome {
     let address = &config.address;
-    let stream = match timeout(CALLING, TcpStream::connect(address)).await {
+    let mut stream = match timeout(CALLING, TcpStream::connect(address)).await {
         Ok(Ok(stream)) => stream,
         Ok(Err(error)) => return Outcome::Absent(format!("tcp {address}: {error}")),
         Err(_) => return Outcome::Absent(format!("tcp {address}: no answer")),
     };
     keep_alive(&stream);
+    if let Some(ask) = &config.ask
+        && let Err(error) = stream.write_all(format!("{ask}\r\n").as_bytes()).await
+    {
+        return Outcome::Absent(format!("tcp {address}: {error}"));
+    }
     if let Some(outbox) = outbox {
         outbox.clear();
     }

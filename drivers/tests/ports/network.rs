@@ -125,9 +125,13 @@ async fn a_server_that_went_is_called_again() {
     let server = TcpListener::bind(ANY_PORT).await.unwrap();
     let address = server.local_addr().unwrap();
     let mut host = Host::new();
-    let client = TcpClient { address: address.to_string() };
+    let ask = Some("{\"subscribe\":[]}".to_owned());
+    let client = TcpClient { address: address.to_string(), ask };
     let port = host.spawn(1, Transport::TcpClient(client));
     let (mut connection, _) = server.accept().await.unwrap();
+    let mut asked = [0; 18];
+    timeout(PATIENCE, connection.read_exact(&mut asked)).await.unwrap().unwrap();
+    assert_eq!(&asked, b"{\"subscribe\":[]}\r\n");
     connection.write_all(b"first").await.unwrap();
     host.bytes(1, b"first").await;
 

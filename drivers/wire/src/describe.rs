@@ -6,6 +6,7 @@ use crate::log::{ad2cp, pd0, pd6};
 use crate::motion::{em, kmb, tss1};
 use crate::ngt1::NgtFrame;
 use crate::nmea::others::{self, Understood};
+use crate::signalk::ServerLine;
 use crate::stream::Protocol;
 
 /// A frame's name and what became of it.
@@ -60,6 +61,7 @@ pub fn describe(protocol: Protocol, frame: &[u8]) -> Described {
             let id = frame.get(2).copied().unwrap_or_default();
             or_other(&format!("AD2CP {id:02X}"), &ad2cp::Ad2cpBottomTrack::read(frame))
         }
+        Protocol::SignalK => server_line(frame),
     }
 }
 
@@ -73,6 +75,19 @@ fn adapter(frame: &[u8]) -> Described {
         Ok(NgtFrame::Received(message)) => described(format!("PGN {}", message.pgn), Reading::Used),
         Ok(NgtFrame::Other(command)) => described(format!("NGT {command:02X}"), Reading::Other),
         Err(_) => described("NGT", Reading::Refused),
+    }
+}
+
+/// A delta goes by the first of its paths that is read, and who told it.
+fn server_line(frame: &[u8]) -> Described {
+    match ServerLine::read(frame) {
+        Ok(line @ ServerLine::Delta { .. }) => match line.first() {
+            Some((path, source)) => described(format!("SIGNALK {path} {source}"), Reading::Used),
+            None => described("SIGNALK", Reading::Other),
+        },
+        Ok(ServerLine::Hello { .. }) => described("SIGNALK hello", Reading::Used),
+        Err(crate::binary::Fault::OtherMessage) => described("SIGNALK", Reading::Other),
+        Err(_) => described("SIGNALK", Reading::Refused),
     }
 }
 

@@ -23,6 +23,12 @@
 //! The paths `navigation.ins` are our own: Signal K has none for how sure a value is. What is not known is
 //! `null`, which is how a server is told that a value is known no longer. After the schema of Signal K 1.7 (units,
 //! signs, names of the qualities). A delta names no vessel: that is the server's own.
+//!
+//! What a server sends is read by [`ServerLine`].
+
+mod server;
+
+pub use server::{ServerLine, ServerUpdate, ServerValue, look};
 
 use std::fmt::Write;
 

@@ -44,7 +44,7 @@ const PURE: [&str; 16] = [
 ];
 
 /// What a pure crate may depend on beside the house's own crates: all of it without side effects.
-const PURE_DEPENDENCIES: [&str; 16] = [
+const PURE_DEPENDENCIES: [&str; 17] = [
     "crc",
     "fast-float2",
     "igrf",
@@ -58,6 +58,7 @@ const PURE_DEPENDENCIES: [&str; 16] = [
     "postcard",
     "schemars",
     "serde",
+    "serde_json",
     "statrs",
     "thiserror",
     "toml",

@@ -8,6 +8,7 @@ use insd_wire::motion::{em, kmb, tss1};
 use insd_wire::ngt1::NgtFrame;
 use insd_wire::nmea::others::{self, Understood};
 use insd_wire::nmea::{ChecksumPolicy, Frame, Talker};
+use insd_wire::signalk::ServerLine;
 use insd_wire::stream::Protocol;
 
 use super::report::LogAxes;
@@ -132,6 +133,7 @@ fn fault(protocol: Protocol, frame: &[u8]) -> Option<String> {
         }
         Protocol::VectorNav => told(vectornav::VnMessage::read(frame)),
         Protocol::Ad2cp => told(ad2cp::Ad2cpBottomTrack::read(frame)),
+        Protocol::SignalK => told(ServerLine::read(frame)),
     }
 }
 

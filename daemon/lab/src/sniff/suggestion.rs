@@ -151,6 +151,7 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         None if !has_receiver => sensors.extend(measured_by_rtcm(port)),
         None => {}
     }
+    sensors.extend(served(port).into_iter().flatten());
     sensors.extend(loran(port));
     sensors.extend(logs(port).into_iter().flatten());
     sensors.extend(compasses(port));
@@ -193,6 +194,22 @@ fn motion(port: &PortReport) -> [Option<Sensor>; 3] {
         plain_sensor(port, Protocol::Tss1, "tss1", "motion", "")
             .map(|own| own.note("it tells no heading: name it in a [[watch]] (docs/watch.md)")),
     ]
+}
+
+/// What a Signal K server tells, of each the first who told it.
+fn served(port: &PortReport) -> [Option<Sensor>; 3] {
+    [
+        ("signalk_heading", "compass", "navigation.headingTrue"),
+        ("signalk_log", "log", "navigation.speedThroughWater"),
+        ("signalk_position", "position", "navigation.position"),
+    ]
+    .map(|(kind, role, path)| {
+        let start = format!("SIGNALK {path} ");
+        let mut told = used(port, Protocol::SignalK);
+        let source = told.find_map(|message| message.name.strip_prefix(&start))?;
+        let sensor = plain_sensor(port, Protocol::SignalK, kind, role, &start)?;
+        Some(sensor.key(format!("source = {}", quoted(source))))
+    })
 }
 
 /// Devices of a bus behind an adapter.

@@ -112,7 +112,7 @@ fn tcp(rest: &str) -> Result<Opened, String> {
     let number = number.and_then(|(_, number)| number.parse::<u16>().ok());
     number.filter(|number| *number > 0).ok_or("expected HOST:PORT")?;
     let table = format!("{{ kind = \"tcp-client\", address = \"{rest}\" }}");
-    let client = TcpClient { address: rest.to_owned() };
+    let client = TcpClient { address: rest.to_owned(), ask: None };
     Ok((Transport::TcpClient(client), true, Some(Suggested::Other(table))))
 }
 

@@ -121,6 +121,13 @@ pub(crate) fn watched(scene: Scene) -> Vec<ShownWatch> {
         age_s: Some(0.4),
         ..ShownWatch::default()
     };
+    if scene == Scene::Alignment {
+        let row = row("old receiver", None, 0.0, false);
+        let (difference_m, sigma_m, limit_m) = (Some(3.2), Some(4.1), Some(12.0));
+        let quantity = "position".to_owned();
+        let none = ShownWatch { difference_deg: None, sigma_deg: None, limit_deg: None, ..row };
+        return vec![ShownWatch { quantity, difference_m, sigma_m, limit_m, ..none }];
+    }
     let off = if differs { 2.1 } else { 0.2 };
     vec![
         row("old gyro 1", None, 0.1, false),

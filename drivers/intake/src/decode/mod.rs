@@ -6,6 +6,7 @@ mod imu;
 mod log;
 mod n2k;
 mod reading;
+mod signalk;
 
 use insd_base::Time;
 use insd_base::can::CanFrame;
@@ -31,6 +32,7 @@ pub struct Decoder {
     /// Pages of a report of GSOF that is not complete.
     pages: Pages,
     n2k: n2k::N2kState,
+    signalk: signalk::ServerState,
     can: Option<CanImu>,
 }
 
@@ -45,6 +47,7 @@ impl Decoder {
             heading: heading::HeadingState::default(),
             pages: Pages::default(),
             n2k: n2k::N2kState::default(),
+            signalk: signalk::ServerState::default(),
             can: config
                 .layout
                 .as_ref()
@@ -84,6 +87,9 @@ impl Decoder {
             Kind::Pd0 => self.log.pd0(bytes),
             Kind::Pd6 => self.log.pd6(bytes),
             Kind::Ad2cp => self.log.ad2cp(bytes),
+            Kind::SignalkHeading | Kind::SignalkLog | Kind::SignalkPosition => {
+                self.signalk.line(bytes, &self.config, &self.log)
+            }
             _ => self.read_sentence(bytes),
         }
     }

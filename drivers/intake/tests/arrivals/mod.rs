@@ -29,7 +29,7 @@ use insd_intake::{Intake, Intaken};
 use insd_wire::stream::Protocol;
 
 /// All kinds of sensors.
-const KINDS: [Kind; 37] = [
+const KINDS: [Kind; 40] = [
     Kind::Sbg,
     Kind::Stdbin,
     Kind::Mip,
@@ -67,6 +67,9 @@ const KINDS: [Kind; 37] = [
     Kind::N2kHeading,
     Kind::N2kLog,
     Kind::N2kPosition,
+    Kind::SignalkHeading,
+    Kind::SignalkLog,
+    Kind::SignalkPosition,
 ];
 
 const DIALECTS: [Dialect; 6] = [
@@ -197,6 +200,7 @@ fn sensor(kind: Kind, port: &str, choice: u8) -> SensorConfig {
             accel_increments: bit(4),
             range_g: [2, 5, 10, 30, 80][usize::from(choice) % 5],
         },
+        source: kind.is_signalk().then(|| "n2k.115".to_owned()),
         ..SensorConfig::new(&format!("{kind:?}"), port, kind)
     }
 }

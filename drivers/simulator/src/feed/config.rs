@@ -56,6 +56,9 @@ impl Encoding {
             | Kind::Pfec
             | Kind::RtcmBase
             | Kind::NmeaPosition
+            | Kind::SignalkHeading
+            | Kind::SignalkLog
+            | Kind::SignalkPosition
             | Kind::Manual
             | Kind::Ranging
             | Kind::Camera

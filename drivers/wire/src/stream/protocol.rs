@@ -5,7 +5,7 @@ use crate::gnss::{gsof, novatel, rtcm, sbf, ubx};
 use crate::imu::{kvh, mip, sbg, stdbin, stim, vectornav, xbus};
 use crate::log::{ad2cp, pd0, pd6};
 use crate::motion::{em, kmb, tss1};
-use crate::{ngt1, nmea};
+use crate::{ngt1, nmea, signalk};
 
 /// A way of framing bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -50,11 +50,13 @@ pub enum Protocol {
     VectorNav,
     /// Records of Nortek's AD2CP instruments.
     Ad2cp,
+    /// Lines of a Signal K server.
+    SignalK,
 }
 
 impl Protocol {
     /// Those that can be told from one another in one stream, in the order in which they are asked.
-    pub const ALL: [Protocol; 19] = [
+    pub const ALL: [Protocol; 20] = [
         Protocol::Nmea,
         Protocol::Ubx,
         Protocol::Sbf,
@@ -74,6 +76,7 @@ impl Protocol {
         Protocol::VectorNav,
         Protocol::Ad2cp,
         Protocol::Gsof,
+        Protocol::SignalK,
     ];
 
     /// Those that are sought only where somebody says that they are spoken: a telegram of EM3000 has no checksum, and may stand at the
@@ -104,6 +107,7 @@ impl Protocol {
             Protocol::Gsof => "gsof",
             Protocol::VectorNav => "vectornav",
             Protocol::Ad2cp => "ad2cp",
+            Protocol::SignalK => "signalk",
         }
     }
 
@@ -131,6 +135,7 @@ impl Protocol {
             Protocol::Gsof => gsof::look(bytes),
             Protocol::VectorNav => vectornav::look(bytes),
             Protocol::Ad2cp => ad2cp::look(bytes),
+            Protocol::SignalK => signalk::look(bytes),
         }
     }
 

@@ -19,6 +19,7 @@ use insd_wire::motion::kmb::Kmb;
 use insd_wire::motion::tss1::Tss1;
 use insd_wire::ngt1::NgtFrame;
 use insd_wire::nmea::{ChecksumPolicy, Frame, PashrDialect, Sentence, TagBlock, Talker};
+use insd_wire::signalk::{ServerLine, ServerValue};
 use insd_wire::stream::Protocol;
 
 use super::again::Keeps::{AfterOnce, Everything};
@@ -47,6 +48,7 @@ pub(crate) fn look(protocol: Protocol, frame: &[u8]) {
         Protocol::Gsof => gsof(frame),
         Protocol::VectorNav => vectornav(frame),
         Protocol::Ad2cp => ad2cp(frame),
+        Protocol::SignalK => server(frame),
     }
 }
 
@@ -405,4 +407,18 @@ fn pd6(frame: &[u8]) {
     use pd6::Pd6;
     let Some(line) = again(frame, AfterOnce, Pd6::read, Pd6::write) else { return };
     line.reading().iter().for_each(is_sane_log);
+}
+
+fn server(frame: &[u8]) {
+    let Ok(ServerLine::Delta { updates, .. }) = ServerLine::read(frame) else { return };
+    for value in updates.iter().flat_map(|update| &update.values) {
+        let numbers = match *value {
+            ServerValue::HeadingTrue(own)
+            | ServerValue::HeadingMagnetic(own)
+            | ServerValue::SpeedThroughWater(own) => [own, None],
+            ServerValue::Position(at) => [at.map(|at| at.latitude), at.map(|at| at.longitude)],
+            ServerValue::Bad(_) => continue,
+        };
+        assert!(is_finite(numbers), "{value:?}");
+    }
 }

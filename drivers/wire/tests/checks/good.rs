@@ -33,6 +33,7 @@ pub(crate) fn frames(protocol: Protocol, bytes: &[u8]) -> Vec<Vec<u8>> {
         Protocol::Gsof => gsof_pages(*choice, rest),
         Protocol::VectorNav => vec![vectornav_frame(*choice, rest)],
         Protocol::Ad2cp => vec![ad2cp_frame(*choice, rest)],
+        Protocol::SignalK => vec![server_line(*choice, rest)],
     }
 }
 
@@ -351,4 +352,15 @@ const PD6: [&str; 11] = ["SA", "TS", "BI", "BS", "BE", "BD", "WI", "WS", "WE", "
 
 fn pd6_line(choice: u8, fields: &[u8]) -> Vec<u8> {
     [b":", chosen(&PD6, choice).as_bytes(), b",", fields, b"\r\n"].concat()
+}
+
+/// A delta with any text as the value of a path that is read, which may be no JSON.
+fn server_line(choice: u8, value: &[u8]) -> Vec<u8> {
+    const PATHS: [&str; 4] = ["headingTrue", "headingMagnetic", "speedThroughWater", "position"];
+    let path = chosen(&PATHS, choice);
+    let value = String::from_utf8_lossy(value);
+    format!(
+        "{{\"updates\":[{{\"values\":[{{\"path\":\"navigation.{path}\",\"value\":{value}}}]}}]}}\r\n"
+    )
+    .into_bytes()
 }

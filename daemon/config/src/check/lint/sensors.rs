@@ -102,6 +102,15 @@ fn carrier(config: &Config, sensor: &SensorConfig, found: &mut Found) {
             "the port of the receiver's messages; pulses need no [[sensor]]",
         );
     }
+    let unasked = |transport: &Transport| matches!(transport, Transport::TcpClient(client) if client.ask.is_none());
+    if sensor.kind.is_signalk() && port.is_some_and(|port| unasked(&port.transport)) {
+        found.warn(
+            "server-unasked",
+            ConfigPlace::of("port", &sensor.port).key("transport.ask"),
+            "a Signal K server tells nothing unless it is asked",
+            "ask = '{\"context\":\"vessels.self\",\"subscribe\":[{\"path\":\"navigation.*\",\"policy\":\"instant\"}]}'",
+        );
+    }
 }
 
 /// Two sensors that read the same frames of the same port.
@@ -145,5 +154,6 @@ fn told_apart(one: &SensorConfig, other: &SensorConfig) -> bool {
                     | Kind::Rls
             )
         });
-    by_talker || by_kind
+    let by_source = one.source.is_some() && other.source.is_some() && one.source != other.source;
+    by_talker || by_kind || by_source
 }

@@ -40,7 +40,7 @@ pub(super) fn look(config: &Config, found: &mut Found) {
 /// Servers that are called: do they have a port, and are they ourselves?
 fn callers(config: &Config, listeners: &[Listener], found: &mut Found) {
     for (place, transport) in uses::inputs(config) {
-        let (Transport::TcpClient(insd_drivers::ports::TcpClient { address })
+        let (Transport::TcpClient(insd_drivers::ports::TcpClient { address, .. })
         | Transport::GatewayTcp(insd_drivers::can::GatewayTcp { address, .. })) = transport
         else {
             continue;

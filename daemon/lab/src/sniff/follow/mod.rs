@@ -114,6 +114,7 @@ fn kinds(protocol: Protocol) -> &'static [Kind] {
         Protocol::Gsof => &[Kind::Gsof],
         Protocol::VectorNav => &[Kind::Vectornav, Kind::VectornavIns],
         Protocol::Ad2cp => &[Kind::Ad2cp],
+        Protocol::SignalK => &[Kind::SignalkHeading, Kind::SignalkLog, Kind::SignalkPosition],
         Protocol::Rtcm | Protocol::Kvh | Protocol::Stim | Protocol::Ngt1 => &[],
     }
 }
