@@ -189,10 +189,7 @@ fn metrics(text: &str) -> BTreeSet<String> {
 fn every_metric_that_a_page_of_docs_a_dashboard_or_a_rule_names_is_told() {
     let mut told = BTreeSet::new();
     for scene in [Scene::Alignment, Scene::Underway, Scene::Fault] {
-        let mut house = House::open(WebConfig::default());
-        house.show = Show::new(scene);
-        std::thread::sleep(Duration::from_millis(110));
-        house.publish();
+        let house = House::showing(scene, WebConfig::default());
         told.extend(metrics(body(&house.get("/metrics"))));
     }
     let section = PAGE.split("## Metrics").nth(1).unwrap().split("## Fields").next().unwrap();
