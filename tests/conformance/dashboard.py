@@ -4,8 +4,8 @@
     tests/conformance/dashboard.py SHOW
 
 SHOW is the example `show` of insd-web. Every expression of contrib/grafana/insd.json is put to Prometheus as Grafana would,
-with its variables filled in, while the ship is under way and then in fault: all must be understood, and find something in
-one of the two scenes at least. The rules of contrib/prometheus are checked and tried by promtool, and those that fit the fault must be
+with its variables filled in, while the ship aligns, is under way and is in fault: all must be understood, and find something in
+one of the scenes at least. The rules of contrib/prometheus are checked and tried by promtool, and those that fit the fault must be
 pending or fire. Needs Debian's prometheus. Ends with 1 if something does not hold.
 """
 
@@ -23,7 +23,6 @@ import urllib.request
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RULES = ROOT / "contrib/prometheus"
-# what the made-up ship has not: a temperature of the IMU, a base, a camera
 SECONDS = 25
 CONFIG = """
 global: { scrape_interval: 1s, evaluation_interval: 1s }
@@ -95,7 +94,7 @@ def main():
     for command in (["check", "rules", "insd.rules.yml"], ["test", "rules", "insd.test.yml"], ["check", "config", "prometheus.yml"]):
         subprocess.run(["promtool", *command], cwd=RULES, check=True)
     everything, wrong, alerts = {}, [], {}
-    for name in ("underway", "fault"):
+    for name in ("alignment", "underway", "fault"):
         found, complaints, alerts[name] = scene(sys.argv[1], name)
         wrong += complaints
         for key, count in found.items():
