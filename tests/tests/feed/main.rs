@@ -8,6 +8,7 @@ mod bus;
 mod clocks;
 mod converted;
 mod formats;
+mod images;
 mod imus;
 mod lines;
 mod passage;

@@ -39,6 +39,7 @@ impl Encoding {
             Kind::Compass => Encoding::Ths,
             Kind::Psxn => Encoding::Psxn,
             Kind::Pashr => Encoding::Pashr,
+            Kind::Camera => Encoding::Tracks,
             Kind::Rtcm
             | Kind::Gsof
             | Kind::Vectornav
@@ -61,7 +62,6 @@ impl Encoding {
             | Kind::SignalkPosition
             | Kind::Manual
             | Kind::Ranging
-            | Kind::Camera
             | Kind::Rls
             | Kind::N2kGnss
             | Kind::N2kHeading
@@ -95,6 +95,7 @@ impl Encoding {
             Encoding::N2kGnss => Kind::N2kGnss,
             Encoding::N2kLog => Kind::N2kLog,
             Encoding::N2kHeading => Kind::N2kHeading,
+            Encoding::Tracks => Kind::Camera,
         }
     }
 }
@@ -156,13 +157,15 @@ fn fine() -> Layout {
 }
 
 impl SensorFeed {
-    /// A sensor that is right, on a line of 921600 baud for an IMU and 115200 for the others.
+    /// A sensor that is right, on a line of 921600 baud for an IMU and 115200 for the others, but for a camera.
     #[must_use]
     pub fn new(encoding: Encoding, calendar: &Calendar) -> Self {
         let role = encoding.kind().role();
         let (baud, latency) = match role {
             Role::Imu => (921_600.0, if encoding == Encoding::Stim { 0.0 } else { 0.002 }),
             Role::Gnss => (115_200.0, 0.06),
+            // no serial line carries hundreds of points ten times a second
+            Role::Camera => (10e6, 0.03),
             _ => (115_200.0, 0.02),
         };
         let (clock, calendar) = (DeviceClock::default(), calendar.clone());

@@ -6,6 +6,7 @@
 
 pub mod arrivals;
 mod calendar;
+mod camera;
 mod config;
 mod damage;
 mod gnss;
@@ -20,12 +21,13 @@ use insd_base::Voyage;
 
 pub use arrivals::{Reception, arrivals};
 pub use calendar::Calendar;
+pub use camera::film;
 pub use damage::{at_wrong_baud, noise};
 use line::Line;
 pub use line::Sending;
 pub use sensor::{DeviceClock, Encoding, FeedConfig, SensorFeed};
 
-/// Everything that the sensors of a ship send on a voyage, in order of time.
+/// Everything that the sensors of a ship send on a voyage, in order of time; of a camera nothing, which [`film`] does.
 #[must_use]
 pub fn feed(voyage: &Voyage, config: &FeedConfig) -> Vec<Sending> {
     let mut all = Vec::new();
@@ -51,6 +53,7 @@ pub fn feed(voyage: &Voyage, config: &FeedConfig) -> Vec<Sending> {
             Encoding::N2kGnss | Encoding::N2kLog | Encoding::N2kHeading => {
                 n2k::encode(voyage, sensor, port, &mut line);
             }
+            Encoding::Tracks => {}
         }
         all.append(&mut line.sent);
     }

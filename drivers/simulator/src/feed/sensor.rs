@@ -55,6 +55,8 @@ pub enum Encoding {
     N2kLog,
     /// 127250.
     N2kHeading,
+    /// PINSD,TRK.
+    Tracks,
 }
 
 impl Encoding {

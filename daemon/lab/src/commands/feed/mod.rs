@@ -9,13 +9,14 @@ use std::path::PathBuf;
 use std::thread::sleep;
 use std::time::Duration;
 
-use insd_base::{Span, Time, UtcTime, Voyage};
+use insd_base::{Span, Time, UtcTime};
 use insd_drivers::ports::Clock;
 use insd_simulator::Override;
-use insd_simulator::feed::{Calendar, FeedConfig, feed};
+use insd_simulator::feed::{Calendar, FeedConfig, feed, film};
 
 use lines::Lines;
 use sensors::Sensor;
+use voyage::Found;
 
 /// Time of the voyage that is put into bytes at once.
 const WINDOW: Span = Span::from_nanos(10_000_000_000);
@@ -31,7 +32,7 @@ pub struct FeedArgs {
     #[arg(long, value_name = "DIR", default_value = "/tmp/insd-sensors")]
     folder: PathBuf,
     /// A sensor by the name of its link and the kind that a configuration calls it; may be repeated.
-    /// Without: imu=sbg, gnss=ubx, log=nmea_log, as far as the voyage has them
+    /// Without: imu=sbg, gnss=ubx, log=nmea_log, camera=camera, as far as the voyage has them
     #[arg(long = "sensor", value_name = "NAME=KIND")]
     sensors: Vec<Sensor>,
     /// Seed of all random streams of a scenario
@@ -53,26 +54,20 @@ pub struct FeedArgs {
 /// # Errors
 /// The voyage cannot be had, or the terminals cannot be made.
 pub fn run(args: &FeedArgs, clock: &dyn Clock) -> anyhow::Result<()> {
-    let voyage = voyage::find(&args.voyage, args.seed, &args.sets)?;
-    let sensors = sensors::chosen(&args.sensors, &voyage);
+    let found = voyage::find(&args.voyage, args.seed, &args.sets)?;
+    let sensors = sensors::chosen(&args.sensors, &found);
     let mut lines = Lines::open(&args.folder, sensors.iter().map(|sensor| sensor.name.as_str()))?;
     for sensor in &sensors {
         let path = args.folder.join(&sensor.name);
         crate::terminal::print(&format!("{} {}\n", path.display(), sensor.word))?;
     }
-    sail(args, clock, &voyage, &sensors, &mut lines);
+    sail(args, clock, &found, &sensors, &mut lines);
     Ok(())
 }
 
 /// Sends everything when it is due. The voyage begins with a second of the system clock, and the sensors
 /// tell that clock's UTC.
-fn sail(
-    args: &FeedArgs,
-    clock: &dyn Clock,
-    voyage: &Voyage,
-    sensors: &[Sensor],
-    lines: &mut Lines,
-) {
+fn sail(args: &FeedArgs, clock: &dyn Clock, found: &Found, sensors: &[Sensor], lines: &mut Lines) {
     let started = clock.now();
     let second = (started.system.as_nanos() / SECOND + 1) * SECOND;
     let wait = Span::from_nanos(second - started.system.as_nanos());
@@ -82,12 +77,16 @@ fn sail(
     let start = UtcTime::from_nanos(second).plus(Time::START - first);
     let encodings: Vec<_> = sensors.iter().map(|sensor| sensor.encoding).collect();
     let feeds = FeedConfig::starting(&Calendar::from(start), &encodings);
-    let end =
-        args.seconds.map_or(voyage::end(voyage), |seconds| first + Span::from_seconds(seconds));
+    let end = args
+        .seconds
+        .map_or(voyage::end(&found.voyage), |seconds| first + Span::from_seconds(seconds));
     let mut from = first;
     while from < end {
         let to = (from + WINDOW).min(end);
-        for sending in feed(&voyage::window(voyage, from, to), &feeds) {
+        let mut sendings = feed(&voyage::window(&found.voyage, from, to), &feeds);
+        sendings.extend(film(voyage::images(&found.frames, from, to), &feeds));
+        sendings.sort_by_key(|sending| sending.at);
+        for sending in sendings {
             wait_for(clock, sending.at + offset);
             lines.send(&sending);
         }

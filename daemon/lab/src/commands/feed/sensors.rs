@@ -2,12 +2,13 @@
 
 use std::str::FromStr;
 
-use insd_base::Voyage;
 use insd_intake::config::Kind;
 use insd_simulator::feed::Encoding;
 use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::Error;
+
+use super::voyage::Found;
 
 /// A sensor on a terminal of its own.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +38,7 @@ impl FromStr for Sensor {
 }
 
 /// The sensors that are asked for, or the usual ones as far as the voyage has them.
-pub(super) fn chosen(asked: &[Sensor], voyage: &Voyage) -> Vec<Sensor> {
+pub(super) fn chosen(asked: &[Sensor], found: &Found) -> Vec<Sensor> {
     if !asked.is_empty() {
         return asked.to_vec();
     }
@@ -46,10 +47,12 @@ pub(super) fn chosen(asked: &[Sensor], voyage: &Voyage) -> Vec<Sensor> {
         word: word.to_owned(),
         encoding,
     };
+    let voyage = &found.voyage;
     let usual = [
         (!voyage.imu.is_empty(), sensor("imu", "sbg", Encoding::Sbg)),
         (!voyage.gnss.is_empty(), sensor("gnss", "ubx", Encoding::Ubx)),
         (!voyage.log.is_empty(), sensor("log", "nmea_log", Encoding::Vbw)),
+        (!found.frames.is_empty(), sensor("camera", "camera", Encoding::Tracks)),
     ];
     usual.into_iter().filter(|(present, _)| *present).map(|(_, sensor)| sensor).collect()
 }

@@ -2,19 +2,38 @@
 
 use std::path::Path;
 
-use insd_base::{Message, Stamped, Time, Voyage};
-use insd_drivers::recording::{VoyageReader, read_truth};
-use insd_simulator::{Override, simulate};
+use insd_base::{CameraFrame, Message, Stamped, Time, Voyage};
+use insd_drivers::recording::{ImageReader, VoyageReader, read_truth};
+use insd_simulator::{Override, footage, simulate};
 
 use crate::scenario;
 
+/// What a ship measures, and what her camera sees.
+pub(super) struct Found {
+    pub(super) voyage: Voyage,
+    /// In order of time; none without a camera.
+    pub(super) frames: Vec<CameraFrame>,
+}
+
 /// A voyage directory, or a voyage of a scenario.
-pub(super) fn find(word: &str, seed: u64, sets: &[Override]) -> anyhow::Result<Voyage> {
+pub(super) fn find(word: &str, seed: u64, sets: &[Override]) -> anyhow::Result<Found> {
     let path = Path::new(word);
     if path.is_dir() {
-        return read(path);
+        return Ok(Found { voyage: read(path)?, frames: read_images(path)? });
     }
-    Ok(simulate(&scenario::find(word, sets)?.scenario, seed))
+    let scenario = scenario::find(word, sets)?.scenario;
+    let frames = footage(&scenario, seed).map(|own| own.frames).unwrap_or_default();
+    Ok(Found { voyage: simulate(&scenario, seed), frames })
+}
+
+fn read_images(dir: &Path) -> anyhow::Result<Vec<CameraFrame>> {
+    let mut frames = Vec::new();
+    if let Some(mut images) = ImageReader::open(dir)? {
+        while let Some(frame) = images.next_frame()? {
+            frames.push(frame);
+        }
+    }
+    Ok(frames)
 }
 
 fn read(dir: &Path) -> anyhow::Result<Voyage> {
@@ -47,6 +66,13 @@ fn read(dir: &Path) -> anyhow::Result<Voyage> {
 /// When the IMU falls silent.
 pub(super) fn end(voyage: &Voyage) -> Time {
     voyage.imu.last().map_or(Time::START, |last| last.message.time)
+}
+
+/// The images from an instant on and before another.
+pub(super) fn images(frames: &[CameraFrame], from: Time, to: Time) -> &[CameraFrame] {
+    let first = frames.partition_point(|own| own.time < from);
+    let end = frames.partition_point(|own| own.time < to);
+    frames.get(first..end).unwrap_or_default()
 }
 
 /// What is measured from an instant on and before another.
