@@ -7,7 +7,7 @@ use insd_wire::log::{ad2cp, pd0, pd6};
 use insd_wire::motion::{em, kmb, tss1};
 use insd_wire::ngt1::NgtFrame;
 use insd_wire::nmea::others::{self, Understood};
-use insd_wire::nmea::{ChecksumPolicy, Frame, Talker};
+use insd_wire::nmea::{ChecksumPolicy, Frame, Pinsd, Sentence, Talker};
 use insd_wire::signalk::ServerLine;
 use insd_wire::stream::Protocol;
 
@@ -92,7 +92,7 @@ fn sentence(line: &[u8]) -> Named<'_> {
     let talker = frame.and_then(Frame::talker);
     // what has neither a checksum nor a known form may be anything
     let is_sound = talker.is_some() || read != Reading::Refused;
-    let address = frame.filter(|_| is_sound).map_or(UNNAMED, |frame| frame.address());
+    let address = frame.filter(|_| is_sound).map_or(UNNAMED.to_owned(), address);
     let reads =
         |frame: &&Frame<'_>| matches!(others::kind_of(line, frame).understood, Understood::Read(_));
     Named {
@@ -103,6 +103,16 @@ fn sentence(line: &[u8]) -> Named<'_> {
         axes: None,
         talker,
         source: frame.and_then(Frame::tag).and_then(|tag| tag.source),
+    }
+}
+
+/// The parts of PINSD are of different sensors: one goes by `PINSD,TRK`.
+fn address(frame: &Frame<'_>) -> String {
+    let part = |part: &str| format!("{},{part}", frame.address());
+    match Sentence::read_frame(frame) {
+        Ok(Sentence::Pinsd(Pinsd::Tracks(_))) => part("TRK"),
+        Ok(Sentence::Pinsd(Pinsd::Step(_))) => part("VO"),
+        _ => frame.address().to_owned(),
     }
 }
 

@@ -163,6 +163,7 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
             sensor.note("heading_offset_deg: how the line between its antennas lies")
         }),
     );
+    sensors.extend(seen(port));
     sensors.extend(
         own(port, "rls", "rls", "RLS")
             .map(|sensor| sensor.note("its axes must be told in [[ranging]] (docs/berthing.md)")),
@@ -171,6 +172,13 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         sensor.note("dialect must be stated: sbg, sbg_wassp, ixblue, novatel, trimble or applanix")
     }));
     sensors
+}
+
+/// The front end of a camera, by points or by steps.
+fn seen(port: &PortReport) -> Option<Sensor> {
+    let told =
+        ["PINSD,TRK", "PINSD,VO"].iter().find_map(|part| own(port, "camera", "camera", part))?;
+    Some(told.note("how it sits must be told in [camera] (docs/camera.md)"))
 }
 
 /// Logs by sentences and by records.
