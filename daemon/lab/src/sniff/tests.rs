@@ -360,7 +360,6 @@ fn what_owners_have_is_suggested_by_its_kind() {
     assert_eq!(kinds("vectornav/published.vectornav"), [Kind::Vectornav]);
     assert_eq!(kinds("ad2cp/recorded.ad2cp"), [Kind::Ad2cp]);
     assert_eq!(of(&line("PINSD,TRK,12.345,1,1,7,640.25,360.50")), [(Kind::Camera, Vec::new())]);
-    assert_eq!(of(&line("PINSD,FIX,6000.000,N,02500.000,E,5.0")), []);
     let served = [Kind::SignalkHeading, Kind::SignalkLog, Kind::SignalkPosition];
     assert_eq!(kinds("signalk/made.signalk"), served);
     let kmb = std::fs::read("../../fuzz/corpus/kmb/telegrams.kmb").unwrap();
