@@ -54,6 +54,7 @@ fn web_config(config: &Config) -> WebConfig {
         allowed_hosts: section.hosts.clone(),
         max_per_address: section.max_per_address,
         picture: config.camera.as_ref().and_then(|camera| camera.picture.clone()),
+        recordings: config.recording.as_ref().map(|section| section.folder.clone()),
         language: config.ship.language,
         ..WebConfig::default()
     }

@@ -17,6 +17,7 @@ import * as bridge from "./bridge.js";
 import { docking, plan, startDocking } from "./docking.js";
 import { camera, relabelCamera, startCamera } from "./camera.js";
 import { learning, startLearning } from "./learning.js";
+import { recordings, relabelRecordings, startRecordings } from "./recordings.js";
 
 const bind = binder(document);
 const instruments = [rose(byId("rose")), rose(byId("b-rose")), horizon(byId("horizon")), turn(byId("turn")), turn(byId("b-turn")), qualities, source];
@@ -85,6 +86,7 @@ function drawWhole() {
   learning(data);
   ports(data);
   measurements(data);
+  recordings(data);
   system(data);
   modes(data);
   disturbance(data);
@@ -190,6 +192,7 @@ function translate() {
   enter();
   relabel();
   relabelCamera();
+  relabelRecordings();
   tellToken();
   if (came) {
     due.live = due.whole = true;
@@ -202,6 +205,7 @@ window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", red
 await startLanguage(translate);
 relabel();
 relabelCamera();
+relabelRecordings();
 enter();
 startTheme();
 bridge.startView(redraw);
@@ -209,5 +213,6 @@ startAlerts();
 startDocking();
 startLearning();
 startCamera();
+startRecordings();
 setInterval(() => { if (performance.now() - at > LOOK) age(false); }, LOOK);
 follow({ onData: take, onLink });

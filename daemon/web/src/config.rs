@@ -35,6 +35,8 @@ pub struct WebConfig {
     pub max_per_address: usize,
     /// A picture of what the camera sees, which somebody else writes anew again and again.
     pub picture: Option<PathBuf>,
+    /// The folder of raw recordings, which who can open the page may list and fetch.
+    pub recordings: Option<PathBuf>,
     /// The language of who has not chosen one on the page.
     pub language: Language,
 }
@@ -49,6 +51,7 @@ impl Default for WebConfig {
             max_clients: 600,
             max_per_address: 16,
             picture: None,
+            recordings: None,
             language: Language::default(),
         }
     }

@@ -205,6 +205,30 @@ fn every_metric_that_a_page_of_docs_a_dashboard_or_a_rule_names_is_told() {
 }
 
 #[test]
+fn recordings_are_listed_and_fetched_and_nothing_else_of_the_disk() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("insd-000001.insdraw"), "recorded").unwrap();
+    std::fs::write(folder.path().join("secret"), "token").unwrap();
+    let recordings = Some(folder.path().to_owned());
+    let house = House::open(WebConfig { recordings, ..WebConfig::default() });
+    let listed: Value = serde_json::from_str(body(&house.get("/api/v1/recordings"))).unwrap();
+    assert_eq!(
+        (&listed[0]["name"], listed.as_array().unwrap().len()),
+        (&"insd-000001.insdraw".into(), 1)
+    );
+    assert_eq!(listed[0]["bytes"], 8);
+    let fetched = house.get("/api/v1/recordings/insd-000001.insdraw");
+    assert!(fetched.contains("attachment; filename=\"insd-000001.insdraw\""), "{fetched}");
+    assert_eq!(body(&fetched), "recorded");
+    for name in ["secret", "..%2Fsecret", "insd-000002.insdraw", "%2e%2e%2fsecret.insdraw"] {
+        let answer = house.get(&format!("/api/v1/recordings/{name}"));
+        assert!(answer.starts_with("HTTP/1.1 404"), "{name}: {answer}");
+    }
+    let without = House::open(WebConfig::default());
+    assert!(without.get("/api/v1/recordings").starts_with("HTTP/1.1 404"));
+}
+
+#[test]
 fn before_the_first_snapshot_there_is_nothing_to_show() {
     let (_publisher, viewer) = insd_web::channel();
     let (sender, _orders) = insd_web::orders::channel();

@@ -17,6 +17,7 @@ use crate::snapshot::Snapshot;
 use super::access::Access;
 use super::frame::Frame;
 use super::history::History;
+use super::recordings::Recordings;
 use super::track::Track;
 
 /// How often it is looked whether there is a new snapshot.
@@ -42,6 +43,8 @@ pub(super) struct Hall {
     pub(super) language: Language,
     /// A picture of what the camera sees.
     pub(super) picture: Option<PathBuf>,
+    /// Raw recordings of this ship.
+    pub(super) recordings: Option<Recordings>,
 }
 
 #[derive(Debug)]
@@ -66,6 +69,7 @@ impl Hall {
             orders,
             language,
             picture: None,
+            recordings: None,
         }
     }
 

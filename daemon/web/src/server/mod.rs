@@ -13,6 +13,7 @@ mod history;
 mod metrics;
 mod page;
 mod picture;
+mod recordings;
 mod room;
 mod stall;
 mod stream;
@@ -37,6 +38,7 @@ use crate::orders::OrderSender;
 use door::Door;
 pub use fleet::FleetBoardText;
 use hall::Hall;
+use recordings::Recordings;
 use room::Room;
 
 /// Longest body of a request, bytes.
@@ -81,6 +83,7 @@ pub fn start(
     let door = Door::new(config.listen)?;
     let mut hall = Hall::new(config.token, &config.allowed_hosts, config.language, orders);
     hall.picture = config.picture;
+    hall.recordings = config.recordings.map(Recordings::of);
     let hall = Arc::new(hall);
     let house = House {
         door,
@@ -168,6 +171,8 @@ fn router(hall: &Arc<Hall>) -> Router {
         .route("/api/v1/history", get(api::history))
         .route("/api/v1/orders", get(api::orders))
         .route("/api/v1/camera", get(picture::picture))
+        .route("/api/v1/recordings", get(recordings::list))
+        .route("/api/v1/recordings/{name}", get(recordings::fetch))
         .route("/api/v1/schema", get(api::schema))
         .route("/api/v1/texts", get(texts::languages))
         .route("/api/v1/texts/{language}", get(texts::texts))
