@@ -151,7 +151,7 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
         None if !has_receiver => sensors.extend(measured_by_rtcm(port)),
         None => {}
     }
-    sensors.extend(served(port).into_iter().flatten());
+    sensors.extend(served(port).into_iter().chain([seen(port)]).flatten());
     sensors.extend(loran(port));
     sensors.extend(logs(port).into_iter().flatten());
     sensors.extend(compasses(port));
@@ -163,7 +163,6 @@ fn sensors(port: &PortReport) -> Vec<Sensor> {
             sensor.note("heading_offset_deg: how the line between its antennas lies")
         }),
     );
-    sensors.extend(seen(port));
     sensors.extend(
         own(port, "rls", "rls", "RLS")
             .map(|sensor| sensor.note("its axes must be told in [[ranging]] (docs/berthing.md)")),

@@ -15,9 +15,9 @@ use crate::orders::OrderSender;
 use crate::snapshot::Snapshot;
 
 use super::access::Access;
+use super::archive::Recordings;
 use super::frame::Frame;
 use super::history::History;
-use super::recordings::Recordings;
 use super::track::Track;
 
 /// How often it is looked whether there is a new snapshot.

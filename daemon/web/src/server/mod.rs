@@ -4,6 +4,7 @@ mod accept;
 mod access;
 mod alerts;
 mod api;
+mod archive;
 mod door;
 mod fleet;
 mod frame;
@@ -35,10 +36,10 @@ use crate::channel::Viewer;
 use crate::config::{WebConfig, WebError};
 use crate::orders::OrderSender;
 
+use archive::Recordings;
 use door::Door;
 pub use fleet::FleetBoardText;
 use hall::Hall;
-use recordings::Recordings;
 use room::Room;
 
 /// Longest body of a request, bytes.
