@@ -122,7 +122,7 @@ pub(crate) fn watched(scene: Scene) -> Vec<ShownWatch> {
         ..ShownWatch::default()
     };
     if scene == Scene::Alignment {
-        let row = row("old receiver", None, 0.0, false);
+        let row = row("old gnss", None, 0.0, false);
         let (difference_m, sigma_m, limit_m) = (Some(3.2), Some(4.1), Some(12.0));
         let quantity = "position".to_owned();
         let none = ShownWatch { difference_deg: None, sigma_deg: None, limit_deg: None, ..row };
