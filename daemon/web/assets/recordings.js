@@ -1,7 +1,7 @@
 // Raw recordings: a list of files to fetch, asked for when somebody wants it.
 
 import { byId, make, setAttr, setText, show } from "./dom.js";
-import { bytes } from "./format.js";
+import { bytes, datetime } from "./format.js";
 import { said, t } from "./texts.js";
 
 // As many as a hand scrolls through.
@@ -36,7 +36,7 @@ async function ask() {
 }
 
 function row(file) {
-  const written = file.written_s ? new Date(1000 * file.written_s).toISOString().slice(0, 16).replace("T", " ") : "";
+  const written = datetime(file.written_s && new Date(1000 * file.written_s).toISOString());
   const link = make("a", { href: `api/v1/recordings/${encodeURIComponent(file.name)}`, download: file.name }, file.name);
   return make("li", {}, link, make("small", {}, `${bytes(file.bytes)} \u00b7 ${written} UTC`));
 }

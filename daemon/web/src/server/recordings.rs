@@ -19,6 +19,7 @@ use super::hall::Hall;
 
 /// Bytes that are read at once.
 const CHUNK: usize = 64 * 1024;
+
 /// Which there are, newest first.
 pub(super) async fn list(State(hall): State<Arc<Hall>>) -> Response {
     let Some(own) = &hall.recordings else { return off() };

@@ -122,11 +122,15 @@ pub(crate) fn watched(scene: Scene) -> Vec<ShownWatch> {
         ..ShownWatch::default()
     };
     if scene == Scene::Alignment {
-        let row = row("old gnss", None, 0.0, false);
-        let (difference_m, sigma_m, limit_m) = (Some(3.2), Some(4.1), Some(12.0));
-        let quantity = "position".to_owned();
-        let none = ShownWatch { difference_deg: None, sigma_deg: None, limit_deg: None, ..row };
-        return vec![ShownWatch { quantity, difference_m, sigma_m, limit_m, ..none }];
+        return vec![ShownWatch {
+            sensor: "old gnss".to_owned(),
+            quantity: "position".to_owned(),
+            difference_m: Some(3.2),
+            sigma_m: Some(4.1),
+            limit_m: Some(12.0),
+            age_s: Some(0.4),
+            ..ShownWatch::default()
+        }];
     }
     let off = if differs { 2.1 } else { 0.2 };
     vec![

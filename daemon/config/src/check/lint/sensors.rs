@@ -21,6 +21,7 @@ pub(super) fn look(config: &Config, found: &mut Found) {
         mounting(sensor, found);
         numbers(config, sensor, found);
         carrier(config, sensor, found);
+        unasked(config, sensor, found);
     }
     doubles(config, found);
     if !config.sensors.iter().any(|own| own.kind.role() == Role::Gnss) {
@@ -102,8 +103,13 @@ fn carrier(config: &Config, sensor: &SensorConfig, found: &mut Found) {
             "the port of the receiver's messages; pulses need no [[sensor]]",
         );
     }
-    let unasked = |transport: &Transport| matches!(transport, Transport::TcpClient(client) if client.ask.is_none());
-    if sensor.kind.is_signalk() && port.is_some_and(|port| unasked(&port.transport)) {
+}
+
+/// Whether a server is called that tells nothing by itself.
+fn unasked(config: &Config, sensor: &SensorConfig, found: &mut Found) {
+    let port = config.ports.iter().find(|port| port.name == sensor.port);
+    let Some(Transport::TcpClient(client)) = port.map(|port| &port.transport) else { return };
+    if sensor.kind.is_signalk() && client.ask.is_none() {
         found.warn(
             "server-unasked",
             ConfigPlace::of("port", &sensor.port).key("transport.ask"),

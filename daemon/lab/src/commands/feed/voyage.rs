@@ -70,25 +70,24 @@ pub(super) fn end(voyage: &Voyage) -> Time {
 
 /// The images from an instant on and before another.
 pub(super) fn images(frames: &[CameraFrame], from: Time, to: Time) -> &[CameraFrame] {
-    let first = frames.partition_point(|own| own.time < from);
-    let end = frames.partition_point(|own| own.time < to);
-    frames.get(first..end).unwrap_or_default()
+    part(frames, |own| own.time, from, to)
+}
+
+fn part<T>(all: &[T], time: impl Fn(&T) -> Time, from: Time, to: Time) -> &[T] {
+    let first = all.partition_point(|own| time(own) < from);
+    let end = all.partition_point(|own| time(own) < to);
+    all.get(first..end).unwrap_or_default()
 }
 
 /// What is measured from an instant on and before another.
 pub(super) fn window(voyage: &Voyage, from: Time, to: Time) -> Voyage {
-    fn part<T: Clone>(all: &[T], time: impl Fn(&T) -> Time, from: Time, to: Time) -> Vec<T> {
-        let first = all.partition_point(|own| time(own) < from);
-        let end = all.partition_point(|own| time(own) < to);
-        all.get(first..end).unwrap_or_default().to_vec()
-    }
     Voyage {
         header: voyage.header.clone(),
-        imu: part(&voyage.imu, |own| own.message.time, from, to),
-        gnss: part(&voyage.gnss, |own| own.message.time, from, to),
-        log: part(&voyage.log, |own| own.message.time, from, to),
-        reference: part(&voyage.reference, |own| own.message.time, from, to),
-        truth: part(&voyage.truth, |own| own.time, from, to),
+        imu: part(&voyage.imu, |own| own.message.time, from, to).to_vec(),
+        gnss: part(&voyage.gnss, |own| own.message.time, from, to).to_vec(),
+        log: part(&voyage.log, |own| own.message.time, from, to).to_vec(),
+        reference: part(&voyage.reference, |own| own.message.time, from, to).to_vec(),
+        truth: part(&voyage.truth, |own| own.time, from, to).to_vec(),
     }
 }
 
