@@ -36,6 +36,7 @@ use crate::trust::FAULT;
 /// arm of the log, m.
 pub const CONSTANTS: usize = 7;
 const DELAY_AT: usize = 3;
+/// Those before it are of the antenna, and all that there are on a ship whose log has never spoken.
 const LOG_AT: usize = 4;
 
 /// One value for each constant.
@@ -63,6 +64,8 @@ const HYPOTHESES: [Constants; 5] = [
     hypothesis(CERTAIN, CERTAIN, LEVER),
     hypothesis(LEVER, CERTAIN, LEVER),
 ];
+/// How many of them are of the antenna alone.
+const OF_ANTENNA: usize = 3;
 /// Errors smaller than these are the business of the filter's own sigmas, m and s.
 const LEAST: Constants = hypothesis(1.0, 0.1, 1.0);
 /// Logarithm of the ratio of likelihoods from which on a hypothesis is believed.
@@ -95,7 +98,7 @@ fn of_log_lever(by_lever: &DMatrix<f64>) -> DMatrix<f64> {
 /// The effect of the constants on the estimate, and what the innovations say of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeparateBias {
-    /// What a unit of each constant does to the errors of the estimate.
+    /// What a unit of each constant does to the errors of the estimate; those of the log from its first word on.
     response: Effects,
     information: ConstantsCovariance,
     evidence: Constants,
@@ -136,7 +139,7 @@ impl SeparateBias {
     /// velocity has not.
     #[must_use]
     pub fn new(view: &View) -> Self {
-        let mut response = Effects::none(CONSTANTS);
+        let mut response = Effects::none(LOG_AT);
         response.set(0, GNSS_LEVER, &Matrix3::identity());
         response.set(DELAY_AT, GNSS_DELAY, &SMatrix::<f64, 1, 1>::identity());
         let mut bias = SeparateBias {
@@ -229,18 +232,20 @@ impl SeparateBias {
         let rows = weighed.rows() as f64;
         let strains = weighed.z().component_div(&sigma).norm_squared() / rows;
         let mean_square = strains.min(weighed.nis() / rows);
-        self.weigh_in(weighed, DMatrix::zeros(CONSTANTS, weighed.rows()));
+        self.weigh_in(weighed, DMatrix::zeros(self.response.causes(), weighed.rows()));
         self.strain += (mean_square.min(FAULT) - self.strain) * (rows / self.heard.min(MOMENT));
     }
 
     /// Hears an innovation of the log, used or not, before it is absorbed; `by_lever` is its derivative with
     /// respect to the lever arm of the log, which is no state of the filter.
     pub fn hear_log(&mut self, weighed: &Weighed, by_lever: &DMatrix<f64>) {
+        self.response.widen(CONSTANTS);
         self.weigh_in(weighed, of_log_lever(by_lever));
     }
 
     /// The log was absorbed: the error of its lever arm came with it.
     pub fn absorb_log(&mut self, weighed: &Weighed, by_lever: &DMatrix<f64>) {
+        self.response.widen(CONSTANTS);
         let response = self.response_on(weighed.layout());
         weighed.pass_on(response, &weighed.whiten(of_log_lever(by_lever)));
     }
@@ -248,14 +253,16 @@ impl SeparateBias {
     /// An innovation is absorbed: what the constants did to it comes with it.
     pub fn absorb(&mut self, weighed: &Weighed) {
         let response = self.response_on(weighed.layout());
-        let effect = weighed.effect_of(response, DMatrix::zeros(CONSTANTS, weighed.rows()));
+        let none = DMatrix::zeros(response.causes(), weighed.rows());
+        let effect = weighed.effect_of(response, none);
         weighed.pass_on(response, &effect);
     }
 
     /// The same of one that is absorbed with another gain than the best.
     pub fn absorb_by(&mut self, weighed: &Weighed, gain: &DMatrix<f64>) {
         let response = self.response_on(weighed.layout());
-        let effect = weighed.effect_of(response, DMatrix::zeros(CONSTANTS, weighed.rows()));
+        let none = DMatrix::zeros(response.causes(), weighed.rows());
+        let effect = weighed.effect_of(response, none);
         weighed.pass_on_by(response, &effect, gain);
     }
 
@@ -263,11 +270,14 @@ impl SeparateBias {
         let response = self.response_on(weighed.layout());
         let effect = weighed.effect_of(response, direct);
         let z = weighed.whitened();
-        let rows = weighed.rows() as f64;
+        let (causes, rows) = (effect.nrows(), weighed.rows() as f64);
         let kept = 1.0 - rows / SPAN;
-        self.information =
-            self.information * kept + (&effect * effect.transpose()).fixed_view(0, 0);
-        self.evidence = self.evidence * kept + (&effect * &z).fixed_rows(0);
+        self.information *= kept;
+        let mut told = self.information.view_mut((0, 0), (causes, causes));
+        told += &effect * effect.transpose();
+        self.evidence *= kept;
+        let mut told = self.evidence.rows_mut(0, causes);
+        told += &effect * &z;
         self.misfit = self.misfit * kept + z.norm_squared();
         self.heard = self.heard * kept + rows;
     }
@@ -303,7 +313,7 @@ impl SeparateBias {
         if fits || self.heard < FEWEST {
             return None;
         }
-        let weighed = HYPOTHESES.iter().filter_map(|prior| self.weigh(prior));
+        let weighed = self.hypotheses().iter().filter_map(|prior| self.weigh(prior));
         let (_, finding) = weighed.max_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(finding)
     }
@@ -311,7 +321,7 @@ impl SeparateBias {
     /// Whether a hypothesis explains what the innovations are off by, be it too early to find it.
     #[must_use]
     pub fn is_suspicious(&self) -> bool {
-        let mut all = HYPOTHESES.iter().filter_map(|prior| self.fit(prior));
+        let mut all = self.hypotheses().iter().filter_map(|prior| self.fit(prior));
         self.misfit > self.heard && all.any(|fit| fit.score > 0.0 && self.is_explained(&fit))
     }
 
@@ -335,9 +345,20 @@ impl SeparateBias {
         if self.is_confirmed() {
             return None;
         }
-        let fits = HYPOTHESES.iter().filter_map(|prior| self.fit(prior));
+        let fits = self.hypotheses().iter().filter_map(|prior| self.fit(prior));
         let best = fits.max_by(|a, b| a.score.total_cmp(&b.score))?;
-        Some((best.score, self.response.total(best.finding().value.as_slice())))
+        Some((best.score, self.meant(&best.finding().value)))
+    }
+
+    /// Those that there is something to hear of.
+    fn hypotheses(&self) -> &'static [Constants] {
+        let has_log = self.response.causes() > LOG_AT;
+        &HYPOTHESES[..if has_log { HYPOTHESES.len() } else { OF_ANTENNA }]
+    }
+
+    /// The error of the estimate that constants mean which are off by so much.
+    fn meant(&self, off: &Constants) -> Errors {
+        self.response.total(&off.as_slice()[..self.response.causes()])
     }
 
     /// How much better a hypothesis fits than the configuration. With S the prior sigmas and A = I + S Lambda S the logarithm of
@@ -378,19 +399,17 @@ impl SeparateBias {
     pub fn suppose_delay(&self, sigma: f64, p: &mut Covariance) {
         let mut supposed = Constants::zeros();
         supposed[DELAY_AT] = sigma;
-        p.spread(&self.response.total(supposed.as_slice()));
+        p.spread(&self.meant(&supposed));
     }
 
     /// The error of the estimate that a finding means; the covariance is as much wider as the finding is unsure.
     pub fn correct(&self, finding: &ConstantsFinding, p: &mut Covariance) -> Errors {
         let ConstantsFinding { value, covariance } = finding;
         let bent = SMatrix::from_diagonal(&(value.component_mul(value) * (BENT * BENT)));
-        let unsure = covariance + bent;
-        p.spread_by(
-            &self.response,
-            &DMatrix::from_column_slice(CONSTANTS, CONSTANTS, unsure.as_slice()),
-        );
-        self.response.total(value.as_slice())
+        let causes = self.response.causes();
+        let unsure = (covariance + bent).view((0, 0), (causes, causes)).into_owned();
+        p.spread_by(&self.response, &unsure);
+        self.meant(value)
     }
 }
 

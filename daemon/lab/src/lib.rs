@@ -4,6 +4,7 @@
 
 #![warn(clippy::print_stdout)] // it panics when the reader has gone: `terminal::print` does not
 
+mod background;
 pub mod blame;
 mod camera_table;
 mod camera_voyage;

@@ -7,6 +7,9 @@ use insd_web::{Listen, Viewer, WebConfig, WebHandle};
 use super::showcase::{Origin, Showcase};
 use crate::logging::Log;
 
+/// This very program, be it replaced by another version meanwhile.
+const OWN_PROGRAM: &str = "/proc/self/exe";
+
 /// What is shown, and who may look.
 pub(super) struct Page {
     pub(super) showcase: Showcase,
@@ -55,6 +58,7 @@ fn web_config(config: &Config) -> WebConfig {
         max_per_address: section.max_per_address,
         picture: config.camera.as_ref().and_then(|camera| camera.picture.clone()),
         recordings: config.recording.as_ref().map(|section| section.folder.clone()),
+        reporter: Some(OWN_PROGRAM.into()),
         language: config.ship.language,
         ..WebConfig::default()
     }

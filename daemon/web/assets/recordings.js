@@ -6,6 +6,8 @@ import { said, t } from "./texts.js";
 
 // As many as a hand scrolls through.
 const SHOWN = 50;
+// How often it is asked whether a report is there.
+const AGAIN_MS = 1000;
 
 let wanted = false;
 
@@ -38,5 +40,32 @@ async function ask() {
 function row(file) {
   const written = datetime(file.written_s && new Date(1000 * file.written_s).toISOString());
   const link = make("a", { href: `api/v1/recordings/${encodeURIComponent(file.name)}`, download: file.name }, file.name);
-  return make("li", {}, link, make("small", {}, `${bytes(file.bytes)} \u00b7 ${written} UTC`));
+  const told = make("small", {}, `${bytes(file.bytes)} \u00b7 ${written} UTC`);
+  const report = make("button", { type: "button" }, t("recordings_report"));
+  report.addEventListener("click", () => order(report, `${link.getAttribute("href")}/report?language=${document.documentElement.lang}`));
+  return make("li", {}, link, told, report);
+}
+
+// A report takes as long as it takes: asked for until it is there, and then a link to it stands in place of the button.
+async function order(button, address) {
+  const outcome = byId("recordings-outcome");
+  button.disabled = true;
+  setText(outcome, t("recordings_report_making"));
+  const answer = await made(address);
+  button.disabled = false;
+  if (answer?.ok) {
+    button.replaceWith(make("a", { href: address, target: "_blank", rel: "noopener" }, t("recordings_report_open")));
+    setText(outcome, "");
+    return;
+  }
+  const told = answer ? await answer.json().catch(() => null) : null;
+  setText(outcome, told?.error ? said(told.error) : t("recordings_report_unread"));
+}
+
+async function made(address) {
+  for (;;) {
+    const answer = await fetch(address).catch(() => null);
+    if (answer?.status !== 202) return answer;
+    await new Promise((done) => { setTimeout(done, AGAIN_MS); });
+  }
 }

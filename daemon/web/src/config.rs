@@ -37,6 +37,8 @@ pub struct WebConfig {
     pub picture: Option<PathBuf>,
     /// The folder of raw recordings, which who can open the page may list and fetch.
     pub recordings: Option<PathBuf>,
+    /// The program that makes reports of them: `PROGRAM report --background --language CODE --run N --out FILE -- RECORDING`.
+    pub reporter: Option<PathBuf>,
     /// The language of who has not chosen one on the page.
     pub language: Language,
 }
@@ -52,6 +54,7 @@ impl Default for WebConfig {
             max_per_address: 16,
             picture: None,
             recordings: None,
+            reporter: None,
             language: Language::default(),
         }
     }

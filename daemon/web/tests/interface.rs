@@ -9,6 +9,7 @@ mod scene;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead, BufReader, Write};
 use std::net::SocketAddr;
+use std::process::Command;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -226,6 +227,69 @@ fn recordings_are_listed_and_fetched_and_nothing_else_of_the_disk() {
     }
     let without = House::open(WebConfig::default());
     assert!(without.get("/api/v1/recordings").starts_with("HTTP/1.1 404"));
+}
+
+/// A page over one recording whose reports this script makes: `$4` the language, `$8` where to, `${10}` of what.
+fn with_reporter(script: &str) -> (House, tempfile::TempDir) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("insd-000001.insdraw"), "recorded").unwrap();
+    std::fs::write(folder.path().join("reporter.sh"), script).unwrap();
+    let reporter = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/house/reporter");
+    let (recordings, reporter) = (Some(folder.path().to_owned()), Some(reporter.into()));
+    (House::open(WebConfig { recordings, reporter, ..WebConfig::default() }), folder)
+}
+
+/// Asks until it is not in the making any more.
+fn report(house: &House, query: &str) -> String {
+    let path = format!("/api/v1/recordings/insd-000001.insdraw/report{query}");
+    loop {
+        let answer = house.get(&path);
+        if !answer.starts_with("HTTP/1.1 202") {
+            return answer;
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+#[test]
+fn a_report_is_made_by_another_process_and_told_when_it_is_there() {
+    let (house, folder) = with_reporter(r#"echo "$4 $6 ${10} ${HOME:-alone}" > "$8""#);
+    let path = "/api/v1/recordings/insd-000001.insdraw/report?language=ja";
+    assert!(house.get(path).starts_with("HTTP/1.1 202"));
+    let told = report(&house, "?language=ja");
+    let recording = folder.path().join("insd-000001.insdraw");
+    assert_eq!(body(&told).trim(), format!("ja 1 {} alone", recording.display()));
+    assert!(told.contains("content-type: text/html") && told.contains("default-src 'none'"));
+    assert!(body(&report(&house, "")).starts_with("en "), "of another language it is another");
+    assert!(body(&report(&house, "?run=3")).starts_with("en 3 "));
+    assert!(report(&house, "?run=0").starts_with("HTTP/1.1 400"));
+    assert!(report(&house, "?language=xx").starts_with("HTTP/1.1 400"));
+    let none = house.get("/api/v1/recordings/insd-000002.insdraw/report");
+    assert!(none.starts_with("HTTP/1.1 404"), "{none}");
+}
+
+#[test]
+fn a_report_that_fails_says_why_and_may_be_asked_for_again() {
+    let (house, folder) = with_reporter("echo working >&2; echo 'error: nothing in it' >&2; exit 2");
+    let told = report(&house, "");
+    assert!(told.starts_with("HTTP/1.1 500"), "{told}");
+    assert!(body(&told).contains("the report cannot be made: error: nothing in it"), "{told}");
+    std::fs::write(folder.path().join("reporter.sh"), r#"echo done > "$8""#).unwrap();
+    assert_eq!(body(&report(&house, "")).trim(), "done");
+}
+
+#[test]
+fn one_report_is_made_after_the_other() {
+    let (house, folder) = with_reporter(r#"read line < "${10%/*}/go"; echo done > "$8""#);
+    let pipe = folder.path().join("go");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    std::fs::write(folder.path().join("insd-000002.insdraw"), "recorded").unwrap();
+    let other = "/api/v1/recordings/insd-000002.insdraw/report";
+    assert!(house.get("/api/v1/recordings/insd-000001.insdraw/report").starts_with("HTTP/1.1 202"));
+    assert!(house.get(other).starts_with("HTTP/1.1 503"));
+    std::fs::write(&pipe, "go\n").unwrap();
+    assert_eq!(body(&report(&house, "")).trim(), "done");
+    assert!(house.get(other).starts_with("HTTP/1.1 202"));
 }
 
 #[test]

@@ -273,10 +273,12 @@ fn symmetric(s: DMatrix<f64>) -> DMatrix<f64> {
     (s + transposed) * 0.5
 }
 
-/// P <- P + sign W W^T, both halves alike to the bit.
+/// P <- P + sign W W^T, both halves alike to the bit: one is reckoned, and copied into the other.
 fn add_product(p: &mut DMatrix<f64>, w: &DMatrix<f64>, sign: f64) {
     let states = p.nrows().max(1);
     for (j, own) in p.as_mut_slice().chunks_exact_mut(states).enumerate() {
-        add_all(w.as_slice().chunks_exact(states).map(|of_w| (sign * of_w[j], of_w)), own);
+        let terms = w.as_slice().chunks_exact(states).map(|of_w| (sign * of_w[j], &of_w[j..]));
+        add_all(terms, &mut own[j..]);
     }
+    p.fill_upper_triangle_with_lower_triangle();
 }

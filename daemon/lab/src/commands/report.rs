@@ -7,6 +7,7 @@ use anyhow::Context;
 use insd_config::{BadInput, OutputFile};
 use insd_languages::Language;
 
+use crate::background;
 use crate::raw_run::is_recording;
 use crate::report::VoyageReport;
 
@@ -27,6 +28,9 @@ pub struct ReportArgs {
     /// Language of the page: en or ja. Left out: the one that its configuration tells
     #[arg(long, value_name = "CODE")]
     language: Option<Language>,
+    /// Give way to everything else on this computer
+    #[arg(long)]
+    background: bool,
 }
 
 /// Runs the command. The page is a function of the recording and the options alone.
@@ -34,6 +38,9 @@ pub struct ReportArgs {
 /// # Errors
 /// The recording cannot be read or holds nothing, or the page cannot be written.
 pub fn run(args: &ReportArgs) -> anyhow::Result<()> {
+    if args.background {
+        background::give_way();
+    }
     let path = &args.recording;
     let report = if path.join("voyage.toml").exists() {
         if args.config.is_some() {

@@ -65,9 +65,14 @@ impl Recordings {
         Ok(files)
     }
 
+    /// Where the one of this name lies, which must be one.
+    pub(super) fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
     /// Nothing but an ordinary file is opened, and no link to one.
     pub(super) async fn open(&self, name: &str) -> io::Result<(File, u64)> {
-        let path = self.folder.join(name);
+        let path = self.path(name);
         if !tokio::fs::symlink_metadata(&path).await?.is_file() {
             return Err(io::ErrorKind::NotFound.into());
         }

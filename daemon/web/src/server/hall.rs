@@ -18,6 +18,7 @@ use super::access::Access;
 use super::archive::Recordings;
 use super::frame::Frame;
 use super::history::History;
+use super::reports::Reports;
 use super::track::Track;
 
 /// How often it is looked whether there is a new snapshot.
@@ -45,6 +46,8 @@ pub(super) struct Hall {
     pub(super) picture: Option<PathBuf>,
     /// Raw recordings of this ship.
     pub(super) recordings: Option<Recordings>,
+    /// Who makes reports of them.
+    pub(super) reports: Option<Reports>,
 }
 
 #[derive(Debug)]
@@ -70,6 +73,7 @@ impl Hall {
             language,
             picture: None,
             recordings: None,
+            reports: None,
         }
     }
 

@@ -15,6 +15,7 @@ mod metrics;
 mod page;
 mod picture;
 mod recordings;
+mod reports;
 mod room;
 mod stall;
 mod stream;
@@ -37,6 +38,7 @@ use crate::config::{WebConfig, WebError};
 use crate::orders::OrderSender;
 
 use archive::Recordings;
+use reports::Reports;
 use door::Door;
 pub use fleet::FleetBoardText;
 use hall::Hall;
@@ -85,6 +87,7 @@ pub fn start(
     let mut hall = Hall::new(config.token, &config.allowed_hosts, config.language, orders);
     hall.picture = config.picture;
     hall.recordings = config.recordings.map(Recordings::of);
+    hall.reports = config.reporter.and_then(Reports::by);
     let hall = Arc::new(hall);
     let house = House {
         door,
@@ -174,6 +177,7 @@ fn router(hall: &Arc<Hall>) -> Router {
         .route("/api/v1/camera", get(picture::picture))
         .route("/api/v1/recordings", get(recordings::list))
         .route("/api/v1/recordings/{name}", get(recordings::fetch))
+        .route("/api/v1/recordings/{name}/report", get(reports::report))
         .route("/api/v1/schema", get(api::schema))
         .route("/api/v1/texts", get(texts::languages))
         .route("/api/v1/texts/{language}", get(texts::texts))
