@@ -12,6 +12,7 @@ use insd_web::{Listen, OrderSender, Viewer, WebConfig, WebHandle};
 
 use crate::scene::{STEP, Scene, Show};
 
+const REPORTER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/house/reporter");
 pub(crate) const TOKEN: &str = "a token for the tests";
 
 /// A page whose scene goes on by itself until this is dropped.
@@ -21,7 +22,7 @@ pub(crate) struct Live {
     sender: OrderSender,
     handle: Option<WebHandle>,
     language: Language,
-    /// Where the front end of its camera would write.
+    /// Where the front end of its camera would write, and recordings lie.
     folder: tempfile::TempDir,
     stop: Arc<AtomicBool>,
     still: Arc<AtomicBool>,
@@ -74,6 +75,12 @@ impl Live {
         live
     }
 
+    /// A recording, and what is to be done for a report of it, as a script.
+    pub(crate) fn record(&self, script: &str) {
+        std::fs::write(self.folder.path().join("insd-000001.insdraw"), "recorded").unwrap();
+        std::fs::write(self.folder.path().join("reporter.sh"), script).unwrap();
+    }
+
     /// The picture of its camera.
     pub(crate) fn picture(&self) -> PathBuf {
         self.folder.path().join("seen.png")
@@ -86,6 +93,8 @@ impl Live {
             token: Some(TOKEN.to_owned()),
             language: self.language,
             picture: Some(self.picture()),
+            recordings: Some(self.folder.path().to_owned()),
+            reporter: Some(REPORTER.into()),
             ..WebConfig::default()
         };
         let page = insd_web::start(config, self.viewer.clone(), self.sender.clone());

@@ -15,6 +15,7 @@ mod language;
 mod live;
 mod look;
 mod pictures;
+mod recordings;
 #[path = "../scene/mod.rs"]
 mod scene;
 
