@@ -16,7 +16,7 @@ use insd_vessel::{OutputPlan, Pipeline, Plan, Product, Spare, Spoken, loosened};
 use insd_wire::nmea::AlertState;
 use nalgebra::Vector3;
 
-use crate::feed::{Encoding, FeedConfig, Reception, Sending, arrivals, feed};
+use crate::feed::{Encoding, FeedConfig, LineSending, Reception, arrivals, feed};
 
 /// Port of a receiver and a log; the first IMU has port 0, the others those from 3 on.
 pub const GNSS: usize = 1;
@@ -195,11 +195,11 @@ impl Fleet {
         let feeds = self.feeds();
         let reception = Reception::new(feeds.sensors[0].calendar.start, 11);
         let mut voyage = self.voyage.clone();
-        let mut all: Vec<Sending> = Vec::new();
+        let mut all: Vec<LineSending> = Vec::new();
         for (imu, samples) in self.imus.iter().enumerate() {
             voyage.imu.clone_from(samples);
             // of each voyage what its own IMU sends, and of the first all the rest
-            let own = |sending: &Sending| {
+            let own = |sending: &LineSending| {
                 let is_imu = sending.port != GNSS && sending.port != LOG;
                 sending.port == port(imu) || (imu == 0 && !is_imu)
             };

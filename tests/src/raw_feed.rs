@@ -9,10 +9,10 @@ use insd_base::{Constellation, GpsTime, Input, SatelliteId, SignalObservation, S
 use insd_simulator::RawGnss;
 use insd_wire::gnss::navigation::lnav_words;
 use insd_wire::gnss::rtcm::{BaseStation, MsmWriter, write_record};
-use insd_wire::gnss::sbf::{MeasChannel, MeasEpoch, RawNavigation, RawNavigationKind, Stamp};
+use insd_wire::gnss::sbf::{MeasChannel, MeasEpoch, RawNavigation, RawNavigationKind, SbfStamp};
 use insd_wire::gnss::ubx::{RxmRawx, RxmSfrbx, Signal};
 
-use crate::feed::Sending;
+use crate::feed::LineSending;
 
 /// Time from an epoch to the last byte of its message, s.
 const LATE: f64 = 0.06;
@@ -24,19 +24,19 @@ const SUBFRAME: i64 = 2;
 /// What the receiver of the first antenna sends, for a voyage that starts at an instant of GPS time: the measurements of each epoch, and of GPS and
 /// QZSS the subframes of the orbits that hold.
 #[must_use]
-pub fn ubx(raw: &RawGnss, start: GpsTime, port: usize) -> Vec<Sending> {
+pub fn ubx(raw: &RawGnss, start: GpsTime, port: usize) -> Vec<LineSending> {
     ubx_of(raw, 0, start, port)
 }
 
 /// The same of another antenna, counted from 0.
 #[must_use]
-pub fn ubx_of(raw: &RawGnss, antenna: usize, start: GpsTime, port: usize) -> Vec<Sending> {
+pub fn ubx_of(raw: &RawGnss, antenna: usize, start: GpsTime, port: usize) -> Vec<LineSending> {
     let mut all = Vec::new();
     for epoch in &raw.antennas[antenna] {
         let seconds = epoch.tag.since(start).as_seconds();
         let mut send = |late: f64, bytes: Vec<u8>| {
             let at = Time::from_seconds((seconds + late).max(0.0));
-            all.push(Sending { at, port, input: Input::Bytes(bytes) });
+            all.push(LineSending { at, port, input: Input::Bytes(bytes) });
         };
         let told = SatelliteEpoch { leap_seconds: Some(18), ..epoch.clone() };
         send(LATE, RxmRawx::of(&told).write());
@@ -80,7 +80,7 @@ pub fn subframe(record: &KeplerRecord, number: usize) -> Option<Vec<u8>> {
 
 /// What the base says, by its number: where it is and its orbits every five seconds, and MSM7 of each epoch.
 #[must_use]
-pub fn rtcm(raw: &RawGnss, start: GpsTime, port: usize) -> Vec<Sending> {
+pub fn rtcm(raw: &RawGnss, start: GpsTime, port: usize) -> Vec<LineSending> {
     let Some(base) = &raw.base else { return Vec::new() };
     let place =
         BaseStation { station: 7, position: earth::ecef(&base.position).0.into(), height: None };
@@ -94,23 +94,23 @@ pub fn rtcm(raw: &RawGnss, start: GpsTime, port: usize) -> Vec<Sending> {
         frames.extend(records.filter_map(|own| write_record(&BroadcastRecord::Kepler(own))));
         frames.extend(writer.write(epoch));
         let at = Time::from_seconds((epoch.tag.since(start).as_seconds() + BASE_LATE).max(0.0));
-        all.push(Sending { at, port, input: Input::Bytes(frames.concat()) });
+        all.push(LineSending { at, port, input: Input::Bytes(frames.concat()) });
     }
     all
 }
 
 /// The same in SBF: MeasEpoch with GPS and QZSS on L1, GPSRawCA and QZSRawL1CA.
 #[must_use]
-pub fn sbf(raw: &RawGnss, start: GpsTime, port: usize) -> Vec<Sending> {
+pub fn sbf(raw: &RawGnss, start: GpsTime, port: usize) -> Vec<LineSending> {
     let mut all = Vec::new();
     let mut whole = BTreeMap::new();
     for epoch in &raw.antennas[0] {
         let seconds = epoch.tag.since(start).as_seconds();
         let mut send = |late: f64, bytes: Vec<u8>| {
             let at = Time::from_seconds((seconds + late).max(0.0));
-            all.push(Sending { at, port, input: Input::Bytes(bytes) });
+            all.push(LineSending { at, port, input: Input::Bytes(bytes) });
         };
-        let stamp = Stamp::of(epoch.tag);
+        let stamp = SbfStamp::of(epoch.tag);
         let of_l1 = epoch.signals.iter().filter(|own| own.signal == SignalCode::new(1, b'C'));
         let channels = of_l1.filter_map(|own| channel(own, &mut whole)).collect();
         send(LATE, MeasEpoch { stamp, flags: 0, clock_jumps: Some(0), channels }.write());

@@ -12,8 +12,8 @@ const FIRST_TO_GO: &str = "1000";
 /// short. Where the system grants neither it is as any other program, which harms nobody.
 pub(crate) fn give_way() {
     let policy = ThreadSchedulePolicy::Normal(NormalThreadSchedulePolicy::Idle);
-    let lowered =
-        set_thread_priority_and_policy(thread_native_id(), ThreadPriority::Min, policy).map_err(|fault| format!("{fault:?}"));
+    let lowered = set_thread_priority_and_policy(thread_native_id(), ThreadPriority::Min, policy)
+        .map_err(|fault| format!("{fault:?}"));
     if let Err(fault) = lowered {
         tracing::debug!(fault, "no idle priority");
     }

@@ -8,7 +8,7 @@ use insd_base::PortId;
 use insd_config::Config;
 use insd_config::check::ConfigPlace;
 use insd_drivers::ports::{
-    self, Judge, Judgement, PortConfig, Serial, Surroundings, Transport, WAITING_LIMIT,
+    self, BaudJudge, BaudJudgement, PortConfig, Serial, Surroundings, Transport, WAITING_LIMIT,
 };
 use insd_lab::sniff::{PortToHear, SniffReport, Sniffed, is_proof};
 use insd_wire::stream::{Cutter, Protocol};
@@ -114,15 +114,15 @@ async fn hear(own: &[(String, PortConfig)], span: Duration) -> SniffReport {
 }
 
 /// A rate is right at the first good frame.
-fn judge() -> Judge {
-    Judge::new(|bytes| {
+fn judge() -> BaudJudge {
+    BaudJudge::new(|bytes| {
         let mut cutter = Cutter::new(&Protocol::ALL);
         cutter.push(bytes);
         while let Some(cut) = cutter.cut() {
             if is_proof(cut.protocol, cut.bytes) {
-                return Judgement::Fits;
+                return BaudJudgement::Fits;
             }
         }
-        if bytes.len() >= WRONG { Judgement::Wrong } else { Judgement::Unsure }
+        if bytes.len() >= WRONG { BaudJudgement::Wrong } else { BaudJudgement::Unsure }
     })
 }

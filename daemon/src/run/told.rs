@@ -2,7 +2,7 @@
 
 use insd_base::units::DEG;
 use insd_base::{Event, Fault, Mode, PortState};
-use insd_drivers::ports::{Judge, Judgement};
+use insd_drivers::ports::{BaudJudge, BaudJudgement};
 use insd_engine::Output;
 use insd_engine::vote::{Doubt, VoteEvent};
 use insd_intake::event::{Happening, IntakeEvent};
@@ -240,15 +240,15 @@ fn tell_event(names: &Names, event: &IntakeEvent) {
 }
 
 /// Judges the bytes heard at a baud rate: right if they hold a few good frames of any protocol.
-pub(super) fn judge() -> Judge {
-    Judge::new(|bytes| {
+pub(super) fn judge() -> BaudJudge {
+    BaudJudge::new(|bytes| {
         let mut cutter = Cutter::new(&Protocol::ALL);
         cutter.push(bytes);
         let mut frames = 0;
         while cutter.cut().is_some() {
             frames += 1;
         }
-        if frames >= CONVINCED { Judgement::Fits } else { Judgement::Wrong }
+        if frames >= CONVINCED { BaudJudgement::Fits } else { BaudJudgement::Wrong }
     })
 }
 

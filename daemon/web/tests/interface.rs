@@ -270,7 +270,8 @@ fn a_report_is_made_by_another_process_and_told_when_it_is_there() {
 
 #[test]
 fn a_report_that_fails_says_why_and_may_be_asked_for_again() {
-    let (house, folder) = with_reporter("echo working >&2; echo 'error: nothing in it' >&2; exit 2");
+    let (house, folder) =
+        with_reporter("echo working >&2; echo 'error: nothing in it' >&2; exit 2");
     let told = report(&house, "");
     assert!(told.starts_with("HTTP/1.1 500"), "{told}");
     assert!(body(&told).contains("the report cannot be made: error: nothing in it"), "{told}");

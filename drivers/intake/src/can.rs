@@ -8,11 +8,11 @@
 
 use insd_base::can::{BusEvent, CanFrame};
 use insd_base::{Span, Stamp};
-use insd_n2k::{Assembler, Message, Name, Roster};
+use insd_n2k::{Assembler, BusMessage, Name, Roster};
 use insd_wire::ngt1::NgtFrame;
 
 use crate::core::{Came, Core};
-use crate::port::{Frame, Link, PortCounts};
+use crate::port::{Link, PortCounts, PortFrame};
 use crate::status::BusCounts;
 
 /// The frames of one port.
@@ -60,11 +60,11 @@ impl CanIntake {
         &mut self,
         port: usize,
         stamp: &Stamp,
-        frame: &Frame<'_>,
+        frame: &PortFrame<'_>,
         core: &mut Core,
     ) {
         let Ok(NgtFrame::Received(told)) = NgtFrame::read(frame.bytes) else { return };
-        let message = Message {
+        let message = BusMessage {
             priority: told.priority,
             pgn: told.pgn,
             source: told.source,

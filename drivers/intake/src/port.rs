@@ -36,7 +36,7 @@ pub enum Link {
 
 /// A frame and when it came.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame<'a> {
+pub struct PortFrame<'a> {
     /// How it is framed.
     pub protocol: Protocol,
     /// Its bytes.
@@ -87,7 +87,7 @@ impl PortIntake {
     }
 
     /// Takes what one read gave, and hands over the frames that it completes.
-    pub fn take(&mut self, stamp: &Stamp, bytes: &[u8], mut each: impl FnMut(&Frame<'_>)) {
+    pub fn take(&mut self, stamp: &Stamp, bytes: &[u8], mut each: impl FnMut(&PortFrame<'_>)) {
         let now = stamp.monotonic;
         if self.last.is_some_and(|last| (now - last).as_seconds() > IDLE) {
             self.finish(now, &mut each);
@@ -105,7 +105,7 @@ impl PortIntake {
 
     /// Gives up a beginning that has waited for longer than any frame takes: it is none, and hides
     /// frames behind it.
-    fn release(&mut self, now: Time, each: &mut impl FnMut(&Frame<'_>)) {
+    fn release(&mut self, now: Time, each: &mut impl FnMut(&PortFrame<'_>)) {
         let longest = match self.link {
             Link::Serial { byte_time } => IDLE + LONGEST * byte_time,
             _ => SLOW,
@@ -117,7 +117,7 @@ impl PortIntake {
     }
 
     /// The port was lost: what waits for its end will not get it.
-    pub fn interrupt(&mut self, stamp: &Stamp, mut each: impl FnMut(&Frame<'_>)) {
+    pub fn interrupt(&mut self, stamp: &Stamp, mut each: impl FnMut(&PortFrame<'_>)) {
         self.finish(stamp.monotonic, &mut each);
     }
 
@@ -132,14 +132,14 @@ impl PortIntake {
         }
     }
 
-    fn finish(&mut self, now: Time, each: &mut impl FnMut(&Frame<'_>)) {
+    fn finish(&mut self, now: Time, each: &mut impl FnMut(&PortFrame<'_>)) {
         while self.cutter.is_waiting() {
             self.cutter.give_up();
             self.cut(now, each);
         }
     }
 
-    fn cut(&mut self, now: Time, each: &mut impl FnMut(&Frame<'_>)) {
+    fn cut(&mut self, now: Time, each: &mut impl FnMut(&PortFrame<'_>)) {
         let byte_time = match self.link {
             Link::Serial { byte_time } => byte_time,
             _ => 0.0,
@@ -154,7 +154,7 @@ impl PortIntake {
             let after = end.saturating_sub(cut.end) as f64;
             let ended = read - Span::from_seconds(after * byte_time);
             let begun = ended - Span::from_seconds(cut.bytes.len() as f64 * byte_time);
-            each(&Frame { protocol: cut.protocol, bytes: cut.bytes, begun, ended });
+            each(&PortFrame { protocol: cut.protocol, bytes: cut.bytes, begun, ended });
         }
         let dealt_with = self.cutter.position();
         while self.reads.front().is_some_and(|(end, _)| *end <= dealt_with) {

@@ -184,7 +184,8 @@ fn what_a_watched_sensor_says_goes_to_the_watch_and_no_further() {
 
 /// What an Exail system says that has a heading of 271.5 deg.
 fn exail(status: u32) -> Vec<u8> {
-    let attitude = stdbin::Attitude { heading: 271.5_f64.to_radians(), roll: 0.02, pitch: -0.01 };
+    let attitude =
+        stdbin::StdBinAttitude { heading: 271.5_f64.to_radians(), roll: 0.02, pitch: -0.01 };
     let position =
         stdbin::Position { latitude: 0.6, longitude: 5.0, altitude: 3.0, above_ellipsoid: true };
     let navigation = stdbin::Navigation {

@@ -18,7 +18,7 @@ use insd_n2k::pgn::{
     PositionRapid, PseudorangeNoise, RateOfTurn, Speed, SpeedComponents, SystemTime, TimeSource,
 };
 use insd_wire::imu::can::{LayoutChoice, Shipped};
-use insd_wire::imu::{ImuReading, Motion};
+use insd_wire::imu::{ImuMotion, ImuReading};
 use proptest::prelude::*;
 
 fn course(sid: Option<u8>, speed: f64) -> CourseSpeed {
@@ -416,7 +416,7 @@ fn samples_of_a_can_imu_pass_and_those_with_a_lost_frame_are_counted() {
     let layout = Shipped::Sbg.layout();
     for count in 0..500_u64 {
         bus.wait(0.01);
-        let motion = Motion::Rates { gyro: [0.1, 0.0, 0.0], accel: [0.0, 0.0, -9.8] };
+        let motion = ImuMotion::Rates { gyro: [0.1, 0.0, 0.0], accel: [0.0, 0.0, -9.8] };
         let ticks = insd_wire::imu::Wrapping { value: count * 10_000, modulus: 1 << 32 };
         let device_time = Some(insd_wire::imu::DeviceTime { ticks, tick: 1e-6 });
         let reading = ImuReading { device_time, status: 0x3FF, ..ImuReading::bare(motion) };

@@ -39,7 +39,7 @@ pub use limit::{
     CameraUse, Limit, LimitError, LimitQuestion, SegmentLimit, camera_limit, limit, limit_of,
     satellite_limit,
 };
-pub use scenario::{Fault, Override, Scenario, ScenarioBerth, ScenarioError};
+pub use scenario::{Override, Scenario, ScenarioBerth, ScenarioError, ScenarioFault};
 pub use shipped::shipped;
 pub use sky::{
     InjectedAntennaFault, InjectedFault, InjectedSlip, InjectedSpoof, JudgedSegment,

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use insd_base::{CanFrame, Stamp};
 use insd_n2k::fast_packet::{Sequences, split};
 use insd_n2k::text::{actisense, canboat, candump, slcan, ydwg};
-use insd_n2k::{Assembler, Message, N2kId};
+use insd_n2k::{Assembler, BusMessage, N2kId};
 
 use super::config::GatewayFormat;
 
@@ -103,7 +103,7 @@ impl Words {
     }
 
     /// The message of a line that holds a whole one.
-    fn message(&self) -> Option<Message> {
+    fn message(&self) -> Option<BusMessage> {
         match self.tongue {
             Tongue::Gateway(GatewayFormat::Actisense) => actisense::parse(&self.line),
             Tongue::Gateway(GatewayFormat::CanboatFast) => canboat::parse(&self.line),
@@ -113,8 +113,8 @@ impl Words {
 
     /// The frames of a message as its sender has most likely sent them; none of what a fast packet cannot
     /// carry.
-    fn frames_of(&mut self, message: &Message) -> Vec<CanFrame> {
-        let Message { priority, pgn, source, destination, ref data } = *message;
+    fn frames_of(&mut self, message: &BusMessage) -> Vec<CanFrame> {
+        let BusMessage { priority, pgn, source, destination, ref data } = *message;
         let sequence = self.sequences.entry(source).or_default().next(pgn);
         split(N2kId { priority, pgn, source, destination }, data, sequence).unwrap_or_default()
     }

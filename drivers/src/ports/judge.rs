@@ -7,7 +7,7 @@ use insd_base::{Span, Time};
 
 /// What bytes say of the baud rate at which they were read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Judgement {
+pub enum BaudJudgement {
     /// It is the right one: frames with good checksums, for example.
     Fits,
     /// Too few bytes to tell.
@@ -18,9 +18,9 @@ pub enum Judgement {
 
 /// Judges the bytes of a port: given by the caller, who knows the protocol.
 #[derive(Clone)]
-pub struct Judge(Arc<Judging>);
+pub struct BaudJudge(Arc<Judging>);
 
-type Judging = dyn Fn(&[u8]) -> Judgement + Send + Sync;
+type Judging = dyn Fn(&[u8]) -> BaudJudgement + Send + Sync;
 
 /// Bytes that are kept for judging.
 const KEPT: usize = 16 * 1024;
@@ -31,19 +31,19 @@ const PATIENCE: Span = Span::from_nanos(10_000_000_000);
 /// How often bytes are judged after that.
 const LATER: Span = Span::from_nanos(1_000_000_000);
 
-impl Judge {
+impl BaudJudge {
     /// A judge that is this function. It is called with all bytes heard at one rate, the oldest of
     /// very many left out.
-    pub fn new(judge: impl Fn(&[u8]) -> Judgement + Send + Sync + 'static) -> Self {
-        Judge(Arc::new(judge))
+    pub fn new(judge: impl Fn(&[u8]) -> BaudJudgement + Send + Sync + 'static) -> Self {
+        BaudJudge(Arc::new(judge))
     }
 
-    pub(super) fn judge(&self, bytes: &[u8]) -> Judgement {
+    pub(super) fn judge(&self, bytes: &[u8]) -> BaudJudgement {
         (self.0)(bytes)
     }
 }
 
-impl fmt::Debug for Judge {
+impl fmt::Debug for BaudJudge {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Judge")
     }
@@ -58,7 +58,7 @@ pub(super) fn forget_oldest(heard: &mut Vec<u8>) {
 /// Goes on judging after a rate was found: somebody may set the device to another.
 #[derive(Debug)]
 pub(super) struct Doubt {
-    judge: Judge,
+    judge: BaudJudge,
     heard: Vec<u8>,
     /// When bytes last fitted.
     fitted: Time,
@@ -67,7 +67,7 @@ pub(super) struct Doubt {
 
 impl Doubt {
     /// A rate was found just now.
-    pub(super) fn new(judge: Judge, now: Time) -> Self {
+    pub(super) fn new(judge: BaudJudge, now: Time) -> Self {
         Doubt { judge, heard: Vec::new(), fitted: now, judged: now }
     }
 
@@ -83,7 +83,7 @@ impl Doubt {
             return None;
         }
         self.judged = now;
-        if self.judge.judge(&self.heard) == Judgement::Fits {
+        if self.judge.judge(&self.heard) == BaudJudgement::Fits {
             self.fitted = now;
             self.heard.clear();
         }
@@ -98,9 +98,9 @@ mod tests {
 
     fn doubt() -> Doubt {
         let judge = |bytes: &[u8]| {
-            if bytes.contains(&b'$') { Judgement::Fits } else { Judgement::Unsure }
+            if bytes.contains(&b'$') { BaudJudgement::Fits } else { BaudJudgement::Unsure }
         };
-        Doubt::new(Judge::new(judge), Time::START)
+        Doubt::new(BaudJudge::new(judge), Time::START)
     }
 
     fn second(seconds: i64) -> Time {

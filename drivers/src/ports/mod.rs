@@ -77,7 +77,7 @@ pub use config::{
 pub use found::{FoundKind, FoundPort, list};
 pub use handle::{OutputPort, PortHandle};
 pub use hosts::{Hosts, Network, NoNetwork};
-pub use judge::{Judge, Judgement};
+pub use judge::{BaudJudge, BaudJudgement};
 pub use ntrip::{Ntrip, read_password};
 pub use outgoing::{AgeStatus, Outgoing, OutputStatus, SlotStatus};
 pub use queue::{FRAME, Queue, Receiver, WAITING_LIMIT, queue};

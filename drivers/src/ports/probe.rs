@@ -5,7 +5,7 @@ use std::time::Duration;
 use tokio::io::AsyncRead;
 use tokio::time::timeout;
 
-use super::judge::{Judge, Judgement, forget_oldest};
+use super::judge::{BaudJudge, BaudJudgement, forget_oldest};
 use super::stream::read;
 
 /// How often bytes are judged while probing.
@@ -17,7 +17,7 @@ const SLICE: Duration = Duration::from_millis(100);
 /// The reason for which the stream is lost.
 pub(super) async fn probe<R: AsyncRead + Unpin>(
     reader: &mut R,
-    judge: &Judge,
+    judge: &BaudJudge,
     span: Duration,
 ) -> Result<bool, String> {
     let mut heard = Vec::new();
@@ -29,8 +29,8 @@ pub(super) async fn probe<R: AsyncRead + Unpin>(
             return Err(lost);
         }
         match judge.judge(&heard) {
-            Judgement::Fits => return Ok(true),
-            Judgement::Wrong if heard.len() > before => return Ok(false),
+            BaudJudgement::Fits => return Ok(true),
+            BaudJudgement::Wrong if heard.len() > before => return Ok(false),
             _ => {}
         }
         forget_oldest(&mut heard);

@@ -10,7 +10,7 @@ use tokio::time::sleep;
 use super::attempt::{Outcome, Pause, tell};
 use super::config::{Destination, OutputConfig, PortConfig, Serial, Transport};
 use super::handle::{OutputPort, PortHandle, Work};
-use super::judge::Judge;
+use super::judge::BaudJudge;
 use super::ntrip::Ntrip;
 use super::outbox::{Keeping, Outbox, Outlet};
 use super::surroundings::Surroundings;
@@ -39,7 +39,7 @@ struct Written {
 }
 
 enum Link {
-    Input(Transport, Option<Judge>),
+    Input(Transport, Option<BaudJudge>),
     Output(Destination),
 }
 

@@ -14,7 +14,7 @@ use tokio_serial::{ClearBuffer, SerialPort, SerialPortBuilder, SerialStream};
 
 use super::attempt::Outcome;
 use super::config::{FlowControl, Parity, Serial};
-use super::judge::{Doubt, Judge};
+use super::judge::{BaudJudge, Doubt};
 use super::low_latency;
 use super::outbox::Outbox;
 use super::pace::Pace;
@@ -71,7 +71,7 @@ impl Drop for Line {
 /// Opens the line, listens and talks until it is lost. `last` is the rate that fitted last time.
 pub(super) async fn attempt(
     config: &Serial,
-    judge: Option<&Judge>,
+    judge: Option<&BaudJudge>,
     last: &mut Option<u32>,
     teller: &mut Teller,
     outbox: Option<&Outbox>,
@@ -144,7 +144,7 @@ impl AsyncWrite for Half<'_> {
 async fn find(
     stream: &mut SerialStream,
     config: &Serial,
-    judge: &Judge,
+    judge: &BaudJudge,
     last: Option<u32>,
 ) -> Result<u32, String> {
     let span = Duration::try_from_secs_f64(config.probe_s).unwrap_or(Duration::from_secs(3));

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::clock::Clock;
-use super::judge::Judge;
+use super::judge::BaudJudge;
 use super::queue::Queue;
 
 /// What every port is given.
@@ -15,5 +15,5 @@ pub struct Surroundings {
     pub queue: Queue,
     /// Judges the bytes of a serial line whose baud rate is searched. Without a judge the rate is the
     /// configured one.
-    pub judge: Option<Judge>,
+    pub judge: Option<BaudJudge>,
 }

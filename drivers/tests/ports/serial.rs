@@ -3,7 +3,9 @@
 use std::time::Duration;
 
 use insd_base::{Input, PortState};
-use insd_drivers::ports::{FlowControl, Judge, Judgement, Parity, PortConfig, Serial, Transport};
+use insd_drivers::ports::{
+    BaudJudge, BaudJudgement, FlowControl, Parity, PortConfig, Serial, Transport,
+};
 use tokio::time::sleep;
 
 use crate::host::{Device, Host};
@@ -148,12 +150,12 @@ async fn a_baud_rate_is_found_by_listening_alone() {
     let mut host = Host::new();
     let judge = |bytes: &[u8]| {
         if bytes.windows(2).any(|pair| pair == b"*\n") {
-            Judgement::Fits
+            BaudJudgement::Fits
         } else {
-            Judgement::Unsure
+            BaudJudgement::Unsure
         }
     };
-    host.surroundings.judge = Some(Judge::new(judge));
+    host.surroundings.judge = Some(BaudJudge::new(judge));
     let plain = Serial::new(device.path().to_owned(), 4800);
     let probing = Serial { probe_bauds: vec![4800, 38_400], probe_s: 0.1, ..plain };
     let _port = host.spawn(1, Transport::Serial(probing));

@@ -8,8 +8,8 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use insd_wire::nmea::{
-    Date, Fault, FixDimension, Frame, Gga, Gns, Gsa, Gsv, HeadingMode, NortekBottomTrack, Pashr,
-    Position, PositionMode, Psxn, PsxnQuality, Rmc, Sentence, TimeOfDay, Vbw, Zda, others,
+    Date, FixDimension, Frame, Gga, Gns, Gsa, Gsv, HeadingMode, NmeaFault, NortekBottomTrack,
+    Pashr, Position, PositionMode, Psxn, PsxnQuality, Rmc, Sentence, TimeOfDay, Vbw, Zda, others,
 };
 use insd_wire::stream::{Cutter, Protocol};
 use serde_json::{Map, Value, json};
@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let Ok(frame) = Frame::parse(cut.bytes) else { continue };
             let mut object = match Sentence::read_frame(&frame) {
                 Ok(sentence) => json!({ "fields": fields(&sentence) }),
-                Err(Fault::OtherSentence | Fault::Address) => json!({
+                Err(NmeaFault::OtherSentence | NmeaFault::Address) => json!({
                     "other": others::kind(cut.bytes).map(|kind| format!("{:?}", kind.understood))?,
                 }),
                 Err(fault) => json!({ "fault": fault.to_string() }),

@@ -5,7 +5,7 @@ use std::fmt;
 
 /// Why the bytes of a binary frame are not the message that they should be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fault {
+pub enum BinaryFault {
     /// Not a frame of this protocol: start, length or checksum.
     Frame,
     /// A good frame of a message that is not read here.
@@ -24,20 +24,20 @@ pub enum Fault {
     },
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for BinaryFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Fault::Frame => f.write_str("not a frame of this protocol"),
-            Fault::OtherMessage => f.write_str("another message than expected"),
-            Fault::Short { needed, found } => {
+            BinaryFault::Frame => f.write_str("not a frame of this protocol"),
+            BinaryFault::OtherMessage => f.write_str("another message than expected"),
+            BinaryFault::Short { needed, found } => {
                 write!(f, "{needed} bytes expected, {found} found")
             }
-            Fault::Range { field } => write!(f, "{field} is out of its range"),
+            BinaryFault::Range { field } => write!(f, "{field} is out of its range"),
         }
     }
 }
 
-impl std::error::Error for Fault {}
+impl std::error::Error for BinaryFault {}
 
 /// Reads fields one after the other.
 #[derive(Clone, Copy, Debug)]
@@ -52,15 +52,15 @@ macro_rules! getters {
         #[doc = concat!("The next `", stringify!($number), "`, little endian.")]
         ///
         /// # Errors
-        /// [`Fault::Short`].
-        pub fn $little(&mut self) -> Result<$number, Fault> {
+        /// [`BinaryFault::Short`].
+        pub fn $little(&mut self) -> Result<$number, BinaryFault> {
             Ok(<$number>::from_le_bytes(self.array()?))
         }
         #[doc = concat!("The next `", stringify!($number), "`, big endian.")]
         ///
         /// # Errors
-        /// [`Fault::Short`].
-        pub fn $big(&mut self) -> Result<$number, Fault> {
+        /// [`BinaryFault::Short`].
+        pub fn $big(&mut self) -> Result<$number, BinaryFault> {
             Ok(<$number>::from_be_bytes(self.array()?))
         }
     )*};
@@ -76,10 +76,10 @@ impl<'a> Reader<'a> {
     /// The next bytes.
     ///
     /// # Errors
-    /// [`Fault::Short`].
-    pub fn take(&mut self, length: usize) -> Result<&'a [u8], Fault> {
+    /// [`BinaryFault::Short`].
+    pub fn take(&mut self, length: usize) -> Result<&'a [u8], BinaryFault> {
         let short =
-            Fault::Short { needed: self.at.saturating_add(length), found: self.bytes.len() };
+            BinaryFault::Short { needed: self.at.saturating_add(length), found: self.bytes.len() };
         let end = self.at.checked_add(length).ok_or(short)?;
         let taken = self.bytes.get(self.at..end).ok_or(short)?;
         self.at = end;
@@ -89,8 +89,8 @@ impl<'a> Reader<'a> {
     /// The next bytes as an array.
     ///
     /// # Errors
-    /// [`Fault::Short`].
-    pub fn array<const N: usize>(&mut self) -> Result<[u8; N], Fault> {
+    /// [`BinaryFault::Short`].
+    pub fn array<const N: usize>(&mut self) -> Result<[u8; N], BinaryFault> {
         let mut array = [0; N];
         array.copy_from_slice(self.take(N)?);
         Ok(array)
@@ -99,16 +99,16 @@ impl<'a> Reader<'a> {
     /// The next byte.
     ///
     /// # Errors
-    /// [`Fault::Short`].
-    pub fn u8(&mut self) -> Result<u8, Fault> {
+    /// [`BinaryFault::Short`].
+    pub fn u8(&mut self) -> Result<u8, BinaryFault> {
         Ok(self.array::<1>()?[0])
     }
 
     /// The next byte as a signed number.
     ///
     /// # Errors
-    /// [`Fault::Short`].
-    pub fn i8(&mut self) -> Result<i8, Fault> {
+    /// [`BinaryFault::Short`].
+    pub fn i8(&mut self) -> Result<i8, BinaryFault> {
         Ok(i8::from_le_bytes(self.array()?))
     }
 
@@ -213,7 +213,10 @@ mod tests {
         assert_eq!(reader.le_f64(), Ok(1.5));
         assert_eq!(reader.be_f32(), Ok(-0.25));
         assert_eq!(reader.rest(), b"end");
-        assert_eq!(reader.be_u32(), Err(Fault::Short { needed: 23, found: 22 }));
-        assert_eq!(reader.take(usize::MAX), Err(Fault::Short { needed: usize::MAX, found: 22 }));
+        assert_eq!(reader.be_u32(), Err(BinaryFault::Short { needed: 23, found: 22 }));
+        assert_eq!(
+            reader.take(usize::MAX),
+            Err(BinaryFault::Short { needed: usize::MAX, found: 22 })
+        );
     }
 }

@@ -15,12 +15,12 @@ pub struct Described {
     /// The message: `HETHS`, `NAV-PVT`, `SBF 4007`, `IMU_SHORT`.
     pub name: String,
     /// What the readers of this crate say of it.
-    pub read: Reading,
+    pub read: ReadOutcome,
 }
 
 /// What the readers of this crate say of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Reading {
+pub enum ReadOutcome {
     /// It is read, and its contents are used.
     Used,
     /// It is a good frame of a message that is not used.
@@ -40,7 +40,7 @@ pub fn describe(protocol: Protocol, frame: &[u8]) -> Described {
             let number = rtcm::Frame::open(frame).ok().and_then(|frame| frame.number());
             let name = number.map_or("RTCM".to_owned(), |number| format!("RTCM {number}"));
             let is_read = number.is_some_and(rtcm::is_of_satellites);
-            Described { name, read: if is_read { Reading::Used } else { Reading::Other } }
+            Described { name, read: if is_read { ReadOutcome::Used } else { ReadOutcome::Other } }
         }
         Protocol::Sbg => sbg(frame),
         Protocol::StdBin => plain("StdBin", &stdbin::Telegram::read(frame)),
@@ -65,16 +65,18 @@ pub fn describe(protocol: Protocol, frame: &[u8]) -> Described {
     }
 }
 
-fn described(name: impl Into<String>, read: Reading) -> Described {
+fn described(name: impl Into<String>, read: ReadOutcome) -> Described {
     Described { name: name.into(), read }
 }
 
 /// A message of the bus goes by its parameter group.
 fn adapter(frame: &[u8]) -> Described {
     match NgtFrame::read(frame) {
-        Ok(NgtFrame::Received(message)) => described(format!("PGN {}", message.pgn), Reading::Used),
-        Ok(NgtFrame::Other(command)) => described(format!("NGT {command:02X}"), Reading::Other),
-        Err(_) => described("NGT", Reading::Refused),
+        Ok(NgtFrame::Received(message)) => {
+            described(format!("PGN {}", message.pgn), ReadOutcome::Used)
+        }
+        Ok(NgtFrame::Other(command)) => described(format!("NGT {command:02X}"), ReadOutcome::Other),
+        Err(_) => described("NGT", ReadOutcome::Refused),
     }
 }
 
@@ -82,35 +84,37 @@ fn adapter(frame: &[u8]) -> Described {
 fn server_line(frame: &[u8]) -> Described {
     match ServerLine::read(frame) {
         Ok(line @ ServerLine::Delta { .. }) => match line.first() {
-            Some((path, source)) => described(format!("SIGNALK {path} {source}"), Reading::Used),
-            None => described("SIGNALK", Reading::Other),
+            Some((path, source)) => {
+                described(format!("SIGNALK {path} {source}"), ReadOutcome::Used)
+            }
+            None => described("SIGNALK", ReadOutcome::Other),
         },
-        Ok(ServerLine::Hello { .. }) => described("SIGNALK hello", Reading::Used),
-        Err(crate::binary::Fault::OtherMessage) => described("SIGNALK", Reading::Other),
-        Err(_) => described("SIGNALK", Reading::Refused),
+        Ok(ServerLine::Hello { .. }) => described("SIGNALK hello", ReadOutcome::Used),
+        Err(crate::binary::BinaryFault::OtherMessage) => described("SIGNALK", ReadOutcome::Other),
+        Err(_) => described("SIGNALK", ReadOutcome::Refused),
     }
 }
 
 fn plain<T, E>(name: &str, read: &Result<T, E>) -> Described {
-    described(name, if read.is_ok() { Reading::Used } else { Reading::Refused })
+    described(name, if read.is_ok() { ReadOutcome::Used } else { ReadOutcome::Refused })
 }
 
 /// A message of a protocol that has others too.
-fn or_other<T>(name: &str, read: &Result<T, crate::binary::Fault>) -> Described {
-    let other = matches!(read, Err(crate::binary::Fault::OtherMessage));
-    if other { described(name, Reading::Other) } else { plain(name, read) }
+fn or_other<T>(name: &str, read: &Result<T, crate::binary::BinaryFault>) -> Described {
+    let other = matches!(read, Err(crate::binary::BinaryFault::OtherMessage));
+    if other { described(name, ReadOutcome::Other) } else { plain(name, read) }
 }
 
 /// A report of one page goes by whether its records are read; a page of several is used to put it together.
 fn gsof(frame: &[u8]) -> Described {
-    let Ok(page) = gsof::Page::open(frame) else { return described("GSOF", Reading::Refused) };
+    let Ok(page) = gsof::Page::open(frame) else { return described("GSOF", ReadOutcome::Refused) };
     if page.last > 0 {
-        return described("GSOF", Reading::Used);
+        return described("GSOF", ReadOutcome::Used);
     }
     match gsof::GsofReport::read(&page.records) {
-        Ok(report) if report.is_read() => described("GSOF", Reading::Used),
-        Ok(_) => described("GSOF", Reading::Other),
-        Err(_) => described("GSOF", Reading::Refused),
+        Ok(report) if report.is_read() => described("GSOF", ReadOutcome::Used),
+        Ok(_) => described("GSOF", ReadOutcome::Other),
+        Err(_) => described("GSOF", ReadOutcome::Refused),
     }
 }
 
@@ -118,39 +122,39 @@ fn nmea(frame: &[u8]) -> Described {
     match others::kind(frame) {
         Ok(kind) => {
             let read = match kind.understood {
-                Understood::Read(_) => Reading::Used,
-                Understood::Refused(_) | Understood::Odd => Reading::Refused,
-                Understood::Recognised | Understood::Unknown => Reading::Other,
+                Understood::Read(_) => ReadOutcome::Used,
+                Understood::Refused(_) | Understood::Odd => ReadOutcome::Refused,
+                Understood::Recognised | Understood::Unknown => ReadOutcome::Other,
             };
             described(kind.name, read)
         }
-        Err(_) => described("NMEA", Reading::Refused),
+        Err(_) => described("NMEA", ReadOutcome::Refused),
     }
 }
 
 fn ubx(frame: &[u8]) -> Described {
-    use ubx::Message;
-    let used = |name| described(name, Reading::Used);
-    match Message::read(frame) {
-        Ok(Message::NavPvt(_)) => used("NAV-PVT"),
-        Ok(Message::NavDop(_)) => used("NAV-DOP"),
-        Ok(Message::NavCov(_)) => used("NAV-COV"),
-        Ok(Message::NavHpPosLlh(_)) => used("NAV-HPPOSLLH"),
-        Ok(Message::NavPosLlh(_)) => used("NAV-POSLLH"),
-        Ok(Message::NavVelNed(_)) => used("NAV-VELNED"),
-        Ok(Message::NavSol(_)) => used("NAV-SOL"),
-        Ok(Message::NavStatus(_)) => used("NAV-STATUS"),
-        Ok(Message::NavTimeUtc(_)) => used("NAV-TIMEUTC"),
-        Ok(Message::NavRelPosNed(_)) => used("NAV-RELPOSNED"),
-        Ok(Message::NavTimeGps(_)) => used("NAV-TIMEGPS"),
-        Ok(Message::NavTimeLs(_)) => used("NAV-TIMELS"),
-        Ok(Message::TimTp(_)) => used("TIM-TP"),
-        Ok(Message::RxmRawx(_)) => used("RXM-RAWX"),
-        Ok(Message::RxmSfrbx(_)) => used("RXM-SFRBX"),
-        Ok(Message::Other { class, id }) => {
-            described(format!("UBX {class:02X}-{id:02X}"), Reading::Other)
+    use ubx::UbxMessage;
+    let used = |name| described(name, ReadOutcome::Used);
+    match UbxMessage::read(frame) {
+        Ok(UbxMessage::NavPvt(_)) => used("NAV-PVT"),
+        Ok(UbxMessage::NavDop(_)) => used("NAV-DOP"),
+        Ok(UbxMessage::NavCov(_)) => used("NAV-COV"),
+        Ok(UbxMessage::NavHpPosLlh(_)) => used("NAV-HPPOSLLH"),
+        Ok(UbxMessage::NavPosLlh(_)) => used("NAV-POSLLH"),
+        Ok(UbxMessage::NavVelNed(_)) => used("NAV-VELNED"),
+        Ok(UbxMessage::NavSol(_)) => used("NAV-SOL"),
+        Ok(UbxMessage::NavStatus(_)) => used("NAV-STATUS"),
+        Ok(UbxMessage::NavTimeUtc(_)) => used("NAV-TIMEUTC"),
+        Ok(UbxMessage::NavRelPosNed(_)) => used("NAV-RELPOSNED"),
+        Ok(UbxMessage::NavTimeGps(_)) => used("NAV-TIMEGPS"),
+        Ok(UbxMessage::NavTimeLs(_)) => used("NAV-TIMELS"),
+        Ok(UbxMessage::TimTp(_)) => used("TIM-TP"),
+        Ok(UbxMessage::RxmRawx(_)) => used("RXM-RAWX"),
+        Ok(UbxMessage::RxmSfrbx(_)) => used("RXM-SFRBX"),
+        Ok(UbxMessage::Other { class, id }) => {
+            described(format!("UBX {class:02X}-{id:02X}"), ReadOutcome::Other)
         }
-        Err(_) => described("UBX", Reading::Refused),
+        Err(_) => described("UBX", ReadOutcome::Refused),
     }
 }
 
@@ -159,78 +163,78 @@ fn sbf(frame: &[u8]) -> Described {
         Ok(open) => format!("SBF {}", open.id),
         Err(_) => "SBF".to_owned(),
     };
-    match sbf::Message::read(frame) {
-        Ok(sbf::Message::Other { .. }) => described(name, Reading::Other),
-        Ok(_) => described(name, Reading::Used),
-        Err(_) => described(name, Reading::Refused),
+    match sbf::SbfMessage::read(frame) {
+        Ok(sbf::SbfMessage::Other { .. }) => described(name, ReadOutcome::Other),
+        Ok(_) => described(name, ReadOutcome::Used),
+        Err(_) => described(name, ReadOutcome::Refused),
     }
 }
 
 fn sbg(frame: &[u8]) -> Described {
-    use sbg::Message;
-    match Message::read(frame) {
-        Ok(Message::ImuShort(_)) => described("IMU_SHORT", Reading::Used),
-        Ok(Message::ImuData(_)) => described("IMU_DATA", Reading::Used),
-        Ok(Message::Time(_)) => described("UTC_TIME", Reading::Used),
-        Ok(Message::Euler(_)) => described("EKF_EULER", Reading::Other),
-        Ok(Message::Other { class, id }) => {
-            described(format!("SBG {class:02X}-{id:02X}"), Reading::Other)
+    use sbg::SbgMessage;
+    match SbgMessage::read(frame) {
+        Ok(SbgMessage::ImuShort(_)) => described("IMU_SHORT", ReadOutcome::Used),
+        Ok(SbgMessage::ImuData(_)) => described("IMU_DATA", ReadOutcome::Used),
+        Ok(SbgMessage::Time(_)) => described("UTC_TIME", ReadOutcome::Used),
+        Ok(SbgMessage::Euler(_)) => described("EKF_EULER", ReadOutcome::Other),
+        Ok(SbgMessage::Other { class, id }) => {
+            described(format!("SBG {class:02X}-{id:02X}"), ReadOutcome::Other)
         }
-        Err(_) => described("SBG", Reading::Refused),
+        Err(_) => described("SBG", ReadOutcome::Refused),
     }
 }
 
 fn mip(frame: &[u8]) -> Described {
     let set = frame.get(2).copied().unwrap_or_default();
     match mip::Packet::read(frame) {
-        Ok(_) => described("MIP 80", Reading::Used),
-        Err(crate::binary::Fault::OtherMessage) => {
-            described(format!("MIP {set:02X}"), Reading::Other)
+        Ok(_) => described("MIP 80", ReadOutcome::Used),
+        Err(crate::binary::BinaryFault::OtherMessage) => {
+            described(format!("MIP {set:02X}"), ReadOutcome::Other)
         }
-        Err(_) => described(format!("MIP {set:02X}"), Reading::Refused),
+        Err(_) => described(format!("MIP {set:02X}"), ReadOutcome::Refused),
     }
 }
 
 fn xbus(frame: &[u8]) -> Described {
     let id = frame.get(2).copied().unwrap_or_default();
     match xbus::MtData2::read(frame) {
-        Ok(_) => described("MTData2", Reading::Used),
-        Err(crate::binary::Fault::OtherMessage) => {
-            described(format!("Xbus {id:02X}"), Reading::Other)
+        Ok(_) => described("MTData2", ReadOutcome::Used),
+        Err(crate::binary::BinaryFault::OtherMessage) => {
+            described(format!("Xbus {id:02X}"), ReadOutcome::Other)
         }
-        Err(_) => described(format!("Xbus {id:02X}"), Reading::Refused),
+        Err(_) => described(format!("Xbus {id:02X}"), ReadOutcome::Refused),
     }
 }
 
 fn stim(frame: &[u8]) -> Described {
     if stim::StimConfiguration::read(frame).is_ok() {
-        return described("STIM configuration", Reading::Used);
+        return described("STIM configuration", ReadOutcome::Used);
     }
     let id = frame.first().copied().unwrap_or_default();
     match stim::StimDatagram::read(frame) {
-        Ok(_) => described(format!("STIM {id:02X}"), Reading::Used),
-        Err(crate::binary::Fault::OtherMessage) => {
-            described(format!("STIM {id:02X}"), Reading::Other)
+        Ok(_) => described(format!("STIM {id:02X}"), ReadOutcome::Used),
+        Err(crate::binary::BinaryFault::OtherMessage) => {
+            described(format!("STIM {id:02X}"), ReadOutcome::Other)
         }
-        Err(_) => described(format!("STIM {id:02X}"), Reading::Refused),
+        Err(_) => described(format!("STIM {id:02X}"), ReadOutcome::Refused),
     }
 }
 
 fn novatel(frame: &[u8]) -> Described {
     match novatel::OemLog::read(frame) {
         Ok(log) => match log.name() {
-            Some(name) => described(name, Reading::Used),
-            None => described(format!("NovAtel {}", log.header.id), Reading::Other),
+            Some(name) => described(name, ReadOutcome::Used),
+            None => described(format!("NovAtel {}", log.header.id), ReadOutcome::Other),
         },
-        Err(_) => described("NovAtel", Reading::Refused),
+        Err(_) => described("NovAtel", ReadOutcome::Refused),
     }
 }
 
 fn pd6(frame: &[u8]) -> Described {
     let name = frame.get(1..3).and_then(|name| std::str::from_utf8(name).ok()).unwrap_or("");
     match pd6::Pd6::read(frame) {
-        Ok(pd6::Pd6::Other(_)) => described(format!("PD6 :{name}"), Reading::Other),
-        Ok(_) => described(format!("PD6 :{name}"), Reading::Used),
-        Err(_) => described(format!("PD6 :{name}"), Reading::Refused),
+        Ok(pd6::Pd6::Other(_)) => described(format!("PD6 :{name}"), ReadOutcome::Other),
+        Ok(_) => described(format!("PD6 :{name}"), ReadOutcome::Used),
+        Err(_) => described(format!("PD6 :{name}"), ReadOutcome::Refused),
     }
 }

@@ -1,11 +1,11 @@
 //! Fixed layouts of binary messages as tables: a row for each field, from which struct, reader, writer and documentation follow.
 //! Layouts whose fields depend on one another are written out by hand.
 //!
-//! Readers never panic: a row that lies beyond the end of the bytes is a [`Fault::Short`].
+//! Readers never panic: a row that lies beyond the end of the bytes is a [`BinaryFault::Short`].
 
 use std::marker::PhantomData;
 
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 
 /// A message: its name, how many bytes it has, and its fields. A row is the field's first byte, its name, type and form. Bytes that
 /// no row names are zeros when written and not looked at when read; several rows may share a byte, each with its own bits.
@@ -29,10 +29,10 @@ macro_rules! layout {
         }
 
         impl $name {
-            fn read_fields(bytes: &[u8]) -> Result<Self, $crate::binary::Fault> {
+            fn read_fields(bytes: &[u8]) -> Result<Self, $crate::binary::BinaryFault> {
                 use $crate::layout::Form;
                 let found = bytes.len();
-                let short = $crate::binary::Fault::Short { needed: $length, found };
+                let short = $crate::binary::BinaryFault::Short { needed: $length, found };
                 let bytes = bytes.get(..$length).ok_or(short)?;
                 $(let $field: $type = $form.read(bytes.get($at..).ok_or(short)?)?;)*
                 Ok($name { $($field),* })
@@ -58,7 +58,7 @@ pub(crate) trait Form<T> {
     /// Bytes that it takes.
     fn size(&self) -> usize;
     /// Its value.
-    fn read(&self, bytes: &[u8]) -> Result<T, Fault>;
+    fn read(&self, bytes: &[u8]) -> Result<T, BinaryFault>;
     /// Puts its value into bytes, if there are enough.
     fn write(&self, value: &T, bytes: &mut [u8]);
 }
@@ -68,7 +68,7 @@ pub(crate) trait Number: Copy + PartialEq {
     /// Bytes that it takes.
     const SIZE: usize;
     /// Of its bytes.
-    fn get(bytes: &[u8]) -> Result<Self, Fault>;
+    fn get(bytes: &[u8]) -> Result<Self, BinaryFault>;
     /// Into its bytes.
     fn put(self, bytes: &mut [u8]);
     /// As a real number; of whole numbers beyond 53 bits the nearest.
@@ -84,8 +84,8 @@ macro_rules! numbers {
         impl Number for $number {
             const SIZE: usize = size_of::<$number>();
 
-            fn get(bytes: &[u8]) -> Result<Self, Fault> {
-                let short = Fault::Short { needed: Self::SIZE, found: bytes.len() };
+            fn get(bytes: &[u8]) -> Result<Self, BinaryFault> {
+                let short = BinaryFault::Short { needed: Self::SIZE, found: bytes.len() };
                 let own = bytes.first_chunk::<{ size_of::<$number>() }>().ok_or(short)?;
                 Ok($number::from_le_bytes(*own))
             }
@@ -149,7 +149,7 @@ impl<N: Number> Form<N> for Plain<N> {
         N::SIZE
     }
 
-    fn read(&self, bytes: &[u8]) -> Result<N, Fault> {
+    fn read(&self, bytes: &[u8]) -> Result<N, BinaryFault> {
         match bytes.get(..N::SIZE).filter(|_| self.big) {
             Some(own) => N::get(&own.iter().rev().copied().collect::<Vec<u8>>()),
             None => N::get(bytes),
@@ -198,7 +198,7 @@ impl<N: Number> Form<f64> for Steps<N> {
         N::SIZE
     }
 
-    fn read(&self, bytes: &[u8]) -> Result<f64, Fault> {
+    fn read(&self, bytes: &[u8]) -> Result<f64, BinaryFault> {
         Ok(self.plain.read(bytes)?.real() * self.unit)
     }
 
@@ -227,12 +227,12 @@ impl<N: Number> Form<f64> for Within<N> {
         N::SIZE
     }
 
-    fn read(&self, bytes: &[u8]) -> Result<f64, Fault> {
+    fn read(&self, bytes: &[u8]) -> Result<f64, BinaryFault> {
         let value = self.steps.read(bytes)?;
         // a limit that is a whole number of steps may be beyond itself by the rounding of a double
         let good = value.abs() <= self.limit * (1.0 + 4.0 * f64::EPSILON);
         good.then_some(value.clamp(-self.limit, self.limit))
-            .ok_or(Fault::Range { field: self.field })
+            .ok_or(BinaryFault::Range { field: self.field })
     }
 
     fn write(&self, value: &f64, bytes: &mut [u8]) {
@@ -252,7 +252,7 @@ impl<N: Number + Into<i64> + TryFrom<i64>> Form<i64> for Nanos<N> {
         N::SIZE
     }
 
-    fn read(&self, bytes: &[u8]) -> Result<i64, Fault> {
+    fn read(&self, bytes: &[u8]) -> Result<i64, BinaryFault> {
         Ok(self.plain.read(bytes)?.into().saturating_mul(self.step))
     }
 
@@ -275,7 +275,7 @@ impl<N: Number> Form<Option<f64>> for Unless<N> {
         N::SIZE
     }
 
-    fn read(&self, bytes: &[u8]) -> Result<Option<f64>, Fault> {
+    fn read(&self, bytes: &[u8]) -> Result<Option<f64>, BinaryFault> {
         let number = self.steps.plain.read(bytes)?;
         let known = number != self.unknown && number.real().is_finite();
         Ok(known.then(|| number.real() * self.steps.unit))
@@ -303,7 +303,7 @@ impl<N: Number, T> Form<T> for Codes<N, T> {
         N::SIZE
     }
 
-    fn read(&self, bytes: &[u8]) -> Result<T, Fault> {
+    fn read(&self, bytes: &[u8]) -> Result<T, BinaryFault> {
         Ok((self.read)(self.plain.read(bytes)?))
     }
 
@@ -349,8 +349,8 @@ impl<T> Form<T> for Bits<T> {
         1
     }
 
-    fn read(&self, bytes: &[u8]) -> Result<T, Fault> {
-        let byte = bytes.first().ok_or(Fault::Short { needed: 1, found: 0 })?;
+    fn read(&self, bytes: &[u8]) -> Result<T, BinaryFault> {
+        let byte = bytes.first().ok_or(BinaryFault::Short { needed: 1, found: 0 })?;
         Ok((self.read)(byte >> self.from & self.mask()))
     }
 
@@ -370,8 +370,8 @@ impl<T: Copy, F: Form<T>, const N: usize> Form<[T; N]> for Each<F> {
         N * self.0.size()
     }
 
-    fn read(&self, bytes: &[u8]) -> Result<[T; N], Fault> {
-        let short = Fault::Short { needed: Form::<[T; N]>::size(self), found: bytes.len() };
+    fn read(&self, bytes: &[u8]) -> Result<[T; N], BinaryFault> {
+        let short = BinaryFault::Short { needed: Form::<[T; N]>::size(self), found: bytes.len() };
         let mut values = [None; N];
         for (at, value) in values.iter_mut().enumerate() {
             *value = Some(self.0.read(bytes.get(at * self.0.size()..).ok_or(short)?)?);
@@ -437,11 +437,11 @@ mod tests {
     fn bytes_that_end_early_and_values_beyond_their_limit_are_refused() {
         let bytes = SAMPLE.write_fields();
         for length in 0..24 {
-            let short = Fault::Short { needed: 24, found: length };
+            let short = BinaryFault::Short { needed: 24, found: length };
             assert_eq!(Sample::read_fields(&bytes[..length]), Err(short));
         }
         let beyond = Sample { angle: 2.5, ..SAMPLE };
-        let fault = Fault::Range { field: "angle" };
+        let fault = BinaryFault::Range { field: "angle" };
         assert_eq!(Sample::read_fields(&beyond.write_fields()), Err(fault));
     }
 

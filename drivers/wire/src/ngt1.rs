@@ -26,7 +26,7 @@
 //!
 //! Source: `actisense-serial` of canboat (Apache-2.0), which is its only public description; verified against its recordings in the tests.
 
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::stream::Look;
 
 const DLE: u8 = 0x10;
@@ -139,12 +139,12 @@ impl NgtFrame {
     /// Reads a frame.
     ///
     /// # Errors
-    /// [`Fault::Frame`] if it is none, its check is wrong, or its data are not as long as they are said to be; [`Fault::Short`];
-    /// [`Fault::Range`] of a priority or a group that no bus carries.
-    pub fn read(bytes: &[u8]) -> Result<Self, Fault> {
-        let [DLE, STX, inner @ .., DLE, ETX] = bytes else { return Err(Fault::Frame) };
+    /// [`BinaryFault::Frame`] if it is none, its check is wrong, or its data are not as long as they are said to be; [`BinaryFault::Short`];
+    /// [`BinaryFault::Range`] of a priority or a group that no bus carries.
+    pub fn read(bytes: &[u8]) -> Result<Self, BinaryFault> {
+        let [DLE, STX, inner @ .., DLE, ETX] = bytes else { return Err(BinaryFault::Frame) };
         if look(bytes) != Look::Frame(bytes.len()) {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         let mut plain = Vec::with_capacity(inner.len());
         let mut rest = inner.iter().copied();
@@ -157,13 +157,13 @@ impl NgtFrame {
         match plain.as_slice() {
             [RECEIVED, _, contents @ .., _] => NgtMessage::read(contents).map(NgtFrame::Received),
             [command, ..] => Ok(NgtFrame::Other(*command)),
-            [] => Err(Fault::Frame),
+            [] => Err(BinaryFault::Frame),
         }
     }
 }
 
 impl NgtMessage {
-    fn read(contents: &[u8]) -> Result<Self, Fault> {
+    fn read(contents: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(contents);
         let priority = reader.u8()?;
         let [low, middle, high] = reader.array()?;
@@ -172,14 +172,14 @@ impl NgtMessage {
         let length = reader.u8()?;
         let pgn = u32::from_le_bytes([low, middle, high, 0]);
         if priority > 7 {
-            return Err(Fault::Range { field: "priority" });
+            return Err(BinaryFault::Range { field: "priority" });
         }
         if pgn > 0x3_FFFF {
-            return Err(Fault::Range { field: "PGN" });
+            return Err(BinaryFault::Range { field: "PGN" });
         }
         let data = reader.rest().to_vec();
         if data.len() != usize::from(length) || data.len() > LONGEST {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         Ok(NgtMessage { priority, pgn, destination, source, clock, data })
     }

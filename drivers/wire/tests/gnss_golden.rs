@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests are not seen as tests
 
 use insd_base::{FixQuality, GpsTime, UtcTime};
-use insd_wire::gnss::ubx::{self, Carrier, FixType, Message, NavPvt};
+use insd_wire::gnss::ubx::{self, Carrier, FixType, NavPvt, UbxMessage};
 use insd_wire::gnss::{EpochTime, PulseOrder, rtcm, sbf};
 
 fn hex(text: &str) -> Vec<u8> {
@@ -81,7 +81,7 @@ fn a_frame_of_generation_7_ends_eight_bytes_earlier() {
 #[test]
 fn the_time_of_the_next_pulse_is_read_in_its_time_base() {
     let frame = hex("b5 62 0d 01 10 00 50 ab 2d 0e 00 00 00 00 0b 25 00 00 62 08 0b 0f 08 88");
-    let Message::TimTp(pulse) = Message::read(&frame).unwrap() else { panic!() };
+    let UbxMessage::TimTp(pulse) = UbxMessage::read(&frame).unwrap() else { panic!() };
     assert!(pulse.utc_base && pulse.utc_available);
     assert_eq!((pulse.week, pulse.system, pulse.utc_standard, pulse.raim), (2146, 15, 0, 2));
     assert!((pulse.quantization.unwrap() - 9.483e-9).abs() < 1e-18);
@@ -94,14 +94,14 @@ fn the_time_of_the_next_pulse_is_read_in_its_time_base() {
 #[test]
 fn gps_time_and_leap_seconds_are_told() {
     let frame = hex("b5 62 01 20 10 00 50 8d 0e 14 94 86 01 00 3d 08 12 07 10 00 00 00 b9 4a");
-    let Message::NavTimeGps(time) = Message::read(&frame).unwrap() else { panic!() };
+    let UbxMessage::NavTimeGps(time) = UbxMessage::read(&frame).unwrap() else { panic!() };
     assert_eq!(time.gps(), Some(GpsTime::from_week(2109, 336_498_000_099_988)));
     assert_eq!(time.part().leap_seconds, Some(18));
     let frame = hex(
         "b5 62 01 26 18 00 b8 ed 2d 0e 00 00 00 00 01 12 00 00 00 00 00 00 00 00 00 00 00 00 00 \
          01 33 3c",
     );
-    let Message::NavTimeLs(leaps) = Message::read(&frame).unwrap() else { panic!() };
+    let UbxMessage::NavTimeLs(leaps) = UbxMessage::read(&frame).unwrap() else { panic!() };
     assert_eq!((leaps.leap_seconds, leaps.source, leaps.event), (Some(18), 1, None));
     assert_eq!(leaps.write(), frame);
 }
@@ -110,14 +110,14 @@ fn gps_time_and_leap_seconds_are_told() {
 fn dilutions_and_words_are_read_and_written_to_the_byte() {
     let frame =
         hex("b5 62 01 04 12 00 50 8d 0e 14 b4 00 98 00 60 00 82 00 4f 00 3d 00 32 00 02 d5");
-    let Message::NavDop(dop) = Message::read(&frame).unwrap() else { panic!() };
+    let UbxMessage::NavDop(dop) = UbxMessage::read(&frame).unwrap() else { panic!() };
     assert!((dop.part().hdop.unwrap() - 0.79).abs() < 1e-12);
     assert_eq!(dop.write(), frame);
     let frame = hex(
         "b5 62 02 13 30 00 03 23 00 00 0a 19 02 00 22 55 90 38 1a 20 68 09 ea 0b 16 2c d1 b0 60 \
          01 7d 05 0b 16 69 58 b0 20 78 22 1e 0b d0 00 00 10 00 00 00 00 00 00 00 00 6a 1b",
     );
-    let Message::RxmSfrbx(words) = Message::read(&frame).unwrap() else { panic!() };
+    let UbxMessage::RxmSfrbx(words) = UbxMessage::read(&frame).unwrap() else { panic!() };
     assert_eq!((words.words[0], words.words.len(), words.signal.satellite), (948_983_074, 10, 35));
     assert_eq!(words.write(), frame);
 }
@@ -140,7 +140,9 @@ fn rtcm_frames_have_their_number() {
 fn a_block_of_sbf_is_framed_as_another_reader_expects() {
     // made by hand and checked with pysbf2: ReceiverTime of 2024-02-29 12:00:18 GPS, 18 s ahead
     let block = hex("24 40 5e f9 1a 17 18 00 50 e4 2c 17 ff 08 18 02 1d 0c 00 00 12 07 00 00");
-    let sbf::Message::ReceiverTime(time) = sbf::Message::read(&block).unwrap() else { panic!() };
+    let sbf::SbfMessage::ReceiverTime(time) = sbf::SbfMessage::read(&block).unwrap() else {
+        panic!()
+    };
     let utc = UtcTime::from_civil((2024, 2, 29), (12, 0, 0), 0).unwrap();
     assert_eq!(time.utc.unwrap().to_utc(), Some(utc));
     assert_eq!(time.part().epoch, Some(EpochTime::Gps(utc.to_gps())));

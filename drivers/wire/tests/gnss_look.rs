@@ -7,8 +7,8 @@ use proptest::prelude::*;
 /// Reads whatever the bytes may be with every reader.
 fn read_all(bytes: &[u8]) {
     let _ = rtcm::Frame::open(bytes).map(|frame| frame.number());
-    let _ = ubx::Message::read(bytes).map(|message| (message.part(), message.pulse()));
-    let _ = sbf::Message::read(bytes).map(|message| (message.part(), message.pulse()));
+    let _ = ubx::UbxMessage::read(bytes).map(|message| (message.part(), message.pulse()));
+    let _ = sbf::SbfMessage::read(bytes).map(|message| (message.part(), message.pulse()));
 }
 
 /// Protocol, start and bytes of the frames in some chunks.

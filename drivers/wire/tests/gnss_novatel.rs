@@ -9,7 +9,7 @@ use insd_wire::gnss::novatel::{
     ReceiverClock,
 };
 use insd_wire::gnss::{EpochTime, GnssPart};
-use insd_wire::imu::Motion;
+use insd_wire::imu::ImuMotion;
 use insd_wire::stream::Look;
 
 fn hex(text: &str) -> Vec<u8> {
@@ -69,7 +69,7 @@ fn a_published_sample_senses_gravity_against_the_axis_that_points_down() {
     let log = OemLog::read(&hex(RAWIMUSX)).unwrap();
     assert!(log.header.short && log.name() == Some("RAWIMUSX"));
     let sample = log.imu().unwrap();
-    let Motion::Increments { delta_velocity, delta_theta } = sample.motion else { panic!() };
+    let ImuMotion::Increments { delta_velocity, delta_theta } = sample.motion else { panic!() };
     let force = delta_velocity.map(|own| own * 125.0);
     assert!((force[2] + 9.80).abs() < 0.01, "{force:?}");
     assert!(force[0] < 0.0 && force[1] > 0.0, "y is told with the other sign: {force:?}");

@@ -7,7 +7,7 @@ use insd_base::units::DEG;
 use insd_base::{FixQuality, Geodetic, GpsTime, UtcTime, earth};
 use insd_wire::gnss::EpochTime;
 use insd_wire::gnss::ubx::{
-    Carrier, FixType, Message, NavPosLlh, NavRelPosNed, NavSol, NavStatus, NavTimeUtc, NavVelNed,
+    Carrier, FixType, NavPosLlh, NavRelPosNed, NavSol, NavStatus, NavTimeUtc, NavVelNed, UbxMessage,
 };
 use proptest::prelude::*;
 
@@ -152,7 +152,7 @@ fn only_a_fixed_line_from_a_base_that_moves_is_a_heading() {
     // the older version has neither length nor heading
     let older = [0; 40];
     let frame = insd_wire::gnss::ubx::Frame { class: 1, id: 0x3C, payload: &older }.write();
-    assert_eq!(Message::read(&frame), Ok(Message::Other { class: 1, id: 0x3C }));
+    assert_eq!(UbxMessage::read(&frame), Ok(UbxMessage::Other { class: 1, id: 0x3C }));
 }
 
 proptest! {

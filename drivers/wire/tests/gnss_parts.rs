@@ -4,16 +4,16 @@
 
 use insd_base::{FixQuality, Geodetic, GpsTime};
 use insd_wire::gnss::sbf::{
-    self, AttCovEuler, AttEuler, Mode, PosCovGeodetic, PvtGeodetic, ReceiverTime, Solution, Stamp,
-    VelCovGeodetic, XppsOffset,
+    self, AttCovEuler, AttEuler, PosCovGeodetic, PvtGeodetic, ReceiverTime, SbfMode, SbfSolution,
+    SbfStamp, VelCovGeodetic, XppsOffset,
 };
 use insd_wire::gnss::ubx::{self, Carrier, FixType, NavCov, NavPvt, TimTp};
-use insd_wire::gnss::{Epoch, EpochTime, PulseOrder};
+use insd_wire::gnss::{EpochTime, GnssEpoch, PulseOrder};
 use insd_wire::nmea::TimeOfDay;
 
 /// A ship under way south of Australia.
-fn epoch(quality: FixQuality) -> Epoch {
-    Epoch {
+fn epoch(quality: FixQuality) -> GnssEpoch {
+    GnssEpoch {
         time: GpsTime::from_week(2445, 302_400_250_000_000),
         leap_seconds: 18,
         time_std: 20e-9,
@@ -51,7 +51,7 @@ fn a_simulated_u_blox_says_what_the_simulator_knows() {
     let position = part.position.unwrap();
     assert!((position.height - 12.5).abs() < 1e-12);
     assert!((position.latitude - state.position.latitude).abs() < 1e-15);
-    let cov = ubx::Message::read(&NavCov::of(&state).write()).unwrap().part().unwrap();
+    let cov = ubx::UbxMessage::read(&NavCov::of(&state).write()).unwrap().part().unwrap();
     assert_eq!(cov.epoch, Some(EpochTime::TimeOfWeek(302_400_250_000_000)));
     close(cov.position_std, state.position_std, 1e-6);
     close(cov.velocity_std, state.velocity_std, 1e-8);
@@ -148,19 +148,19 @@ fn a_latitude_beyond_the_pole_is_refused() {
 #[test]
 fn the_modes_of_sbf_make_its_quality() {
     let quality = |solution, error| {
-        Mode { solution, determining: false, two_dimensional: false, error }.quality()
+        SbfMode { solution, determining: false, two_dimensional: false, error }.quality()
     };
     for (solution, expected) in [
-        (Solution::None, Some(FixQuality::Invalid)),
-        (Solution::StandAlone, Some(FixQuality::Autonomous)),
-        (Solution::Differential, Some(FixQuality::Differential)),
-        (Solution::FixedLocation, Some(FixQuality::Manual)),
-        (Solution::RtkFixed, Some(FixQuality::RtkFixed)),
-        (Solution::RtkFloat, Some(FixQuality::RtkFloat)),
-        (Solution::Sbas, Some(FixQuality::Differential)),
-        (Solution::MovingBaseFixed, Some(FixQuality::Differential)),
-        (Solution::PrecisePoint, Some(FixQuality::Differential)),
-        (Solution::Reserved(12), None),
+        (SbfSolution::None, Some(FixQuality::Invalid)),
+        (SbfSolution::StandAlone, Some(FixQuality::Autonomous)),
+        (SbfSolution::Differential, Some(FixQuality::Differential)),
+        (SbfSolution::FixedLocation, Some(FixQuality::Manual)),
+        (SbfSolution::RtkFixed, Some(FixQuality::RtkFixed)),
+        (SbfSolution::RtkFloat, Some(FixQuality::RtkFloat)),
+        (SbfSolution::Sbas, Some(FixQuality::Differential)),
+        (SbfSolution::MovingBaseFixed, Some(FixQuality::Differential)),
+        (SbfSolution::PrecisePoint, Some(FixQuality::Differential)),
+        (SbfSolution::Reserved(12), None),
     ] {
         assert_eq!(quality(solution, 0), expected);
         assert_eq!(quality(solution, 7), Some(FixQuality::Invalid));
@@ -170,17 +170,17 @@ fn the_modes_of_sbf_make_its_quality() {
 #[test]
 fn weeks_are_whole_and_a_senseless_one_is_no_time() {
     let tow = 1_000_000_000;
-    let stamp = |week| Stamp { time_of_week: Some(tow), week };
+    let stamp = |week| SbfStamp { time_of_week: Some(tow), week };
     let gps = EpochTime::Gps(GpsTime::from_week(2445, tow));
     assert_eq!(stamp(Some(2445)).epoch(), Some(gps));
     assert_eq!(stamp(None).epoch(), Some(EpochTime::TimeOfWeek(tow)));
     assert_eq!(stamp(Some(65_534)).gps(), None);
-    assert_eq!(Stamp { time_of_week: None, week: Some(2445) }.epoch(), None);
+    assert_eq!(SbfStamp { time_of_week: None, week: Some(2445) }.epoch(), None);
 }
 
 #[test]
 fn the_heading_of_several_antennas_is_told_if_there_is_an_attitude() {
-    let stamp = Stamp::of(epoch(FixQuality::RtkFixed).time);
+    let stamp = SbfStamp::of(epoch(FixQuality::RtkFixed).time);
     let (heading, pitch, roll) = (Some(-0.5), Some(0.01), None);
     let attitude = AttEuler {
         stamp,
@@ -223,14 +223,14 @@ fn pulses_are_told_in_scales_that_are_certain() {
     assert_eq!(instant(TimTp { utc_base: true, ..base }), None);
     assert_eq!(instant(TimTp { week: u16::MAX, ..base }), None);
     assert_eq!(instant(TimTp { time_of_week: i64::MAX, ..base }), None);
-    let stamp = Stamp::of(gps);
+    let stamp = SbfStamp::of(gps);
     let last = XppsOffset { stamp, age: 1, scale: 2, offset: Some(-3e-9) }.pulse().unwrap();
     assert_eq!((last.instant, last.order), (EpochTime::Gps(gps), PulseOrder::Last));
 }
 
 #[test]
 fn time_before_synchronization_is_not_told() {
-    let stamp = Stamp::of(epoch(FixQuality::Autonomous).time);
+    let stamp = SbfStamp::of(epoch(FixQuality::Autonomous).time);
     let time = ReceiverTime { stamp, utc: None, leap_seconds: Some(18), sync: 0b111 };
     assert_eq!(time.part().epoch, stamp.epoch());
     assert_eq!(ReceiverTime { sync: 0b010, ..time }.part().epoch, None);

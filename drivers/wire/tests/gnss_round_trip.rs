@@ -5,8 +5,8 @@
 use insd_base::Geodetic;
 use insd_base::units::{DEG, wrap_pi};
 use insd_wire::gnss::sbf::{
-    AttCovEuler, AttEuler, Covariance, Mode, PosCovGeodetic, PvtAccuracy, PvtGeodetic,
-    ReceiverTime, Solution, Stamp, VelCovGeodetic, XppsOffset,
+    AttCovEuler, AttEuler, PosCovGeodetic, PvtAccuracy, PvtGeodetic, ReceiverTime, SbfCovariance,
+    SbfMode, SbfSolution, SbfStamp, VelCovGeodetic, XppsOffset,
 };
 use insd_wire::gnss::ubx::{
     Carrier, FixType, LeapEvent, NavCov, NavDop, NavHpPosLlh, NavPvt, NavTimeGps, NavTimeLs,
@@ -92,24 +92,24 @@ prop_compose! {
     }
 }
 
-fn stamp() -> impl Strategy<Value = Stamp> {
+fn stamp() -> impl Strategy<Value = SbfStamp> {
     (of(time_of_week()), of(0..u16::MAX))
-        .prop_map(|(time_of_week, week)| Stamp { time_of_week, week })
+        .prop_map(|(time_of_week, week)| SbfStamp { time_of_week, week })
 }
 
-fn mode() -> impl Strategy<Value = Mode> {
+fn mode() -> impl Strategy<Value = SbfMode> {
     let solution = prop::sample::select(vec![
-        Solution::None,
-        Solution::StandAlone,
-        Solution::FixedLocation,
-        Solution::Sbas,
-        Solution::MovingBaseFloat,
-        Solution::Reserved(9),
-        Solution::PrecisePoint,
-        Solution::Reserved(15),
+        SbfSolution::None,
+        SbfSolution::StandAlone,
+        SbfSolution::FixedLocation,
+        SbfSolution::Sbas,
+        SbfSolution::MovingBaseFloat,
+        SbfSolution::Reserved(9),
+        SbfSolution::PrecisePoint,
+        SbfSolution::Reserved(15),
     ]);
     (solution, any::<(bool, bool, u8)>()).prop_map(
-        |(solution, (determining, two_dimensional, error))| Mode {
+        |(solution, (determining, two_dimensional, error))| SbfMode {
             solution,
             determining,
             two_dimensional,
@@ -118,11 +118,11 @@ fn mode() -> impl Strategy<Value = Mode> {
     )
 }
 
-fn covariance() -> impl Strategy<Value = Covariance> {
+fn covariance() -> impl Strategy<Value = SbfCovariance> {
     let variances = prop::array::uniform4(of(0.0..1e6_f32));
     let covariances = prop::array::uniform6(of(-1e6..1e6_f32));
     (stamp(), mode(), variances, covariances).prop_map(|(stamp, mode, variances, covariances)| {
-        Covariance { stamp, mode, variances, covariances }
+        SbfCovariance { stamp, mode, variances, covariances }
     })
 }
 
@@ -182,7 +182,7 @@ proptest! {
         dilutions in prop::array::uniform7(of(0.0..99.0)),
     ) {
         let (north, east, down) = elements;
-        let covariance = insd_wire::gnss::ubx::Covariance { north, east, down };
+        let covariance = insd_wire::gnss::ubx::UbxCovariance { north, east, down };
         let position = known.0.then_some(covariance);
         let velocity = known.1.then_some(covariance);
         let cov = NavCov { time_of_week, position, velocity };

@@ -5,11 +5,11 @@
 use insd_base::{FixQuality, Geodetic, GpsTime, earth};
 use insd_wire::gnss::EpochTime;
 use insd_wire::gnss::sbf::{
-    BaseVector, BaseVectorGeod, Mode, PvtAccuracy, PvtCartesian, Solution, Stamp,
+    BaseVector, BaseVectorGeod, PvtAccuracy, PvtCartesian, SbfMode, SbfSolution, SbfStamp,
 };
 
-fn stamp() -> Stamp {
-    Stamp { time_of_week: Some(302_400_250_000_000), week: Some(2445) }
+fn stamp() -> SbfStamp {
+    SbfStamp { time_of_week: Some(302_400_250_000_000), week: Some(2445) }
 }
 
 fn cartesian() -> PvtCartesian {
@@ -17,7 +17,7 @@ fn cartesian() -> PvtCartesian {
     let velocity = earth::c_ne(&place).transpose() * insd_base::Ned::new(3.0, -4.0, 0.5).0;
     PvtCartesian {
         stamp: stamp(),
-        mode: Mode::of(FixQuality::RtkFixed),
+        mode: SbfMode::of(FixQuality::RtkFixed),
         position: Some(earth::ecef(&place).0.into()),
         undulation: Some(-4.25),
         velocity: Some([velocity.x as f32, velocity.y as f32, velocity.z as f32]),
@@ -31,10 +31,10 @@ fn cartesian() -> PvtCartesian {
     }
 }
 
-fn vector(solution: Solution) -> BaseVector {
+fn vector(solution: SbfSolution) -> BaseVector {
     BaseVector {
         satellites: 9,
-        mode: Mode { solution, determining: false, two_dimensional: false, error: 0 },
+        mode: SbfMode { solution, determining: false, two_dimensional: false, error: 0 },
         misc: 1,
         relative: [Some(-1.0), Some(-1.0), Some(0.25)],
         velocity: [Some(0.5), None, Some(-0.25)],
@@ -64,7 +64,7 @@ fn a_place_along_the_axes_of_the_earth_is_told_in_latitude_and_longitude() {
 
 #[test]
 fn a_receiver_without_a_solution_tells_no_place() {
-    let none = PvtCartesian { mode: Mode::of(FixQuality::Invalid), extra: None, ..cartesian() };
+    let none = PvtCartesian { mode: SbfMode::of(FixQuality::Invalid), extra: None, ..cartesian() };
     let part = PvtCartesian::read(&none.write()).unwrap().part();
     assert_eq!((part.position, part.velocity, part.invalid), (None, [None; 3], true));
     let missing = PvtCartesian { position: None, velocity: None, ..cartesian() };
@@ -74,21 +74,21 @@ fn a_receiver_without_a_solution_tells_no_place() {
 
 #[test]
 fn only_one_fixed_line_from_a_base_that_moves_is_a_heading() {
-    let moving = vector(Solution::MovingBaseFixed);
+    let moving = vector(SbfSolution::MovingBaseFixed);
     let told = |vectors: Vec<BaseVector>| {
         let block = BaseVectorGeod { stamp: stamp(), vectors };
         let back = BaseVectorGeod::read(&block.write()).unwrap();
         assert_eq!(back, block);
         back.part().heading
     };
-    let heading = told(vec![vector(Solution::RtkFixed), moving]).unwrap();
+    let heading = told(vec![vector(SbfSolution::RtkFixed), moving]).unwrap();
     assert!((heading.to_degrees() - 225.0).abs() < 1e-9, "from the base to the receiver");
     for vectors in [
         vec![],
-        vec![vector(Solution::RtkFixed)],
-        vec![vector(Solution::MovingBaseFloat)],
+        vec![vector(SbfSolution::RtkFixed)],
+        vec![vector(SbfSolution::MovingBaseFloat)],
         vec![moving, moving],
-        vec![BaseVector { mode: Mode { error: 3, ..moving.mode }, ..moving }],
+        vec![BaseVector { mode: SbfMode { error: 3, ..moving.mode }, ..moving }],
         vec![BaseVector { relative: [Some(0.0), Some(0.01), None], ..moving }],
     ] {
         assert_eq!(told(vectors), None);

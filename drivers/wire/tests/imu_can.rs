@@ -5,9 +5,9 @@
 use insd_base::can::{CanFrame, CanId};
 use insd_base::{Time, UtcTime};
 use insd_wire::imu::can::{
-    CanImu, CanPart, Field, FrameLayout, Layout, LayoutChoice, Order, Shipped, What,
+    ByteOrder, CanImu, CanLayout, CanPart, Field, FrameLayout, LayoutChoice, Shipped, What,
 };
-use insd_wire::imu::{DeviceTime, ImuReading, Motion, Wrapping};
+use insd_wire::imu::{DeviceTime, ImuMotion, ImuReading, Wrapping};
 use proptest::prelude::*;
 
 const INTERVAL: f64 = 0.01;
@@ -18,7 +18,7 @@ fn frame(id: u16, data: &[u8]) -> CanFrame {
 }
 
 /// The samples of frames that come 0.2 ms apart, and how many were incomplete.
-fn samples(layout: &Layout, frames: &[CanFrame]) -> (Vec<ImuReading>, u64) {
+fn samples(layout: &CanLayout, frames: &[CanFrame]) -> (Vec<ImuReading>, u64) {
     let mut imu = CanImu::new(layout, INTERVAL);
     let mut all = Vec::new();
     for (index, frame) in frames.iter().enumerate() {
@@ -33,7 +33,7 @@ fn samples(layout: &Layout, frames: &[CanFrame]) -> (Vec<ImuReading>, u64) {
 /// A sample of which nothing is coarser than the tables.
 fn sample(count: u64) -> ImuReading {
     let step = count as f64;
-    let motion = Motion::Rates {
+    let motion = ImuMotion::Rates {
         gyro: [0.25, -0.5 + 0.125 * (step % 3.0), 0.0],
         accel: [0.5, -0.25, -9.75],
     };
@@ -75,7 +75,7 @@ fn frames_of_an_mti_are_read_as_its_database_says() {
         device_time: Some(DeviceTime { ticks, tick: 1e-4 }),
         counter: Some(Wrapping { value: 0x1234, modulus: 65_536 }),
         status: 3,
-        ..ImuReading::bare(Motion::Rates {
+        ..ImuReading::bare(ImuMotion::Rates {
             gyro: [1.0, -0.5, 1.0 / 512.0],
             accel: [1.0, -0.5, 9.808_593_75],
         })
@@ -94,7 +94,7 @@ fn increments_of_an_mti_are_a_quaternion_and_a_velocity_with_its_exponent() {
         frame(0x33, &[0x7F, 0xFE, 0, 0, high, low, 0, 0]),
     ];
     let (samples, _) = samples(&Shipped::XsensIncrements.layout(), &frames);
-    let Motion::Increments { delta_theta, delta_velocity } = samples[0].motion else { panic!() };
+    let ImuMotion::Increments { delta_theta, delta_velocity } = samples[0].motion else { panic!() };
     assert_eq!(delta_velocity, [1.0, -1.0, 1.0 / 8192.0]);
     assert!((delta_theta[1] - 0.01).abs() < 4e-5, "{delta_theta:?}");
 }
@@ -108,7 +108,7 @@ fn frames_of_an_sbg_unit_are_read_as_its_database_says() {
     ];
     let (samples, _) = samples(&Shipped::Sbg.layout(), &frames);
     let own = samples[0];
-    let Motion::Rates { gyro, accel } = own.motion else { panic!() };
+    let ImuMotion::Rates { gyro, accel } = own.motion else { panic!() };
     for (found, expected) in gyro.iter().chain(&accel).zip([0.001, -0.001, 1.0, 0.5, -0.5, -9.81]) {
         assert!((found - expected).abs() < 1e-12, "{found} {expected}");
     }
@@ -151,9 +151,9 @@ trait Near {
 
 impl Near for ImuReading {
     fn is_near(&self, other: &Self) -> bool {
-        let rates = |motion: &Motion| match *motion {
-            Motion::Rates { gyro, accel } => (gyro, accel),
-            Motion::Increments { delta_theta, delta_velocity } => {
+        let rates = |motion: &ImuMotion| match *motion {
+            ImuMotion::Rates { gyro, accel } => (gyro, accel),
+            ImuMotion::Increments { delta_theta, delta_velocity } => {
                 (delta_theta.map(|own| own / INTERVAL), delta_velocity.map(|own| own / INTERVAL))
             }
         };
@@ -181,8 +181,8 @@ fn a_lost_frame_costs_its_sample_and_no_other() {
             assert_eq!((samples.len() as u64, incomplete), (6 - missing, missing), "{shipped:?}");
             let kept = (0..6).filter(|count| !needed || *count != 2);
             for (count, own) in kept.zip(&samples) {
-                let Motion::Rates { gyro, .. } = own.motion else { continue };
-                let Motion::Rates { gyro: sent, .. } = sample(count).motion else { continue };
+                let ImuMotion::Rates { gyro, .. } = own.motion else { continue };
+                let ImuMotion::Rates { gyro: sent, .. } = sample(count).motion else { continue };
                 assert!((gyro[1] - sent[1]).abs() < 1e-3, "{shipped:?} {lost} {count}");
             }
         }
@@ -214,10 +214,10 @@ fn a_frame_that_comes_much_too_late_is_of_another_sample() {
 }
 
 /// Three frames of four bits of counter each, as sensors of cars send them.
-fn with_counters() -> Layout {
+fn with_counters() -> CanLayout {
     let part = |what, start, scale| Field {
         signed: true,
-        order: Order::Big,
+        order: ByteOrder::Big,
         scale,
         missing: Some(0x8000),
         ..Field::new(what, start, 16)
@@ -232,7 +232,7 @@ fn with_counters() -> Layout {
             Field::new(What::Counter, 56, 4),
         ],
     };
-    Layout {
+    CanLayout {
         frames: vec![
             frame(0x1800_0174, What::RateZ, What::AccelY),
             frame(0x1800_0178, What::RateX, What::AccelX),
@@ -278,7 +278,8 @@ fn utc_is_read_where_the_table_has_all_its_parts() {
     let mut fields: Vec<Field> =
         what.zip(0_u8..).map(|(what, byte)| Field::new(what, 8 * byte, 8)).collect();
     fields[0].offset = 2000.0;
-    let fraction = Field { order: Order::Big, scale: 1e-4, ..Field::new(What::Fraction, 48, 16) };
+    let fraction =
+        Field { order: ByteOrder::Big, scale: 1e-4, ..Field::new(What::Fraction, 48, 16) };
     fields.push(fraction);
     let utc = FrameLayout { id: 7, extended: false, optional: true, fields };
     layout.frames.insert(2, utc);
@@ -303,7 +304,7 @@ fn a_table_of_ones_own_is_read_and_a_fault_in_it_is_told() {
             {"what": "accel_z", "start": 32, "width": 16, "order": "big", "scale": 1e-3}]}]}"#;
     let LayoutChoice::Own(layout) = serde_json::from_str(own).unwrap() else { panic!() };
     assert_eq!(layout.faults(), Vec::<String>::new());
-    assert_eq!(layout.frames[1].fields[2].order, Order::Big);
+    assert_eq!(layout.frames[1].fields[2].order, ByteOrder::Big);
     let named: LayoutChoice = serde_json::from_str("\"xsens_increments\"").unwrap();
     assert_eq!(named, LayoutChoice::Shipped(Shipped::XsensIncrements));
     for (from, to, part) in [
@@ -320,7 +321,7 @@ fn a_table_of_ones_own_is_read_and_a_fault_in_it_is_told() {
 fn a_table_that_cannot_make_samples_has_faults() {
     for shipped in ALL {
         assert_eq!(shipped.layout().faults(), Vec::<String>::new());
-        let change = |change: &dyn Fn(&mut Layout)| {
+        let change = |change: &dyn Fn(&mut CanLayout)| {
             let mut layout = shipped.layout();
             change(&mut layout);
             layout.faults().len()
@@ -362,10 +363,10 @@ proptest! {
         for (shipped, rate, force) in
             [(Shipped::Xsens, 1.0 / 512.0, 1.0 / 256.0), (Shipped::Sbg, 1e-3, 1e-2)]
         {
-            let reading = ImuReading { motion: Motion::Rates { gyro, accel }, ..sample(0) };
+            let reading = ImuReading { motion: ImuMotion::Rates { gyro, accel }, ..sample(0) };
             let layout = shipped.layout();
             let (samples, _) = samples(&layout, &layout.write(&reading, INTERVAL));
-            let Motion::Rates { gyro: g, accel: a } = samples[0].motion else { panic!() };
+            let ImuMotion::Rates { gyro: g, accel: a } = samples[0].motion else { panic!() };
             for axis in 0..3 {
                 prop_assert!((g[axis] - gyro[axis]).abs() <= 0.5001 * rate);
                 prop_assert!((a[axis] - accel[axis]).abs() <= 0.5001 * force);

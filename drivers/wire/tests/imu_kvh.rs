@@ -9,8 +9,8 @@ mod frames;
 
 use frames::{bytes_of_hex, is_robust, is_split_anyhow};
 use insd_base::units::DEG;
-use insd_wire::binary::Fault;
-use insd_wire::imu::Motion;
+use insd_wire::binary::BinaryFault;
+use insd_wire::imu::ImuMotion;
 use insd_wire::imu::kvh::{
     KvhFormat, KvhLinear, KvhMessage, KvhRest, KvhRotation, KvhTemperature, look,
 };
@@ -29,7 +29,9 @@ fn a_device_at_rest_feels_gravity_and_the_earth_turning() {
     let message = KvhMessage::read(&bytes_of_hex(AT_REST)).unwrap();
     assert_eq!((message.sequence, message.status), (104, 0x77));
     let reading = message.reading(&KvhFormat::default());
-    let Motion::Increments { delta_theta, delta_velocity } = reading.motion else { unreachable!() };
+    let ImuMotion::Increments { delta_theta, delta_velocity } = reading.motion else {
+        unreachable!()
+    };
     assert!(delta_theta.iter().all(|angle| angle.abs() < 2e-7), "{delta_theta:?}");
     assert!((delta_velocity[2] - 9.806_65e-3 * 0.9953).abs() < 1e-6, "{delta_velocity:?}");
     assert_eq!(reading.temperature, Some(29.0));
@@ -49,7 +51,7 @@ fn gyroscopes_that_are_not_ready_make_the_sample_invalid() {
 fn a_wrong_crc_is_damage() {
     let bytes = bytes_of_hex(WRONG_CRC);
     assert_eq!(look(&bytes), Look::Damaged);
-    assert_eq!(KvhMessage::read(&bytes), Err(Fault::Frame));
+    assert_eq!(KvhMessage::read(&bytes), Err(BinaryFault::Frame));
     assert_eq!(look(&bytes_of_hex("FE8100AA")), Look::Nothing, "built-in test");
     assert_eq!(look(&bytes[..3]), Look::More(4));
     assert_eq!(look(&bytes[..4]), Look::More(36));
@@ -87,11 +89,11 @@ fn units_are_those_of_the_configuration() {
     let format = KvhFormat { interval: 0.01, ..KvhFormat::default() };
     let motion = |format: KvhFormat| message(KvhRest::C { slow: 0.0 }).reading(&format).motion;
     let rates = KvhFormat { rotation: KvhRotation::Rate, degrees: true, ..format };
-    let expected = Motion::Rates { gyro: [0.5 * DEG; 3], accel: [9.806_65; 3] };
+    let expected = ImuMotion::Rates { gyro: [0.5 * DEG; 3], accel: [9.806_65; 3] };
     assert_eq!(motion(rates), expected);
     let feet = KvhFormat { linear: KvhLinear::DeltaFeet, ..rates };
     let expected =
-        Motion::Increments { delta_theta: [0.5 * (DEG * 0.01); 3], delta_velocity: [0.3048; 3] };
+        ImuMotion::Increments { delta_theta: [0.5 * (DEG * 0.01); 3], delta_velocity: [0.3048; 3] };
     assert_eq!(motion(feet), expected);
     let warm = |temperature, unit| {
         let format = KvhFormat { temperature: unit, ..format };
@@ -147,18 +149,18 @@ proptest! {
         a in prop::array::uniform3(-8.0..8.0), b in prop::array::uniform3(-100.0..100.0),
     ) {
         let motion = if differences {
-            Motion::Increments { delta_theta: a, delta_velocity: b }
+            ImuMotion::Increments { delta_theta: a, delta_velocity: b }
         } else {
-            Motion::Rates { gyro: a, accel: b }
+            ImuMotion::Rates { gyro: a, accel: b }
         };
         let (rotation, linear) = format.numbers(&motion);
         let wire = KvhMessage { rotation, linear, ..message(KvhRest::A { temperature: 0 }) };
         let read = wire.reading(&format).motion;
         let (step, found) = match read {
-            Motion::Rates { gyro, accel } => {
+            ImuMotion::Rates { gyro, accel } => {
                 (if differences { format.interval } else { 1.0 }, [gyro, accel])
             }
-            Motion::Increments { delta_theta, delta_velocity } => {
+            ImuMotion::Increments { delta_theta, delta_velocity } => {
                 (if differences { 1.0 } else { 1.0 / format.interval }, [delta_theta, delta_velocity])
             }
         };

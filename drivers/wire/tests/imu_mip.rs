@@ -8,8 +8,8 @@ use frames::{
     assert_frame_is_guarded, assert_splitting_does_not_matter, bytes_of_hex as hex, cut_all, stream,
 };
 use insd_base::GpsTime;
-use insd_wire::binary::Fault;
-use insd_wire::imu::Motion;
+use insd_wire::binary::BinaryFault;
+use insd_wire::imu::ImuMotion;
 use insd_wire::imu::mip::{GpsStamp, Packet, look};
 use insd_wire::stream::{Look, Protocol};
 use proptest::prelude::*;
@@ -49,7 +49,7 @@ fn a_packet_of_a_device_is_a_sample() {
     assert_eq!(packet.reference_nanos, Some(282_809_000_000));
     assert_eq!(packet.reference_delta_nanos, Some(8_000_000));
     let reading = packet.reading().unwrap();
-    let Motion::Rates { gyro, accel } = reading.motion else { panic!() };
+    let ImuMotion::Rates { gyro, accel } = reading.motion else { panic!() };
     assert_eq!(accel[2], f64::from(f32::from_bits(0xBF7C_52E8)) * G);
     assert!((accel[2] + 9.665).abs() < 1e-3 && accel[0].abs() < 0.2);
     assert_eq!(gyro[0], f64::from(f32::from_bits(0xBB46_9CCF)));
@@ -77,7 +77,7 @@ fn packets_without_both_sensors_are_no_samples() {
 #[test]
 fn other_descriptor_sets_are_good_frames_of_something_else() {
     assert_eq!(look(&hex(PING)), Look::Frame(8));
-    assert_eq!(Packet::read(&hex(PING)), Err(Fault::OtherMessage));
+    assert_eq!(Packet::read(&hex(PING)), Err(BinaryFault::OtherMessage));
 }
 
 #[test]
@@ -90,7 +90,7 @@ fn integrals_are_preferred_to_rates() {
         ..Packet::default()
     };
     let motion = packet.reading().unwrap().motion;
-    assert_eq!(motion, Motion::Increments { delta_theta: [0.5; 3], delta_velocity: [0.25; 3] });
+    assert_eq!(motion, ImuMotion::Increments { delta_theta: [0.5; 3], delta_velocity: [0.25; 3] });
     let one_of_each = Packet { accel: None, delta_theta: None, ..packet };
     assert_eq!(one_of_each.reading(), None);
 }
@@ -172,7 +172,7 @@ fn any_wrong_bit_is_found_and_no_reader_panics() {
 fn short_fields_are_refused() {
     assert_eq!(
         Packet::read(&frame(&[6, 4, 0, 0, 0, 0])),
-        Err(Fault::Short { needed: 8, found: 4 })
+        Err(BinaryFault::Short { needed: 8, found: 4 })
     );
 }
 

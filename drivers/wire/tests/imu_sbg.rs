@@ -8,10 +8,10 @@ use frames::{
     assert_frame_is_guarded, assert_splitting_does_not_matter, bytes_of_hex as hex, cut_all, stream,
 };
 use insd_base::UtcTime;
-use insd_wire::binary::Fault;
-use insd_wire::imu::Motion;
+use insd_wire::binary::BinaryFault;
+use insd_wire::imu::ImuMotion;
 use insd_wire::imu::sbg::{
-    ClockState, Euler, ImuData, ImuShort, Message, TimeReference, UtcStatus, look,
+    ClockState, Euler, ImuData, ImuShort, SbgMessage, TimeReference, UtcStatus, look,
 };
 use insd_wire::nmea::CivilTime;
 use insd_wire::stream::{Look, Protocol};
@@ -32,13 +32,13 @@ const EULER: &str = "ff5a06002800070000000000803e000000be000040c06f12833a6f12033
 const ACCEL: [f64; 3] = [0.125, -0.5, -9.8125];
 const GYRO: [f64; 3] = [0.0625, -0.001_953_125, 1.5];
 
-fn read(frame: &[u8]) -> Message {
-    Message::read(frame).unwrap_or_else(|fault| panic!("{frame:02x?}: {fault}"))
+fn read(frame: &[u8]) -> SbgMessage {
+    SbgMessage::read(frame).unwrap_or_else(|fault| panic!("{frame:02x?}: {fault}"))
 }
 
 #[test]
 fn imu_short_of_the_sdk_is_read_and_written() {
-    let Message::ImuShort(short) = read(&hex(SHORT)) else { panic!() };
+    let SbgMessage::ImuShort(short) = read(&hex(SHORT)) else { panic!() };
     let expected = ImuShort {
         time_stamp: 4_294_967_290,
         status: 0x03FF,
@@ -50,14 +50,14 @@ fn imu_short_of_the_sdk_is_read_and_written() {
     assert_eq!(short.write(), hex(SHORT));
     let reading = short.reading();
     assert!(reading.valid);
-    assert_eq!(reading.motion, Motion::Rates { gyro: GYRO, accel: ACCEL });
+    assert_eq!(reading.motion, ImuMotion::Rates { gyro: GYRO, accel: ACCEL });
     let time = reading.device_time.unwrap();
     assert_eq!((time.ticks.value, time.ticks.modulus, time.tick), (4_294_967_290, 1 << 32, 1e-6));
 }
 
 #[test]
 fn a_fast_turn_goes_over_the_high_scale() {
-    let Message::ImuShort(short) = read(&hex(SHORT_HIGH)) else { panic!() };
+    let SbgMessage::ImuShort(short) = read(&hex(SHORT_HIGH)) else { panic!() };
     assert_eq!(short.status, 0x07FF);
     for (found, expected) in short.gyro.into_iter().zip([40.0, -0.5, 1.0]) {
         // the SDK multiplies in single precision
@@ -69,7 +69,7 @@ fn a_fast_turn_goes_over_the_high_scale() {
 
 #[test]
 fn imu_data_of_the_sdk_is_read_and_written() {
-    let Message::ImuData(data) = read(&hex(DATA)) else { panic!() };
+    let SbgMessage::ImuData(data) = read(&hex(DATA)) else { panic!() };
     let expected = ImuData {
         time_stamp: 123_456_789,
         status: 0x02FF,
@@ -86,7 +86,7 @@ fn imu_data_of_the_sdk_is_read_and_written() {
 
 #[test]
 fn the_clock_log_of_the_sdk_is_read_and_written() {
-    let Message::Time(time) = read(&hex(UTC)) else { panic!() };
+    let SbgMessage::Time(time) = read(&hex(UTC)) else { panic!() };
     assert_eq!((time.time_stamp, time.gps_tow), (5_000_000, 17_005_000_000));
     assert_eq!((time.clock, time.utc_status), (ClockState::Valid, UtcStatus::Initialized));
     assert!(time.has_pps && time.accurate);
@@ -103,7 +103,7 @@ fn the_clock_log_of_the_sdk_is_read_and_written() {
 
 #[test]
 fn euler_angles_of_the_sdk_are_read_and_written() {
-    let Message::Euler(euler) = read(&hex(EULER)) else { panic!() };
+    let SbgMessage::Euler(euler) = read(&hex(EULER)) else { panic!() };
     assert_eq!(euler.angles, [0.25, -0.125, -3.0]);
     assert_eq!((euler.declination, euler.inclination), (None, Some(1.0)));
     assert!(euler.is_attitude_valid() && euler.is_heading_valid());
@@ -126,9 +126,9 @@ fn frame(class: u8, id: u8, data: &[u8]) -> Vec<u8> {
 fn pages_and_unknown_logs_are_good_frames_of_something_else() {
     let page = frame(0x90, 46, &[7; 4086]);
     assert_eq!(look(&page), Look::Frame(4095));
-    assert_eq!(read(&page), Message::Other { class: 0x90, id: 46 });
+    assert_eq!(read(&page), SbgMessage::Other { class: 0x90, id: 46 });
     let raw = frame(0x00, 31, &[1, 2, 3]);
-    assert_eq!(read(&raw), Message::Other { class: 0, id: 31 });
+    assert_eq!(read(&raw), SbgMessage::Other { class: 0, id: 31 });
     assert_eq!(read(&raw).reading(), None);
 }
 
@@ -153,17 +153,17 @@ fn later_versions_may_append_fields_and_older_ones_lack_some() {
     let longer = [&short[6..38], &[9; 8]].concat();
     assert_eq!(read(&frame(0, 44, &longer)), read(&short));
     let utc = hex(UTC);
-    let Message::Time(old) = read(&frame(0, 2, &utc[6..27])) else { panic!() };
+    let SbgMessage::Time(old) = read(&frame(0, 2, &utc[6..27])) else { panic!() };
     assert_eq!((old.bias_std, old.residual), (None, None));
-    let cut_short = Message::read(&frame(0, 44, &short[6..37]));
-    assert_eq!(cut_short, Err(Fault::Short { needed: 32, found: 31 }));
+    let cut_short = SbgMessage::read(&frame(0, 44, &short[6..37]));
+    assert_eq!(cut_short, Err(BinaryFault::Short { needed: 32, found: 31 }));
 }
 
 #[test]
 fn any_wrong_bit_is_found_and_no_reader_panics() {
     for golden in [SHORT, SHORT_HIGH, DATA, UTC, EULER] {
         assert_frame_is_guarded(Protocol::Sbg, &hex(golden), |bytes| {
-            assert!(Message::read(bytes).is_err());
+            assert!(SbgMessage::read(bytes).is_err());
         });
     }
 }
@@ -184,7 +184,7 @@ fn each_status_bit_and_nan_make_a_sample_invalid() {
 fn values_beyond_the_range_are_saturated() {
     let short =
         ImuShort { time_stamp: 0, status: 0, accel: [1e9; 3], gyro: [-1e9; 3], temperature: -1e9 };
-    let Message::ImuShort(back) = read(&short.write()) else { panic!() };
+    let SbgMessage::ImuShort(back) = read(&short.write()) else { panic!() };
     assert_eq!(back.temperature, -128.0);
     assert!(back.accel.iter().all(|push| (push - 2048.0).abs() < 1e-5));
     assert!(back.gyro.iter().all(|rate| (rate + 10_000_f64.to_radians()).abs() < 1e-4));
@@ -206,7 +206,7 @@ proptest! {
     ) {
         for (gyro, scale, flag) in [(slow, 67_108_864.0, 0), (fast, 12_304_174.0, 0x400)] {
             let short = ImuShort { time_stamp, status, accel, gyro, temperature };
-            let Message::ImuShort(back) = read(&short.write()) else { panic!() };
+            let SbgMessage::ImuShort(back) = read(&short.write()) else { panic!() };
             prop_assert_eq!((back.time_stamp, back.status), (time_stamp, status | flag));
             prop_assert!(near(back.accel, accel, 0.5 / 1_048_576.0));
             prop_assert!(near(back.gyro, gyro, 0.5 / scale));
@@ -224,7 +224,7 @@ proptest! {
         let [accel, gyro, std] = vectors.map(|vector| vector.map(f64::from));
         let temperature = f64::from(temperature);
         let data = ImuData { time_stamp, status, accel, gyro, temperature };
-        prop_assert_eq!(read(&data.write()), Message::ImuData(data));
+        prop_assert_eq!(read(&data.write()), SbgMessage::ImuData(data));
         let euler = Euler {
             time_stamp,
             angles: accel,
@@ -233,7 +233,7 @@ proptest! {
             declination: Some(temperature),
             inclination: None,
         };
-        prop_assert_eq!(read(&euler.write()), Message::Euler(euler));
+        prop_assert_eq!(read(&euler.write()), SbgMessage::Euler(euler));
     }
 
     #[test]
@@ -271,7 +271,7 @@ proptest! {
             scale_std: None,
             residual: bias.map(f64::from),
         };
-        let Message::Time(back) = read(&time.write()) else { panic!() };
+        let SbgMessage::Time(back) = read(&time.write()) else { panic!() };
         prop_assert_eq!(back, time);
         let known = states.1 == 2 && states.0 != 0;
         prop_assert_eq!(back.utc(), known.then_some(utc));
@@ -290,13 +290,13 @@ proptest! {
         data in prop::collection::vec(prop::num::u8::ANY, 0..129),
         noise in prop::collection::vec(prop::num::u8::ANY, 1..200),
     ) {
-        let _ = Message::read(&noise);
+        let _ = SbgMessage::read(&noise);
         let _ = cut_all(Protocol::Sbg, &noise[..]);
         let whole = frame(0, id, &data);
         prop_assert_eq!(look(&whole), Look::Frame(whole.len()));
-        if let Ok(message) = Message::read(&whole) {
+        if let Ok(message) = SbgMessage::read(&whole) {
             let _ = message.reading();
-            if let Message::Time(time) = message {
+            if let SbgMessage::Time(time) = message {
                 let _ = time.utc();
             }
         }

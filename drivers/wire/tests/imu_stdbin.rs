@@ -11,10 +11,11 @@ mod frames;
 use frames::{bytes_of_hex, cut_all, is_robust, is_split_anyhow};
 use insd_base::LogReference;
 use insd_base::units::DEG;
-use insd_wire::binary::Fault;
-use insd_wire::imu::Motion;
+use insd_wire::binary::BinaryFault;
+use insd_wire::imu::ImuMotion;
 use insd_wire::imu::stdbin::{
-    Attitude, EmLog, External, Heave, LogSpeed, Navigation, Position, Telegram, UtcSync, look,
+    EmLog, External, LogSpeed, Navigation, Position, StdBinAttitude, StdBinHeave, Telegram,
+    UtcSync, look,
 };
 use insd_wire::log::LogFrame;
 use insd_wire::stream::{Look, Protocol};
@@ -51,7 +52,7 @@ fn a_system_without_utc_is_read_and_tells_no_utc() {
 fn raw_blocks_of_version_4_are_found_behind_all_the_others() {
     let telegram = Telegram::read(&bytes_of_hex(V4)).unwrap();
     let reading = telegram.reading().unwrap();
-    let Motion::Rates { gyro, accel } = reading.motion else { unreachable!() };
+    let ImuMotion::Rates { gyro, accel } = reading.motion else { unreachable!() };
     assert_eq!(gyro, [0.0; 3]);
     is_near(accel[2], 8.000_145, 1e-5);
     assert_eq!((reading.utc, reading.status), (None, 0x4C00_0000));
@@ -84,7 +85,7 @@ fn a_synchronised_system_tells_utc_and_what_its_logs_told_it() {
 
 #[test]
 fn pitch_is_positive_bow_up_here_and_bow_down_on_the_wire() {
-    let attitude = Attitude { heading: 1.0, roll: 0.1, pitch: 10.0 * DEG };
+    let attitude = StdBinAttitude { heading: 1.0, roll: 0.1, pitch: 10.0 * DEG };
     let navigation = Navigation { attitude: Some(attitude), ..Navigation::default() };
     let frame = Telegram { version: 3, navigation, ..Telegram::default() }.write();
     assert_eq!(frame[33..37], (-10.0_f32).to_be_bytes());
@@ -153,7 +154,7 @@ fn other_versions_lengths_and_sums_are_refused() {
     let mut damaged = bytes.clone();
     damaged[40] ^= 1;
     assert_eq!(look(&damaged), Look::Damaged);
-    assert_eq!(Telegram::read(&damaged), Err(Fault::Frame));
+    assert_eq!(Telegram::read(&damaged), Err(BinaryFault::Frame));
     let mut endless = bytes;
     (endless[17], endless[18]) = (0xFF, 0xFF);
     assert_eq!(look(&endless), Look::Nothing);
@@ -176,8 +177,8 @@ prop_compose! {
         let (vessel_velocity, temperatures, raw_acceleration, raw_rotation) = rest;
         let (algorithm_status, system_status, user_status) = status;
         Navigation {
-            attitude: attitude.map(|[heading, roll, pitch]| Attitude { heading, roll, pitch }),
-            heave: heave.map(|[heave, lever_heave, lever_surge]| Heave {
+            attitude: attitude.map(|[heading, roll, pitch]| StdBinAttitude { heading, roll, pitch }),
+            heave: heave.map(|[heave, lever_heave, lever_surge]| StdBinHeave {
                 heave, lever_heave, lever_surge, lever_sway: -heave,
             }),
             position: position.map(|(latitude, longitude, altitude, above_ellipsoid)| Position {

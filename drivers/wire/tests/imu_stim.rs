@@ -6,10 +6,10 @@ mod frames;
 
 use frames::{bytes_of_hex, cut_all, is_robust, is_split_anyhow};
 use insd_base::units::DEG;
-use insd_wire::binary::Fault;
-use insd_wire::imu::Motion;
+use insd_wire::binary::BinaryFault;
+use insd_wire::imu::ImuMotion;
 use insd_wire::imu::stim::{
-    Group, StimConfiguration, StimDatagram, StimFormat, StimInput, StimKind, StimRange, look,
+    StimConfiguration, StimDatagram, StimFormat, StimGroup, StimInput, StimKind, StimRange, look,
 };
 use insd_wire::stream::{Look, Protocol};
 use proptest::prelude::*;
@@ -21,8 +21,8 @@ const FORMAT: StimFormat = StimFormat {
     interval: Some(0.002),
 };
 
-fn group(count: i32) -> Group {
-    Group { counts: [count, -count, 0], status: 0 }
+fn group(count: i32) -> StimGroup {
+    StimGroup { counts: [count, -count, 0], status: 0 }
 }
 
 fn datagram() -> StimDatagram {
@@ -38,7 +38,7 @@ fn datagram() -> StimDatagram {
 #[test]
 fn one_degree_per_second_and_one_g_are_the_powers_of_two_of_the_data_sheet() {
     let reading = datagram().reading(&FORMAT).unwrap();
-    let expected = Motion::Rates { gyro: [DEG, -DEG, 0.0], accel: [9.806_65, -9.806_65, 0.0] };
+    let expected = ImuMotion::Rates { gyro: [DEG, -DEG, 0.0], accel: [9.806_65, -9.806_65, 0.0] };
     assert_eq!(reading.motion, expected);
     assert_eq!(reading.latency, Some(0.0015));
     let counter = reading.counter.unwrap();
@@ -46,12 +46,12 @@ fn one_degree_per_second_and_one_g_are_the_powers_of_two_of_the_data_sheet() {
     let bits = [21, 20, 19, 18, 16];
     let ranges = [StimRange::G2, StimRange::G5, StimRange::G10, StimRange::G30, StimRange::G80];
     for (bits, range) in bits.into_iter().zip(ranges) {
-        let motion = Motion::Rates { gyro: [0.0; 3], accel: [9.806_65; 3] };
+        let motion = ImuMotion::Rates { gyro: [0.0; 3], accel: [9.806_65; 3] };
         let (_, counts) = StimFormat { range, ..FORMAT }.counts(&motion).unwrap();
         assert_eq!(counts, [1 << bits; 3]);
         let accel = StimKind::Increment;
         let format = StimFormat { range, accel, gyro: accel, ..FORMAT };
-        let motion = Motion::Increments { delta_theta: [DEG; 3], delta_velocity: [0.25; 3] };
+        let motion = ImuMotion::Increments { delta_theta: [DEG; 3], delta_velocity: [0.25; 3] };
         assert_eq!(format.counts(&motion).unwrap(), ([1 << 21; 3], [1 << (bits + 1); 3]));
     }
 }
@@ -59,7 +59,7 @@ fn one_degree_per_second_and_one_g_are_the_powers_of_two_of_the_data_sheet() {
 #[test]
 fn rates_beside_increments_become_increments() {
     let format = StimFormat { gyro: StimKind::Increment, ..FORMAT };
-    let Some(Motion::Increments { delta_theta, delta_velocity }) =
+    let Some(ImuMotion::Increments { delta_theta, delta_velocity }) =
         datagram().reading(&format).map(|reading| reading.motion)
     else {
         unreachable!()
@@ -75,7 +75,7 @@ fn rates_beside_increments_become_increments() {
 
 #[test]
 fn any_status_bit_of_gyroscopes_or_accelerometers_makes_the_sample_invalid() {
-    let overload = Group { status: 0x11, ..group(5) };
+    let overload = StimGroup { status: 0x11, ..group(5) };
     let rate = StimDatagram { rate: overload, ..datagram() }.reading(&FORMAT).unwrap();
     assert_eq!((rate.valid, rate.status), (false, 0x11));
     let accel = StimDatagram { acceleration: Some(overload), ..datagram() };
@@ -85,7 +85,7 @@ fn any_status_bit_of_gyroscopes_or_accelerometers_makes_the_sample_invalid() {
 
 #[test]
 fn temperature_is_the_mean_of_the_gyroscopes() {
-    let warm = Group { counts: [20 << 8, 21 << 8, 22 << 8], status: 0 };
+    let warm = StimGroup { counts: [20 << 8, 21 << 8, 22 << 8], status: 0 };
     let temperatures = Some([warm, group(0), group(0)]);
     let reading = StimDatagram { temperatures, ..datagram() }.reading(&FORMAT).unwrap();
     assert_eq!(reading.temperature, Some(21.0));
@@ -121,8 +121,8 @@ fn line_ends_are_filler_and_other_datagrams_are_told_apart() {
     let bytes = [&frame[..], b"\r\n", &told, b"\r\n", &frame].concat();
     assert_eq!(cut_all(Protocol::Stim, &bytes), [frame.clone(), told.clone(), frame.clone()]);
     assert_eq!(look(b"\r"), Look::Filler(1));
-    assert_eq!(StimDatagram::read(&told), Err(Fault::OtherMessage));
-    assert_eq!(StimConfiguration::read(&frame), Err(Fault::OtherMessage));
+    assert_eq!(StimDatagram::read(&told), Err(BinaryFault::OtherMessage));
+    assert_eq!(StimConfiguration::read(&frame), Err(BinaryFault::OtherMessage));
     assert_eq!(StimConfiguration::read(&told), Ok(configuration));
 }
 
@@ -146,9 +146,9 @@ fn the_configuration_datagram_is_read_by_its_table() {
     assert_eq!((read.revision, read.firmware, read.line_ends), (b'H', 23, false));
 }
 
-fn group_of(limit: i32) -> impl Strategy<Value = Group> {
+fn group_of(limit: i32) -> impl Strategy<Value = StimGroup> {
     (prop::array::uniform3(-limit..limit), any::<u8>())
-        .prop_map(|(counts, status)| Group { counts, status })
+        .prop_map(|(counts, status)| StimGroup { counts, status })
 }
 
 prop_compose! {
@@ -164,7 +164,7 @@ prop_compose! {
         let temperatures = temperatures.map(|groups| {
             let mut groups = groups;
             for (group, there) in groups.iter_mut().zip(there) {
-                *group = if there { *group } else { Group::default() };
+                *group = if there { *group } else { StimGroup::default() };
             }
             groups
         });
@@ -185,13 +185,13 @@ proptest! {
     fn a_motion_survives_within_half_a_count(
         gyro in prop::array::uniform3(-8.9..8.9), accel in prop::array::uniform3(-98.0..98.0),
     ) {
-        let (rate, acceleration) = FORMAT.counts(&Motion::Rates { gyro, accel }).unwrap();
+        let (rate, acceleration) = FORMAT.counts(&ImuMotion::Rates { gyro, accel }).unwrap();
         let datagram = StimDatagram {
-            rate: Group { counts: rate, status: 0 },
-            acceleration: Some(Group { counts: acceleration, status: 0 }),
+            rate: StimGroup { counts: rate, status: 0 },
+            acceleration: Some(StimGroup { counts: acceleration, status: 0 }),
             ..StimDatagram::default()
         };
-        let Motion::Rates { gyro: g, accel: a } = datagram.reading(&FORMAT).unwrap().motion else {
+        let ImuMotion::Rates { gyro: g, accel: a } = datagram.reading(&FORMAT).unwrap().motion else {
             unreachable!()
         };
         let half = [0.5 * DEG / 16_384.0, 0.5 * 9.806_65 / 524_288.0];

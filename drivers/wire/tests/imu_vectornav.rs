@@ -4,7 +4,7 @@
 
 use insd_base::GpsTime;
 use insd_base::units::DEG;
-use insd_wire::imu::Motion;
+use insd_wire::imu::ImuMotion;
 use insd_wire::imu::vectornav::{VnDeltas, VnMessage};
 use insd_wire::stream::{Look, Protocol};
 
@@ -66,14 +66,14 @@ fn what_is_written_is_read_and_a_flipped_bit_is_found() {
 #[test]
 fn increments_come_before_rates_and_plain_rates_before_those_of_its_own_filter() {
     let told = whole().reading().unwrap();
-    let Motion::Increments { delta_velocity, .. } = told.motion else { panic!("{told:?}") };
+    let ImuMotion::Increments { delta_velocity, .. } = told.motion else { panic!("{told:?}") };
     assert_eq!(delta_velocity, [0.125, -0.25, -2.5]);
     assert_eq!(told.device_time.unwrap().ticks.value, 1_234_567_890_123);
     assert_eq!(told.utc, whole().utc());
     let rates = VnMessage { deltas: None, ..whole() };
     let gyro = |message: &VnMessage| match message.reading().unwrap().motion {
-        Motion::Rates { gyro, .. } => gyro[0],
-        Motion::Increments { .. } => f64::NAN,
+        ImuMotion::Rates { gyro, .. } => gyro[0],
+        ImuMotion::Increments { .. } => f64::NAN,
     };
     assert_eq!(gyro(&rates), 0.75);
     assert_eq!(gyro(&VnMessage { plain_force: None, ..rates }), 0.5);

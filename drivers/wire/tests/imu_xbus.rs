@@ -8,11 +8,11 @@ use frames::{
     assert_frame_is_guarded, assert_splitting_does_not_matter, bytes_of_hex as hex, cut_all, stream,
 };
 use insd_base::UtcTime;
-use insd_wire::binary::Fault;
-use insd_wire::imu::Motion;
+use insd_wire::binary::BinaryFault;
+use insd_wire::imu::ImuMotion;
 use insd_wire::imu::rotation::{delta_theta_of, quaternion_of};
 use insd_wire::imu::xbus::{
-    Axes, FINE_DAY, FINE_U32, MtData2, Orientation, Precision, Status, Utc, look,
+    FINE_DAY, FINE_U32, MtData2, Orientation, Precision, Status, Utc, XbusAxes, look,
 };
 use insd_wire::nmea::CivilTime;
 use insd_wire::stream::{Look, Protocol};
@@ -66,7 +66,7 @@ fn the_example_of_the_manual_is_read() {
     assert_eq!((data.counter, data.fine_time), (Some(57_285), Some(0x0045_9DA0)));
     assert_eq!(data.status, Some(Status::Word(0x81)));
     let reading = data.reading().unwrap();
-    let Motion::Rates { accel, .. } = reading.motion else { panic!() };
+    let ImuMotion::Rates { accel, .. } = reading.motion else { panic!() };
     assert!((accel[2] - 9.795_8).abs() < 1e-4);
     assert!(reading.valid);
 }
@@ -114,7 +114,9 @@ fn a_message_of_a_device_is_a_sample() {
 #[test]
 fn the_delta_quaternion_of_a_device_is_its_rate_over_the_interval() {
     let data = read(&hex(FLOAT64));
-    let Motion::Increments { delta_theta, .. } = data.reading().unwrap().motion else { panic!() };
+    let ImuMotion::Increments { delta_theta, .. } = data.reading().unwrap().motion else {
+        panic!()
+    };
     for (turn, rate) in delta_theta.into_iter().zip(data.rate_of_turn.unwrap()) {
         assert!((turn - rate * 0.01).abs() < 1e-11, "{turn} {rate}");
     }
@@ -147,11 +149,11 @@ fn utc_is_believed_only_with_all_its_flags() {
 #[test]
 fn other_messages_and_unknown_items_are_passed_over() {
     assert_eq!(look(&hex(GOTO_MEASUREMENT)), Look::Frame(5));
-    assert_eq!(MtData2::read(&hex(GOTO_MEASUREMENT)), Err(Fault::OtherMessage));
+    assert_eq!(MtData2::read(&hex(GOTO_MEASUREMENT)), Err(BinaryFault::OtherMessage));
     let unknown = message(0x36, &[0x70, 0x10, 2, 0, 0, 0x10, 0x20, 2, 1, 2]);
     assert_eq!(read(&unknown), MtData2 { counter: Some(0x0102), ..MtData2::default() });
     let short = message(0x36, &[0x10, 0x20, 1, 0]);
-    assert_eq!(MtData2::read(&short), Err(Fault::Short { needed: 2, found: 1 }));
+    assert_eq!(MtData2::read(&short), Err(BinaryFault::Short { needed: 2, found: 1 }));
 }
 
 #[test]
@@ -237,7 +239,7 @@ fn mtdata2() -> impl Strategy<Value = MtData2> {
         Utc { civil: CivilTime::from_utc(UtcTime::from_nanos(nanos)).unwrap(), flags }
     });
     let orientation = (
-        prop::sample::select(vec![Axes::Enu, Axes::Ned, Axes::Nwu]),
+        prop::sample::select(vec![XbusAxes::Enu, XbusAxes::Ned, XbusAxes::Nwu]),
         prop::array::uniform3(-3.0..3.0),
     )
         .prop_map(|(axes, euler)| Orientation { axes, euler });

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
 
 use insd_base::LogReference;
-use insd_wire::binary::Fault;
+use insd_wire::binary::BinaryFault;
 use insd_wire::log::LogFrame;
 use insd_wire::log::ad2cp::{Ad2cpBottomTrack, BOTTOM_TRACK};
 use insd_wire::stream::{Cutter, Protocol};
@@ -32,7 +32,7 @@ fn tracks() -> Vec<Ad2cpBottomTrack> {
 fn recorded_records_have_the_values_of_an_independent_reader() {
     let (frames, skipped) = frames(RECORDED);
     assert_eq!((frames.len(), skipped), (7, 0));
-    assert_eq!(Ad2cpBottomTrack::read(&frames[1]), Err(Fault::OtherMessage));
+    assert_eq!(Ad2cpBottomTrack::read(&frames[1]), Err(BinaryFault::OtherMessage));
     let first = tracks()[0];
     assert_eq!((first.head.serial, first.head.exponent), (101_654, -5));
     assert_eq!(first.head.clock, [0x78, 0x00, 0x16, 0x04, 0x0A, 0x21]);
@@ -91,6 +91,6 @@ fn a_scale_that_no_instrument_has_is_refused_whatever_its_sign() {
     for exponent in [i8::MIN, -10, 10, i8::MAX] {
         let mut track = tracks()[0];
         track.head.exponent = exponent;
-        assert!(matches!(Ad2cpBottomTrack::read(&track.write()), Err(Fault::Range { .. })));
+        assert!(matches!(Ad2cpBottomTrack::read(&track.write()), Err(BinaryFault::Range { .. })));
     }
 }

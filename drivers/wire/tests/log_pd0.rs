@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use frames::{bytes_of_hex, cut_all, is_robust, is_split_anyhow};
 use insd_base::units::DEG;
 use insd_base::{LogReference, UtcTime};
-use insd_wire::binary::Fault;
+use insd_wire::binary::BinaryFault;
 use insd_wire::log::LogFrame;
 use insd_wire::log::pd0::{
     BottomTrack, Coordinates, Ensemble, FixedLeader, Geometry, Transformation, VariableLeader,
@@ -203,7 +203,7 @@ fn absurd_headers_are_refused_at_once() {
     let mut frame = ensemble(Coordinates::Ship, [None; 4]).write();
     frame[30] ^= 4;
     assert_eq!(look(&frame), Look::Damaged);
-    assert_eq!(Ensemble::read(&frame), Err(Fault::Frame));
+    assert_eq!(Ensemble::read(&frame), Err(BinaryFault::Frame));
 }
 
 fn velocities() -> impl Strategy<Value = [Option<f64>; 4]> {

@@ -10,12 +10,12 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use insd_base::UtcTime;
 use insd_base::units::DEG;
-use insd_wire::binary::Fault;
+use insd_wire::binary::BinaryFault;
 use insd_wire::motion::em::{EmAttitude, EmStatus};
 use insd_wire::motion::kmb::{Kmb, KmbSigma};
 use insd_wire::motion::seapath::{Seapath23, Seapath26};
 use insd_wire::motion::tss1::{Tss1, Tss1Aiding};
-use insd_wire::motion::{DelayedHeave, Place, Tilt, Vertical, roll_from_horizon};
+use insd_wire::motion::{SensorDelayedHeave, SensorPlace, Tilt, Vertical, roll_from_horizon};
 use motion_samples::*;
 
 fn bytes_of(hex: &str) -> Vec<u8> {
@@ -104,9 +104,9 @@ fn tss1_of_the_wrong_shape_is_refused() {
         ":1A4770 -0016H 0429  0680\r\n\n",
     ];
     for line in wrong {
-        assert_eq!(Tss1::read(line.as_bytes()), Err(Fault::Frame), "{line:?}");
+        assert_eq!(Tss1::read(line.as_bytes()), Err(BinaryFault::Frame), "{line:?}");
     }
-    assert_eq!(Tss1::read(b":1A"), Err(Fault::Short { needed: 27, found: 3 }));
+    assert_eq!(Tss1::read(b":1A"), Err(BinaryFault::Short { needed: 27, found: 3 }));
 }
 
 #[test]
@@ -158,10 +158,10 @@ fn the_first_byte_of_em_is_the_status_or_zero() {
     for byte in [0x01, 0x8F, 0xB0, 0xFF] {
         let mut written = EM.write();
         written[0] = byte;
-        assert_eq!(EmAttitude::read(&written), Err(Fault::Frame));
+        assert_eq!(EmAttitude::read(&written), Err(BinaryFault::Frame));
         written[0] = 0;
         written[1] = byte;
-        assert_eq!(EmAttitude::read(&written), Err(Fault::Frame));
+        assert_eq!(EmAttitude::read(&written), Err(BinaryFault::Frame));
     }
 }
 
@@ -236,7 +236,7 @@ fn a_ship_leaned_to_each_side_and_lifted_has_the_signs_of_each_format() {
         for place in [3, 5, 7] {
             assert_eq!(em[place] < 0x80, positive, "port up, bow up and heave up are positive");
         }
-        let delayed = DelayedHeave { time: UtcTime::from_nanos(0), heave };
+        let delayed = SensorDelayedHeave { time: UtcTime::from_nanos(0), heave };
         let kmb = Kmb {
             tilt: full(Tilt { roll, pitch }),
             vertical: full(Vertical { heave, down_velocity: -sign }),
@@ -284,7 +284,7 @@ fn each_invalid_group_of_km_binary_has_its_bit_and_zeros() {
     assert!(written[80..108].chunks(4).all(|error| error == (-1.0_f32).to_le_bytes()));
     let read = Kmb::read(&written).unwrap();
     assert_eq!(Kmb { rates: nothing.rates, ..read }, nothing);
-    let delayed = DelayedHeave { time: nothing.time, heave: 1.0 };
+    let delayed = SensorDelayedHeave { time: nothing.time, heave: 1.0 };
     for (bit, known) in [
         (16, Kmb { place: reduced(oslo_fjord().place.unwrap().value), ..nothing }),
         (17, Kmb { tilt: reduced(oslo_fjord().tilt.unwrap().value), ..nothing }),
@@ -322,9 +322,9 @@ fn each_invalid_group_of_seapath_has_its_bit_and_zeros() {
 #[test]
 fn a_group_that_its_fields_cannot_hold_is_invalid() {
     let place = oslo_fjord().place.unwrap().value;
-    let fast = full(Place { north_velocity: 328.0, ..place });
-    let beyond = full(Place { latitude: 91.0 * DEG, ..place });
-    let nowhere = full(Place { longitude: f64::NAN, ..place });
+    let fast = full(SensorPlace { north_velocity: 328.0, ..place });
+    let beyond = full(SensorPlace { latitude: 91.0 * DEG, ..place });
+    let nowhere = full(SensorPlace { longitude: f64::NAN, ..place });
     let deep = full(Vertical { heave: -328.0, down_velocity: 0.0 });
     for group in [fast, beyond, nowhere] {
         let written = Seapath23 { place: group, ..oslo_fjord_23() }.write().unwrap();
@@ -364,11 +364,11 @@ fn numbers_out_of_range_are_refused_if_they_are_said_to_be_valid() {
         frame[at..at + value.len()].copy_from_slice(value);
         Kmb::read(&frame)
     };
-    let range = |field| Err(Fault::Range { field });
+    let range = |field| Err(BinaryFault::Range { field });
     let nan = f32::NAN.to_le_bytes();
-    assert_eq!(set(0, b"#KMA"), Err(Fault::Frame));
-    assert_eq!(set(4, &[120]), Err(Fault::Frame));
-    assert_eq!(set(6, &[2]), Err(Fault::OtherMessage));
+    assert_eq!(set(0, b"#KMA"), Err(BinaryFault::Frame));
+    assert_eq!(set(4, &[120]), Err(BinaryFault::Frame));
+    assert_eq!(set(6, &[2]), Err(BinaryFault::OtherMessage));
     assert_eq!(set(12, &1_000_000_000_u32.to_le_bytes()), range("fraction of a second"));
     assert_eq!(set(20, &90.1_f64.to_le_bytes()), range("latitude"));
     assert_eq!(set(28, &f64::NAN.to_le_bytes()), range("longitude"));
@@ -382,7 +382,7 @@ fn numbers_out_of_range_are_refused_if_they_are_said_to_be_valid() {
         let mut frame = [0; 44];
         frame[at] = 0x41;
         let frame = checks::seapath_frame::<44>([0xAA, 0x51], &frame);
-        assert_eq!(Seapath23::read(&frame), Err(Fault::Range { field }));
+        assert_eq!(Seapath23::read(&frame), Err(BinaryFault::Range { field }));
     }
 }
 
@@ -392,8 +392,11 @@ fn every_flipped_bit_of_seapath_is_noticed() {
     for bit in 0..whole.len() * 8 {
         let mut flipped = whole;
         flipped[bit / 8] ^= 1 << (bit % 8);
-        assert_eq!(Seapath26::read(&flipped), Err(Fault::Frame));
+        assert_eq!(Seapath26::read(&flipped), Err(BinaryFault::Frame));
     }
-    assert_eq!(Seapath23::read(&whole), Err(Fault::Frame));
-    assert_eq!(Seapath26::read(&bytes_of(SEAPATH_23)), Err(Fault::Short { needed: 52, found: 44 }));
+    assert_eq!(Seapath23::read(&whole), Err(BinaryFault::Frame));
+    assert_eq!(
+        Seapath26::read(&bytes_of(SEAPATH_23)),
+        Err(BinaryFault::Short { needed: 52, found: 44 })
+    );
 }

@@ -16,7 +16,7 @@ use insd_wire::motion::em::EmAttitude;
 use insd_wire::motion::kmb::{Kmb, KmbSigma};
 use insd_wire::motion::seapath::{Seapath23, Seapath26};
 use insd_wire::motion::tss1::Tss1;
-use insd_wire::motion::{DelayedHeave, Place, Rated, Tilt, Vertical};
+use insd_wire::motion::{Rated, SensorDelayedHeave, SensorPlace, Tilt, Vertical};
 use motion_samples::*;
 use proptest::prelude::*;
 
@@ -27,10 +27,10 @@ fn rated<T: std::fmt::Debug + 'static>(
     proptest::option::of(rated).boxed()
 }
 
-fn places() -> impl Strategy<Value = Place> {
+fn places() -> impl Strategy<Value = SensorPlace> {
     let place = (-FRAC_PI_2..=FRAC_PI_2, -PI..=PI, -500.0..9000.0);
     (place, -300.0..300.0, -300.0..300.0).prop_map(
-        |((latitude, longitude, height), north_velocity, east_velocity)| Place {
+        |((latitude, longitude, height), north_velocity, east_velocity)| SensorPlace {
             latitude,
             longitude,
             height,
@@ -164,7 +164,7 @@ proptest! {
         heave in -327.0..327.0,
     ) {
         let time = UtcTime::from_nanos(late * SECOND);
-        let telegram = Seapath26 { motion, delayed_heave: Some(DelayedHeave { time, heave }) };
+        let telegram = Seapath26 { motion, delayed_heave: Some(SensorDelayedHeave { time, heave }) };
         let read = Seapath26::read(&telegram.write().unwrap()).unwrap();
         prop_assert_eq!(Seapath23::read(&motion.write().unwrap()), Ok(read.motion));
         let tolerances = (7.4e-10, 4.8e-5, 0.005_001);
@@ -180,7 +180,7 @@ proptest! {
     fn km_binary_reads_what_it_writes(
         motion in motions(),
         delayed_heave in rated((0..i64::from(u32::MAX) * SECOND, -50.0..50.0).prop_map(|(nanos, heave)| {
-            DelayedHeave { time: UtcTime::from_nanos(nanos), heave }
+            SensorDelayedHeave { time: UtcTime::from_nanos(nanos), heave }
         })),
         acceleration in rated(prop::array::uniform3(-30.0..30.0)),
         sigma in prop::option::of(0.0..1e6),

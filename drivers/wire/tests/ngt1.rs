@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
 
-use insd_wire::binary::Fault;
+use insd_wire::binary::BinaryFault;
 use insd_wire::ngt1::{NgtFrame, NgtMessage, look};
 use insd_wire::stream::{Cutter, Look, Protocol};
 use proptest::prelude::*;
@@ -68,7 +68,7 @@ fn a_frame_that_is_cut_or_flipped_is_none_and_those_around_it_are_found() {
             assert_ne!(NgtFrame::read(&bad).ok(), NgtFrame::read(&frame).ok(), "{place} {bit}");
         }
         let cut = &frame[..place];
-        assert_eq!(NgtFrame::read(cut), Err(Fault::Frame));
+        assert_eq!(NgtFrame::read(cut), Err(BinaryFault::Frame));
         let stream = [cut, &frame, &frame].concat();
         let mut cutter = Cutter::new(&[Protocol::Ngt1]);
         cutter.push(&stream);

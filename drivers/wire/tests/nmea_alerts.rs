@@ -8,13 +8,13 @@ mod common;
 use common::{read, time_of_day};
 use insd_wire::nmea::{
     Acn, Alc, AlertCategory, AlertCommand, AlertEntry, AlertId, AlertPriority, AlertState, Alf,
-    Arc, Fault, Hbt, Manufacturer, Sentence, Talker, Text, TimeOfDay, Txt, checksum,
+    Arc, Hbt, Manufacturer, NmeaFault, Sentence, Talker, Text, TimeOfDay, Txt, checksum,
 };
 use proptest::prelude::*;
 
 const TIME: TimeOfDay = TimeOfDay { hour: 10, minute: 14, second: 23, nanosecond: 0 };
 
-fn framed(text: &str) -> Result<Sentence, Fault> {
+fn framed(text: &str) -> Result<Sentence, NmeaFault> {
     let line = format!("${text}*{:02X}", checksum(text.as_bytes()));
     Sentence::read(line.as_bytes()).map(|(_, sentence)| sentence)
 }
@@ -98,12 +98,12 @@ fn a_command_without_its_flag_or_with_an_unknown_letter_is_none() {
     for (text, field) in
         [("IIACN,,,3062,1,A,", 6), ("IIACN,,,3062,1,X,C", 5), ("IIACN,,,,1,A,C", 3)]
     {
-        assert_eq!(framed(text), Err(Fault::Malformed { field }), "{text}");
+        assert_eq!(framed(text), Err(NmeaFault::Malformed { field }), "{text}");
     }
-    assert_eq!(framed("IIACN,,,3062,1,A"), Err(Fault::Missing { field: 6 }));
-    assert_eq!(framed("INALC,01,01,00,1"), Err(Fault::Missing { field: 5 }));
-    assert_eq!(framed("INALC,01,02,00,0"), Err(Fault::Malformed { field: 2 }));
-    assert_eq!(framed("INALF,1,1,0,,B,W,X,,3062,1,1,0,T"), Err(Fault::Malformed { field: 7 }));
+    assert_eq!(framed("IIACN,,,3062,1,A"), Err(NmeaFault::Missing { field: 6 }));
+    assert_eq!(framed("INALC,01,01,00,1"), Err(NmeaFault::Missing { field: 5 }));
+    assert_eq!(framed("INALC,01,02,00,0"), Err(NmeaFault::Malformed { field: 2 }));
+    assert_eq!(framed("INALF,1,1,0,,B,W,X,,3062,1,1,0,T"), Err(NmeaFault::Malformed { field: 7 }));
 }
 
 #[test]
@@ -152,8 +152,8 @@ fn texts_of_receivers_with_their_commas_are_read() {
         (txt.kind, txt.text.to_string().as_str()),
         (Some(1), "0,000222,0000,08A0,08A0,-37.124,0",)
     );
-    assert_eq!(framed("GNTXT,01,01,01"), Err(Fault::Missing { field: 4 }));
-    assert_eq!(framed("GNTXT,01,01,01,50^"), Err(Fault::Malformed { field: 4 }));
+    assert_eq!(framed("GNTXT,01,01,01"), Err(NmeaFault::Missing { field: 4 }));
+    assert_eq!(framed("GNTXT,01,01,01,50^"), Err(NmeaFault::Malformed { field: 4 }));
 }
 
 proptest! {

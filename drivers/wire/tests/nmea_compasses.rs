@@ -4,7 +4,7 @@
 
 use insd_base::units::DEG;
 use insd_wire::nmea::{
-    Fault, PsatHpr, PsatSource, PtnlAvr, PtnlQuality, Sentence, Talker, TimeOfDay,
+    NmeaFault, PsatHpr, PsatSource, PtnlAvr, PtnlQuality, Sentence, Talker, TimeOfDay,
 };
 use proptest::option::of;
 use proptest::prelude::*;
@@ -64,12 +64,12 @@ fn the_published_lines_of_trimble_are_read_and_written_to_the_byte() {
 fn other_sentences_of_the_same_makers_are_told_apart() {
     let check = |body: &str| format!("${body}*{:02X}", body.bytes().fold(0, |sum, own| sum ^ own));
     for body in ["PSAT,GBS,034509.00,1,1,1,,,,", "PTNL,GGK,102939.00,051910,5000.97,N"] {
-        assert_eq!(Sentence::read(check(body).as_bytes()), Err(Fault::OtherSentence));
+        assert_eq!(Sentence::read(check(body).as_bytes()), Err(NmeaFault::OtherSentence));
     }
     for body in
         ["PTNL,AVR,212405.20,+52.1531,Yow,,,,,12.575,3,1.4,16", "PSAT,HPR,235410.50,89.58,3.35,,X"]
     {
-        assert!(matches!(Sentence::read(check(body).as_bytes()), Err(Fault::Malformed { .. })));
+        assert!(matches!(Sentence::read(check(body).as_bytes()), Err(NmeaFault::Malformed { .. })));
     }
 }
 

@@ -4,7 +4,8 @@
 
 use insd_base::units::KNOT;
 use insd_wire::nmea::{
-    Fault, Frame, Gga, HeadingMode, PositionMode, Psxn, Rmc, Rot, Sentence, Talker, Ths, Vtg, Zda,
+    Frame, Gga, HeadingMode, NmeaFault, PositionMode, Psxn, Rmc, Rot, Sentence, Talker, Ths, Vtg,
+    Zda,
 };
 
 /// Published sentences that are no sentences of this crate's writers, or whose dialect has to be told.
@@ -77,7 +78,7 @@ fn sentences_that_manuals_print_with_a_wrong_checksum_are_refused() {
         ("$HEHDG,311.2,1.7,W,0.0,E*50", 0x51),
     ] {
         match Frame::parse(line.as_bytes()) {
-            Err(Fault::WrongChecksum { computed: ours, .. }) => assert_eq!(ours, computed),
+            Err(NmeaFault::WrongChecksum { computed: ours, .. }) => assert_eq!(ours, computed),
             other => panic!("{line}: {other:?}"),
         }
     }
@@ -148,7 +149,11 @@ fn a_malformed_field_is_named_by_its_number() {
     ] {
         let sum = insd_wire::nmea::checksum(&line.as_bytes()[1..]);
         let framed = format!("{line}*{sum:02X}");
-        assert_eq!(Sentence::read(framed.as_bytes()), Err(Fault::Malformed { field }), "{line}");
+        assert_eq!(
+            Sentence::read(framed.as_bytes()),
+            Err(NmeaFault::Malformed { field }),
+            "{line}"
+        );
     }
 }
 
@@ -156,11 +161,11 @@ fn a_malformed_field_is_named_by_its_number() {
 fn a_line_cut_between_fields_names_the_missing_one() {
     let sum = insd_wire::nmea::checksum(b"HEHDT,36.0");
     let framed = format!("$HEHDT,36.0*{sum:02X}");
-    assert_eq!(Sentence::read(framed.as_bytes()), Err(Fault::Missing { field: 2 }));
+    assert_eq!(Sentence::read(framed.as_bytes()), Err(NmeaFault::Missing { field: 2 }));
 }
 
 /// Frames a sentence with its checksum and reads it.
-fn framed(text: &str) -> Result<Sentence, Fault> {
+fn framed(text: &str) -> Result<Sentence, NmeaFault> {
     let sum = insd_wire::nmea::checksum(&text.as_bytes()[1..]);
     Sentence::read(format!("{text}*{sum:02X}").as_bytes()).map(|(_, sentence)| sentence)
 }
@@ -195,7 +200,7 @@ fn the_published_psxn_sentences_are_read_with_their_signs() {
     };
     assert!((roll.unwrap() - 1.28_f64.to_radians()).abs() < 1e-12);
     assert_eq!(heave, Some(-0.24));
-    assert_eq!(framed("$PSXN,26,0,44.5000,0.7800,-0.9000,NRP"), Err(Fault::OtherSentence));
+    assert_eq!(framed("$PSXN,26,0,44.5000,0.7800,-0.9000,NRP"), Err(NmeaFault::OtherSentence));
 }
 
 #[test]
@@ -221,7 +226,7 @@ fn the_examples_of_nortek_bottom_tracks_are_read() {
     let Ok(Sentence::NortekBottomTrack(tagged)) = framed(tagged) else { panic!() };
     assert_eq!((tagged.velocity[0], tagged.figure_of_merit), (None, None));
     assert_eq!(tagged.distances[..2], [None, Some(23.45)]);
-    assert_eq!(framed("$PNORBT6,TIME=1.0,DT2=1.0"), Err(Fault::Malformed { field: 2 }));
+    assert_eq!(framed("$PNORBT6,TIME=1.0,DT2=1.0"), Err(NmeaFault::Malformed { field: 2 }));
 }
 
 #[test]
@@ -264,7 +269,7 @@ fn what_is_no_position_is_unknown_in_a_void_sentence_and_a_fault_in_any_other() 
     assert!(rmc.position.is_none() && !rmc.valid);
     assert_eq!(
         framed("$GPGGA,071733,8960.0000,N,00000.0000,E,1,4,,137.0,M,13.0,M,,"),
-        Err(Fault::Malformed { field: 2 })
+        Err(NmeaFault::Malformed { field: 2 })
     );
     let Ok(Sentence::Rmc(dateless)) =
         framed("$GPRMC,000231.099,A,4829.0005,N,00022.0015,E,0.15,212.28,2208-1,,,A")

@@ -5,8 +5,8 @@
 
 use insd_base::units::KNOT;
 use insd_wire::nmea::{
-    ChecksumPolicy, CivilTime, Date, Fault, Frame, Gga, Gll, Gsa, Gst, Hdg, LeftOut, Rmc, Sentence,
-    TimeOfDay, Vbw, Vtg, Zda, checksum,
+    ChecksumPolicy, CivilTime, Date, Frame, Gga, Gll, Gsa, Gst, Hdg, LeftOut, NmeaFault, Rmc,
+    Sentence, TimeOfDay, Vbw, Vtg, Zda, checksum,
 };
 
 /// Reads a sentence with its checksum, and what was left out of it.
@@ -17,20 +17,20 @@ fn read(line: &str) -> (Sentence, LeftOut) {
 }
 
 /// The same with the checksum that belongs to it.
-fn framed(text: &str) -> Result<(Sentence, LeftOut), Fault> {
+fn framed(text: &str) -> Result<(Sentence, LeftOut), NmeaFault> {
     let line = format!("{text}*{:02X}", checksum(&text.as_bytes()[1..]));
     let frame = Frame::parse(line.as_bytes())?;
     Sentence::read_frame(&frame).map(|sentence| (sentence, frame.left_out()))
 }
 
 /// Reads a line without a checksum.
-fn bare(line: &str) -> Result<Sentence, Fault> {
+fn bare(line: &str) -> Result<Sentence, NmeaFault> {
     Sentence::read_frame(&Frame::parse_with(line.as_bytes(), ChecksumPolicy::Optional)?)
 }
 
 /// One field, and its number.
 fn one(field: u8) -> LeftOut {
-    LeftOut { count: 1, first: Some(Fault::Malformed { field }) }
+    LeftOut { count: 1, first: Some(NmeaFault::Malformed { field }) }
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn short_forms_without_a_checksum_are_read_where_the_port_allows_it() {
     assert!((vtg.speed.unwrap() - 9.7 * KNOT).abs() < 1e-12);
     assert_eq!(
         Frame::parse(b"$GPZDA,000000,01,08,2014,7").map(|frame| frame.left_out()),
-        Err(Fault::NoChecksum)
+        Err(NmeaFault::NoChecksum)
     );
 }
 
@@ -153,7 +153,9 @@ fn each_field_that_a_sentence_is_good_without_may_be_bad() {
                     assert!(optional.contains(&number), "{spoilt}");
                     assert_eq!(left_out.count, 1, "{spoilt}");
                 }
-                Err(Fault::Malformed { .. }) => assert!(!optional.contains(&number), "{spoilt}"),
+                Err(NmeaFault::Malformed { .. }) => {
+                    assert!(!optional.contains(&number), "{spoilt}")
+                }
                 Err(fault) => panic!("{spoilt}: {fault}"),
             }
         }

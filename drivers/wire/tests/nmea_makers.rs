@@ -10,7 +10,7 @@ use insd_base::utm::Utm;
 use insd_wire::nmea::{
     Marked, PfecAttitude, Phcmp, Phinf, Phlin, Phoct, PhoctState, Phspd, Phtro, Pixse,
     PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus, Position, Prdid, PrdidForm,
-    Ptnthtm, Sentence, TimeOfDay, WaveMotion,
+    Ptnthtm, Sentence, SurgeSwayHeave, TimeOfDay,
 };
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -42,11 +42,11 @@ fn kept(value: Option<f64>, state: PhoctState) -> PhoctState {
     if value.is_none() && state == PhoctState::Valid { PhoctState::Invalid } else { state }
 }
 
-fn motion() -> impl Strategy<Value = WaveMotion> {
-    three(99.999).prop_map(|[heave, surge, sway]| WaveMotion { heave, surge, sway })
+fn motion() -> impl Strategy<Value = SurgeSwayHeave> {
+    three(99.999).prop_map(|[heave, surge, sway]| SurgeSwayHeave { heave, surge, sway })
 }
 
-fn parts(motion: &WaveMotion) -> [Option<f64>; 3] {
+fn parts(motion: &SurgeSwayHeave) -> [Option<f64>; 3] {
     [motion.heave, motion.surge, motion.sway]
 }
 
@@ -204,7 +204,7 @@ proptest! {
         let (x, y, z) = (Some(a), Some(b), Some(c));
         let time = Some(TimeOfDay { hour: small, minute: small, second: small, nanosecond: word });
         let marked = |value| Marked { value, state: PhoctState::Valid };
-        let motion = WaveMotion { heave: x, surge: y, sway: z };
+        let motion = SurgeSwayHeave { heave: x, surge: y, sway: z };
         let phoct = Phoct {
             time, time_valid: true, latency_ms: Some(small), heading: marked(x), roll: marked(y),
             pitch: marked(z), heave: marked(x), motion, rates: motion, rate_of_turn: y,

@@ -9,10 +9,10 @@ use common::read;
 use insd_base::units::{DEG, KNOT};
 use insd_base::utm::Utm;
 use insd_wire::nmea::{
-    ChecksumPolicy, Fault, Frame, InsUserStatus, Line, Marked, OctansStatus, Pashr, PashrDialect,
-    PfecAttitude, Phcmp, Phinf, Phlin, Phoct, PhoctState, Phspd, Phtro, Pixse,
+    ChecksumPolicy, Frame, InsUserStatus, Marked, NmeaFault, NmeaLine, OctansStatus, Pashr,
+    PashrDialect, PfecAttitude, Phcmp, Phinf, Phlin, Phoct, PhoctState, Phspd, Phtro, Pixse,
     PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus, Position, Prdid, PrdidForm,
-    Psxn, Ptnthtm, Sentence, Talker, TimeOfDay, WaveMotion, checksum,
+    Psxn, Ptnthtm, Sentence, SurgeSwayHeave, Talker, TimeOfDay, checksum,
 };
 
 /// Sentences that are written to the byte as they are published, but for their checksums, which are
@@ -83,7 +83,7 @@ fn published_sentences_are_read_and_written_byte_for_byte() {
 #[test]
 fn an_example_with_an_impossible_heading_is_refused_for_its_heading() {
     let published = b"$PRDID,-012.39,+002.14,366.91*7A";
-    assert_eq!(Sentence::read(published), Err(Fault::Malformed { field: 3 }));
+    assert_eq!(Sentence::read(published), Err(NmeaFault::Malformed { field: 3 }));
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn the_other_forms_of_prdid_and_pfec_are_written_and_read_without_a_checksum_if_
     let old = pfec.write_old();
     assert_eq!(old.as_bytes(), b"$PFEC,GPatt,294.7,-02.5,+00.4\r\n");
     for (line, sentence) in [(bare, Sentence::Prdid(prdid)), (old, Sentence::PfecAttitude(pfec))] {
-        assert_eq!(Frame::parse(line.as_bytes()), Err(Fault::NoChecksum));
+        assert_eq!(Frame::parse(line.as_bytes()), Err(NmeaFault::NoChecksum));
         let frame = Frame::parse_with(line.as_bytes(), ChecksumPolicy::Optional).unwrap();
         assert_eq!(Sentence::read_frame(&frame), Ok(sentence));
     }
@@ -108,7 +108,7 @@ fn the_other_forms_of_prdid_and_pfec_are_written_and_read_without_a_checksum_if_
 fn other_words_under_the_same_address_are_other_sentences() {
     for text in ["PFEC,GPhve,00.007,A", "PIXSE,LOGIN_,1.468,0.039", "PHOCT,02,", "PINSD,XXX,1"] {
         let line = format!("${text}*{:02X}", checksum(text.as_bytes()));
-        assert_eq!(Sentence::read(line.as_bytes()), Err(Fault::OtherSentence), "{text}");
+        assert_eq!(Sentence::read(line.as_bytes()), Err(NmeaFault::OtherSentence), "{text}");
     }
 }
 
@@ -208,7 +208,7 @@ fn ship(side: f64) -> Ship {
 fn sentences(ship: &Ship) -> Vec<String> {
     let Ship { roll, pitch, heave, surge, sway } = *ship;
     let heading = Some(90.0 * DEG);
-    let motion = WaveMotion { heave, surge, sway };
+    let motion = SurgeSwayHeave { heave, surge, sway };
     let phoct = Phoct {
         heading: Marked::valid(heading),
         roll: Marked::valid(roll),
@@ -240,7 +240,7 @@ fn sentences(ship: &Ship) -> Vec<String> {
         in_dialect(PashrDialect::Sbg),
         in_dialect(PashrDialect::SbgWassp),
     ];
-    let bare = |line: &Line| line.as_str().split('*').next().unwrap().to_owned();
+    let bare = |line: &NmeaLine| line.as_str().split('*').next().unwrap().to_owned();
     lines.iter().map(bare).collect()
 }
 
@@ -339,7 +339,7 @@ const LATE: Option<TimeOfDay> =
 fn the_greatest_lengths_of_the_octans_set_are_those_that_are_stated() {
     let far = Some(-99.999);
     let angles = (Some(-180.0 * DEG), Some(-89.999 * DEG));
-    let motion = WaveMotion { heave: far, surge: far, sway: far };
+    let motion = SurgeSwayHeave { heave: far, surge: far, sway: far };
     let phoct = Phoct {
         time: LATE,
         time_valid: true,

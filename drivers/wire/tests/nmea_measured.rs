@@ -8,13 +8,13 @@ mod common;
 use common::{angle, close, perhaps, read, same_angle, time_of_day};
 use insd_base::FixQuality;
 use insd_wire::nmea::{
-    Date, Dtm, Fault, FixDimension, Gbs, Gga, Gll, Gns, Gsa, Gst, Gsv, Hcr, HeadingCorrections,
-    HeadingMode, MAX_LEN, MAX_MEASUREMENTS, MAX_USED, Position, PositionMode, Rmc, SatelliteInView,
-    Sentence, Talker, Text, TimeOfDay, Xdr, XdrMeasurement, checksum,
+    Date, Dtm, FixDimension, Gbs, Gga, Gll, Gns, Gsa, Gst, Gsv, Hcr, HeadingCorrections,
+    HeadingMode, MAX_LEN, MAX_MEASUREMENTS, MAX_USED, NmeaFault, Position, PositionMode, Rmc,
+    SatelliteInView, Sentence, Talker, Text, TimeOfDay, Xdr, XdrMeasurement, checksum,
 };
 use proptest::prelude::*;
 
-fn framed(text: &str) -> Result<Sentence, Fault> {
+fn framed(text: &str) -> Result<Sentence, NmeaFault> {
     let line = format!("${text}*{:02X}", checksum(text.as_bytes()));
     Sentence::read(line.as_bytes()).map(|(_, sentence)| sentence)
 }
@@ -83,8 +83,8 @@ fn five_measurements_of_a_real_ship_are_read_and_written_so_again() {
     let line = "$IIXDR,C,,C,AIRTEMP,A,-1.0,D,HEEL,A,2.9,D,TRIM,P,,B,BARO,A,-3.9,D,RUDDER*29";
     let (talker, sentence) = Sentence::read(line.as_bytes()).unwrap();
     assert_eq!(sentence.write(talker.unwrap()).as_str(), line);
-    assert_eq!(framed("IIXDR,A,1.0,D"), Err(Fault::Missing { field: 4 }));
-    assert_eq!(framed("IIXDR,A,1.0,D,X,"), Err(Fault::Missing { field: 6 }));
+    assert_eq!(framed("IIXDR,A,1.0,D"), Err(NmeaFault::Missing { field: 4 }));
+    assert_eq!(framed("IIXDR,A,1.0,D,X,"), Err(NmeaFault::Missing { field: 6 }));
     assert!(framed(&format!("IIXDR{}", ",A,1,D,X".repeat(MAX_MEASUREMENTS))).is_ok());
     assert!(framed(&format!("IIXDR{}", ",A,1,D,X".repeat(MAX_MEASUREMENTS + 1))).is_err());
 }

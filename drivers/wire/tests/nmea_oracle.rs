@@ -4,11 +4,11 @@
 
 use insd_base::FixQuality;
 use insd_wire::nmea::{
-    CivilTime, Date, Gga, Hdt, Line, Position, PositionMode, Talker, TimeOfDay, Vtg, Zda, Zone,
+    CivilTime, Date, Gga, Hdt, NmeaLine, Position, PositionMode, Talker, TimeOfDay, Vtg, Zda, Zone,
 };
 use nmea::ParseResult;
 
-fn parsed(line: &Line) -> ParseResult {
+fn parsed(line: &NmeaLine) -> ParseResult {
     nmea::parse_bytes(line.as_bytes()).unwrap_or_else(|error| panic!("{line:?}: {error:?}"))
 }
 

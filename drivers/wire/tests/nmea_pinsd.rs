@@ -8,7 +8,7 @@ use common::{perhaps, read, time_of_day};
 use insd_base::units::DEG;
 use insd_base::{FixQuality, HeaveQuality, Mode, Ned, Parties, Party, SolutionSigma};
 use insd_wire::nmea::{
-    Fault, HeadingMode, MAX_LEN, Pinsd, PinsdAlignment, PinsdIntegrity, PinsdMode, PinsdPhase,
+    HeadingMode, MAX_LEN, NmeaFault, Pinsd, PinsdAlignment, PinsdIntegrity, PinsdMode, PinsdPhase,
     PinsdProtection, PinsdSigma, PinsdSource, PinsdStatus, PinsdTime, ProtectionState, Sentence,
     Talker, TimeOfDay, checksum,
 };
@@ -237,7 +237,7 @@ fn every_letter_comes_back() {
     }
 }
 
-fn status_of(fields: &str) -> Result<PinsdStatus, Fault> {
+fn status_of(fields: &str) -> Result<PinsdStatus, NmeaFault> {
     let body = format!("PINSD,STA,235959.99,D,4210,E,6,2,M,0,2{fields}");
     let line = format!("${body}*{:02X}", checksum(body.as_bytes()));
     match Sentence::read(line.as_bytes())? {
@@ -258,7 +258,7 @@ fn a_status_of_a_version_that_did_not_tell_integrity_or_source_is_read() {
     assert_eq!(newer.integrity, Some(PinsdIntegrity::Contradicted));
     assert_eq!(newer.excluded, Some([Party::Gnss, Party::Imu].into_iter().collect()));
     for bad in [",X,N", ",AA,N", ",A,GX", ",A,NG", ",A,N,X,1", ",A,N,R,x"] {
-        assert!(matches!(status_of(bad), Err(Fault::Malformed { .. })), "{bad}");
+        assert!(matches!(status_of(bad), Err(NmeaFault::Malformed { .. })), "{bad}");
     }
 }
 

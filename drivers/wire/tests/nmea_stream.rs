@@ -5,8 +5,8 @@
 use insd_base::UtcTime;
 use insd_wire::gnss;
 use insd_wire::nmea::{
-    ChecksumPolicy, DATAGRAM_HEADER, Frame, HeadingMode, Line, MAX_DATAGRAM, Sentence, TagBlock,
-    TagGroup, Talker, Ths, datagram, datagrams, others,
+    ChecksumPolicy, DATAGRAM_HEADER, Frame, HeadingMode, MAX_DATAGRAM, NmeaLine, Sentence,
+    TagBlock, TagGroup, Talker, Ths, datagram, datagrams, others,
 };
 use insd_wire::stream::{Cutter, Protocol};
 use proptest::prelude::*;
@@ -148,7 +148,7 @@ proptest! {
             group: group.map(|(line, more, id)| TagGroup { line, lines: line + more, id }),
             time: millis.map(|millis| UtcTime::from_nanos(millis * 1_000_000)),
         };
-        let ths: Line = Ths { heading: Some(heading), mode: HeadingMode::Autonomous }.write(Talker::HE);
+        let ths: NmeaLine = Ths { heading: Some(heading), mode: HeadingMode::Autonomous }.write(Talker::HE);
         let bytes = datagram(&[(block, &ths), (block, &ths)]).unwrap();
         let (found, skipped, damaged) = cut(&[&bytes]);
         prop_assert_eq!((found.len(), skipped, damaged), (2, 0, 0));

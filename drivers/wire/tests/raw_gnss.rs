@@ -17,7 +17,7 @@ use insd_base::satellites::{
 };
 use insd_wire::gnss::Locks;
 use insd_wire::gnss::navigation::{Broadcast, NavigationAssembler};
-use insd_wire::gnss::ubx::Message;
+use insd_wire::gnss::ubx::UbxMessage;
 use insd_wire::stream::{Cutter, Protocol};
 
 /// What a recording held.
@@ -41,14 +41,14 @@ fn hear(bytes: &[u8]) -> Heard {
         if cut.protocol != Protocol::Ubx {
             continue;
         }
-        match Message::read(cut.bytes) {
-            Ok(Message::RxmRawx(raw)) => {
+        match UbxMessage::read(cut.bytes) {
+            Ok(UbxMessage::RxmRawx(raw)) => {
                 let mut epoch = raw.epoch().unwrap();
                 locks.mark(&mut epoch);
                 now = epoch.tag;
                 heard.epochs.push(epoch);
             }
-            Ok(Message::RxmSfrbx(raw)) => {
+            Ok(UbxMessage::RxmSfrbx(raw)) => {
                 let Some(words) = raw.navigation() else { continue };
                 heard.words += 1;
                 match assembler.take(&words, now) {
@@ -149,7 +149,7 @@ fn words_with_a_wrong_bit_are_refused_or_say_the_same() {
     let (mut cutter, mut words) = (Cutter::new(&[Protocol::Ubx]), Vec::new());
     cutter.push(piece);
     while let Some(cut) = cutter.cut() {
-        if let Ok(Message::RxmSfrbx(raw)) = Message::read(cut.bytes) {
+        if let Ok(UbxMessage::RxmSfrbx(raw)) = UbxMessage::read(cut.bytes) {
             words.extend(raw.navigation());
         }
     }

@@ -12,7 +12,7 @@ use insd_base::satellites::{
     BroadcastRecord, Constellation, SatelliteEpoch, SatelliteId, SignalCode, SignalObservation,
 };
 use insd_base::{GpsTime, UtcTime};
-use insd_wire::binary::Fault;
+use insd_wire::binary::BinaryFault;
 use insd_wire::gnss::rtcm::{Correction, Frame, MsmCollector, MsmWriter, write_record};
 use insd_wire::stream::{Cutter, Protocol};
 use proptest::prelude::*;
@@ -84,7 +84,7 @@ fn a_message_of_more_than_64_cells_is_refused() {
     message[9..22].fill(0xFF);
     let frame = Frame { message: &message }.write();
     let refused = MsmCollector::new().take(&frame, received());
-    assert_eq!(refused, Err(Fault::Range { field: "DF396" }));
+    assert_eq!(refused, Err(BinaryFault::Range { field: "DF396" }));
 }
 
 /// A message with a number and any bits behind it.
@@ -102,7 +102,7 @@ fn both(number: u16, rest: &[u8]) -> (Option<BroadcastRecord>, Message) {
     let told = MsmCollector::new().take(&frame, received());
     let record = match told.as_deref() {
         Ok([Correction::Record(record)]) => Some(*record),
-        Err(Fault::Range { .. }) => None,
+        Err(BinaryFault::Range { .. }) => None,
         other => panic!("{other:?}"),
     };
     (record, MessageFrame::new(&frame).unwrap().get_message())

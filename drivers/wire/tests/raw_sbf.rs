@@ -7,7 +7,7 @@ mod rinex;
 
 use insd_base::satellites::{SatelliteEpoch, SignalObservation};
 use insd_wire::gnss::navigation::NavigationAssembler;
-use insd_wire::gnss::sbf::{MeasEpoch, Message, RawNavigation, Stamp};
+use insd_wire::gnss::sbf::{MeasEpoch, RawNavigation, SbfMessage, SbfStamp};
 use insd_wire::stream::{Cutter, Protocol};
 use rinex::Compared;
 
@@ -20,13 +20,13 @@ fn blocks(bytes: &[u8]) -> Vec<Vec<u8>> {
     std::iter::from_fn(|| cutter.cut().map(|cut| cut.bytes.to_vec())).collect()
 }
 
-fn messages(bytes: &[u8]) -> Vec<Message> {
-    blocks(bytes).iter().filter_map(|block| Message::read(block).ok()).collect()
+fn messages(bytes: &[u8]) -> Vec<SbfMessage> {
+    blocks(bytes).iter().filter_map(|block| SbfMessage::read(block).ok()).collect()
 }
 
 fn measured() -> (MeasEpoch, SatelliteEpoch) {
     let block = messages(MEASUREMENTS).into_iter().find_map(|message| match message {
-        Message::MeasEpoch(block) => Some(block),
+        SbfMessage::MeasEpoch(block) => Some(block),
         _ => None,
     });
     let block = block.unwrap();
@@ -60,8 +60,8 @@ fn the_clock_was_set_where_its_jumps_are_another_count() {
 fn what_is_written_is_read() {
     let (block, _) = measured();
     assert_eq!(MeasEpoch::read(&block.write()), Ok(block));
-    let raw = |message: Message| match message {
-        Message::RawNavigation(block) => Some(block),
+    let raw = |message: SbfMessage| match message {
+        SbfMessage::RawNavigation(block) => Some(block),
         _ => None,
     };
     let blocks: Vec<_> = messages(NAVIGATION).into_iter().filter_map(raw).collect();
@@ -74,7 +74,7 @@ fn what_is_written_is_read() {
 fn recorded_navigation_bits_pass_the_checks_of_their_messages() {
     let mut heard = Vec::new();
     for message in messages(NAVIGATION) {
-        let Message::RawNavigation(block) = message else { continue };
+        let SbfMessage::RawNavigation(block) = message else { continue };
         let words = block.navigation().unwrap();
         let taken = NavigationAssembler::new().take(&words, block.stamp.gps().unwrap());
         assert_eq!(taken, Ok(Vec::new()), "{words:?}");
@@ -92,11 +92,11 @@ fn recorded_blocks_that_are_cut_or_have_wrong_bits_make_nothing_panic() {
             payload[bit / 8] ^= 1 << (bit % 8);
             for payload in [&payload[..], &frame.payload[..bit / 8]] {
                 let wrong = insd_wire::gnss::sbf::Frame { payload, ..frame }.write();
-                match Message::read(&wrong) {
-                    Ok(Message::MeasEpoch(block)) => drop(block.epoch(None)),
-                    Ok(Message::RawNavigation(block)) => {
+                match SbfMessage::read(&wrong) {
+                    Ok(SbfMessage::MeasEpoch(block)) => drop(block.epoch(None)),
+                    Ok(SbfMessage::RawNavigation(block)) => {
                         let words = block.navigation();
-                        let now = Stamp::default()
+                        let now = SbfStamp::default()
                             .gps()
                             .unwrap_or(insd_base::GpsTime::from_week(2381, 0));
                         words.map(|words| NavigationAssembler::new().take(&words, now));

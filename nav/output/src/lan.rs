@@ -14,7 +14,7 @@
 
 use insd_base::{Span, Time, UtcTime};
 use insd_wire::nmea::{
-    DATAGRAM_HEADER, Line, MAX_DATAGRAM, Sfi, TagBlock, TagGroup, Tagged, Talker,
+    DATAGRAM_HEADER, MAX_DATAGRAM, NmeaLine, Sfi, TagBlock, TagGroup, Tagged, Talker,
     TransmissionGroup, datagram,
 };
 
@@ -82,7 +82,7 @@ struct Counts {
 struct Addressed<'a> {
     group: TransmissionGroup,
     message: &'a PortMessage,
-    lines: &'a [Line],
+    lines: &'a [NmeaLine],
 }
 
 /// Lines of a message that stay in one datagram.
@@ -172,7 +172,7 @@ impl Lan {
 }
 
 /// Letters of a line up to its first field.
-fn address(line: &Line) -> &str {
+fn address(line: &NmeaLine) -> &str {
     let line = line.as_str();
     line.get(1..).and_then(|line| line.split([',', '*']).next()).unwrap_or_default()
 }

@@ -10,7 +10,7 @@ use insd_output::{
     Talker, TransmissionGroup,
 };
 use insd_wire::nmea::{
-    DATAGRAM_HEADER, Frame, HeadingMode, Line, MAX_DATAGRAM, Psxn, Sentence, TagBlock, Ths, Txt,
+    DATAGRAM_HEADER, Frame, HeadingMode, MAX_DATAGRAM, NmeaLine, Psxn, Sentence, TagBlock, Ths, Txt,
 };
 use proptest::prelude::*;
 
@@ -27,7 +27,7 @@ fn kind(name: &str) -> MessageKind {
     MessageKind::named(name).unwrap()
 }
 
-fn message(name: &str, lines: Vec<Line>) -> PortMessage {
+fn message(name: &str, lines: Vec<NmeaLine>) -> PortMessage {
     let slot = MessageKind::all().position(|own| own.name() == name).unwrap();
     PortMessage {
         slot: u16::try_from(slot).unwrap(),
@@ -39,7 +39,7 @@ fn message(name: &str, lines: Vec<Line>) -> PortMessage {
     }
 }
 
-fn ths(degrees: f64) -> Line {
+fn ths(degrees: f64) -> NmeaLine {
     Ths { heading: Some(degrees.to_radians()), mode: HeadingMode::Autonomous }.write(Talker::HE)
 }
 
@@ -210,7 +210,7 @@ fn a_datagram_is_as_old_as_its_oldest_message_and_due_with_its_most_frequent() {
     assert_eq!((datagram.valid, datagram.period.as_nanos()), (Time::from_nanos(-5), 1000));
 }
 
-fn any_line() -> impl Strategy<Value = Line> {
+fn any_line() -> impl Strategy<Value = NmeaLine> {
     let text = ("[ -~]{0,61}", any::<u8>()).prop_map(|(text, kind)| {
         Txt::message(kind % 100, &text)[0]
             .write(Talker::new(["IN", "II", "HE"][usize::from(kind % 3)]).unwrap())

@@ -18,7 +18,7 @@ use insd_base::{Span, Time, Voyage};
 use insd_drivers::recording::{Compression, write_voyage};
 use insd_output::n2k::{BITS_PER_SECOND, BusLoad, default_transmit};
 use insd_simulator::simulate;
-use insd_tests::feed::{Encoding, FeedConfig, Sending, feed};
+use insd_tests::feed::{Encoding, FeedConfig, LineSending, feed};
 use insd_tests::wire::Wire;
 
 use bus::{Bus, Counted};
@@ -106,7 +106,7 @@ fn measure(
     options: &Options,
     voyage: &Voyage,
     feeds: &FeedConfig,
-    sendings: &[Sending],
+    sendings: &[LineSending],
     bus: Option<&Bus>,
 ) -> Cost {
     let path = |port: usize| options.dir.join(format!("tty{port}"));

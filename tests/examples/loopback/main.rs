@@ -19,7 +19,7 @@ use insd_drivers::recording::{Compression, write_voyage};
 use insd_intake::config::Role;
 use insd_intake::sensor::TimeBase;
 use insd_simulator::simulate;
-use insd_tests::feed::{Encoding, FeedConfig, Sending, feed};
+use insd_tests::feed::{Encoding, FeedConfig, LineSending, feed};
 use insd_tests::wire::Wire;
 use insd_wire::imu::xbus::Precision;
 use insd_wire::log::LogFrame;
@@ -219,7 +219,7 @@ fn configuration(options: &Options, voyage: &Voyage, feeds: &FeedConfig) -> Stri
 }
 
 /// Sends everything at its time; gives by how much it was late at most, s.
-fn send(wires: &mut [Wire], sendings: &[Sending]) -> f64 {
+fn send(wires: &mut [Wire], sendings: &[LineSending]) -> f64 {
     let clock = Clock::start();
     let mut latest: f64 = 0.0;
     for sending in sendings {

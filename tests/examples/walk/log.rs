@@ -12,7 +12,7 @@ use insd_base::{
 };
 use insd_wire::gnss::Locks;
 use insd_wire::gnss::navigation::{Broadcast, NavigationAssembler};
-use insd_wire::gnss::ubx::Message;
+use insd_wire::gnss::ubx::UbxMessage;
 use insd_wire::stream::{Cutter, Protocol};
 
 /// GPS week of the walk.
@@ -54,14 +54,14 @@ pub(crate) fn hear(folder: &Path) -> Result<Heard, Box<dyn Error>> {
         if cut.protocol != Protocol::Ubx {
             continue;
         }
-        match Message::read(cut.bytes) {
-            Ok(Message::RxmRawx(raw)) => {
+        match UbxMessage::read(cut.bytes) {
+            Ok(UbxMessage::RxmRawx(raw)) => {
                 let mut epoch = raw.epoch().ok_or("an epoch without a time")?;
                 locks.mark(&mut epoch);
                 now = epoch.tag;
                 heard.epochs.push(epoch);
             }
-            Ok(Message::RxmSfrbx(raw)) => {
+            Ok(UbxMessage::RxmSfrbx(raw)) => {
                 let Some(words) = raw.navigation() else { continue };
                 let told = assembler.take(&words, now).map_err(|refusal| refusal.to_string())?;
                 told.into_iter().for_each(|told| heard.note(told));

@@ -147,7 +147,7 @@ fn telegram(dice: &mut Dice) -> Telegram {
 }
 
 fn sbf_block(dice: &mut Dice) -> Vec<u8> {
-    let state = insd_wire::gnss::Epoch {
+    let state = insd_wire::gnss::GnssEpoch {
         time: insd_base::GpsTime::from_week(2000, 0),
         leap_seconds: 18,
         time_std: 1e-8,

@@ -21,7 +21,7 @@ use insd_drivers::raw::RawReader;
 use insd_drivers::recording::NavWriter;
 use insd_engine::Output;
 use insd_simulator::{raw_gnss, simulate};
-use insd_tests::feed::{Encoding, FeedConfig, Sending, feed};
+use insd_tests::feed::{Encoding, FeedConfig, LineSending, feed};
 use insd_tests::wire::Wire;
 use insd_tests::{raw_feed, scenario, variant};
 use insd_vessel::{Product, Spoken};
@@ -131,10 +131,10 @@ fn configuration(dir: &Path, feeds: &FeedConfig, voyage: &insd_base::Voyage) -> 
 /// Sends in real time; the receiver's line is pulled and put back on the way. What is of a port from [`ELSEWHERE`] on goes another way.
 fn send(
     dir: &Path,
-    sendings: &[Sending],
+    sendings: &[LineSending],
     sailed: f64,
     unplugged: Range<f64>,
-    mut elsewhere: impl FnMut(&Sending),
+    mut elsewhere: impl FnMut(&LineSending),
 ) {
     let open = |port: usize| Wire::new(&dir.join(format!("tty{port}"))).unwrap();
     let on_lines = sendings.iter().filter(|sending| sending.port < ELSEWHERE);

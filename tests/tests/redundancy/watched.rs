@@ -6,7 +6,7 @@ use insd_intake::config::{IntakeConfig, Kind, PortSpec, SensorConfig};
 use insd_intake::port::Link;
 use insd_output::alerts::Condition;
 use insd_tests::engines::{Fleet, truth_at};
-use insd_tests::feed::{Reception, Sending, arrivals};
+use insd_tests::feed::{LineSending, Reception, arrivals};
 use insd_vessel::{Pipeline, Plan, Product, WatchLimits, WatchPlan};
 use insd_wire::nmea::{AlertState, Hdt, Talker};
 
@@ -16,7 +16,7 @@ use super::fleet;
 const COMPASSES: [(&str, usize); 2] = [("gyro 1", 3), ("gyro 2", 4)];
 
 /// What the compasses send: the truth, what they are off, deg, and the last decimal of a sentence.
-fn sentences(fleet: &Fleet, until: f64, off: impl Fn(usize, f64) -> f64) -> Vec<Sending> {
+fn sentences(fleet: &Fleet, until: f64, off: impl Fn(usize, f64) -> f64) -> Vec<LineSending> {
     let mut all = Vec::new();
     for (number, (_, port)) in COMPASSES.iter().enumerate() {
         // one speaks once a second, the other four times
@@ -27,7 +27,7 @@ fn sentences(fleet: &Fleet, until: f64, off: impl Fn(usize, f64) -> f64) -> Vec<
             let heading = Some(heading + off(number, at) * DEG);
             let line = Hdt { heading }.write(Talker::HE);
             let input = Input::Bytes(line.as_bytes().to_vec());
-            all.push(Sending { at: Time::from_seconds(at), port: *port, input });
+            all.push(LineSending { at: Time::from_seconds(at), port: *port, input });
         }
     }
     all.sort_by_key(|sending| sending.at);

@@ -12,7 +12,7 @@ use insd::state::{Kept, Store};
 use insd_base::{Time, Voyage};
 use insd_config::Config;
 use insd_simulator::simulate;
-use insd_tests::feed::{Encoding, FeedConfig, Reception, Sending, arrivals, feed};
+use insd_tests::feed::{Encoding, FeedConfig, LineSending, Reception, arrivals, feed};
 
 /// Sensors by their place in the configuration.
 pub(crate) const IMU: usize = 0;
@@ -23,7 +23,7 @@ pub(crate) const LOG: usize = 2;
 pub(crate) struct Ship {
     pub(crate) folder: tempfile::TempDir,
     pub(crate) voyage: Voyage,
-    pub(crate) sendings: Vec<Sending>,
+    pub(crate) sendings: Vec<LineSending>,
     /// Where her sensors send to.
     sensors: Vec<SocketAddr>,
     /// What the daemon sends.
@@ -122,7 +122,7 @@ impl Ship {
         let config = Config::of_text(&self.text("")).unwrap();
         let mut pipeline = config.pipeline();
         let early = self.sendings.iter().take_while(|sending| sending.at.as_seconds() < until);
-        let early: Vec<Sending> = early.cloned().collect();
+        let early: Vec<LineSending> = early.cloned().collect();
         let reception = Reception::new(self.feeds.sensors[0].calendar.start, 1);
         for arrival in arrivals(&early, &reception) {
             pipeline.handle(&arrival, |_| {});

@@ -10,7 +10,7 @@ use insd_base::{CanId, Input, Solution, Time, Truth, Voyage, earth};
 use insd_drivers::recording::read_nav;
 use insd_intake::config::SensorConfig;
 use insd_simulator::simulate;
-use insd_tests::feed::{Encoding, FeedConfig, Sending, feed};
+use insd_tests::feed::{Encoding, FeedConfig, LineSending, feed};
 use insd_wire::imu::can::Shipped;
 
 use super::guest::{SECOND, make, turn};
@@ -95,7 +95,7 @@ impl Daemon {
 }
 
 /// Sends what the sensors send in its own time.
-fn send(bus: &Peer, sendings: &[Sending], tap: &Tap) {
+fn send(bus: &Peer, sendings: &[LineSending], tap: &Tap) {
     let begun = tap.now();
     for sending in sendings {
         let wait = begun + sending.at.as_seconds() - tap.now();
@@ -340,6 +340,6 @@ fn a_ship_navigates_by_one_bus_and_tells_another() {
     assert!(compared as f64 > 0.9 * RATE * (DURATION - SETTLED));
 }
 
-fn is_extended(sending: &&Sending) -> bool {
+fn is_extended(sending: &&LineSending) -> bool {
     matches!(&sending.input, Input::Can(frame) if matches!(frame.id(), CanId::Extended(_)))
 }

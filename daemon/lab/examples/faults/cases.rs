@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use insd_lab::parts::{CaseList, CaseRun, PartsArgs, gather};
-use insd_simulator::lies::{Case, Class, Grade, Kind, Suite, case, catalogue};
+use insd_simulator::lies::{Case, Class, Grade, LieKind, Suite, case, catalogue};
 use serde::{Deserialize, Serialize};
 
 use super::sail::sail;
@@ -18,7 +18,7 @@ const HONEST_FROM: u64 = 1001;
 #[derive(Clone, Copy)]
 struct Draw {
     /// Nobody lies where there is none.
-    kind: Option<&'static Kind>,
+    kind: Option<&'static LieKind>,
     grade: Grade,
     suite: Suite,
     seed: u64,
@@ -71,7 +71,7 @@ fn places(suites: &[Suite]) -> Vec<(Grade, Suite)> {
     grades.into_iter().flat_map(|grade| suites.iter().map(move |suite| (grade, *suite))).collect()
 }
 
-fn lies(kind: &'static Kind, draws: u64) -> Vec<Draw> {
+fn lies(kind: &'static LieKind, draws: u64) -> Vec<Draw> {
     let only = std::env::var("ONLY").unwrap_or_default();
     let seed: Option<u64> = std::env::var("SEED").ok().and_then(|text| text.parse().ok());
     let seeds = seed.map_or(1..=draws, |seed| seed..=seed);

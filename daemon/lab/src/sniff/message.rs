@@ -1,7 +1,7 @@
 //! Statistics of one kind of message.
 
 use insd_base::Time;
-use insd_wire::describe::Reading;
+use insd_wire::describe::ReadOutcome;
 use insd_wire::stream::Protocol;
 
 use super::named::Named;
@@ -69,15 +69,15 @@ impl Message {
             Some(RefusedMessage { reason, bytes: excerpt(bytes) })
         };
         match named.read {
-            Reading::Used => {
+            ReadOutcome::Used => {
                 self.used += 1;
                 if named.reason.is_some() {
                     self.flawed += 1;
                     self.flaw = told(&named.reason);
                 }
             }
-            Reading::Other => {}
-            Reading::Refused => {
+            ReadOutcome::Other => {}
+            ReadOutcome::Refused => {
                 self.refused += 1;
                 self.refusal = told(&named.reason);
             }

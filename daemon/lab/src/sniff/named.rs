@@ -1,6 +1,6 @@
 //! What a frame is called on the wire, who sent it, and why it is refused.
 
-use insd_wire::describe::{Reading, describe};
+use insd_wire::describe::{ReadOutcome, describe};
 use insd_wire::gnss::{gsof, novatel, sbf, ubx};
 use insd_wire::imu::{kvh, mip, sbg, stdbin, stim, vectornav, xbus};
 use insd_wire::log::{ad2cp, pd0, pd6};
@@ -23,7 +23,7 @@ pub(super) const UNNAMED: &str = "NMEA";
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Named<'a> {
     pub(super) name: String,
-    pub(super) read: Reading,
+    pub(super) read: ReadOutcome,
     /// Why it is refused, or what was left out of it.
     pub(super) reason: Option<String>,
     /// It would be read if lines without a checksum were taken.
@@ -41,7 +41,7 @@ pub(super) fn named(protocol: Protocol, frame: &[u8]) -> Named<'_> {
         return sentence(frame);
     }
     let described = describe(protocol, frame);
-    let reason = (described.read == Reading::Refused)
+    let reason = (described.read == ReadOutcome::Refused)
         .then(|| fault(protocol, frame).unwrap_or_else(|| "not what its format says".to_owned()));
     let axes = (protocol == Protocol::Pd0).then(|| axes(frame)).flatten();
     let (talker, source) = (None, None);
@@ -68,7 +68,7 @@ fn axes(frame: &[u8]) -> Option<LogAxes> {
 pub fn is_proof(protocol: Protocol, frame: &[u8]) -> bool {
     match protocol {
         Protocol::Nmea => Frame::parse(frame).is_ok(),
-        _ => describe(protocol, frame).read != Reading::Refused,
+        _ => describe(protocol, frame).read != ReadOutcome::Refused,
     }
 }
 
@@ -77,21 +77,21 @@ fn sentence(line: &[u8]) -> Named<'_> {
     let (read, reason) = match others::kind(line) {
         Ok(kind) => match kind.understood {
             Understood::Read(left_out) => {
-                (Reading::Used, left_out.first.map(|fault| format!("{fault}, and left out")))
+                (ReadOutcome::Used, left_out.first.map(|fault| format!("{fault}, and left out")))
             }
-            Understood::Refused(fault) => (Reading::Refused, Some(fault.to_string())),
+            Understood::Refused(fault) => (ReadOutcome::Refused, Some(fault.to_string())),
             // of a sentence that nobody needs an odd form harms nobody
             Understood::Odd | Understood::Recognised | Understood::Unknown => {
-                (Reading::Other, None)
+                (ReadOutcome::Other, None)
             }
         },
-        Err(fault) => (Reading::Refused, Some(fault.to_string())),
+        Err(fault) => (ReadOutcome::Refused, Some(fault.to_string())),
     };
     let frame = Frame::parse_with(line, ChecksumPolicy::Optional).ok();
     let frame = frame.as_ref();
     let talker = frame.and_then(Frame::talker);
     // what has neither a checksum nor a known form may be anything
-    let is_sound = talker.is_some() || read != Reading::Refused;
+    let is_sound = talker.is_some() || read != ReadOutcome::Refused;
     let address = frame.filter(|_| is_sound).map_or(UNNAMED.to_owned(), address);
     let reads =
         |frame: &&Frame<'_>| matches!(others::kind_of(line, frame).understood, Understood::Read(_));
@@ -99,7 +99,7 @@ fn sentence(line: &[u8]) -> Named<'_> {
         name: address.chars().take(LONGEST).collect(),
         read,
         reason,
-        bare: read == Reading::Refused && frame.filter(reads).is_some(),
+        bare: read == ReadOutcome::Refused && frame.filter(reads).is_some(),
         axes: None,
         talker,
         source: frame.and_then(Frame::tag).and_then(|tag| tag.source),
@@ -123,9 +123,9 @@ fn fault(protocol: Protocol, frame: &[u8]) -> Option<String> {
     }
     match protocol {
         Protocol::Nmea | Protocol::Rtcm => None,
-        Protocol::Ubx => told(ubx::Message::read(frame)),
-        Protocol::Sbf => told(sbf::Message::read(frame)),
-        Protocol::Sbg => told(sbg::Message::read(frame)),
+        Protocol::Ubx => told(ubx::UbxMessage::read(frame)),
+        Protocol::Sbf => told(sbf::SbfMessage::read(frame)),
+        Protocol::Sbg => told(sbg::SbgMessage::read(frame)),
         Protocol::StdBin => told(stdbin::Telegram::read(frame)),
         Protocol::Mip => told(mip::Packet::read(frame)),
         Protocol::Xbus => told(xbus::MtData2::read(frame)),
@@ -154,14 +154,14 @@ mod tests {
     #[test]
     fn a_sentence_goes_by_its_whole_address_and_tells_talker_and_source() {
         let named = named(Protocol::Nmea, b"\\s:IN0001*4F\\$HETHS,316.70,E*1A");
-        assert_eq!((named.name.as_str(), named.read), ("HETHS", Reading::Used));
+        assert_eq!((named.name.as_str(), named.read), ("HETHS", ReadOutcome::Used));
         assert_eq!((named.talker, named.source), (Some(Talker::HE), Some("IN0001")));
     }
 
     #[test]
     fn a_refused_sentence_has_its_reason() {
         let without = named(Protocol::Nmea, b"$HETHS,316.70,E");
-        assert_eq!((without.name.as_str(), without.read), ("HETHS", Reading::Refused));
+        assert_eq!((without.name.as_str(), without.read), ("HETHS", ReadOutcome::Refused));
         assert_eq!(without.reason.as_deref(), Some("no checksum"));
         let odd = named(Protocol::Nmea, b"$junk without end");
         assert_eq!(odd.name, "NMEA");
@@ -183,7 +183,7 @@ mod tests {
     #[test]
     fn a_sentence_without_its_bad_field_is_used_and_says_what_is_left_out() {
         let named = named(Protocol::Nmea, b"$GPGST,213122.000,15.7,22.8,11.6,-1.1,0.4,0.6,1.3*76");
-        assert_eq!(named.read, Reading::Used);
+        assert_eq!(named.read, ReadOutcome::Used);
         assert_eq!(named.reason.as_deref(), Some("field 5 is malformed, and left out"));
     }
 
@@ -191,7 +191,7 @@ mod tests {
     fn a_refused_binary_frame_has_its_reason() {
         let short = [0xB5, 0x62, 0x01, 0x07, 4, 0, 0, 0, 0, 0, 0x0C, 0x51];
         let named = named(Protocol::Ubx, &short);
-        assert_eq!(named.read, Reading::Refused);
+        assert_eq!(named.read, ReadOutcome::Refused);
         assert!(named.reason.unwrap().contains("bytes expected"));
     }
 }

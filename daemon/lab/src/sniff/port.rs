@@ -1,7 +1,7 @@
 //! Statistics of one port.
 
 use insd_base::{Input, PortState, Sent, Stamp, Time};
-use insd_intake::port::{Frame, Link, PortCounts, PortIntake};
+use insd_intake::port::{Link, PortCounts, PortFrame, PortIntake};
 use insd_wire::stream::Protocol;
 
 use super::advice;
@@ -285,7 +285,7 @@ impl Kinds {
         &mut self,
         plan: &PortToHear,
         stamp: &Stamp,
-        frame: &Frame<'_>,
+        frame: &PortFrame<'_>,
         show: &mut impl FnMut(&Seen<'_>),
     ) {
         let named = named(frame.protocol, frame.bytes);

@@ -1,7 +1,7 @@
 //! What came, for showing it at once.
 
 use insd_base::{BusEvent, CanFrame, PortState, Stamp};
-use insd_wire::describe::Reading;
+use insd_wire::describe::ReadOutcome;
 use insd_wire::stream::Protocol;
 
 /// Something that came, for showing it at once.
@@ -27,7 +27,7 @@ pub enum SeenWhat<'a> {
         /// Name of the message.
         name: &'a str,
         /// What becomes of it.
-        read: Reading,
+        read: ReadOutcome,
         /// Why it is refused.
         reason: Option<&'a str>,
         /// All its bytes.

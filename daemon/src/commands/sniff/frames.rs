@@ -6,7 +6,7 @@ use std::io::{self, Write as _};
 use insd_base::UtcTime;
 use insd_lab::sniff::text::printable;
 use insd_lab::sniff::{Follower, Seen, SeenWhat};
-use insd_wire::describe::Reading;
+use insd_wire::describe::ReadOutcome;
 
 /// Bytes of one line of a dump.
 const ROW: usize = 16;
@@ -71,7 +71,7 @@ fn lines(seen: &Seen<'_>) -> String {
     match seen.what {
         SeenWhat::Frame { protocol, name, read, reason, bytes } => {
             let _ = write!(text, "{} {name}", protocol.name());
-            if read == Reading::Refused {
+            if read == ReadOutcome::Refused {
                 let _ = write!(text, " refused ({})", reason.unwrap_or("not what it says"));
             }
             append(&mut text, bytes);
@@ -151,7 +151,7 @@ mod tests {
         let frame = |protocol, bytes: &'static [u8]| SeenWhat::Frame {
             protocol,
             name: "X",
-            read: Reading::Used,
+            read: ReadOutcome::Used,
             reason: None,
             bytes,
         };

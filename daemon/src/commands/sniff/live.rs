@@ -8,7 +8,7 @@ use anyhow::Context;
 use insd_base::{PortId, Time};
 use insd_drivers::can::{self, SharedSpeaker};
 use insd_drivers::ports::{
-    self, Judge, Judgement, PortConfig, PortHandle, Receiver, Surroundings, WAITING_LIMIT,
+    self, BaudJudge, BaudJudgement, PortConfig, PortHandle, Receiver, Surroundings, WAITING_LIMIT,
 };
 use insd_lab::sniff::{PortToHear, SniffReport, Sniffed, is_proof, text};
 use insd_lab::terminal::Farewell;
@@ -201,17 +201,17 @@ impl Bench {
 }
 
 /// A baud rate is right at the first good frame. Counts the bytes that were heard at any rate.
-fn judge(protocols: &[Protocol], heard: Arc<AtomicU64>) -> Judge {
+fn judge(protocols: &[Protocol], heard: Arc<AtomicU64>) -> BaudJudge {
     let protocols = protocols.to_vec();
-    Judge::new(move |bytes| {
+    BaudJudge::new(move |bytes| {
         heard.fetch_max(bytes.len() as u64, Ordering::Relaxed);
         let mut cutter = Cutter::new(&protocols);
         cutter.push(bytes);
         while let Some(cut) = cutter.cut() {
             if is_proof(cut.protocol, cut.bytes) {
-                return Judgement::Fits;
+                return BaudJudgement::Fits;
             }
         }
-        if bytes.len() >= WRONG { Judgement::Wrong } else { Judgement::Unsure }
+        if bytes.len() >= WRONG { BaudJudgement::Wrong } else { BaudJudgement::Unsure }
     })
 }

@@ -18,7 +18,7 @@ use super::access::Access;
 use super::archive::Recordings;
 use super::frame::Frame;
 use super::history::History;
-use super::reports::Reports;
+use super::reporter::Reports;
 use super::track::Track;
 
 /// How often it is looked whether there is a new snapshot.

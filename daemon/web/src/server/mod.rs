@@ -15,6 +15,7 @@ mod metrics;
 mod page;
 mod picture;
 mod recordings;
+mod reporter;
 mod reports;
 mod room;
 mod stall;
@@ -38,10 +39,10 @@ use crate::config::{WebConfig, WebError};
 use crate::orders::OrderSender;
 
 use archive::Recordings;
-use reports::Reports;
 use door::Door;
 pub use fleet::FleetBoardText;
 use hall::Hall;
+use reporter::Reports;
 use room::Room;
 
 /// Longest body of a request, bytes.

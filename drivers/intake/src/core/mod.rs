@@ -31,7 +31,7 @@ use crate::device::{Device, Heard};
 use crate::event::{Happening, IntakeEvent, Refusal};
 use crate::intaken::Intaken;
 use crate::magnetic::Variation;
-use crate::port::Frame;
+use crate::port::PortFrame;
 use crate::ranging::DockingAid;
 
 pub(crate) use sensor::Sensor;
@@ -117,7 +117,7 @@ impl Core {
     }
 
     /// A frame of a port, for each sensor on it that speaks its protocol.
-    pub(crate) fn frame(&mut self, port: usize, stamp: &Stamp, frame: &Frame<'_>) {
+    pub(crate) fn frame(&mut self, port: usize, stamp: &Stamp, frame: &PortFrame<'_>) {
         let came = Came { begun: frame.begun, ended: frame.ended };
         for index in 0..self.sensors.len() {
             let sensor = &mut self.sensors[index];
@@ -152,7 +152,7 @@ impl Core {
         port: usize,
         stamp: &Stamp,
         came: Came,
-        message: &insd_n2k::Message,
+        message: &insd_n2k::BusMessage,
         name: Option<Name>,
     ) {
         let from = Device { name, address: message.source };

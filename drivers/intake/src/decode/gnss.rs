@@ -10,19 +10,19 @@ use crate::event::Refusal;
 use crate::satellites::{RawReading, RawUse};
 
 pub(super) fn ubx(bytes: &[u8], raw: RawUse) -> Result<Vec<Reading>, Refusal> {
-    let message = ublox::Message::read(bytes).map_err(|_| Refusal::Malformed)?;
+    let message = ublox::UbxMessage::read(bytes).map_err(|_| Refusal::Malformed)?;
     let part = message.part().map(Reading::Gnss);
     let pulse = message.pulse().map(Reading::Pulse);
-    let is_epoch = matches!(message, ublox::Message::RxmRawx(_));
+    let is_epoch = matches!(message, ublox::UbxMessage::RxmRawx(_));
     let told = raw_reading(raw, is_epoch, || RawReading::of_ubx(&message));
     Ok(or_idle(part.into_iter().chain(pulse).chain(told).collect()))
 }
 
 pub(super) fn sbf(bytes: &[u8], raw: RawUse) -> Result<Vec<Reading>, Refusal> {
-    let message = septentrio::Message::read(bytes).map_err(|_| Refusal::Malformed)?;
+    let message = septentrio::SbfMessage::read(bytes).map_err(|_| Refusal::Malformed)?;
     let part = message.part().map(Reading::Gnss);
     let pulse = message.pulse().map(Reading::Pulse);
-    let is_epoch = matches!(message, septentrio::Message::MeasEpoch(_));
+    let is_epoch = matches!(message, septentrio::SbfMessage::MeasEpoch(_));
     let told = raw_reading(raw, is_epoch, || RawReading::of_sbf(&message));
     Ok(or_idle(part.into_iter().chain(pulse).chain(told).collect()))
 }

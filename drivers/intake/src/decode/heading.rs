@@ -1,7 +1,7 @@
 //! Headings from compasses and other attitude sensors.
 
 use insd_base::units::{wrap_pi, wrap_two_pi};
-use insd_wire::binary::Fault;
+use insd_wire::binary::BinaryFault;
 use insd_wire::gnss::novatel as oem;
 use insd_wire::imu::stdbin::Telegram;
 use insd_wire::imu::vectornav::VnMessage;
@@ -125,7 +125,7 @@ pub(super) fn stdbin(bytes: &[u8], config: &SensorConfig) -> Result<Vec<Reading>
 /// Heading and tilt of a VectorNav device. One without an INS has north from its magnetometers.
 pub(super) fn vectornav(bytes: &[u8], config: &SensorConfig) -> Result<Vec<Reading>, Refusal> {
     let message = match VnMessage::read(bytes) {
-        Err(Fault::OtherMessage) => return Ok(vec![Reading::Idle]),
+        Err(BinaryFault::OtherMessage) => return Ok(vec![Reading::Idle]),
         read => read.map_err(|_| Refusal::Malformed)?,
     };
     let Some([yaw, pitch, roll]) = message.attitude else { return Ok(vec![Reading::Idle]) };

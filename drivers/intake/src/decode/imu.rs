@@ -1,7 +1,7 @@
 //! IMUs.
 
 use insd_base::Span;
-use insd_wire::binary::Fault;
+use insd_wire::binary::BinaryFault;
 use insd_wire::gnss::novatel;
 use insd_wire::imu::kvh::{KvhFormat, KvhMessage};
 use insd_wire::imu::sbg::TimeReference;
@@ -39,7 +39,7 @@ impl ImuState {
             Kind::Mip => mip::Packet::read(bytes).map_err(malformed)?.reading(),
             Kind::Xbus => xbus::MtData2::read(bytes).map_err(malformed)?.reading(),
             Kind::Vectornav => match VnMessage::read(bytes) {
-                Err(Fault::OtherMessage) => None,
+                Err(BinaryFault::OtherMessage) => None,
                 read => read.map_err(malformed)?.reading(),
             },
             Kind::NovatelImu => novatel::OemLog::read(bytes).map_err(malformed)?.imu(),
@@ -50,8 +50,8 @@ impl ImuState {
     }
 
     fn sbg(&mut self, bytes: &[u8]) -> Result<Option<ImuReading>, Refusal> {
-        let message = sbg::Message::read(bytes).map_err(malformed)?;
-        if let sbg::Message::Time(reference) = &message {
+        let message = sbg::SbgMessage::read(bytes).map_err(malformed)?;
+        if let sbg::SbgMessage::Time(reference) = &message {
             self.reference = Some(*reference);
         }
         let reading = message.reading();

@@ -2,7 +2,7 @@
 
 use insd_base::units::wrap_two_pi;
 use insd_base::{Attitude, LogReference, UtcTime};
-use insd_wire::binary::Fault;
+use insd_wire::binary::BinaryFault;
 use insd_wire::log::ad2cp::Ad2cpBottomTrack;
 use insd_wire::log::pd0::{Ensemble, Geometry};
 use insd_wire::log::pd6::Pd6;
@@ -69,7 +69,7 @@ impl LogState {
     /// Records of other kinds say nothing.
     pub(super) fn ad2cp(&mut self, bytes: &[u8]) -> Result<Vec<Reading>, Refusal> {
         let track = match Ad2cpBottomTrack::read(bytes) {
-            Err(Fault::OtherMessage) => return Ok(vec![Reading::Idle]),
+            Err(BinaryFault::OtherMessage) => return Ok(vec![Reading::Idle]),
             read => read.map_err(|_| Refusal::Malformed)?,
         };
         match track.reading() {

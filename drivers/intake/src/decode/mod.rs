@@ -10,7 +10,7 @@ mod signalk;
 
 use insd_base::Time;
 use insd_base::can::CanFrame;
-use insd_n2k::Message;
+use insd_n2k::BusMessage;
 use insd_wire::gnss::gsof::Pages;
 use insd_wire::imu::can::{CanImu, CanPart};
 use insd_wire::nmea::{ChecksumPolicy, Frame as NmeaFrame, Pinsd, Rls, Sentence};
@@ -114,7 +114,7 @@ impl Decoder {
     }
 
     /// What a message of NMEA 2000 is to the sensor; `None` if it is nothing to it.
-    pub(crate) fn role(&self, message: &Message) -> Option<Role> {
+    pub(crate) fn role(&self, message: &BusMessage) -> Option<Role> {
         n2k::role(message, &self.config)
     }
 
@@ -122,7 +122,7 @@ impl Decoder {
     /// when the first message of their epoch came.
     pub(crate) fn message(
         &mut self,
-        message: &Message,
+        message: &BusMessage,
         begun: Time,
     ) -> (Time, Result<Vec<Reading>, Refusal>) {
         self.n2k.message(message, begun, &self.config, &self.log)

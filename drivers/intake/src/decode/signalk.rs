@@ -6,7 +6,7 @@
 
 use insd_base::LogReference;
 use insd_base::units::wrap_two_pi;
-use insd_wire::binary::Fault;
+use insd_wire::binary::BinaryFault;
 use insd_wire::signalk::{ServerLine, ServerUpdate, ServerValue};
 
 use super::heading::{finished, told};
@@ -41,7 +41,7 @@ impl ServerState {
                 *self = ServerState { own: Some(own), ..ServerState::default() };
                 return Ok(vec![Reading::Idle]);
             }
-            Err(Fault::OtherMessage) => return Ok(vec![Reading::Idle]),
+            Err(BinaryFault::OtherMessage) => return Ok(vec![Reading::Idle]),
             Err(_) => return Err(Refusal::Malformed),
         };
         let mut readings = Vec::new();

@@ -47,28 +47,28 @@ pub enum RawReading {
 impl RawReading {
     /// What a message of UBX says; `None` if it is no raw one, or of a signal that is not known.
     #[must_use]
-    pub fn of_ubx(message: &ubx::Message) -> Option<Self> {
+    pub fn of_ubx(message: &ubx::UbxMessage) -> Option<Self> {
         match message {
-            ubx::Message::RxmRawx(raw) => {
+            ubx::UbxMessage::RxmRawx(raw) => {
                 let epoch = raw.epoch()?;
                 Some(RawReading::Measured { epoch, is_dated: raw.leap_seconds_valid, jumps: None })
             }
-            ubx::Message::RxmSfrbx(raw) => Some(RawReading::Words(raw.navigation()?, None)),
+            ubx::UbxMessage::RxmSfrbx(raw) => Some(RawReading::Words(raw.navigation()?, None)),
             _ => None,
         }
     }
 
     /// What a block of SBF says; `None` as for [`Self::of_ubx`].
     #[must_use]
-    pub fn of_sbf(message: &sbf::Message) -> Option<Self> {
+    pub fn of_sbf(message: &sbf::SbfMessage) -> Option<Self> {
         match message {
-            sbf::Message::MeasEpoch(raw) => Some(RawReading::Measured {
+            sbf::SbfMessage::MeasEpoch(raw) => Some(RawReading::Measured {
                 // a block whose time is not known has no epoch
                 epoch: raw.epoch(None)?,
                 is_dated: true,
                 jumps: raw.clock_jumps,
             }),
-            sbf::Message::RawNavigation(raw) => {
+            sbf::SbfMessage::RawNavigation(raw) => {
                 Some(RawReading::Words(raw.navigation()?, raw.stamp.gps()))
             }
             _ => None,
@@ -79,8 +79,8 @@ impl RawReading {
     #[must_use]
     pub fn of_frame(protocol: Protocol, frame: &[u8]) -> Option<Self> {
         match protocol {
-            Protocol::Ubx => Self::of_ubx(&ubx::Message::read(frame).ok()?),
-            Protocol::Sbf => Self::of_sbf(&sbf::Message::read(frame).ok()?),
+            Protocol::Ubx => Self::of_ubx(&ubx::UbxMessage::read(frame).ok()?),
+            Protocol::Sbf => Self::of_sbf(&sbf::SbfMessage::read(frame).ok()?),
             Protocol::Rtcm => {
                 let number = rtcm::Frame::open(frame).ok()?.number()?;
                 rtcm::is_of_satellites(number).then(|| RawReading::Rtcm(frame.to_vec()))

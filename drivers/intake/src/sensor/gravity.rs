@@ -4,7 +4,7 @@
 //! magnitude of specific force is gravity, however she is mounted, rolls or turns. A magnitude that stays
 //! away from it is none: a block that nobody fills, g where m/s^2 should be, a broken accelerometer.
 
-use insd_wire::imu::Motion;
+use insd_wire::imu::ImuMotion;
 
 /// Gravity on the sea, m/s^2; it differs by 0.3 % from place to place.
 const GRAVITY: f64 = 9.81;
@@ -31,10 +31,10 @@ pub struct Gravity {
 impl Gravity {
     /// Takes the motion over an interval, s, and says whether the mean may be gravity. What is no number
     /// changes nothing and is not.
-    pub fn bears(&mut self, motion: &Motion, interval: f64) -> bool {
+    pub fn bears(&mut self, motion: &ImuMotion, interval: f64) -> bool {
         let (vector, unit, is_rate) = match motion {
-            Motion::Rates { accel, .. } => (accel, 1.0, true),
-            Motion::Increments { delta_velocity, .. } => (delta_velocity, interval, false),
+            ImuMotion::Rates { accel, .. } => (accel, 1.0, true),
+            ImuMotion::Increments { delta_velocity, .. } => (delta_velocity, interval, false),
         };
         let force = vector.iter().map(|own| own * own).sum::<f64>().sqrt() / unit;
         if !force.is_finite() {
@@ -54,7 +54,8 @@ mod tests {
     /// Whether each sample of 60 s at 100 Hz is taken.
     fn taken(force: impl Fn(f64) -> [f64; 3]) -> Vec<bool> {
         let mut gravity = Gravity::default();
-        let motion = |k: u32| Motion::Rates { gyro: [0.0; 3], accel: force(f64::from(k) * 0.01) };
+        let motion =
+            |k: u32| ImuMotion::Rates { gyro: [0.0; 3], accel: force(f64::from(k) * 0.01) };
         (0..6000).map(|k| gravity.bears(&motion(k), 0.01)).collect()
     }
 
@@ -76,13 +77,13 @@ mod tests {
         let coarse = taken(|_| [0.0, 0.0, 8.0]);
         assert!(coarse[900..].iter().all(|taken| !taken), "8.00 m/s^2");
         let mut gravity = Gravity::default();
-        let untold = Motion::Rates { gyro: [0.0; 3], accel: [f64::NAN; 3] };
+        let untold = ImuMotion::Rates { gyro: [0.0; 3], accel: [f64::NAN; 3] };
         assert!(!gravity.bears(&untold, 0.01));
     }
 
     #[test]
     fn increments_are_divided_by_an_interval_that_may_be_wrong() {
-        let of = |down: f64| Motion::Increments {
+        let of = |down: f64| ImuMotion::Increments {
             delta_theta: [0.0; 3],
             delta_velocity: [0.0, 0.0, -down * 0.005],
         };

@@ -5,7 +5,7 @@
 //! is tied.
 
 use insd_base::{ImuSample, Span, Time};
-use insd_wire::imu::{ImuReading, Motion};
+use insd_wire::imu::{ImuMotion, ImuReading};
 use nalgebra::Matrix3;
 use schemars::JsonSchema;
 
@@ -188,8 +188,8 @@ impl ImuIntake {
         let told = (elapsed - period).abs() > tick && (0.5..1.5).contains(&(elapsed / period));
         let covered = if told { elapsed } else { period };
         let (theta, velocity) = match reading.motion {
-            Motion::Increments { delta_theta, delta_velocity } => (delta_theta, delta_velocity),
-            Motion::Rates { gyro, accel } => {
+            ImuMotion::Increments { delta_theta, delta_velocity } => (delta_theta, delta_velocity),
+            ImuMotion::Rates { gyro, accel } => {
                 (gyro.map(|rate| rate * covered), accel.map(|force| force * covered))
             }
         };
@@ -244,7 +244,7 @@ mod tests {
     }
 
     fn reading(micros: u64, count: u64) -> ImuReading {
-        let motion = Motion::Rates { gyro: [0.1, 0.0, 0.0], accel: [0.0, 0.0, -9.8] };
+        let motion = ImuMotion::Rates { gyro: [0.1, 0.0, 0.0], accel: [0.0, 0.0, -9.8] };
         ImuReading {
             device_time: Some(DeviceTime {
                 ticks: Wrapping { value: micros, modulus: 1 << 32 },

@@ -2,7 +2,7 @@
 
 use insd_base::{Arrival, PortId, Span, Stamp, Time, UtcTime};
 
-use super::line::Sending;
+use super::line::LineSending;
 
 /// How bytes reach the computer.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +36,7 @@ impl Reception {
 /// One read for each message, in order of receipt. The lateness of a read depends on nothing but the
 /// seed, its port and its number, so that a fault on one port leaves the others as they were.
 #[must_use]
-pub fn arrivals(sendings: &[Sending], reception: &Reception) -> Vec<Arrival> {
+pub fn arrivals(sendings: &[LineSending], reception: &Reception) -> Vec<Arrival> {
     let ports = sendings.iter().map(|sending| sending.port + 1).max().unwrap_or(0);
     let mut counts = vec![0_u64; ports];
     let mut reads = vec![Time::START; ports];

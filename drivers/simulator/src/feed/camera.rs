@@ -3,7 +3,7 @@
 use insd_base::CameraFrame;
 use insd_wire::nmea::{Pinsd, PinsdTracks, TRACK_NUMBERS, TrackedPoint};
 
-use super::line::{Line, Sending};
+use super::line::{Line, LineSending};
 use super::sensor::{Encoding, FeedConfig};
 
 /// The front end's clock begins again after this, s.
@@ -12,7 +12,7 @@ const TURN: f64 = 1e6;
 /// Everything that the cameras of a ship send of these images, in order of time. The voyage itself has none: they are of
 /// [`crate::footage`].
 #[must_use]
-pub fn film(frames: &[CameraFrame], config: &FeedConfig) -> Vec<Sending> {
+pub fn film(frames: &[CameraFrame], config: &FeedConfig) -> Vec<LineSending> {
     let mut all = Vec::new();
     for (port, sensor) in config.sensors.iter().enumerate() {
         if sensor.encoding != Encoding::Tracks {

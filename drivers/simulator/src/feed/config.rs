@@ -6,7 +6,7 @@ use insd_intake::config::{
 };
 use insd_intake::mounting::{Direction, Mounting};
 use insd_intake::port::Link;
-use insd_wire::imu::can::{Field, FrameLayout, Layout, LayoutChoice, Order, Shipped, What};
+use insd_wire::imu::can::{ByteOrder, CanLayout, Field, FrameLayout, LayoutChoice, Shipped, What};
 use insd_wire::imu::xbus::Precision;
 use insd_wire::log::LogFrame;
 
@@ -136,17 +136,17 @@ pub(super) fn layout(encoding: Encoding) -> Option<LayoutChoice> {
 }
 
 /// A table whose steps are far below any noise: three frames of two numbers, and one of time and number.
-fn fine() -> Layout {
+fn fine() -> CanLayout {
     let field = |what, start, scale| Field {
         signed: true,
-        order: Order::Big,
+        order: ByteOrder::Big,
         scale,
         ..Field::new(what, start, 32)
     };
     let frame = |id, fields| FrameLayout { id, extended: true, optional: false, fields };
     let pair = |id, first, second| frame(id, vec![field(first, 0, 1e-9), field(second, 32, 1e-9)]);
     let time = Field { scale: 1e-6, ..Field::new(What::Time, 0, 32) };
-    Layout {
+    CanLayout {
         frames: vec![
             frame(0x1CFF_0040, vec![time, Field::new(What::Counter, 32, 16)]),
             pair(0x1CFF_0140, What::AngleX, What::VelocityX),

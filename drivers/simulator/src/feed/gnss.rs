@@ -1,10 +1,12 @@
 //! GNSS receivers.
 
 use insd_base::{FixQuality, GnssFix, Voyage};
-use insd_wire::gnss::Epoch;
+use insd_wire::gnss::GnssEpoch;
 use insd_wire::gnss::sbf::{PosCovGeodetic, PvtGeodetic, VelCovGeodetic};
 use insd_wire::gnss::ubx::{NavCov, NavPvt};
-use insd_wire::nmea::{Gga, Gst, Line as Sentence, Position, PositionMode, Rmc, Talker, Vtg, Zda};
+use insd_wire::nmea::{
+    Gga, Gst, NmeaLine as Sentence, Position, PositionMode, Rmc, Talker, Vtg, Zda,
+};
 
 use super::calendar::Calendar;
 use super::line::Line;
@@ -38,9 +40,9 @@ pub(super) fn encode(voyage: &Voyage, sensor: &SensorFeed, line: &mut Line) {
     }
 }
 
-fn epoch(fix: &GnssFix, calendar: &Calendar) -> Epoch {
+fn epoch(fix: &GnssFix, calendar: &Calendar) -> GnssEpoch {
     let sigma = |std: Option<insd_base::Ned>| std.map_or([0.0; 3], |std| std.0.into());
-    Epoch {
+    GnssEpoch {
         time: calendar.told_gps(fix.time),
         leap_seconds: LEAP_SECONDS,
         time_std: 3e-8,
@@ -56,7 +58,7 @@ fn epoch(fix: &GnssFix, calendar: &Calendar) -> Epoch {
     }
 }
 
-fn pvt(fix: &GnssFix, epoch: &Epoch, calendar: &Calendar) -> NavPvt {
+fn pvt(fix: &GnssFix, epoch: &GnssEpoch, calendar: &Calendar) -> NavPvt {
     let mut pvt = NavPvt::of(epoch);
     let civil = calendar.civil(fix.time);
     pvt.time.date = civil.date;
@@ -65,7 +67,7 @@ fn pvt(fix: &GnssFix, epoch: &Epoch, calendar: &Calendar) -> NavPvt {
     pvt
 }
 
-fn sentences(fix: &GnssFix, epoch: &Epoch, calendar: &Calendar) -> [Sentence; 5] {
+fn sentences(fix: &GnssFix, epoch: &GnssEpoch, calendar: &Calendar) -> [Sentence; 5] {
     let civil = calendar.civil(fix.time);
     let [north, east, up] = epoch.position_std.map(Some);
     let place = fix.position.map(|at| Position { latitude: at.latitude, longitude: at.longitude });

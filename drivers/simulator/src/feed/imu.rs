@@ -8,9 +8,9 @@ use insd_wire::imu::mip;
 use insd_wire::imu::rotation::quaternion_of;
 use insd_wire::imu::sbg::{ClockState, ImuShort, TimeReference, UtcStatus};
 use insd_wire::imu::stdbin::{Navigation, Telegram};
-use insd_wire::imu::stim::{Group, StimDatagram};
+use insd_wire::imu::stim::{StimDatagram, StimGroup};
 use insd_wire::imu::xbus::{MtData2, Precision};
-use insd_wire::imu::{DeviceTime, ImuReading, Motion, Wrapping};
+use insd_wire::imu::{DeviceTime, ImuMotion, ImuReading, Wrapping};
 
 use nalgebra::Matrix3;
 
@@ -182,8 +182,8 @@ fn stim(sample: &Sample) -> Vec<u8> {
     let counts = format.and_then(|format| format.counts(&increments(sample)));
     let (rotation, linear) = counts.unwrap_or_default();
     StimDatagram {
-        rate: Group { counts: rotation, status: 0 },
-        acceleration: Some(Group { counts: linear, status: 0 }),
+        rate: StimGroup { counts: rotation, status: 0 },
+        acceleration: Some(StimGroup { counts: linear, status: 0 }),
         counter: sample.count as u8,
         latency: stim_latency(Encoding::Stim, sample.count) as u16,
         ..StimDatagram::default()
@@ -196,8 +196,8 @@ fn stim_latency(encoding: Encoding, count: u64) -> u64 {
     if encoding == Encoding::Stim { STIM_LATENCY + count % 7 * 50 } else { 0 }
 }
 
-fn increments(sample: &Sample) -> Motion {
-    Motion::Increments { delta_theta: sample.theta, delta_velocity: sample.velocity }
+fn increments(sample: &Sample) -> ImuMotion {
+    ImuMotion::Increments { delta_theta: sample.theta, delta_velocity: sample.velocity }
 }
 
 fn micros(sensor: &SensorFeed, time: Time) -> u32 {

@@ -7,7 +7,7 @@ use super::sensor::SensorFeed;
 
 /// A message on the wire.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sending {
+pub struct LineSending {
     /// Time of the voyage at which its last byte is on the wire.
     pub at: Time,
     /// Index of the port, which is that of the sensor, or of the first of NMEA 2000.
@@ -16,7 +16,7 @@ pub struct Sending {
     pub input: Input,
 }
 
-impl Sending {
+impl LineSending {
     /// Its bytes; none of a frame.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
@@ -31,7 +31,7 @@ pub(super) struct Line {
     pub(super) latency: Span,
     byte_time: f64,
     free: Time,
-    pub(super) sent: Vec<Sending>,
+    pub(super) sent: Vec<LineSending>,
 }
 
 impl Line {
@@ -54,6 +54,6 @@ impl Line {
         let begun = (measured + self.latency).max(self.free);
         let at = begun + Span::from_seconds(bytes * self.byte_time);
         self.free = at;
-        self.sent.push(Sending { at, port: self.port, input });
+        self.sent.push(LineSending { at, port: self.port, input });
     }
 }

@@ -24,12 +24,12 @@ pub use calendar::Calendar;
 pub use camera::film;
 pub use damage::{at_wrong_baud, noise};
 use line::Line;
-pub use line::Sending;
+pub use line::LineSending;
 pub use sensor::{DeviceClock, Encoding, FeedConfig, SensorFeed};
 
 /// Everything that the sensors of a ship send on a voyage, in order of time; of a camera nothing, which [`film`] does.
 #[must_use]
-pub fn feed(voyage: &Voyage, config: &FeedConfig) -> Vec<Sending> {
+pub fn feed(voyage: &Voyage, config: &FeedConfig) -> Vec<LineSending> {
     let mut all = Vec::new();
     for (port, sensor) in config.sensors.iter().enumerate() {
         let mut line = Line::new(config.port_of(port), sensor);

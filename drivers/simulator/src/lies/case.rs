@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::draw::Draw;
 use super::evidence::{heading_shown_in, shown_after};
 use super::gnss::moved;
-use super::kinds::{Asked, Kind, Strike};
+use super::kinds::{Asked, LieKind, Strike};
 use super::{Class, CompassLie, Culprit, Grade, Lie, Suite, Told};
 use crate::random::{GaussMarkov, Purpose, normal, normal3, stream};
 use crate::{Scenario, ScenarioError, further_receiver, simulate};
@@ -51,7 +51,7 @@ pub struct Case {
 
 /// The case of a kind with these sensors that a seed draws.
 #[must_use]
-pub fn case(kind: &Kind, grade: Grade, suite: Suite, seed: u64) -> Case {
+pub fn case(kind: &LieKind, grade: Grade, suite: Suite, seed: u64) -> Case {
     let own = kind.name.bytes().fold(seed, |sum, byte| sum.wrapping_mul(31) ^ u64::from(byte));
     let mut draw = Draw { rng: stream(own, Purpose::Lies), grade, suite };
     let Strike { told, size, asked, judged_from, is_moored } = (kind.draw)(&mut draw);

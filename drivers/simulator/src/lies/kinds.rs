@@ -8,7 +8,7 @@ use super::evidence::heading_shown_after;
 use super::{Class, CompassLie, GnssLie, Grade, ImuLie, Lie, LogLie, Suite, Told, Window};
 
 /// A kind of lie.
-pub struct Kind {
+pub struct LieKind {
     /// Its name.
     pub name: &'static str,
     /// With which sensors it is told.
@@ -66,17 +66,17 @@ const UNDER_WAY: f64 = 6.17;
 
 macro_rules! kinds {
     ($($name:literal $suites:ident $draw:expr;)*) => {
-        &[$(Kind { name: $name, suites: $suites, draw: $draw }),*]
+        &[$(LieKind { name: $name, suites: $suites, draw: $draw }),*]
     };
 }
 
 /// All kinds.
 #[must_use]
-pub fn catalogue() -> &'static [Kind] {
+pub fn catalogue() -> &'static [LieKind] {
     CATALOGUE
 }
 
-const CATALOGUE: &[Kind] = kinds! {
+const CATALOGUE: &[LieKind] = kinds! {
     "gnss jump" ALL |d| jump(d, 5.0, 1e5);
     "gnss drag" ALL |d| drag(d, 0.3, 3.0, true);
     "gnss drag slow" ALL |d| drag(d, 0.05, 0.3, true);

@@ -23,7 +23,7 @@ pub use case::{Case, case};
 pub use compass::CompassLie;
 pub use gnss::GnssLie;
 pub use imu::ImuLie;
-pub use kinds::{Kind, catalogue};
+pub use kinds::{LieKind, catalogue};
 pub use log::LogLie;
 
 /// What one sensor tells wrongly.

@@ -4,14 +4,14 @@ use std::fmt;
 
 /// One value that cannot be simulated.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
+pub struct ScenarioFault {
     /// The key, from the root of the file: `gnss.outages[1].duration_s`.
     pub key: String,
     /// What was expected, and what was found.
     pub problem: String,
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for ScenarioFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.key, self.problem)
     }
@@ -26,16 +26,16 @@ pub enum ScenarioError {
     Syntax(String),
     /// Values outside their range, or that contradict each other; all of them.
     #[error("{}", list(.0))]
-    Values(Vec<Fault>),
+    Values(Vec<ScenarioFault>),
 }
 
-fn list(faults: &[Fault]) -> String {
-    faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n")
+fn list(faults: &[ScenarioFault]) -> String {
+    faults.iter().map(ScenarioFault::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// Collects faults while the sections of a scenario check themselves.
 #[derive(Debug, Default)]
-pub(crate) struct Faults(Vec<Fault>);
+pub(crate) struct Faults(Vec<ScenarioFault>);
 
 impl Faults {
     /// `Ok` if nothing was found.
@@ -45,7 +45,7 @@ impl Faults {
 
     /// Adds a fault.
     pub(crate) fn add(&mut self, key: impl Into<String>, problem: impl Into<String>) {
-        self.0.push(Fault { key: key.into(), problem: problem.into() });
+        self.0.push(ScenarioFault { key: key.into(), problem: problem.into() });
     }
 
     /// Expects a finite number in [low, high].

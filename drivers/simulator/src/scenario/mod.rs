@@ -24,7 +24,7 @@ use fault::Faults;
 
 pub use berth::ScenarioBerth;
 pub(crate) use camera::{Camera, CameraFault, CameraQuay};
-pub use fault::{Fault, ScenarioError};
+pub use fault::{ScenarioError, ScenarioFault};
 pub(crate) use gnss::{Gnss, GnssGrade, GnssNoise, StdFault};
 pub(crate) use imu::{Imu, Vibration};
 pub(crate) use log::{Current, Log, LogAxes};

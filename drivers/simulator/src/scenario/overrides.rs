@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::Scenario;
-use super::fault::{Fault, ScenarioError};
+use super::fault::{ScenarioError, ScenarioFault};
 
 /// A key of a scenario with the value that it shall have instead of its own, as
 /// `start.lat_deg=60` or `route.legs.0.heading_deg=90`. Entries of a list are counted from 0; tables
@@ -46,7 +46,8 @@ impl fmt::Display for Override {
 impl Override {
     /// Changes the table of a scenario, and reads the scenario that it makes; ranges are not checked.
     pub(super) fn apply(&self, table: &mut Table) -> Result<Scenario, ScenarioError> {
-        let fault = |problem| ScenarioError::Values(vec![Fault { key: self.key.clone(), problem }]);
+        let fault =
+            |problem| ScenarioError::Values(vec![ScenarioFault { key: self.key.clone(), problem }]);
         self.set(table).map_err(fault)?;
         Scenario::deserialize(table.clone())
             .map_err(|error| fault(error.to_string().trim_end().replace('\n', " ")))

@@ -15,7 +15,7 @@ duration_s = 60.0
 grade = "navigation"
 "#;
 
-fn faults_of(text: &str) -> Vec<Fault> {
+fn faults_of(text: &str) -> Vec<ScenarioFault> {
     match Scenario::from_toml(text) {
         Err(ScenarioError::Values(faults)) => faults,
         other => panic!("expected faults, found {other:?}"),

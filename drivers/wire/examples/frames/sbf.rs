@@ -1,36 +1,36 @@
 //! SBF blocks as JSON.
 
 use insd_wire::gnss::sbf::{
-    AttCovEuler, AttEuler, BaseVector, BaseVectorGeod, Covariance, MeasChannel, MeasEpoch,
-    MeasOther, Message, Mode, PvtCartesian, PvtGeodetic, RawNavigation, RawNavigationKind,
-    ReceiverTime, Stamp, XppsOffset,
+    AttCovEuler, AttEuler, BaseVector, BaseVectorGeod, MeasChannel, MeasEpoch, MeasOther,
+    PvtCartesian, PvtGeodetic, RawNavigation, RawNavigationKind, ReceiverTime, SbfCovariance,
+    SbfMessage, SbfMode, SbfStamp, XppsOffset,
 };
 use serde_json::{Value, json};
 
 /// Name and fields of a block; no fields if it is not read, `refused` and why if it can not be.
 pub(crate) fn describe(block: &[u8]) -> (String, Value) {
-    let message = match Message::read(block) {
+    let message = match SbfMessage::read(block) {
         Ok(message) => message,
         Err(fault) => return ("refused".to_owned(), json!(fault.to_string())),
     };
     let (name, fields) = match &message {
-        Message::PvtGeodetic(block) => ("PVTGeodetic", pvt(block)),
-        Message::PvtCartesian(block) => ("PVTCartesian", cartesian(block)),
-        Message::BaseVectorGeod(block) => ("BaseVectorGeod", vectors(block)),
-        Message::PosCovGeodetic(block) => ("PosCovGeodetic", cov(&block.0)),
-        Message::VelCovGeodetic(block) => ("VelCovGeodetic", cov(&block.0)),
-        Message::AttEuler(block) => ("AttEuler", attitude(block)),
-        Message::AttCovEuler(block) => ("AttCovEuler", attitude_cov(block)),
-        Message::ReceiverTime(block) => ("ReceiverTime", time(block)),
-        Message::XppsOffset(block) => ("xPPSOffset", pulse(block)),
-        Message::MeasEpoch(block) => ("MeasEpoch", measurements(block)),
-        Message::RawNavigation(block) => (raw_name(block.kind), raw(block)),
-        Message::Other { id, revision } => return (format!("{id}-{revision}"), Value::Null),
+        SbfMessage::PvtGeodetic(block) => ("PVTGeodetic", pvt(block)),
+        SbfMessage::PvtCartesian(block) => ("PVTCartesian", cartesian(block)),
+        SbfMessage::BaseVectorGeod(block) => ("BaseVectorGeod", vectors(block)),
+        SbfMessage::PosCovGeodetic(block) => ("PosCovGeodetic", cov(&block.0)),
+        SbfMessage::VelCovGeodetic(block) => ("VelCovGeodetic", cov(&block.0)),
+        SbfMessage::AttEuler(block) => ("AttEuler", attitude(block)),
+        SbfMessage::AttCovEuler(block) => ("AttCovEuler", attitude_cov(block)),
+        SbfMessage::ReceiverTime(block) => ("ReceiverTime", time(block)),
+        SbfMessage::XppsOffset(block) => ("xPPSOffset", pulse(block)),
+        SbfMessage::MeasEpoch(block) => ("MeasEpoch", measurements(block)),
+        SbfMessage::RawNavigation(block) => (raw_name(block.kind), raw(block)),
+        SbfMessage::Other { id, revision } => return (format!("{id}-{revision}"), Value::Null),
     };
     (name.to_owned(), fields)
 }
 
-fn with(stamp: Stamp, mode: Option<Mode>, mut fields: Value) -> Value {
+fn with(stamp: SbfStamp, mode: Option<SbfMode>, mut fields: Value) -> Value {
     fields["TOW"] = json!(stamp.time_of_week);
     fields["WNc"] = json!(stamp.week);
     if let Some(mode) = mode {
@@ -90,7 +90,7 @@ fn vectors(block: &BaseVectorGeod) -> Value {
     with(block.stamp, None, json!({ "vectors": vectors }))
 }
 
-fn cov(block: &Covariance) -> Value {
+fn cov(block: &SbfCovariance) -> Value {
     let fields = json!({ "variances": block.variances, "covariances": block.covariances });
     with(block.stamp, Some(block.mode), fields)
 }

@@ -1,35 +1,35 @@
 //! UBX messages as JSON.
 
 use insd_wire::gnss::ubx::{
-    Covariance, Message, NavCov, NavDop, NavHpPosLlh, NavPosLlh, NavPvt, NavRelPosNed, NavSol,
-    NavStatus, NavTimeGps, NavTimeLs, NavTimeUtc, NavVelNed, RxmRawx, RxmSfrbx, TimTp,
+    NavCov, NavDop, NavHpPosLlh, NavPosLlh, NavPvt, NavRelPosNed, NavSol, NavStatus, NavTimeGps,
+    NavTimeLs, NavTimeUtc, NavVelNed, RxmRawx, RxmSfrbx, TimTp, UbxCovariance, UbxMessage,
 };
 use insd_wire::gnss::{EpochTime, PulseTime};
 use serde_json::{Value, json};
 
 /// Name and fields of a frame; no fields if it is not read, `refused` and why if it can not be.
 pub(crate) fn describe(frame: &[u8]) -> (String, Value) {
-    let message = match Message::read(frame) {
+    let message = match UbxMessage::read(frame) {
         Ok(message) => message,
         Err(fault) => return ("refused".to_owned(), json!(fault.to_string())),
     };
     let (name, fields) = match &message {
-        Message::NavPvt(message) => ("NAV-PVT", pvt(message)),
-        Message::NavDop(message) => ("NAV-DOP", dop(message)),
-        Message::NavCov(message) => ("NAV-COV", cov(message)),
-        Message::NavHpPosLlh(message) => ("NAV-HPPOSLLH", hpposllh(message)),
-        Message::NavPosLlh(message) => ("NAV-POSLLH", posllh(message)),
-        Message::NavVelNed(message) => ("NAV-VELNED", velned(message)),
-        Message::NavSol(message) => ("NAV-SOL", sol(message)),
-        Message::NavStatus(message) => ("NAV-STATUS", status(message)),
-        Message::NavTimeUtc(message) => ("NAV-TIMEUTC", timeutc(message)),
-        Message::NavRelPosNed(message) => ("NAV-RELPOSNED", relposned(message)),
-        Message::NavTimeGps(message) => ("NAV-TIMEGPS", time_gps(message)),
-        Message::NavTimeLs(message) => ("NAV-TIMELS", time_ls(message)),
-        Message::TimTp(message) => ("TIM-TP", tim_tp(message)),
-        Message::RxmRawx(message) => ("RXM-RAWX", rawx(message)),
-        Message::RxmSfrbx(message) => ("RXM-SFRBX", sfrbx(message)),
-        Message::Other { class, id } => return (format!("{class:02X}-{id:02X}"), Value::Null),
+        UbxMessage::NavPvt(message) => ("NAV-PVT", pvt(message)),
+        UbxMessage::NavDop(message) => ("NAV-DOP", dop(message)),
+        UbxMessage::NavCov(message) => ("NAV-COV", cov(message)),
+        UbxMessage::NavHpPosLlh(message) => ("NAV-HPPOSLLH", hpposllh(message)),
+        UbxMessage::NavPosLlh(message) => ("NAV-POSLLH", posllh(message)),
+        UbxMessage::NavVelNed(message) => ("NAV-VELNED", velned(message)),
+        UbxMessage::NavSol(message) => ("NAV-SOL", sol(message)),
+        UbxMessage::NavStatus(message) => ("NAV-STATUS", status(message)),
+        UbxMessage::NavTimeUtc(message) => ("NAV-TIMEUTC", timeutc(message)),
+        UbxMessage::NavRelPosNed(message) => ("NAV-RELPOSNED", relposned(message)),
+        UbxMessage::NavTimeGps(message) => ("NAV-TIMEGPS", time_gps(message)),
+        UbxMessage::NavTimeLs(message) => ("NAV-TIMELS", time_ls(message)),
+        UbxMessage::TimTp(message) => ("TIM-TP", tim_tp(message)),
+        UbxMessage::RxmRawx(message) => ("RXM-RAWX", rawx(message)),
+        UbxMessage::RxmSfrbx(message) => ("RXM-SFRBX", sfrbx(message)),
+        UbxMessage::Other { class, id } => return (format!("{class:02X}-{id:02X}"), Value::Null),
     };
     (name.to_owned(), fields)
 }
@@ -67,7 +67,7 @@ fn dop(message: &NavDop) -> Value {
 }
 
 fn cov(message: &NavCov) -> Value {
-    let all = |of: Option<Covariance>| of.map(|of| json!([of.north, of.east, of.down]));
+    let all = |of: Option<UbxCovariance>| of.map(|of| json!([of.north, of.east, of.down]));
     json!({
         "iTOW": message.time_of_week, "posCov": all(message.position),
         "velCov": all(message.velocity),

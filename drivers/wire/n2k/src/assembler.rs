@@ -9,7 +9,7 @@ use insd_base::{Span, Time};
 
 use crate::fast_packet::{self, MAX_FRAMES, MAX_LENGTH};
 use crate::transport::{MANAGEMENT, Management, PACKET, Packet, SILENCE, Transfer};
-use crate::{BROADCAST, Message, N2kId};
+use crate::{BROADCAST, BusMessage, N2kId};
 
 /// The longest silence within a fast packet.
 const FAST_SILENCE: Span = Span::from_nanos(750_000_000);
@@ -22,7 +22,7 @@ const MAX_TRANSFERS: usize = 16;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Assembled {
     /// The message.
-    pub message: Message,
+    pub message: BusMessage,
     /// When its first frame was received.
     pub begun: Time,
 }
@@ -286,7 +286,7 @@ impl Open {
     }
 }
 
-fn message(id: N2kId, data: Vec<u8>) -> Message {
+fn message(id: N2kId, data: Vec<u8>) -> BusMessage {
     let N2kId { priority, pgn, source, destination } = id;
-    Message { priority, pgn, source, destination, data }
+    BusMessage { priority, pgn, source, destination, data }
 }

@@ -21,6 +21,6 @@ mod transport;
 pub use assembler::{Assembled, Assembler, AssemblerCounts};
 pub use codes::{class_name, function_name, manufacturer_name};
 pub use id::{BROADCAST, N2kId, NULL_ADDRESS, is_addressed};
-pub use message::Message;
+pub use message::BusMessage;
 pub use name::{Name, NameParts, NoName};
 pub use roster::{ADDRESS_CLAIM, LAST_ADDRESS, Roster, RosterChange};

@@ -2,7 +2,7 @@
 
 /// A message on the bus.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Message {
+pub struct BusMessage {
     /// 0, the highest, to 7.
     pub priority: u8,
     /// Number of the parameter group.

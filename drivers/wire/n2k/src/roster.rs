@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Message, NULL_ADDRESS, Name};
+use crate::{BusMessage, NULL_ADDRESS, Name};
 
 /// Group of an address claim.
 pub const ADDRESS_CLAIM: u32 = 60_928;
@@ -31,7 +31,7 @@ pub struct RosterChange {
 impl Roster {
     /// Learns from a message; anything but a claim is passed over. The last claim stands: who lost an
     /// address unjustly claims it again. `None` if nothing changed.
-    pub fn learn(&mut self, message: &Message) -> Option<RosterChange> {
+    pub fn learn(&mut self, message: &BusMessage) -> Option<RosterChange> {
         let name = claimed(message)?;
         let to = (message.source <= LAST_ADDRESS).then_some(message.source);
         let known = to.is_some() || message.source == NULL_ADDRESS;
@@ -75,7 +75,7 @@ impl Roster {
 }
 
 /// The NAME in a message, if it is a claim.
-pub(crate) fn claimed(message: &Message) -> Option<Name> {
+pub(crate) fn claimed(message: &BusMessage) -> Option<Name> {
     let bytes = message.data.first_chunk::<8>().filter(|_| message.pgn == ADDRESS_CLAIM)?;
     Some(Name::from_bytes(*bytes))
 }
@@ -84,9 +84,9 @@ pub(crate) fn claimed(message: &Message) -> Option<Name> {
 mod tests {
     use super::*;
 
-    fn claim(source: u8, name: u64) -> Message {
+    fn claim(source: u8, name: u64) -> BusMessage {
         let data = name.to_le_bytes().to_vec();
-        Message { priority: 6, pgn: ADDRESS_CLAIM, source, destination: 255, data }
+        BusMessage { priority: 6, pgn: ADDRESS_CLAIM, source, destination: 255, data }
     }
 
     #[test]
@@ -117,6 +117,6 @@ mod tests {
         assert_eq!(roster.learn(&claim(254, 77)).unwrap().to, None);
         assert_eq!(roster.name_at(5), None);
         assert_eq!(roster.learn(&claim(253, 77)), None);
-        assert_eq!(roster.learn(&Message { data: vec![1, 2], ..claim(5, 77) }), None);
+        assert_eq!(roster.learn(&BusMessage { data: vec![1, 2], ..claim(5, 77) }), None);
     }
 }

@@ -7,7 +7,7 @@
 use insd_base::{Span, Time};
 
 use crate::bytes::{Bytes, pgn_bytes};
-use crate::{Message, N2kId};
+use crate::{BusMessage, N2kId};
 
 /// Group of the management of transfers.
 pub(crate) const MANAGEMENT: u32 = 60_416;
@@ -169,8 +169,8 @@ impl Transfer {
     }
 
     /// The message, when all of it is there.
-    pub(crate) fn finish(self) -> Message {
-        Message {
+    pub(crate) fn finish(self) -> BusMessage {
+        BusMessage {
             priority: self.id.priority,
             pgn: self.announced.pgn,
             source: self.id.source,

@@ -5,7 +5,7 @@
 use insd_base::can::{CanFrame, CanId};
 use insd_base::{Span, Time};
 use insd_n2k::fast_packet::split;
-use insd_n2k::{Assembled, Assembler, BROADCAST, Message, N2kId};
+use insd_n2k::{Assembled, Assembler, BROADCAST, BusMessage, N2kId};
 use proptest::prelude::*;
 
 fn at(milliseconds: i64) -> Time {
@@ -140,7 +140,7 @@ fn announced_and_overheard_transfers_are_messages() {
     for destination in [BROADCAST, 40] {
         let messages = take_all(&mut Assembler::new(), &transfer(destination));
         assert_eq!(messages.len(), 1);
-        let Message { pgn, source, destination: to, data, .. } = &messages[0].message;
+        let BusMessage { pgn, source, destination: to, data, .. } = &messages[0].message;
         assert_eq!((*pgn, *source, *to, data.len()), (129_540, 23, destination, 19));
         assert_eq!((data[0], data[18], messages[0].begun), (0xAA, 0x5A, at(0)));
     }

@@ -4,7 +4,7 @@
 
 use insd_base::{CanFrame, CanId, UtcTime};
 use insd_n2k::text::{actisense, canboat, candump, slcan, ydwg};
-use insd_n2k::{BROADCAST, Message, N2kId};
+use insd_n2k::{BROADCAST, BusMessage, N2kId};
 use proptest::prelude::*;
 
 fn frames() -> impl Strategy<Value = CanFrame> {
@@ -16,11 +16,11 @@ fn frames() -> impl Strategy<Value = CanFrame> {
         .prop_map(|(id, data)| CanFrame::new(id, &data).unwrap())
 }
 
-fn messages() -> impl Strategy<Value = Message> {
+fn messages() -> impl Strategy<Value = BusMessage> {
     let ways = (0..8_u8, 0..0x4_0000_u32, any::<u8>(), any::<u8>());
     (ways, prop::collection::vec(any::<u8>(), 0..=223)).prop_map(|(way, data)| {
         let (priority, pgn, source, destination) = way;
-        Message { priority, pgn, source, destination, data }
+        BusMessage { priority, pgn, source, destination, data }
     })
 }
 

@@ -4,7 +4,7 @@ use insd_base::{FixQuality, Geodetic, GpsTime};
 
 /// All that a receiver knows of one epoch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Epoch {
+pub struct GnssEpoch {
     /// When.
     pub time: GpsTime,
     /// GPS - UTC, s.
@@ -31,7 +31,7 @@ pub struct Epoch {
     pub quality: FixQuality,
 }
 
-impl Epoch {
+impl GnssEpoch {
     /// Speed over ground, m/s.
     #[must_use]
     pub fn ground_speed(&self) -> f64 {

@@ -21,7 +21,7 @@ mod pulse;
 mod state;
 mod words;
 
-pub use epoch::Epoch;
+pub use epoch::GnssEpoch;
 pub use locks::Locks;
 pub use pulse::{PulseOrder, PulseTime};
 pub use words::NavigationWords;

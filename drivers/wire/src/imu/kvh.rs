@@ -25,8 +25,8 @@
 
 use crc::{CRC_32_MPEG_2, Crc};
 
-use super::{DeviceTime, ImuReading, Motion, Wrapping};
-use crate::binary::{Fault, Reader, Writer};
+use super::{DeviceTime, ImuMotion, ImuReading, Wrapping};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::stream::Look;
 
 const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_MPEG_2);
@@ -177,11 +177,11 @@ impl KvhMessage {
     /// Reads a whole message.
     ///
     /// # Errors
-    /// [`Fault::Frame`] if header, length or CRC are wrong; [`Fault::Range`] for a number that is not
+    /// [`BinaryFault::Frame`] if header, length or CRC are wrong; [`BinaryFault::Range`] for a number that is not
     /// finite.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         if look(frame) != Look::Frame(frame.len()) {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         let mut reader = Reader::new(frame);
         let format = reader.be_u32()? as u8;
@@ -258,19 +258,19 @@ impl KvhMessage {
     }
 }
 
-fn triple(reader: &mut Reader<'_>, field: &'static str) -> Result<[f32; 3], Fault> {
+fn triple(reader: &mut Reader<'_>, field: &'static str) -> Result<[f32; 3], BinaryFault> {
     let values = [reader.be_f32()?, reader.be_f32()?, reader.be_f32()?];
     let finite = values.iter().all(|value| value.is_finite());
-    if finite { Ok(values) } else { Err(Fault::Range { field }) }
+    if finite { Ok(values) } else { Err(BinaryFault::Range { field }) }
 }
 
 impl KvhFormat {
     /// Numbers of rotation and linear numbers of a motion, as a device with this format sends them.
     #[must_use]
-    pub fn numbers(&self, motion: &Motion) -> ([f32; 3], [f32; 3]) {
+    pub fn numbers(&self, motion: &ImuMotion) -> ([f32; 3], [f32; 3]) {
         let (rotation, linear, differences) = match motion {
-            Motion::Rates { gyro, accel } => (gyro, accel, false),
-            Motion::Increments { delta_theta, delta_velocity } => {
+            ImuMotion::Rates { gyro, accel } => (gyro, accel, false),
+            ImuMotion::Increments { delta_theta, delta_velocity } => {
                 (delta_theta, delta_velocity, true)
             }
         };
@@ -284,7 +284,7 @@ impl KvhFormat {
         )
     }
 
-    fn motion(&self, rotation: [f32; 3], linear: [f32; 3]) -> Motion {
+    fn motion(&self, rotation: [f32; 3], linear: [f32; 3]) -> ImuMotion {
         let delta = self.rotation == KvhRotation::Delta;
         let differences = delta || self.linear.is_delta();
         let rotation_unit = self.angle() * self.step(delta, differences);
@@ -292,9 +292,9 @@ impl KvhFormat {
         let rotation = rotation.map(|value| f64::from(value) * rotation_unit);
         let linear = linear.map(|value| f64::from(value) * linear_unit);
         if differences {
-            Motion::Increments { delta_theta: rotation, delta_velocity: linear }
+            ImuMotion::Increments { delta_theta: rotation, delta_velocity: linear }
         } else {
-            Motion::Rates { gyro: rotation, accel: linear }
+            ImuMotion::Rates { gyro: rotation, accel: linear }
         }
     }
 

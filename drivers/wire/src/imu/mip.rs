@@ -11,8 +11,8 @@
 
 use insd_base::{GpsTime, UtcTime};
 
-use super::{DeviceTime, ImuReading, Motion, Wrapping};
-use crate::binary::{Fault, Reader, Writer};
+use super::{DeviceTime, ImuMotion, ImuReading, Wrapping};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::stream::Look;
 
 const SYNC: [u8; 2] = [0x75, 0x65];
@@ -138,16 +138,16 @@ impl Packet {
     /// Reads a packet.
     ///
     /// # Errors
-    /// [`Fault::Frame`] if it is none, [`Fault::OtherMessage`] if it is of another descriptor set,
-    /// [`Fault::Short`] if a field ends early.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    /// [`BinaryFault::Frame`] if it is none, [`BinaryFault::OtherMessage`] if it is of another descriptor set,
+    /// [`BinaryFault::Short`] if a field ends early.
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let ([_, _, set, _, payload @ .., _, _], true) =
             (frame, look(frame) == Look::Frame(frame.len()))
         else {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         };
         if *set != SENSOR {
-            return Err(Fault::OtherMessage);
+            return Err(BinaryFault::OtherMessage);
         }
         let mut packet = Packet::default();
         let mut fields = Reader::new(payload);
@@ -160,7 +160,7 @@ impl Packet {
         Ok(packet)
     }
 
-    fn take(&mut self, descriptor: u8, data: &mut Reader<'_>) -> Result<(), Fault> {
+    fn take(&mut self, descriptor: u8, data: &mut Reader<'_>) -> Result<(), BinaryFault> {
         match descriptor {
             ACCEL => self.accel = Some(vector(data, G)?),
             GYRO => self.gyro = Some(vector(data, 1.0)?),
@@ -214,9 +214,9 @@ impl Packet {
     #[must_use]
     pub fn reading(&self) -> Option<ImuReading> {
         let rates = self.gyro.zip(self.accel);
-        let rates = rates.map(|(gyro, accel)| Motion::Rates { gyro, accel });
+        let rates = rates.map(|(gyro, accel)| ImuMotion::Rates { gyro, accel });
         let increments = self.delta_theta.zip(self.delta_velocity);
-        let increments = increments.map(|(delta_theta, delta_velocity)| Motion::Increments {
+        let increments = increments.map(|(delta_theta, delta_velocity)| ImuMotion::Increments {
             delta_theta,
             delta_velocity,
         });
@@ -245,7 +245,7 @@ impl Packet {
 }
 
 impl GpsStamp {
-    fn parse(data: &mut Reader<'_>, needed: u16) -> Result<Self, Fault> {
+    fn parse(data: &mut Reader<'_>, needed: u16) -> Result<Self, BinaryFault> {
         Ok(GpsStamp {
             tow: data.be_f64()?,
             week: data.be_u16()?,
@@ -267,7 +267,7 @@ impl GpsStamp {
     }
 }
 
-fn vector(data: &mut Reader<'_>, unit: f64) -> Result<[f64; 3], Fault> {
+fn vector(data: &mut Reader<'_>, unit: f64) -> Result<[f64; 3], BinaryFault> {
     let mut next = || Ok(f64::from(data.be_f32()?) * unit);
     Ok([next()?, next()?, next()?])
 }

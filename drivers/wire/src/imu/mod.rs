@@ -17,7 +17,7 @@ use insd_base::UtcTime;
 
 /// What an IMU measured, in its own axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Motion {
+pub enum ImuMotion {
     /// Means over the sampling interval, or instantaneous values.
     Rates {
         /// Angular rate with respect to inertial space, rad/s.
@@ -34,12 +34,12 @@ pub enum Motion {
     },
 }
 
-impl Motion {
+impl ImuMotion {
     /// Whether every component is a number: formats with floats carry NaN and infinities too.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        let (Motion::Rates { gyro: turn, accel: push }
-        | Motion::Increments { delta_theta: turn, delta_velocity: push }) = self;
+        let (ImuMotion::Rates { gyro: turn, accel: push }
+        | ImuMotion::Increments { delta_theta: turn, delta_velocity: push }) = self;
         turn.iter().chain(push).all(|component| component.is_finite())
     }
 }
@@ -66,7 +66,7 @@ pub struct DeviceTime {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImuReading {
     /// What was measured.
-    pub motion: Motion,
+    pub motion: ImuMotion,
     /// The device's clock at the end of the interval, if the format has one.
     pub device_time: Option<DeviceTime>,
     /// The sample's number, if the format has one.
@@ -86,7 +86,7 @@ pub struct ImuReading {
 impl ImuReading {
     /// A valid sample of which nothing but the motion is known.
     #[must_use]
-    pub fn bare(motion: Motion) -> Self {
+    pub fn bare(motion: ImuMotion) -> Self {
         ImuReading {
             motion,
             device_time: None,

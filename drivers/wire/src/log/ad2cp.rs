@@ -23,7 +23,7 @@ use insd_base::LogReference;
 use insd_base::units::DEG;
 
 use super::{LogFrame, LogReading};
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::layout::{Each, layout, le};
 use crate::stream::Look;
 
@@ -149,20 +149,20 @@ impl Ad2cpBottomTrack {
     /// Reads a record.
     ///
     /// # Errors
-    /// [`Fault::Frame`] if it is none, [`Fault::OtherMessage`] if it is another one, else what is wrong with it.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    /// [`BinaryFault::Frame`] if it is none, [`BinaryFault::OtherMessage`] if it is another one, else what is wrong with it.
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         if look(frame) != Look::Frame(frame.len()) {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         if frame.get(2) != Some(&BOTTOM_TRACK) {
-            return Err(Fault::OtherMessage);
+            return Err(BinaryFault::OtherMessage);
         }
         let data = frame.get(HEADER..).unwrap_or_default();
         let head = Ad2cpHead::read_fields(data)?;
         let beams = usize::from(head.beams >> 12);
         if head.version != 1 || !(1..=BEAMS).contains(&beams) || !(-9..=9).contains(&head.exponent)
         {
-            return Err(Fault::Range { field: "version, beams or velocity scaling" });
+            return Err(BinaryFault::Range { field: "version, beams or velocity scaling" });
         }
         let mut reader = Reader::new(data);
         reader.take(usize::from(head.offset).max(HEAD))?;
@@ -242,7 +242,7 @@ fn told(
     reader: &mut Reader<'_>,
     head: &Ad2cpHead,
     bit: u16,
-) -> Result<[Option<i32>; BEAMS], Fault> {
+) -> Result<[Option<i32>; BEAMS], BinaryFault> {
     let mut told = [None; BEAMS];
     if head.config & bit != 0 {
         for own in told.iter_mut().take(usize::from(head.beams >> 12)) {

@@ -27,7 +27,7 @@ use insd_base::units::{DEG, wrap_two_pi};
 use insd_base::{LogReference, UtcTime};
 
 use super::{LogFrame, LogReading};
-use crate::binary::{Fault, scaled};
+use crate::binary::{BinaryFault, scaled};
 use crate::stream::Look;
 
 /// Longest line that is taken, bytes without its end.
@@ -124,19 +124,19 @@ impl Pd6 {
     /// Reads a line with its CR LF.
     ///
     /// # Errors
-    /// [`Fault::Frame`] if it is not a line, [`Fault::Range`] if a field is missing or out of its range.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
-        let text = std::str::from_utf8(frame).map_err(|_| Fault::Frame)?;
-        let line = text.strip_suffix("\r\n").ok_or(Fault::Frame)?;
+    /// [`BinaryFault::Frame`] if it is not a line, [`BinaryFault::Range`] if a field is missing or out of its range.
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
+        let text = std::str::from_utf8(frame).map_err(|_| BinaryFault::Frame)?;
+        let line = text.strip_suffix("\r\n").ok_or(BinaryFault::Frame)?;
         if line.len() > LONGEST || line.contains(|c: char| c.is_control()) {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         Pd6::parse(line)
     }
 
-    fn parse(line: &str) -> Result<Self, Fault> {
-        let text = line.strip_prefix(':').ok_or(Fault::Frame)?;
-        let (id, rest) = text.split_once(',').ok_or(Fault::Frame)?;
+    fn parse(line: &str) -> Result<Self, BinaryFault> {
+        let text = line.strip_prefix(':').ok_or(BinaryFault::Frame)?;
+        let (id, rest) = text.split_once(',').ok_or(BinaryFault::Frame)?;
         let fields: Vec<&str> = rest.split(',').map(str::trim).collect();
         let reference = match id.as_bytes().first() {
             Some(b'B') => LogReference::Bottom,
@@ -195,7 +195,7 @@ impl Pd6 {
     }
 }
 
-fn attitude(fields: &[&str]) -> Result<Pd6, Fault> {
+fn attitude(fields: &[&str]) -> Result<Pd6, BinaryFault> {
     let &[pitch, roll, heading] = fields else { return Err(wrong("fields of SA")) };
     Ok(Pd6::Attitude {
         pitch: number(pitch, 90.0, "pitch")? * DEG,
@@ -204,7 +204,7 @@ fn attitude(fields: &[&str]) -> Result<Pd6, Fault> {
     })
 }
 
-fn scaling(fields: &[&str]) -> Result<Pd6, Fault> {
+fn scaling(fields: &[&str]) -> Result<Pd6, BinaryFault> {
     let &[clock, salinity, temperature, depth, sound, self_test] = fields else {
         return Err(wrong("fields of TS"));
     };
@@ -221,7 +221,7 @@ fn scaling(fields: &[&str]) -> Result<Pd6, Fault> {
     })
 }
 
-fn velocity(fields: &[&str], reference: LogReference, frame: LogFrame) -> Result<Pd6, Fault> {
+fn velocity(fields: &[&str], reference: LogReference, frame: LogFrame) -> Result<Pd6, BinaryFault> {
     let count = if frame == LogFrame::Instrument { 4 } else { 3 };
     let (status, components) = fields.split_last().ok_or(wrong("status"))?;
     if components.len() != count {
@@ -244,7 +244,7 @@ fn velocity(fields: &[&str], reference: LogReference, frame: LogFrame) -> Result
     Ok(Pd6::Velocity { reference, frame, velocity })
 }
 
-fn distance(fields: &[&str], reference: LogReference) -> Result<Pd6, Fault> {
+fn distance(fields: &[&str], reference: LogReference) -> Result<Pd6, BinaryFault> {
     let &[east, north, up, range, age] = fields else { return Err(wrong("fields of BD")) };
     let metres = |text| number(text, 1e8, "distance");
     Ok(Pd6::Distance {
@@ -255,15 +255,15 @@ fn distance(fields: &[&str], reference: LogReference) -> Result<Pd6, Fault> {
     })
 }
 
-fn wrong(field: &'static str) -> Fault {
-    Fault::Range { field }
+fn wrong(field: &'static str) -> BinaryFault {
+    BinaryFault::Range { field }
 }
 
 /// Digits with sign and point, at most `limit` in magnitude.
-fn number(text: &str, limit: f64, field: &'static str) -> Result<f64, Fault> {
+fn number(text: &str, limit: f64, field: &'static str) -> Result<f64, BinaryFault> {
     let plain = text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'+' | b'-' | b'.'));
     let value = text.parse::<f64>().ok().filter(|value| plain && value.abs() <= limit);
-    value.ok_or(Fault::Range { field })
+    value.ok_or(BinaryFault::Range { field })
 }
 
 fn letter(reference: LogReference) -> char {

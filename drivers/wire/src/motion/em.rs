@@ -26,7 +26,7 @@
 use insd_base::units::{DEG, wrap_two_pi};
 
 use super::{fixed, whole};
-use crate::binary::{Fault, Reader, scaled};
+use crate::binary::{BinaryFault, Reader, scaled};
 use crate::stream::Look;
 
 /// Bytes of the telegram.
@@ -120,16 +120,16 @@ impl EmAttitude {
     /// Reads the telegram.
     ///
     /// # Errors
-    /// [`Fault::Short`]; [`Fault::Frame`] if the first two bytes are not of this format.
-    pub fn read(bytes: &[u8]) -> Result<Self, Fault> {
+    /// [`BinaryFault::Short`]; [`BinaryFault::Frame`] if the first two bytes are not of this format.
+    pub fn read(bytes: &[u8]) -> Result<Self, BinaryFault> {
         let frame: &[u8; LENGTH] = whole(bytes)?;
         let mut reader = Reader::new(frame);
         let status = match reader.u8()? {
             NO_STATUS => None,
-            byte => Some(EmStatus::of_byte(byte).ok_or(Fault::Frame)?),
+            byte => Some(EmStatus::of_byte(byte).ok_or(BinaryFault::Frame)?),
         };
         if reader.u8()? != SYNC {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         let mut signed = |unit: f64, largest: u16| {
             let number = reader.le_i16()?;

@@ -41,10 +41,10 @@ use insd_base::UtcTime;
 use insd_base::units::{DEG, wrap_two_pi};
 
 use super::{
-    Bits, DelayedHeave, Place, Rated, SECOND, Tilt, Vertical, half_turn, opposite, time_of, whole,
-    within,
+    Bits, Rated, SECOND, SensorDelayedHeave, SensorPlace, Tilt, Vertical, half_turn, opposite,
+    time_of, whole, within,
 };
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::stream::Look;
 
 /// Bytes of the telegram.
@@ -84,7 +84,7 @@ pub struct Kmb {
     /// The instant at which all but the delayed heave was valid; 1970 to 2106.
     pub time: UtcTime,
     /// Position, height, and velocity over ground.
-    pub place: Option<Rated<Place>>,
+    pub place: Option<Rated<SensorPlace>>,
     /// Roll and pitch; pitch is within -90 to 90 deg.
     pub tilt: Option<Rated<Tilt>>,
     /// Heading, rad in [0, 2 pi), clockwise from true north.
@@ -97,7 +97,7 @@ pub struct Kmb {
     /// Acceleration to north, east and down, without gravity, m/s^2.
     pub acceleration: Option<Rated<[f64; 3]>>,
     /// Delayed heave.
-    pub delayed_heave: Option<Rated<DelayedHeave>>,
+    pub delayed_heave: Option<Rated<SensorDelayedHeave>>,
     /// Errors that the sensor expects.
     pub sigma: KmbSigma,
 }
@@ -162,16 +162,16 @@ impl Kmb {
     /// Reads the telegram. What its status calls invalid is `None`, whatever the numbers.
     ///
     /// # Errors
-    /// [`Fault::Short`]; [`Fault::Frame`] for another start or length; [`Fault::OtherMessage`] for
-    /// another version; [`Fault::Range`] for a number that is said to be valid and is not in its range.
-    pub fn read(bytes: &[u8]) -> Result<Self, Fault> {
+    /// [`BinaryFault::Short`]; [`BinaryFault::Frame`] for another start or length; [`BinaryFault::OtherMessage`] for
+    /// another version; [`BinaryFault::Range`] for a number that is said to be valid and is not in its range.
+    pub fn read(bytes: &[u8]) -> Result<Self, BinaryFault> {
         let frame: &[u8; LENGTH] = whole(bytes)?;
         let mut reader = Reader::new(frame);
         if &reader.array()? != START || usize::from(reader.le_u16()?) != LENGTH {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         if reader.le_u16()? != VERSION {
-            return Err(Fault::OtherMessage);
+            return Err(BinaryFault::OtherMessage);
         }
         let time = time_of(reader.le_u32()?, reader.le_u32()?.into())?;
         let status = reader.le_u32()?;
@@ -209,7 +209,7 @@ impl KmbSigma {
         })
     }
 
-    fn of_wire(values: [f64; 7]) -> Result<Self, Fault> {
+    fn of_wire(values: [f64; 7]) -> Result<Self, BinaryFault> {
         let mut units = SIGMA_UNITS.into_iter();
         let [north, east, height, roll, pitch, heading, heave] =
             finite(values, "error")?.map(|sigma| {
@@ -220,16 +220,16 @@ impl KmbSigma {
     }
 }
 
-fn place(place: &Place) -> Option<([f64; 2], [f32; 3])> {
+fn place(place: &SensorPlace) -> Option<([f64; 2], [f32; 3])> {
     let latitude = within(place.latitude / DEG, 90.0)?;
     let longitude = within(place.longitude / DEG, 180.0)?;
     let others = floats([place.height, place.north_velocity, place.east_velocity])?;
     Some(([latitude, longitude], others))
 }
 
-fn place_of([latitude, longitude]: [f64; 2], others: [f64; 3]) -> Result<Place, Fault> {
+fn place_of([latitude, longitude]: [f64; 2], others: [f64; 3]) -> Result<SensorPlace, BinaryFault> {
     let [height, north_velocity, east_velocity] = finite(others, "height or velocity")?;
-    Ok(Place {
+    Ok(SensorPlace {
         latitude: limited(latitude, 90.0, "latitude")? * DEG,
         longitude: limited(longitude, 180.0, "longitude")? * DEG,
         height,
@@ -243,7 +243,7 @@ fn tilt(tilt: &Tilt) -> Option<[f32; 2]> {
     floats([roll / DEG, pitch])
 }
 
-fn tilt_of(roll: f64, pitch: f64) -> Result<Tilt, Fault> {
+fn tilt_of(roll: f64, pitch: f64) -> Result<Tilt, BinaryFault> {
     let (roll, pitch) = (limited(roll, 180.0, "roll")?, limited(pitch, 90.0, "pitch")?);
     Ok(Tilt { roll: roll * DEG, pitch: pitch * DEG })
 }
@@ -254,19 +254,23 @@ fn direction(heading: f64) -> Option<f32> {
     Some(if degrees < 360.0 { degrees } else { 0.0 })
 }
 
-fn heading_of(degrees: f64) -> Result<f64, Fault> {
+fn heading_of(degrees: f64) -> Result<f64, BinaryFault> {
     let valid = (0.0..=360.0).contains(&degrees);
-    if valid { Ok(wrap_two_pi(degrees * DEG)) } else { Err(Fault::Range { field: "heading" }) }
+    if valid {
+        Ok(wrap_two_pi(degrees * DEG))
+    } else {
+        Err(BinaryFault::Range { field: "heading" })
+    }
 }
 
-fn vertical_of(heave: f64, down: f64) -> Result<Vertical, Fault> {
+fn vertical_of(heave: f64, down: f64) -> Result<Vertical, BinaryFault> {
     let [heave, down_velocity] = finite([heave, down], "heave or down velocity")?;
     Ok(Vertical { heave: opposite(heave), down_velocity })
 }
 
-fn delayed_of((seconds, nanos): (u32, u32), heave: f64) -> Result<DelayedHeave, Fault> {
+fn delayed_of((seconds, nanos): (u32, u32), heave: f64) -> Result<SensorDelayedHeave, BinaryFault> {
     let [heave] = finite([heave], "delayed heave")?;
-    Ok(DelayedHeave { time: time_of(seconds, nanos.into())?, heave: opposite(heave) })
+    Ok(SensorDelayedHeave { time: time_of(seconds, nanos.into())?, heave: opposite(heave) })
 }
 
 /// Whole seconds since 1970 and nanoseconds of the second, `None` before 1970 and after 2106.
@@ -287,7 +291,7 @@ fn floats<const N: usize>(values: [f64; N]) -> Option<[f32; N]> {
     singles.iter().all(|value| value.is_finite()).then_some(singles)
 }
 
-fn singles<const N: usize>(reader: &mut Reader<'_>) -> Result<[f64; N], Fault> {
+fn singles<const N: usize>(reader: &mut Reader<'_>) -> Result<[f64; N], BinaryFault> {
     let mut values = [0.0; N];
     for value in &mut values {
         *value = reader.le_f32()?.into();
@@ -295,11 +299,11 @@ fn singles<const N: usize>(reader: &mut Reader<'_>) -> Result<[f64; N], Fault> {
     Ok(values)
 }
 
-fn finite<const N: usize>(values: [f64; N], field: &'static str) -> Result<[f64; N], Fault> {
+fn finite<const N: usize>(values: [f64; N], field: &'static str) -> Result<[f64; N], BinaryFault> {
     let all = values.iter().all(|value| value.is_finite());
-    if all { Ok(values) } else { Err(Fault::Range { field }) }
+    if all { Ok(values) } else { Err(BinaryFault::Range { field }) }
 }
 
-fn limited(value: f64, limit: f64, field: &'static str) -> Result<f64, Fault> {
-    within(value, limit).ok_or(Fault::Range { field })
+fn limited(value: f64, limit: f64, field: &'static str) -> Result<f64, BinaryFault> {
+    within(value, limit).ok_or(BinaryFault::Range { field })
 }

@@ -28,7 +28,7 @@ use std::f64::consts::PI;
 
 use insd_base::UtcTime;
 
-use crate::binary::{Fault, scaled};
+use crate::binary::{BinaryFault, scaled};
 
 const SECOND: i64 = 1_000_000_000;
 
@@ -43,7 +43,7 @@ pub struct Rated<T> {
 
 /// Where the sensor's reference point is and how it moves over ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct SensorPlace {
     /// Latitude, rad, north positive.
     pub latitude: f64,
     /// Longitude, rad in [-pi, pi], east positive.
@@ -76,7 +76,7 @@ pub struct Vertical {
 
 /// Heave that was computed later, with knowledge of what came after.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DelayedHeave {
+pub struct SensorDelayedHeave {
     /// The instant at which it was valid.
     pub time: UtcTime,
     /// Heave, m, up positive.
@@ -126,7 +126,11 @@ impl Bits {
 
     /// A group that was read, `None` if the status says that it is invalid; its numbers are not looked
     /// at then.
-    fn rate<T>(self, status: u32, value: Result<T, Fault>) -> Result<Option<Rated<T>>, Fault> {
+    fn rate<T>(
+        self,
+        status: u32,
+        value: Result<T, BinaryFault>,
+    ) -> Result<Option<Rated<T>>, BinaryFault> {
         if status & self.invalid != 0 {
             return Ok(None);
         }
@@ -135,9 +139,9 @@ impl Bits {
 }
 
 /// All of a frame of fixed length.
-fn whole<const N: usize>(bytes: &[u8]) -> Result<&[u8; N], Fault> {
-    let short = Fault::Short { needed: N, found: bytes.len() };
-    bytes.try_into().map_err(|_| if bytes.len() < N { short } else { Fault::Frame })
+fn whole<const N: usize>(bytes: &[u8]) -> Result<&[u8; N], BinaryFault> {
+    let short = BinaryFault::Short { needed: N, found: bytes.len() };
+    bytes.try_into().map_err(|_| if bytes.len() < N { short } else { BinaryFault::Frame })
 }
 
 /// The nearest whole number of units, `None` if the field cannot hold it or the value is not finite.
@@ -161,8 +165,8 @@ fn opposite(value: f64) -> f64 {
 }
 
 /// The instant of seconds since 1970, in 32 bits, and nanoseconds of the second.
-fn time_of(seconds: impl Into<i64>, nanos: i64) -> Result<UtcTime, Fault> {
-    let fault = Fault::Range { field: "fraction of a second" };
+fn time_of(seconds: impl Into<i64>, nanos: i64) -> Result<UtcTime, BinaryFault> {
+    let fault = BinaryFault::Range { field: "fraction of a second" };
     let seconds = seconds.into().checked_mul(SECOND).filter(|_| (0..SECOND).contains(&nanos));
     seconds.and_then(|whole| whole.checked_add(nanos)).map(UtcTime::from_nanos).ok_or(fault)
 }

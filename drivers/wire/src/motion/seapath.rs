@@ -42,10 +42,10 @@ use insd_base::UtcTime;
 use insd_base::units::wrap_two_pi;
 
 use super::{
-    Bits, DelayedHeave, Place, Rated, Tilt, Vertical, fixed, half_turn, opposite, time_of, whole,
-    within,
+    Bits, Rated, SensorDelayedHeave, SensorPlace, Tilt, Vertical, fixed, half_turn, opposite,
+    time_of, whole, within,
 };
-use crate::binary::{Fault, Reader, Writer, scaled};
+use crate::binary::{BinaryFault, Reader, Writer, scaled};
 
 /// Bytes of format 23.
 pub const LENGTH_23: usize = 44;
@@ -80,7 +80,7 @@ pub struct Seapath23 {
     /// The instant at which this was valid, to the nearest 0.1 ms; to January 2038.
     pub time: UtcTime,
     /// Position, height, and velocity over ground up to 327 m/s.
-    pub place: Option<Rated<Place>>,
+    pub place: Option<Rated<SensorPlace>>,
     /// Roll and pitch.
     pub tilt: Option<Rated<Tilt>>,
     /// Heading, rad in [0, 2 pi), clockwise from true north.
@@ -98,7 +98,7 @@ pub struct Seapath26 {
     /// What format 23 has.
     pub motion: Seapath23,
     /// Delayed heave.
-    pub delayed_heave: Option<DelayedHeave>,
+    pub delayed_heave: Option<SensorDelayedHeave>,
 }
 
 impl Seapath23 {
@@ -113,9 +113,9 @@ impl Seapath23 {
     /// Reads the telegram. What its status calls invalid is `None`, whatever the numbers.
     ///
     /// # Errors
-    /// [`Fault::Short`]; [`Fault::Frame`] for a wrong header, length or checksum; [`Fault::Range`] for
+    /// [`BinaryFault::Short`]; [`BinaryFault::Frame`] for a wrong header, length or checksum; [`BinaryFault::Range`] for
     /// a number that is said to be valid and is not in its range.
-    pub fn read(bytes: &[u8]) -> Result<Self, Fault> {
+    pub fn read(bytes: &[u8]) -> Result<Self, BinaryFault> {
         let (mut reader, status) = opened::<LENGTH_23>(bytes, HEADER_23)?;
         Seapath23::of_body(&mut reader, status)
     }
@@ -140,7 +140,7 @@ impl Seapath23 {
         Some((frame, status))
     }
 
-    fn of_body(reader: &mut Reader<'_>, status: u32) -> Result<Self, Fault> {
+    fn of_body(reader: &mut Reader<'_>, status: u32) -> Result<Self, BinaryFault> {
         let time = time_of(reader.be_i32()?, i64::from(reader.be_u16()?) * TICK)?;
         let position = [reader.be_i32()?, reader.be_i32()?, reader.be_i32()?];
         let [heave, north, east, down] = numbers(reader, CENTI)?;
@@ -177,13 +177,13 @@ impl Seapath26 {
     ///
     /// # Errors
     /// As [`Seapath23::read`].
-    pub fn read(bytes: &[u8]) -> Result<Self, Fault> {
+    pub fn read(bytes: &[u8]) -> Result<Self, BinaryFault> {
         let (mut reader, status) = opened::<LENGTH_26>(bytes, HEADER_26)?;
         let motion = Seapath23::of_body(&mut reader, status)?;
         let time = time_of(reader.be_i32()?, i64::from(reader.be_u16()?) * TICK);
         let [heave]: [f64; 1] = numbers(&mut reader, CENTI)?;
-        let delayed =
-            DELAYED.rate(status, time.map(|time| DelayedHeave { time, heave: opposite(heave) }))?;
+        let delayed = DELAYED
+            .rate(status, time.map(|time| SensorDelayedHeave { time, heave: opposite(heave) }))?;
         Ok(Seapath26 { motion, delayed_heave: delayed.map(|delayed| delayed.value) })
     }
 }
@@ -197,18 +197,18 @@ fn sealed(mut frame: Writer, status: u32) -> Vec<u8> {
 }
 
 /// A reader behind the header, and the status, of a frame whose checksum holds.
-fn opened<const N: usize>(bytes: &[u8], header: [u8; 2]) -> Result<(Reader<'_>, u32), Fault> {
+fn opened<const N: usize>(bytes: &[u8], header: [u8; 2]) -> Result<(Reader<'_>, u32), BinaryFault> {
     let frame: &[u8; N] = whole(bytes)?;
-    let body = frame.strip_prefix(&header).ok_or(Fault::Frame)?;
-    let (body, crc) = body.split_last_chunk::<2>().ok_or(Fault::Frame)?;
+    let body = frame.strip_prefix(&header).ok_or(BinaryFault::Frame)?;
+    let (body, crc) = body.split_last_chunk::<2>().ok_or(BinaryFault::Frame)?;
     if CRC.checksum(body) != u16::from_le_bytes(*crc) {
-        return Err(Fault::Frame);
+        return Err(BinaryFault::Frame);
     }
-    let (_, status) = body.split_last_chunk::<2>().ok_or(Fault::Frame)?;
+    let (_, status) = body.split_last_chunk::<2>().ok_or(BinaryFault::Frame)?;
     Ok((Reader::new(body), u16::from_be_bytes(*status).into()))
 }
 
-fn place(place: &Place) -> Option<([i32; 3], [i16; 2])> {
+fn place(place: &SensorPlace) -> Option<([i32; 3], [i16; 2])> {
     let latitude = fixed(within(place.latitude, FRAC_PI_2)?, POSITION)?;
     // 180 deg east is written as 180 deg west, which the field holds
     let longitude = scaled(half_turn(place.longitude)?, POSITION) as i32;
@@ -217,11 +217,11 @@ fn place(place: &Place) -> Option<([i32; 3], [i16; 2])> {
     Some(([latitude, longitude, height], velocity))
 }
 
-fn place_of(position: [i32; 3], [north, east]: [f64; 2]) -> Result<Place, Fault> {
+fn place_of(position: [i32; 3], [north, east]: [f64; 2]) -> Result<SensorPlace, BinaryFault> {
     let [latitude, longitude, height] = position.map(f64::from);
-    Ok(Place {
+    Ok(SensorPlace {
         latitude: within(latitude * POSITION, FRAC_PI_2)
-            .ok_or(Fault::Range { field: "latitude" })?,
+            .ok_or(BinaryFault::Range { field: "latitude" })?,
         longitude: longitude * POSITION,
         height: height * CENTI,
         north_velocity: north,
@@ -252,7 +252,7 @@ fn shorts(values: [f64; 3], unit: f64) -> Option<[i16; 3]> {
     Some([fixed(x, unit)?, fixed(y, unit)?, fixed(z, unit)?])
 }
 
-fn numbers<const N: usize>(reader: &mut Reader<'_>, unit: f64) -> Result<[f64; N], Fault> {
+fn numbers<const N: usize>(reader: &mut Reader<'_>, unit: f64) -> Result<[f64; N], BinaryFault> {
     let mut values = [0.0; N];
     for value in &mut values {
         *value = f64::from(reader.be_i16()?) * unit;

@@ -26,7 +26,7 @@
 use insd_base::units::DEG;
 
 use super::{fixed, whole};
-use crate::binary::{Fault, Reader};
+use crate::binary::{BinaryFault, Reader};
 use crate::stream::Look;
 
 /// Bytes of the telegram.
@@ -122,16 +122,16 @@ impl Tss1 {
     /// Reads the telegram.
     ///
     /// # Errors
-    /// [`Fault::Short`]; [`Fault::Frame`] if it does not have the shape.
-    pub fn read(bytes: &[u8]) -> Result<Self, Fault> {
+    /// [`BinaryFault::Short`]; [`BinaryFault::Frame`] if it does not have the shape.
+    pub fn read(bytes: &[u8]) -> Result<Self, BinaryFault> {
         let frame: &[u8; LENGTH] = whole(bytes)?;
-        let [b':', inner @ .., b'\r', b'\n'] = frame else { return Err(Fault::Frame) };
+        let [b':', inner @ .., b'\r', b'\n'] = frame else { return Err(BinaryFault::Frame) };
         let mut reader = Reader::new(inner);
         let horizontal = hexadecimal(reader.take(2)?)?;
         let vertical = hexadecimal(reader.take(4)?)?.cast_signed();
         blank(&mut reader)?;
         let heave = number(reader.array()?)?;
-        let (aiding, settled) = Tss1Aiding::of_letter(reader.u8()?).ok_or(Fault::Frame)?;
+        let (aiding, settled) = Tss1Aiding::of_letter(reader.u8()?).ok_or(BinaryFault::Frame)?;
         let roll = number(reader.array()?)?;
         blank(&mut reader)?;
         let pitch = number(reader.array()?)?;
@@ -178,28 +178,28 @@ fn decimal(value: f64, unit: f64) -> Option<String> {
     (digits <= LARGEST).then(|| format!("{sign}{digits:04}"))
 }
 
-fn number([sign, digits @ ..]: [u8; 5]) -> Result<f64, Fault> {
+fn number([sign, digits @ ..]: [u8; 5]) -> Result<f64, BinaryFault> {
     let mut magnitude = 0;
     for digit in digits {
-        let digit = char::from(digit).to_digit(10).ok_or(Fault::Frame)?;
-        magnitude = magnitude * 10 + i32::try_from(digit).map_err(|_| Fault::Frame)?;
+        let digit = char::from(digit).to_digit(10).ok_or(BinaryFault::Frame)?;
+        magnitude = magnitude * 10 + i32::try_from(digit).map_err(|_| BinaryFault::Frame)?;
     }
     match sign {
         b' ' => Ok(f64::from(magnitude)),
         b'-' => Ok(f64::from(-magnitude)),
-        _ => Err(Fault::Frame),
+        _ => Err(BinaryFault::Frame),
     }
 }
 
-fn hexadecimal(digits: &[u8]) -> Result<u16, Fault> {
+fn hexadecimal(digits: &[u8]) -> Result<u16, BinaryFault> {
     let mut number = 0;
     for digit in digits {
-        let digit = char::from(*digit).to_digit(16).ok_or(Fault::Frame)?;
-        number = (number << 4) | u16::try_from(digit).map_err(|_| Fault::Frame)?;
+        let digit = char::from(*digit).to_digit(16).ok_or(BinaryFault::Frame)?;
+        number = (number << 4) | u16::try_from(digit).map_err(|_| BinaryFault::Frame)?;
     }
     Ok(number)
 }
 
-fn blank(reader: &mut Reader<'_>) -> Result<(), Fault> {
-    if reader.u8()? == b' ' { Ok(()) } else { Err(Fault::Frame) }
+fn blank(reader: &mut Reader<'_>) -> Result<(), BinaryFault> {
+    if reader.u8()? == b' ' { Ok(()) } else { Err(BinaryFault::Frame) }
 }

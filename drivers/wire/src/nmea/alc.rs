@@ -13,9 +13,9 @@
 //! Sources as in [`super::alert`].
 
 use super::alert::{AlertEntry, place, small};
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::frame::Frame;
-use super::line::{Line, MAX_LEN, Talker};
+use super::line::{MAX_LEN, NmeaLine, Talker};
 
 /// Most alerts of a sentence that is read: with the shortest fields, no more fit into 82 bytes.
 pub const MAX_ENTRIES: usize = 12;
@@ -73,14 +73,14 @@ impl Alc {
 
     /// Writes the sentence.
     #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
+    pub fn write(&self, talker: Talker) -> NmeaLine {
         let all = self.entries.iter().flatten().count();
         let fitting = (0..=all).rev().find_map(|count| self.try_write(talker, count));
-        fitting.unwrap_or_else(|| Line::compose(talker, Self::FORMATTER, |_| {}))
+        fitting.unwrap_or_else(|| NmeaLine::compose(talker, Self::FORMATTER, |_| {}))
     }
 
-    fn try_write(&self, talker: Talker, count: usize) -> Option<Line> {
-        Line::try_compose(talker, Self::FORMATTER, |line| {
+    fn try_write(&self, talker: Talker, count: usize) -> Option<NmeaLine> {
+        NmeaLine::try_compose(talker, Self::FORMATTER, |line| {
             for number in [self.sentences, self.number, self.message] {
                 line.whole(Some(number.into()), 2, 99);
             }
@@ -92,8 +92,8 @@ impl Alc {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields, of which the number of alerts must be right.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields, of which the number of alerts must be right.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let (sentences, number) = place(&mut fields, MAX_SENTENCES.into())?;
         let message = small(&mut fields, 99)?.ok_or_else(|| fields.malformed())?;

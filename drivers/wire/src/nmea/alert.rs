@@ -9,7 +9,7 @@
 //! which agree; one more (Icom GM600) gives three letters of the state another meaning. The standard
 //! itself was not seen, and nothing here is verified against a bridge.
 
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::kinds::Kind;
 use super::line::Composer;
@@ -136,7 +136,7 @@ impl AlertId {
         line.whole(self.instance.filter(|instance| *instance > 0), 1, INSTANCE_MAX);
     }
 
-    pub(crate) fn read(fields: &mut Fields<'_>) -> Result<Self, Fault> {
+    pub(crate) fn read(fields: &mut Fields<'_>) -> Result<Self, NmeaFault> {
         let manufacturer = fields.convert(Manufacturer::new)?;
         let identifier = fields.whole(IDENTIFIER_MAX)?.ok_or_else(|| fields.malformed())?;
         Ok(AlertId { manufacturer, identifier, instance: fields.whole(INSTANCE_MAX)? })
@@ -153,7 +153,7 @@ impl Kind for Alert {
         alert.write(line);
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<AlertId, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<AlertId, NmeaFault> {
         AlertId::read(fields)
     }
 }
@@ -165,7 +165,7 @@ impl AlertEntry {
         line.whole(self.revision.map(u32::from), 1, REVISION_MAX);
     }
 
-    pub(crate) fn read(fields: &mut Fields<'_>) -> Result<Self, Fault> {
+    pub(crate) fn read(fields: &mut Fields<'_>) -> Result<Self, NmeaFault> {
         let alert = AlertId::read(fields)?;
         Ok(AlertEntry { alert, revision: small(fields, REVISION_MAX)? })
     }
@@ -175,17 +175,17 @@ impl AlertEntry {
 pub(crate) fn lettered<T>(
     fields: &mut Fields<'_>,
     from_letter: fn(u8) -> Option<T>,
-) -> Result<Option<T>, Fault> {
+) -> Result<Option<T>, NmeaFault> {
     fields.convert(|text| letter_of(text).and_then(from_letter))
 }
 
 /// A small number.
-pub(crate) fn small(fields: &mut Fields<'_>, max: u32) -> Result<Option<u8>, Fault> {
+pub(crate) fn small(fields: &mut Fields<'_>, max: u32) -> Result<Option<u8>, NmeaFault> {
     Ok(fields.whole(max)?.and_then(|value| u8::try_from(value).ok()))
 }
 
 /// How many sentences a message has, and which of them this one is.
-pub(crate) fn place(fields: &mut Fields<'_>, max: u32) -> Result<(u8, u8), Fault> {
+pub(crate) fn place(fields: &mut Fields<'_>, max: u32) -> Result<(u8, u8), NmeaFault> {
     let sentences = small(fields, max)?.filter(|count| *count > 0);
     let sentences = sentences.ok_or_else(|| fields.malformed())?;
     let number = small(fields, max)?.filter(|number| (1..=sentences).contains(number));

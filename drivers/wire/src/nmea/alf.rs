@@ -22,9 +22,9 @@ use super::alert::{
     AlertCategory, AlertId, AlertPriority, AlertState, REVISION_MAX, lettered, place, small,
 };
 use super::civil::TimeOfDay;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::frame::Frame;
-use super::line::{Line, MAX_LEN, Talker};
+use super::line::{MAX_LEN, NmeaLine, Talker};
 use super::text::Text;
 
 /// Most characters of a text that is read.
@@ -77,10 +77,10 @@ impl Alf {
 
     /// Writes the sentence, time truncated to 0.01 s.
     #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
+    pub fn write(&self, talker: Talker) -> NmeaLine {
         let head = |letter: Option<u8>| letter.filter(|_| self.number < 2);
         let time = self.time.filter(|_| self.number < 2);
-        Line::compose(talker, Self::FORMATTER, |line| {
+        NmeaLine::compose(talker, Self::FORMATTER, |line| {
             for number in [self.sentences, self.number, self.message] {
                 line.whole(Some(number.into()), 1, 9);
             }
@@ -98,8 +98,8 @@ impl Alf {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let (sentences, number) = place(&mut fields, 2)?;
         let message = small(&mut fields, 9)?.ok_or_else(|| fields.malformed())?;

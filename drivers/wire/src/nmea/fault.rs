@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Why a reader refused a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fault {
+pub enum NmeaFault {
     /// The line does not begin with `$` or `!`.
     NoStart,
     /// A byte that is not printable ASCII, at this offset.
@@ -39,22 +39,22 @@ pub enum Fault {
     },
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for NmeaFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Fault::NoStart => f.write_str("no $ or ! at the start"),
-            Fault::IllegalByte { at } => write!(f, "byte {at} is not printable ASCII"),
-            Fault::TagBlock => f.write_str("the TAG block is damaged"),
-            Fault::NoChecksum => f.write_str("no checksum"),
-            Fault::WrongChecksum { stated, computed } => {
+            NmeaFault::NoStart => f.write_str("no $ or ! at the start"),
+            NmeaFault::IllegalByte { at } => write!(f, "byte {at} is not printable ASCII"),
+            NmeaFault::TagBlock => f.write_str("the TAG block is damaged"),
+            NmeaFault::NoChecksum => f.write_str("no checksum"),
+            NmeaFault::WrongChecksum { stated, computed } => {
                 write!(f, "checksum {stated:02X} stated, {computed:02X} computed")
             }
-            Fault::Address => f.write_str("not an approved address"),
-            Fault::OtherSentence => f.write_str("another sentence than expected"),
-            Fault::Missing { field } => write!(f, "field {field} is missing"),
-            Fault::Malformed { field } => write!(f, "field {field} is malformed"),
+            NmeaFault::Address => f.write_str("not an approved address"),
+            NmeaFault::OtherSentence => f.write_str("another sentence than expected"),
+            NmeaFault::Missing { field } => write!(f, "field {field} is missing"),
+            NmeaFault::Malformed { field } => write!(f, "field {field} is malformed"),
         }
     }
 }
 
-impl std::error::Error for Fault {}
+impl std::error::Error for NmeaFault {}

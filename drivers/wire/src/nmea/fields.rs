@@ -7,7 +7,7 @@ use insd_base::units::wrap_two_pi;
 
 use super::civil::TimeOfDay;
 use super::decimal::{parse, parse_digits};
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::position::Position;
 
 /// Fields of a frame, one after the other. An empty field is `None`.
@@ -24,7 +24,7 @@ pub struct LeftOut {
     /// How many.
     pub count: u8,
     /// What is wrong with the first of them.
-    pub first: Option<Fault>,
+    pub first: Option<NmeaFault>,
 }
 
 impl<'a> Fields<'a> {
@@ -37,13 +37,13 @@ impl<'a> Fields<'a> {
     /// a fault, as the line may have been cut short.
     ///
     /// # Errors
-    /// Any but [`Fault::Malformed`].
+    /// Any but [`NmeaFault::Malformed`].
     pub fn optional<T>(
         &mut self,
-        read: impl FnOnce(&mut Self) -> Result<Option<T>, Fault>,
-    ) -> Result<Option<T>, Fault> {
+        read: impl FnOnce(&mut Self) -> Result<Option<T>, NmeaFault>,
+    ) -> Result<Option<T>, NmeaFault> {
         match read(self) {
-            Err(fault @ Fault::Malformed { .. }) => {
+            Err(fault @ NmeaFault::Malformed { .. }) => {
                 self.leave_out(fault);
                 Ok(None)
             }
@@ -52,7 +52,7 @@ impl<'a> Fields<'a> {
     }
 
     /// Notes that a field is left out.
-    pub(crate) fn leave_out(&self, fault: Fault) {
+    pub(crate) fn leave_out(&self, fault: NmeaFault) {
         let LeftOut { count, first } = self.left_out.get();
         self.left_out.set(LeftOut { count: count.saturating_add(1), first: first.or(Some(fault)) });
     }
@@ -66,10 +66,10 @@ impl<'a> Fields<'a> {
     /// The next field as it stands.
     ///
     /// # Errors
-    /// [`Fault::Missing`] past the last field.
-    pub fn text(&mut self) -> Result<&'a str, Fault> {
+    /// [`NmeaFault::Missing`] past the last field.
+    pub fn text(&mut self) -> Result<&'a str, NmeaFault> {
         self.taken = self.taken.saturating_add(1);
-        let rest = self.rest.ok_or(Fault::Missing { field: self.taken })?;
+        let rest = self.rest.ok_or(NmeaFault::Missing { field: self.taken })?;
         let (field, rest) = match rest.split_once(',') {
             Some((field, rest)) => (field, Some(rest)),
             None => (rest, None),
@@ -81,20 +81,20 @@ impl<'a> Fields<'a> {
     /// All fields that are left, with the commas between them.
     ///
     /// # Errors
-    /// [`Fault::Missing`] past the last field.
-    pub fn remainder(&mut self) -> Result<&'a str, Fault> {
+    /// [`NmeaFault::Missing`] past the last field.
+    pub fn remainder(&mut self) -> Result<&'a str, NmeaFault> {
         self.taken = self.taken.saturating_add(1);
-        self.rest.take().ok_or(Fault::Missing { field: self.taken })
+        self.rest.take().ok_or(NmeaFault::Missing { field: self.taken })
     }
 
     /// The next field through a conversion that refuses with `None`; empty stays `None`.
     ///
     /// # Errors
-    /// [`Fault::Missing`], or [`Fault::Malformed`] where the conversion refuses.
+    /// [`NmeaFault::Missing`], or [`NmeaFault::Malformed`] where the conversion refuses.
     pub fn convert<T>(
         &mut self,
         conversion: impl FnOnce(&'a str) -> Option<T>,
-    ) -> Result<Option<T>, Fault> {
+    ) -> Result<Option<T>, NmeaFault> {
         match self.text()? {
             "" => Ok(None),
             text => conversion(text).map(Some).ok_or_else(|| self.malformed()),
@@ -105,7 +105,7 @@ impl<'a> Fields<'a> {
     ///
     /// # Errors
     /// As [`Fields::convert`].
-    pub fn number(&mut self) -> Result<Option<f64>, Fault> {
+    pub fn number(&mut self) -> Result<Option<f64>, NmeaFault> {
         self.convert(parse)
     }
 
@@ -113,7 +113,7 @@ impl<'a> Fields<'a> {
     ///
     /// # Errors
     /// As [`Fields::convert`].
-    pub fn whole(&mut self, max: u32) -> Result<Option<u32>, Fault> {
+    pub fn whole(&mut self, max: u32) -> Result<Option<u32>, NmeaFault> {
         self.convert(|text| parse_digits(text).filter(|value| *value <= max))
     }
 
@@ -121,7 +121,7 @@ impl<'a> Fields<'a> {
     ///
     /// # Errors
     /// As [`Fields::convert`].
-    pub fn degrees(&mut self) -> Result<Option<f64>, Fault> {
+    pub fn degrees(&mut self) -> Result<Option<f64>, NmeaFault> {
         let degrees = self.convert(|t| parse(t).filter(|d| (0.0..=360.0).contains(d)))?;
         Ok(degrees.map(|degrees| wrap_two_pi(degrees.to_radians())))
     }
@@ -130,7 +130,7 @@ impl<'a> Fields<'a> {
     ///
     /// # Errors
     /// As [`Fields::convert`].
-    pub fn letter(&mut self) -> Result<Option<u8>, Fault> {
+    pub fn letter(&mut self) -> Result<Option<u8>, NmeaFault> {
         self.convert(|text| match text.as_bytes() {
             [letter] => Some(*letter),
             _ => None,
@@ -141,7 +141,7 @@ impl<'a> Fields<'a> {
     ///
     /// # Errors
     /// As [`Fields::convert`].
-    pub fn fixed(&mut self, letter: &str) -> Result<(), Fault> {
+    pub fn fixed(&mut self, letter: &str) -> Result<(), NmeaFault> {
         self.convert(|text| (text == letter).then_some(())).map(|_| ())
     }
 
@@ -149,7 +149,7 @@ impl<'a> Fields<'a> {
     ///
     /// # Errors
     /// As [`Fields::convert`].
-    pub fn time_of_day(&mut self) -> Result<Option<TimeOfDay>, Fault> {
+    pub fn time_of_day(&mut self) -> Result<Option<TimeOfDay>, NmeaFault> {
         self.convert(TimeOfDay::parse)
     }
 
@@ -163,7 +163,7 @@ impl<'a> Fields<'a> {
     ///
     /// # Errors
     /// As [`Fields::convert`].
-    pub fn number_in(&mut self, range: RangeInclusive<f64>) -> Result<Option<f64>, Fault> {
+    pub fn number_in(&mut self, range: RangeInclusive<f64>) -> Result<Option<f64>, NmeaFault> {
         self.convert(|text| parse(text).filter(|value| range.contains(value)))
     }
 
@@ -171,10 +171,10 @@ impl<'a> Fields<'a> {
     ///
     /// # Errors
     /// As [`Fields::convert`]; a magnitude without its letter is malformed.
-    pub fn signed(&mut self, max: f64, letters: [&str; 2]) -> Result<Option<f64>, Fault> {
+    pub fn signed(&mut self, max: f64, letters: [&str; 2]) -> Result<Option<f64>, NmeaFault> {
         let magnitude = self.number_in(0.0..=max);
         let sign = self.convert(|text| sign_of(text, letters));
-        if let Err(fault @ Fault::Missing { .. }) = sign {
+        if let Err(fault @ NmeaFault::Missing { .. }) = sign {
             return Err(fault);
         }
         match (magnitude?, sign?) {
@@ -193,11 +193,13 @@ impl<'a> Fields<'a> {
         &mut self,
         range: RangeInclusive<f64>,
         unit: &str,
-    ) -> Result<Option<f64>, Fault> {
+    ) -> Result<Option<f64>, NmeaFault> {
         let number = self.number_in(range);
         match (self.fixed(unit), number) {
             (Ok(()), number) => number,
-            (Err(fault @ Fault::Malformed { .. }), number) => Err(number.err().unwrap_or(fault)),
+            (Err(fault @ NmeaFault::Malformed { .. }), number) => {
+                Err(number.err().unwrap_or(fault))
+            }
             (Err(fault), _) => Err(fault),
         }
     }
@@ -206,7 +208,7 @@ impl<'a> Fields<'a> {
     ///
     /// # Errors
     /// As [`Fields::convert`].
-    pub fn degrees_with(&mut self, letter: &str) -> Result<Option<f64>, Fault> {
+    pub fn degrees_with(&mut self, letter: &str) -> Result<Option<f64>, NmeaFault> {
         let degrees = self.with_unit(0.0..=360.0, letter)?;
         Ok(degrees.map(|degrees| wrap_two_pi(degrees.to_radians())))
     }
@@ -215,7 +217,7 @@ impl<'a> Fields<'a> {
     ///
     /// # Errors
     /// As [`Fields::convert`]; an empty status is malformed.
-    pub fn status(&mut self) -> Result<bool, Fault> {
+    pub fn status(&mut self) -> Result<bool, NmeaFault> {
         match self.text()? {
             "A" => Ok(true),
             "V" => Ok(false),
@@ -228,9 +230,9 @@ impl<'a> Fields<'a> {
     ///
     /// # Errors
     /// As [`Fields::convert`].
-    pub fn position(&mut self) -> Result<Option<Position>, Fault> {
+    pub fn position(&mut self) -> Result<Option<Position>, NmeaFault> {
         let start = self.taken;
-        let fault = |number: u8| Fault::Malformed { field: start.saturating_add(number) };
+        let fault = |number: u8| NmeaFault::Malformed { field: start.saturating_add(number) };
         let texts = [self.text()?, self.text()?, self.text()?, self.text()?];
         let latitude = angle([texts[0], texts[1]], 2, 90.0, ["N", "S"]);
         let latitude = latitude.map_err(fault)?;
@@ -246,17 +248,17 @@ impl<'a> Fields<'a> {
     ///
     /// # Errors
     /// As [`Fields::convert`].
-    pub fn latitude(&mut self) -> Result<Option<f64>, Fault> {
+    pub fn latitude(&mut self) -> Result<Option<f64>, NmeaFault> {
         let start = self.taken;
         let texts = [self.text()?, self.text()?];
-        let fault = |number: u8| Fault::Malformed { field: start.saturating_add(number) };
+        let fault = |number: u8| NmeaFault::Malformed { field: start.saturating_add(number) };
         angle(texts, 2, 90.0, ["N", "S"]).map_err(fault)
     }
 
     /// The fault of the field that was taken last.
     #[must_use]
-    pub fn malformed(&self) -> Fault {
-        Fault::Malformed { field: self.taken }
+    pub fn malformed(&self) -> NmeaFault {
+        NmeaFault::Malformed { field: self.taken }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use super::checksum::{checksum, stated_checksum};
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::{Fields, LeftOut};
 use super::line::Talker;
 use super::tag::TagBlock;
@@ -35,29 +35,29 @@ impl<'a> Frame<'a> {
     /// line of AIS, which begins with `!`, is framed too, but it is no approved sentence here.
     ///
     /// # Errors
-    /// The first [`Fault`] of the frame; fields are not looked at.
-    pub fn parse(line: &'a [u8]) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of the frame; fields are not looked at.
+    pub fn parse(line: &'a [u8]) -> Result<Self, NmeaFault> {
         Frame::parse_with(line, ChecksumPolicy::Required)
     }
 
     /// As [`Frame::parse`], but the policy decides about a line without a checksum.
     ///
     /// # Errors
-    /// The first [`Fault`] of the frame; fields are not looked at.
-    pub fn parse_with(line: &'a [u8], policy: ChecksumPolicy) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of the frame; fields are not looked at.
+    pub fn parse_with(line: &'a [u8], policy: ChecksumPolicy) -> Result<Self, NmeaFault> {
         let line = line.strip_suffix(b"\n").unwrap_or(line);
         let line = line.strip_suffix(b"\r").unwrap_or(line);
         let (tag, sentence) = split_tag(line)?;
         let (encapsulated, content) = match sentence {
             [b'$', content @ ..] => (false, content),
             [b'!', content @ ..] => (true, content),
-            _ => return Err(Fault::NoStart),
+            _ => return Err(NmeaFault::NoStart),
         };
         if let Some(at) = line.iter().position(|byte| !(b' '..=b'~').contains(byte)) {
-            return Err(Fault::IllegalByte { at });
+            return Err(NmeaFault::IllegalByte { at });
         }
         let text = checked(content, policy)?;
-        let text = std::str::from_utf8(text).map_err(|_| Fault::Address)?;
+        let text = std::str::from_utf8(text).map_err(|_| NmeaFault::Address)?;
         let (address, body) = match text.split_once(',') {
             Some((address, body)) => (address, Some(body)),
             None => (text, None),
@@ -80,17 +80,17 @@ impl<'a> Frame<'a> {
     /// Talker and formatter of an approved sentence: `HE` and `THS`.
     ///
     /// # Errors
-    /// [`Fault::Address`] for proprietary and unknown forms.
-    pub fn approved(&self) -> Result<(Talker, &'a str), Fault> {
+    /// [`NmeaFault::Address`] for proprietary and unknown forms.
+    pub fn approved(&self) -> Result<(Talker, &'a str), NmeaFault> {
         let form = self.address.len() == 5
             && self.address.bytes().all(|b| b.is_ascii_uppercase() || b.is_ascii_digit())
             && !self.address.starts_with('P')
             && !self.encapsulated;
         if !form {
-            return Err(Fault::Address);
+            return Err(NmeaFault::Address);
         }
         let (talker, formatter) = self.address.split_at(2);
-        Talker::new(talker).map(|talker| (talker, formatter)).ok_or(Fault::Address)
+        Talker::new(talker).map(|talker| (talker, formatter)).ok_or(NmeaFault::Address)
     }
 
     /// Who sent an approved sentence; `None` for makers' own.
@@ -115,46 +115,46 @@ impl<'a> Frame<'a> {
     /// The fields of a sentence of this formatter.
     ///
     /// # Errors
-    /// [`Fault::Address`] or [`Fault::OtherSentence`].
-    pub fn fields_of(&self, formatter: &str) -> Result<Fields<'_>, Fault> {
+    /// [`NmeaFault::Address`] or [`NmeaFault::OtherSentence`].
+    pub fn fields_of(&self, formatter: &str) -> Result<Fields<'_>, NmeaFault> {
         let (_, own) = self.approved()?;
-        if own == formatter { Ok(self.fields()) } else { Err(Fault::OtherSentence) }
+        if own == formatter { Ok(self.fields()) } else { Err(NmeaFault::OtherSentence) }
     }
 
     /// The fields of a maker's own sentence of this address.
     ///
     /// # Errors
-    /// [`Fault::OtherSentence`].
-    pub fn fields_of_own(&self, address: &str) -> Result<Fields<'_>, Fault> {
+    /// [`NmeaFault::OtherSentence`].
+    pub fn fields_of_own(&self, address: &str) -> Result<Fields<'_>, NmeaFault> {
         if self.address == address && !self.encapsulated {
             Ok(self.fields())
         } else {
-            Err(Fault::OtherSentence)
+            Err(NmeaFault::OtherSentence)
         }
     }
 }
 
 /// The inside of a TAG block whose checksum is good, and the sentence behind it.
-fn split_tag(line: &[u8]) -> Result<(Option<&str>, &[u8]), Fault> {
+fn split_tag(line: &[u8]) -> Result<(Option<&str>, &[u8]), NmeaFault> {
     let Some(rest) = line.strip_prefix(b"\\") else {
         return Ok((None, line));
     };
-    let end = rest.iter().position(|byte| *byte == b'\\').ok_or(Fault::TagBlock)?;
+    let end = rest.iter().position(|byte| *byte == b'\\').ok_or(NmeaFault::TagBlock)?;
     let (inside, sentence) = rest.split_at(end);
-    let content = TagBlock::check(inside).ok_or(Fault::TagBlock)?;
+    let content = TagBlock::check(inside).ok_or(NmeaFault::TagBlock)?;
     Ok((Some(content), sentence.get(1..).unwrap_or_default()))
 }
 
 /// The text before the checksum, which is good or, if the policy allows it, missing.
-fn checked(content: &[u8], policy: ChecksumPolicy) -> Result<&[u8], Fault> {
+fn checked(content: &[u8], policy: ChecksumPolicy) -> Result<&[u8], NmeaFault> {
     let star = content.iter().rposition(|byte| *byte == b'*');
     let (text, tail) = content.split_at(star.unwrap_or(content.len()));
     if tail.is_empty() && policy == ChecksumPolicy::Optional {
         return Ok(text);
     }
-    let stated = tail.get(1..).and_then(stated_checksum).ok_or(Fault::NoChecksum)?;
+    let stated = tail.get(1..).and_then(stated_checksum).ok_or(NmeaFault::NoChecksum)?;
     let computed = checksum(text);
-    if stated == computed { Ok(text) } else { Err(Fault::WrongChecksum { stated, computed }) }
+    if stated == computed { Ok(text) } else { Err(NmeaFault::WrongChecksum { stated, computed }) }
 }
 
 #[cfg(test)]
@@ -173,15 +173,15 @@ mod tests {
     #[test]
     fn each_fault_of_the_frame_has_its_own_name() {
         let fault = |line: &[u8]| Frame::parse(line).unwrap_err();
-        assert_eq!(fault(b""), Fault::NoStart);
-        assert_eq!(fault(b"HETHS,316.70,E*1A"), Fault::NoStart);
-        assert_eq!(fault(b"$"), Fault::NoChecksum);
-        assert_eq!(fault(b"$HETHS,316.70,E"), Fault::NoChecksum);
-        assert_eq!(fault(b"$HETHS,316.70,E*1G"), Fault::NoChecksum);
-        assert_eq!(fault(b"$HETHS,3\xFF6.70,E*1A"), Fault::IllegalByte { at: 8 });
+        assert_eq!(fault(b""), NmeaFault::NoStart);
+        assert_eq!(fault(b"HETHS,316.70,E*1A"), NmeaFault::NoStart);
+        assert_eq!(fault(b"$"), NmeaFault::NoChecksum);
+        assert_eq!(fault(b"$HETHS,316.70,E"), NmeaFault::NoChecksum);
+        assert_eq!(fault(b"$HETHS,316.70,E*1G"), NmeaFault::NoChecksum);
+        assert_eq!(fault(b"$HETHS,3\xFF6.70,E*1A"), NmeaFault::IllegalByte { at: 8 });
         assert_eq!(
             fault(b"$HETHS,316.71,E*1A"),
-            Fault::WrongChecksum { stated: 0x1A, computed: 0x1B }
+            NmeaFault::WrongChecksum { stated: 0x1A, computed: 0x1B }
         );
     }
 
@@ -189,8 +189,8 @@ mod tests {
     fn a_missing_checksum_is_for_the_port_to_judge_and_a_wrong_one_is_not() {
         let optional = |line: &'static [u8]| Frame::parse_with(line, ChecksumPolicy::Optional);
         assert_eq!(optional(b"$HETHS,316.70,E\r\n").map(|frame| frame.address()), Ok("HETHS"));
-        assert!(matches!(optional(b"$HETHS,316.70,E*1B"), Err(Fault::WrongChecksum { .. })));
-        assert_eq!(optional(b"$HETHS,316.70,E*1"), Err(Fault::NoChecksum));
+        assert!(matches!(optional(b"$HETHS,316.70,E*1B"), Err(NmeaFault::WrongChecksum { .. })));
+        assert_eq!(optional(b"$HETHS,316.70,E*1"), Err(NmeaFault::NoChecksum));
     }
 
     #[test]
@@ -202,6 +202,6 @@ mod tests {
     fn a_proprietary_address_is_framed_but_not_approved() {
         let frame = Frame::parse(b"$PSXN,20,0,0,0,0*3B\r\n").unwrap();
         assert_eq!(frame.address(), "PSXN");
-        assert_eq!(frame.approved(), Err(Fault::Address));
+        assert_eq!(frame.approved(), Err(NmeaFault::Address));
     }
 }

@@ -14,11 +14,11 @@
 
 use super::civil::TimeOfDay;
 use super::decimal::Form;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
 use super::gsa::hexadecimal;
-use super::line::{Line, Talker};
+use super::line::{NmeaLine, Talker};
 
 const METRES: Form = Form { decimals: 2, width: 1, limit: 99_999.9 };
 const PROBABILITY: Form = Form { decimals: 2, width: 1, limit: 1.0 };
@@ -58,8 +58,8 @@ impl Gbs {
     /// Writes the sentence: time truncated to 0.01 s, all else to 0.01. System and signal are written
     /// if one of them is known.
     #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
-        Line::compose(talker, Self::FORMATTER, |line| {
+    pub fn write(&self, talker: Talker) -> NmeaLine {
+        NmeaLine::compose(talker, Self::FORMATTER, |line| {
             line.time_of_day(self.time);
             for error in [self.latitude_error, self.longitude_error, self.altitude_error] {
                 line.number(error, METRES);
@@ -80,8 +80,8 @@ impl Gbs {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let metres = |fields: &mut Fields<'_>| fields.number_in(-METRES.limit..=METRES.limit);
         let satellite = |fields: &mut Fields<'_>| fields.whole(999);

@@ -29,9 +29,9 @@ use insd_base::FixQuality;
 
 use super::civil::TimeOfDay;
 use super::decimal::Form;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::frame::Frame;
-use super::line::{Line, Talker};
+use super::line::{NmeaLine, Talker};
 use super::position::Position;
 
 pub(crate) const HDOP: Form = Form { decimals: 1, width: 1, limit: 999.9 };
@@ -71,8 +71,8 @@ impl Gga {
 
     /// Writes the sentence: time truncated to 0.01 s, position to 0.00001 minutes (2 cm).
     #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
-        Line::compose(talker, Self::FORMATTER, |line| {
+    pub fn write(&self, talker: Talker) -> NmeaLine {
+        NmeaLine::compose(talker, Self::FORMATTER, |line| {
             line.time_of_day(self.time);
             line.position(self.position, 5);
             line.letter(b'0' + self.quality.as_gga());
@@ -90,8 +90,8 @@ impl Gga {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let time = fields.time_of_day()?;
         let position = fields.position();

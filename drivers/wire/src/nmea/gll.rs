@@ -13,9 +13,9 @@
 //! taken as valid. Position, time, status and mode must be good.
 
 use super::civil::TimeOfDay;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::frame::Frame;
-use super::line::{Line, Talker};
+use super::line::{NmeaLine, Talker};
 use super::mode::PositionMode;
 use super::parts::letter_of;
 use super::position::Position;
@@ -42,10 +42,10 @@ impl Gll {
 
     /// Writes the sentence: time truncated to 0.01 s, position to 0.00001 minutes (2 cm).
     #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
+    pub fn write(&self, talker: Talker) -> NmeaLine {
         let valid = self.valid && self.position.is_some_and(Position::is_writable);
         let otherwise = if valid { PositionMode::Autonomous } else { PositionMode::NotValid };
-        Line::compose(talker, Self::FORMATTER, |line| {
+        NmeaLine::compose(talker, Self::FORMATTER, |line| {
             line.position(self.position, 5);
             line.time_of_day(self.time);
             line.letter(if valid { b'A' } else { b'V' });
@@ -56,8 +56,8 @@ impl Gll {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let position = fields.position();
         if !fields.has_more() {

@@ -23,11 +23,11 @@ use insd_base::FixQuality;
 
 use super::civil::TimeOfDay;
 use super::decimal::Form;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
 use super::gga::{AGE, HDOP, HEIGHT, STATION_MAX};
-use super::line::{Line, Talker};
+use super::line::{NmeaLine, Talker};
 use super::mode::{NavStatus, PositionMode};
 use super::parts::letter_of;
 use super::position::Position;
@@ -93,9 +93,9 @@ impl Gns {
 
     /// Writes the sentence: time truncated to 0.01 s, position to 0.00001 minutes (2 cm).
     #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
+    pub fn write(&self, talker: Talker) -> NmeaLine {
         let letters: String = self.modes.iter().flatten().map(|m| char::from(m.letter())).collect();
-        Line::compose(talker, Self::FORMATTER, |line| {
+        NmeaLine::compose(talker, Self::FORMATTER, |line| {
             line.time_of_day(self.time);
             line.position(self.position, 5);
             line.text(if letters.is_empty() { "NN" } else { &letters });
@@ -114,8 +114,8 @@ impl Gns {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let time = fields.time_of_day()?;
         let position = fields.position();
@@ -141,19 +141,19 @@ impl Gns {
 }
 
 /// The navigational status, which says little.
-pub(crate) fn nav_status(fields: &mut Fields<'_>) -> Result<Option<NavStatus>, Fault> {
+pub(crate) fn nav_status(fields: &mut Fields<'_>) -> Result<Option<NavStatus>, NmeaFault> {
     fields.convert(|text| letter_of(text).and_then(NavStatus::from_letter))
 }
 
-fn number(fields: &mut Fields<'_>, range: RangeInclusive<f64>) -> Result<Option<f64>, Fault> {
+fn number(fields: &mut Fields<'_>, range: RangeInclusive<f64>) -> Result<Option<f64>, NmeaFault> {
     fields.optional(|own| own.number_in(range))
 }
 
-fn whole(fields: &mut Fields<'_>, most: u32) -> Result<Option<u32>, Fault> {
+fn whole(fields: &mut Fields<'_>, most: u32) -> Result<Option<u32>, NmeaFault> {
     fields.optional(|own| own.whole(most))
 }
 
-fn modes(fields: &mut Fields<'_>) -> Result<[Option<PositionMode>; MAX_SYSTEMS], Fault> {
+fn modes(fields: &mut Fields<'_>) -> Result<[Option<PositionMode>; MAX_SYSTEMS], NmeaFault> {
     let text = fields.text()?;
     let mut modes = [None; MAX_SYSTEMS];
     if text.is_empty() || text.len() > MAX_SYSTEMS {

@@ -15,10 +15,10 @@
 //! in field 18, which is no system. The dimension must be good; any other field that is bad is left out.
 
 use super::decimal::{Form, parse_digits};
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
-use super::line::{Line, Talker};
+use super::line::{NmeaLine, Talker};
 
 const DOP: Form = Form { decimals: 2, width: 1, limit: 9999.9 };
 
@@ -68,8 +68,8 @@ impl Gsa {
 
     /// Writes the sentence, dilutions to 0.01.
     #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
-        Line::compose(talker, Self::FORMATTER, |line| {
+    pub fn write(&self, talker: Talker) -> NmeaLine {
+        NmeaLine::compose(talker, Self::FORMATTER, |line| {
             line.letter(if self.automatic == Some(true) { b'A' } else { b'M' });
             line.letter(b'1' + self.dimension as u8);
             for satellite in self.satellites.iter().take(PLACES) {
@@ -85,8 +85,8 @@ impl Gsa {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let places = if fields.remaining() >= MAX_USED + 5 { MAX_USED } else { PLACES };
         let automatic = fields.optional(|own| {
@@ -121,7 +121,7 @@ impl Gsa {
 }
 
 /// A field of one hexadecimal digit.
-pub(crate) fn hexadecimal(fields: &mut Fields<'_>) -> Result<Option<u8>, Fault> {
+pub(crate) fn hexadecimal(fields: &mut Fields<'_>) -> Result<Option<u8>, NmeaFault> {
     fields.convert(|text| match text.as_bytes() {
         [digit] => (*digit as char).to_digit(16).and_then(|digit| u8::try_from(digit).ok()),
         [_, _] => parse_digits(text).filter(|id| *id < 16).and_then(|id| u8::try_from(id).ok()),

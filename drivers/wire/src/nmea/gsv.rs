@@ -12,11 +12,11 @@
 //! ```
 
 use super::decimal::Form;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
 use super::gsa::hexadecimal;
-use super::line::{Line, Talker};
+use super::line::{NmeaLine, Talker};
 
 const ELEVATION: Form = Form { decimals: 0, width: 2, limit: 90.0 };
 const NOISE: Form = Form { decimals: 0, width: 2, limit: 99.0 };
@@ -59,8 +59,8 @@ impl Gsv {
     /// Writes the sentence, with as many satellites as there are before the first `None`; angles to
     /// 1 deg.
     #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
-        Line::compose(talker, Self::FORMATTER, |line| {
+    pub fn write(&self, talker: Talker) -> NmeaLine {
+        NmeaLine::compose(talker, Self::FORMATTER, |line| {
             line.whole(Some(self.sentences.into()), 1, 99);
             line.whole(Some(self.number.into()), 1, 99);
             line.whole(self.in_view.map(u32::from), 2, 999);
@@ -77,8 +77,8 @@ impl Gsv {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let sentences = count(&mut fields)?;
         let number = count(&mut fields)?;
@@ -99,7 +99,7 @@ impl Gsv {
 }
 
 impl SatelliteInView {
-    fn read(fields: &mut Fields<'_>) -> Result<Self, Fault> {
+    fn read(fields: &mut Fields<'_>) -> Result<Self, NmeaFault> {
         Ok(SatelliteInView {
             id: fields.optional(|own| own.whole(999))?.and_then(|id| u16::try_from(id).ok()),
             elevation: fields.optional(|own| own.number_in(-90.0..=90.0))?.map(f64::to_radians),
@@ -109,7 +109,7 @@ impl SatelliteInView {
     }
 }
 
-fn count(fields: &mut Fields<'_>) -> Result<u8, Fault> {
+fn count(fields: &mut Fields<'_>) -> Result<u8, NmeaFault> {
     let count =
         fields.whole(99)?.filter(|count| *count > 0).and_then(|count| count.try_into().ok());
     count.ok_or_else(|| fields.malformed())

@@ -9,7 +9,7 @@ use insd_base::units::KNOT;
 
 use super::civil::TimeOfDay;
 use super::decimal::Form;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::line::Composer;
 use super::parts::letter_of;
@@ -24,7 +24,7 @@ pub(super) trait Kind {
     fn write(&self, line: &mut Composer, value: &Self::Value);
 
     /// Takes its fields, all of them whatever they hold.
-    fn read(&self, fields: &mut Fields<'_>) -> Result<Self::Value, Fault>;
+    fn read(&self, fields: &mut Fields<'_>) -> Result<Self::Value, NmeaFault>;
 }
 
 /// What the unit of a field is.
@@ -174,7 +174,7 @@ impl Kind for Decimal {
         }
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<f64>, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<f64>, NmeaFault> {
         let range = self.least..=self.form.limit;
         let number = match self.beside {
             Beside::Nothing | Beside::Sign => fields.number_in(range),
@@ -244,7 +244,7 @@ impl Kind for Turn {
         self.letter.iter().for_each(|letter| line.letter(*letter));
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<f64>, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<f64>, NmeaFault> {
         match self.letter {
             Some(letter) => fields.degrees_with(char::from(letter).encode_utf8(&mut [0; 4])),
             None => fields.degrees(),
@@ -271,7 +271,7 @@ impl Kind for KnotsAndKmh {
         self.0.of(KMH).with(b'K').write(line, &as_told);
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<f64>, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<f64>, NmeaFault> {
         let knots = self.0.knots().with(b'N');
         let form = Form { limit: 2.0 * knots.form.limit, ..knots.form };
         let kmh = Decimal { form, least: 2.0 * knots.least, ..knots.of(KMH).with(b'K') };
@@ -297,7 +297,7 @@ impl Kind for Significant {
         Decimal { form: Form { decimals, ..self.0.form }, ..self.0 }.write(line, value);
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<f64>, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<f64>, NmeaFault> {
         self.0.read(fields)
     }
 }
@@ -318,7 +318,7 @@ impl<T: Copy + Into<u32> + TryFrom<u32>> Kind for Whole<T> {
         line.whole(value.map(T::into), self.0, self.1);
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<T>, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<T>, NmeaFault> {
         Ok(fields.whole(self.1)?.and_then(|value| T::try_from(value).ok()))
     }
 }
@@ -333,7 +333,7 @@ impl Kind for Clock {
         line.time_of_day_to(*time, self.0);
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<TimeOfDay>, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<TimeOfDay>, NmeaFault> {
         fields.time_of_day()
     }
 }
@@ -348,7 +348,7 @@ impl Kind for Latitude {
         line.latitude(*latitude, self.0);
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<f64>, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<f64>, NmeaFault> {
         fields.latitude()
     }
 }
@@ -369,7 +369,7 @@ impl<T: Copy> Kind for Field<T> {
         }
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<T>, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<T>, NmeaFault> {
         fields.convert(self.read)
     }
 }
@@ -403,7 +403,7 @@ impl Kind for Flag {
         line.letter(if *value { self.0 } else { self.1 });
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<bool, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<bool, NmeaFault> {
         match fields.text()?.as_bytes() {
             [letter] if *letter == self.0 => Ok(true),
             [letter] if *letter == self.1 => Ok(false),
@@ -422,7 +422,7 @@ impl<T: Copy> Kind for Needed<T> {
         (self.0.write)(line, *value);
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<T, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<T, NmeaFault> {
         self.0.read(fields)?.ok_or_else(|| fields.malformed())
     }
 }
@@ -437,7 +437,7 @@ impl<T: Copy> Kind for Otherwise<T> {
         (self.1.write)(line, value.unwrap_or(self.0));
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<T>, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<Option<T>, NmeaFault> {
         self.1.read(fields)?.map(Some).ok_or_else(|| fields.malformed())
     }
 }
@@ -453,7 +453,7 @@ impl<K: Kind> Kind for Then<K> {
         line.letter(self.1);
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<K::Value, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<K::Value, NmeaFault> {
         let value = self.0.read(fields)?;
         let is_there = fields.text()?.as_bytes() == [self.1];
         if is_there { Ok(value) } else { Err(fields.malformed()) }
@@ -470,7 +470,7 @@ impl<T: Copy, K: Kind<Value = Option<T>>> Kind for Three<K> {
         values.iter().for_each(|value| self.0.write(line, value));
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<[Option<T>; 3], Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<[Option<T>; 3], NmeaFault> {
         Ok([self.0.read(fields)?, self.0.read(fields)?, self.0.read(fields)?])
     }
 }

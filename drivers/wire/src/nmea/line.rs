@@ -65,12 +65,12 @@ impl fmt::Debug for Talker {
 
 /// A finished sentence, `$` to line feed.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub struct Line {
+pub struct NmeaLine {
     bytes: [u8; MAX_LEN_OWN],
     len: usize,
 }
 
-impl Line {
+impl NmeaLine {
     /// The bytes for the wire, CR LF included.
     #[must_use]
     pub fn as_bytes(&self) -> &[u8] {
@@ -85,7 +85,7 @@ impl Line {
 
     /// The same sentence as old devices want it: without `*hh`.
     #[must_use]
-    pub fn without_checksum(mut self) -> Line {
+    pub fn without_checksum(mut self) -> NmeaLine {
         let end = self.len.saturating_sub(TAIL);
         self.bytes[end..end + 2].copy_from_slice(b"\r\n");
         self.len = end + 2;
@@ -95,32 +95,40 @@ impl Line {
     /// Composes a sentence. `fill` writes the fields; it runs again with shorter forms for as long
     /// as they do not fit: first without the optional fields, then with fewer and fewer decimals.
     /// If nothing fits, which no writer of this crate can bring about, the bare address remains.
-    pub(crate) fn compose(talker: Talker, formatter: &str, fill: impl Fn(&mut Composer)) -> Line {
-        Line::try_compose(talker, formatter, fill)
-            .unwrap_or_else(|| Line::bare([talker.as_str(), formatter]))
+    pub(crate) fn compose(
+        talker: Talker,
+        formatter: &str,
+        fill: impl Fn(&mut Composer),
+    ) -> NmeaLine {
+        NmeaLine::try_compose(talker, formatter, fill)
+            .unwrap_or_else(|| NmeaLine::bare([talker.as_str(), formatter]))
     }
 
-    /// As [`Line::compose`], but nothing if nothing fits: for sentences of as many parts as there is
+    /// As [`NmeaLine::compose`], but nothing if nothing fits: for sentences of as many parts as there is
     /// room for.
     pub(crate) fn try_compose(
         talker: Talker,
         formatter: &str,
         fill: impl Fn(&mut Composer),
-    ) -> Option<Line> {
-        Line::shortened([talker.as_str(), formatter], MAX_LEN, fill)
+    ) -> Option<NmeaLine> {
+        NmeaLine::shortened([talker.as_str(), formatter], MAX_LEN, fill)
     }
 
-    /// As [`Line::compose`], for a sentence under a maker's own address (`PSXN`).
-    pub(crate) fn compose_own(address: &str, fill: impl Fn(&mut Composer)) -> Line {
-        Line::shortened([address, ""], MAX_LEN_OWN, fill)
-            .unwrap_or_else(|| Line::bare([address, ""]))
+    /// As [`NmeaLine::compose`], for a sentence under a maker's own address (`PSXN`).
+    pub(crate) fn compose_own(address: &str, fill: impl Fn(&mut Composer)) -> NmeaLine {
+        NmeaLine::shortened([address, ""], MAX_LEN_OWN, fill)
+            .unwrap_or_else(|| NmeaLine::bare([address, ""]))
     }
 
-    fn bare(address: [&str; 2]) -> Line {
+    fn bare(address: [&str; 2]) -> NmeaLine {
         Composer::new(address, MAX_LEN, false, 0).finish()
     }
 
-    fn shortened(address: [&str; 2], limit: usize, fill: impl Fn(&mut Composer)) -> Option<Line> {
+    fn shortened(
+        address: [&str; 2],
+        limit: usize,
+        fill: impl Fn(&mut Composer),
+    ) -> Option<NmeaLine> {
         let shortenings = std::iter::once((true, u8::MAX))
             .chain(std::iter::once((false, u8::MAX)))
             .chain((0..=8).rev().map(|decimals| (false, decimals)));
@@ -135,7 +143,7 @@ impl Line {
     }
 }
 
-impl fmt::Debug for Line {
+impl fmt::Debug for NmeaLine {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Line({})", self.as_str())
     }
@@ -397,11 +405,11 @@ impl Composer {
         }
     }
 
-    fn finish(mut self) -> Line {
+    fn finish(mut self) -> NmeaLine {
         let sum = checksum(&self.bytes[1..self.len]);
         let tail = [b'*', HEX[usize::from(sum >> 4)], HEX[usize::from(sum & 15)], b'\r', b'\n'];
         self.bytes[self.len..self.len + TAIL].copy_from_slice(&tail);
-        Line { bytes: self.bytes, len: self.len + TAIL }
+        NmeaLine { bytes: self.bytes, len: self.len + TAIL }
     }
 }
 
@@ -414,7 +422,7 @@ mod tests {
     #[test]
     fn the_guard_drops_optional_fields_first_and_decimals_next() {
         let with = |numbers: usize| {
-            let line = Line::compose(Talker::IN, "XXX", |c| {
+            let line = NmeaLine::compose(Talker::IN, "XXX", |c| {
                 (0..numbers).for_each(|_| c.number(Some(1_234.567_891), FORM));
                 c.optional(1, |c| c.number(Some(42.0), FORM));
             });
@@ -429,13 +437,13 @@ mod tests {
 
     #[test]
     fn a_line_that_cannot_fit_says_nothing_rather_than_half() {
-        let line = Line::compose(Talker::IN, "XXX", |c| (0..99).for_each(|_| c.empty()));
+        let line = NmeaLine::compose(Talker::IN, "XXX", |c| (0..99).for_each(|_| c.empty()));
         assert_eq!(line.as_str(), "$INXXX*5F");
     }
 
     #[test]
     fn a_heading_just_below_a_full_turn_is_rounded_to_zero() {
-        let line = Line::compose(Talker::HE, "XXX", |c| {
+        let line = NmeaLine::compose(Talker::HE, "XXX", |c| {
             c.degrees(Some(359.998_f64.to_radians()), 2);
             c.degrees(Some(-0.001_f64.to_radians()), 2);
         });
@@ -444,14 +452,14 @@ mod tests {
 
     #[test]
     fn a_line_without_checksum_has_the_same_fields_and_an_end() {
-        let line = Line::compose(Talker::HE, "XXX", |c| c.letter(b'A'));
+        let line = NmeaLine::compose(Talker::HE, "XXX", |c| c.letter(b'A'));
         assert_eq!(line.without_checksum().as_bytes(), b"$HEXXX,A\r\n");
     }
 
     #[test]
     fn zero_has_no_sign() {
         let form = Form { decimals: 1, width: 1, limit: 1e3 };
-        let line = Line::compose(Talker::TI, "XXX", |c| c.number(Some(-0.04), form));
+        let line = NmeaLine::compose(Talker::TI, "XXX", |c| c.number(Some(-0.04), form));
         assert!(line.as_str().starts_with("$TIXXX,0.0*"), "{line:?}");
     }
 }

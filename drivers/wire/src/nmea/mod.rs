@@ -103,7 +103,7 @@ pub use arc::Arc;
 pub use checksum::checksum;
 pub use civil::{CivilTime, Date, TimeOfDay};
 pub use dtm::{Datum, Dtm};
-pub use fault::Fault;
+pub use fault::NmeaFault;
 pub use fields::{Fields, LeftOut};
 pub use frame::{ChecksumPolicy, Frame};
 pub use gbs::Gbs;
@@ -120,7 +120,7 @@ pub use hdg::Hdg;
 pub use hdm::Hdm;
 pub use hdt::Hdt;
 pub use lcd::Lcd;
-pub use line::{Line, MAX_LEN, MAX_LEN_OWN, Talker};
+pub use line::{MAX_LEN, MAX_LEN_OWN, NmeaLine, Talker};
 pub use look::look;
 pub use mode::{HeadingMode, NavStatus, PositionMode};
 pub use network::{Sfi, TransmissionGroup};
@@ -129,7 +129,7 @@ pub use pfec::PfecAttitude;
 pub use phcmp::Phcmp;
 pub use phinf::{InsUserStatus, OctansStatus, Phinf};
 pub use phlin::{Phlin, Phspd};
-pub use phoct::{Marked, Phoct, PhoctState, WaveMotion};
+pub use phoct::{Marked, Phoct, PhoctState, SurgeSwayHeave};
 pub use phtro::Phtro;
 pub use pinsd::{
     Pinsd, PinsdAlignment, PinsdBerth, PinsdChoice, PinsdDocking, PinsdIntegrity, PinsdMode,

@@ -9,14 +9,14 @@
 
 use nmea::{Error, ParseResult, SENTENCE_MAX_LEN, SentenceType};
 
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::LeftOut;
 use super::frame::Frame;
 use super::sentence::Sentence;
 
 /// What kind of sentence a line is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Kind<'a> {
+pub struct SentenceKind<'a> {
     /// Formatter of an approved sentence (`MWV`), or the address of a maker's own (`PGRME`).
     pub name: &'a str,
     /// How far it is understood.
@@ -29,7 +29,7 @@ pub enum Understood {
     /// The navigator reads it; what was bad in it is left out.
     Read(LeftOut),
     /// The navigator reads such sentences, but not this one.
-    Refused(Fault),
+    Refused(NmeaFault),
     /// The navigator does not need it; it has the form that the `nmea` crate knows.
     Recognised,
     /// The navigator does not need it; the `nmea` crate knows such sentences, but not this form.
@@ -41,23 +41,23 @@ pub enum Understood {
 /// The kind of a line's sentence.
 ///
 /// # Errors
-/// The [`Fault`] of its frame.
-pub fn kind(line: &[u8]) -> Result<Kind<'_>, Fault> {
+/// The [`NmeaFault`] of its frame.
+pub fn kind(line: &[u8]) -> Result<SentenceKind<'_>, NmeaFault> {
     let frame = Frame::parse(line)?;
     Ok(kind_of(line, &frame))
 }
 
 /// The kind of the sentence of a frame, which is that of a line.
 #[must_use]
-pub fn kind_of<'a>(line: &[u8], frame: &Frame<'a>) -> Kind<'a> {
+pub fn kind_of<'a>(line: &[u8], frame: &Frame<'a>) -> SentenceKind<'a> {
     let name = frame.approved().map_or(frame.address(), |(_, formatter)| formatter);
     let understood = match Sentence::read_frame(frame) {
         Ok(_) => Understood::Read(frame.left_out()),
-        Err(Fault::OtherSentence) if frame.talker().is_some() => ask(line, name),
-        Err(Fault::OtherSentence | Fault::Address) => Understood::Unknown,
+        Err(NmeaFault::OtherSentence) if frame.talker().is_some() => ask(line, name),
+        Err(NmeaFault::OtherSentence | NmeaFault::Address) => Understood::Unknown,
         Err(fault) => Understood::Refused(fault),
     };
-    Kind { name, understood }
+    SentenceKind { name, understood }
 }
 
 /// Asks the `nmea` crate about a line whose frame is good.
@@ -93,7 +93,10 @@ mod tests {
     #[test]
     fn sentences_are_told_apart_by_how_far_they_are_understood() {
         assert_eq!(understood("HEHDT,1.0,T"), Understood::Read(LeftOut::default()));
-        assert_eq!(understood("HEHDT,1.0,M"), Understood::Refused(Fault::Malformed { field: 2 }));
+        assert_eq!(
+            understood("HEHDT,1.0,M"),
+            Understood::Refused(NmeaFault::Malformed { field: 2 })
+        );
         assert_eq!(understood("WIMWV,41.1,R,1.0,N,A"), Understood::Recognised);
         assert_eq!(understood("WIMWV,x,R"), Understood::Odd);
         assert_eq!(understood("IIRSA,1.0,A,,V"), Understood::Unknown);
@@ -105,7 +108,7 @@ mod tests {
         assert_eq!(understood(&long), Understood::Odd);
         assert_eq!(
             kind(b"$WIMWV,41.1,R,1.0,N,A*00"),
-            Err(Fault::WrongChecksum { stated: 0, computed: 0x16 })
+            Err(NmeaFault::WrongChecksum { stated: 0, computed: 0x16 })
         );
     }
 }

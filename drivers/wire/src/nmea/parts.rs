@@ -3,7 +3,7 @@
 use insd_base::units::wrap_two_pi;
 
 use super::decimal::{Form, power_of_ten};
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::line::Composer;
 
@@ -51,17 +51,17 @@ pub(super) fn negated(value: Option<f64>) -> Option<f64> {
 }
 
 /// Reads an angle of at most so many degrees either way, rad.
-pub(super) fn read_degrees(fields: &mut Fields<'_>, limit: f64) -> Result<Option<f64>, Fault> {
+pub(super) fn read_degrees(fields: &mut Fields<'_>, limit: f64) -> Result<Option<f64>, NmeaFault> {
     Ok(fields.number_in(-limit..=limit)?.map(f64::to_radians))
 }
 
 /// Reads a number of at most so much either way.
-pub(super) fn read_within(fields: &mut Fields<'_>, limit: f64) -> Result<Option<f64>, Fault> {
+pub(super) fn read_within(fields: &mut Fields<'_>, limit: f64) -> Result<Option<f64>, NmeaFault> {
     fields.number_in(-limit..=limit)
 }
 
 /// Reads a status word.
-pub(super) fn read_word(fields: &mut Fields<'_>) -> Result<Option<u32>, Fault> {
+pub(super) fn read_word(fields: &mut Fields<'_>) -> Result<Option<u32>, NmeaFault> {
     fields.convert(word_of)
 }
 

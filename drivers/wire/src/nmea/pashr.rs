@@ -30,10 +30,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::decimal::Form;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
-use super::line::Line;
+use super::line::NmeaLine;
 
 const ANGLE_LIMIT: f64 = 360.0;
 const HEAVE: Form = Form { decimals: 2, width: 3, limit: 999.9 };
@@ -174,7 +174,7 @@ impl Pashr {
     /// Writes the sentence: time truncated to 1 ms, angles to 0.01 deg, heave to 1 cm, three digits
     /// before the point, sigmas to 0.001 deg. An unknown status is left out with its comma.
     #[must_use]
-    pub fn write(&self) -> Line {
+    pub fn write(&self) -> NmeaLine {
         self.write_in(Digits { time: 3, whole: 3, heave: 2 })
     }
 
@@ -182,7 +182,7 @@ impl Pashr {
     /// for WASSP sounders 3 of the heave; `NovAtel` has no zeros before a number. Of the other dialects
     /// no real sentence was seen; they are written as by [`Pashr::write`].
     #[must_use]
-    pub fn write_as(&self, dialect: PashrDialect) -> Line {
+    pub fn write_as(&self, dialect: PashrDialect) -> NmeaLine {
         self.write_in(match dialect {
             PashrDialect::Sbg => Digits { time: 2, whole: 3, heave: 2 },
             PashrDialect::SbgWassp => Digits { time: 2, whole: 3, heave: 3 },
@@ -193,12 +193,12 @@ impl Pashr {
         })
     }
 
-    fn write_in(&self, digits: Digits) -> Line {
+    fn write_in(&self, digits: Digits) -> NmeaLine {
         let heading = self.heading.map(|heading| heading.to_degrees().rem_euclid(360.0));
         let heading = heading.map(|degrees| if degrees >= 359.995 { 0.0 } else { degrees });
         let angle = Form { decimals: 2, width: digits.whole, limit: ANGLE_LIMIT };
         let heave = Form { decimals: digits.heave, width: digits.whole, ..HEAVE };
-        Line::compose_own(Self::ADDRESS, |line| {
+        NmeaLine::compose_own(Self::ADDRESS, |line| {
             line.time_of_day_to(self.time, digits.time);
             line.number(heading, angle);
             line.letter(b'T');
@@ -218,11 +218,11 @@ impl Pashr {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields; [`Fault::OtherSentence`] for those of Ashtech receivers.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields; [`NmeaFault::OtherSentence`] for those of Ashtech receivers.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of_own(Self::ADDRESS)?;
         if fields.clone().text()?.starts_with(|first: char| first.is_ascii_alphabetic()) {
-            return Err(Fault::OtherSentence);
+            return Err(NmeaFault::OtherSentence);
         }
         let time = fields.time_of_day()?;
         let heading = fields.degrees()?;
@@ -243,12 +243,12 @@ impl Pashr {
 }
 
 /// An angle of at least `min` and at most 360 deg; another one is left out.
-fn angle(fields: &mut Fields<'_>, min: f64) -> Result<Option<f64>, Fault> {
+fn angle(fields: &mut Fields<'_>, min: f64) -> Result<Option<f64>, NmeaFault> {
     let degrees = fields.optional(|own| own.number_in(min..=SIGMA.limit))?;
     Ok(degrees.map(f64::to_radians))
 }
 
-fn digit(fields: &mut Fields<'_>) -> Result<Option<u8>, Fault> {
+fn digit(fields: &mut Fields<'_>) -> Result<Option<u8>, NmeaFault> {
     Ok(fields.whole(9)?.and_then(|digit| u8::try_from(digit).ok()))
 }
 
@@ -293,6 +293,6 @@ mod tests {
         let line = b"$PASHR,POS,0,06,204132.00,4205.7337,N,08802.0410,W,+00221.92,,,,,,,,,*";
         let sum = super::super::checksum(&line[1..line.len() - 1]);
         let framed = [line.as_slice(), format!("{sum:02X}").as_bytes()].concat();
-        assert_eq!(Pashr::read(&Frame::parse(&framed).unwrap()), Err(Fault::OtherSentence));
+        assert_eq!(Pashr::read(&Frame::parse(&framed).unwrap()), Err(NmeaFault::OtherSentence));
     }
 }

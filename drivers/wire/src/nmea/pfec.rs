@@ -1,7 +1,7 @@
 //! PFEC,GPatt: attitude of Furuno and JRC satellite compasses.
 
 use super::kinds::{Decimal, Turn};
-use super::line::Line;
+use super::line::NmeaLine;
 use super::table::sentence;
 
 const TILT: Decimal = Decimal::signed(1, 90.0).degrees().width(2).with_sign();
@@ -25,7 +25,7 @@ sentence! {
 impl PfecAttitude {
     /// Writes the sentence of version 1.5, which has no checksum.
     #[must_use]
-    pub fn write_old(&self) -> Line {
+    pub fn write_old(&self) -> NmeaLine {
         self.write().without_checksum()
     }
 }

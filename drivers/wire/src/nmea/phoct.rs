@@ -4,7 +4,7 @@
 //! Systems `nmeaMessages.md`), and the layout verified against records.
 
 use super::civil::TimeOfDay;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::kinds::{Clock, Decimal, Flag, Kind, Needed, Turn, Whole, letter};
 use super::line::Composer;
@@ -43,7 +43,7 @@ pub struct Marked {
 
 /// Surge, sway and heave, or their rates.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct WaveMotion {
+pub struct SurgeSwayHeave {
     /// Heave, m or m/s, up positive.
     pub heave: Option<f64>,
     /// Surge, m or m/s, forward positive.
@@ -71,9 +71,9 @@ sentence! {
     /// Heave at the primary lever arm, m, up positive. Its state is that of all motion.
     11 heave: Marked = WithState(METRES);
     /// Motion at the chosen lever arm: heave, surge, sway, m.
-    13 motion: WaveMotion = Waves;
+    13 motion: SurgeSwayHeave = Waves;
     /// Its rates, m/s.
-    16 rates: WaveMotion = Waves;
+    16 rates: SurgeSwayHeave = Waves;
     /// Rate of turn, rad/s, bow to starboard positive; deg/min in the sentence.
     19 rate_of_turn: Option<f64> = TURN;
 }
@@ -112,7 +112,7 @@ impl<K: Kind<Value = Option<f64>>> Kind for WithState<K> {
         line.letter(state.letter());
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<Marked, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<Marked, NmeaFault> {
         let value = self.0.read(fields)?;
         let state = Needed(letter()).read(fields)?;
         Ok(if value.is_some() { Marked { value, state } } else { Marked::unknown(state) })
@@ -123,16 +123,16 @@ impl<K: Kind<Value = Option<f64>>> Kind for WithState<K> {
 pub(super) struct Waves;
 
 impl Kind for Waves {
-    type Value = WaveMotion;
+    type Value = SurgeSwayHeave;
 
-    fn write(&self, line: &mut Composer, motion: &WaveMotion) {
+    fn write(&self, line: &mut Composer, motion: &SurgeSwayHeave) {
         METRES.write(line, &motion.heave);
         METRES.write(line, &motion.surge);
         METRES.reversed().write(line, &motion.sway);
     }
 
-    fn read(&self, fields: &mut Fields<'_>) -> Result<WaveMotion, Fault> {
+    fn read(&self, fields: &mut Fields<'_>) -> Result<SurgeSwayHeave, NmeaFault> {
         let (heave, surge) = (METRES.read(fields)?, METRES.read(fields)?);
-        Ok(WaveMotion { heave, surge, sway: METRES.reversed().read(fields)? })
+        Ok(SurgeSwayHeave { heave, surge, sway: METRES.reversed().read(fields)? })
     }
 }

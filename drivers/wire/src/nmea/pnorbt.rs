@@ -29,10 +29,10 @@ use insd_base::UtcTime;
 
 use super::civil::{TimeOfDay, nanoseconds};
 use super::decimal::{Form, parse, parse_digits};
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
-use super::line::{Composer, Line};
+use super::line::{Composer, NmeaLine};
 
 /// Seconds in the unit of the times.
 const MILLISECOND: f64 = 1e-3;
@@ -131,14 +131,14 @@ pub struct NortekGroundSpeed {
 impl NortekBottomTrack {
     /// Writes the sentence: time to 0.1 ms, velocities to 0.01 mm/s, distances to 1 cm.
     #[must_use]
-    pub fn write(&self) -> Line {
+    pub fn write(&self) -> NmeaLine {
         let address = match (self.sensors.is_some(), self.tagged) {
             (false, true) => "PNORBT6",
             (false, false) => "PNORBT7",
             (true, true) => "PNORBT8",
             (true, false) => "PNORBT9",
         };
-        Line::compose_own(address, |line| self.fill(line))
+        NmeaLine::compose_own(address, |line| self.fill(line))
     }
 
     fn fill(&self, line: &mut Composer) {
@@ -180,14 +180,14 @@ impl NortekBottomTrack {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let (tagged, with_sensors) = match frame.address() {
             "PNORBT6" => (true, false),
             "PNORBT7" => (false, false),
             "PNORBT8" => (true, true),
             "PNORBT9" => (false, true),
-            _ => return Err(Fault::OtherSentence),
+            _ => return Err(NmeaFault::OtherSentence),
         };
         let mut values = Values { fields: frame.fields(), keys: KEYS.iter().copied(), tagged };
         let mut track = NortekBottomTrack {
@@ -218,8 +218,8 @@ impl NortekBottomTrack {
 impl NortekBeam {
     /// Writes the sentence.
     #[must_use]
-    pub fn write(&self) -> Line {
-        Line::compose_own("PNORBT0", |line| {
+    pub fn write(&self) -> NmeaLine {
+        NmeaLine::compose_own("PNORBT0", |line| {
             line.whole(self.beam.map(u32::from), 1, 99);
             match self.date_as_sent.filter(|parts| parts.iter().all(|part| *part < 100)) {
                 Some(parts) => line.digits(&parts.map(|part| (part.into(), 2))),
@@ -242,8 +242,8 @@ impl NortekBeam {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let fields = frame.fields_of_own("PNORBT0")?;
         let mut values = Values { fields, keys: KEYS.iter().copied(), tagged: false };
         Ok(NortekBeam {
@@ -263,8 +263,8 @@ impl NortekBeam {
 impl NortekGroundSpeed {
     /// Writes the sentence.
     #[must_use]
-    pub fn write(&self) -> Line {
-        Line::compose_own("PNORBT4", |line| {
+    pub fn write(&self) -> NmeaLine {
+        NmeaLine::compose_own("PNORBT4", |line| {
             for delay in [self.trigger_to_echo, self.echo_to_output] {
                 line.number(delay.map(|delay| delay / MILLISECOND), DELAY);
             }
@@ -278,8 +278,8 @@ impl NortekGroundSpeed {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let fields = frame.fields_of_own("PNORBT4")?;
         let mut values = Values { fields, keys: KEYS.iter().copied(), tagged: false };
         let trigger_to_echo = values.number()?.map(|ms| ms * MILLISECOND);
@@ -317,7 +317,10 @@ struct Values<'a> {
 }
 
 impl<'a> Values<'a> {
-    fn convert<T>(&mut self, to: impl FnOnce(&'a str) -> Option<T>) -> Result<Option<T>, Fault> {
+    fn convert<T>(
+        &mut self,
+        to: impl FnOnce(&'a str) -> Option<T>,
+    ) -> Result<Option<T>, NmeaFault> {
         let key = self.keys.next().unwrap_or_default();
         let text = self.fields.text()?;
         let value = match (self.tagged, text.split_once('=')) {
@@ -331,29 +334,32 @@ impl<'a> Values<'a> {
         }
     }
 
-    fn number(&mut self) -> Result<Option<f64>, Fault> {
+    fn number(&mut self) -> Result<Option<f64>, NmeaFault> {
         self.convert(parse)
     }
 
     /// As [`Values::convert`], but what is malformed is left out. A wrong key is a fault.
-    fn optional<T>(&mut self, to: impl FnOnce(&'a str) -> Option<T>) -> Result<Option<T>, Fault> {
+    fn optional<T>(
+        &mut self,
+        to: impl FnOnce(&'a str) -> Option<T>,
+    ) -> Result<Option<T>, NmeaFault> {
         let text = self.convert(Some)?;
         let value = text.map(|text| to(text).ok_or_else(|| self.fields.malformed())).transpose();
         self.fields.optional(|_| value)
     }
 }
 
-fn velocity(values: &mut Values<'_>) -> Result<Option<f64>, Fault> {
+fn velocity(values: &mut Values<'_>) -> Result<Option<f64>, NmeaFault> {
     let velocity = values.convert(|text| parse(text).filter(|v| v.abs() < 32.769))?;
     Ok(velocity.filter(|velocity| (velocity - INVALID_VELOCITY).abs() > 5e-4))
 }
 
-fn merit(values: &mut Values<'_>) -> Result<Option<f64>, Fault> {
+fn merit(values: &mut Values<'_>) -> Result<Option<f64>, NmeaFault> {
     let merit = values.optional(|text| parse(text).filter(|merit| *merit >= 0.0))?;
     Ok(merit.filter(|merit| (merit - INVALID_MERIT).abs() > 5e-6))
 }
 
-fn range(values: &mut Values<'_>) -> Result<Option<f64>, Fault> {
+fn range(values: &mut Values<'_>) -> Result<Option<f64>, NmeaFault> {
     let range = values.optional(|text| parse(text).filter(|range| *range >= 0.0))?;
     Ok(range.filter(|range| *range > 0.0))
 }

@@ -14,9 +14,9 @@
 //! 366.91 deg, which is refused here.
 
 use super::decimal::Form;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::frame::Frame;
-use super::line::Line;
+use super::line::NmeaLine;
 use super::parts::{degrees, degrees_with_sign, heading, read_degrees};
 
 const WIDTH: u8 = 3;
@@ -56,14 +56,14 @@ impl Prdid {
 
     /// Writes the sentence in its first form, to 0.01 deg.
     #[must_use]
-    pub fn write(&self) -> Line {
+    pub fn write(&self) -> NmeaLine {
         self.write_as(PrdidForm::Fixed)
     }
 
     /// Writes the sentence in a form, to 0.01 deg.
     #[must_use]
-    pub fn write_as(&self, form: PrdidForm) -> Line {
-        let line = Line::compose_own(Self::ADDRESS, |line| match form {
+    pub fn write_as(&self, form: PrdidForm) -> NmeaLine {
+        let line = NmeaLine::compose_own(Self::ADDRESS, |line| match form {
             PrdidForm::Fixed | PrdidForm::FixedWithoutChecksum => {
                 degrees_with_sign(line, self.pitch, PITCH);
                 degrees_with_sign(line, self.roll, ROLL);
@@ -81,8 +81,8 @@ impl Prdid {
     /// Reads the sentence in any form.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of_own(Self::ADDRESS)?;
         let pitch = read_degrees(&mut fields, PITCH.limit)?;
         let roll = read_degrees(&mut fields, ROLL.limit)?;

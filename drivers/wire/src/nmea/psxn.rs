@@ -14,10 +14,10 @@
 //! From the maker's manual (Seapath 320); sentences 20 and 23 verified against its published examples.
 
 use super::decimal::Form;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
-use super::line::{Composer, Line};
+use super::line::{Composer, NmeaLine};
 
 const ANGLE: Form = Form { decimals: 2, width: 1, limit: 360.0 };
 const RATE: Form = Form { decimals: 2, width: 1, limit: 9999.9 };
@@ -93,8 +93,8 @@ impl Psxn {
 
     /// Writes the sentence, to 0.01 of its units.
     #[must_use]
-    pub fn write(&self) -> Line {
-        Line::compose_own(Self::ADDRESS, |line| match self {
+    pub fn write(&self) -> NmeaLine {
+        NmeaLine::compose_own(Self::ADDRESS, |line| match self {
             Psxn::Quality { horizontal, height, heading, attitude } => {
                 line.whole(Some(20), 2, 99);
                 for quality in [horizontal, height, heading, attitude] {
@@ -126,8 +126,8 @@ impl Psxn {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields; [`Fault::OtherSentence`] for other numbers than 20 to 24.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields; [`NmeaFault::OtherSentence`] for other numbers than 20 to 24.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of_own(Self::ADDRESS)?;
         let range = -HEAVE.limit..=HEAVE.limit;
         Ok(match fields.text()? {
@@ -154,7 +154,7 @@ impl Psxn {
                 yaw_rate: angle(&mut fields, RATE)?,
                 down_velocity: fields.optional(|own| own.number_in(range))?,
             },
-            _ => return Err(Fault::OtherSentence),
+            _ => return Err(NmeaFault::OtherSentence),
         })
     }
 }
@@ -163,12 +163,12 @@ fn degrees(line: &mut Composer, angles: &[Option<f64>], form: Form) {
     angles.iter().for_each(|angle| line.number(angle.map(f64::to_degrees), form));
 }
 
-fn angle(fields: &mut Fields<'_>, form: Form) -> Result<Option<f64>, Fault> {
+fn angle(fields: &mut Fields<'_>, form: Form) -> Result<Option<f64>, NmeaFault> {
     let degrees = fields.optional(|own| own.number_in(-form.limit..=form.limit))?;
     Ok(degrees.map(f64::to_radians))
 }
 
-fn quality(fields: &mut Fields<'_>) -> Result<Option<PsxnQuality>, Fault> {
+fn quality(fields: &mut Fields<'_>) -> Result<Option<PsxnQuality>, NmeaFault> {
     fields.convert(|text| match text {
         "0" => Some(PsxnQuality::Normal),
         "1" => Some(PsxnQuality::Reduced),

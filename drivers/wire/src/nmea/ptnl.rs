@@ -15,11 +15,11 @@
 
 use super::civil::TimeOfDay;
 use super::decimal::Form;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
 use super::kinds::{Clock, Decimal, Kind};
-use super::line::{Composer, Line};
+use super::line::{Composer, NmeaLine};
 
 const YAW: Decimal = Decimal::signed(4, 360.0).degrees().with_sign();
 const TILT: Decimal = Decimal::signed(4, 90.0).degrees().with_sign();
@@ -72,8 +72,8 @@ impl PtnlAvr {
 
     /// Writes the sentence.
     #[must_use]
-    pub fn write(&self) -> Line {
-        Line::compose_own(Self::ADDRESS, |line| {
+    pub fn write(&self) -> NmeaLine {
+        NmeaLine::compose_own(Self::ADDRESS, |line| {
             line.text("AVR");
             CLOCK.write(line, &self.time);
             YAW.write(line, &self.yaw);
@@ -90,11 +90,11 @@ impl PtnlAvr {
     /// Reads the sentence. Time, direction and quality must be good.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields; [`Fault::OtherSentence`] of other sentences of Trimble.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields; [`NmeaFault::OtherSentence`] of other sentences of Trimble.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of_own(Self::ADDRESS)?;
         if fields.text()? != "AVR" {
-            return Err(Fault::OtherSentence);
+            return Err(NmeaFault::OtherSentence);
         }
         let time = CLOCK.read(&mut fields)?;
         let yaw = YAW.read(&mut fields)?;
@@ -127,7 +127,7 @@ fn rise(line: &mut Composer, angle: Option<f64>, word: &str) {
     }
 }
 
-fn risen(fields: &mut Fields<'_>, word: &str) -> Result<Option<f64>, Fault> {
+fn risen(fields: &mut Fields<'_>, word: &str) -> Result<Option<f64>, NmeaFault> {
     let angle = fields.optional(|own| TILT.read(own))?;
     let told = fields.text()?;
     let good = told == word || told.is_empty() && angle.is_none();

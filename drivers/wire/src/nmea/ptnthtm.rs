@@ -15,10 +15,10 @@
 //! of degrees.
 
 use super::decimal::Form;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
-use super::line::{Composer, Line};
+use super::line::{Composer, NmeaLine};
 use super::parts::{degrees, heading};
 
 const HEADING: Form = Form { decimals: 2, width: 1, limit: 360.0 };
@@ -51,8 +51,8 @@ impl Ptnthtm {
 
     /// Writes the sentence, to 0.01 deg. What is not known has the status of an alarm.
     #[must_use]
-    pub fn write(&self) -> Line {
-        Line::compose_own(Self::ADDRESS, |line| {
+    pub fn write(&self) -> NmeaLine {
+        NmeaLine::compose_own(Self::ADDRESS, |line| {
             let good = if self.is_warned { WARNING } else { NORMAL };
             let told = |filled| if filled { good } else { ALARM };
             let filled = line.filled(|line| heading(line, self.heading, HEADING));
@@ -67,8 +67,8 @@ impl Ptnthtm {
     /// Reads the sentence. What has the status of an alarm is not known.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of_own(Self::ADDRESS)?;
         let (heading, is_warned) = angle(&mut fields, 0.0..=360.0)?;
         let (pitch, _) = angle(&mut fields, -PITCH.limit..=PITCH.limit)?;
@@ -86,7 +86,7 @@ fn tilt(line: &mut Composer, angle: Option<f64>, form: Form) {
 fn angle(
     fields: &mut Fields<'_>,
     range: std::ops::RangeInclusive<f64>,
-) -> Result<(Option<f64>, bool), Fault> {
+) -> Result<(Option<f64>, bool), NmeaFault> {
     let angle = fields.number_in(range)?.map(f64::to_radians);
     let status = fields.letter()?;
     let is_warned = matches!(status, Some(WARNING | b'O'));

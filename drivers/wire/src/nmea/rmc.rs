@@ -23,11 +23,11 @@ use insd_base::units::KNOT;
 
 use super::civil::{Date, TimeOfDay};
 use super::decimal::{Form, parse_digits};
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
 use super::gns::nav_status;
-use super::line::{Line, Talker};
+use super::line::{NmeaLine, Talker};
 use super::mode::{NavStatus, PositionMode};
 use super::parts::letter_of;
 use super::position::Position;
@@ -68,11 +68,11 @@ impl Rmc {
     /// Writes the sentence: time truncated to 0.01 s, position to 0.00001 minutes (2 cm), course to
     /// 0.01 deg, speed to 0.01 kn, variation to 0.1 deg.
     #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
+    pub fn write(&self, talker: Talker) -> NmeaLine {
         let valid = self.valid && self.position.is_some_and(Position::is_writable);
         let otherwise = if valid { PositionMode::Autonomous } else { PositionMode::NotValid };
         let date = self.date.filter(|date| date.is_valid() && (1980..2080).contains(&date.year));
-        Line::compose(talker, Self::FORMATTER, |line| {
+        NmeaLine::compose(talker, Self::FORMATTER, |line| {
             line.time_of_day(self.time);
             line.letter(if valid { b'A' } else { b'V' });
             line.position(self.position, 5);
@@ -91,8 +91,8 @@ impl Rmc {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let time = fields.time_of_day()?;
         let valid = fields.status()?;
@@ -111,7 +111,7 @@ impl Rmc {
 /// Fields 10 to 12, of which the oldest editions end after 11.
 fn variation_and_mode(
     fields: &mut Fields<'_>,
-) -> Result<(Option<f64>, Option<PositionMode>), Fault> {
+) -> Result<(Option<f64>, Option<PositionMode>), NmeaFault> {
     let mut behind = fields.clone();
     behind.text()?;
     let mode_in_its_place = letter_of(behind.text()?).and_then(PositionMode::from_letter);

@@ -1,8 +1,8 @@
 //! Any sentence that this crate reads.
 
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::frame::Frame;
-use super::line::{Line, Talker};
+use super::line::{NmeaLine, Talker};
 use super::{
     Acn, Alc, Alf, Arc, Dtm, Gbs, Gga, Glc, Gll, Gns, Gsa, Gst, Gsv, Hbt, Hcr, Hdg, Hdm, Hdt, Lcd,
     NortekBeam, NortekBottomTrack, NortekGroundSpeed, Pashr, Pinsd, Psxn, Rls, Rmc, Rot, Ths, Txt,
@@ -35,23 +35,23 @@ macro_rules! sentences {
             pub const LONGEST: &[(&str, usize)] =
                 &[$(($approved::FORMATTER, $approved::LONGEST),)*];
 
-            fn read_approved(frame: &Frame<'_>, formatter: &str) -> Result<Self, Fault> {
+            fn read_approved(frame: &Frame<'_>, formatter: &str) -> Result<Self, NmeaFault> {
                 match formatter {
                     $($approved::FORMATTER => $approved::read(frame).map(Sentence::$approved),)*
-                    _ => Err(Fault::OtherSentence),
+                    _ => Err(NmeaFault::OtherSentence),
                 }
             }
 
-            fn read_own(frame: &Frame<'_>) -> Result<Self, Fault> {
+            fn read_own(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
                 match frame.address() {
                     $($($address)|+ => $own::read(frame).map(Sentence::$own),)*
-                    _ => Err(Fault::OtherSentence),
+                    _ => Err(NmeaFault::OtherSentence),
                 }
             }
 
             /// Writes the sentence; makers' own have no talker.
             #[must_use]
-            pub fn write(&self, talker: Talker) -> Line {
+            pub fn write(&self, talker: Talker) -> NmeaLine {
                 match self {
                     $(Sentence::$approved(sentence) => sentence.write(talker),)*
                     $(Sentence::$own(sentence) => sentence.write(),)*
@@ -170,9 +170,9 @@ impl Sentence {
     /// Reads a line and says who sent it; makers' own sentences have no talker.
     ///
     /// # Errors
-    /// The first [`Fault`] of frame or fields; [`Fault::OtherSentence`] for a good frame of an
+    /// The first [`NmeaFault`] of frame or fields; [`NmeaFault::OtherSentence`] for a good frame of an
     /// unknown formatter or maker.
-    pub fn read(line: &[u8]) -> Result<(Option<Talker>, Self), Fault> {
+    pub fn read(line: &[u8]) -> Result<(Option<Talker>, Self), NmeaFault> {
         let frame = Frame::parse(line)?;
         Sentence::read_frame(&frame).map(|sentence| (frame.talker(), sentence))
     }
@@ -180,8 +180,8 @@ impl Sentence {
     /// Reads the sentence of a frame.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields; [`Fault::OtherSentence`] for an unknown formatter or maker.
-    pub fn read_frame(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields; [`NmeaFault::OtherSentence`] for an unknown formatter or maker.
+    pub fn read_frame(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         match frame.approved() {
             Ok((_, formatter)) => Sentence::read_approved(frame, formatter),
             // one has the address of neither the standard nor a maker's own

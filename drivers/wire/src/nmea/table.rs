@@ -44,7 +44,7 @@ macro_rules! sentence {
             #[allow(unused_assignments)] // most have no fields of later editions
             pub(super) fn read_fields(
                 fields: &mut $crate::nmea::fields::Fields<'_>,
-            ) -> Result<Self, $crate::nmea::fault::Fault> {
+            ) -> Result<Self, $crate::nmea::fault::NmeaFault> {
                 use $crate::nmea::kinds::Kind;
                 let mut _later = true;
                 $(
@@ -100,15 +100,15 @@ macro_rules! approved {
 
             /// Writes the sentence.
             #[must_use]
-            pub fn write(&self, talker: $crate::nmea::Talker) -> $crate::nmea::Line {
-                $crate::nmea::Line::compose(talker, $formatter, |line| self.write_fields(line))
+            pub fn write(&self, talker: $crate::nmea::Talker) -> $crate::nmea::NmeaLine {
+                $crate::nmea::NmeaLine::compose(talker, $formatter, |line| self.write_fields(line))
             }
 
             /// Reads the sentence.
             ///
             /// # Errors
-            /// The first [`crate::nmea::Fault`] of its fields.
-            pub fn read(frame: &$crate::nmea::Frame<'_>) -> Result<Self, $crate::nmea::Fault> {
+            /// The first [`crate::nmea::NmeaFault`] of its fields.
+            pub fn read(frame: &$crate::nmea::Frame<'_>) -> Result<Self, $crate::nmea::NmeaFault> {
                 Self::read_fields(&mut frame.fields_of($formatter)?)
             }
         }
@@ -124,8 +124,8 @@ macro_rules! own {
 
             /// Writes the sentence.
             #[must_use]
-            pub fn write(&self) -> $crate::nmea::Line {
-                $crate::nmea::Line::compose_own($address, |line| {
+            pub fn write(&self) -> $crate::nmea::NmeaLine {
+                $crate::nmea::NmeaLine::compose_own($address, |line| {
                     $(line.text($word);)?
                     self.write_fields(line);
                 })
@@ -134,12 +134,12 @@ macro_rules! own {
             /// Reads the sentence.
             ///
             /// # Errors
-            /// The first [`crate::nmea::Fault`] of its fields.
-            pub fn read(frame: &$crate::nmea::Frame<'_>) -> Result<Self, $crate::nmea::Fault> {
+            /// The first [`crate::nmea::NmeaFault`] of its fields.
+            pub fn read(frame: &$crate::nmea::Frame<'_>) -> Result<Self, $crate::nmea::NmeaFault> {
                 let mut fields = frame.fields_of_own($address)?;
                 $(
                     if fields.text()? != $word {
-                        return Err($crate::nmea::Fault::OtherSentence);
+                        return Err($crate::nmea::NmeaFault::OtherSentence);
                     }
                 )?
                 Self::read_fields(&mut fields)

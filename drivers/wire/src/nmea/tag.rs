@@ -14,7 +14,7 @@ use insd_base::UtcTime;
 use super::checksum::checksum;
 use super::civil::nanoseconds;
 use super::decimal::parse_digits;
-use super::line::Line;
+use super::line::NmeaLine;
 
 /// First bytes of a datagram with sentences.
 pub const DATAGRAM_HEADER: &[u8; 6] = b"UdPbC\0";
@@ -124,7 +124,7 @@ impl TagGroup {
 }
 
 /// A line with the TAG block that goes before it.
-pub type Tagged<'a> = (TagBlock<'a>, &'a Line);
+pub type Tagged<'a> = (TagBlock<'a>, &'a NmeaLine);
 
 /// One datagram of lines with their TAG blocks; `None` if it would exceed [`MAX_DATAGRAM`].
 #[must_use]
@@ -184,7 +184,7 @@ fn write_time(time: UtcTime) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::nmea::{Fault, Frame, HeadingMode, Talker, Ths};
+    use crate::nmea::{Frame, HeadingMode, NmeaFault, Talker, Ths};
 
     #[test]
     fn the_published_datagram_is_written_byte_for_byte() {
@@ -206,7 +206,7 @@ mod tests {
     #[test]
     fn a_damaged_tag_block_is_named() {
         for line in ["\\s:IN0001,n:2*06\\$HETHS,316.70,A*1E", "\\s:IN0001$HETHS,316.70,A*1E"] {
-            assert_eq!(Frame::parse(line.as_bytes()), Err(Fault::TagBlock));
+            assert_eq!(Frame::parse(line.as_bytes()), Err(NmeaFault::TagBlock));
         }
     }
 

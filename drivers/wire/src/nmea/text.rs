@@ -128,12 +128,12 @@ fn hexadecimal(digit: u8) -> Option<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::nmea::{Line, Talker};
+    use crate::nmea::{NmeaLine, Talker};
 
     #[test]
     fn reserved_characters_are_escaped_and_come_back() {
         let text = Text::<16>::new("5 > 4, 3° \\ ^!").unwrap();
-        let line = Line::compose(Talker::IN, "XXX", |line| line.escaped(&text));
+        let line = NmeaLine::compose(Talker::IN, "XXX", |line| line.escaped(&text));
         assert_eq!(line.as_str(), "$INXXX,5 > 4^2C 3^B0 ^5C ^5E^21*07");
         assert_eq!(Text::read("5 > 4^2C 3^B0 ^5C ^5e^21"), Some(text));
         assert_eq!(text.to_string(), "5 > 4, 3° \\ ^!");
@@ -152,7 +152,7 @@ mod tests {
     #[test]
     fn the_last_text_of_a_line_is_cut_after_a_whole_character() {
         let text = Text::<90>::new(&format!("{},,", "x".repeat(66))).unwrap();
-        let line = Line::compose(Talker::IN, "XXX", |line| line.escaped_last(&text));
+        let line = NmeaLine::compose(Talker::IN, "XXX", |line| line.escaped_last(&text));
         assert!(line.as_str().contains("xx^2C*"), "{line:?}");
         assert_eq!(line.as_bytes().len(), 81);
     }

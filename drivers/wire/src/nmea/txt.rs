@@ -10,9 +10,9 @@
 //! Receivers do not escape commas in the text (gpsd's logs), so all behind field 3 is the text.
 
 use super::alert::{place, small};
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::frame::Frame;
-use super::line::{Line, MAX_LEN, Talker};
+use super::line::{MAX_LEN, NmeaLine, Talker};
 use super::text::{Text, escape};
 
 /// Most characters of a text that is read.
@@ -71,8 +71,8 @@ impl Txt {
 
     /// Writes the sentence.
     #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
-        Line::compose(talker, Self::FORMATTER, |line| {
+    pub fn write(&self, talker: Talker) -> NmeaLine {
+        NmeaLine::compose(talker, Self::FORMATTER, |line| {
             line.whole(Some(self.sentences.into()), 2, 99);
             line.whole(Some(self.number.into()), 2, 99);
             line.whole(self.kind.map(u32::from), 2, 99);
@@ -83,8 +83,8 @@ impl Txt {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let (sentences, number) = place(&mut fields, MAX_SENTENCES.into())?;
         let kind = small(&mut fields, 99)?;

@@ -15,10 +15,10 @@
 use insd_base::units::KNOT;
 
 use super::decimal::Form;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
-use super::line::{Composer, Line, Talker};
+use super::line::{Composer, NmeaLine, Talker};
 
 const SPEED: Form = Form { decimals: 3, width: 1, limit: 999.9 };
 
@@ -66,8 +66,8 @@ impl Vbw {
 
     /// Writes the sentence, speeds to 0.001 kn: ten fields, or six without the stern.
     #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
-        Line::compose(talker, Self::FORMATTER, |line| {
+    pub fn write(&self, talker: Talker) -> NmeaLine {
+        NmeaLine::compose(talker, Self::FORMATTER, |line| {
             for velocity in [self.water, self.ground] {
                 speeds(line, &[velocity.longitudinal, velocity.transverse], velocity.valid);
             }
@@ -81,8 +81,8 @@ impl Vbw {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let mut vbw = Vbw {
             water: VbwVelocity::read(&mut fields)?,
@@ -99,7 +99,7 @@ impl Vbw {
 }
 
 impl VbwVelocity {
-    fn read(fields: &mut Fields<'_>) -> Result<Self, Fault> {
+    fn read(fields: &mut Fields<'_>) -> Result<Self, NmeaFault> {
         let longitudinal = fields.optional(speed)?;
         let transverse = fields.optional(speed)?;
         Ok(VbwVelocity { longitudinal, transverse, valid: status(fields)? })
@@ -107,7 +107,7 @@ impl VbwVelocity {
 }
 
 impl VbwStern {
-    fn read(fields: &mut Fields<'_>) -> Result<Self, Fault> {
+    fn read(fields: &mut Fields<'_>) -> Result<Self, NmeaFault> {
         Ok(VbwStern { transverse: fields.optional(speed)?, valid: status(fields)? })
     }
 }
@@ -119,12 +119,12 @@ fn speeds(line: &mut Composer, speeds: &[Option<f64>], valid: bool) {
     line.letter(if valid && known { b'A' } else { b'V' });
 }
 
-fn speed(fields: &mut Fields<'_>) -> Result<Option<f64>, Fault> {
+fn speed(fields: &mut Fields<'_>) -> Result<Option<f64>, NmeaFault> {
     let knots = fields.number_in(-SPEED.limit..=SPEED.limit)?;
     Ok(knots.map(|knots| knots * KNOT))
 }
 
-fn status(fields: &mut Fields<'_>) -> Result<bool, Fault> {
+fn status(fields: &mut Fields<'_>) -> Result<bool, NmeaFault> {
     let status = fields.optional(|own| {
         own.convert(|text| match text {
             "A" => Some(true),

@@ -16,10 +16,10 @@
 //! Sources: gpsd `www/NMEA.adoc`; the bulletin; logs of gpsd.
 
 use super::decimal::{Form, parse};
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
-use super::line::{Composer, Line, MAX_LEN, Talker};
+use super::line::{Composer, MAX_LEN, NmeaLine, Talker};
 use super::parts::letter_of;
 use super::text::Text;
 
@@ -93,7 +93,7 @@ impl XdrMeasurement {
         line.escaped(&self.name);
     }
 
-    fn read(fields: &mut Fields<'_>) -> Result<Self, Fault> {
+    fn read(fields: &mut Fields<'_>) -> Result<Self, NmeaFault> {
         let kind = letter(fields)?;
         let value = fields.convert(|text| {
             let decimals = text.split_once('.').map_or(0, |(_, fraction)| fraction.len());
@@ -116,21 +116,21 @@ impl Xdr {
 
     /// Writes the sentence, each value to its own decimals if they fit.
     #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
+    pub fn write(&self, talker: Talker) -> NmeaLine {
         let all = self.measurements.iter().flatten().count();
         let fitting = (0..=all).rev().find_map(|count| {
-            Line::try_compose(talker, Self::FORMATTER, |line| {
+            NmeaLine::try_compose(talker, Self::FORMATTER, |line| {
                 self.measurements.iter().flatten().take(count).for_each(|one| one.write(line));
             })
         });
-        fitting.unwrap_or_else(|| Line::compose(talker, Self::FORMATTER, |_| {}))
+        fitting.unwrap_or_else(|| NmeaLine::compose(talker, Self::FORMATTER, |_| {}))
     }
 
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields; [`Fault::Malformed`] for more than [`MAX_MEASUREMENTS`].
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields; [`NmeaFault::Malformed`] for more than [`MAX_MEASUREMENTS`].
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let mut measurements = [None; MAX_MEASUREMENTS];
         measurements[0] = Some(XdrMeasurement::read(&mut fields)?);
@@ -146,6 +146,6 @@ impl Xdr {
     }
 }
 
-fn letter(fields: &mut Fields<'_>) -> Result<Option<u8>, Fault> {
+fn letter(fields: &mut Fields<'_>) -> Result<Option<u8>, NmeaFault> {
     fields.convert(|text| letter_of(text).filter(u8::is_ascii_alphanumeric))
 }

@@ -14,10 +14,10 @@
 
 use super::civil::{CivilTime, Date};
 use super::decimal::{Form, parse, parse_digits};
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
-use super::line::{Line, Talker};
+use super::line::{NmeaLine, Talker};
 
 const ZONE: Form = Form { decimals: 0, width: 2, limit: 59.0 };
 
@@ -48,9 +48,9 @@ impl Zda {
 
     /// Writes the sentence, time truncated to 0.01 s.
     #[must_use]
-    pub fn write(&self, talker: Talker) -> Line {
+    pub fn write(&self, talker: Talker) -> NmeaLine {
         let utc = self.utc.filter(|utc| utc.date.is_valid() && utc.time.is_valid());
-        Line::compose(talker, Self::FORMATTER, |line| {
+        NmeaLine::compose(talker, Self::FORMATTER, |line| {
             line.time_of_day(utc.map(|utc| utc.time));
             match utc.map(|utc| utc.date) {
                 Some(date) => date.groups().into_iter().for_each(|group| line.digits(&[group])),
@@ -64,8 +64,8 @@ impl Zda {
     /// Reads the sentence. A time without a date is unknown.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of(Self::FORMATTER)?;
         let time = fields.time_of_day()?;
         let day = fields.whole(31)?;
@@ -80,7 +80,7 @@ impl Zda {
             (None, None, None, None) => None,
             // a receiver that has not learnt the date yet
             (Some(_), None, None, None) => {
-                fields.leave_out(Fault::Malformed { field: 2 });
+                fields.leave_out(NmeaFault::Malformed { field: 2 });
                 None
             }
             _ => return Err(fields.malformed()),
@@ -94,7 +94,7 @@ impl Zda {
 }
 
 /// The year; of two digits only where another field follows, as it may have been cut short.
-fn year(fields: &mut Fields<'_>) -> Result<Option<u32>, Fault> {
+fn year(fields: &mut Fields<'_>) -> Result<Option<u32>, NmeaFault> {
     let text = fields.text()?;
     let year = parse_digits(text);
     match (text.len(), year) {
@@ -107,7 +107,7 @@ fn year(fields: &mut Fields<'_>) -> Result<Option<u32>, Fault> {
     }
 }
 
-fn signed(fields: &mut Fields<'_>, max: i8) -> Result<Option<i8>, Fault> {
+fn signed(fields: &mut Fields<'_>, max: i8) -> Result<Option<i8>, NmeaFault> {
     fields.convert(|text| {
         let whole = parse(text).filter(|value| value.fract() == 0.0)?;
         (whole.abs() <= f64::from(max)).then_some(whole as i8)

@@ -13,7 +13,7 @@
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 use crate::nmea::Position;
 use crate::stream::Look;
 
@@ -122,15 +122,15 @@ impl ServerLine {
     ///
     /// # Errors
     /// What does not fit: no JSON, or a line that is neither greeting nor delta.
-    pub fn read(line: &[u8]) -> Result<Self, Fault> {
-        let line: Line = serde_json::from_slice(line).map_err(|_| Fault::Frame)?;
+    pub fn read(line: &[u8]) -> Result<Self, BinaryFault> {
+        let line: Line = serde_json::from_slice(line).map_err(|_| BinaryFault::Frame)?;
         match (line.updates, line.own) {
             (Some(updates), _) => Ok(ServerLine::Delta {
                 context: line.context,
                 updates: updates.into_iter().map(ServerUpdate::of).collect(),
             }),
             (None, Some(own)) => Ok(ServerLine::Hello { own }),
-            (None, None) => Err(Fault::OtherMessage),
+            (None, None) => Err(BinaryFault::OtherMessage),
         }
     }
 
@@ -205,7 +205,7 @@ pub fn look(bytes: &[u8]) -> Look {
 
 fn framed(bytes: &[u8], text: usize, end: usize) -> Look {
     match bytes.get(..text).map(ServerLine::read) {
-        Some(Ok(_) | Err(Fault::OtherMessage)) => Look::Frame(text + end),
+        Some(Ok(_) | Err(BinaryFault::OtherMessage)) => Look::Frame(text + end),
         _ => Look::Damaged,
     }
 }

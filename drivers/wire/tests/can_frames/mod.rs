@@ -19,7 +19,9 @@
 use insd_base::can::{CanFrame, CanId};
 use insd_base::{Span, Time};
 use insd_wire::imu::ImuReading;
-use insd_wire::imu::can::{CanImu, CanPart, Field, FrameLayout, Layout, Order, Shipped, What};
+use insd_wire::imu::can::{
+    ByteOrder, CanImu, CanLayout, CanPart, Field, FrameLayout, Shipped, What,
+};
 
 /// Time from sample to sample, s.
 const INTERVAL: f64 = 0.01;
@@ -105,7 +107,7 @@ fn is_sane(reading: &ImuReading, sound: bool) {
 }
 
 /// The next frame, and the time since the one before.
-fn one(layout: &Layout, bytes: &mut Taker<'_>) -> (Option<CanFrame>, Span) {
+fn one(layout: &CanLayout, bytes: &mut Taker<'_>) -> (Option<CanFrame>, Span) {
     let (which, step, length) = (bytes.byte(), bytes.byte(), bytes.byte());
     let seconds = if step < 200 { f64::from(step) * 1e-3 } else { f64::from(step - 199) };
     let data: Vec<u8> = (0..length % 9).map(|_| bytes.byte()).collect();
@@ -116,7 +118,7 @@ fn one(layout: &Layout, bytes: &mut Taker<'_>) -> (Option<CanFrame>, Span) {
 }
 
 /// A table of any fields.
-fn any(bytes: &mut Taker<'_>) -> Layout {
+fn any(bytes: &mut Taker<'_>) -> CanLayout {
     let count = bytes.byte() % 9;
     let frame = |_| {
         let (high, low, more) = (bytes.byte(), bytes.byte(), bytes.byte());
@@ -128,11 +130,11 @@ fn any(bytes: &mut Taker<'_>) -> Layout {
         let id = u32::from(u16::from_be_bytes([high & 0x7F, low]));
         FrameLayout { id, extended: high >> 7 == 1, optional: more >> 7 == 1, fields }
     };
-    Layout { frames: (0..count).map(frame).collect() }
+    CanLayout { frames: (0..count).map(frame).collect() }
 }
 
 /// A table with all parts of a motion, each in a place where it fits, and some others.
-fn usable(bytes: &mut Taker<'_>) -> Layout {
+fn usable(bytes: &mut Taker<'_>) -> CanLayout {
     let how = bytes.byte();
     let turn: &[What] = match how % 3 {
         0 => &WHAT[0..3],
@@ -156,7 +158,7 @@ fn usable(bytes: &mut Taker<'_>) -> Layout {
         let vital = parts.iter().any(|what| WHAT[..=REST].contains(what));
         FrameLayout { id, extended, optional: !vital && bytes.byte() & 1 == 1, fields }
     });
-    Layout { frames: frames.collect() }
+    CanLayout { frames: frames.collect() }
 }
 
 /// A field as the bytes say.
@@ -169,7 +171,7 @@ fn field(what: What, bytes: &mut Taker<'_>) -> Field {
     };
     Field {
         signed: flags & 1 == 1,
-        order: if flags & 2 == 0 { Order::Little } else { Order::Big },
+        order: if flags & 2 == 0 { ByteOrder::Little } else { ByteOrder::Big },
         scale: (power / 16.0).exp2(),
         offset,
         exponent: number(2).map(|start| start as u8),

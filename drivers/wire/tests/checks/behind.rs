@@ -127,63 +127,63 @@ fn tag_block(tag: &TagBlock<'_>) {
 }
 
 fn ubx(frame: &[u8]) {
-    use ubx::Message;
+    use ubx::UbxMessage;
     let Ok(open) = ubx::Frame::open(frame) else { return };
     assert_eq!(open.write(), frame);
-    let read = Message::read;
-    let write = |message: &Message| match message {
-        Message::NavPvt(message) => message.write(),
-        Message::NavDop(message) => message.write(),
-        Message::NavCov(message) => message.write(),
-        Message::NavHpPosLlh(message) => message.write(),
-        Message::NavPosLlh(message) => message.write(),
-        Message::NavVelNed(message) => message.write(),
-        Message::NavSol(message) => message.write(),
-        Message::NavStatus(message) => message.write(),
-        Message::NavTimeUtc(message) => message.write(),
-        Message::NavRelPosNed(message) => message.write(),
-        Message::NavTimeGps(message) => message.write(),
-        Message::NavTimeLs(message) => message.write(),
-        Message::TimTp(message) => message.write(),
-        Message::RxmRawx(message) => message.write(),
-        Message::RxmSfrbx(message) => message.write(),
-        Message::Other { .. } => frame.to_vec(),
+    let read = UbxMessage::read;
+    let write = |message: &UbxMessage| match message {
+        UbxMessage::NavPvt(message) => message.write(),
+        UbxMessage::NavDop(message) => message.write(),
+        UbxMessage::NavCov(message) => message.write(),
+        UbxMessage::NavHpPosLlh(message) => message.write(),
+        UbxMessage::NavPosLlh(message) => message.write(),
+        UbxMessage::NavVelNed(message) => message.write(),
+        UbxMessage::NavSol(message) => message.write(),
+        UbxMessage::NavStatus(message) => message.write(),
+        UbxMessage::NavTimeUtc(message) => message.write(),
+        UbxMessage::NavRelPosNed(message) => message.write(),
+        UbxMessage::NavTimeGps(message) => message.write(),
+        UbxMessage::NavTimeLs(message) => message.write(),
+        UbxMessage::TimTp(message) => message.write(),
+        UbxMessage::RxmRawx(message) => message.write(),
+        UbxMessage::RxmSfrbx(message) => message.write(),
+        UbxMessage::Other { .. } => frame.to_vec(),
     };
     let Some(message) = again(frame, Everything, read, write) else { return };
     message.part().iter().for_each(is_sane_part);
     make(message.pulse());
     match message {
-        Message::RxmRawx(message) => message.epoch().iter().for_each(is_sane_epoch),
-        Message::RxmSfrbx(message) => message.navigation().iter().for_each(are_sane_words),
+        UbxMessage::RxmRawx(message) => message.epoch().iter().for_each(is_sane_epoch),
+        UbxMessage::RxmSfrbx(message) => message.navigation().iter().for_each(are_sane_words),
         _ => {}
     }
 }
 
 fn sbf(frame: &[u8]) {
-    use sbf::Message;
+    use sbf::SbfMessage;
     let Ok(open) = sbf::Frame::open(frame) else { return };
     assert_eq!(open.write(), frame);
-    let read = Message::read;
-    let write = |message: &Message| match message {
-        Message::PvtGeodetic(block) => block.write(),
-        Message::PvtCartesian(block) => block.write(),
-        Message::BaseVectorGeod(block) => block.write(),
-        Message::PosCovGeodetic(block) => block.write(),
-        Message::VelCovGeodetic(block) => block.write(),
-        Message::AttEuler(block) => block.write(),
-        Message::AttCovEuler(block) => block.write(),
-        Message::ReceiverTime(block) => block.write(),
-        Message::XppsOffset(block) => block.write(),
-        Message::MeasEpoch(block) => block.write(),
-        Message::RawNavigation(block) => block.write(),
-        Message::Other { .. } => frame.to_vec(),
+    let read = SbfMessage::read;
+    let write = |message: &SbfMessage| match message {
+        SbfMessage::PvtGeodetic(block) => block.write(),
+        SbfMessage::PvtCartesian(block) => block.write(),
+        SbfMessage::BaseVectorGeod(block) => block.write(),
+        SbfMessage::PosCovGeodetic(block) => block.write(),
+        SbfMessage::VelCovGeodetic(block) => block.write(),
+        SbfMessage::AttEuler(block) => block.write(),
+        SbfMessage::AttCovEuler(block) => block.write(),
+        SbfMessage::ReceiverTime(block) => block.write(),
+        SbfMessage::XppsOffset(block) => block.write(),
+        SbfMessage::MeasEpoch(block) => block.write(),
+        SbfMessage::RawNavigation(block) => block.write(),
+        SbfMessage::Other { .. } => frame.to_vec(),
     };
     let Some(message) = again(frame, Everything, read, write) else { return };
     message.part().iter().for_each(is_sane_part);
     make(message.pulse());
     match message {
-        Message::MeasEpoch(block) => block.epoch(Some(0)).iter().for_each(is_sane_epoch),
-        Message::RawNavigation(block) => block.navigation().iter().for_each(are_sane_words),
+        SbfMessage::MeasEpoch(block) => block.epoch(Some(0)).iter().for_each(is_sane_epoch),
+        SbfMessage::RawNavigation(block) => block.navigation().iter().for_each(are_sane_words),
         _ => {}
     }
 }
@@ -224,19 +224,19 @@ fn are_sane_words(words: &NavigationWords) {
 }
 
 fn sbg(frame: &[u8]) {
-    use sbg::Message;
-    let write = |message: &Message| match message {
-        Message::ImuShort(log) => log.write(),
-        Message::ImuData(log) => log.write(),
-        Message::Time(log) => log.write(),
-        Message::Euler(log) => log.write(),
-        Message::Other { .. } => frame.to_vec(),
+    use sbg::SbgMessage;
+    let write = |message: &SbgMessage| match message {
+        SbgMessage::ImuShort(log) => log.write(),
+        SbgMessage::ImuData(log) => log.write(),
+        SbgMessage::Time(log) => log.write(),
+        SbgMessage::Euler(log) => log.write(),
+        SbgMessage::Other { .. } => frame.to_vec(),
     };
-    let Some(message) = again(frame, AfterOnce, Message::read, write) else { return };
+    let Some(message) = again(frame, AfterOnce, SbgMessage::read, write) else { return };
     message.reading().iter().for_each(is_sane_sample);
     match message {
-        Message::Time(log) => make((log.utc(), log.device_time())),
-        Message::Euler(log) => make((log.device_time(), log.is_heading_valid())),
+        SbgMessage::Time(log) => make((log.utc(), log.device_time())),
+        SbgMessage::Euler(log) => make((log.device_time(), log.is_heading_valid())),
         _ => {}
     }
 }

@@ -3,11 +3,11 @@
 #![allow(dead_code)] // no test file needs all of it
 
 use insd_base::units::wrap_pi;
-use insd_wire::nmea::{Date, Line, MAX_LEN, MAX_LEN_OWN, Position, Sentence, TimeOfDay};
+use insd_wire::nmea::{Date, MAX_LEN, MAX_LEN_OWN, NmeaLine, Position, Sentence, TimeOfDay};
 use proptest::prelude::*;
 
 /// Reads a line back after checking that it keeps its length.
-pub(crate) fn read(line: &Line) -> Sentence {
+pub(crate) fn read(line: &NmeaLine) -> Sentence {
     let limit = if line.as_str().starts_with("$P") { MAX_LEN_OWN } else { MAX_LEN };
     assert!(line.as_bytes().len() <= limit, "{line:?}");
     assert!(line.as_bytes().ends_with(b"\r\n"));

@@ -8,7 +8,7 @@ use insd_wire::motion::em::{EmAttitude, EmStatus};
 use insd_wire::motion::kmb::{Kmb, KmbSigma};
 use insd_wire::motion::seapath::{Seapath23, Seapath26};
 use insd_wire::motion::tss1::{Tss1, Tss1Aiding};
-use insd_wire::motion::{DelayedHeave, Place, Rated, Tilt, Vertical};
+use insd_wire::motion::{Rated, SensorDelayedHeave, SensorPlace, Tilt, Vertical};
 
 pub(crate) const SECOND: i64 = 1_000_000_000;
 /// 2026-03-01T12:00:00 UTC.
@@ -48,7 +48,7 @@ pub(crate) const EM: EmAttitude = EmAttitude {
 pub(crate) fn oslo_fjord() -> Kmb {
     Kmb {
         time: UtcTime::from_nanos(NOON * SECOND + 123_456_789),
-        place: full(Place {
+        place: full(SensorPlace {
             latitude: 59.9139 * DEG,
             longitude: -10.7522 * DEG,
             height: 45.5,
@@ -80,6 +80,6 @@ pub(crate) fn oslo_fjord_23() -> Seapath23 {
 
 pub(crate) fn oslo_fjord_26() -> Seapath26 {
     let time = UtcTime::from_nanos((NOON - 3) * SECOND + 987_600_000);
-    let delayed_heave = Some(DelayedHeave { time, heave: 0.6 });
+    let delayed_heave = Some(SensorDelayedHeave { time, heave: 0.6 });
     Seapath26 { motion: oslo_fjord_23(), delayed_heave }
 }

@@ -1,6 +1,6 @@
 //! One kind of message, and what a message is made of.
 
-use insd_wire::nmea::{Line, Talker};
+use insd_wire::nmea::{NmeaLine, Talker};
 
 use crate::redacted_epoch::RedactedEpoch;
 
@@ -8,7 +8,7 @@ use crate::redacted_epoch::RedactedEpoch;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
     /// Sentences that belong together and leave in this order.
-    Lines(Vec<Line>),
+    Lines(Vec<NmeaLine>),
     /// A binary telegram.
     Binary(Vec<u8>),
 }
@@ -50,12 +50,12 @@ impl Content {
 /// One sentence without a mark for simulated data: from a simulator there is none.
 pub(super) fn unmarked(
     said: &RedactedEpoch<'_>,
-    write: fn(&RedactedEpoch<'_>) -> Line,
+    write: fn(&RedactedEpoch<'_>) -> NmeaLine,
 ) -> Option<Content> {
     if said.is_muted() { None } else { one(write(said)) }
 }
 
 /// One sentence.
-pub(super) fn one(line: Line) -> Option<Content> {
+pub(super) fn one(line: NmeaLine) -> Option<Content> {
     Some(Content::Lines(vec![line]))
 }

@@ -15,7 +15,9 @@ use insd_wire::motion::em::{self, EmAttitude, EmStatus};
 use insd_wire::motion::kmb::{self, Kmb, KmbSigma};
 use insd_wire::motion::seapath::{self, Seapath23, Seapath26};
 use insd_wire::motion::tss1::{self, Tss1, Tss1Aiding};
-use insd_wire::motion::{DelayedHeave, Place, Rated, Tilt, Vertical, roll_from_horizon};
+use insd_wire::motion::{
+    Rated, SensorDelayedHeave, SensorPlace, Tilt, Vertical, roll_from_horizon,
+};
 use insd_wire::nmea::Talker;
 
 use super::entry::{Content, Entry};
@@ -164,9 +166,9 @@ fn seapath(said: &RedactedEpoch<'_>) -> Option<Seapath23> {
 }
 
 /// Position and velocity have one mark: they are told together or not at all.
-fn place(said: &RedactedEpoch<'_>) -> Option<Rated<Place>> {
+fn place(said: &RedactedEpoch<'_>) -> Option<Rated<SensorPlace>> {
     let (position, velocity) = (said.position()?, said.velocity()?);
-    let value = Place {
+    let value = SensorPlace {
         latitude: position.latitude,
         longitude: position.longitude,
         height: position.height,
@@ -192,9 +194,9 @@ fn vertical(said: &RedactedEpoch<'_>) -> Option<Rated<Vertical>> {
     Some(Rated { value, reduced: heave.quality == HeaveQuality::Reduced })
 }
 
-fn delayed_heave(said: &RedactedEpoch<'_>) -> Option<Rated<DelayedHeave>> {
+fn delayed_heave(said: &RedactedEpoch<'_>) -> Option<Rated<SensorDelayedHeave>> {
     let (time, delayed) = said.delayed_heave()?;
-    let value = DelayedHeave { time, heave: delayed.heave };
+    let value = SensorDelayedHeave { time, heave: delayed.heave };
     Some(Rated { value, reduced: delayed.quality == HeaveQuality::Reduced })
 }
 

@@ -15,7 +15,8 @@
 
 use insd_base::HeaveQuality;
 use insd_wire::nmea::{
-    Line, Marked, OctansStatus, Phcmp, Phinf, Phlin, Phoct, PhoctState, Phspd, Phtro, WaveMotion,
+    Marked, NmeaLine, OctansStatus, Phcmp, Phinf, Phlin, Phoct, PhoctState, Phspd, Phtro,
+    SurgeSwayHeave,
 };
 
 use super::entry::{Entry, unmarked};
@@ -30,29 +31,29 @@ pub(super) static ENTRIES: &[Entry] = &[
     Entry::own("PHOCT", Phoct::LONGEST, |said, _| unmarked(said, phoct)),
 ];
 
-fn phtro(said: &RedactedEpoch<'_>) -> Line {
+fn phtro(said: &RedactedEpoch<'_>) -> NmeaLine {
     let (roll, pitch) = said.roll_and_pitch().unzip();
     Phtro { roll, pitch }.write()
 }
 
-fn phlin(said: &RedactedEpoch<'_>) -> Line {
+fn phlin(said: &RedactedEpoch<'_>) -> NmeaLine {
     let heave = said.heave().map(|heave| heave.heave);
     Phlin { heave, ..Phlin::default() }.write()
 }
 
-fn phspd(said: &RedactedEpoch<'_>) -> Line {
+fn phspd(said: &RedactedEpoch<'_>) -> NmeaLine {
     let heave = said.heave().map(|heave| heave.rate);
     Phspd { heave, ..Phspd::default() }.write()
 }
 
 /// The speed is that over ground.
-fn phcmp(said: &RedactedEpoch<'_>) -> Line {
+fn phcmp(said: &RedactedEpoch<'_>) -> NmeaLine {
     let latitude = said.position().map(|place| place.latitude);
     let speed = said.course_and_speed().map(|(_, speed)| speed);
     Phcmp { latitude, speed }.write()
 }
 
-fn phinf(said: &RedactedEpoch<'_>) -> Line {
+fn phinf(said: &RedactedEpoch<'_>) -> NmeaLine {
     use OctansStatus as Bit;
     let (heading, level) = (said.heading().is_some(), said.roll_and_pitch().is_some());
     let status = Bit::default()
@@ -66,7 +67,7 @@ fn phinf(said: &RedactedEpoch<'_>) -> Line {
 
 /// The values are those of the instant that it tells, so they have no latency against it. The heave at the
 /// primary lever arm and that at the chosen one are both that of the port's monitoring point.
-fn phoct(said: &RedactedEpoch<'_>) -> Line {
+fn phoct(said: &RedactedEpoch<'_>) -> NmeaLine {
     let time = said.civil().map(|utc| utc.time);
     let (roll, pitch) = said.roll_and_pitch().unzip();
     let heave = heave(said);
@@ -79,8 +80,8 @@ fn phoct(said: &RedactedEpoch<'_>) -> Line {
         roll: angle(said, roll),
         pitch: angle(said, pitch),
         heave,
-        motion: WaveMotion { heave: heave.value, ..WaveMotion::default() },
-        rates: WaveMotion { heave: rate, ..WaveMotion::default() },
+        motion: SurgeSwayHeave { heave: heave.value, ..SurgeSwayHeave::default() },
+        rates: SurgeSwayHeave { heave: rate, ..SurgeSwayHeave::default() },
         rate_of_turn: said.rate_of_turn(),
     }
     .write()

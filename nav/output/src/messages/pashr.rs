@@ -11,7 +11,7 @@
 //! No dialect has a mark for simulated data, so from a simulator they are silent.
 
 use insd_base::{FixQuality, Mode};
-use insd_wire::nmea::{Line, Pashr, PashrDialect, PashrStatus};
+use insd_wire::nmea::{NmeaLine, Pashr, PashrDialect, PashrStatus};
 
 use super::entry::{Entry, Make, unmarked};
 use crate::redacted_epoch::RedactedEpoch;
@@ -29,7 +29,7 @@ const fn entry(name: &'static str, make: Make) -> Entry {
     Entry::own(name, Pashr::LONGEST, make)
 }
 
-fn pashr(said: &RedactedEpoch<'_>, dialect: PashrDialect) -> Line {
+fn pashr(said: &RedactedEpoch<'_>, dialect: PashrDialect) -> NmeaLine {
     let (roll, pitch) = said.roll_and_pitch().unzip();
     let [roll_std, pitch_std, heading_std] = said.attitude_sigma();
     let mut pashr = Pashr {

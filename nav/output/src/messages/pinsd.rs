@@ -19,8 +19,8 @@
 use insd_base::Mode;
 use insd_n2k::pgn::TimeSource;
 use insd_wire::nmea::{
-    Line, Pinsd, PinsdAlignment, PinsdMode, PinsdProtection, PinsdSigma, PinsdStatus, PinsdTime,
-    ProtectionState, Talker, TimeOfDay,
+    NmeaLine, Pinsd, PinsdAlignment, PinsdMode, PinsdProtection, PinsdSigma, PinsdStatus,
+    PinsdTime, ProtectionState, Talker, TimeOfDay,
 };
 
 use super::entry::{Content, Entry, one, unmarked};
@@ -76,7 +76,7 @@ fn time_source(said: &RedactedEpoch<'_>) -> PinsdTime {
 }
 
 /// Of whatever quality, but for a fault.
-fn sigma(said: &RedactedEpoch<'_>) -> Line {
+fn sigma(said: &RedactedEpoch<'_>) -> NmeaLine {
     let sigma = said.sigma().filter(|_| said.mode() != Some(Mode::Fault));
     let heave = said.any_heave().map(|heave| heave.sigma);
     let time = utc(said);
@@ -94,7 +94,7 @@ fn alignment(said: &RedactedEpoch<'_>, _: Talker) -> Option<Content> {
     one(Pinsd::Alignment(PinsdAlignment::of(utc(said), &alignment)).write())
 }
 
-fn protection(said: &RedactedEpoch<'_>) -> Line {
+fn protection(said: &RedactedEpoch<'_>) -> NmeaLine {
     let axes = axes(said);
     let hidden = said.hidden().unwrap_or_default();
     let exponent = said.risk_exponent();

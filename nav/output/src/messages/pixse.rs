@@ -29,7 +29,7 @@
 
 use insd_base::{FixQuality, Mode, Utm};
 use insd_wire::nmea::{
-    Line, Pixse, PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus, Position,
+    NmeaLine, Pixse, PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus, Position,
 };
 
 use super::entry::{Content, Entry, unmarked};
@@ -52,7 +52,7 @@ pub(super) static ENTRIES: &[Entry] = &[
 ];
 
 /// The set in the order in which a unit sends it.
-const SET: [fn(&RedactedEpoch<'_>) -> Line; 12] = [
+const SET: [fn(&RedactedEpoch<'_>) -> NmeaLine; 12] = [
     attitude,
     position,
     velocity,
@@ -90,19 +90,19 @@ fn whole(said: &RedactedEpoch<'_>) -> Option<Content> {
     (!said.is_muted()).then(|| Content::Lines(lines()))
 }
 
-fn attitude(said: &RedactedEpoch<'_>) -> Line {
+fn attitude(said: &RedactedEpoch<'_>) -> NmeaLine {
     let (roll, pitch) = said.roll_and_pitch().unzip();
     Pixse::Attitude { roll, pitch }.write()
 }
 
-fn position(said: &RedactedEpoch<'_>) -> Line {
+fn position(said: &RedactedEpoch<'_>) -> NmeaLine {
     let place = said.position();
     let position =
         place.map(|place| Position { latitude: place.latitude, longitude: place.longitude });
     Pixse::Position { position, altitude: said.altitude() }.write()
 }
 
-fn velocity(said: &RedactedEpoch<'_>) -> Line {
+fn velocity(said: &RedactedEpoch<'_>) -> NmeaLine {
     let velocity = said.velocity().map(|velocity| velocity.0);
     Pixse::Velocity {
         north: velocity.map(|velocity| velocity.x),
@@ -112,26 +112,26 @@ fn velocity(said: &RedactedEpoch<'_>) -> Line {
     .write()
 }
 
-fn grid(said: &RedactedEpoch<'_>) -> Line {
+fn grid(said: &RedactedEpoch<'_>) -> NmeaLine {
     let utm = said.position().and_then(|place| Utm::of(place.latitude, place.longitude));
     Pixse::Grid { utm, altitude: said.altitude() }.write()
 }
 
-fn motion(said: &RedactedEpoch<'_>) -> Line {
+fn motion(said: &RedactedEpoch<'_>) -> NmeaLine {
     let heave = said.heave().map(|heave| heave.heave);
     Pixse::Motion { surge: None, sway: None, heave }.write()
 }
 
-fn time(said: &RedactedEpoch<'_>) -> Line {
+fn time(said: &RedactedEpoch<'_>) -> NmeaLine {
     Pixse::Time(said.civil().map(|utc| utc.time)).write()
 }
 
-fn attitude_sigma(said: &RedactedEpoch<'_>) -> Line {
+fn attitude_sigma(said: &RedactedEpoch<'_>) -> NmeaLine {
     let [roll, pitch, heading] = said.attitude_sigma();
     Pixse::AttitudeSigma { heading, roll, pitch }.write()
 }
 
-fn position_sigma(said: &RedactedEpoch<'_>) -> Line {
+fn position_sigma(said: &RedactedEpoch<'_>) -> NmeaLine {
     let sigma = said.position_sigma().map(|sigma| sigma.0);
     Pixse::PositionSigma {
         north: sigma.map(|sigma| sigma.x),
@@ -141,7 +141,7 @@ fn position_sigma(said: &RedactedEpoch<'_>) -> Line {
     .write()
 }
 
-fn velocity_sigma(said: &RedactedEpoch<'_>) -> Line {
+fn velocity_sigma(said: &RedactedEpoch<'_>) -> NmeaLine {
     let sigma = said.sigma().filter(|_| said.velocity().is_some()).map(|sigma| sigma.velocity.0);
     Pixse::VelocitySigma {
         north: sigma.map(|sigma| sigma.x),
@@ -151,7 +151,7 @@ fn velocity_sigma(said: &RedactedEpoch<'_>) -> Line {
     .write()
 }
 
-fn algorithm(said: &RedactedEpoch<'_>) -> Line {
+fn algorithm(said: &RedactedEpoch<'_>) -> NmeaLine {
     use PixseAlgorithmStatus as Bit;
     let mode = said.mode();
     let navigating = mode.is_some_and(Mode::is_navigating);
@@ -167,7 +167,7 @@ fn algorithm(said: &RedactedEpoch<'_>) -> Line {
     Pixse::Algorithm(Some(status)).write()
 }
 
-fn system(said: &RedactedEpoch<'_>) -> Line {
+fn system(said: &RedactedEpoch<'_>) -> NmeaLine {
     use PixseSystemStatus as Bit;
     let status = Bit::default()
         .with(Bit::GPS1_DETECTED, said.uses_gnss())
@@ -177,7 +177,7 @@ fn system(said: &RedactedEpoch<'_>) -> Line {
     Pixse::System(Some(status)).write()
 }
 
-fn high_level(said: &RedactedEpoch<'_>) -> Line {
+fn high_level(said: &RedactedEpoch<'_>) -> NmeaLine {
     use PixseHighLevelStatus as Bit;
     let status = ABSENT
         .with(health(said), true)

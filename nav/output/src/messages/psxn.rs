@@ -17,7 +17,7 @@
 //! None has a mark for simulated data, so from a simulator they are silent.
 
 use insd_base::{FixQuality, HeaveQuality};
-use insd_wire::nmea::{Line, Psxn, PsxnQuality};
+use insd_wire::nmea::{NmeaLine, Psxn, PsxnQuality};
 
 use super::entry::{Entry, Make, unmarked};
 use crate::redacted_epoch::RedactedEpoch;
@@ -34,7 +34,7 @@ const fn entry(name: &'static str, make: Make) -> Entry {
     Entry::own(name, Psxn::LONGEST, make)
 }
 
-fn quality(said: &RedactedEpoch<'_>) -> Line {
+fn quality(said: &RedactedEpoch<'_>) -> NmeaLine {
     let place = said.position().zip(said.velocity());
     let heave = said.heave();
     let is_reduced = heave.is_some_and(|heave| heave.quality == HeaveQuality::Reduced);
@@ -55,21 +55,21 @@ fn mark(is_known: bool, is_reduced: bool) -> Option<PsxnQuality> {
     })
 }
 
-fn started(_: &RedactedEpoch<'_>) -> Line {
+fn started(_: &RedactedEpoch<'_>) -> NmeaLine {
     Psxn::Event { event: 1 }.write()
 }
 
-fn gyro_offsets(_: &RedactedEpoch<'_>) -> Line {
+fn gyro_offsets(_: &RedactedEpoch<'_>) -> NmeaLine {
     Psxn::GyroOffsets { calibration: None, offset: None }.write()
 }
 
-fn motion(said: &RedactedEpoch<'_>) -> Line {
+fn motion(said: &RedactedEpoch<'_>) -> NmeaLine {
     let (roll, pitch) = said.roll_and_pitch().unzip();
     let heave = said.heave().map(|heave| -heave.heave);
     Psxn::Motion { roll, pitch, heading: said.heading(), heave }.write()
 }
 
-fn rates(said: &RedactedEpoch<'_>) -> Line {
+fn rates(said: &RedactedEpoch<'_>) -> NmeaLine {
     let rates = said.rates().map(|rates| rates.0);
     Psxn::Rates {
         roll_rate: rates.map(|rates| rates.x),

@@ -6,7 +6,7 @@ use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use insd_simulator::feed::Sending;
+use insd_simulator::feed::LineSending;
 
 use crate::pty::PseudoTerminal;
 
@@ -35,7 +35,7 @@ impl Lines {
     }
 
     /// Sends a message; what nobody reads makes room for what is new.
-    pub(super) fn send(&mut self, sending: &Sending) {
+    pub(super) fn send(&mut self, sending: &LineSending) {
         if let Some(line) = self.lines.get_mut(sending.port) {
             line.pty.release();
             line.pty.push(sending.bytes());
@@ -73,8 +73,8 @@ mod tests {
 
     use insd_base::{Input, Time};
 
-    fn sending(port: usize, bytes: &[u8]) -> Sending {
-        Sending { at: Time::START, port, input: Input::Bytes(bytes.to_vec()) }
+    fn sending(port: usize, bytes: &[u8]) -> LineSending {
+        LineSending { at: Time::START, port, input: Input::Bytes(bytes.to_vec()) }
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use insd_base::CanFrame;
 use insd_n2k::fast_packet::{Sequences, is_fast, split};
 use insd_n2k::text::{actisense, canboat, ydwg};
-use insd_n2k::{Message, N2kId};
+use insd_n2k::{BusMessage, N2kId};
 
 /// Lines of a file that are looked at to find out what it is.
 const LINES: usize = 200;
@@ -133,7 +133,8 @@ fn text(head: &[u8]) -> Option<BusFile> {
     } else if mostly(&|line| actisense::parse(line).is_some()) {
         Some(BusFile::Actisense)
     } else if mostly(&|line| canboat::parse(line).is_some()) {
-        let messages: Vec<Message> = lines.iter().filter_map(|line| canboat::parse(line)).collect();
+        let messages: Vec<BusMessage> =
+            lines.iter().filter_map(|line| canboat::parse(line)).collect();
         Some(canboat_of(&messages))
     } else {
         None
@@ -142,7 +143,7 @@ fn text(head: &[u8]) -> Option<BusFile> {
 
 /// Of canboat's two formats the one in which fast packets are whole: some are longer than a frame, or
 /// none is as long as one.
-fn canboat_of(messages: &[Message]) -> BusFile {
+fn canboat_of(messages: &[BusMessage]) -> BusFile {
     let mut fast = messages.iter().filter(|message| is_fast(message.pgn));
     let long = messages.iter().any(|message| message.data.len() > FRAME);
     let whole = fast.clone().next().is_some() && fast.all(|message| message.data.len() != FRAME);
@@ -174,8 +175,8 @@ impl Frames {
         }
     }
 
-    fn split(&mut self, message: Option<Message>) -> Vec<CanFrame> {
-        let Some(Message { priority, pgn, source, destination, data }) = message else {
+    fn split(&mut self, message: Option<BusMessage>) -> Vec<CanFrame> {
+        let Some(BusMessage { priority, pgn, source, destination, data }) = message else {
             return Vec::new();
         };
         let sequence = self.sequences.entry(source).or_default().next(pgn);

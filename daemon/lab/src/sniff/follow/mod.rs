@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use insd_config::calendar;
 use insd_intake::config::{Kind, SensorConfig};
 use insd_intake::decode::Decoder;
-use insd_wire::describe::Reading;
+use insd_wire::describe::ReadOutcome;
 use insd_wire::stream::Protocol;
 use serde_json::{Value, json};
 
@@ -76,11 +76,11 @@ impl Follower {
     }
 }
 
-fn word(read: Reading) -> &'static str {
+fn word(read: ReadOutcome) -> &'static str {
     match read {
-        Reading::Used => "used",
-        Reading::Other => "other",
-        Reading::Refused => "refused",
+        ReadOutcome::Used => "used",
+        ReadOutcome::Other => "other",
+        ReadOutcome::Refused => "refused",
     }
 }
 

@@ -6,7 +6,7 @@ use insd_config::calendar;
 use insd_intake::decode::{HeadingReading, North, Reading, ShipVelocity};
 use insd_intake::status::ShownPart;
 use insd_wire::gnss::{EpochTime, GnssPart};
-use insd_wire::imu::{ImuReading, Motion};
+use insd_wire::imu::{ImuMotion, ImuReading};
 use serde_json::{Value, json};
 
 /// A reading; `None` of one that says nothing.
@@ -103,8 +103,8 @@ fn time(epoch: &EpochTime) -> Value {
 fn imu(sample: &ImuReading) -> Value {
     let of = |motion: [f64; 3]| numbers(motion.map(Some));
     let (rates, increments) = match sample.motion {
-        Motion::Rates { gyro, accel } => (Some((of(gyro), of(accel))), None),
-        Motion::Increments { delta_theta, delta_velocity } => {
+        ImuMotion::Rates { gyro, accel } => (Some((of(gyro), of(accel))), None),
+        ImuMotion::Increments { delta_theta, delta_velocity } => {
             (None, Some((of(delta_theta), of(delta_velocity))))
         }
     };

@@ -5,7 +5,7 @@
 mod gnss;
 
 use insd_base::{LogReference, Time};
-use insd_n2k::Message;
+use insd_n2k::BusMessage;
 use insd_n2k::pgn::{
     Attitude, Direction, DistanceLog, Heading, Known, North as N2kNorth, PositionRapid, RateOfTurn,
     Speed, SpeedComponents,
@@ -32,7 +32,7 @@ pub(super) struct N2kState {
 }
 
 /// What a message is to a sensor; `None` if the sensor does not listen to its group.
-pub(super) fn role(message: &Message, config: &SensorConfig) -> Option<Role> {
+pub(super) fn role(message: &BusMessage, config: &SensorConfig) -> Option<Role> {
     let known = read(message, config.kind)?.ok();
     let Some(known) = known else { return Some(Role::SaysNothing) };
     let says = match &known {
@@ -48,7 +48,7 @@ pub(super) fn role(message: &Message, config: &SensorConfig) -> Option<Role> {
 }
 
 /// The contents of a message, if its group is one of the kind's.
-fn read(message: &Message, kind: Kind) -> Option<Result<Known, insd_n2k::pgn::Short>> {
+fn read(message: &BusMessage, kind: Kind) -> Option<Result<Known, insd_n2k::pgn::Short>> {
     let groups: &[u32] = match kind {
         Kind::N2kGnss => &[126_992, 129_026, 129_029, 129_033, 129_539, 129_542],
         Kind::N2kHeading => &[127_250, 127_251, 127_257],
@@ -64,7 +64,7 @@ impl N2kState {
     /// came.
     pub(super) fn message(
         &mut self,
-        message: &Message,
+        message: &BusMessage,
         begun: Time,
         config: &SensorConfig,
         log: &LogState,
@@ -75,7 +75,7 @@ impl N2kState {
 
     fn readings(
         &mut self,
-        message: &Message,
+        message: &BusMessage,
         begun: Time,
         config: &SensorConfig,
         log: &LogState,

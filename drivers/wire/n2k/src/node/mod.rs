@@ -43,7 +43,7 @@ pub use transmit::Transmit;
 use crate::groups::IsoRequest;
 use crate::pgn::Group;
 use crate::transport::{MANAGEMENT, PACKET};
-use crate::{ADDRESS_CLAIM, Assembler, BROADCAST, Message, N2kId, NULL_ADDRESS, Roster};
+use crate::{ADDRESS_CLAIM, Assembler, BROADCAST, BusMessage, N2kId, NULL_ADDRESS, Roster};
 use answers::{Answer, Answers};
 use budget::Budget;
 use claim::{Claim, Step};
@@ -226,7 +226,7 @@ impl Node {
         };
         let priority = entry.priority;
         let data = data.to_vec();
-        let message = Message { priority, pgn, source, destination: BROADCAST, data };
+        let message = BusMessage { priority, pgn, source, destination: BROADCAST, data };
         self.queue.push(message, Kind::Stream, now)
     }
 
@@ -319,7 +319,7 @@ impl Node {
     fn send_claim(&mut self, source: u8, now: Time) {
         let data = self.config.name.bytes().to_vec();
         let (pgn, destination) = (ADDRESS_CLAIM, BROADCAST);
-        let message = Message { priority: 6, pgn, source, destination, data };
+        let message = BusMessage { priority: 6, pgn, source, destination, data };
         self.queue.push(message, Kind::Urgent, now);
     }
 
@@ -327,7 +327,7 @@ impl Node {
     fn request_claims(&mut self, now: Time) {
         let data = IsoRequest { pgn: ADDRESS_CLAIM }.write();
         let (pgn, source, destination) = (IsoRequest::PGN, NULL_ADDRESS, BROADCAST);
-        let message = Message { priority: 6, pgn, source, destination, data };
+        let message = BusMessage { priority: 6, pgn, source, destination, data };
         self.queue.push(message, Kind::Urgent, now);
     }
 }

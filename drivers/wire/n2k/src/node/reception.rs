@@ -4,7 +4,7 @@
 use insd_base::{Span, Time};
 
 use crate::transport::{MANAGEMENT, Management, Packet, SILENCE, Transfer};
-use crate::{Message, N2kId};
+use crate::{BusMessage, N2kId};
 
 /// Transfers at once.
 const MOST: usize = 4;
@@ -77,7 +77,7 @@ impl Reception {
         id: N2kId,
         data: &[u8],
         now: Time,
-    ) -> (Option<Reply>, Option<Message>) {
+    ) -> (Option<Reply>, Option<BusMessage>) {
         let own = |active: &Active| active.transfer.source() == id.source;
         let Some(at) = self.0.iter().position(own) else { return (None, None) };
         let Some(active) = self.0.get_mut(at) else { return (None, None) };

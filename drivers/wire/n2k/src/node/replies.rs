@@ -13,7 +13,7 @@ use crate::groups::{
 use crate::pgn::Group;
 use crate::roster::claimed;
 use crate::transport::MANAGEMENT;
-use crate::{ADDRESS_CLAIM, BROADCAST, LAST_ADDRESS, Message};
+use crate::{ADDRESS_CLAIM, BROADCAST, BusMessage, LAST_ADDRESS};
 
 /// Groups of network management that a node sends.
 const OWN_SENT: [u32; 9] = [
@@ -40,7 +40,7 @@ const OWN_READ: [u32; 7] = [
 
 impl Node {
     /// Reacts to a message.
-    pub(super) fn receive(&mut self, message: &Message, now: Time) {
+    pub(super) fn receive(&mut self, message: &BusMessage, now: Time) {
         if message.pgn == ADDRESS_CLAIM {
             self.hear_claim(message, now);
             return;
@@ -75,7 +75,7 @@ impl Node {
         }
     }
 
-    fn hear_claim(&mut self, message: &Message, now: Time) {
+    fn hear_claim(&mut self, message: &BusMessage, now: Time) {
         let Some(name) = claimed(message) else { return };
         self.roster.learn(message);
         self.claim.hear(message.source, name, &self.roster, &mut self.random, now);
@@ -177,7 +177,7 @@ impl Node {
         let (Some(priority), Some(data), Some(source)) = (priority, data, self.address()) else {
             return;
         };
-        let message = Message { priority, pgn, source, destination: BROADCAST, data };
+        let message = BusMessage { priority, pgn, source, destination: BROADCAST, data };
         self.queue.push(message, Kind::Reply, now);
     }
 
@@ -204,7 +204,7 @@ impl Node {
     pub(super) fn reply<G: Group>(&mut self, group: &G, destination: u8, now: Time) {
         let Some(source) = self.address() else { return };
         let (priority, pgn, data) = (G::PRIORITY, G::PGN, group.write());
-        let message = Message { priority, pgn, source, destination, data };
+        let message = BusMessage { priority, pgn, source, destination, data };
         self.queue.push(message, Kind::Reply, now);
     }
 
@@ -218,7 +218,7 @@ impl Node {
     pub(super) fn manage_from(&mut self, source: u8, reply: Option<Reply>, now: Time) {
         let Some((destination, management)) = reply else { return };
         let data = management.write().to_vec();
-        let message = Message { priority: 6, pgn: MANAGEMENT, source, destination, data };
+        let message = BusMessage { priority: 6, pgn: MANAGEMENT, source, destination, data };
         self.queue.push(message, Kind::Reply, now);
     }
 

@@ -5,13 +5,13 @@
 //! send is written in the same form, without a time as canboatjs does; the gateway sends it from its own
 //! address (canboat/canboat 271). From these descriptions, not verified against a device.
 
-use crate::Message;
+use crate::BusMessage;
 
 use super::{LONGEST, digits, hex, is_number, packed};
 
 /// Reads a line.
 #[must_use]
-pub fn parse(line: &[u8]) -> Option<Message> {
+pub fn parse(line: &[u8]) -> Option<BusMessage> {
     let text = std::str::from_utf8(line).ok()?;
     let mut words = text.split_ascii_whitespace();
     let time = words.next()?.strip_prefix('A')?;
@@ -29,13 +29,13 @@ pub fn parse(line: &[u8]) -> Option<Message> {
     let destination = middle << 4 | low >> 4;
     let priority = Some(low & 0xF).filter(|priority| *priority <= 7)?;
     let pgn = hex(pgn, 5).filter(|pgn| *pgn <= 0x3_FFFF)?;
-    Some(Message { priority, pgn, source, destination, data })
+    Some(BusMessage { priority, pgn, source, destination, data })
 }
 
 /// A line with its end, without a time.
 #[must_use]
-pub fn write(message: &Message) -> String {
-    let Message { priority, pgn, source, destination, data } = message;
+pub fn write(message: &BusMessage) -> String {
+    let BusMessage { priority, pgn, source, destination, data } = message;
     let data = digits(data, "");
     format!("A000000.000 {source:02X}{destination:02X}{priority} {pgn:05X} {data}\r\n")
 }
@@ -48,7 +48,8 @@ mod tests {
     fn the_published_line_is_read() {
         let message = parse(b"A173321.107 23FF7 1F513 012F3070002F30709F\r\n").unwrap();
         let data = vec![0x01, 0x2F, 0x30, 0x70, 0x00, 0x2F, 0x30, 0x70, 0x9F];
-        let expected = Message { priority: 7, pgn: 128_275, source: 0x23, destination: 0xFF, data };
+        let expected =
+            BusMessage { priority: 7, pgn: 128_275, source: 0x23, destination: 0xFF, data };
         assert_eq!(message, expected);
         assert_eq!(write(&expected), "A000000.000 23FF7 1F513 012F3070002F30709F\r\n");
     }

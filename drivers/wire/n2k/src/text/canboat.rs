@@ -7,13 +7,13 @@
 
 use insd_base::{CanFrame, UtcTime};
 
-use crate::{Message, N2kId};
+use crate::{BusMessage, N2kId};
 
 use super::{LONGEST, byte, decimal};
 
 /// Reads a line of "FAST": a whole message.
 #[must_use]
-pub fn parse(line: &[u8]) -> Option<Message> {
+pub fn parse(line: &[u8]) -> Option<BusMessage> {
     let text = std::str::from_utf8(line).ok()?.trim_ascii();
     let mut fields = text.split(',');
     // of the many forms of time it is only asked that it begins like a date or a clock
@@ -24,7 +24,7 @@ pub fn parse(line: &[u8]) -> Option<Message> {
     let destination = fields.next().and_then(decimal)?;
     let length = fields.next().and_then(decimal).filter(|length| *length <= LONGEST)?;
     let data: Vec<u8> = fields.map(lax_byte).collect::<Option<_>>()?;
-    (data.len() == length).then_some(Message { priority, pgn, source, destination, data })
+    (data.len() == length).then_some(BusMessage { priority, pgn, source, destination, data })
 }
 
 /// Old logs leave out a leading zero.
@@ -35,7 +35,7 @@ fn lax_byte(digits: &str) -> Option<u8> {
 /// Reads a line of "PLAIN": a frame.
 #[must_use]
 pub fn parse_frame(line: &[u8]) -> Option<CanFrame> {
-    let Message { priority, pgn, source, destination, data } = parse(line)?;
+    let BusMessage { priority, pgn, source, destination, data } = parse(line)?;
     let id = N2kId { priority, pgn, source, destination };
     CanFrame::new(id.compose(), &data)
 }
@@ -45,17 +45,17 @@ pub fn parse_frame(line: &[u8]) -> Option<CanFrame> {
 pub fn write_frame(time: UtcTime, frame: &CanFrame) -> Option<String> {
     let N2kId { priority, pgn, source, destination } = N2kId::parse(frame.id())?;
     let data = frame.data().to_vec();
-    Some(write(time, &Message { priority, pgn, source, destination, data }))
+    Some(write(time, &BusMessage { priority, pgn, source, destination, data }))
 }
 
 /// A line with its end. The time is cut to milliseconds.
 #[must_use]
-pub fn write(time: UtcTime, message: &Message) -> String {
+pub fn write(time: UtcTime, message: &BusMessage) -> String {
     let ((year, month, day), nanos) = time.to_civil();
     let millis = nanos / 1_000_000;
     let (hour, minute) = (millis / 3_600_000, millis / 60_000 % 60);
     let (second, millis) = (millis / 1000 % 60, millis % 1000);
-    let Message { priority, pgn, source, destination, data } = message;
+    let BusMessage { priority, pgn, source, destination, data } = message;
     let bytes: String = data.iter().map(|byte| format!(",{byte:02x}")).collect();
     format!(
         "{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}.{millis:03}Z,\

@@ -3,7 +3,7 @@
 use insd_base::can::CanFrame;
 use insd_base::{CanId, UtcTime};
 use insd_n2k::text::{actisense, canboat, candump, slcan, ydwg};
-use insd_n2k::{Message, fast_packet};
+use insd_n2k::{BusMessage, fast_packet};
 
 use super::heard;
 
@@ -96,7 +96,7 @@ fn written(frame: &CanFrame) {
 fn written_whole([a, b, c, source, destination, way]: [u8; 6], data: &[u8]) {
     let data = data.get(..data.len().min(fast_packet::MAX_LENGTH)).unwrap_or_default().to_vec();
     let (priority, pgn) = (way & 7, heard::group(way >> 3));
-    let message = Message { priority, pgn, source, destination, data };
+    let message = BusMessage { priority, pgn, source, destination, data };
     assert_eq!(actisense::parse(actisense::write(&message).as_bytes()).as_ref(), Some(&message));
     let time = UtcTime::from_nanos(i64::from(u32::from_be_bytes([a, b, c, 0])) * 1_000_000_000);
     assert_eq!(canboat::parse(canboat::write(time, &message).as_bytes()), Some(message));

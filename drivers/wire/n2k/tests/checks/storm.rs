@@ -7,7 +7,7 @@ use insd_base::{Span, Time};
 use insd_n2k::fast_packet::MAX_LENGTH;
 use insd_n2k::node::{Node, NodeState};
 use insd_n2k::pgn::{Integrity, Known};
-use insd_n2k::{Assembler, LAST_ADDRESS, Message, N2kId, NULL_ADDRESS, Name, NameParts, Roster};
+use insd_n2k::{Assembler, BusMessage, LAST_ADDRESS, N2kId, NULL_ADDRESS, Name, NameParts, Roster};
 
 use super::common::{claim, config, frame, iso_request, name, parts};
 use super::heard;
@@ -314,7 +314,7 @@ fn request(bytes: &[u8], own: u8) -> Option<CanFrame> {
 
 /// Reads a message as the group it is of; what is written of it reads the same, unless it is longer
 /// than what is written.
-fn understand(message: &Message) -> bool {
+fn understand(message: &BusMessage) -> bool {
     assert!(message.data.len() <= 1785);
     let Some(Ok(known)) = Known::read(message.pgn, &message.data) else { return false };
     assert_eq!(known.pgn(), message.pgn);

@@ -5,7 +5,7 @@
 use insd_base::can::CanFrame;
 use insd_base::{Span, Time};
 use insd_n2k::node::{Node, NodeConfig, NodeEvent, ProductInfo, Transmit};
-use insd_n2k::{Assembler, Message, N2kId, Name, NameParts};
+use insd_n2k::{Assembler, BusMessage, N2kId, Name, NameParts};
 
 /// Nodes on a bus. Every frame takes half a millisecond, and the lowest identifier goes first.
 pub(crate) struct Bus {
@@ -78,7 +78,7 @@ impl Bus {
     }
 
     /// All messages since the last call, and when each was complete.
-    pub(crate) fn take_messages(&mut self) -> Vec<(Time, Message)> {
+    pub(crate) fn take_messages(&mut self) -> Vec<(Time, BusMessage)> {
         let mut assembler = Assembler::new();
         let frames = std::mem::take(&mut self.frames);
         let taken = frames.iter().filter_map(|(time, frame)| {

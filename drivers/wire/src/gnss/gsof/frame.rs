@@ -1,6 +1,6 @@
 //! The packet: a page of a report, and the report of several pages.
 
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 use crate::stream::Look;
 
 /// Start and end of a packet.
@@ -84,13 +84,13 @@ impl Page {
     /// Opens one whole packet.
     ///
     /// # Errors
-    /// [`Fault::Frame`] unless the bytes are one packet with a good checksum and nothing more.
-    pub fn open(packet: &[u8]) -> Result<Self, Fault> {
+    /// [`BinaryFault::Frame`] unless the bytes are one packet with a good checksum and nothing more.
+    pub fn open(packet: &[u8]) -> Result<Self, BinaryFault> {
         if look(packet) != Look::Frame(packet.len()) {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         let [_, status, _, _, transmission, page, last, records @ .., _, _] = packet else {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         };
         let (status, transmission) = (*status, *transmission);
         Ok(Page { status, transmission, page: *page, last: *last, records: records.to_vec() })

@@ -27,7 +27,7 @@ pub use record::{
 };
 
 use super::{EpochTime, GnssPart};
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 
 /// Nanoseconds of a millisecond.
 const MILLI: i64 = 1_000_000;
@@ -44,16 +44,16 @@ impl GsofReport {
     ///
     /// # Errors
     /// What is wrong with them.
-    pub fn read(mut bytes: &[u8]) -> Result<Self, Fault> {
+    pub fn read(mut bytes: &[u8]) -> Result<Self, BinaryFault> {
         let mut records = Vec::new();
         while let [kind, length, rest @ ..] = bytes {
             let needed = usize::from(*length);
-            let short = Fault::Short { needed, found: rest.len() };
+            let short = BinaryFault::Short { needed, found: rest.len() };
             let (own, behind) = rest.split_at_checked(needed).ok_or(short)?;
             records.push(GsofRecord::read(*kind, own)?);
             bytes = behind;
         }
-        if bytes.is_empty() { Ok(GsofReport { records }) } else { Err(Fault::Frame) }
+        if bytes.is_empty() { Ok(GsofReport { records }) } else { Err(BinaryFault::Frame) }
     }
 
     /// Its records as they stand in a report.

@@ -146,7 +146,7 @@ pub enum GsofRecord {
 }
 
 impl GsofRecord {
-    pub(super) fn read(kind: u8, bytes: &[u8]) -> Result<Self, crate::binary::Fault> {
+    pub(super) fn read(kind: u8, bytes: &[u8]) -> Result<Self, crate::binary::BinaryFault> {
         Ok(match kind {
             1 => GsofRecord::Time(PositionTime::read_fields(bytes)?),
             2 => GsofRecord::Place(Place::read_fields(bytes)?),

@@ -2,7 +2,7 @@
 
 use crc::{Algorithm, Crc};
 
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::gnss::{EpochTime, gps_time};
 use crate::stream::Look;
 
@@ -94,10 +94,10 @@ impl Header {
     /// Opens one whole frame: its header and its payload.
     ///
     /// # Errors
-    /// [`Fault::Frame`] unless the bytes are one frame with a good checksum and nothing more.
-    pub fn open(bytes: &[u8]) -> Result<(Self, &[u8]), Fault> {
+    /// [`BinaryFault::Frame`] unless the bytes are one frame with a good checksum and nothing more.
+    pub fn open(bytes: &[u8]) -> Result<(Self, &[u8]), BinaryFault> {
         if look(bytes) != Look::Frame(bytes.len()) {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         let mut reader = Reader::new(bytes);
         let [_, _, sync, length] = reader.array()?;
@@ -107,7 +107,8 @@ impl Header {
         let (week, milliseconds) = (reader.le_u16()?, reader.le_i32()?);
         let response = kind & 0x80 != 0;
         let start = if short { SHORT } else { usize::from(length) };
-        let payload = bytes.get(start..bytes.len().saturating_sub(SUM)).ok_or(Fault::Frame)?;
+        let payload =
+            bytes.get(start..bytes.len().saturating_sub(SUM)).ok_or(BinaryFault::Frame)?;
         Ok((Header { id, short, response, time_status, week, milliseconds }, payload))
     }
 

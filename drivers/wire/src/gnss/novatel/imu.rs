@@ -8,7 +8,7 @@ use insd_base::units::DEG;
 
 use super::as_body;
 use crate::gnss::gps_time;
-use crate::imu::{DeviceTime, ImuReading, Motion, Wrapping};
+use crate::imu::{DeviceTime, ImuMotion, ImuReading, Wrapping};
 use crate::layout::{Each, bit, layout, le};
 
 /// Nanoseconds of a week.
@@ -105,11 +105,11 @@ impl ImuScale {
     }
 
     /// Increments along x, y and z of counts along z, against y, along x.
-    fn motion(&self, push: [i32; 3], turn: [i32; 3]) -> Motion {
+    fn motion(&self, push: [i32; 3], turn: [i32; 3]) -> ImuMotion {
         let along = |[z, y, x]: [i32; 3], unit: f64| {
             [f64::from(x) * unit, 0.0 - f64::from(y) * unit, f64::from(z) * unit]
         };
-        Motion::Increments {
+        ImuMotion::Increments {
             delta_theta: along(turn, self.angle),
             delta_velocity: along(push, self.velocity),
         }

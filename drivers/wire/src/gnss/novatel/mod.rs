@@ -16,7 +16,7 @@ pub use ins::{InsPva, InsPvax};
 pub use solution::{BestPosition, BestVelocity, ReceiverClock};
 
 use super::GnssPart;
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 use crate::imu::ImuReading;
 
 /// What a log says.
@@ -74,14 +74,14 @@ impl OemLog {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let (header, payload) = Header::open(frame)?;
         let known = LOGS.iter().find(|(id, ..)| *id == header.id && !header.response);
         let Some((_, name, needed)) = known else {
             return Ok(OemLog { header, body: OemBody::Other });
         };
         if payload.len() < *needed {
-            return Err(Fault::Short { needed: *needed, found: payload.len() });
+            return Err(BinaryFault::Short { needed: *needed, found: payload.len() });
         }
         let body = match *name {
             "BESTPOS" | "BESTGNSSPOS" => OemBody::Position(BestPosition::read_body(payload)?),
@@ -161,7 +161,7 @@ impl OemLog {
 macro_rules! as_body {
     ($body:ident) => {
         impl $body {
-            pub(super) fn read_body(bytes: &[u8]) -> Result<Self, $crate::binary::Fault> {
+            pub(super) fn read_body(bytes: &[u8]) -> Result<Self, $crate::binary::BinaryFault> {
                 Self::read_fields(bytes)
             }
 

@@ -14,7 +14,7 @@ use super::kepler;
 use super::msm::Msm;
 use super::signal;
 use super::station::{self, BaseStation};
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 
 /// Nanoseconds of a millisecond.
 const MILLI: i64 = 1_000_000;
@@ -67,7 +67,11 @@ impl MsmCollector {
     ///
     /// # Errors
     /// What is wrong with the bytes. A message that is not read says nothing.
-    pub fn take(&mut self, frame: &[u8], received: GpsTime) -> Result<Vec<Correction>, Fault> {
+    pub fn take(
+        &mut self,
+        frame: &[u8],
+        received: GpsTime,
+    ) -> Result<Vec<Correction>, BinaryFault> {
         let frame = Frame::open(frame)?;
         let Some(number) = frame.number() else { return Ok(Vec::new()) };
         let bits = Bits::of(frame.message);

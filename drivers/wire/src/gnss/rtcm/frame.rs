@@ -2,7 +2,7 @@
 //! bits of its number; one of no length is filler between messages.
 
 use super::super::crc24q::crc24q;
-use crate::binary::{Fault, Writer};
+use crate::binary::{BinaryFault, Writer};
 use crate::stream::Look;
 
 /// First byte of every frame.
@@ -51,12 +51,12 @@ impl<'a> Frame<'a> {
     /// Opens one whole frame.
     ///
     /// # Errors
-    /// [`Fault::Frame`] unless the bytes are one frame with a good checksum and nothing more.
-    pub fn open(bytes: &'a [u8]) -> Result<Self, Fault> {
+    /// [`BinaryFault::Frame`] unless the bytes are one frame with a good checksum and nothing more.
+    pub fn open(bytes: &'a [u8]) -> Result<Self, BinaryFault> {
         if look(bytes) != Look::Frame(bytes.len()) {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
-        let message = bytes.get(3..bytes.len().saturating_sub(3)).ok_or(Fault::Frame)?;
+        let message = bytes.get(3..bytes.len().saturating_sub(3)).ok_or(BinaryFault::Frame)?;
         Ok(Frame { message })
     }
 

@@ -9,7 +9,7 @@ use super::super::bits::{Bits, Field};
 use super::super::kepler::half;
 use super::super::state::{StateLayout, vector};
 use super::NUMBER as OF_MESSAGE;
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 
 /// Number of the message.
 pub(super) const NUMBER: u16 = 1020;
@@ -34,13 +34,13 @@ const LAYOUT: StateLayout = StateLayout {
 };
 
 /// Reads the message, with the leap seconds that hold.
-pub(super) fn read(bits: &Bits, received: GpsTime, leap: i8) -> Result<GlonassRecord, Fault> {
+pub(super) fn read(bits: &Bits, received: GpsTime, leap: i8) -> Result<GlonassRecord, BinaryFault> {
     if bits.len() < LENGTH {
-        return Err(Fault::Short { needed: LENGTH.div_ceil(8), found: bits.len() / 8 });
+        return Err(BinaryFault::Short { needed: LENGTH.div_ceil(8), found: bits.len() / 8 });
     }
     let satellite = SatelliteId::new(Constellation::Glonass, SATELLITE.raw(bits) as u8)
-        .ok_or(Fault::Range { field: "DF038" })?;
-    let channel = channel(CHANNEL.raw(bits)).ok_or(Fault::Range { field: "DF040" })?;
+        .ok_or(BinaryFault::Range { field: "DF038" })?;
+    let channel = channel(CHANNEL.raw(bits)).ok_or(BinaryFault::Range { field: "DF040" })?;
     Ok(LAYOUT.record(satellite, channel, bits, (received, leap)))
 }
 

@@ -9,7 +9,7 @@ use insd_base::satellites::{BroadcastKind, Constellation, KeplerRecord, Satellit
 use super::super::bits::{Bits, Field};
 use super::super::kepler::{Layout, SECOND, half, range_accuracy, semi, signal_in_space_accuracy};
 use super::NUMBER;
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 
 /// One message: where it says what.
 struct Ephemeris {
@@ -210,7 +210,7 @@ pub(super) fn read(
     number: u16,
     bits: &Bits,
     received: GpsTime,
-) -> Option<Result<KeplerRecord, Fault>> {
+) -> Option<Result<KeplerRecord, BinaryFault>> {
     let own = ALL.into_iter().find(|own| own.number == number)?;
     Some(own.read(bits, received))
 }
@@ -257,14 +257,15 @@ impl Ephemeris {
         }
     }
 
-    fn read(&self, bits: &Bits, received: GpsTime) -> Result<KeplerRecord, Fault> {
+    fn read(&self, bits: &Bits, received: GpsTime) -> Result<KeplerRecord, BinaryFault> {
         if bits.len() < self.length {
             let (needed, found) = (self.length.div_ceil(8), bits.len() / 8);
-            return Err(Fault::Short { needed, found });
+            return Err(BinaryFault::Short { needed, found });
         }
         let satellite = SatelliteId::new(self.constellation, self.satellite.raw(bits) as u8)
-            .ok_or(Fault::Range { field: "satellite id" })?;
-        let orbit = self.layout.orbit(bits, received).ok_or(Fault::Range { field: "orbit" })?;
+            .ok_or(BinaryFault::Range { field: "satellite id" })?;
+        let orbit =
+            self.layout.orbit(bits, received).ok_or(BinaryFault::Range { field: "orbit" })?;
         let [issue, clock_issue] = self.issues.map(|field| field.raw(bits) as u16);
         let health = self.health.iter().map(|(field, at)| field.raw(bits) << at).sum::<u64>();
         Ok(KeplerRecord {

@@ -13,7 +13,7 @@ use super::super::bits::{Bits, extended};
 use super::frame::Frame;
 use super::glonass::channel;
 use super::signal;
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 
 /// Greatest number of cells that the cell mask (DF396) can have.
 pub(super) const MOST_CELLS: usize = 64;
@@ -55,10 +55,10 @@ struct Fields<'a> {
 }
 
 impl Fields<'_> {
-    fn unsigned(&mut self, length: usize) -> Result<u64, Fault> {
+    fn unsigned(&mut self, length: usize) -> Result<u64, BinaryFault> {
         let end = self.at + length;
         if end > self.bits.len() {
-            return Err(Fault::Short { needed: end.div_ceil(8), found: self.bits.len() / 8 });
+            return Err(BinaryFault::Short { needed: end.div_ceil(8), found: self.bits.len() / 8 });
         }
         let value = self.bits.get(self.at, length);
         self.at = end;
@@ -66,13 +66,13 @@ impl Fields<'_> {
     }
 
     /// A number in two's complement; its least value says that there is none.
-    fn signed(&mut self, length: usize) -> Result<Option<f64>, Fault> {
+    fn signed(&mut self, length: usize) -> Result<Option<f64>, BinaryFault> {
         let value = extended(self.unsigned(length)?, length);
         Ok((value != -1 << (length - 1)).then_some(value as f64))
     }
 
     /// The places of ones in a mask, from 1.
-    fn mask(&mut self, length: u8) -> Result<Vec<u8>, Fault> {
+    fn mask(&mut self, length: u8) -> Result<Vec<u8>, BinaryFault> {
         let mask = self.unsigned(length.into())?;
         Ok((1..=length).filter(|place| mask >> (length - place) & 1 == 1).collect())
     }
@@ -80,8 +80,8 @@ impl Fields<'_> {
     fn each<T>(
         &mut self,
         count: usize,
-        mut field: impl FnMut(&mut Self) -> Result<T, Fault>,
-    ) -> Result<Vec<T>, Fault> {
+        mut field: impl FnMut(&mut Self) -> Result<T, BinaryFault>,
+    ) -> Result<Vec<T>, BinaryFault> {
         (0..count).map(|_| field(self)).collect()
     }
 }
@@ -113,7 +113,7 @@ impl Msm {
         number: u16,
         bits: &Bits,
         channel_of: impl Fn(SatelliteId) -> Option<i8>,
-    ) -> Option<Result<Self, Fault>> {
+    ) -> Option<Result<Self, BinaryFault>> {
         let (constellation, variant) = signal::message(number)?;
         (variant >= 4).then(|| Self::of(constellation, variant, bits, channel_of))
     }
@@ -123,7 +123,7 @@ impl Msm {
         variant: u8,
         bits: &Bits,
         channel_of: impl Fn(SatelliteId) -> Option<i8>,
-    ) -> Result<Self, Fault> {
+    ) -> Result<Self, BinaryFault> {
         let mut fields = Fields { bits, at: 12 };
         let station = fields.unsigned(12)? as u16;
         let time = fields.unsigned(30)? as u32;
@@ -133,7 +133,7 @@ impl Msm {
         let places = fields.mask(64)?;
         let codes = fields.mask(32)?;
         if places.len() * codes.len() > MOST_CELLS {
-            return Err(Fault::Range { field: "DF396" });
+            return Err(BinaryFault::Range { field: "DF396" });
         }
         let filled = fields.each(places.len() * codes.len(), |fields| fields.unsigned(1))?;
         let satellites = satellites(&mut fields, constellation, variant, &places, channel_of)?;
@@ -156,7 +156,7 @@ fn satellites(
     variant: u8,
     places: &[u8],
     channel_of: impl Fn(SatelliteId) -> Option<i8>,
-) -> Result<Vec<Satellite>, Fault> {
+) -> Result<Vec<Satellite>, BinaryFault> {
     let count = places.len();
     let has_rate = variant == 5 || variant == 7;
     let whole = fields.each(count, |fields| fields.unsigned(8))?;
@@ -178,7 +178,7 @@ fn satellites(
     Ok((0..count).map(satellite).collect())
 }
 
-fn cells(fields: &mut Fields<'_>, variant: u8, count: usize) -> Result<Vec<Cell>, Fault> {
+fn cells(fields: &mut Fields<'_>, variant: u8, count: usize) -> Result<Vec<Cell>, BinaryFault> {
     let widths = if variant >= 6 { FINE } else { PLAIN };
     let has_rate = variant == 5 || variant == 7;
     let mut cells = vec![Cell::default(); count];

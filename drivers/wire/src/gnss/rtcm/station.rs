@@ -5,7 +5,7 @@
 use super::super::bits::{Bits, Field};
 use super::NUMBER;
 use super::frame::Frame;
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 
 /// Numbers of the messages, without and with the height of the antenna.
 pub(super) const NUMBERS: [u16; 2] = [1005, 1006];
@@ -52,11 +52,11 @@ impl BaseStation {
 }
 
 /// Reads the message.
-pub(super) fn read(number: u16, bits: &Bits) -> Result<BaseStation, Fault> {
+pub(super) fn read(number: u16, bits: &Bits) -> Result<BaseStation, BinaryFault> {
     let has_height = number == NUMBERS[1];
     let length = if has_height { LENGTH + HEIGHT_LENGTH } else { LENGTH };
     if bits.len() < length {
-        return Err(Fault::Short { needed: length.div_ceil(8), found: bits.len() / 8 });
+        return Err(BinaryFault::Short { needed: length.div_ceil(8), found: bits.len() / 8 });
     }
     Ok(BaseStation {
         station: STATION.raw(bits) as u16,

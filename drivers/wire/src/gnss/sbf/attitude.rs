@@ -5,8 +5,8 @@
 use insd_base::units::{DEG, wrap_two_pi};
 
 use super::field::{self, put_f32};
-use super::frame::{Stamp, begun, body, framed};
-use crate::binary::Fault;
+use super::frame::{SbfStamp, begun, body, framed};
+use crate::binary::BinaryFault;
 use crate::gnss::GnssPart;
 
 /// Number of AttEuler.
@@ -23,7 +23,7 @@ const ERRORS: u8 = 0b1000_1111;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AttEuler {
     /// When, by the receiver's clock.
-    pub stamp: Stamp,
+    pub stamp: SbfStamp,
     /// `NrSV`: satellites used, the mean over the antennas.
     pub satellites: Option<u8>,
     /// `Error`: bits 0-1 for the first baseline, 2-3 for the second, 7 if attitude is not requested.
@@ -46,7 +46,7 @@ impl AttEuler {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(block: &[u8]) -> Result<Self, Fault> {
+    pub fn read(block: &[u8]) -> Result<Self, BinaryFault> {
         let (stamp, mut reader, _) = body(block, ANGLES)?;
         let [satellites, error] = reader.array()?;
         let mode = reader.le_u16()?;
@@ -97,7 +97,7 @@ impl AttEuler {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AttCovEuler {
     /// When, by the receiver's clock.
-    pub stamp: Stamp,
+    pub stamp: SbfStamp,
     /// `Error`, as in [`AttEuler`].
     pub error: u8,
     /// Variances of heading, pitch and roll, rad^2.
@@ -111,7 +111,7 @@ impl AttCovEuler {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(block: &[u8]) -> Result<Self, Fault> {
+    pub fn read(block: &[u8]) -> Result<Self, BinaryFault> {
         let (stamp, mut reader, _) = body(block, COVARIANCE)?;
         let [_, error] = reader.array()?;
         let mut element = || Ok(field::f32(&mut reader)?.map(|raw| f64::from(raw) * DEG * DEG));

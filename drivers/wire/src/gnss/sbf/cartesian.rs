@@ -4,10 +4,10 @@
 
 use insd_base::FixQuality;
 
-use super::field::{self, Mode, put_f32, put_f64};
-use super::frame::{Stamp, begun, body};
+use super::field::{self, SbfMode, put_f32, put_f64};
+use super::frame::{SbfStamp, begun, body};
 use super::pvt::PvtAccuracy;
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 use crate::gnss::{GnssPart, cartesian};
 
 /// Number of the block.
@@ -17,9 +17,9 @@ pub(super) const ID: u16 = 4006;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PvtCartesian {
     /// When, by the receiver's clock.
-    pub stamp: Stamp,
+    pub stamp: SbfStamp,
     /// Type of the solution and error.
-    pub mode: Mode,
+    pub mode: SbfMode,
     /// `X`, `Y`, `Z`, m.
     pub position: Option<[f64; 3]>,
     /// `Undulation`: height of the geoid above the ellipsoid, m.
@@ -37,10 +37,10 @@ impl PvtCartesian {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(block: &[u8]) -> Result<Self, Fault> {
+    pub fn read(block: &[u8]) -> Result<Self, BinaryFault> {
         let (stamp, mut reader, revision) = body(block, ID)?;
         let reader = &mut reader;
-        let mode = Mode::read(reader)?;
+        let mode = SbfMode::read(reader)?;
         let place = [field::f64(reader)?, field::f64(reader)?, field::f64(reader)?];
         let undulation = field::f32(reader)?;
         let velocity = [field::f32(reader)?, field::f32(reader)?, field::f32(reader)?];

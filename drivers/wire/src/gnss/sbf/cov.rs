@@ -2,10 +2,10 @@
 //!
 //! Layout: PolaRx5TR Reference Guide 5.5.0, p. 392, and pysbf2.
 
-use super::field::{self, Mode, put_f32};
-use super::frame::{Stamp, begun, body, framed};
-use crate::binary::Fault;
-use crate::gnss::{Epoch, GnssPart};
+use super::field::{self, SbfMode, put_f32};
+use super::frame::{SbfStamp, begun, body, framed};
+use crate::binary::BinaryFault;
+use crate::gnss::{GnssEpoch, GnssPart};
 
 /// Number of PosCovGeodetic.
 pub(super) const POSITION: u16 = 5906;
@@ -15,11 +15,11 @@ pub(super) const VELOCITY: u16 = 5908;
 
 /// A covariance along north, east, up and the receiver's clock, in the order of the wire.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Covariance {
+pub struct SbfCovariance {
     /// When, by the receiver's clock.
-    pub stamp: Stamp,
+    pub stamp: SbfStamp,
     /// Type of the solution and error.
-    pub mode: Mode,
+    pub mode: SbfMode,
     /// Variances of north, east, up and clock: m^2 or m^2/s^2.
     pub variances: [Option<f32>; 4],
     /// Covariances: north with east, up, clock; east with up, clock; up with clock.
@@ -28,18 +28,18 @@ pub struct Covariance {
 
 /// PosCovGeodetic, m^2.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PosCovGeodetic(pub Covariance);
+pub struct PosCovGeodetic(pub SbfCovariance);
 
 /// VelCovGeodetic, m^2/s^2.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VelCovGeodetic(pub Covariance);
+pub struct VelCovGeodetic(pub SbfCovariance);
 
-impl Covariance {
-    fn read(block: &[u8], id: u16) -> Result<Self, Fault> {
+impl SbfCovariance {
+    fn read(block: &[u8], id: u16) -> Result<Self, BinaryFault> {
         let (stamp, mut reader, _) = body(block, id)?;
-        let mode = Mode::read(&mut reader)?;
+        let mode = SbfMode::read(&mut reader)?;
         let mut next = || field::f32(&mut reader);
-        Ok(Covariance {
+        Ok(SbfCovariance {
             stamp,
             mode,
             variances: [next()?, next()?, next()?, next()?],
@@ -57,12 +57,12 @@ impl Covariance {
     }
 
     /// Independent components, of a state that has a solution.
-    fn of(state: &Epoch, std: [f64; 3]) -> Self {
-        let mode = Mode::of(state.quality);
+    fn of(state: &GnssEpoch, std: [f64; 3]) -> Self {
+        let mode = SbfMode::of(state.quality);
         let [north, east, up] = std.map(|sigma| (sigma * sigma) as f32);
         let zero = mode.is_valid().then_some(0.0);
         let variances = [north, east, up, 0.0].map(|variance| mode.is_valid().then_some(variance));
-        Covariance { stamp: Stamp::of(state.time), mode, variances, covariances: [zero; 6] }
+        SbfCovariance { stamp: SbfStamp::of(state.time), mode, variances, covariances: [zero; 6] }
     }
 
     /// 1-sigma of north, east, down, if there is a solution.
@@ -81,8 +81,8 @@ impl PosCovGeodetic {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(block: &[u8]) -> Result<Self, Fault> {
-        Covariance::read(block, POSITION).map(PosCovGeodetic)
+    pub fn read(block: &[u8]) -> Result<Self, BinaryFault> {
+        SbfCovariance::read(block, POSITION).map(PosCovGeodetic)
     }
 
     /// The block.
@@ -93,8 +93,8 @@ impl PosCovGeodetic {
 
     /// What a receiver in this state would send.
     #[must_use]
-    pub fn of(state: &Epoch) -> Self {
-        PosCovGeodetic(Covariance::of(state, state.position_std))
+    pub fn of(state: &GnssEpoch) -> Self {
+        PosCovGeodetic(SbfCovariance::of(state, state.position_std))
     }
 
     /// What the message says of its epoch.
@@ -114,8 +114,8 @@ impl VelCovGeodetic {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(block: &[u8]) -> Result<Self, Fault> {
-        Covariance::read(block, VELOCITY).map(VelCovGeodetic)
+    pub fn read(block: &[u8]) -> Result<Self, BinaryFault> {
+        SbfCovariance::read(block, VELOCITY).map(VelCovGeodetic)
     }
 
     /// The block.
@@ -126,8 +126,8 @@ impl VelCovGeodetic {
 
     /// What a receiver in this state would send.
     #[must_use]
-    pub fn of(state: &Epoch) -> Self {
-        VelCovGeodetic(Covariance::of(state, state.velocity_std))
+    pub fn of(state: &GnssEpoch) -> Self {
+        VelCovGeodetic(SbfCovariance::of(state, state.velocity_std))
     }
 
     /// What the message says of its epoch.

@@ -2,19 +2,19 @@
 
 use insd_base::FixQuality;
 
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 
 /// The number that says that there is none.
 const NONE: f32 = -2e10;
 
 /// The next number, unless it is the one that must not be used or none at all.
-pub(super) fn f32(reader: &mut Reader<'_>) -> Result<Option<f32>, Fault> {
+pub(super) fn f32(reader: &mut Reader<'_>) -> Result<Option<f32>, BinaryFault> {
     let value = reader.le_f32()?;
     Ok((value.is_finite() && value != NONE).then_some(value))
 }
 
 /// The same with double precision.
-pub(super) fn f64(reader: &mut Reader<'_>) -> Result<Option<f64>, Fault> {
+pub(super) fn f64(reader: &mut Reader<'_>) -> Result<Option<f64>, BinaryFault> {
     let value = reader.le_f64()?;
     Ok((value.is_finite() && value != f64::from(NONE)).then_some(value))
 }
@@ -30,7 +30,7 @@ pub(super) fn put_f64(writer: &mut Writer, value: Option<f64>) {
 }
 
 /// A count in hundredths or the like; all ones says that there is none.
-pub(super) fn u16(reader: &mut Reader<'_>, unit: f64) -> Result<Option<f64>, Fault> {
+pub(super) fn u16(reader: &mut Reader<'_>, unit: f64) -> Result<Option<f64>, BinaryFault> {
     let raw = reader.le_u16()?;
     Ok((raw != u16::MAX).then(|| f64::from(raw) * unit))
 }
@@ -43,7 +43,7 @@ pub(super) fn put_u16(writer: &mut Writer, value: Option<f64>, unit: f64) {
 
 /// Bits 0 to 3 of `Mode`: how the position was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Solution {
+pub enum SbfSolution {
     /// None; the error tells why (0).
     None,
     /// Stand-alone (1).
@@ -70,9 +70,9 @@ pub enum Solution {
 
 /// `Mode` and `Error` of the PVT blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Mode {
+pub struct SbfMode {
     /// Type of the solution.
-    pub solution: Solution,
+    pub solution: SbfSolution,
     /// Bit 6: a fixed location is still being determined.
     pub determining: bool,
     /// Bit 7: height is held, not computed.
@@ -84,56 +84,56 @@ pub struct Mode {
 }
 
 /// The solutions by their value.
-const SOLUTIONS: [Solution; 11] = [
-    Solution::None,
-    Solution::StandAlone,
-    Solution::Differential,
-    Solution::FixedLocation,
-    Solution::RtkFixed,
-    Solution::RtkFloat,
-    Solution::Sbas,
-    Solution::MovingBaseFixed,
-    Solution::MovingBaseFloat,
-    Solution::Reserved(9),
-    Solution::PrecisePoint,
+const SOLUTIONS: [SbfSolution; 11] = [
+    SbfSolution::None,
+    SbfSolution::StandAlone,
+    SbfSolution::Differential,
+    SbfSolution::FixedLocation,
+    SbfSolution::RtkFixed,
+    SbfSolution::RtkFloat,
+    SbfSolution::Sbas,
+    SbfSolution::MovingBaseFixed,
+    SbfSolution::MovingBaseFloat,
+    SbfSolution::Reserved(9),
+    SbfSolution::PrecisePoint,
 ];
 
-impl Solution {
+impl SbfSolution {
     fn from_raw(raw: u8) -> Self {
-        SOLUTIONS.get(usize::from(raw)).copied().unwrap_or(Solution::Reserved(raw))
+        SOLUTIONS.get(usize::from(raw)).copied().unwrap_or(SbfSolution::Reserved(raw))
     }
 
     /// The value on the wire.
     #[must_use]
     pub fn raw(self) -> u8 {
         match self {
-            Solution::Reserved(raw) => raw & 15,
+            SbfSolution::Reserved(raw) => raw & 15,
             known => (0..).zip(SOLUTIONS).find(|(_, one)| *one == known).map_or(0, |(raw, _)| raw),
         }
     }
 }
 
-impl Mode {
+impl SbfMode {
     /// The mode of a three-dimensional solution without error, or of none.
     #[must_use]
     pub fn of(quality: FixQuality) -> Self {
         let solution = match quality {
-            FixQuality::Invalid | FixQuality::Estimated => Solution::None,
-            FixQuality::Autonomous | FixQuality::Simulated => Solution::StandAlone,
-            FixQuality::Differential => Solution::Differential,
-            FixQuality::Precise => Solution::PrecisePoint,
-            FixQuality::RtkFixed => Solution::RtkFixed,
-            FixQuality::RtkFloat => Solution::RtkFloat,
-            FixQuality::Manual => Solution::FixedLocation,
+            FixQuality::Invalid | FixQuality::Estimated => SbfSolution::None,
+            FixQuality::Autonomous | FixQuality::Simulated => SbfSolution::StandAlone,
+            FixQuality::Differential => SbfSolution::Differential,
+            FixQuality::Precise => SbfSolution::PrecisePoint,
+            FixQuality::RtkFixed => SbfSolution::RtkFixed,
+            FixQuality::RtkFloat => SbfSolution::RtkFloat,
+            FixQuality::Manual => SbfSolution::FixedLocation,
         };
-        let error = u8::from(solution == Solution::None);
-        Mode { solution, determining: false, two_dimensional: false, error }
+        let error = u8::from(solution == SbfSolution::None);
+        SbfMode { solution, determining: false, two_dimensional: false, error }
     }
 
     /// Whether there is a solution.
     #[must_use]
     pub fn is_valid(self) -> bool {
-        self.error == 0 && self.solution != Solution::None
+        self.error == 0 && self.solution != SbfSolution::None
     }
 
     /// What the receiver says of its fix; `None` for a solution that the document does not define.
@@ -145,23 +145,23 @@ impl Mode {
     pub fn quality(self) -> Option<FixQuality> {
         Some(match self.solution {
             _ if !self.is_valid() => FixQuality::Invalid,
-            Solution::StandAlone => FixQuality::Autonomous,
-            Solution::FixedLocation => FixQuality::Manual,
-            Solution::RtkFixed => FixQuality::RtkFixed,
-            Solution::RtkFloat => FixQuality::RtkFloat,
-            Solution::Reserved(_) => return None,
+            SbfSolution::StandAlone => FixQuality::Autonomous,
+            SbfSolution::FixedLocation => FixQuality::Manual,
+            SbfSolution::RtkFixed => FixQuality::RtkFixed,
+            SbfSolution::RtkFloat => FixQuality::RtkFloat,
+            SbfSolution::Reserved(_) => return None,
             _ => FixQuality::Differential,
         })
     }
 
-    pub(super) fn read(reader: &mut Reader<'_>) -> Result<Self, Fault> {
-        Ok(Mode::of_bytes(reader.array()?))
+    pub(super) fn read(reader: &mut Reader<'_>) -> Result<Self, BinaryFault> {
+        Ok(SbfMode::of_bytes(reader.array()?))
     }
 
     /// By the bytes of mode and error.
     pub(super) fn of_bytes([mode, error]: [u8; 2]) -> Self {
-        Mode {
-            solution: Solution::from_raw(mode & 15),
+        SbfMode {
+            solution: SbfSolution::from_raw(mode & 15),
             determining: mode & 0x40 != 0,
             two_dimensional: mode & 0x80 != 0,
             error,

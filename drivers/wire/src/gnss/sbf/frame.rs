@@ -3,7 +3,7 @@
 use crc::{CRC_16_XMODEM, Crc, Table};
 use insd_base::GpsTime;
 
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::gnss::{EpochTime, gps_time};
 use crate::stream::Look;
 
@@ -69,12 +69,14 @@ impl<'a> Frame<'a> {
     /// Opens one whole block.
     ///
     /// # Errors
-    /// [`Fault::Frame`] unless the bytes are one block with a good checksum and nothing more.
-    pub fn open(bytes: &'a [u8]) -> Result<Self, Fault> {
+    /// [`BinaryFault::Frame`] unless the bytes are one block with a good checksum and nothing more.
+    pub fn open(bytes: &'a [u8]) -> Result<Self, BinaryFault> {
         if look(bytes) != Look::Frame(bytes.len()) {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
-        let [_, _, _, _, low, high, _, _, payload @ ..] = bytes else { return Err(Fault::Frame) };
+        let [_, _, _, _, low, high, _, _, payload @ ..] = bytes else {
+            return Err(BinaryFault::Frame);
+        };
         let id = u16::from_le_bytes([*low, *high]);
         Ok(Frame { id: id & 0x1FFF, revision: (id >> 13) as u8, payload })
     }
@@ -97,21 +99,21 @@ impl<'a> Frame<'a> {
 /// The time stamp at the head of every block, by the receiver's clock, which keeps GPS time to half a
 /// millisecond or better (PVTGeodetic tells the difference).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Stamp {
+pub struct SbfStamp {
     /// `TOW`: time of the GPS week, whole milliseconds, in ns.
     pub time_of_week: Option<i64>,
     /// `WNc`: GPS week, without rollover.
     pub week: Option<u16>,
 }
 
-impl Stamp {
+impl SbfStamp {
     /// The stamp of an instant, to the nearest millisecond.
     #[must_use]
     pub fn of(time: GpsTime) -> Self {
         let rounded = GpsTime::from_nanos(time.as_nanos().saturating_add(MILLI / 2));
         let (week, time_of_week) = rounded.to_week();
         let time_of_week = time_of_week.div_euclid(MILLI) * MILLI;
-        Stamp { time_of_week: Some(time_of_week), week: u16::try_from(week).ok() }
+        SbfStamp { time_of_week: Some(time_of_week), week: u16::try_from(week).ok() }
     }
 
     /// The instant, if week and time of week are known.
@@ -127,9 +129,9 @@ impl Stamp {
         gps.or(self.time_of_week.map(EpochTime::TimeOfWeek))
     }
 
-    fn read(reader: &mut Reader<'_>) -> Result<Self, Fault> {
+    fn read(reader: &mut Reader<'_>) -> Result<Self, BinaryFault> {
         let (time_of_week, week) = (reader.le_u32()?, reader.le_u16()?);
-        Ok(Stamp {
+        Ok(SbfStamp {
             time_of_week: (time_of_week < WEEK).then(|| i64::from(time_of_week) * MILLI),
             week: (week != u16::MAX).then_some(week),
         })
@@ -143,17 +145,17 @@ impl Stamp {
 }
 
 /// A reader behind the time stamp of a block that must have a certain number, and its revision.
-pub(super) fn body(bytes: &[u8], id: u16) -> Result<(Stamp, Reader<'_>, u8), Fault> {
+pub(super) fn body(bytes: &[u8], id: u16) -> Result<(SbfStamp, Reader<'_>, u8), BinaryFault> {
     let frame = Frame::open(bytes)?;
     if frame.id != id {
-        return Err(Fault::OtherMessage);
+        return Err(BinaryFault::OtherMessage);
     }
     let mut reader = Reader::new(frame.payload);
-    Ok((Stamp::read(&mut reader)?, reader, frame.revision))
+    Ok((SbfStamp::read(&mut reader)?, reader, frame.revision))
 }
 
 /// A writer that has written the time stamp.
-pub(super) fn begun(stamp: Stamp) -> Writer {
+pub(super) fn begun(stamp: SbfStamp) -> Writer {
     let mut writer = Writer::new();
     stamp.write(&mut writer);
     writer

@@ -5,9 +5,9 @@
 
 use insd_base::satellites::{SatelliteEpoch, SatelliteId, SignalCode, SignalObservation};
 
-use super::frame::{Stamp, begun, body, framed};
+use super::frame::{SbfStamp, begun, body, framed};
 use super::signal::{channel, satellite, signal};
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 
 /// Number of the block.
 pub(super) const ID: u16 = 4027;
@@ -92,7 +92,7 @@ pub struct MeasOther {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MeasEpoch {
     /// When, by the receiver's clock.
-    pub stamp: Stamp,
+    pub stamp: SbfStamp,
     /// `CommonFlags`.
     pub flags: u8,
     /// `CumClkJumps` of revision 1: jumps of the clock so far, ms, modulo 256.
@@ -102,7 +102,7 @@ pub struct MeasEpoch {
 }
 
 impl MeasOther {
-    fn read(bytes: &[u8]) -> Result<Self, Fault> {
+    fn read(bytes: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(bytes);
         let [kind, lock_time, density, high] = reader.array()?;
         Ok(MeasOther {
@@ -127,7 +127,7 @@ impl MeasOther {
 
 impl MeasChannel {
     /// What is read, and how many others follow.
-    fn read(bytes: &[u8]) -> Result<(Self, u8), Fault> {
+    fn read(bytes: &[u8]) -> Result<(Self, u8), BinaryFault> {
         let mut reader = Reader::new(bytes);
         let [receiver_channel, kind, satellite, misc] = reader.array()?;
         let channel = MeasChannel {
@@ -162,12 +162,12 @@ impl MeasEpoch {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(block: &[u8]) -> Result<Self, Fault> {
+    pub fn read(block: &[u8]) -> Result<Self, BinaryFault> {
         let (stamp, mut reader, revision) = body(block, ID)?;
         let [count, first, other, flags, clock_jumps, _] = reader.array()?;
         let (first, other) = (usize::from(first), usize::from(other));
         if first < FIRST || other < OTHER {
-            return Err(Fault::Range { field: "SB1Length, SB2Length" });
+            return Err(BinaryFault::Range { field: "SB1Length, SB2Length" });
         }
         let mut channels = Vec::new();
         for _ in 0..count {

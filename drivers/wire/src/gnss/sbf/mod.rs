@@ -18,9 +18,9 @@ mod vector;
 
 pub use attitude::{AttCovEuler, AttEuler};
 pub use cartesian::PvtCartesian;
-pub use cov::{Covariance, PosCovGeodetic, VelCovGeodetic};
-pub use field::{Mode, Solution};
-pub use frame::{Frame, Stamp, look};
+pub use cov::{PosCovGeodetic, SbfCovariance, VelCovGeodetic};
+pub use field::{SbfMode, SbfSolution};
+pub use frame::{Frame, SbfStamp, look};
 pub use measurements::{MeasChannel, MeasEpoch, MeasOther};
 pub use navigation::{RawNavigation, RawNavigationKind};
 pub use pvt::{PvtAccuracy, PvtGeodetic};
@@ -28,11 +28,11 @@ pub use time::{ReceiverTime, XppsOffset};
 pub use vector::{BaseVector, BaseVectorGeod};
 
 use super::{GnssPart, PulseTime};
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 
 /// A block.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Message {
+pub enum SbfMessage {
     /// Position, velocity and time.
     PvtGeodetic(Box<PvtGeodetic>),
     /// Position, velocity and time along the axes of the Earth.
@@ -64,28 +64,28 @@ pub enum Message {
     },
 }
 
-impl Message {
+impl SbfMessage {
     /// Reads a block.
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(block: &[u8]) -> Result<Self, Fault> {
+    pub fn read(block: &[u8]) -> Result<Self, BinaryFault> {
         let Frame { id, revision, .. } = Frame::open(block)?;
         Ok(match id {
-            pvt::ID => Message::PvtGeodetic(Box::new(PvtGeodetic::read(block)?)),
-            cartesian::ID => Message::PvtCartesian(Box::new(PvtCartesian::read(block)?)),
-            vector::ID => Message::BaseVectorGeod(BaseVectorGeod::read(block)?),
-            cov::POSITION => Message::PosCovGeodetic(PosCovGeodetic::read(block)?),
-            cov::VELOCITY => Message::VelCovGeodetic(VelCovGeodetic::read(block)?),
-            attitude::ANGLES => Message::AttEuler(AttEuler::read(block)?),
-            attitude::COVARIANCE => Message::AttCovEuler(AttCovEuler::read(block)?),
-            time::RECEIVER_TIME => Message::ReceiverTime(ReceiverTime::read(block)?),
-            time::PULSE => Message::XppsOffset(XppsOffset::read(block)?),
-            measurements::ID => Message::MeasEpoch(MeasEpoch::read(block)?),
+            pvt::ID => SbfMessage::PvtGeodetic(Box::new(PvtGeodetic::read(block)?)),
+            cartesian::ID => SbfMessage::PvtCartesian(Box::new(PvtCartesian::read(block)?)),
+            vector::ID => SbfMessage::BaseVectorGeod(BaseVectorGeod::read(block)?),
+            cov::POSITION => SbfMessage::PosCovGeodetic(PosCovGeodetic::read(block)?),
+            cov::VELOCITY => SbfMessage::VelCovGeodetic(VelCovGeodetic::read(block)?),
+            attitude::ANGLES => SbfMessage::AttEuler(AttEuler::read(block)?),
+            attitude::COVARIANCE => SbfMessage::AttCovEuler(AttCovEuler::read(block)?),
+            time::RECEIVER_TIME => SbfMessage::ReceiverTime(ReceiverTime::read(block)?),
+            time::PULSE => SbfMessage::XppsOffset(XppsOffset::read(block)?),
+            measurements::ID => SbfMessage::MeasEpoch(MeasEpoch::read(block)?),
             _ if RawNavigationKind::of(id).is_some() => {
-                Message::RawNavigation(RawNavigation::read(block)?)
+                SbfMessage::RawNavigation(RawNavigation::read(block)?)
             }
-            _ => Message::Other { id, revision },
+            _ => SbfMessage::Other { id, revision },
         })
     }
 
@@ -93,14 +93,14 @@ impl Message {
     #[must_use]
     pub fn part(&self) -> Option<GnssPart> {
         Some(match self {
-            Message::PvtGeodetic(block) => block.part(),
-            Message::PvtCartesian(block) => block.part(),
-            Message::BaseVectorGeod(block) => block.part(),
-            Message::PosCovGeodetic(block) => block.part(),
-            Message::VelCovGeodetic(block) => block.part(),
-            Message::AttEuler(block) => block.part(),
-            Message::AttCovEuler(block) => block.part(),
-            Message::ReceiverTime(block) => block.part(),
+            SbfMessage::PvtGeodetic(block) => block.part(),
+            SbfMessage::PvtCartesian(block) => block.part(),
+            SbfMessage::BaseVectorGeod(block) => block.part(),
+            SbfMessage::PosCovGeodetic(block) => block.part(),
+            SbfMessage::VelCovGeodetic(block) => block.part(),
+            SbfMessage::AttEuler(block) => block.part(),
+            SbfMessage::AttCovEuler(block) => block.part(),
+            SbfMessage::ReceiverTime(block) => block.part(),
             _ => return None,
         })
     }
@@ -109,7 +109,7 @@ impl Message {
     #[must_use]
     pub fn pulse(&self) -> Option<PulseTime> {
         match self {
-            Message::XppsOffset(block) => block.pulse(),
+            SbfMessage::XppsOffset(block) => block.pulse(),
             _ => None,
         }
     }

@@ -5,9 +5,9 @@
 use insd_base::satellites::{Constellation, SatelliteId, SignalCode};
 
 use super::super::bits::Bits;
-use super::frame::{Frame, Stamp, begun, body, framed};
+use super::frame::{Frame, SbfStamp, begun, body, framed};
 use super::signal::{channel, satellite, signal};
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 use crate::gnss::NavigationWords;
 
 /// Bits of the even half of a page of I/NAV without its tail, and of the odd half.
@@ -59,7 +59,7 @@ pub struct RawNavigation {
     /// Which message.
     pub kind: RawNavigationKind,
     /// When the last bit was received, by the receiver's clock.
-    pub stamp: Stamp,
+    pub stamp: SbfStamp,
     /// `SVID`.
     pub satellite: u8,
     /// `CRCPassed`: the receiver found its parities or its sum good.
@@ -81,8 +81,8 @@ impl RawNavigation {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(block: &[u8]) -> Result<Self, Fault> {
-        let kind = Kind::of(Frame::open(block)?.id).ok_or(Fault::OtherMessage)?;
+    pub fn read(block: &[u8]) -> Result<Self, BinaryFault> {
+        let kind = Kind::of(Frame::open(block)?.id).ok_or(BinaryFault::OtherMessage)?;
         let (id, _, count, _) = kind.row();
         let (stamp, mut reader, _) = body(block, id)?;
         let [satellite, passed, mended, source, frequency, receiver_channel] = reader.array()?;

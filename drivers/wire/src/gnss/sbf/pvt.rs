@@ -8,10 +8,10 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 use insd_base::units::DEG;
 use insd_base::{FixQuality, Geodetic};
 
-use super::field::{self, Mode, put_f32, put_f64, put_u16};
-use super::frame::{Stamp, begun, body, framed};
-use crate::binary::{Fault, Reader, Writer};
-use crate::gnss::{Epoch, GnssPart};
+use super::field::{self, SbfMode, put_f32, put_f64, put_u16};
+use super::frame::{SbfStamp, begun, body, framed};
+use crate::binary::{BinaryFault, Reader, Writer};
+use crate::gnss::{GnssEpoch, GnssPart};
 
 /// Number of the block.
 pub(super) const ID: u16 = 4007;
@@ -23,9 +23,9 @@ const ROUNDING: f64 = 1e-9;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PvtGeodetic {
     /// When, by the receiver's clock.
-    pub stamp: Stamp,
+    pub stamp: SbfStamp,
     /// Type of the solution and error.
-    pub mode: Mode,
+    pub mode: SbfMode,
     /// `Latitude`, `Longitude`, `Height` above the ellipsoid of the datum.
     pub position: Option<Geodetic>,
     /// `Undulation`: height of the geoid above the ellipsoid, m.
@@ -72,7 +72,7 @@ pub struct PvtAccuracy {
 
 impl PvtAccuracy {
     /// What a revision has; nothing of revisions 0 and 1, which tell no accuracy.
-    pub(super) fn read(reader: &mut Reader<'_>, revision: u8) -> Result<Option<Self>, Fault> {
+    pub(super) fn read(reader: &mut Reader<'_>, revision: u8) -> Result<Option<Self>, BinaryFault> {
         if revision < 2 {
             return Ok(None);
         }
@@ -113,10 +113,10 @@ impl PvtGeodetic {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(block: &[u8]) -> Result<Self, Fault> {
+    pub fn read(block: &[u8]) -> Result<Self, BinaryFault> {
         let (stamp, mut reader, revision) = body(block, ID)?;
         let reader = &mut reader;
-        let mode = Mode::read(reader)?;
+        let mode = SbfMode::read(reader)?;
         let place = [field::f64(reader)?, field::f64(reader)?, field::f64(reader)?];
         let undulation = field::f32(reader)?;
         let velocity =
@@ -169,8 +169,8 @@ impl PvtGeodetic {
 
     /// What a receiver in this state would send.
     #[must_use]
-    pub fn of(state: &Epoch) -> Self {
-        let mode = Mode::of(state.quality);
+    pub fn of(state: &GnssEpoch) -> Self {
+        let mode = SbfMode::of(state.quality);
         let fixed = mode.is_valid();
         let moving = state.ground_speed() >= 0.1;
         let extra = PvtAccuracy {
@@ -180,7 +180,7 @@ impl PvtGeodetic {
             vertical: fixed.then_some(2.0 * state.position_std[2]),
         };
         PvtGeodetic {
-            stamp: Stamp::of(state.time),
+            stamp: SbfStamp::of(state.time),
             mode,
             position: fixed.then_some(state.position),
             undulation: fixed.then_some(state.undulation as f32),
@@ -227,13 +227,13 @@ fn known(byte: u8) -> Option<u8> {
 }
 
 /// The point of latitude, longitude and height, if all three are given.
-fn position(place: [Option<f64>; 3]) -> Result<Option<Geodetic>, Fault> {
+fn position(place: [Option<f64>; 3]) -> Result<Option<Geodetic>, BinaryFault> {
     let [Some(latitude), Some(longitude), Some(height)] = place else { return Ok(None) };
     if latitude.abs() > FRAC_PI_2 + ROUNDING {
-        return Err(Fault::Range { field: "Latitude" });
+        return Err(BinaryFault::Range { field: "Latitude" });
     }
     if longitude.abs() > PI + ROUNDING {
-        return Err(Fault::Range { field: "Longitude" });
+        return Err(BinaryFault::Range { field: "Longitude" });
     }
     Ok(Some(Geodetic { latitude, longitude, height }))
 }

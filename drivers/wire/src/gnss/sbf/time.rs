@@ -3,8 +3,8 @@
 //! Layout: PolaRx5TR Reference Guide 5.5.0, p. 424, and Septentrio's guide 4.10.1.
 
 use super::field::{self, put_f32};
-use super::frame::{Stamp, begun, body, framed};
-use crate::binary::Fault;
+use super::frame::{SbfStamp, begun, body, framed};
+use crate::binary::BinaryFault;
 use crate::gnss::{EpochTime, GnssPart, PulseOrder, PulseTime};
 use crate::nmea::{CivilTime, Date, TimeOfDay};
 
@@ -21,7 +21,7 @@ const UNKNOWN: i8 = -128;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReceiverTime {
     /// When, by the receiver's clock, whole seconds.
-    pub stamp: Stamp,
+    pub stamp: SbfStamp,
     /// `UTCYear` to `UTCSec`, the years 2000 to 2099.
     pub utc: Option<CivilTime>,
     /// `DeltaLS`: GPS - UTC, s.
@@ -36,7 +36,7 @@ impl ReceiverTime {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(block: &[u8]) -> Result<Self, Fault> {
+    pub fn read(block: &[u8]) -> Result<Self, BinaryFault> {
         let (stamp, mut reader, _) = body(block, RECEIVER_TIME)?;
         let parts: [u8; 6] = reader.array()?;
         let (leap_seconds, sync) = (reader.i8()?, reader.u8()?);
@@ -87,7 +87,7 @@ fn civil([year, month, day, hour, minute, second]: [u8; 6]) -> Option<CivilTime>
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct XppsOffset {
     /// The instant that the pulse marks.
-    pub stamp: Stamp,
+    pub stamp: SbfStamp,
     /// `SyncAge`: since the pulse was last set by satellites, s, at most 255.
     pub age: u8,
     /// `TimeScale` whose second the pulse marks: 1 GPS, 2 UTC, 3 receiver, 4 GLONASS, 5 Galileo,
@@ -102,7 +102,7 @@ impl XppsOffset {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(block: &[u8]) -> Result<Self, Fault> {
+    pub fn read(block: &[u8]) -> Result<Self, BinaryFault> {
         let (stamp, mut reader, _) = body(block, PULSE)?;
         let [age, scale] = reader.array()?;
         let offset = field::f32(&mut reader)?.map(|nanos| f64::from(nanos) * 1e-9);

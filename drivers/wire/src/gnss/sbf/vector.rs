@@ -4,9 +4,9 @@
 
 use insd_base::units::wrap_two_pi;
 
-use super::field::{self, Mode, Solution, put_f32, put_f64, put_u16};
-use super::frame::{Stamp, begun, body, framed};
-use crate::binary::{Fault, Reader, Writer};
+use super::field::{self, SbfMode, SbfSolution, put_f32, put_f64, put_u16};
+use super::frame::{SbfStamp, begun, body, framed};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::gnss::GnssPart;
 
 /// Number of the block.
@@ -22,7 +22,7 @@ const SHORTEST: f64 = 0.05;
 #[derive(Clone, Debug, PartialEq)]
 pub struct BaseVectorGeod {
     /// When, by the receiver's clock.
-    pub stamp: Stamp,
+    pub stamp: SbfStamp,
     /// The lines from the bases that are in use.
     pub vectors: Vec<BaseVector>,
 }
@@ -33,7 +33,7 @@ pub struct BaseVector {
     /// `NrSV`: satellites used.
     pub satellites: u8,
     /// Type of the solution and error.
-    pub mode: Mode,
+    pub mode: SbfMode,
     /// `Misc`: bit 0, the line ends at the reference points of the antennas.
     pub misc: u8,
     /// `DeltaNorth`, `DeltaEast` and the reverse of `DeltaUp`: north, east, down, m.
@@ -51,9 +51,9 @@ pub struct BaseVector {
 }
 
 impl BaseVector {
-    fn read(reader: &mut Reader<'_>) -> Result<Self, Fault> {
+    fn read(reader: &mut Reader<'_>) -> Result<Self, BinaryFault> {
         let [satellites, error, mode, misc] = reader.array()?;
-        let mode = Mode::of_bytes([mode, error]);
+        let mode = SbfMode::of_bytes([mode, error]);
         let [east, north, up] = [field::f64(reader)?, field::f64(reader)?, field::f64(reader)?];
         let [ve, vn, vu] = [field::f32(reader)?, field::f32(reader)?, field::f32(reader)?];
         Ok(BaseVector {
@@ -89,7 +89,7 @@ impl BaseVector {
     /// Direction from the base to the receiver, rad, of a base that moves with the ship and of ambiguities that are fixed.
     #[must_use]
     pub fn heading(&self) -> Option<f64> {
-        let fixed = self.mode.is_valid() && self.mode.solution == Solution::MovingBaseFixed;
+        let fixed = self.mode.is_valid() && self.mode.solution == SbfSolution::MovingBaseFixed;
         let [north, east, _] = self.relative;
         let (north, east) = north.zip(east).filter(|_| fixed)?;
         (north.hypot(east) > SHORTEST).then(|| wrap_two_pi(east.atan2(north)))
@@ -101,12 +101,12 @@ impl BaseVectorGeod {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(block: &[u8]) -> Result<Self, Fault> {
+    pub fn read(block: &[u8]) -> Result<Self, BinaryFault> {
         let (stamp, mut reader, _) = body(block, ID)?;
         let [count, length] = reader.array()?;
         let length = usize::from(length);
         if count > 0 && length < VECTOR {
-            return Err(Fault::Range { field: "SBLength" });
+            return Err(BinaryFault::Range { field: "SBLength" });
         }
         let vector = |_| BaseVector::read(&mut Reader::new(reader.take(length)?));
         let vectors = (0..count).map(vector).collect::<Result<_, _>>()?;

@@ -4,8 +4,8 @@
 
 use super::field::{dilution, dilution_raw, epoch, milliseconds, time_of_week};
 use super::frame::{Frame, framed};
-use crate::binary::{Fault, Reader, Writer};
-use crate::gnss::{Epoch, GnssPart};
+use crate::binary::{BinaryFault, Reader, Writer};
+use crate::gnss::{GnssEpoch, GnssPart};
 
 /// Class and id of NAV-COV.
 pub(super) const COV: (u8, u8) = (0x01, 0x36);
@@ -15,7 +15,7 @@ pub(super) const DOP: (u8, u8) = (0x01, 0x04);
 
 /// The upper triangle of a covariance along north, east, down.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Covariance {
+pub struct UbxCovariance {
     /// North with north, north with east, north with down.
     pub north: [f32; 3],
     /// East with east, east with down.
@@ -30,12 +30,12 @@ pub struct NavCov {
     /// `iTOW`: time of the GPS week, whole milliseconds, in ns.
     pub time_of_week: i64,
     /// Covariance of the position, m^2; `None` unless `posCovValid`.
-    pub position: Option<Covariance>,
+    pub position: Option<UbxCovariance>,
     /// Covariance of the velocity, m^2/s^2; `None` unless `velCovValid`.
-    pub velocity: Option<Covariance>,
+    pub velocity: Option<UbxCovariance>,
 }
 
-impl Covariance {
+impl UbxCovariance {
     /// 1-sigma of north, east, down; a component that is no variance is unknown.
     #[must_use]
     pub fn std(&self) -> [Option<f64>; 3] {
@@ -49,12 +49,12 @@ impl Covariance {
     /// Independent components.
     fn diagonal(std: [f64; 3]) -> Self {
         let [north, east, down] = std.map(|sigma| (sigma * sigma) as f32);
-        Covariance { north: [north, 0.0, 0.0], east: [east, 0.0], down }
+        UbxCovariance { north: [north, 0.0, 0.0], east: [east, 0.0], down }
     }
 
-    fn read(reader: &mut Reader<'_>) -> Result<Self, Fault> {
+    fn read(reader: &mut Reader<'_>) -> Result<Self, BinaryFault> {
         let mut next = || reader.le_f32();
-        Ok(Covariance {
+        Ok(UbxCovariance {
             north: [next()?, next()?, next()?],
             east: [next()?, next()?],
             down: next()?,
@@ -73,16 +73,16 @@ impl NavCov {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(Frame::payload_of(frame, COV)?);
         let time_of_week = time_of_week(&mut reader)?;
         let [version, position_valid, velocity_valid] = reader.array()?;
         if version != 0 {
-            return Err(Fault::Range { field: "version" });
+            return Err(BinaryFault::Range { field: "version" });
         }
         reader.take(9)?;
-        let position = Covariance::read(&mut reader)?;
-        let velocity = Covariance::read(&mut reader)?;
+        let position = UbxCovariance::read(&mut reader)?;
+        let velocity = UbxCovariance::read(&mut reader)?;
         Ok(NavCov {
             time_of_week,
             position: (position_valid == 1).then_some(position),
@@ -103,18 +103,18 @@ impl NavCov {
 
     /// What a receiver in this state would send.
     #[must_use]
-    pub fn of(state: &Epoch) -> Self {
+    pub fn of(state: &GnssEpoch) -> Self {
         NavCov {
             time_of_week: state.time.to_week().1,
-            position: Some(Covariance::diagonal(state.position_std)),
-            velocity: Some(Covariance::diagonal(state.velocity_std)),
+            position: Some(UbxCovariance::diagonal(state.position_std)),
+            velocity: Some(UbxCovariance::diagonal(state.velocity_std)),
         }
     }
 
     /// What the message says of its epoch.
     #[must_use]
     pub fn part(&self) -> GnssPart {
-        let std = |covariance: Option<Covariance>| covariance.map_or([None; 3], |of| of.std());
+        let std = |covariance: Option<UbxCovariance>| covariance.map_or([None; 3], |of| of.std());
         GnssPart {
             kind: "NAV-COV",
             epoch: epoch(self.time_of_week),
@@ -151,7 +151,7 @@ impl NavDop {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(Frame::payload_of(frame, DOP)?);
         let time_of_week = time_of_week(&mut reader)?;
         let mut next = || reader.le_u16().map(dilution);

@@ -2,7 +2,7 @@
 
 use insd_base::Geodetic;
 
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::gnss::EpochTime;
 
 /// Nanoseconds of a millisecond.
@@ -15,7 +15,7 @@ const WEEK: i64 = 604_800_000;
 const ANGLE: f64 = 1e-7;
 
 /// Reads `iTOW`, ms of the GPS week, as ns.
-pub(super) fn time_of_week(reader: &mut Reader<'_>) -> Result<i64, Fault> {
+pub(super) fn time_of_week(reader: &mut Reader<'_>) -> Result<i64, BinaryFault> {
     Ok(i64::from(reader.le_u32()?) * MILLI)
 }
 
@@ -57,14 +57,14 @@ pub(super) fn dilution_raw(value: Option<f64>) -> u16 {
 
 /// Longitude, latitude (1e-7 deg) and height above the ellipsoid (mm), in the order of the wire, each
 /// with more digits below (1e-9 deg, 0.1 mm).
-pub(super) fn position(steps: [i32; 3], finer: [i8; 3]) -> Result<Geodetic, Fault> {
+pub(super) fn position(steps: [i32; 3], finer: [i8; 3]) -> Result<Geodetic, BinaryFault> {
     let degrees = |at: usize| f64::from(steps[at]) * ANGLE + f64::from(finer[at]) * 1e-9;
     let (longitude, latitude) = (degrees(0), degrees(1));
     if latitude.abs() > 90.0 {
-        return Err(Fault::Range { field: "lat" });
+        return Err(BinaryFault::Range { field: "lat" });
     }
     if longitude.abs() > 180.0 {
-        return Err(Fault::Range { field: "lon" });
+        return Err(BinaryFault::Range { field: "lon" });
     }
     let height = f64::from(steps[2]) * 1e-3 + f64::from(finer[2]) * 1e-4;
     Ok(Geodetic::from_degrees(latitude, longitude, height))

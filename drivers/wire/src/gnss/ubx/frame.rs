@@ -1,6 +1,6 @@
 //! The frame: sync, class, id, length, payload, two bytes of Fletcher's sum.
 
-use crate::binary::{Fault, Writer};
+use crate::binary::{BinaryFault, Writer};
 use crate::stream::Look;
 
 /// First bytes of every frame.
@@ -63,20 +63,24 @@ impl<'a> Frame<'a> {
     /// Opens one whole frame.
     ///
     /// # Errors
-    /// [`Fault::Frame`] unless the bytes are one frame with a good checksum and nothing more.
-    pub fn open(bytes: &'a [u8]) -> Result<Self, Fault> {
+    /// [`BinaryFault::Frame`] unless the bytes are one frame with a good checksum and nothing more.
+    pub fn open(bytes: &'a [u8]) -> Result<Self, BinaryFault> {
         if look(bytes) != Look::Frame(bytes.len()) {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
-        let [_, _, class, id, _, _, rest @ ..] = bytes else { return Err(Fault::Frame) };
-        let payload = rest.get(..rest.len().saturating_sub(2)).ok_or(Fault::Frame)?;
+        let [_, _, class, id, _, _, rest @ ..] = bytes else { return Err(BinaryFault::Frame) };
+        let payload = rest.get(..rest.len().saturating_sub(2)).ok_or(BinaryFault::Frame)?;
         Ok(Frame { class: *class, id: *id, payload })
     }
 
     /// The payload of a frame that must be a certain message.
-    pub(super) fn payload_of(bytes: &'a [u8], name: (u8, u8)) -> Result<&'a [u8], Fault> {
+    pub(super) fn payload_of(bytes: &'a [u8], name: (u8, u8)) -> Result<&'a [u8], BinaryFault> {
         let frame = Frame::open(bytes)?;
-        if (frame.class, frame.id) == name { Ok(frame.payload) } else { Err(Fault::OtherMessage) }
+        if (frame.class, frame.id) == name {
+            Ok(frame.payload)
+        } else {
+            Err(BinaryFault::OtherMessage)
+        }
     }
 
     /// All bytes of the frame. A payload beyond the longest that is taken is cut off.
@@ -103,7 +107,7 @@ macro_rules! as_message {
             ///
             /// # Errors
             /// What is wrong with the bytes.
-            pub fn read(frame: &[u8]) -> Result<Self, $crate::binary::Fault> {
+            pub fn read(frame: &[u8]) -> Result<Self, $crate::binary::BinaryFault> {
                 Self::read_fields(super::frame::Frame::payload_of(frame, $name)?)
             }
 

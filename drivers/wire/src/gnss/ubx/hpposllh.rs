@@ -6,7 +6,7 @@ use insd_base::Geodetic;
 
 use super::field::{accuracy, accuracy_raw, bit, epoch, milliseconds, position, time_of_week};
 use super::frame::{Frame, framed};
-use crate::binary::{Fault, Reader, Writer, scaled};
+use crate::binary::{BinaryFault, Reader, Writer, scaled};
 use crate::gnss::GnssPart;
 
 /// Class and id.
@@ -32,11 +32,11 @@ impl NavHpPosLlh {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(Frame::payload_of(frame, NAME)?);
         let [version, _, _, flags] = reader.array()?;
         if version != 0 {
-            return Err(Fault::Range { field: "version" });
+            return Err(BinaryFault::Range { field: "version" });
         }
         let time_of_week = time_of_week(&mut reader)?;
         let place = [reader.le_i32()?, reader.le_i32()?, reader.le_i32()?];

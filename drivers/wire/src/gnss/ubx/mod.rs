@@ -15,7 +15,7 @@ mod relposned;
 mod signal;
 mod time;
 
-pub use cov::{Covariance, NavCov, NavDop};
+pub use cov::{NavCov, NavDop, UbxCovariance};
 pub use frame::{Frame, look};
 pub use hpposllh::NavHpPosLlh;
 pub use older::{NavPosLlh, NavSol, NavStatus, NavTimeUtc, NavVelNed};
@@ -26,11 +26,11 @@ pub use signal::Signal;
 pub use time::{LeapEvent, NavTimeGps, NavTimeLs, TimTp};
 
 use super::{GnssPart, PulseTime};
-use crate::binary::Fault;
+use crate::binary::BinaryFault;
 
 /// A message.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Message {
+pub enum UbxMessage {
     /// Position, velocity and time.
     NavPvt(Box<NavPvt>),
     /// Dilutions of precision.
@@ -70,34 +70,34 @@ pub enum Message {
     },
 }
 
-impl Message {
+impl UbxMessage {
     /// Reads a frame.
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let Frame { class, id, payload } = Frame::open(frame)?;
         // without a payload it is a poll, which says nothing
         Ok(match (class, id) {
-            _ if payload.is_empty() => Message::Other { class, id },
-            pvt::NAME => Message::NavPvt(Box::new(NavPvt::read(frame)?)),
-            cov::DOP => Message::NavDop(NavDop::read(frame)?),
-            cov::COV => Message::NavCov(NavCov::read(frame)?),
-            hpposllh::NAME => Message::NavHpPosLlh(NavHpPosLlh::read(frame)?),
-            older::POSLLH => Message::NavPosLlh(NavPosLlh::read(frame)?),
-            older::VELNED => Message::NavVelNed(NavVelNed::read(frame)?),
-            older::SOL => Message::NavSol(NavSol::read(frame)?),
-            older::STATUS => Message::NavStatus(NavStatus::read(frame)?),
-            older::TIMEUTC => Message::NavTimeUtc(NavTimeUtc::read(frame)?),
+            _ if payload.is_empty() => UbxMessage::Other { class, id },
+            pvt::NAME => UbxMessage::NavPvt(Box::new(NavPvt::read(frame)?)),
+            cov::DOP => UbxMessage::NavDop(NavDop::read(frame)?),
+            cov::COV => UbxMessage::NavCov(NavCov::read(frame)?),
+            hpposllh::NAME => UbxMessage::NavHpPosLlh(NavHpPosLlh::read(frame)?),
+            older::POSLLH => UbxMessage::NavPosLlh(NavPosLlh::read(frame)?),
+            older::VELNED => UbxMessage::NavVelNed(NavVelNed::read(frame)?),
+            older::SOL => UbxMessage::NavSol(NavSol::read(frame)?),
+            older::STATUS => UbxMessage::NavStatus(NavStatus::read(frame)?),
+            older::TIMEUTC => UbxMessage::NavTimeUtc(NavTimeUtc::read(frame)?),
             relposned::NAME if payload.first() == Some(&NavRelPosNed::VERSION) => {
-                Message::NavRelPosNed(NavRelPosNed::read(frame)?)
+                UbxMessage::NavRelPosNed(NavRelPosNed::read(frame)?)
             }
-            time::TIME_GPS => Message::NavTimeGps(NavTimeGps::read(frame)?),
-            time::TIME_LS => Message::NavTimeLs(NavTimeLs::read(frame)?),
-            time::TIM_TP => Message::TimTp(TimTp::read(frame)?),
-            raw::RAWX => Message::RxmRawx(RxmRawx::read(frame)?),
-            raw::SFRBX => Message::RxmSfrbx(RxmSfrbx::read(frame)?),
-            _ => Message::Other { class, id },
+            time::TIME_GPS => UbxMessage::NavTimeGps(NavTimeGps::read(frame)?),
+            time::TIME_LS => UbxMessage::NavTimeLs(NavTimeLs::read(frame)?),
+            time::TIM_TP => UbxMessage::TimTp(TimTp::read(frame)?),
+            raw::RAWX => UbxMessage::RxmRawx(RxmRawx::read(frame)?),
+            raw::SFRBX => UbxMessage::RxmSfrbx(RxmSfrbx::read(frame)?),
+            _ => UbxMessage::Other { class, id },
         })
     }
 
@@ -105,18 +105,18 @@ impl Message {
     #[must_use]
     pub fn part(&self) -> Option<GnssPart> {
         Some(match self {
-            Message::NavPvt(message) => message.part(),
-            Message::NavDop(message) => message.part(),
-            Message::NavCov(message) => message.part(),
-            Message::NavHpPosLlh(message) => message.part(),
-            Message::NavPosLlh(message) => message.part(),
-            Message::NavVelNed(message) => message.part(),
-            Message::NavSol(message) => message.part(),
-            Message::NavStatus(message) => message.part(),
-            Message::NavTimeUtc(message) => message.part(),
-            Message::NavRelPosNed(message) => message.part(),
-            Message::NavTimeGps(message) => message.part(),
-            Message::NavTimeLs(message) => message.part(),
+            UbxMessage::NavPvt(message) => message.part(),
+            UbxMessage::NavDop(message) => message.part(),
+            UbxMessage::NavCov(message) => message.part(),
+            UbxMessage::NavHpPosLlh(message) => message.part(),
+            UbxMessage::NavPosLlh(message) => message.part(),
+            UbxMessage::NavVelNed(message) => message.part(),
+            UbxMessage::NavSol(message) => message.part(),
+            UbxMessage::NavStatus(message) => message.part(),
+            UbxMessage::NavTimeUtc(message) => message.part(),
+            UbxMessage::NavRelPosNed(message) => message.part(),
+            UbxMessage::NavTimeGps(message) => message.part(),
+            UbxMessage::NavTimeLs(message) => message.part(),
             _ => return None,
         })
     }
@@ -125,7 +125,7 @@ impl Message {
     #[must_use]
     pub fn pulse(&self) -> Option<PulseTime> {
         match self {
-            Message::TimTp(message) => message.pulse(),
+            UbxMessage::TimTp(message) => message.pulse(),
             _ => None,
         }
     }

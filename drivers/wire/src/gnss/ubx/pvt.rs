@@ -11,8 +11,8 @@ use super::field::{
     put_position, signed, time_of_week,
 };
 use super::frame::{Frame, framed};
-use crate::binary::{Fault, Reader, Writer};
-use crate::gnss::{Epoch, EpochTime, GnssPart};
+use crate::binary::{BinaryFault, Reader, Writer};
+use crate::gnss::{EpochTime, GnssEpoch, GnssPart};
 use crate::nmea::{CivilTime, Date, TimeOfDay};
 
 /// Class and id.
@@ -232,7 +232,7 @@ impl PvtTime {
         }
     }
 
-    fn read(reader: &mut Reader<'_>) -> Result<(Self, u8), Fault> {
+    fn read(reader: &mut Reader<'_>) -> Result<(Self, u8), BinaryFault> {
         let date = Date { year: reader.le_u16()?, month: reader.u8()?, day: reader.u8()? };
         let clock = (reader.u8()?, reader.u8()?, reader.u8()?);
         let valid = reader.u8()?;
@@ -259,7 +259,7 @@ impl NavPvt {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(Frame::payload_of(frame, NAME)?);
         let time_of_week = time_of_week(&mut reader)?;
         let (time, valid) = PvtTime::read(&mut reader)?;
@@ -336,7 +336,7 @@ impl NavPvt {
 
     /// What a receiver in this state would send.
     #[must_use]
-    pub fn of(state: &Epoch) -> Self {
+    pub fn of(state: &GnssEpoch) -> Self {
         let fixed = state.quality != FixQuality::Invalid;
         let (fix, carrier) = match state.quality {
             FixQuality::Invalid => (FixType::None, Carrier::None),
@@ -420,7 +420,7 @@ struct Vehicle {
 }
 
 impl Vehicle {
-    fn read(reader: &mut Reader<'_>) -> Result<Self, Fault> {
+    fn read(reader: &mut Reader<'_>) -> Result<Self, BinaryFault> {
         if reader.rest().is_empty() {
             return Ok(Vehicle::default());
         }

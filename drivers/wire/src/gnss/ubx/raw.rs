@@ -7,7 +7,7 @@ use insd_base::satellites::{SatelliteEpoch, SignalObservation};
 use super::field::bit;
 use super::frame::{Frame, framed};
 use super::signal::Signal;
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::gnss::{NavigationWords, gps_time};
 
 /// Class and id of RXM-RAWX.
@@ -67,7 +67,7 @@ pub struct RxmRawx {
 }
 
 impl RawMeasurement {
-    fn read(reader: &mut Reader<'_>) -> Result<Self, Fault> {
+    fn read(reader: &mut Reader<'_>) -> Result<Self, BinaryFault> {
         let (pseudorange, carrier_phase) = (reader.le_f64()?, reader.le_f64()?);
         let doppler = reader.le_f32()?;
         let [system, satellite, signal, slot] = reader.array()?;
@@ -147,7 +147,7 @@ impl RxmRawx {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(Frame::payload_of(frame, RAWX)?);
         let (time_of_week, week) = (reader.le_f64()?, reader.le_u16()?);
         let leap_seconds = reader.i8()?;
@@ -222,7 +222,7 @@ impl RxmSfrbx {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(Frame::payload_of(frame, SFRBX)?);
         let [system, satellite, signal, slot, count, channel, version, _] = reader.array()?;
         let words = (0..count).map(|_| reader.le_u32()).collect::<Result<_, _>>()?;

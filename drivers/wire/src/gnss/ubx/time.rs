@@ -6,7 +6,7 @@ use insd_base::{GpsTime, Span, UtcTime};
 
 use super::field::{accuracy, accuracy_raw, bit, epoch, milliseconds, time_of_week};
 use super::frame::{Frame, framed};
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::gnss::{EpochTime, GnssPart, PulseOrder, PulseTime, gps_time};
 
 /// Class and id of NAV-TIMEGPS.
@@ -45,7 +45,7 @@ impl NavTimeGps {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(Frame::payload_of(frame, TIME_GPS)?);
         let time_of_week = time_of_week(&mut reader)?;
         let (fraction, week) = (reader.le_i32()?, reader.le_i16()?);
@@ -129,12 +129,12 @@ impl NavTimeLs {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(Frame::payload_of(frame, TIME_LS)?);
         let time_of_week = time_of_week(&mut reader)?;
         let [version, _, _, _] = reader.array()?;
         if version != 0 {
-            return Err(Fault::Range { field: "version" });
+            return Err(BinaryFault::Range { field: "version" });
         }
         let (source, leap_seconds) = (reader.u8()?, reader.i8()?);
         let (event_source, change) = (reader.u8()?, reader.i8()?);
@@ -208,7 +208,7 @@ impl TimTp {
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(Frame::payload_of(frame, TIM_TP)?);
         let time_of_week = time_of_week(&mut reader)?;
         let fraction = f64::from(reader.le_u32()?) * SUB_MILLISECOND;

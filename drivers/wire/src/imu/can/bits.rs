@@ -1,6 +1,6 @@
 //! Whole numbers of any width at any bit of a frame.
 
-use super::layout::{Field, Order};
+use super::layout::{ByteOrder, Field};
 
 /// The number that stands at a field, as its bits; `None` if the frame is too short.
 pub(super) fn get(data: &[u8], field: &Field) -> Option<u64> {
@@ -46,11 +46,11 @@ pub(super) fn saturated(value: f64, field: &Field) -> u64 {
 fn place(field: &Field, index: u8) -> (usize, u32) {
     let (start, index) = (u32::from(field.start), u32::from(index));
     match field.order {
-        Order::Little => {
+        ByteOrder::Little => {
             let at = start + index;
             (at as usize / 8, at % 8)
         }
-        Order::Big => {
+        ByteOrder::Big => {
             let at = (start + u32::from(field.width)).saturating_sub(1 + index);
             (at as usize / 8, 7 - at % 8)
         }
@@ -63,35 +63,35 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn field(start: u8, width: u8, order: Order, signed: bool) -> Field {
+    fn field(start: u8, width: u8, order: ByteOrder, signed: bool) -> Field {
         Field { start, width, order, signed, ..Field::new(What::Counter, start, width) }
     }
 
     #[test]
     fn both_orders_of_bytes_read_what_they_say() {
         let data = [0x12, 0x34, 0xF0, 0x00];
-        assert_eq!(get(&data, &field(0, 16, Order::Little, false)), Some(0x3412));
-        assert_eq!(get(&data, &field(0, 16, Order::Big, false)), Some(0x1234));
-        assert_eq!(get(&data, &field(4, 12, Order::Little, false)), Some(0x341));
-        assert_eq!(get(&data, &field(4, 12, Order::Big, false)), Some(0x234));
-        assert_eq!(get(&data, &field(24, 16, Order::Little, false)), None);
+        assert_eq!(get(&data, &field(0, 16, ByteOrder::Little, false)), Some(0x3412));
+        assert_eq!(get(&data, &field(0, 16, ByteOrder::Big, false)), Some(0x1234));
+        assert_eq!(get(&data, &field(4, 12, ByteOrder::Little, false)), Some(0x341));
+        assert_eq!(get(&data, &field(4, 12, ByteOrder::Big, false)), Some(0x234));
+        assert_eq!(get(&data, &field(24, 16, ByteOrder::Little, false)), None);
     }
 
     #[test]
     fn the_highest_bit_of_a_signed_number_is_its_sign() {
-        let signed_12 = field(0, 12, Order::Little, true);
+        let signed_12 = field(0, 12, ByteOrder::Little, true);
         for (bits, value) in [(0xFFF, -1.0), (0x800, -2048.0), (0x7FF, 2047.0)] {
             assert_eq!(signed(bits, &signed_12), value);
         }
-        assert_eq!(signed(u64::MAX, &field(0, 64, Order::Big, true)), -1.0);
+        assert_eq!(signed(u64::MAX, &field(0, 64, ByteOrder::Big, true)), -1.0);
     }
 
     #[test]
     fn what_does_not_fit_is_saturated_and_what_is_no_number_is_zero() {
-        let signed_16 = field(0, 16, Order::Little, true);
+        let signed_16 = field(0, 16, ByteOrder::Little, true);
         let values = [1e9, -1e9, f64::NAN, -2.6].map(|value| saturated(value, &signed_16));
         assert_eq!(values, [0x7FFF, 0x8000, 0, 0xFFFD]);
-        let unsigned_8 = field(0, 8, Order::Little, false);
+        let unsigned_8 = field(0, 8, ByteOrder::Little, false);
         assert_eq!([300.0, -5.0].map(|value| saturated(value, &unsigned_8)), [255, 0]);
     }
 
@@ -105,7 +105,7 @@ mod tests {
             before: [u8; 8],
         ) {
             prop_assume!(start + width <= 64);
-            let order = if big { Order::Big } else { Order::Little };
+            let order = if big { ByteOrder::Big } else { ByteOrder::Little };
             let own = field(start, width, order, false);
             let kept = value & (u64::MAX >> (64 - u32::from(width)));
             let mut data = before;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// All frames of a device.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Layout {
+pub struct CanLayout {
     /// In the order in which the device sends those of one sample.
     pub frames: Vec<FrameLayout>,
 }
@@ -45,7 +45,7 @@ pub struct Field {
     pub signed: bool,
     /// The order of its bytes.
     #[serde(default)]
-    pub order: Order,
+    pub order: ByteOrder,
     /// What one count is, in the unit of [`What`].
     #[serde(default = "one")]
     pub scale: f64,
@@ -72,7 +72,7 @@ pub struct Field {
 /// The order of the bytes of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Order {
+pub enum ByteOrder {
     /// The lowest first (Intel).
     #[default]
     Little,
@@ -164,7 +164,7 @@ impl Field {
             start,
             width,
             signed: false,
-            order: Order::Little,
+            order: ByteOrder::Little,
             scale: 1.0,
             offset: 0.0,
             exponent: None,
@@ -210,7 +210,7 @@ impl FrameLayout {
     }
 }
 
-impl Layout {
+impl CanLayout {
     /// What is wrong with the table, in words; none if it can be used.
     #[must_use]
     pub fn faults(&self) -> Vec<String> {

@@ -1,6 +1,6 @@
 //! IMUs that send plain CAN frames: one table says what stands where, and how frames make a sample.
 //!
-//! A [`Layout`] is a table that a configuration may hold, or one of those that are shipped
+//! A [`CanLayout`] is a table that a configuration may hold, or one of those that are shipped
 //! ([`Shipped`]). It lists the frames of a sample **in the order in which the device sends them**;
 //! within one sample that is mostly the order of their identifiers, as lower ones win the bus. A frame
 //! that does not stand behind the one before it in the table begins the next sample; so does one with
@@ -19,6 +19,6 @@ mod read;
 mod shipped;
 mod write;
 
-pub use layout::{Field, FrameLayout, Layout, Order, What};
+pub use layout::{ByteOrder, CanLayout, Field, FrameLayout, What};
 pub use read::{CanImu, CanPart};
 pub use shipped::{LayoutChoice, Shipped};

@@ -5,10 +5,10 @@ use insd_base::{Time, UtcTime};
 
 use super::bits;
 use super::group::Group;
-use super::layout::{ACCEL, ANGLE, Field, FrameLayout, Layout, RATE, TURN, UTC, VELOCITY, What};
-use crate::binary::Fault;
+use super::layout::{ACCEL, ANGLE, CanLayout, Field, FrameLayout, RATE, TURN, UTC, VELOCITY, What};
+use crate::binary::BinaryFault;
 use crate::imu::rotation::delta_theta_of;
-use crate::imu::{DeviceTime, ImuReading, Motion, Wrapping};
+use crate::imu::{DeviceTime, ImuMotion, ImuReading, Wrapping};
 
 /// What a frame is to a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub enum CanPart {
 /// Puts the frames of a device together.
 #[derive(Clone, Debug)]
 pub struct CanImu {
-    layout: Layout,
+    layout: CanLayout,
     interval: f64,
     group: Option<Group>,
     /// Bits of each status field, in the order of the table, as told last.
@@ -40,9 +40,9 @@ pub struct CanImu {
 
 impl CanImu {
     /// A device that has not spoken yet. `interval`: time from sample to sample, s. A table with faults
-    /// is used as far as it goes; look at [`Layout::faults`] first.
+    /// is used as far as it goes; look at [`CanLayout::faults`] first.
     #[must_use]
-    pub fn new(layout: &Layout, interval: f64) -> Self {
+    pub fn new(layout: &CanLayout, interval: f64) -> Self {
         let statuses = layout.fields().filter(|field| field.what == What::Status);
         CanImu {
             statuses: vec![None; statuses.count()],
@@ -57,8 +57,8 @@ impl CanImu {
     /// Takes a frame that was received at an instant.
     ///
     /// # Errors
-    /// [`Fault::Short`] if the frame is too short for its fields; its sample will be incomplete.
-    pub fn take(&mut self, frame: &CanFrame, at: Time) -> Result<CanPart, Fault> {
+    /// [`BinaryFault::Short`] if the frame is too short for its fields; its sample will be incomplete.
+    pub fn take(&mut self, frame: &CanFrame, at: Time) -> Result<CanPart, BinaryFault> {
         let known = |own: &FrameLayout| own.can_id() == Some(frame.id());
         let Some(index) = self.layout.frames.iter().position(known) else {
             return Ok(CanPart::Other);
@@ -66,7 +66,7 @@ impl CanImu {
         let own = &self.layout.frames[index];
         let data = frame.data();
         if data.len() < own.length() {
-            return Err(Fault::Short { needed: own.length(), found: data.len() });
+            return Err(BinaryFault::Short { needed: own.length(), found: data.len() });
         }
         let mut all = [0; 8];
         all.iter_mut().zip(data).for_each(|(own, byte)| *own = *byte);
@@ -136,18 +136,18 @@ impl CanImu {
     }
 
     /// Where one of rotation and force is a difference, both become differences.
-    fn motion(&self, group: &Group) -> Option<Motion> {
+    fn motion(&self, group: &Group) -> Option<ImuMotion> {
         let turn = group.parts(TURN).map(delta_theta_of);
         let angle = group.parts(ANGLE).or(turn);
         let (rate, accel) = (group.parts(RATE), group.parts(ACCEL));
         let velocity = group.parts(VELOCITY);
         if let (Some(gyro), Some(accel)) = (rate, accel) {
-            return Some(Motion::Rates { gyro, accel });
+            return Some(ImuMotion::Rates { gyro, accel });
         }
         let over = |rates: [f64; 3]| rates.map(|own| own * self.interval);
         let delta_theta = angle.or(rate.map(over))?;
         let delta_velocity = velocity.or(accel.map(over))?;
-        Some(Motion::Increments { delta_theta, delta_velocity })
+        Some(ImuMotion::Increments { delta_theta, delta_velocity })
     }
 
     fn device_time(&self, group: &Group) -> Option<DeviceTime> {

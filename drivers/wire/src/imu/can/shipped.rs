@@ -33,7 +33,7 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, de};
 
-use super::layout::{ACCEL, Field, FrameLayout, Layout, Order, RATE, TURN, VELOCITY, What};
+use super::layout::{ACCEL, ByteOrder, CanLayout, Field, FrameLayout, RATE, TURN, VELOCITY, What};
 
 /// A table of a maker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
@@ -54,7 +54,7 @@ pub enum LayoutChoice {
     /// Of a maker.
     Shipped(Shipped),
     /// One's own.
-    Own(Layout),
+    Own(CanLayout),
 }
 
 /// Bits 8 to 13 of the status word of Xsens: an accelerometer or gyro is out of its range.
@@ -65,7 +65,7 @@ const SBG_GOOD: u64 = 0x03FF;
 impl Shipped {
     /// The table.
     #[must_use]
-    pub fn layout(self) -> Layout {
+    pub fn layout(self) -> CanLayout {
         let frames = match self {
             Shipped::Xsens => {
                 let rate = xsens(0x32, &RATE, 1.0 / 512.0);
@@ -78,14 +78,14 @@ impl Shipped {
             }
             Shipped::Sbg => vec![sbg_info(), sbg(0x121, ACCEL, 0.01), sbg(0x122, RATE, 0.001)],
         };
-        Layout { frames }
+        CanLayout { frames }
     }
 }
 
 impl LayoutChoice {
     /// The table.
     #[must_use]
-    pub fn layout(&self) -> Layout {
+    pub fn layout(&self) -> CanLayout {
         match self {
             LayoutChoice::Shipped(shipped) => shipped.layout(),
             LayoutChoice::Own(layout) => layout.clone(),
@@ -99,7 +99,7 @@ fn frame(id: u32, optional: bool, fields: Vec<Field>) -> FrameLayout {
 
 fn xsens_frames([first, second]: [FrameLayout; 2]) -> Vec<FrameLayout> {
     let field =
-        |what, width, scale| Field { order: Order::Big, scale, ..Field::new(what, 0, width) };
+        |what, width, scale| Field { order: ByteOrder::Big, scale, ..Field::new(what, 0, width) };
     let status =
         Field { mask: Some(XSENS_CLIPPED), expected: Some(0), ..field(What::Status, 32, 1.0) };
     let temperature = Field { signed: true, ..field(What::Temperature, 16, 1.0 / 256.0) };
@@ -114,15 +114,15 @@ fn xsens_frames([first, second]: [FrameLayout; 2]) -> Vec<FrameLayout> {
 }
 
 fn xsens(id: u32, parts: &[What], scale: f64) -> FrameLayout {
-    numbers(id, parts, scale, Order::Big)
+    numbers(id, parts, scale, ByteOrder::Big)
 }
 
 fn sbg(id: u32, parts: [What; 3], scale: f64) -> FrameLayout {
-    numbers(id, &parts, scale, Order::Little)
+    numbers(id, &parts, scale, ByteOrder::Little)
 }
 
 /// Signed numbers of 16 bits one after the other.
-fn numbers(id: u32, parts: &[What], scale: f64, order: Order) -> FrameLayout {
+fn numbers(id: u32, parts: &[What], scale: f64, order: ByteOrder) -> FrameLayout {
     let fields = parts.iter().zip(0_u8..).map(|(what, index)| Field {
         signed: true,
         order,
@@ -162,6 +162,6 @@ impl<'de> Visitor<'de> for Either {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
-        Layout::deserialize(MapAccessDeserializer::new(map)).map(LayoutChoice::Own)
+        CanLayout::deserialize(MapAccessDeserializer::new(map)).map(LayoutChoice::Own)
     }
 }

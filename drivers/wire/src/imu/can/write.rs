@@ -3,15 +3,15 @@
 use insd_base::can::CanFrame;
 
 use super::bits;
-use super::layout::{ACCEL, ANGLE, Field, FrameLayout, Layout, RATE, TURN, UTC, VELOCITY, What};
+use super::layout::{ACCEL, ANGLE, CanLayout, Field, FrameLayout, RATE, TURN, UTC, VELOCITY, What};
 use crate::imu::rotation::quaternion_of;
-use crate::imu::{ImuReading, Motion};
+use crate::imu::{ImuMotion, ImuReading};
 use crate::nmea::CivilTime;
 
 /// Bits of the longest mantissa of a signed number in a frame with an exponent.
 const MANTISSA: f64 = 15.0;
 
-impl Layout {
+impl CanLayout {
     /// The frames of a sample, in the order of the table. What the sample does not tell is left out
     /// with its frame if that is optional, and zero otherwise. Values beyond the range of a field are
     /// saturated. `interval`: time from sample to sample, s.
@@ -66,10 +66,10 @@ impl FrameLayout {
 /// What a sample says of a part; `None` if it says nothing.
 fn value(what: What, reading: &ImuReading, interval: f64) -> Option<f64> {
     let (gyro, theta, accel, velocity) = match reading.motion {
-        Motion::Rates { gyro, accel } => {
+        ImuMotion::Rates { gyro, accel } => {
             (gyro, gyro.map(|own| own * interval), accel, accel.map(|own| own * interval))
         }
-        Motion::Increments { delta_theta, delta_velocity } => {
+        ImuMotion::Increments { delta_theta, delta_velocity } => {
             let over = |own: [f64; 3]| own.map(|own| own / interval);
             (over(delta_theta), delta_theta, over(delta_velocity), delta_velocity)
         }

@@ -1,7 +1,7 @@
 //! EKF_EULER: attitude and heading by the device's own filter.
 
 use super::{EKF_EULER, appended, device_time, put_appended, put_vector, seal, vector};
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::imu::DeviceTime;
 
 const ATTITUDE_VALID: u32 = 1 << 4;
@@ -25,7 +25,7 @@ pub struct Euler {
 }
 
 impl Euler {
-    pub(super) fn parse(fields: &mut Reader<'_>) -> Result<Self, Fault> {
+    pub(super) fn parse(fields: &mut Reader<'_>) -> Result<Self, BinaryFault> {
         Ok(Euler {
             time_stamp: fields.le_u32()?,
             angles: vector(fields)?,

@@ -4,8 +4,8 @@
 //! are in rad/s and m/s^2.
 
 use super::{IMU_DATA, IMU_SHORT, device_time, put_vector, seal, vector};
-use crate::binary::{Fault, Reader, Writer, scaled};
-use crate::imu::{ImuReading, Motion};
+use crate::binary::{BinaryFault, Reader, Writer, scaled};
+use crate::imu::{ImuMotion, ImuReading};
 
 /// Steps per m/s^2.
 const ACCEL_SCALE: f64 = 1_048_576.0;
@@ -55,7 +55,7 @@ pub struct ImuData {
 }
 
 impl ImuShort {
-    pub(super) fn parse(fields: &mut Reader<'_>) -> Result<Self, Fault> {
+    pub(super) fn parse(fields: &mut Reader<'_>) -> Result<Self, BinaryFault> {
         let time_stamp = fields.le_u32()?;
         let status = fields.le_u16()?;
         Ok(ImuShort {
@@ -89,7 +89,7 @@ impl ImuShort {
 }
 
 impl ImuData {
-    pub(super) fn parse(fields: &mut Reader<'_>) -> Result<Self, Fault> {
+    pub(super) fn parse(fields: &mut Reader<'_>) -> Result<Self, BinaryFault> {
         let data = ImuData {
             time_stamp: fields.le_u32()?,
             status: fields.le_u16()?,
@@ -127,7 +127,7 @@ fn reading(
     temperature: f64,
     (gyro, accel): ([f64; 3], [f64; 3]),
 ) -> ImuReading {
-    let motion = Motion::Rates { gyro, accel };
+    let motion = ImuMotion::Rates { gyro, accel };
     ImuReading {
         device_time: Some(device_time(time_stamp)),
         temperature: Some(temperature).filter(|temperature| temperature.is_finite()),
@@ -141,7 +141,7 @@ fn gyro_scale(status: u16) -> f64 {
     if status & HIGH_SCALE == 0 { GYRO_SCALE } else { GYRO_HIGH_SCALE }
 }
 
-fn integers(fields: &mut Reader<'_>, scale: f64) -> Result<[f64; 3], Fault> {
+fn integers(fields: &mut Reader<'_>, scale: f64) -> Result<[f64; 3], BinaryFault> {
     let mut next = || Ok(f64::from(fields.le_i32()?) / scale);
     Ok([next()?, next()?, next()?])
 }

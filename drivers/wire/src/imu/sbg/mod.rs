@@ -15,7 +15,7 @@ mod time;
 use crc::{CRC_16_KERMIT, Crc};
 
 use super::{DeviceTime, ImuReading, Wrapping};
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::stream::Look;
 
 pub use euler::Euler;
@@ -49,7 +49,7 @@ const IMU_SHORT: u8 = 44;
 
 /// A message.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Message {
+pub enum SbgMessage {
     /// SBG_ECOM_LOG_IMU_SHORT (44): the sensors at their own rate.
     ImuShort(ImuShort),
     /// SBG_ECOM_LOG_IMU_DATA (03): the sensors extrapolated to the main loop; deprecated.
@@ -67,24 +67,24 @@ pub enum Message {
     },
 }
 
-impl Message {
+impl SbgMessage {
     /// Reads a frame.
     ///
     /// # Errors
-    /// [`Fault::Frame`] if it is none, [`Fault::Short`] if fields are missing.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    /// [`BinaryFault::Frame`] if it is none, [`BinaryFault::Short`] if fields are missing.
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let ([_, _, id, class, _, _, data @ .., _, _, _], true) =
             (frame, look(frame) == Look::Frame(frame.len()))
         else {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         };
         let mut fields = Reader::new(data);
         Ok(match (*class, *id) {
-            (LOGS, IMU_SHORT) => Message::ImuShort(ImuShort::parse(&mut fields)?),
-            (LOGS, IMU_DATA) => Message::ImuData(ImuData::parse(&mut fields)?),
-            (LOGS, UTC_TIME) => Message::Time(TimeReference::parse(&mut fields)?),
-            (LOGS, EKF_EULER) => Message::Euler(Euler::parse(&mut fields)?),
-            (class, id) => Message::Other { class, id },
+            (LOGS, IMU_SHORT) => SbgMessage::ImuShort(ImuShort::parse(&mut fields)?),
+            (LOGS, IMU_DATA) => SbgMessage::ImuData(ImuData::parse(&mut fields)?),
+            (LOGS, UTC_TIME) => SbgMessage::Time(TimeReference::parse(&mut fields)?),
+            (LOGS, EKF_EULER) => SbgMessage::Euler(Euler::parse(&mut fields)?),
+            (class, id) => SbgMessage::Other { class, id },
         })
     }
 
@@ -92,9 +92,9 @@ impl Message {
     #[must_use]
     pub fn reading(&self) -> Option<ImuReading> {
         match self {
-            Message::ImuShort(short) => Some(short.reading()),
-            Message::ImuData(data) => Some(data.reading()),
-            Message::Time(_) | Message::Euler(_) | Message::Other { .. } => None,
+            SbgMessage::ImuShort(short) => Some(short.reading()),
+            SbgMessage::ImuData(data) => Some(data.reading()),
+            SbgMessage::Time(_) | SbgMessage::Euler(_) | SbgMessage::Other { .. } => None,
         }
     }
 }
@@ -160,7 +160,7 @@ fn device_time(time_stamp: u32) -> DeviceTime {
 }
 
 /// Three floats.
-fn vector(fields: &mut Reader<'_>) -> Result<[f64; 3], Fault> {
+fn vector(fields: &mut Reader<'_>) -> Result<[f64; 3], BinaryFault> {
     Ok([fields.le_f32()?.into(), fields.le_f32()?.into(), fields.le_f32()?.into()])
 }
 

@@ -3,7 +3,7 @@
 use insd_base::UtcTime;
 
 use super::{UTC_TIME, appended, device_time, put_appended, seal};
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::imu::DeviceTime;
 use crate::nmea::{CivilTime, Date, TimeOfDay};
 
@@ -66,7 +66,7 @@ pub struct TimeReference {
 }
 
 impl TimeReference {
-    pub(super) fn parse(fields: &mut Reader<'_>) -> Result<Self, Fault> {
+    pub(super) fn parse(fields: &mut Reader<'_>) -> Result<Self, BinaryFault> {
         let time_stamp = fields.le_u32()?;
         let status = fields.le_u16()?;
         Ok(TimeReference {
@@ -120,7 +120,7 @@ impl TimeReference {
     }
 }
 
-fn civil(fields: &mut Reader<'_>) -> Result<CivilTime, Fault> {
+fn civil(fields: &mut Reader<'_>) -> Result<CivilTime, BinaryFault> {
     let date = Date { year: fields.le_u16()?, month: fields.u8()?, day: fields.u8()? };
     let [hour, minute, second] = fields.array()?;
     let time = TimeOfDay { hour, minute, second, nanosecond: fields.le_u32()? };

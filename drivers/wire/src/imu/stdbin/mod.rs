@@ -36,7 +36,7 @@ mod sizes;
 mod telegram;
 
 pub use external::{EmLog, External, LogSpeed, UtcSync};
-pub use telegram::{Attitude, Heave, Navigation, Position, Telegram};
+pub use telegram::{Navigation, Position, StdBinAttitude, StdBinHeave, Telegram};
 
 use crate::stream::Look;
 

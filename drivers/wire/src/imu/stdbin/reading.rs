@@ -3,8 +3,8 @@
 use insd_base::{LogReference, Span, UtcTime};
 
 use super::external::{EmLog, LogSpeed};
-use super::telegram::{Attitude, Navigation, Telegram};
-use crate::imu::{DeviceTime, ImuReading, Motion, Wrapping};
+use super::telegram::{Navigation, StdBinAttitude, Telegram};
+use crate::imu::{DeviceTime, ImuMotion, ImuReading, Wrapping};
 use crate::log::{LogFrame, LogReading};
 
 /// Seconds of a tick of the validity time.
@@ -44,7 +44,7 @@ impl Navigation {
 }
 
 /// The direction that is up, along XV1 forward, XV2 to port, XV3 up.
-fn up(attitude: &Attitude) -> [f64; 3] {
+fn up(attitude: &StdBinAttitude) -> [f64; 3] {
     let (sin_roll, cos_roll) = attitude.roll.sin_cos();
     let (sin_pitch, cos_pitch) = attitude.pitch.sin_cos();
     [sin_pitch, cos_pitch * sin_roll, cos_pitch * cos_roll]
@@ -82,7 +82,7 @@ impl Telegram {
             temperature: navigation.temperatures.map(|[gyro, ..]| gyro),
             valid: status & UNUSABLE == 0 && navigation.bears_raw(gyro, accel),
             status,
-            ..ImuReading::bare(Motion::Rates { gyro, accel })
+            ..ImuReading::bare(ImuMotion::Rates { gyro, accel })
         })
     }
 

@@ -1,6 +1,6 @@
 //! Which blocks there are, how long each is, and how to cut them out of a telegram.
 
-use crate::binary::{Fault, Reader};
+use crate::binary::{BinaryFault, Reader};
 
 /// Bytes of the block of each bit of a mask; 0 where no block is known.
 pub(super) type Sizes = [u8; 32];
@@ -45,7 +45,7 @@ pub(super) fn cut<'a>(
     mask: u32,
     sizes: &Sizes,
     reader: &mut Reader<'a>,
-) -> Result<(Blocks<'a>, bool), Fault> {
+) -> Result<(Blocks<'a>, bool), BinaryFault> {
     let mut blocks = [None; 32];
     for (bit, (block, size)) in blocks.iter_mut().zip(sizes).enumerate() {
         if mask >> bit & 1 == 0 {

@@ -7,7 +7,7 @@ use super::composer::Composer;
 use super::external::External;
 use super::sizes::{self, Blocks, cut, floats, words};
 use super::{SUM, checksum, header_length, is_sound};
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 
 const DEGREES: [f64; 3] = [DEG; 3];
 const ONES: [f64; 3] = [1.0; 3];
@@ -33,7 +33,7 @@ pub struct Telegram {
 
 /// Heading and attitude of the vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Attitude {
+pub struct StdBinAttitude {
     /// Heading, clockwise from true north, rad.
     pub heading: f64,
     /// Roll, starboard down positive, rad.
@@ -44,7 +44,7 @@ pub struct Attitude {
 
 /// Movement about the mean position, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Heave {
+pub struct StdBinHeave {
     /// Heave at the system, up positive.
     pub heave: f64,
     /// Heave at the chosen lever arm, up positive.
@@ -72,11 +72,11 @@ pub struct Position {
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Navigation {
     /// Bit 0: heading, roll, pitch.
-    pub attitude: Option<Attitude>,
+    pub attitude: Option<StdBinAttitude>,
     /// Bit 1: 1-sigma of heading, roll, pitch, rad.
     pub attitude_std: Option<[f64; 3]>,
     /// Bit 2: heave, surge, sway in real time.
-    pub heave: Option<Heave>,
+    pub heave: Option<StdBinHeave>,
     /// Bit 4: rates of heading, roll, pitch, rad/s, pitch positive with the bow going up.
     pub attitude_rates: Option<[f64; 3]>,
     /// Bit 5: rotation rates about XV1, XV2, XV3 with respect to the Earth, rad/s.
@@ -111,20 +111,20 @@ impl Telegram {
     /// Reads a whole telegram. A block with a number that is not finite is left out.
     ///
     /// # Errors
-    /// [`Fault::Frame`] if header, length or checksum are wrong; [`Fault::Short`] if the blocks of the
+    /// [`BinaryFault::Frame`] if header, length or checksum are wrong; [`BinaryFault::Short`] if the blocks of the
     /// masks are longer than the telegram.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(frame);
         let start = reader.take(3)?;
         let version = start.last().copied().unwrap_or_default();
         let header = header_length(version).filter(|_| start.starts_with(b"IX") && is_sound(frame));
-        let header = header.ok_or(Fault::Frame)?;
+        let header = header.ok_or(BinaryFault::Frame)?;
         let navigation_mask = reader.be_u32()?;
         let extended_mask = if version > 2 { reader.be_u32()? } else { 0 };
         let external_mask = reader.be_u32()?;
         let told = if version > 3 { Some(reader.be_u16()?) } else { None };
         if usize::from(reader.be_u16()?) != frame.len() {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         let (validity, counter) = (reader.be_u32()?, reader.be_u32()?);
         let mut body = Reader::new(reader.take(frame.len().saturating_sub(header + SUM))?);
@@ -176,9 +176,13 @@ impl Navigation {
         let attitude = floats(blocks[0], HEADING_ROLL_PITCH);
         let heave = floats(blocks[2], [1.0; 4]);
         Navigation {
-            attitude: attitude.map(|[heading, roll, pitch]| Attitude { heading, roll, pitch }),
+            attitude: attitude.map(|[heading, roll, pitch]| StdBinAttitude {
+                heading,
+                roll,
+                pitch,
+            }),
             attitude_std: floats(blocks[1], DEGREES),
-            heave: heave.map(|[heave, lever_heave, lever_surge, lever_sway]| Heave {
+            heave: heave.map(|[heave, lever_heave, lever_surge, lever_sway]| StdBinHeave {
                 heave,
                 lever_heave,
                 lever_surge,

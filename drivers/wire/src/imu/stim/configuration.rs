@@ -3,8 +3,8 @@
 use insd_base::units::DEG;
 
 use super::{CONFIGURATION, CONFIGURATION_LENGTH, crc, id_of, is_sound};
-use crate::binary::{Fault, Writer, scaled};
-use crate::imu::Motion;
+use crate::binary::{BinaryFault, Writer, scaled};
+use crate::imu::ImuMotion;
 
 /// Standard gravity, m/s^2.
 const G: f64 = 9.806_65;
@@ -103,10 +103,10 @@ impl StimFormat {
     /// Counts of gyroscopes and accelerometers for a motion, as a device with this format sends them;
     /// `None` if the interval is needed and not known.
     #[must_use]
-    pub fn counts(&self, motion: &Motion) -> Option<([i32; 3], [i32; 3])> {
+    pub fn counts(&self, motion: &ImuMotion) -> Option<([i32; 3], [i32; 3])> {
         let (rotation, linear, differences) = match motion {
-            Motion::Rates { gyro, accel } => (gyro, accel, false),
-            Motion::Increments { delta_theta, delta_velocity } => {
+            ImuMotion::Rates { gyro, accel } => (gyro, accel, false),
+            ImuMotion::Increments { delta_theta, delta_velocity } => {
                 (delta_theta, delta_velocity, true)
             }
         };
@@ -122,7 +122,7 @@ impl StimFormat {
     }
 
     /// The motion of some counts; differences if one of both sensors sends differences.
-    pub(super) fn motion(&self, rotation: [i32; 3], linear: [i32; 3]) -> Option<Motion> {
+    pub(super) fn motion(&self, rotation: [i32; 3], linear: [i32; 3]) -> Option<ImuMotion> {
         if self.gyro == StimKind::Integrated || self.accel == StimKind::Integrated {
             return None;
         }
@@ -133,9 +133,9 @@ impl StimFormat {
         let rotation = rotation.map(|count| f64::from(count) * gyro_unit);
         let linear = linear.map(|count| f64::from(count) * accel_unit);
         Some(if differences {
-            Motion::Increments { delta_theta: rotation, delta_velocity: linear }
+            ImuMotion::Increments { delta_theta: rotation, delta_velocity: linear }
         } else {
-            Motion::Rates { gyro: rotation, accel: linear }
+            ImuMotion::Rates { gyro: rotation, accel: linear }
         })
     }
 
@@ -187,27 +187,28 @@ impl StimConfiguration {
     /// Reads the configuration datagram.
     ///
     /// # Errors
-    /// [`Fault::Frame`] if length or CRC are wrong, [`Fault::OtherMessage`] for other datagrams,
-    /// [`Fault::Range`] for a code that is not known. All axes are taken to
+    /// [`BinaryFault::Frame`] if length or CRC are wrong, [`BinaryFault::OtherMessage`] for other datagrams,
+    /// [`BinaryFault::Range`] for a code that is not known. All axes are taken to
     /// have the range of the first.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         if !is_sound(frame) {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         let at = |index: usize| frame.get(index).copied().unwrap_or_default();
         if !CONFIGURATION.contains(&at(0)) || frame.len() != CONFIGURATION_LENGTH {
-            return Err(Fault::OtherMessage);
+            return Err(BinaryFault::OtherMessage);
         }
         let rate = usize::from(at(3) >> 5);
         let interval = match SAMPLE_RATES.get(rate) {
             Some(rate) => Some(1.0 / rate),
             None if rate == SAMPLE_RATES.len() => None,
-            None => return Err(Fault::Range { field: "sample rate" }),
+            None => return Err(BinaryFault::Range { field: "sample rate" }),
         };
         let range = RANGES.iter().find(|(code, _)| *code == at(17) >> 4);
-        let (_, range) = range.ok_or(Fault::Range { field: "range of the accelerometers" })?;
+        let (_, range) =
+            range.ok_or(BinaryFault::Range { field: "range of the accelerometers" })?;
         let accel = StimKind::of_accel(at(8));
-        let accel = accel.ok_or(Fault::Range { field: "unit of the accelerometers" })?;
+        let accel = accel.ok_or(BinaryFault::Range { field: "unit of the accelerometers" })?;
         let [acceleration, inclination, temperatures, input] =
             [1, 2, 3, 4].map(|bit| at(3) >> bit & 1 == 1);
         let pps = input && at(14) & PPS != 0;

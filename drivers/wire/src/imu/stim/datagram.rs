@@ -1,7 +1,7 @@
 //! The normal datagram.
 
 use super::{StimFormat, crc, groups_of, id_of, is_sound};
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::imu::{ImuReading, Wrapping};
 
 /// Degrees Celsius of the least bit of a temperature.
@@ -9,7 +9,7 @@ const TEMPERATURE: f64 = 1.0 / 256.0;
 
 /// Counts of one kind of sensor about or along x, y, z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Group {
+pub struct StimGroup {
     /// Counts, of 24 bits; 16 for temperatures.
     pub counts: [i32; 3],
     /// Status byte; zero when all is well.
@@ -31,14 +31,14 @@ pub struct StimInput {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct StimDatagram {
     /// Gyroscopes.
-    pub rate: Group,
+    pub rate: StimGroup,
     /// Accelerometers.
-    pub acceleration: Option<Group>,
+    pub acceleration: Option<StimGroup>,
     /// Inclinometers.
-    pub inclination: Option<Group>,
+    pub inclination: Option<StimGroup>,
     /// Temperatures of gyroscopes, accelerometers and inclinometers; those of a group that is not
     /// there are not there either.
-    pub temperatures: Option<[Group; 3]>,
+    pub temperatures: Option<[StimGroup; 3]>,
     /// The further input.
     pub input: Option<StimInput>,
     /// Number of the sample.
@@ -51,16 +51,16 @@ impl StimDatagram {
     /// Reads a whole datagram.
     ///
     /// # Errors
-    /// [`Fault::Frame`] if length or CRC are wrong, [`Fault::OtherMessage`] for other datagrams.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    /// [`BinaryFault::Frame`] if length or CRC are wrong, [`BinaryFault::OtherMessage`] for other datagrams.
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         if !is_sound(frame) {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         let mut reader = Reader::new(frame);
-        let groups = groups_of(reader.u8()?).ok_or(Fault::OtherMessage)?;
+        let groups = groups_of(reader.u8()?).ok_or(BinaryFault::OtherMessage)?;
         let [acceleration, inclination, temperatures, aux, pps] = groups;
-        let mut group = |there: bool, short: bool| -> Result<Option<Group>, Fault> {
-            there.then(|| Group::read(&mut reader, short)).transpose()
+        let mut group = |there: bool, short: bool| -> Result<Option<StimGroup>, BinaryFault> {
+            there.then(|| StimGroup::read(&mut reader, short)).transpose()
         };
         let rate = group(true, false)?.unwrap_or_default();
         let acceleration_group = group(acceleration, false)?;
@@ -75,7 +75,7 @@ impl StimDatagram {
         };
         let (counter, latency) = (reader.u8()?, reader.be_u16()?);
         if reader.rest().len() != 4 {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         Ok(StimDatagram {
             rate,
@@ -128,7 +128,7 @@ impl StimDatagram {
         let status = words.iter().rev().fold(0, |sum, status| sum << 8 | u32::from(*status));
         let warmth = self.temperatures.map(|[gyroscopes, ..]| gyroscopes);
         let warmth = warmth.filter(|group| group.status == 0);
-        let mean = |group: Group| group.counts.iter().map(|c| f64::from(*c)).sum::<f64>() / 3.0;
+        let mean = |group: StimGroup| group.counts.iter().map(|c| f64::from(*c)).sum::<f64>() / 3.0;
         Some(ImuReading {
             counter: Some(Wrapping { value: self.counter.into(), modulus: 256 }),
             latency: Some(f64::from(self.latency) * 1e-6),
@@ -140,13 +140,13 @@ impl StimDatagram {
     }
 }
 
-impl Group {
-    fn read(reader: &mut Reader<'_>, short: bool) -> Result<Self, Fault> {
+impl StimGroup {
+    fn read(reader: &mut Reader<'_>, short: bool) -> Result<Self, BinaryFault> {
         let mut counts = [0; 3];
         for count in &mut counts {
             *count = if short { reader.be_i16()?.into() } else { i24(reader)? };
         }
-        Ok(Group { counts, status: reader.u8()? })
+        Ok(StimGroup { counts, status: reader.u8()? })
     }
 
     fn write(self, frame: &mut Writer, short: bool) {
@@ -161,7 +161,7 @@ impl Group {
     }
 }
 
-fn i24(reader: &mut Reader<'_>) -> Result<i32, Fault> {
+fn i24(reader: &mut Reader<'_>) -> Result<i32, BinaryFault> {
     let [high, middle, low] = reader.array()?;
     Ok(i32::from_be_bytes([high, middle, low, 0]) >> 8)
 }

@@ -33,7 +33,7 @@ mod configuration;
 mod datagram;
 
 pub use configuration::{StimConfiguration, StimFormat, StimKind, StimRange};
-pub use datagram::{Group, StimDatagram, StimInput};
+pub use datagram::{StimDatagram, StimGroup, StimInput};
 
 use crc::{CRC_32_MPEG_2, Crc};
 

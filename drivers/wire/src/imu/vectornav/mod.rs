@@ -18,8 +18,8 @@ use insd_base::units::DEG;
 use insd_base::{GpsTime, UtcTime};
 
 use self::sizes::{Field, Layout, layout};
-use super::{DeviceTime, ImuReading, Motion, Wrapping};
-use crate::binary::{Fault, Reader, Writer};
+use super::{DeviceTime, ImuMotion, ImuReading, Wrapping};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::stream::Look;
 
 const START: u8 = 0xFA;
@@ -104,22 +104,22 @@ impl VnMessage {
     /// Reads a message.
     ///
     /// # Errors
-    /// [`Fault::Frame`] if it is none, [`Fault::OtherMessage`] if none of its fields is read here.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    /// [`BinaryFault::Frame`] if it is none, [`BinaryFault::OtherMessage`] if none of its fields is read here.
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         if look(frame) != Look::Frame(frame.len()) {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         let behind = frame.get(1..).unwrap_or_default();
-        let Layout::Known(header, fields) = layout(behind) else { return Err(Fault::Frame) };
+        let Layout::Known(header, fields) = layout(behind) else { return Err(BinaryFault::Frame) };
         let mut reader = Reader::new(behind.get(header..).unwrap_or_default());
         let mut message = VnMessage::default();
         for (field, size) in fields {
             message.take(field, Reader::new(reader.take(size)?))?;
         }
-        if message == VnMessage::default() { Err(Fault::OtherMessage) } else { Ok(message) }
+        if message == VnMessage::default() { Err(BinaryFault::OtherMessage) } else { Ok(message) }
     }
 
-    fn take(&mut self, field: Field, mut own: Reader<'_>) -> Result<(), Fault> {
+    fn take(&mut self, field: Field, mut own: Reader<'_>) -> Result<(), BinaryFault> {
         match field {
             (0 | 1, 0) => self.startup_nanos = Some(own.le_u64()?),
             (0 | 1, 1) => self.gps_nanos = Some(own.le_u64()?),
@@ -180,14 +180,15 @@ impl VnMessage {
     /// As a sample: increments if it has them, else rates as calibrated in the factory, else those of the device's own filter.
     #[must_use]
     pub fn reading(&self) -> Option<ImuReading> {
-        let increments = self
-            .deltas
-            .map(|own| Motion::Increments { delta_theta: own.theta, delta_velocity: own.velocity });
+        let increments = self.deltas.map(|own| ImuMotion::Increments {
+            delta_theta: own.theta,
+            delta_velocity: own.velocity,
+        });
         let rates = |gyro: Option<[f64; 3]>, accel: Option<[f64; 3]>| {
-            gyro.zip(accel).map(|(gyro, accel)| Motion::Rates { gyro, accel })
+            gyro.zip(accel).map(|(gyro, accel)| ImuMotion::Rates { gyro, accel })
         };
         let plain = rates(self.plain_rate, self.plain_force);
-        let whole = increments.filter(Motion::is_finite);
+        let whole = increments.filter(ImuMotion::is_finite);
         let motion = whole.or(plain).or(rates(self.rate, self.force)).or(increments)?;
         let saturated = self.saturated.unwrap_or(0);
         let ticks = |value| Wrapping { value, modulus: u64::MAX };
@@ -227,13 +228,13 @@ impl VnDeltas {
     }
 }
 
-fn vector(own: &mut Reader<'_>, unit: f64) -> Result<[f64; 3], Fault> {
+fn vector(own: &mut Reader<'_>, unit: f64) -> Result<[f64; 3], BinaryFault> {
     let mut next = || Ok(f64::from(own.le_f32()?) * unit);
     Ok([next()?, next()?, next()?])
 }
 
 /// An interval and what was turned within it.
-fn turn(own: &mut Reader<'_>) -> Result<(f64, [f64; 3]), Fault> {
+fn turn(own: &mut Reader<'_>) -> Result<(f64, [f64; 3]), BinaryFault> {
     Ok((own.le_f32()?.into(), vector(own, DEG)?))
 }
 

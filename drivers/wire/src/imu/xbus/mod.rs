@@ -13,7 +13,7 @@ mod number;
 use crate::binary::Writer;
 use crate::stream::Look;
 
-pub use mtdata2::{Axes, FINE_DAY, FINE_U32, MtData2, Orientation, Status, Utc};
+pub use mtdata2::{FINE_DAY, FINE_U32, MtData2, Orientation, Status, Utc, XbusAxes};
 pub use number::Precision;
 
 const PREAMBLE: [u8; 2] = [0xFA, 0xFF];

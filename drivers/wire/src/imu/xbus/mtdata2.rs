@@ -5,9 +5,9 @@ use insd_base::units::DEG;
 
 use super::number::Precision;
 use super::{MTDATA2, open, seal};
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::imu::rotation::delta_theta_of;
-use crate::imu::{DeviceTime, ImuReading, Motion, Wrapping};
+use crate::imu::{DeviceTime, ImuMotion, ImuReading, Wrapping};
 use crate::nmea::{CivilTime, Date, TimeOfDay};
 
 const TEMPERATURE: u16 = 0x0810;
@@ -55,7 +55,7 @@ pub enum Status {
 
 /// Local axes of an orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Axes {
+pub enum XbusAxes {
     /// East, north, up.
     Enu,
     /// North, east, down.
@@ -68,7 +68,7 @@ pub enum Axes {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orientation {
     /// Local axes that the angles lead to.
-    pub axes: Axes,
+    pub axes: XbusAxes,
     /// Roll, pitch, yaw, rad (degrees on the wire).
     pub euler: [f64; 3],
 }
@@ -104,12 +104,12 @@ impl MtData2 {
     /// Reads a message.
     ///
     /// # Errors
-    /// [`Fault::Frame`] if it is none, [`Fault::OtherMessage`] if it is not MTData2,
-    /// [`Fault::Short`] if an item ends early.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
-        let (id, data) = open(frame).ok_or(Fault::Frame)?;
+    /// [`BinaryFault::Frame`] if it is none, [`BinaryFault::OtherMessage`] if it is not MTData2,
+    /// [`BinaryFault::Short`] if an item ends early.
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
+        let (id, data) = open(frame).ok_or(BinaryFault::Frame)?;
         if id != MTDATA2 {
-            return Err(Fault::OtherMessage);
+            return Err(BinaryFault::OtherMessage);
         }
         let mut message = MtData2::default();
         let mut items = Reader::new(data);
@@ -120,7 +120,7 @@ impl MtData2 {
         Ok(message)
     }
 
-    fn take(&mut self, identifier: u16, data: &mut Reader<'_>) -> Result<(), Fault> {
+    fn take(&mut self, identifier: u16, data: &mut Reader<'_>) -> Result<(), BinaryFault> {
         let precision = Precision::of_identifier(identifier);
         match identifier & 0xFFF0 {
             TEMPERATURE => self.temperature = Some(precision.read(data)?),
@@ -211,11 +211,11 @@ impl MtData2 {
         })
     }
 
-    fn motion(&self) -> Option<Motion> {
+    fn motion(&self) -> Option<ImuMotion> {
         let rates = self.rate_of_turn.zip(self.acceleration);
-        let rates = rates.map(|(gyro, accel)| Motion::Rates { gyro, accel });
+        let rates = rates.map(|(gyro, accel)| ImuMotion::Rates { gyro, accel });
         let increments = self.delta_q.zip(self.delta_v);
-        let increments = increments.map(|(delta_q, delta_velocity)| Motion::Increments {
+        let increments = increments.map(|(delta_q, delta_velocity)| ImuMotion::Increments {
             delta_theta: delta_theta_of(delta_q),
             delta_velocity,
         });
@@ -224,7 +224,7 @@ impl MtData2 {
 }
 
 impl Utc {
-    fn parse(data: &mut Reader<'_>) -> Result<Self, Fault> {
+    fn parse(data: &mut Reader<'_>) -> Result<Self, BinaryFault> {
         let nanosecond = data.be_u32()?;
         let date = Date { year: data.be_u16()?, month: data.u8()?, day: data.u8()? };
         let [hour, minute, second, flags] = data.array()?;
@@ -257,35 +257,38 @@ impl Status {
     }
 }
 
-impl Axes {
+impl XbusAxes {
     fn of_identifier(identifier: u16) -> Option<Self> {
         match identifier & 0xC {
-            0x0 => Some(Axes::Enu),
-            0x4 => Some(Axes::Ned),
-            0x8 => Some(Axes::Nwu),
+            0x0 => Some(XbusAxes::Enu),
+            0x4 => Some(XbusAxes::Ned),
+            0x8 => Some(XbusAxes::Nwu),
             _ => None,
         }
     }
 
     fn bits(self) -> u16 {
         match self {
-            Axes::Enu => 0x0,
-            Axes::Ned => 0x4,
-            Axes::Nwu => 0x8,
+            XbusAxes::Enu => 0x0,
+            XbusAxes::Ned => 0x4,
+            XbusAxes::Nwu => 0x8,
         }
     }
 }
 
 impl Orientation {
     /// `None` if the axes are none that the protocol defines.
-    fn parse(identifier: u16, data: &mut Reader<'_>) -> Result<Option<Self>, Fault> {
+    fn parse(identifier: u16, data: &mut Reader<'_>) -> Result<Option<Self>, BinaryFault> {
         let degrees: [f64; 3] = numbers(Precision::of_identifier(identifier), data)?;
-        let axes = Axes::of_identifier(identifier);
+        let axes = XbusAxes::of_identifier(identifier);
         Ok(axes.map(|axes| Orientation { axes, euler: degrees.map(|angle| angle * DEG) }))
     }
 }
 
-fn numbers<const N: usize>(precision: Precision, data: &mut Reader<'_>) -> Result<[f64; N], Fault> {
+fn numbers<const N: usize>(
+    precision: Precision,
+    data: &mut Reader<'_>,
+) -> Result<[f64; N], BinaryFault> {
     let mut numbers = [0.0; N];
     for number in &mut numbers {
         *number = precision.read(data)?;

@@ -1,6 +1,6 @@
 //! The four formats of real numbers, chosen for each output in the device.
 
-use crate::binary::{Fault, Reader, Writer, scaled};
+use crate::binary::{BinaryFault, Reader, Writer, scaled};
 
 /// Steps per unit of a 12.20 number.
 const FP1220: f64 = 1_048_576.0;
@@ -54,7 +54,7 @@ impl Precision {
         }
     }
 
-    pub(super) fn read(self, data: &mut Reader<'_>) -> Result<f64, Fault> {
+    pub(super) fn read(self, data: &mut Reader<'_>) -> Result<f64, BinaryFault> {
         Ok(match self {
             Precision::Float32 => data.be_f32()?.into(),
             Precision::Fp1220 => f64::from(data.be_i32()?) / FP1220,

@@ -14,7 +14,7 @@
 //!
 //! It ends after 81 bytes (Pathfinder) or 85 (WorkHorse), or, in old instruments, before offset 44.
 
-use crate::binary::{Fault, Reader, Writer, scaled};
+use crate::binary::{BinaryFault, Reader, Writer, scaled};
 
 /// What a bad velocity is written as.
 const BAD: i16 = i16::MIN;
@@ -65,7 +65,7 @@ impl BottomTrack {
     /// The data type's id.
     pub(super) const ID: usize = 0x0600;
 
-    pub(super) fn read(data: &[u8]) -> Result<Self, Fault> {
+    pub(super) fn read(data: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(data);
         reader.take(2)?;
         let pings = reader.le_u16()?;
@@ -108,7 +108,7 @@ impl BottomTrack {
 }
 
 impl WaterLayer {
-    fn read(reader: &mut Reader<'_>) -> Result<Self, Fault> {
+    fn read(reader: &mut Reader<'_>) -> Result<Self, BinaryFault> {
         reader.take(2)?;
         let bounds = [reader.le_u16()?, reader.le_u16()?];
         Ok(WaterLayer {
@@ -130,7 +130,7 @@ impl WaterLayer {
     }
 }
 
-fn velocities(reader: &mut Reader<'_>) -> Result<[Option<f64>; 4], Fault> {
+fn velocities(reader: &mut Reader<'_>) -> Result<[Option<f64>; 4], BinaryFault> {
     let mut velocities = [None; 4];
     for velocity in &mut velocities {
         let count = reader.le_i16()?;

@@ -19,7 +19,7 @@ use insd_base::UtcTime;
 use insd_base::units::{DEG, wrap_two_pi};
 
 use super::janus::Geometry;
-use crate::binary::{Fault, Reader, Writer, scaled};
+use crate::binary::{BinaryFault, Reader, Writer, scaled};
 
 /// Radians of the least bit of an angle.
 const ANGLE: f64 = 0.01 * DEG;
@@ -141,7 +141,7 @@ impl FixedLeader {
     /// The data type's id.
     pub(super) const ID: usize = 0x0000;
 
-    pub(super) fn read(data: &[u8]) -> Result<Self, Fault> {
+    pub(super) fn read(data: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(Reader::new(data).take(LEAST)?);
         reader.take(2)?;
         let firmware = reader.array()?;
@@ -195,7 +195,7 @@ impl VariableLeader {
     /// The data type's id.
     pub(super) const ID: usize = 0x0080;
 
-    pub(super) fn read(data: &[u8]) -> Result<Self, Fault> {
+    pub(super) fn read(data: &[u8]) -> Result<Self, BinaryFault> {
         let mut reader = Reader::new(data);
         reader.take(2)?;
         let low = reader.le_u16()?;

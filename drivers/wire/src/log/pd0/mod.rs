@@ -37,7 +37,7 @@ pub use leader::{Coordinates, FixedLeader, Transformation, VariableLeader};
 use insd_base::LogReference;
 
 use super::{LogFrame, LogReading};
-use crate::binary::{Fault, Reader, Writer};
+use crate::binary::{BinaryFault, Reader, Writer};
 use crate::stream::Look;
 
 /// Longest ensemble that is taken, bytes: leaders, bottom track, and profiles of 255 cells with four
@@ -103,11 +103,11 @@ impl Ensemble {
     /// Reads a whole ensemble.
     ///
     /// # Errors
-    /// [`Fault::Frame`] if header, offsets or checksum are wrong, [`Fault::OtherMessage`] without both
-    /// leaders, [`Fault::Short`] if one ends too early.
-    pub fn read(frame: &[u8]) -> Result<Self, Fault> {
+    /// [`BinaryFault::Frame`] if header, offsets or checksum are wrong, [`BinaryFault::OtherMessage`] without both
+    /// leaders, [`BinaryFault::Short`] if one ends too early.
+    pub fn read(frame: &[u8]) -> Result<Self, BinaryFault> {
         if look(frame) != Look::Frame(frame.len()) {
-            return Err(Fault::Frame);
+            return Err(BinaryFault::Frame);
         }
         let mut header = Reader::new(frame);
         let [.., types] = header.array::<HEADER>()?;
@@ -127,7 +127,7 @@ impl Ensemble {
         }
         match (fixed, variable) {
             (Some(fixed), Some(variable)) => Ok(Ensemble { fixed, variable, bottom }),
-            _ => Err(Fault::OtherMessage),
+            _ => Err(BinaryFault::OtherMessage),
         }
     }
 

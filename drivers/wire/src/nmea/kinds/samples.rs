@@ -6,7 +6,7 @@ use crate::nmea::alert::Alert;
 use crate::nmea::phoct::{Waves, WithState};
 use crate::nmea::table::Sampled;
 use crate::nmea::{
-    Acn, Arc, Dtm, Frame, Glc, Gst, Hbt, Hcr, Hdg, Hdm, Hdt, Lcd, Line, MAX_LEN, PfecAttitude,
+    Acn, Arc, Dtm, Frame, Glc, Gst, Hbt, Hcr, Hdg, Hdm, Hdt, Lcd, MAX_LEN, NmeaLine, PfecAttitude,
     Phcmp, Phinf, Phlin, Phoct, Phspd, Phtro, PinsdAlignment, PinsdBerth, PinsdPartOfShip,
     PinsdProtection, PinsdRange, PinsdSigma, PinsdStatus, PinsdStep, PsatHpr, Rls, Rot, Sentence,
     Talker, Ths, Vdr, Vhw, Vlw, Vtg, checksum,
@@ -153,7 +153,7 @@ impl<T: Copy> Field<T> {
         let longer = ["W84", "89ABCDEF", "1A2F"].map(str::to_owned);
         let is_taken = |text: &String| {
             let Some(value) = (self.read)(text) else { return false };
-            let line = Line::compose_own("P", |line| (self.write)(line, value));
+            let line = NmeaLine::compose_own("P", |line| (self.write)(line, value));
             line.as_str().starts_with(&format!("$P,{text}*"))
         };
         let taken: Vec<String> = letters.chain(longer).filter(is_taken).collect();

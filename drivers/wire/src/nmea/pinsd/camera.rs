@@ -3,7 +3,7 @@
 //! Both have times of the front end's own clock. They go through networks and files and not through the lines of the standard, so that they may be longer than its 82 bytes.
 
 use crate::nmea::decimal::Form;
-use crate::nmea::fault::Fault;
+use crate::nmea::fault::NmeaFault;
 use crate::nmea::fields::Fields;
 use crate::nmea::kinds::{Decimal, Three, Whole};
 use crate::nmea::line::Composer;
@@ -82,7 +82,7 @@ impl PinsdTracks {
     }
 
     /// What has no time or number is none; a sentence that ends within a point is torn.
-    pub(super) fn read_fields(fields: &mut Fields<'_>) -> Result<Self, Fault> {
+    pub(super) fn read_fields(fields: &mut Fields<'_>) -> Result<Self, NmeaFault> {
         let time = needed(fields, |own| own.number_in(0.0..=SECONDS.limit))?;
         let part = needed(fields, |own| own.whole(TRACK_SENTENCES))?;
         let of = needed(fields, |own| own.whole(TRACK_SENTENCES))?;
@@ -107,8 +107,8 @@ impl PinsdTracks {
 /// A field that must not be empty.
 fn needed<'a, T>(
     fields: &mut Fields<'a>,
-    read: impl Fn(&mut Fields<'a>) -> Result<Option<T>, Fault>,
-) -> Result<T, Fault> {
+    read: impl Fn(&mut Fields<'a>) -> Result<Option<T>, NmeaFault>,
+) -> Result<T, NmeaFault> {
     read(fields)?.ok_or_else(|| fields.malformed())
 }
 

@@ -43,9 +43,9 @@ pub use sigma::PinsdSigma;
 pub use status::{PinsdIntegrity, PinsdMode, PinsdSource, PinsdStatus, PinsdTime};
 
 use super::decimal::Form;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::frame::Frame;
-use super::line::Line;
+use super::line::NmeaLine;
 use super::position::Position;
 
 /// Decimals of minutes: 0.02 m.
@@ -99,8 +99,8 @@ impl Pinsd {
 
     /// Writes the sentence; minutes to 0.00001, sigmas of the operator to 0.1 m and 0.01 deg.
     #[must_use]
-    pub fn write(&self) -> Line {
-        Line::compose_own(Self::ADDRESS, |line| match self {
+    pub fn write(&self) -> NmeaLine {
+        NmeaLine::compose_own(Self::ADDRESS, |line| match self {
             Pinsd::Fix { position, std } => {
                 line.text("FIX");
                 line.position(*position, MINUTES);
@@ -153,8 +153,8 @@ impl Pinsd {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields; [`Fault::OtherSentence`] for a word that is not in the list.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields; [`NmeaFault::OtherSentence`] for a word that is not in the list.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of_own(Self::ADDRESS)?;
         Ok(match fields.text()? {
             "FIX" => Pinsd::Fix {
@@ -174,7 +174,7 @@ impl Pinsd {
             PinsdProtection::NAME => Pinsd::Protection(PinsdProtection::read_fields(&mut fields)?),
             PinsdBerth::NAME => Pinsd::Berth(PinsdBerth::read_fields(&mut fields)?),
             PinsdPartOfShip::NAME => Pinsd::Part(PinsdPartOfShip::read_fields(&mut fields)?),
-            _ => return Err(Fault::OtherSentence),
+            _ => return Err(NmeaFault::OtherSentence),
         })
     }
 }
@@ -205,7 +205,7 @@ mod tests {
     fn three_digits_are_kept_and_never_more_than_five_characters_written() {
         let text = |value: f64| {
             let kind = Significant(Decimal::magnitude(3, 99_999.0));
-            let line = Line::compose_own("PX", |line| kind.write(line, &Some(value)));
+            let line = NmeaLine::compose_own("PX", |line| kind.write(line, &Some(value)));
             line.as_str().split([',', '*']).nth(1).unwrap().to_owned()
         };
         for (value, written) in [

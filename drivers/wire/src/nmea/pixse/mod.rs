@@ -36,10 +36,10 @@ pub use status::{PixseAlgorithmStatus, PixseHighLevelStatus, PixseSystemStatus};
 
 use super::civil::TimeOfDay;
 use super::decimal::Form;
-use super::fault::Fault;
+use super::fault::NmeaFault;
 use super::fields::Fields;
 use super::frame::Frame;
-use super::line::{Composer, Line};
+use super::line::{Composer, NmeaLine};
 use super::parts::{degrees, negated, read_degrees, read_within, read_word, word};
 use super::position::Position;
 
@@ -180,8 +180,8 @@ impl Pixse {
     /// Writes the sentence: angles to 0.001 deg, latitude and longitude to 1e-8 deg, lengths and speeds to
     /// 1 mm and 1 mm/s, sigmas of the position to 1 cm, time truncated to 1 us.
     #[must_use]
-    pub fn write(&self) -> Line {
-        Line::compose_own(Self::ADDRESS, |line| {
+    pub fn write(&self) -> NmeaLine {
+        NmeaLine::compose_own(Self::ADDRESS, |line| {
             line.text(self.name());
             self.write_fields(line);
         })
@@ -224,18 +224,18 @@ impl Pixse {
     /// Reads the sentence.
     ///
     /// # Errors
-    /// The first [`Fault`] of its fields; [`Fault::OtherSentence`] for words that are not in the list.
-    pub fn read(frame: &Frame<'_>) -> Result<Self, Fault> {
+    /// The first [`NmeaFault`] of its fields; [`NmeaFault::OtherSentence`] for words that are not in the list.
+    pub fn read(frame: &Frame<'_>) -> Result<Self, NmeaFault> {
         let mut fields = frame.fields_of_own(Self::ADDRESS)?;
         let name = fields.text()?;
         read_state(name, &mut fields)
             .or_else(|| read_sigma_or_status(name, &mut fields))
-            .unwrap_or(Err(Fault::OtherSentence))
+            .unwrap_or(Err(NmeaFault::OtherSentence))
     }
 }
 
 /// The sentences that say where the unit is and how it moves; `None` for others.
-fn read_state(name: &str, fields: &mut Fields<'_>) -> Option<Result<Pixse, Fault>> {
+fn read_state(name: &str, fields: &mut Fields<'_>) -> Option<Result<Pixse, NmeaFault>> {
     Some(match name {
         "ATITUD" => read_attitude(fields),
         "POSITI" => read_position(fields),
@@ -256,7 +256,7 @@ fn read_state(name: &str, fields: &mut Fields<'_>) -> Option<Result<Pixse, Fault
 }
 
 /// The others.
-fn read_sigma_or_status(name: &str, fields: &mut Fields<'_>) -> Option<Result<Pixse, Fault>> {
+fn read_sigma_or_status(name: &str, fields: &mut Fields<'_>) -> Option<Result<Pixse, NmeaFault>> {
     Some(match name {
         "STDHRP" => three_sigmas(fields, SIGMA).map(|sigmas| {
             let [heading, roll, pitch] = sigmas.map(|sigma| sigma.map(f64::to_radians));
@@ -330,22 +330,22 @@ fn halves(line: &mut Composer, status: Option<u64>) {
     word(line, status.map(|status| (status >> 32) as u32));
 }
 
-fn three(fields: &mut Fields<'_>, form: Form) -> Result<[Option<f64>; 3], Fault> {
+fn three(fields: &mut Fields<'_>, form: Form) -> Result<[Option<f64>; 3], NmeaFault> {
     let mut next = || read_within(fields, form.limit);
     Ok([next()?, next()?, next()?])
 }
 
-fn three_sigmas(fields: &mut Fields<'_>, form: Form) -> Result<[Option<f64>; 3], Fault> {
+fn three_sigmas(fields: &mut Fields<'_>, form: Form) -> Result<[Option<f64>; 3], NmeaFault> {
     let mut next = || fields.number_in(0.0..=form.limit);
     Ok([next()?, next()?, next()?])
 }
 
-fn read_attitude(fields: &mut Fields<'_>) -> Result<Pixse, Fault> {
+fn read_attitude(fields: &mut Fields<'_>) -> Result<Pixse, NmeaFault> {
     let roll = read_degrees(fields, ROLL.limit)?;
     Ok(Pixse::Attitude { roll, pitch: negated(read_degrees(fields, PITCH.limit)?) })
 }
 
-fn read_position(fields: &mut Fields<'_>) -> Result<Pixse, Fault> {
+fn read_position(fields: &mut Fields<'_>) -> Result<Pixse, NmeaFault> {
     let latitude = read_degrees(fields, PLACE.limit)?;
     let longitude = fields.number_in(-180.0..=360.0)?;
     let longitude = longitude.map(|longitude| wrap_pi(longitude.to_radians()));
@@ -357,7 +357,7 @@ fn read_position(fields: &mut Fields<'_>) -> Result<Pixse, Fault> {
     Ok(Pixse::Position { position, altitude: read_within(fields, ALTITUDE.limit)? })
 }
 
-fn read_grid(fields: &mut Fields<'_>) -> Result<Pixse, Fault> {
+fn read_grid(fields: &mut Fields<'_>) -> Result<Pixse, NmeaFault> {
     let band = fields.convert(|text| match text.as_bytes() {
         [letter] if is_band(*letter) => Some(*letter),
         _ => None,
@@ -377,7 +377,7 @@ fn read_grid(fields: &mut Fields<'_>) -> Result<Pixse, Fault> {
 }
 
 /// Reads the low half and the high half of a status; both are there or none.
-fn read_halves(fields: &mut Fields<'_>) -> Result<Option<u64>, Fault> {
+fn read_halves(fields: &mut Fields<'_>) -> Result<Option<u64>, NmeaFault> {
     match (read_word(fields)?, read_word(fields)?) {
         (Some(low), Some(high)) => Ok(Some(u64::from(high) << 32 | u64::from(low))),
         (None, None) => Ok(None),

@@ -8,7 +8,7 @@ use insd_base::can::CanFrame;
 use insd_base::{Span, Time};
 
 use crate::fast_packet::{self, Sequences};
-use crate::{Message, N2kId};
+use crate::{BusMessage, N2kId};
 
 /// A message that has not begun within this is of no use.
 const LIMIT: Span = Span::from_nanos(1_000_000_000);
@@ -63,7 +63,7 @@ pub struct QueueCounts {
 
 #[derive(Clone, Debug)]
 struct Entry {
-    message: Message,
+    message: BusMessage,
     kind: Kind,
     queued: Time,
     /// The place in line among those of the same priority.
@@ -96,7 +96,7 @@ pub(crate) struct Queue {
 
 impl Queue {
     /// Puts a message in line; false if it is not wanted there.
-    pub(crate) fn push(&mut self, message: Message, kind: Kind, now: Time) -> bool {
+    pub(crate) fn push(&mut self, message: BusMessage, kind: Kind, now: Time) -> bool {
         let fast = fast_packet::is_fast(message.pgn);
         let limit = if fast { fast_packet::MAX_LENGTH } else { 8 };
         if message.data.len() > limit {
@@ -112,7 +112,7 @@ impl Queue {
 
     /// Messages of one instant are of one epoch and all wait; an older one of the same group and
     /// receiver gives its place, the oldest first.
-    fn push_stream(&mut self, message: Message, now: Time) {
+    fn push_stream(&mut self, message: BusMessage, now: Time) {
         let offered = self.offered;
         let replaceable = self.entries.iter_mut().filter(|entry| {
             entry.kind == Kind::Stream
@@ -134,7 +134,7 @@ impl Queue {
         self.append(message, Kind::Stream, now);
     }
 
-    fn push_reply(&mut self, message: Message, kind: Kind, now: Time) {
+    fn push_reply(&mut self, message: BusMessage, kind: Kind, now: Time) {
         let offered = self.offered;
         let same = |entry: &Entry| entry.is_waiting(offered) && entry.message == message;
         if self.entries.iter().any(same) {
@@ -149,7 +149,7 @@ impl Queue {
         self.append(message, kind, now);
     }
 
-    fn append(&mut self, message: Message, kind: Kind, now: Time) {
+    fn append(&mut self, message: BusMessage, kind: Kind, now: Time) {
         let order = self.next_order;
         self.next_order += 1;
         self.entries.push(Entry { message, kind, queued: now, order, progress: None });
@@ -311,7 +311,7 @@ impl Entry {
     }
 
     fn frame(&self) -> Option<CanFrame> {
-        let Message { priority, pgn, source, destination, data } = &self.message;
+        let BusMessage { priority, pgn, source, destination, data } = &self.message;
         let id =
             N2kId { priority: *priority, pgn: *pgn, source: *source, destination: *destination };
         match self.progress {

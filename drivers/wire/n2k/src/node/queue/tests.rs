@@ -7,8 +7,8 @@ fn at(milliseconds: i64) -> Time {
     Time::from_nanos(milliseconds * 1_000_000)
 }
 
-fn message(priority: u8, pgn: u32, data: &[u8]) -> Message {
-    Message { priority, pgn, source: NODE, destination: BROADCAST, data: data.to_vec() }
+fn message(priority: u8, pgn: u32, data: &[u8]) -> BusMessage {
+    BusMessage { priority, pgn, source: NODE, destination: BROADCAST, data: data.to_vec() }
 }
 
 /// Sends all that may be sent at this time; the groups, and the first byte, in order.
@@ -158,7 +158,7 @@ fn no_more_than_eight_frames_go_in_five_milliseconds() {
 #[test]
 fn equal_answers_are_one_and_all_answers_are_bounded() {
     let mut queue = Queue::default();
-    let answer = |byte: u8| Message { destination: 3, ..message(6, 59_392, &[byte; 8]) };
+    let answer = |byte: u8| BusMessage { destination: 3, ..message(6, 59_392, &[byte; 8]) };
     for byte in 0..100 {
         queue.push(answer(byte), Kind::Reply, at(0));
         queue.push(answer(byte), Kind::Reply, at(0));
