@@ -154,7 +154,7 @@ fn each_field_that_a_sentence_is_good_without_may_be_bad() {
                     assert_eq!(left_out.count, 1, "{spoilt}");
                 }
                 Err(NmeaFault::Malformed { .. }) => {
-                    assert!(!optional.contains(&number), "{spoilt}")
+                    assert!(!optional.contains(&number), "{spoilt}");
                 }
                 Err(fault) => panic!("{spoilt}: {fault}"),
             }
