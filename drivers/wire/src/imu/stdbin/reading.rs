@@ -67,7 +67,7 @@ impl Telegram {
 
     /// Angular rate and specific force about and along XV1 forward, XV2 to port, XV3 up; `None` unless
     /// both raw blocks are there. Valid if the user status tells of no anomaly, or is not there, and
-    /// nothing in the telegram speaks against the raw blocks ([`Navigation::bears_raw`]).
+    /// nothing in the telegram speaks against the raw blocks (`Navigation::bears_raw`).
     #[must_use]
     pub fn reading(&self) -> Option<ImuReading> {
         let navigation = &self.navigation;
