@@ -245,9 +245,20 @@ impl Judge {
     }
 
     /// A lie of somebody else than the IMU that explains so much, too, as a logarithm, if innovations are as sure as stated.
-    pub(super) fn explained_by_another(&self, gain: f64) -> Option<Charge> {
-        let mut all = self.assessment.charges.iter();
-        all.find(|charge| charge.party() != Party::Imu && charge.evidence > gain).copied()
+    pub(super) fn explained_by_another(&self, gain: f64, now: Time) -> Option<Charge> {
+        // nobody but the receiver contradicts fine gyros and accelerometers: it may creep away
+        let is_one_against_one = self.witnesses(now) < 2 && !self.is_coarse;
+        let explains = |charge: &&Charge| {
+            let stated = if is_one_against_one { self.stated(charge) } else { None };
+            charge.party() != Party::Imu && stated.unwrap_or(charge.evidence) > gain
+        };
+        self.assessment.charges.iter().find(explains).copied()
+    }
+
+    /// What the innovations tell of a fault that has a shape, if they are as sure as stated, however long it has gone on.
+    fn stated(&self, charge: &Charge) -> Option<f64> {
+        let Kind::Shaped { group, since, .. } = charge.kind else { return None };
+        self.begun(since)?.sized(group, 1.0).map(|sized| sized.log_factor)
     }
 
     /// Whether no other sensor's fault explains it, too.

@@ -160,8 +160,9 @@ impl Judge {
         self.docket.note_mark(number, place);
     }
 
-    /// Begins anew with a navigator; the standing of all stays.
+    /// Begins anew with a navigator; the standing of all stays, and what was in dispute is left open.
     pub fn restart(&mut self, covariance: &Covariance, config: &NavConfig) {
+        self.leave_dispute_open();
         self.shadow = Shadow::of(covariance);
         self.pessimist = Pessimist::new(covariance, &config.imu);
         for dissenter in &mut self.dissenters {

@@ -15,7 +15,7 @@ use crate::initial::take_for_worse;
 
 /// By how much likelier he must be, as a logarithm, and for how long he must have been, s: what is bad of a sudden is
 /// something else.
-const CONVINCED: f64 = 10.0;
+pub(super) const CONVINCED: f64 = 10.0;
 const PATIENT: f64 = 200.0;
 /// Where he is as much likelier as this, so long is enough.
 const MUCH: f64 = 40.0;

@@ -18,6 +18,8 @@ const KEPT: f64 = 20.0;
 const SUSPECTED: f64 = 1e-3;
 /// What the levels allow for with less than this is of no account.
 const ALLOWED: f64 = 1e-8;
+/// How likely a lie is of which nobody can tell whether it is one.
+const DISPUTED: f64 = 0.5;
 /// Cause of a level: beyond all others of the judge.
 const RETURNED: usize = 999;
 /// Odds, as a logarithm, from which on one of the two is taken to be so.
@@ -78,6 +80,15 @@ impl Judge {
         let charge = *self.assessment.charges.iter().find(is_off)?;
         let chance = (charge.weight - self.assessment.total).exp();
         self.keep_open(charge, chance, now)
+    }
+
+    /// Whether the IMU is worse than assumed or the receiver goes astray nobody could tell, nor will anybody by what is heard from now on.
+    pub(super) fn leave_dispute_open(&mut self) {
+        let is_it = |lie: &Charge| lie.party() == Party::Gnss && is_growing(lie.fault);
+        let disputed = self.disputed.filter(|_| !self.docket.leaves_out_gnss());
+        if let Some((lie, now)) = disputed.filter(is_it).zip(self.looked) {
+            self.keep_open(lie, DISPUTED, now);
+        }
     }
 
     fn keep_open(&mut self, charge: Charge, chance: f64, now: Time) -> Option<Charge> {

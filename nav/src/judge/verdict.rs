@@ -7,6 +7,7 @@ use super::aid::Aid;
 use super::alternative::Ruling;
 use super::charge::{Charge, DOUBT, Kind};
 use super::docket::NO_LIE;
+use super::pessimist::CONVINCED;
 use super::{Judge, SCATTERS, UNHEARD, WILD};
 use crate::config::WORST;
 use crate::error_state::{ATTITUDE, GNSS_DELAY, GYRO_SCALE, POSITION, VELOCITY};
@@ -112,11 +113,12 @@ impl Judge {
         if is_any_out || self.assessment.total > DOUBT && is_another {
             self.pessimist.forget();
         }
-        self.disputed = None;
-        if !self.pessimist.is_likely() || self.docket.worse() >= WORST {
+        let was_disputed = self.disputed.take().is_some();
+        if !(self.pessimist.is_likely() || was_disputed) || self.docket.worse() >= WORST {
             return None;
         }
-        self.disputed = self.explained_by_another(self.pessimist.gain);
+        // once in dispute it stays so until the lie explains nothing any more
+        self.disputed = self.explained_by_another(self.pessimist.gain.max(CONVINCED), now);
         if self.disputed.is_some() || !self.pessimist.is_right(now) {
             return None;
         }

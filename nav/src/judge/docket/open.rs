@@ -48,9 +48,12 @@ impl OpenLie {
 }
 
 impl Docket {
-    /// What the receiver may be doing is not known, nor will be.
+    /// What the receiver may be doing is not known, nor will be; what it was likelier to be doing stays open.
     pub(in crate::judge) fn leave_lie_open(&mut self, lie: OpenLie) {
-        self.open = Some(lie);
+        let (now, chance) = lie.left;
+        if self.open.is_none_or(|own| own.chance(now) <= chance) {
+            self.open = Some(lie);
+        }
     }
 
     /// What was left open is so likely by what was heard since, or is none any more.
