@@ -246,13 +246,17 @@ impl Judge {
 
     /// A lie of somebody else than the IMU that explains so much, too, as a logarithm, if innovations are as sure as stated.
     pub(super) fn explained_by_another(&self, gain: f64, now: Time) -> Option<Charge> {
-        // nobody but the receiver contradicts fine gyros and accelerometers: it may creep away
-        let is_one_against_one = self.witnesses(now) < 2 && !self.is_coarse;
+        let is_one_against_one = self.is_one_against_one(now);
         let explains = |charge: &&Charge| {
             let stated = if is_one_against_one { self.stated(charge) } else { None };
             charge.party() != Party::Imu && stated.unwrap_or(charge.evidence) > gain
         };
         self.assessment.charges.iter().find(explains).copied()
+    }
+
+    /// Nobody but a receiver, which may creep away, contradicts gyros and accelerometers that are hardly ever worse than assumed: coarse ones often are.
+    pub(super) fn is_one_against_one(&self, now: Time) -> bool {
+        self.witnesses(now) < 2 && !self.is_coarse
     }
 
     /// What the innovations tell of a fault that has a shape, if they are as sure as stated, however long it has gone on.

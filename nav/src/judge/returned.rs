@@ -85,7 +85,8 @@ impl Judge {
     /// Whether the IMU is worse than assumed or the receiver goes astray nobody could tell, nor will anybody by what is heard from now on.
     pub(super) fn leave_dispute_open(&mut self) {
         let is_it = |lie: &Charge| lie.party() == Party::Gnss && is_growing(lie.fault);
-        let disputed = self.disputed.filter(|_| !self.docket.leaves_out_gnss());
+        let is_fine = !self.is_coarse && !self.docket.leaves_out_gnss();
+        let disputed = self.disputed.filter(|_| is_fine);
         if let Some((lie, now)) = disputed.filter(is_it).zip(self.looked) {
             self.keep_open(lie, DISPUTED, now);
         }

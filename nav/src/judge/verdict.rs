@@ -113,7 +113,8 @@ impl Judge {
         if is_any_out || self.assessment.total > DOUBT && is_another {
             self.pessimist.forget();
         }
-        let was_disputed = self.disputed.take().is_some();
+        let is_one_against_one = self.is_one_against_one(now);
+        let was_disputed = self.disputed.take().is_some() && is_one_against_one;
         if !(self.pessimist.is_likely() || was_disputed) || self.docket.worse() >= WORST {
             return None;
         }
@@ -122,8 +123,7 @@ impl Judge {
         if self.disputed.is_some() || !self.pessimist.is_right(now) {
             return None;
         }
-        // nobody but the receiver contradicts it, which may creep away: fine gyros and accelerometers are hardly ever worse, coarse ones often
-        if self.witnesses(now) < 2 && !self.is_coarse {
+        if is_one_against_one {
             self.leave_lie_open(now);
         }
         // a step is proven; what biases do that no aid sees, to the heading above all, asks for another
