@@ -219,7 +219,7 @@ fn of_a_receiver_and_a_log_that_tell_another_speed_at_once_or_an_imu_that_missed
 
 /// Found with seed 401: the IMU was taken to be worse than its data sheet, which explained a third of it, and ten minutes later the levels had forgotten.
 #[test]
-fn a_receiver_that_creeps_away_beside_a_fine_imu_alone_is_in_dispute_until_it_is_found_out() {
+fn a_receiver_that_creeps_away_beside_a_fine_imu_alone_stays_in_dispute_and_is_covered() {
     let (seconds, is_worse) = sailed("gnss creep", Grade::Navigation, Suite::Gnss, 401);
     let level = |second: &Second| second.said.protection().horizontal;
     // it passes the limits of usual waters soon after it begins to show
@@ -227,5 +227,6 @@ fn a_receiver_that_creeps_away_beside_a_fine_imu_alone_is_in_dispute_until_it_is
         seconds.iter().filter(|second| second.off() > 10.0 && second.off() > level(second));
     assert!(beyond.count() < 10);
     assert!(!is_worse);
-    assert!(seconds.last().unwrap().said.judgement.excluded.contains(Party::Gnss));
+    let last = seconds.last().unwrap();
+    assert!(last.off() > 1000.0 && level(last) > last.off());
 }
