@@ -217,7 +217,7 @@ fn of_a_receiver_and_a_log_that_tell_another_speed_at_once_or_an_imu_that_missed
     assert!(seconds.iter().all(|second| second.heading_off() < 3.0 * DEG));
 }
 
-/// Found with seed 401: the IMU was taken to be worse than its data sheet, which explained a third of it, and ten minutes later the levels had forgotten.
+/// Found with seed 401: the IMU was taken to be worse than its data sheet, which explained a third of it, and eight minutes later the levels had forgotten.
 #[test]
 fn a_receiver_that_creeps_away_beside_a_fine_imu_alone_stays_in_dispute_and_is_covered() {
     let (seconds, is_worse) = sailed("gnss creep", Grade::Navigation, Suite::Gnss, 401);

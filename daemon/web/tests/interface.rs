@@ -4,6 +4,7 @@
 #![allow(clippy::disallowed_methods)] // what is measured here is time
 
 mod house;
+mod recorded;
 mod scene;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,6 +19,7 @@ use insd_web::snapshot::{SensorState, ShownAlertState, Snapshot};
 use insd_web::{Listen, WebConfig, WebError};
 
 use house::{House, TOKEN, body, with_token};
+use recorded::{REPORTER, record};
 use scene::{Scene, Show};
 use serde_json::Value;
 
@@ -229,13 +231,11 @@ fn recordings_are_listed_and_fetched_and_nothing_else_of_the_disk() {
     assert!(without.get("/api/v1/recordings").starts_with("HTTP/1.1 404"));
 }
 
-/// A page over one recording whose reports this script makes: `$4` the language, `$8` where to, `${10}` of what.
+/// A page over one recording whose reports this script makes.
 fn with_reporter(script: &str) -> (House, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("insd-000001.insdraw"), "recorded").unwrap();
-    std::fs::write(folder.path().join("reporter.sh"), script).unwrap();
-    let reporter = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/house/reporter");
-    let (recordings, reporter) = (Some(folder.path().to_owned()), Some(reporter.into()));
+    record(folder.path(), script);
+    let (recordings, reporter) = (Some(folder.path().to_owned()), Some(REPORTER.into()));
     (House::open(WebConfig { recordings, reporter, ..WebConfig::default() }), folder)
 }
 
@@ -275,7 +275,7 @@ fn a_report_that_fails_says_why_and_may_be_asked_for_again() {
     let told = report(&house, "");
     assert!(told.starts_with("HTTP/1.1 500"), "{told}");
     assert!(body(&told).contains("the report cannot be made: error: nothing in it"), "{told}");
-    std::fs::write(folder.path().join("reporter.sh"), r#"echo done > "$8""#).unwrap();
+    record(folder.path(), r#"echo done > "$8""#);
     assert_eq!(body(&report(&house, "")).trim(), "done");
 }
 

@@ -116,8 +116,8 @@ impl Last {
 
 /// Whether a report stands for a recording that has grown since.
 fn is_recent(made: &Path) -> bool {
-    let age = made.metadata().and_then(|told| told.modified()).map(|at| at.elapsed());
-    age.is_ok_and(|age| age.is_ok_and(|age| age < STANDS))
+    let written = made.metadata().and_then(|told| told.modified()).ok();
+    written.and_then(|at| at.elapsed().ok()).is_some_and(|age| age < STANDS)
 }
 
 async fn carry_out(mut order: Command, out: PathBuf) -> Result<PathBuf, String> {

@@ -55,11 +55,12 @@ pub(super) async fn report(
             let text = "another report is being made: one after the other";
             fault(StatusCode::SERVICE_UNAVAILABLE, text)
         }
-        Answer::Failed(why) => {
-            let text = format!("the report cannot be made: {why}");
-            fault(StatusCode::INTERNAL_SERVER_ERROR, &text)
-        }
+        Answer::Failed(why) => failed(&why),
     }
+}
+
+fn failed(why: &str) -> Response {
+    fault(StatusCode::INTERNAL_SERVER_ERROR, &format!("the report cannot be made: {why}"))
 }
 
 async fn length(own: &Recordings, name: &str) -> Option<u64> {
@@ -76,9 +77,6 @@ async fn page(made: &Path) -> Response {
                 [(CONTENT_TYPE, "text/html; charset=utf-8"), (CONTENT_SECURITY_POLICY, POLICY)];
             (head, text).into_response()
         }
-        Err(error) => {
-            let text = format!("the report cannot be made: {error}");
-            fault(StatusCode::INTERNAL_SERVER_ERROR, &text)
-        }
+        Err(error) => failed(&error.to_string()),
     }
 }

@@ -10,9 +10,9 @@ use std::time::Duration;
 use insd_languages::Language;
 use insd_web::{Listen, OrderSender, Viewer, WebConfig, WebHandle};
 
+use crate::recorded::{REPORTER, record};
 use crate::scene::{STEP, Scene, Show};
 
-const REPORTER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/house/reporter");
 pub(crate) const TOKEN: &str = "a token for the tests";
 
 /// A page whose scene goes on by itself until this is dropped.
@@ -77,8 +77,7 @@ impl Live {
 
     /// A recording, and what is to be done for a report of it, as a script.
     pub(crate) fn record(&self, script: &str) {
-        std::fs::write(self.folder.path().join("insd-000001.insdraw"), "recorded").unwrap();
-        std::fs::write(self.folder.path().join("reporter.sh"), script).unwrap();
+        record(self.folder.path(), script);
     }
 
     /// The picture of its camera.

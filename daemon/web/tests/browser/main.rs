@@ -15,6 +15,8 @@ mod language;
 mod live;
 mod look;
 mod pictures;
+#[path = "../recorded/mod.rs"]
+mod recorded;
 mod recordings;
 #[path = "../scene/mod.rs"]
 mod scene;
