@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use insd_base::{CameraFrame, CameraModel, CameraTurn, ImagePoint, Rejection, Source};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Matrix3};
 
 use super::Filter;
 use super::camera_standing::{Camera, FEWEST_POINTS, Tally};
@@ -128,11 +128,26 @@ impl Filter {
 
     /// Nothing that was seen so far is linked with what will be.
     fn begin_scene_anew(&mut self) {
+        if !self.state.covariance.has(POSES) {
+            return;
+        }
         let camera = self.camera_mut();
         camera.window = PoseWindow::default();
         for slot in 0..LANDMARKS {
             self.drop_landmark(slot);
         }
+    }
+
+    /// The place is given up, and as unsure as `covariance` from now on, m^2, ECEF axes.
+    pub(super) fn renew_place(&mut self, covariance: &Matrix3<f64>) {
+        POSITION.renew(&mut self.state.covariance, covariance);
+        self.part_with_past();
+    }
+
+    /// Place or attitude are less sure than they were before: through what is seen, poses and points of before would bring back what was given up.
+    pub(super) fn part_with_past(&mut self) {
+        self.begin_scene_anew();
+        self.odometry.give_up_poses();
     }
 
     pub(super) fn forget_camera(&mut self) {

@@ -352,7 +352,7 @@ impl Filter {
     /// What is left of a lie about the place must tell nothing of how fast she goes and where her bow points.
     fn untie_position(&mut self) {
         let own = POSITION.covariance(&self.state.covariance);
-        POSITION.renew(&mut self.state.covariance, &own);
+        self.renew_place(&own);
         self.restart_judge();
     }
 
@@ -379,7 +379,7 @@ impl Filter {
         let place = imu_position(&view, &measured.position, &lever);
         self.follow_contradicted((place.0 - self.state.nominal.position).norm());
         let variance = floors::greatest_told(&(measured.white + measured.slow)).powi(2);
-        POSITION.renew(&mut self.state.covariance, &Matrix3::from_diagonal_element(variance));
+        self.renew_place(&Matrix3::from_diagonal_element(variance));
         self.state.covariance.break_trail();
         self.state.nominal.position = place.0;
         if let Some(velocity) = velocity {

@@ -335,6 +335,7 @@ impl Filter {
     fn become_other(&mut self, other: &Alternative) {
         let Alternative { error, covariance } = other;
         self.state.become_other(error, covariance);
+        self.part_with_past();
         self.forget_motion();
         self.excuse_installation();
         self.receiver.trust.clear();

@@ -48,6 +48,11 @@ impl Odometry {
         others.min_by_key(|own| own.time).map_or(0, |own| own.slot)
     }
 
+    /// No step is measured from a pose of before.
+    pub(super) fn give_up_poses(&mut self) {
+        (self.poses, self.keyframe) = ([None; ODOMETRY_POSES], None);
+    }
+
     /// A pose is held in a place.
     pub(super) fn hold(&mut self, slot: usize, time: Time, first: Pose) {
         self.poses[slot] = Some(Keyframe { slot, time, first });

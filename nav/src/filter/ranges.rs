@@ -126,7 +126,7 @@ impl Filter {
     fn forget_fixed_place(&mut self) {
         if self.receiver.rtk != Some(true) {
             let unknown = Matrix3::from_diagonal_element(UNKNOWN_PLACE * UNKNOWN_PLACE);
-            POSITION.renew(&mut self.state.covariance, &unknown);
+            self.renew_place(&unknown);
         }
     }
 
@@ -137,6 +137,7 @@ impl Filter {
         let more = covered.heading * covered.heading - own * own;
         let down = self.view().c_ne.row(2).transpose();
         ATTITUDE.add(&mut self.state.covariance, &(down * down.transpose() * more.max(0.0)));
+        self.part_with_past();
     }
 
     fn carry_clock(&mut self) {

@@ -135,8 +135,8 @@ impl Filter {
     /// Forgets where she is, and all that was concluded from it: ranges tell it anew.
     fn forget_place_of_rtk(&mut self) {
         let unknown = |std: f64| Matrix3::from_diagonal_element(std * std);
+        self.renew_place(&unknown(UNKNOWN_PLACE));
         let state = &mut self.state;
-        POSITION.renew(&mut state.covariance, &unknown(UNKNOWN_PLACE));
         GNSS_POSITION_ERROR.renew(&mut state.covariance, &unknown(1.0));
         SYSTEM_OFFSETS.renew(&mut state.covariance, &unknown(OFFSET_UNKNOWN));
         SEA_LEVEL

@@ -147,6 +147,25 @@ fn who_looks_on_is_told_what_is_held_of_a_camera_and_that_it_is_doubted() {
 }
 
 #[test]
+fn a_place_that_was_given_up_is_not_brought_back_by_what_was_seen_from_there() {
+    for trouble in [Trouble::Usual, Trouble::Odometry] {
+        let mut scene = Scene::new(4, trouble);
+        scene.sail(10.0);
+        let level_std = |scene: &Scene| {
+            let (p, c_ne) = (scene.filter().covariance(), scene.filter().view().c_ne);
+            POSITION.covariance_in(p, &c_ne)[(0, 0)].sqrt()
+        };
+        assert!(level_std(&scene) < 2.0);
+        scene.hear_range();
+        let unknown = level_std(&scene);
+        assert!(unknown > 20.0, "{unknown}");
+        scene.sail(20.0);
+        let after = level_std(&scene);
+        assert!(after > 0.999 * unknown, "{trouble:?}: {unknown} and {after} m");
+    }
+}
+
+#[test]
 fn states_of_a_camera_leave_a_minute_after_it() {
     let mut scene = Scene::new(2, Trouble::Usual);
     let before = scene.filter().covariance().states();

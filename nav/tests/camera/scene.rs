@@ -2,6 +2,9 @@
 
 use std::sync::Arc;
 
+use insd_base::satellites::{
+    Constellation, Measured, SatelliteId, SatelliteRange, SatelliteRanges, Transmitter,
+};
 use insd_base::{
     Body, CameraFrame, CameraModel, Geodetic, ImagePoint, ImuSpec, LeverArms, Message, Received,
     Source, Time, Triad, VisualOdometry, earth,
@@ -117,7 +120,8 @@ impl Scene {
         let mut truth = Nominal::at(&place, &Vector3::zeros(), &Matrix3::identity());
         (truth.attitude, truth.velocity) = (attitude(&c_en, 0.0), velocity(&c_en, 0.0));
         let model = model();
-        let mut config = NavConfig::new(spec(), LeverArms::default());
+        let lever_arms = LeverArms { gnss: Body::new(0.0, 0.0, -5.0), ..LeverArms::default() };
+        let mut config = NavConfig::new(spec(), lever_arms);
         let has_steps = matches!(trouble, Trouble::Odometry | Trouble::Misled);
         let odometry = has_steps.then(OdometryModel::default);
         config.camera = Some(CameraAid { delay_std: 0.005, odometry, ..CameraAid::new(model) });
@@ -190,6 +194,36 @@ impl Scene {
     /// By how much the estimate is off, ECEF, m.
     pub(crate) fn off(&self) -> Vector3<f64> {
         self.truth.position - self.filter.nominal().position
+    }
+
+    /// The first range of a receiver: from then on ranges tell the place, and this one next to nothing of it.
+    pub(crate) fn hear_range(&mut self) {
+        let time = Time::from_seconds(self.steps as f64 * STEP);
+        let position = self.truth.position * 4.0;
+        let transmitter = Transmitter { position, velocity: Vector3::zeros() };
+        let value = transmitter.range(&self.truth.position);
+        let range = SatelliteRange {
+            satellite: SatelliteId { constellation: Constellation::Gps, number: 1 },
+            transmitter,
+            offset: Vector3::zeros(),
+            elevation: 1.5,
+            code: Some(Measured { value, variance: 1e8 }),
+            rate: None,
+            phase: None,
+            slow_std: 1.0,
+            by_ionosphere: 1.0,
+            multipath_std: 0.5,
+        };
+        let told = SatelliteRanges {
+            time,
+            clock: Some((0.0, 0.0)),
+            ranges: vec![range],
+            displacement: None,
+            heard: Vec::new(),
+        };
+        let message = Message::Ranges(Arc::new(told));
+        self.filter.apply(&Received { receipt: time, source: Source::Gnss(0), message });
+        self.filter.settle();
     }
 
     /// Sails on for so long, s.
