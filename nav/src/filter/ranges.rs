@@ -13,8 +13,7 @@ use super::satellites::{Slot, are_most};
 use crate::aids::satellite_range::{self, Antenna, Sighted};
 use crate::declaration::Carried;
 use crate::error_state::{
-    ATTITUDE, PHASE_CONSTANTS, PHASE_DRIFT, PHASE_DRIFTS, POSITION, RANGE_ERRORS, REFLECTIONS,
-    Weighed,
+    ATTITUDE, PHASE_CONSTANTS, PHASE_DRIFT, PHASE_DRIFTS, RANGE_ERRORS, REFLECTIONS, Weighed,
 };
 use crate::judge::Aid;
 use crate::receiver_clock;

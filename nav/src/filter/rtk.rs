@@ -16,8 +16,8 @@ use super::ranges::UNKNOWN_PLACE;
 use super::rtk_standing::RtkStanding;
 use crate::aids::gnss_position::{self, PositionFix};
 use crate::error_state::{
-    GNSS_POSITION_ERROR, IONOSPHERE, IONOSPHERE_UNKNOWN, Innovation, OFFSET_UNKNOWN, POSITION,
-    SATELLITES, SEA_LEVEL, SEA_LEVEL_UNKNOWN, SYSTEM_OFFSETS,
+    GNSS_POSITION_ERROR, IONOSPHERE, IONOSPHERE_UNKNOWN, Innovation, OFFSET_UNKNOWN, SATELLITES,
+    SEA_LEVEL, SEA_LEVEL_UNKNOWN, SYSTEM_OFFSETS,
 };
 use crate::judge::Aid;
 use crate::receiver_clock;
