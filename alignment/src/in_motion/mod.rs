@@ -47,6 +47,7 @@ use insd_base::{
 use insd_estimation::Gate;
 use insd_nav::angular_rate::rate_variance;
 use insd_nav::antenna::AntennaMotion;
+use insd_nav::judge::Docket;
 use insd_nav::leap::LeapWatch;
 use insd_nav::{Estimator, Increment, NavConfig, Report};
 use nalgebra::{Matrix2, Rotation3, UnitQuaternion, Vector2, Vector3};
@@ -232,6 +233,11 @@ impl EightState {
     #[must_use]
     pub fn config(&self) -> &NavConfig {
         &self.config
+    }
+
+    /// Goes by what is known of who lies from now on.
+    pub fn take_docket(&mut self, docket: Docket) {
+        self.config = self.config.with_docket(docket);
     }
 
     fn assumed_heading(&self) -> f64 {

@@ -6,8 +6,14 @@
 
 use insd_alignment::EightState;
 use insd_base::units::{DEG, wrap_pi};
-use insd_base::{ExternalReference, Fault, Message, Party, Received, Solution, Time};
-use insd_nav::{Estimator, Increment};
+use insd_base::{
+    ExternalReference, Fault, Message, Party, Received, Solution, SolutionSigma, Time,
+};
+use insd_nav::{Estimator, Increment, Report};
+
+use crate::antennas::as_heading;
+use crate::images::{Images, LEADS, Verdict as Seat};
+use crate::odds::Odds;
 
 /// What nobody has borne out is claimed to be no surer than this, rad.
 const UNCHECKED: f64 = 2.4 * DEG;
@@ -23,7 +29,7 @@ const LEAST: f64 = 1.0 * DEG;
 const PERSISTS: f64 = 5.0;
 
 /// What came of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub(crate) enum Word {
     /// Nothing yet.
     Open,
@@ -31,6 +37,8 @@ pub(crate) enum Word {
     BornOut,
     /// It is not.
     Refuted,
+    /// It is, and the antenna is not where it was told to be, as this finder has it.
+    Elsewhere(Box<EightState>),
 }
 
 /// A finder that hears no heading.
@@ -40,12 +48,20 @@ pub(crate) struct Blind {
     /// Who tells the heading.
     whom: Party,
     differs_since: Option<Time>,
+    /// How much likelier it finds what a receiver says than who hears the heading.
+    odds: Odds,
+    /// Those who hear the heading and take the antenna to sit elsewhere, as likely as they are beside that.
+    images: Images,
+    /// By how much it contradicts the heading while it is as likely that the antenna sits elsewhere, rad.
+    disputed: f64,
 }
 
 impl Blind {
     /// One that knows what a finder knows before it hears a heading.
     pub(crate) fn beside(finder: &EightState, whom: Party) -> Self {
-        Blind { finder: Box::new(finder.clone()), whom, differs_since: None }
+        let finder = Box::new(finder.clone());
+        let (odds, images) = (Odds::default(), Images::default());
+        Blind { finder, whom, differs_since: None, odds, images, disputed: 0.0 }
     }
 
     /// What whoever tells the heading does if it is not so.
@@ -59,15 +75,46 @@ impl Blind {
 
     pub(crate) fn advance(&mut self, increment: &Increment) {
         self.finder.advance(increment);
+        self.images.advance(increment);
     }
 
     /// Hears everything but headings.
-    pub(crate) fn apply(&mut self, received: &Received) {
-        let _ = self.finder.apply(&without_heading(received));
+    pub(crate) fn apply(&mut self, received: &Received) -> Report {
+        self.finder.apply(&without_heading(received))
+    }
+
+    /// Goes on beside a navigator, and those with it who take the antenna to sit elsewhere.
+    pub(crate) fn with_images(self, images: Images) -> Self {
+        Blind { images, ..self }
+    }
+
+    /// Hears everything but headings, and they those as well.
+    pub(crate) fn hear(&mut self, received: &Received) {
+        let own = self.apply(received);
+        self.images.apply(&as_heading(received), &own);
+    }
+
+    /// Notes what it made of a message, `own`, and who hears the heading did.
+    pub(crate) fn compare(&mut self, own: &Report, told: &Report) {
+        self.odds.weigh(&self.finder, own, told);
+    }
+
+    /// How much likelier than who hears the heading it is, as a logarithm.
+    pub(crate) fn odds(&self) -> f64 {
+        self.odds.logarithm
+    }
+
+    /// Who seeks the heading from now on, if whoever tells it lies.
+    pub(crate) fn believed(&self) -> Box<EightState> {
+        let docket = self.finder.config().docket.without(self.fault(), self.finder.time());
+        let mut finder = self.finder.clone();
+        finder.take_docket(docket);
+        finder
     }
 
     /// What it makes of a heading and its 1-sigma, rad.
     pub(crate) fn judge(&mut self, heading: f64, sigma: f64) -> Word {
+        self.disputed = 0.0;
         let (own, own_sigma) = self.finder.heading();
         let off = wrap_pi(heading - own).abs();
         let both = own_sigma.hypot(sigma);
@@ -79,13 +126,38 @@ impl Blind {
         }
         let now = self.finder.time();
         let since = *self.differs_since.get_or_insert(now);
-        if (now - since).as_seconds() >= PERSISTS { Word::Refuted } else { Word::Open }
+        if (now - since).as_seconds() < PERSISTS {
+            return Word::Open;
+        }
+        let word = self.who_is_right();
+        self.disputed = if matches!(word, Word::Open) { off } else { 0.0 };
+        word
+    }
+
+    /// Whether the heading was told wrongly, or where the antenna sits: what is told of either way is the same at first.
+    fn who_is_right(&self) -> Word {
+        match self.images.likeliest(&self.finder) {
+            Some(Seat::Other(_, odds)) if (odds - self.odds()).abs() < LEADS => Word::Open,
+            Some(Seat::Other(finder, odds)) if odds > self.odds() => Word::Elsewhere(finder),
+            Some(Seat::Mirrored) => Word::Open,
+            _ => Word::Refuted,
+        }
+    }
+
+    /// A solution with a heading that nobody has borne out, or which is disputed.
+    pub(crate) fn covered(&self, solution: Solution) -> Solution {
+        let unchecked = unchecked(solution);
+        let sigma = SolutionSigma {
+            heading: unchecked.sigma.heading.max(self.disputed),
+            ..unchecked.sigma
+        };
+        Solution { sigma, ..unchecked }
     }
 }
 
 /// A solution with a heading that nobody has borne out. A ship that makes way goes where she heads, within her leeway: one that does not goes astern, or is
 /// set by a stream, or antennas stand in each other's places, and who cannot tell claims half the angle.
-pub(crate) fn unchecked(solution: Solution) -> Solution {
+fn unchecked(solution: Solution) -> Solution {
     let mut sigma = solution.sigma;
     let way = solution.velocity.0.xy();
     let drift = wrap_pi(way.y.atan2(way.x) - solution.attitude.heading).abs();

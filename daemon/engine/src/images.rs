@@ -8,10 +8,12 @@
 
 use insd_alignment::EightState;
 use insd_base::units::wrap_pi;
-use insd_base::{Received, Rejection, Solution, earth};
+use insd_base::{Received, Solution, earth};
 use insd_nav::config::LeverFound;
-use insd_nav::{AidReport, Estimator, Increment, NavConfig, Outcome, Report};
+use insd_nav::{Estimator, Increment, NavConfig, Report};
 use nalgebra::Vector3;
+
+use crate::odds::Odds;
 
 /// A mast shorter than this, m, tells little by its swing.
 const SHORTEST: f64 = 3.0;
@@ -21,16 +23,11 @@ const UNSURE: f64 = 0.5;
 /// it is not: installers get most lever arms right.
 const OTHER: f64 = 14.0;
 const NOT_OTHER: f64 = -10.0;
-/// By so much it must be likelier than any further one.
-const LEADS: f64 = 4.0;
+/// By so much it must be likelier than any further one, or a heading that was told wrongly.
+pub(crate) const LEADS: f64 = 4.0;
 /// Mean square of the innovations, of which one is expected, up to which it explains them all, and how many are asked for.
 const HONEST: f64 = 1.6;
 const ENOUGH: f64 = 100.0;
-/// Square of an innovation, of which one is expected, beyond which it counts no more.
-const OUTLIER: f64 = 25.0;
-/// On a ship that hardly moves, of which more than this share of the motion that is seen may be noise, nobody is the likelier:
-/// a longer arm makes more of the noise of the gyros.
-const NOISY: f64 = 0.3;
 /// Headings apart by less than so many sigmas are the same.
 const ALIKE: f64 = 3.0;
 
@@ -41,20 +38,17 @@ pub(crate) enum Verdict {
     Open,
     /// The one that was told.
     AsTold,
-    /// Another.
-    Other(Box<EightState>),
+    /// Another, and how much likelier that is than the one that was told.
+    Other(Box<EightState>, f64),
     /// One far below the IMU, said to be above it: no sign is got wrong like that, but an IMU that is mirrored tells it.
     Mirrored,
 }
 
-/// A finder with another lever arm, and how much likelier that is, as a logarithm.
+/// A finder with another lever arm, and how much likelier that is.
 #[derive(Clone, Debug)]
 struct Image {
     finder: Box<EightState>,
-    odds: f64,
-    /// Sum of the normalised squares of its innovations, and how many there were.
-    misfit: f64,
-    heard: f64,
+    odds: Odds,
 }
 
 impl Image {
@@ -66,7 +60,7 @@ impl Image {
 
     /// Whether it explains all that the receiver says.
     fn fits(&self) -> bool {
-        self.heard > ENOUGH && self.misfit < HONEST * self.heard
+        self.odds.heard > ENOUGH && self.odds.misfit < HONEST * self.odds.heard
     }
 
     fn knows_nothing(&self) -> bool {
@@ -91,7 +85,7 @@ impl Images {
         let image = |found: LeverFound| {
             let mut config = *config;
             config.gnss.lever_found = Some(found);
-            Image { finder: Box::new(begin(&config)), odds: 0.0, misfit: 0.0, heard: 0.0 }
+            Image { finder: Box::new(begin(&config)), odds: Odds::default() }
         };
         Images(others.filter(|(_, matters)| *matters).map(|(found, _)| image(found)).collect())
     }
@@ -102,15 +96,9 @@ impl Images {
 
     /// Hear what the finder with the lever arm that was told heard, and what that made of it.
     pub(crate) fn apply(&mut self, received: &Received, told: &Report) {
-        let told = Likelihood::of(told);
         for image in &mut self.0 {
             let own = image.finder.apply(received);
-            if image.finder.noise_share() < NOISY {
-                let own = Likelihood::of(&own);
-                image.odds += own.logarithm - told.logarithm;
-                image.misfit += own.misfit;
-                image.heard += own.heard;
-            }
+            image.odds.weigh(&image.finder, &own, told);
         }
         // of another antenna nothing was found
         self.0.retain(|image| image.finder.config().gnss.lever_found.is_some());
@@ -119,26 +107,32 @@ impl Images {
     /// Which lever arm is right, beside the finder with the one that was told.
     pub(crate) fn judge(&self, told: &EightState) -> Verdict {
         let mut ranked: Vec<&Image> = self.0.iter().collect();
-        ranked.sort_by(|a, b| b.odds.total_cmp(&a.odds));
-        let next = ranked.get(1).map_or(f64::NEG_INFINITY, |image| image.odds);
+        ranked.sort_by(|a, b| b.odds.logarithm.total_cmp(&a.odds.logarithm));
+        let next = ranked.get(1).map_or(f64::NEG_INFINITY, |image| image.odds.logarithm);
         match ranked.first() {
-            Some(best) if best.odds > OTHER.max(next + LEADS) => self.verdict(best, told),
+            Some(best) if best.odds.logarithm > OTHER.max(next + LEADS) => self.verdict(best, told),
             _ if self.open(told).next().is_some() => Verdict::Open,
             _ => Verdict::AsTold,
         }
+    }
+
+    /// Who is the likeliest of them, and how likely, beside the finder with the lever arm that was told.
+    pub(crate) fn likeliest(&self, told: &EightState) -> Option<Verdict> {
+        let best = self.0.iter().max_by(|a, b| a.odds.logarithm.total_cmp(&b.odds.logarithm))?;
+        Some(self.verdict(best, told))
     }
 
     /// What follows if one is likelier than the lever arm that was told. An antenna far below the IMU is none, but it may be
     /// likelier than one that is wrong in another way: then nothing is known of it.
     fn verdict(&self, best: &Image, told: &EightState) -> Verdict {
         if !best.is_below(told) {
-            return Verdict::Other(best.finder.clone());
+            return Verdict::Other(best.finder.clone(), best.odds.logarithm);
         }
         if best.fits() {
             return Verdict::Mirrored;
         }
         let vague = self.0.iter().find(|image| image.knows_nothing()).unwrap_or(best);
-        Verdict::Other(vague.finder.clone())
+        Verdict::Other(vague.finder.clone(), vague.odds.logarithm)
     }
 
     /// Whether only a mirrored IMU explains what the receiver says.
@@ -153,7 +147,7 @@ impl Images {
         self.0.iter().filter(move |image| {
             let (own, own_sigma) = image.finder.heading();
             let is_alike = wrap_pi(own - heading).abs() < ALIKE * own_sigma.hypot(sigma);
-            image.odds > NOT_OTHER && !(is_alike && is_known && image.finder.finished())
+            image.odds.logarithm > NOT_OTHER && !(is_alike && is_known && image.finder.finished())
         })
     }
 
@@ -167,30 +161,5 @@ impl Images {
             sigma.heading += wrap_pi(own.attitude.heading - solution.attitude.heading).abs();
         }
         Solution { sigma, ..solution }
-    }
-}
-
-/// How likely a finder finds what a receiver says.
-#[derive(Clone, Copy, Debug, Default)]
-struct Likelihood {
-    logarithm: f64,
-    /// Sum of the normalised squares of the innovations, and how many there were.
-    misfit: f64,
-    heard: f64,
-}
-
-impl Likelihood {
-    fn of(report: &Report) -> Self {
-        let was_weighed = |aid: &&AidReport| {
-            let passed = [Outcome::Accepted, Outcome::Rejected(Rejection::ChiSquare)];
-            aid.aid.starts_with("gnss") && passed.contains(&aid.outcome)
-        };
-        let weighed = report.aids.iter().filter(was_weighed);
-        let horizontal = weighed.flat_map(|aid| aid.innovation.iter().take(2));
-        horizontal.fold(Likelihood::default(), |sum, (z, sigma)| {
-            let square = (z / sigma).powi(2).min(OUTLIER);
-            let logarithm = sum.logarithm - 0.5 * square - sigma.ln();
-            Likelihood { logarithm, misfit: sum.misfit + square, heard: sum.heard + 1.0 }
-        })
     }
 }

@@ -25,6 +25,7 @@ mod ledger;
 mod lessons;
 mod looks;
 mod mode;
+mod odds;
 mod output;
 mod past;
 mod receivers;

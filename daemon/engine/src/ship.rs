@@ -16,9 +16,9 @@ use insd_nav::judge::Docket;
 use insd_nav::{Estimator, Increment, NavConfig, Navigator, Report};
 
 use crate::antennas::as_heading;
-use crate::blind::{Blind, Word, tells_heading, unchecked, without_heading};
+use crate::blind::{Blind, Word, tells_heading, without_heading};
 use crate::heir::Heir;
-use crate::images::{Images, Verdict as Seat};
+use crate::images::{Images, LEADS, Verdict as Seat};
 use crate::trial::{Misled, Trial};
 
 /// Heading sigma below which a ship can be steered by it for the first time.
@@ -254,9 +254,8 @@ impl Ship {
             _ => solution,
         };
         let solution = match self {
-            Ship::InMotion { blind: Some(_), .. } | Ship::Navigating { blind: Some(_), .. } => {
-                unchecked(solution)
-            }
+            Ship::InMotion { blind: Some(blind), .. }
+            | Ship::Navigating { blind: Some(blind), .. } => blind.covered(solution),
             _ => solution,
         };
         let aligned = heading_target(ACCURACY, solution.position.latitude);
@@ -274,14 +273,20 @@ impl Ship {
     /// Takes the antenna to sit where it must; tells whether that is known as far as the heading goes.
     fn knows_antenna(&mut self) -> bool {
         let Ship::InMotion { finder, images, blind, .. } = self else { return true };
-        match images.judge(finder) {
-            Seat::Open | Seat::Mirrored => false,
-            Seat::AsTold => true,
-            Seat::Other(other) => {
-                (*finder, *images, *blind) = (other, Images::default(), None);
-                true
-            }
-        }
+        let (other, odds) = match images.judge(finder) {
+            Seat::Open | Seat::Mirrored => return false,
+            Seat::AsTold => return true,
+            Seat::Other(other, odds) => (other, odds),
+        };
+        // a heading that was told wrongly puts an antenna elsewhere, too
+        let is_told_wrongly = blind.as_ref().map_or(f64::NEG_INFINITY, Blind::odds) - odds;
+        *finder = match blind {
+            _ if is_told_wrongly.abs() < LEADS => return false,
+            Some(blind) if is_told_wrongly > 0.0 => blind.believed(),
+            _ => other,
+        };
+        (*images, *blind) = (Images::default(), None);
+        true
     }
 
     /// Makes what has found the heading the navigator, so that nothing steps.
@@ -302,7 +307,9 @@ impl Ship {
             let is_on_trial = matches!(self, Ship::InMotion { .. });
             let trial = is_on_trial.then(|| Trial::of(navigator.filter()));
             let blind = match self {
-                Ship::InMotion { blind, .. } => blind.take(),
+                Ship::InMotion { blind, images, .. } => {
+                    blind.take().map(|blind| blind.with_images(std::mem::take(images)))
+                }
                 _ => None,
             };
             navigator.filter_mut().doubt_heading(blind.is_some());
@@ -330,32 +337,40 @@ impl Ship {
     /// Does as whoever is blind to the heading reference says: nothing more while it bears out, and the heading that
     /// it found once it refutes.
     fn hear_blind(&mut self) {
-        let Ship::Navigating { navigator, aligned, trial, blind: own, .. } = self else { return };
+        let Ship::Navigating { navigator, blind: own, .. } = self else { return };
         let Some(blind) = own else { return };
         let solution = navigator.filter().is_settled().then(|| navigator.filter().solution());
         let word = solution.map(|it| blind.judge(it.attitude.heading, it.sigma.heading));
+        let docket = navigator.filter().docket();
         match word {
             Some(Word::BornOut) => {
                 navigator.filter_mut().doubt_heading(false);
                 *own = None;
             }
-            Some(Word::Refuted) if navigator.filter().docket().imu_doubted_since().is_some() => {
+            Some(Word::Refuted) if docket.imu_doubted_since().is_some() => {
                 navigator.filter_mut().condemn_imu();
             }
             Some(Word::Refuted) => {
-                let finder = blind.finder();
-                let Some(initial) = finder.initial_state() else { return };
-                let docket = navigator.filter().docket().without(blind.fault(), finder.time());
-                let config = finder.config().with_docket(docket);
-                let past = navigator.filter().past();
-                **navigator = Navigator::new(&config, &initial.at_berth(navigator.berth()));
-                navigator.begin_navigation();
-                navigator.filter_mut().follow_past(past);
-                *trial = Some(Trial::of(navigator.filter()));
-                (*aligned, *own) = (false, None);
+                let finder = blind.finder().clone();
+                let docket = docket.without(blind.fault(), finder.time());
+                self.begin_with(&finder, docket);
             }
+            Some(Word::Elsewhere(finder)) => self.begin_with(&finder, docket),
             _ => {}
         }
+    }
+
+    /// Navigates by what a finder has found instead, on trial.
+    fn begin_with(&mut self, finder: &EightState, docket: Docket) {
+        let Ship::Navigating { navigator, aligned, trial, blind, .. } = self else { return };
+        let Some(initial) = finder.initial_state() else { return };
+        let past = navigator.filter().past();
+        let config = finder.config().with_docket(docket);
+        **navigator = Navigator::new(&config, &initial.at_berth(navigator.berth()));
+        navigator.begin_navigation();
+        navigator.filter_mut().follow_past(past);
+        *trial = Some(Trial::of(navigator.filter()));
+        (*aligned, *blind) = (false, None);
     }
 
     fn inner(&self) -> &dyn Solver {
@@ -439,9 +454,12 @@ impl Estimator for Ship {
                 if blind.is_none() && tells_heading(received) && !is_left_out {
                     *blind = Some(Blind::beside(finder, whom));
                 }
-                blind.iter_mut().for_each(|blind| blind.apply(received));
                 let heard = if is_left_out { without_heading(received) } else { received.clone() };
                 let report = finder.apply(&heard);
+                for blind in blind.iter_mut() {
+                    let own = blind.apply(received);
+                    blind.compare(&own, &report);
+                }
                 images.apply(&heard, &report);
                 self.hand_over();
                 report
@@ -449,7 +467,7 @@ impl Estimator for Ship {
             Ship::Navigating { navigator, aligned, blind, .. } => {
                 let report = navigator.apply(received);
                 *aligned = *aligned || is_steerable(navigator);
-                blind.iter_mut().for_each(|blind| blind.apply(received));
+                blind.iter_mut().for_each(|blind| blind.hear(received));
                 self.hear_blind();
                 report
             }

@@ -3,9 +3,13 @@
 #![allow(clippy::unwrap_used)] // helpers of tests are not seen as tests
 
 use insd_base::units::{DEG, wrap_pi};
-use insd_base::{Event, Finding, Integrity, Mode, Party, Solution, Truth, earth};
+use insd_base::{Event, Finding, Integrity, Mode, Party, Solution, Time, Truth, Voyage, earth};
 use insd_engine::{Engine, EngineConfig, Output};
 use insd_simulator::lies::{Grade, Suite, case, catalogue};
+use nalgebra::Vector3;
+
+/// Before the ships of these cases leave their berth, s.
+const MINUTES_ALONGSIDE: f64 = 330.0;
 
 /// A second of a voyage: what she says, and what is true.
 struct Second {
@@ -32,14 +36,24 @@ impl Second {
     }
 }
 
-/// Sails a case; also tells whether the IMU was found to be worse than its data sheet.
-fn sailed(name: &str, grade: Grade, suite: Suite, seed: u64) -> (Vec<Second>, bool) {
+/// The voyage of a case.
+fn voyage(name: &str, grade: Grade, suite: Suite, seed: u64) -> Voyage {
     let kind = catalogue().iter().find(|kind| kind.name == name).unwrap();
     let case = case(kind, grade, suite, seed);
-    let voyage = case.spoilt(&case.honest().unwrap());
+    case.spoilt(&case.honest().unwrap())
+}
+
+/// Sails a case; also tells whether the IMU was found to be worse than its data sheet.
+fn sailed(name: &str, grade: Grade, suite: Suite, seed: u64) -> (Vec<Second>, bool) {
+    sail(&voyage(name, grade, suite, seed), f64::INFINITY)
+}
+
+/// The same of a voyage, for so many seconds.
+fn sail(voyage: &Voyage, seconds: f64) -> (Vec<Second>, bool) {
+    let until = Time::from_seconds(seconds.min(1e6));
     let mut engine = Engine::new(EngineConfig::for_voyage(&voyage.header, 1.0));
     let (mut seconds, mut is_worse) = (Vec::new(), false);
-    for received in voyage.received() {
+    for received in voyage.received().into_iter().take_while(|received| received.receipt < until) {
         engine.handle(&received);
         while let Some(output) = engine.poll_output() {
             match output {
@@ -229,4 +243,30 @@ fn a_receiver_that_creeps_away_beside_a_fine_imu_alone_stays_in_dispute_and_is_c
     assert!(!is_worse);
     let last = seconds.last().unwrap();
     assert!(last.off() > 1000.0 && level(last) > last.off());
+}
+
+/// Found with seed 501: an antenna elsewhere explained what the receiver said beside such a heading, and nobody asked any more whether that was told wrongly.
+#[test]
+fn a_compass_that_was_set_wrongly_beside_an_antenna_where_it_was_told_to_be_is_named() {
+    let off_at_the_start = "compass off at the start";
+    let (seconds, _) =
+        sail(&voyage(off_at_the_start, Grade::Mems, Suite::Both, 501), MINUTES_ALONGSIDE);
+    assert!(seconds.iter().all(|second| second.heading_off() < 5.0 * second.said.sigma.heading));
+    let last = &seconds.last().unwrap().said;
+    assert_eq!(last.judgement.excluded.iter().collect::<Vec<_>>(), [Party::Heading]);
+}
+
+/// The swing of a mast that points down is that of one that points up on a ship that is turned round.
+#[test]
+fn an_honest_compass_is_not_named_for_an_antenna_that_is_told_to_be_where_it_is_not() {
+    for sign in [Vector3::new(1.0, 1.0, -1.0), Vector3::repeat(-1.0)] {
+        let mut voyage = voyage("compass wander", Grade::Mems, Suite::Compass, 501);
+        voyage.header.lever_arms.gnss.0.component_mul_assign(&sign);
+        let (seconds, _) = sail(&voyage, MINUTES_ALONGSIDE);
+        let honest = |second: &Second| second.heading_off() < 5.0 * second.said.sigma.heading;
+        assert!(seconds.iter().all(honest));
+        let last = seconds.last().unwrap();
+        assert!(last.said.judgement.excluded.is_empty() && last.off() < 3.0, "{} m", last.off());
+        assert!(last.heading_off() < DEG && last.said.sigma.heading < DEG);
+    }
 }

@@ -2,11 +2,12 @@
 //!
 //! `installation [SEEDS] [VOYAGE] [MISTAKE]`: each mistake of the table, or those whose name begins so, on the
 //! shipped voyages, beside the same voyages with the right configuration. Errors are judged from fifteen
-//! minutes under way. `SEED=3` in the environment takes one of the seeds.
+//! minutes under way. `SEED=3` in the environment takes one of the seeds, `COMPASS=1` has an honest compass aboard.
 
 mod mistakes;
 mod outcome;
 
+use insd_simulator::lies::compass;
 use insd_simulator::{Override, Scenario, shipped, simulate};
 use rayon::prelude::*;
 
@@ -50,7 +51,15 @@ fn scenario(text: &str, mistake: &Mistake, until: f64) -> Result<Scenario, Strin
 
 /// All seeds of one mistake.
 fn campaign(scenario: &Scenario, mistake: &Mistake, seeds: u64, from: f64) -> Outcome {
-    let one = |seed: u64| sail(simulate(scenario, seed), mistake, from);
+    let has_compass = std::env::var_os("COMPASS").is_some();
+    let one = |seed: u64| {
+        let mut voyage = simulate(scenario, seed);
+        if has_compass {
+            voyage.reference.extend(compass(&voyage, seed));
+            voyage.reference.sort_by_key(|told| told.message.time);
+        }
+        sail(voyage, mistake, from)
+    };
     let seed: Option<u64> = std::env::var("SEED").ok().and_then(|text| text.parse().ok());
     let seeds = seed.map_or(1..=seeds, |seed| seed..=seed);
     let outcomes: Vec<Outcome> = seeds.into_par_iter().map(one).collect();

@@ -161,7 +161,9 @@ impl Case {
     }
 }
 
-fn compass(voyage: &Voyage, seed: u64) -> Vec<Stamped<ExternalReference>> {
+/// What an honest compass tells on a voyage, once a second.
+#[must_use]
+pub fn compass(voyage: &Voyage, seed: u64) -> Vec<Stamped<ExternalReference>> {
     let mut rng = stream(seed, Purpose::Compass);
     let rows = voyage.truth.iter().filter_map(|truth| Some((truth.time, truth.attitude?)));
     let told = rows.map(|(time, attitude)| ExternalReference {

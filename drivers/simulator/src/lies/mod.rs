@@ -19,7 +19,7 @@ use rand_pcg::Pcg64;
 
 use crate::random::{Purpose, stream};
 
-pub use case::{Case, case};
+pub use case::{Case, case, compass};
 pub use compass::CompassLie;
 pub use gnss::GnssLie;
 pub use imu::ImuLie;
