@@ -190,7 +190,7 @@ impl Judge {
     }
 
     /// Whether a fault leaves nothing much unexplained.
-    fn explains(&self, charge: &Charge) -> bool {
+    pub(super) fn explains(&self, charge: &Charge) -> bool {
         self.left(charge).is_some_and(|left| left < UNEXPLAINED)
     }
 

@@ -51,9 +51,13 @@ impl Judge {
             self.condemn_imu(now);
             return self.disbelieve_imu(now);
         }
+        if let Some(shapeless) = self.without_size(charge) {
+            let mended = Some(self.alternative(&shapeless));
+            return Ruling { mended, ..self.leave_out(charge, now) };
+        }
+        let left = self.left(charge).unwrap_or(1.0);
         let mut mended = self.alternative(charge);
         // what is not explained has gone into the estimate
-        let left = self.left(charge).unwrap_or(1.0);
         if charge.kind != Kind::Shapeless && left > 1.0 {
             for block in [POSITION, VELOCITY] {
                 let own = block.covariance(&mended.covariance).trace().max(0.0) / 3.0;
@@ -74,6 +78,14 @@ impl Judge {
                 .renew(&mut mended.covariance, &GNSS_DELAY.covariance(&self.shadow.covariance));
         }
         Ruling { mended: Some(mended), ..self.leave_out(charge, now) }
+    }
+
+    /// What stands for a lie of which a shape has the name and not the size, as it leaves much unexplained: whoever has not believed him, if
+    /// that explains it.
+    fn without_size(&self, charge: &Charge) -> Option<Charge> {
+        let shapeless = Charge::shapeless(charge.party(), 0.0);
+        let is_no_shape = charge.kind == Kind::Shapeless || self.explains(charge);
+        (!is_no_shape && self.explains(&shapeless)).then_some(shapeless)
     }
 
     /// An IMU cannot be left out: where a fault of a shape explains it all the estimate is mended, and it is believed

@@ -45,19 +45,49 @@ impl LogWatch {
 
     /// What the log gets wrong, if it is much.
     pub(super) fn finding(&self) -> Option<Finding> {
-        let factor = self.together / self.predicted;
-        let explained = self.together.norm_sqr() / (self.predicted * self.measured);
-        let is_wrong = (factor.norm() - 1.0).abs() > SCALE || factor.arg().abs() > TURN;
-        if self.count < FEWEST || explained.is_nan() || explained < EXPLAINED || !is_wrong {
-            return None;
-        }
+        let (factor, explained) = self.factor().filter(|(factor, _)| is_wrong(factor))?;
         let scatter = ((1.0 - explained) / self.count.min(SPAN)).max(0.0).sqrt() * factor.norm();
         let scale = Estimate { value: factor.norm(), sigma: scatter };
         Some(Finding::LogMounting { scale, turn: factor.arg() })
     }
 
+    /// Scale and turn in one, and the share that they explain, where that is most of what the log says.
+    fn factor(&self) -> Option<(Complex<f64>, f64)> {
+        let factor = self.together / self.predicted;
+        let explained = self.together.norm_sqr() / (self.predicted * self.measured);
+        (self.count >= FEWEST && explained >= EXPLAINED).then_some((factor, explained))
+    }
+
     /// Whether she goes the way her bow points, or the other way, by log and solution alike.
     pub(super) fn agrees(&self) -> bool {
-        self.count >= FEWEST && self.finding().is_none()
+        self.factor().is_some_and(|(factor, _)| !is_wrong(&factor))
+    }
+}
+
+/// Whether a scale or a turn is beyond what current and leeway do.
+fn is_wrong(factor: &Complex<f64>) -> bool {
+    (factor.norm() - 1.0).abs() > SCALE || factor.arg().abs() > TURN
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use insd_base::{LogReference, Time};
+
+    #[test]
+    fn a_log_that_says_otherwise_now_than_before_agrees_no_more() {
+        let mut watch = LogWatch::default();
+        let log = LogVelocity {
+            time: Time::START,
+            u: Some(6.0),
+            v: Some(0.0),
+            w: None,
+            std: None,
+            reference: LogReference::Bottom,
+        };
+        (0..900).for_each(|_| watch.hear(&log, &Vector3::new(6.1, 0.1, 0.0)));
+        assert!(watch.agrees() && watch.finding().is_none());
+        (0..60).for_each(|_| watch.hear(&log, &Vector3::new(0.1, 6.1, 0.0)));
+        assert!(!watch.agrees() && watch.finding().is_none());
     }
 }
