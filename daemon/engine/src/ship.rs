@@ -279,10 +279,10 @@ impl Ship {
             Seat::Other(other, odds) => (other, odds),
         };
         // a heading that was told wrongly puts an antenna elsewhere, too
-        let is_told_wrongly = blind.as_ref().map_or(f64::NEG_INFINITY, Blind::odds) - odds;
+        let lead = blind.as_ref().map_or(f64::NEG_INFINITY, Blind::odds) - odds;
         *finder = match blind {
-            _ if is_told_wrongly.abs() < LEADS => return false,
-            Some(blind) if is_told_wrongly > 0.0 => blind.believed(),
+            _ if lead.abs() < LEADS => return false,
+            Some(blind) if lead > 0.0 => blind.believed(),
             _ => other,
         };
         (*images, *blind) = (Images::default(), None);
