@@ -13,7 +13,7 @@ use insd_nav::{Estimator, Increment, Report};
 
 use crate::antennas::as_heading;
 use crate::images::{Images, LEADS, Verdict as Seat};
-use crate::odds::Odds;
+use crate::odds::{Likelihood, Odds};
 
 /// What nobody has borne out is claimed to be no surer than this, rad.
 const UNCHECKED: f64 = 2.4 * DEG;
@@ -96,7 +96,7 @@ impl Blind {
 
     /// Notes what it made of a message, `own`, and who hears the heading did.
     pub(crate) fn compare(&mut self, own: &Report, told: &Report) {
-        self.odds.weigh(&self.finder, own, told);
+        self.odds.weigh(&self.finder, own, &Likelihood::of(told));
     }
 
     /// How much likelier than who hears the heading it is, as a logarithm.

@@ -13,7 +13,7 @@ use insd_nav::config::LeverFound;
 use insd_nav::{Estimator, Increment, NavConfig, Report};
 use nalgebra::Vector3;
 
-use crate::odds::Odds;
+use crate::odds::{Likelihood, Odds};
 
 /// A mast shorter than this, m, tells little by its swing.
 const SHORTEST: f64 = 3.0;
@@ -96,9 +96,10 @@ impl Images {
 
     /// Hear what the finder with the lever arm that was told heard, and what that made of it.
     pub(crate) fn apply(&mut self, received: &Received, told: &Report) {
+        let told = Likelihood::of(told);
         for image in &mut self.0 {
             let own = image.finder.apply(received);
-            image.odds.weigh(&image.finder, &own, told);
+            image.odds.weigh(&image.finder, &own, &told);
         }
         // of another antenna nothing was found
         self.0.retain(|image| image.finder.config().gnss.lever_found.is_some());

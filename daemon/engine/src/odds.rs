@@ -21,10 +21,10 @@ pub(crate) struct Odds {
 }
 
 impl Odds {
-    /// Enters what a finder made of a message, `own`, beside what another did.
-    pub(crate) fn weigh(&mut self, finder: &EightState, own: &Report, other: &Report) {
+    /// Enters what a finder made of a message, `own`, beside how likely another finds it.
+    pub(crate) fn weigh(&mut self, finder: &EightState, own: &Report, other: &Likelihood) {
         if finder.noise_share() < NOISY {
-            let (own, other) = (Likelihood::of(own), Likelihood::of(other));
+            let own = Likelihood::of(own);
             self.logarithm += own.logarithm - other.logarithm;
             self.misfit += own.misfit;
             self.heard += own.heard;
@@ -34,14 +34,15 @@ impl Odds {
 
 /// How likely a finder finds what a receiver says.
 #[derive(Clone, Copy, Debug, Default)]
-struct Likelihood {
+pub(crate) struct Likelihood {
     logarithm: f64,
     misfit: f64,
     heard: f64,
 }
 
 impl Likelihood {
-    fn of(report: &Report) -> Self {
+    /// By what a finder made of a message.
+    pub(crate) fn of(report: &Report) -> Self {
         let was_weighed = |aid: &&AidReport| {
             let passed = [Outcome::Accepted, Outcome::Rejected(Rejection::ChiSquare)];
             aid.aid.starts_with("gnss") && passed.contains(&aid.outcome)
