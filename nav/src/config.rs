@@ -22,6 +22,9 @@ pub const COARSE_GYRO: f64 = 1.0 * DEG_PER_HOUR;
 /// A berth taken from a chart is off by so much, 1-sigma, m.
 const MISPLACED: f64 = 10.0;
 
+/// A lever arm of which so little is known, 1-sigma, m, was given up.
+const VAGUE: f64 = 2.0;
+
 /// A lever arm that was found to be otherwise than configured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeverFound {
@@ -452,11 +455,11 @@ impl NavConfig {
         is_other
     }
 
-    /// By how much a place that a reference names may be off beyond what it says, 1-sigma, m: where the lever arm was given up,
-    /// as the receiver contradicted it, the berth may as well be elsewhere than it was said to be.
+    /// By how much a place that a reference names may be off beyond what it says, 1-sigma, m: where the level components of the
+    /// lever arm were given up, as the receiver contradicted them, the berth may as well be elsewhere than it was said to be.
     #[must_use]
     pub fn berth_doubt(&self) -> f64 {
-        if self.gnss.lever_found == Some(LeverFound::UNKNOWN) { MISPLACED } else { 0.0 }
+        if self.gnss.lever_found.is_some_and(|found| found.std > VAGUE) { MISPLACED } else { 0.0 }
     }
 
     /// Whether the antenna may be anywhere on board.

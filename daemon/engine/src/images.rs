@@ -31,6 +31,13 @@ const ENOUGH: f64 = 100.0;
 /// Headings apart by less than so many sigmas are the same.
 const ALIKE: f64 = 3.0;
 
+/// Whether both know the heading, and it is the same.
+fn are_alike(one: &EightState, other: &EightState) -> bool {
+    let ((a, a_sigma), (b, b_sigma)) = (one.heading(), other.heading());
+    let is_same = wrap_pi(a - b).abs() < ALIKE * a_sigma.hypot(b_sigma);
+    is_same && one.finished() && other.finished()
+}
+
 /// Which lever arm it is, as far as the heading goes.
 #[derive(Clone, Debug)]
 pub(crate) enum Verdict {
@@ -63,8 +70,18 @@ impl Image {
         self.odds.heard > ENOUGH && self.odds.misfit < HONEST * self.odds.heard
     }
 
+    /// 1-sigma of each component of its lever arm, m.
+    fn unsure(&self) -> f64 {
+        self.finder.config().gnss.lever_found.map_or(0.0, |found| found.std)
+    }
+
     fn knows_nothing(&self) -> bool {
         self.finder.config().gnss.lever_found == Some(LeverFound::UNKNOWN)
+    }
+
+    /// Whether both know the heading, and it is the same; an image is always like itself.
+    fn is_alike(&self, other: &Image) -> bool {
+        std::ptr::eq(self, other) || are_alike(&self.finder, &other.finder)
     }
 }
 
@@ -73,21 +90,30 @@ impl Image {
 pub(crate) struct Images(Vec<Image>);
 
 impl Images {
-    /// Those that begin as a finder with this configuration does; none where it matters little where the antenna sits.
+    /// Those that begin as a finder with this configuration does; none where it matters little where the antenna sits. Alongside
+    /// only the height swings, and whether the level components have the wrong signs too nobody can tell: so two know but the height, as it was told or mirrored.
     pub(crate) fn beside(config: &NavConfig, begin: impl Fn(&NavConfig) -> EightState) -> Self {
         let arm = config.gnss_lever();
         if config.gnss.lever_found.is_some() || config.is_gnss_lever_unknown() {
             return Images::default();
         }
+        let (is_tall, level) = (arm.z.abs() > SHORTEST, arm.xy().norm());
         let mirrored = LeverFound { arm: Vector3::new(arm.x, arm.y, -arm.z), std: UNSURE };
-        let matters = [arm.z.abs() > SHORTEST, arm.norm() > SHORTEST];
-        let others = [mirrored, LeverFound::UNKNOWN].into_iter().zip(matters);
+        let of_height = |z: f64| LeverFound { arm: Vector3::new(0.0, 0.0, z), std: level };
+        let is_long = is_tall && level > SHORTEST;
+        let others = [
+            (mirrored, is_tall),
+            (of_height(-arm.z), is_long),
+            (of_height(arm.z), is_long),
+            (LeverFound::UNKNOWN, arm.norm() > SHORTEST),
+        ];
         let image = |found: LeverFound| {
             let mut config = *config;
             config.gnss.lever_found = Some(found);
             Image { finder: Box::new(begin(&config)), odds: Odds::default() }
         };
-        Images(others.filter(|(_, matters)| *matters).map(|(found, _)| image(found)).collect())
+        let that_matter = others.into_iter().filter(|(_, matters)| *matters);
+        Images(that_matter.map(|(found, _)| image(found)).collect())
     }
 
     pub(crate) fn advance(&mut self, increment: &Increment) {
@@ -107,20 +133,29 @@ impl Images {
 
     /// Which lever arm is right, beside the finder with the one that was told.
     pub(crate) fn judge(&self, told: &EightState) -> Verdict {
-        let mut ranked: Vec<&Image> = self.0.iter().collect();
-        ranked.sort_by(|a, b| b.odds.logarithm.total_cmp(&a.odds.logarithm));
-        let next = ranked.get(1).map_or(f64::NEG_INFINITY, |image| image.odds.logarithm);
-        match ranked.first() {
+        let best = self.best();
+        let rivals = self.0.iter().filter(|image| best.is_some_and(|best| !image.is_alike(best)));
+        let next = rivals.map(|image| image.odds.logarithm).fold(f64::NEG_INFINITY, f64::max);
+        match best {
             Some(best) if best.odds.logarithm > OTHER.max(next + LEADS) => self.verdict(best, told),
             _ if self.open(told).next().is_some() => Verdict::Open,
             _ => Verdict::AsTold,
         }
     }
 
+    /// The likeliest; of those that find the same heading and are nearly as likely the one that claims least.
+    fn best(&self) -> Option<&Image> {
+        let likeliest =
+            self.0.iter().max_by(|a, b| a.odds.logarithm.total_cmp(&b.odds.logarithm))?;
+        let equals = self.0.iter().filter(|image| {
+            image.is_alike(likeliest) && image.odds.logarithm > likeliest.odds.logarithm - LEADS
+        });
+        equals.max_by(|a, b| a.unsure().total_cmp(&b.unsure()))
+    }
+
     /// Who is the likeliest of them, and how likely, beside the finder with the lever arm that was told.
     pub(crate) fn likeliest(&self, told: &EightState) -> Option<Verdict> {
-        let best = self.0.iter().max_by(|a, b| a.odds.logarithm.total_cmp(&b.odds.logarithm))?;
-        Some(self.verdict(best, told))
+        Some(self.verdict(self.best()?, told))
     }
 
     /// What follows if one is likelier than the lever arm that was told. An antenna far below the IMU is none, but it may be
@@ -143,13 +178,9 @@ impl Images {
 
     /// Those that may be right and find another heading.
     fn open(&self, told: &EightState) -> impl Iterator<Item = &Image> {
-        let (heading, sigma) = told.heading();
-        let is_known = told.finished();
-        self.0.iter().filter(move |image| {
-            let (own, own_sigma) = image.finder.heading();
-            let is_alike = wrap_pi(own - heading).abs() < ALIKE * own_sigma.hypot(sigma);
-            image.odds.logarithm > NOT_OTHER && !(is_alike && is_known && image.finder.finished())
-        })
+        self.0
+            .iter()
+            .filter(|image| image.odds.logarithm > NOT_OTHER && !are_alike(&image.finder, told))
     }
 
     /// A solution of the finder with the lever arm that was told that covers those that may be right.

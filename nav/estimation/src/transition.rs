@@ -5,7 +5,6 @@ use nalgebra::{DMatrix, SMatrix, Vector3};
 use crate::covariance::Covariance;
 use crate::effects::Effects;
 use crate::errors::Errors;
-use crate::sums::column_mut;
 
 /// What a stretch of time does to the errors: x <- Phi x. The first N of them go by a matrix and are fed by others;
 /// of the others each goes on by itself, and some decay.
@@ -55,9 +54,9 @@ impl<const N: usize> Transition<'_, N> {
         let corner = self.corner(matrix);
         let states = matrix.nrows();
         let (head, rest) = matrix.as_mut_slice().split_at_mut(N * states);
-        for (state, own) in rest.chunks_exact_mut(states.max(1)).enumerate() {
-            let row = head[N + state..].iter().step_by(states);
-            own.iter_mut().zip(row).take(N).for_each(|(to, from)| *to = *from);
+        for (at, column) in head.chunks_exact(states.max(1)).enumerate() {
+            let rows = rest.chunks_exact_mut(states.max(1)).zip(&column[N..]);
+            rows.for_each(|(row, value)| row[at] = *value);
         }
         matrix.fixed_view_mut::<N, N>(0, 0).copy_from(&corner);
         self.relax(matrix);
@@ -81,25 +80,20 @@ impl<const N: usize> Transition<'_, N> {
         self.carry_rows(rows, values);
         for decay in self.decays {
             let own = decay.start * rows..(decay.start + decay.width) * rows;
-            values[own].iter_mut().for_each(|value| *value *= decay.left);
+            scale(&mut values[own], decay.left);
         }
     }
 
     /// What decays does so in rows and columns, and stays as wide as it is.
     fn relax(&self, p: &mut DMatrix<f64>) {
         let states = p.nrows().max(1);
-        for own in p.as_mut_slice().chunks_exact_mut(states) {
-            for decay in self.decays {
-                let rows = &mut own[decay.start..decay.start + decay.width];
-                rows.iter_mut().for_each(|value| *value *= decay.left);
-            }
-        }
         for decay in self.decays {
+            let own = decay.start..decay.start + decay.width;
+            let rows = p.as_mut_slice().chunks_exact_mut(states);
+            rows.for_each(|column| scale(&mut column[own.clone()], decay.left));
+            scale(&mut p.as_mut_slice()[own.start * states..own.end * states], decay.left);
             let renewed = decay.steady * (1.0 - decay.left * decay.left);
-            for state in decay.start..decay.start + decay.width {
-                column_mut(p, state).iter_mut().for_each(|value| *value *= decay.left);
-                p[(state, state)] += renewed;
-            }
+            own.for_each(|state| p[(state, state)] += renewed);
         }
     }
 
@@ -154,6 +148,15 @@ impl<const N: usize> Transition<'_, N> {
 impl Decay {
     /// Of nothing.
     pub const NONE: Self = Decay { start: 0, width: 0, left: 1.0, steady: 0.0 };
+}
+
+/// Values times a factor; mostly they are three.
+fn scale(values: &mut [f64], by: f64) {
+    if let [x, y, z] = values {
+        [*x, *y, *z] = [*x * by, *y * by, *z * by];
+    } else {
+        values.iter_mut().for_each(|value| *value *= by);
+    }
 }
 
 /// Rows times the factors of their states, added up.
