@@ -158,17 +158,17 @@ impl Images {
         Some(self.verdict(self.best()?, told))
     }
 
-    /// What follows if one is likelier than the lever arm that was told. An antenna far below the IMU is none, but it may be
-    /// likelier than one that is wrong in another way: then nothing is known of it.
+    /// What follows if one is likelier than the lever arm that was told. An antenna far below the IMU is none, and one of which the height alone
+    /// is right may be likelier than one that is wrong in another way: where it does not explain what is heard nothing is known of the antenna.
     fn verdict(&self, best: &Image, told: &EightState) -> Verdict {
-        if !best.is_below(told) {
-            return Verdict::Other(best.finder.clone(), best.odds.logarithm);
-        }
-        if best.fits() {
+        let is_below = best.is_below(told);
+        if is_below && best.fits() {
             return Verdict::Mirrored;
         }
-        let vague = self.0.iter().find(|image| image.knows_nothing()).unwrap_or(best);
-        Verdict::Other(vague.finder.clone(), vague.odds.logarithm)
+        let is_doubtful = is_below || best.unsure() > UNSURE && !best.fits();
+        let vague = self.0.iter().find(|image| is_doubtful && image.knows_nothing());
+        let chosen = vague.unwrap_or(best);
+        Verdict::Other(chosen.finder.clone(), chosen.odds.logarithm)
     }
 
     /// Whether only a mirrored IMU explains what the receiver says.

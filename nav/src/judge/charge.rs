@@ -155,14 +155,15 @@ impl Charge {
         }
     }
 
-    /// What a receiver is off by after such an age, s: m, and how fast that grows, m/s.
+    /// What a receiver is off by after such an age, s: m, and how fast that grows, m/s; of a log with another gain what that is.
     pub(super) fn lie_of_gnss(&self, age: f64) -> (Vector2<f64>, f64) {
         let Kind::Shaped { sized, .. } = self.kind else { return NO_LIE };
         let value = Vector2::new(sized.value.x, sized.value.y);
         match self.fault {
-            Fault::AntennasOffset | Fault::DockingJump(_) | Fault::DockingMark(_) => {
-                return (value, 0.0);
-            }
+            Fault::AntennasOffset
+            | Fault::DockingJump(_)
+            | Fault::DockingMark(_)
+            | Fault::LogGain => return (value, 0.0),
             Fault::AntennasDrift | Fault::DockingDrift(_) => return (value * age, value.x.abs()),
             _ => {}
         }

@@ -46,6 +46,8 @@ struct Entry {
     agreed: u32,
     strain: f64,
     quarantine: f64,
+    /// By how much the gain of a log was off, along and across.
+    gain: Vector2<f64>,
 }
 
 impl Default for Entry {
@@ -58,6 +60,7 @@ impl Default for Entry {
             agreed: 0,
             strain: 0.0,
             quarantine: QUARANTINE,
+            gain: Vector2::zeros(),
         }
     }
 }
@@ -302,6 +305,7 @@ impl Docket {
         let place = self.place(party);
         let entry = &mut self.entries[place];
         entry.fault = Some(fault);
+        entry.gain = if fault == Fault::LogGain { lie.0 } else { Vector2::zeros() };
         let is_relapse = entry.since > Time::START && (now - entry.since).as_seconds() < FORGOTTEN;
         entry.quarantine = if is_relapse && entry.standing != Standing::Doubtful {
             (entry.quarantine * 2.0).min(LONGEST)
@@ -333,6 +337,13 @@ impl Docket {
     #[must_use]
     pub fn off_by_gnss(&self) -> Vector2<f64> {
         self.lies[self.lie_of(Party::Gnss)].off
+    }
+
+    /// By how much the gain of a log that is left out for it was off, along and across.
+    #[must_use]
+    pub(super) fn gain_of_log(&self) -> Option<Vector2<f64>> {
+        let log = &self.entries[self.place(Party::Log)];
+        Some(log.gain).filter(|gain| log.standing == Standing::Excluded && gain.norm() > 0.0)
     }
 
     /// Whether the receiver in use is left out for a leap of its place.

@@ -426,13 +426,13 @@ impl Judge {
         })
     }
 
-    /// Sees an innovation of somebody who is left out, as it is and weighed by the navigator.
+    /// Sees an innovation of somebody who is left out, as it is and weighed by the navigator; `direct` is what faults add to it.
     pub fn watch(
         &mut self,
         (party, aid): (Party, Aid),
         now: Time,
-        innovation: &Innovation,
-        weighed: &Weighed,
+        (innovation, weighed): (&Innovation, &Weighed),
+        direct: &Direct,
     ) {
         let hearing = &mut self.hearings[aid as usize];
         hearing.note(now);
@@ -443,7 +443,11 @@ impl Judge {
             let sigmas = [weighed.sigma()[0], innovation.r[(0, 0)].sqrt()];
             return self.docket.follow_number(aid, now, (weighed.z()[0], square), sigmas);
         }
-        self.docket.watch(party, now, square);
+        let gain = self.docket.gain_of_log().filter(|_| party == Party::Log);
+        let is_hidden = gain.is_some_and(|gain| !amends::would_show(&gain, weighed, direct));
+        if square.is_none() || !is_hidden {
+            self.docket.watch(party, now, square);
+        }
     }
 
     /// Sees position and velocity of a receiver that is left out together, weighed by the navigator, whose own

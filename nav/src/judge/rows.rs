@@ -244,6 +244,14 @@ pub fn told_by_log(direct: &Direct, row: usize) -> [f64; 2] {
     [direct[(LOG_GAIN, row)], -direct[(LOG_GAIN + 1, row)]]
 }
 
+/// What a log adds to each row that has such a gain, along and across, more.
+#[must_use]
+pub fn of_gain(direct: &Direct, gain: &Vector2<f64>) -> Direct {
+    Direct::from_fn(1, direct.ncols(), |_, row| {
+        gain.x * direct[(LOG_GAIN, row)] + gain.y * direct[(LOG_GAIN + 1, row)]
+    })
+}
+
 /// Of a heading.
 #[must_use]
 pub fn of_heading(age: f64) -> Direct {

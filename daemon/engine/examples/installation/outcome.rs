@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use insd_base::units::{DEG, wrap_pi};
 use insd_base::{Event, Mode, Solution, Truth, Voyage, earth};
 use insd_engine::{Engine, EngineConfig, Output};
 
@@ -9,6 +10,8 @@ use crate::mistakes::Mistake;
 
 /// What is beyond so many claimed sigmas misleads.
 const CLAIMED: f64 = 3.0;
+/// What is traced is printed so often, s.
+const TRACED: f64 = 6.0;
 
 /// Errors of one voyage, or of all seeds together.
 #[derive(Clone, Debug, Default)]
@@ -123,6 +126,25 @@ pub(crate) fn sail(voyage: Voyage, mistake: &Mistake, from: f64) -> Outcome {
     judged.finish(outcome)
 }
 
+/// Prints errors and claims ten times a minute, where that is asked for.
+fn trace(solution: &Solution, truth: &Truth) {
+    let at = solution.time.as_seconds();
+    if at % TRACED > 0.0 || std::env::var_os("TRACE").is_none() {
+        return;
+    }
+    let apart = earth::ecef(&solution.position).0 - earth::ecef(&truth.position).0;
+    let off = (earth::c_ne(&truth.position) * apart).xy().norm();
+    let std = solution.sigma.position.0.xy().norm();
+    let heading = truth
+        .attitude
+        .map_or(0.0, |truth| wrap_pi(solution.attitude.heading - truth.heading) / DEG);
+    let claimed = solution.sigma.heading / DEG;
+    let (mode, judgement) = (solution.mode, solution.judgement.integrity);
+    eprintln!(
+        "{at} s: {off:.1} m off, {std:.1} claimed; heading {heading:.1} deg, {claimed:.1}; {mode:?} {judgement:?}"
+    );
+}
+
 #[derive(Default)]
 struct Judged {
     /// From when on it is judged, and when the last minute begins, s.
@@ -137,6 +159,7 @@ struct Judged {
 
 impl Judged {
     fn judge(&mut self, solution: &Solution, truth: &Truth, outcome: &mut Outcome) {
+        trace(solution, truth);
         let apart = earth::ecef(&solution.position).0 - earth::ecef(&truth.position).0;
         let error = earth::c_ne(&truth.position) * apart;
         let std = solution.sigma.position.0;
@@ -159,7 +182,7 @@ impl Judged {
         let scaled = error.component_div(&std);
         self.nees += scaled.xy().norm_squared() / 2.0;
         if let Some(attitude) = truth.attitude {
-            let heading = insd_base::units::wrap_pi(solution.attitude.heading - attitude.heading);
+            let heading = wrap_pi(solution.attitude.heading - attitude.heading);
             self.heading_nees += (heading / solution.sigma.heading).powi(2);
         }
     }
