@@ -31,8 +31,9 @@ const NOISE: f64 = 0.8;
 const TOGETHER: f64 = 0.2;
 /// Share of what is told that is felt, up to which no ship does.
 const FELT: f64 = -0.3;
-/// A ship that is slower lies, m/s.
+/// A ship that is slower lies, m/s, as far as is known for so long after that was heard, s.
 const LIES: f64 = 1.0;
+const LASTS: f64 = 10.0;
 
 /// One that lets pass what is between drift and vibration.
 #[derive(Clone, Copy, Debug, Default)]
@@ -145,7 +146,8 @@ pub(super) struct Gravity {
     lasts: f64,
     pitch: Axis,
     roll: Axis,
-    lies: bool,
+    /// For how long it is known that she lies still, s.
+    lies_for: f64,
 }
 
 impl Gravity {
@@ -159,7 +161,8 @@ impl Gravity {
         }
         let Some((told, felt)) = self.swings.see(increment, duration) else { return };
         self.roll.see(told.y, felt.y, duration);
-        if self.lies {
+        self.lies_for = (self.lies_for - duration).max(0.0);
+        if self.lies_for > 0.0 {
             self.pitch.see(told.x, felt.x, duration);
         }
         self.lasts += duration;
@@ -172,7 +175,7 @@ impl Gravity {
     /// Hears whether she lies still.
     pub(super) fn hear(&mut self, fix: &GnssFix) {
         if let Some(velocity) = fix.velocity.filter(|_| fix.quality.is_measured()) {
-            self.lies = velocity.0.xy().norm() < LIES;
+            self.lies_for = if velocity.0.xy().norm() < LIES { LASTS } else { 0.0 };
         }
     }
 
@@ -211,7 +214,17 @@ mod tests {
     /// Five minutes of a ship that rolls and pitches by so much, deg, of which the accelerometers feel a share, each; she trims
     /// and turns, and her gyros drift.
     fn sailed(gyros: Told, accels: Told, swing: [f64; 2], felt: [f64; 2]) -> Option<Finding> {
-        let mut gravity = Gravity { lies: true, ..Gravity::default() };
+        swung(f64::INFINITY, [gyros, accels], swing, felt)
+    }
+
+    /// The same of one that is known to lie for so long, s.
+    fn swung(
+        lies_for: f64,
+        [gyros, accels]: [Told; 2],
+        swing: [f64; 2],
+        felt: [f64; 2],
+    ) -> Option<Finding> {
+        let mut gravity = Gravity { lies_for, ..Gravity::default() };
         let dt = 0.02;
         let roll = |t: f64| swing[0] * DEG * (t * 0.7).sin();
         let pitch = |t: f64| swing[1] * DEG * ((t * 0.9).sin() + 0.5 * (t * 0.61).cos());
@@ -230,7 +243,7 @@ mod tests {
 
     #[test]
     fn the_noise_of_a_ship_that_lies_still_says_nothing() {
-        let mut gravity = Gravity { lies: true, ..Gravity::default() };
+        let mut gravity = Gravity { lies_for: f64::INFINITY, ..Gravity::default() };
         let mut state = 1_u64;
         let mut noise = || {
             let one = |state: &mut u64| {
@@ -247,6 +260,13 @@ mod tests {
     }
 
     const SWINGS: [[f64; 2]; 3] = [[0.1, 0.03], [3.0, 1.0], [15.0, 4.0]];
+
+    #[test]
+    fn a_ship_that_lay_still_when_she_was_last_heard_of_may_be_pushed_by_head_seas() {
+        let pushed = |lies_for: f64| swung(lies_for, [|it| it, |it| it], [3.0, 1.0], [1.0, -0.9]);
+        assert!(pushed(f64::INFINITY).is_some());
+        assert_eq!(pushed(LASTS), None);
+    }
 
     #[test]
     fn a_ship_that_is_told_as_she_is_agrees_in_any_sea() {
