@@ -25,6 +25,9 @@ use super::{ASTRAY, EightState, GOAL, LEAN};
 
 /// Mean square length of (s, 1-c) that still tells a direction of tilt.
 const SHORTEST: f64 = 1e-6;
+/// By so much, and so many sigmas, (s, 1-c) must be off the circle for a log to have another gain.
+const OFF: f64 = 0.25;
+const SURELY: f64 = 7.0;
 
 impl EightState {
     /// Levels the frame: turns it by the a that leaves the least mean square tilt, E|phi - R(dpsi) a|^2,
@@ -73,13 +76,29 @@ impl EightState {
         if self.centred && self.heading.0.abs() > ASTRAY {
             self.turn_by(self.heading.0);
             self.note_heading();
-        } else if !self.centred && self.heading.1 < GOAL {
-            self.centre();
-            self.polish.get_or_insert(Polish::begin(self.time, self.heading.1));
+        } else if !self.centred {
+            let is_known = self.heading.1 < GOAL;
+            self.gain_of_log = is_known.then(|| self.off_circle()).flatten();
+            if is_known && self.gain_of_log.is_none() {
+                self.centre();
+                self.polish.get_or_insert(Polish::begin(self.time, self.heading.1));
+            }
         }
         if let Some(polish) = &mut self.polish {
             polish.hear(self.time, self.heading.1);
         }
+    }
+
+    /// The gain of a log that takes (cos dpsi, sin dpsi) off the circle, if one does: she goes by log the way that she goes by
+    /// the receiver, turned, so that where it tells n times her speed the two are found n times too short.
+    fn off_circle(&self) -> Option<f64> {
+        let direction = Vector2::new(1.0 - self.motion.versine, self.motion.sine);
+        let length = direction.norm();
+        let along = direction / length.max(SHORTEST);
+        let variance = along.dot(&(self.belief.direction_covariance() * along));
+        let off = (length - 1.0).abs();
+        let is_off = off > OFF && off > SURELY * variance.max(0.0).sqrt();
+        (is_off && self.has_heard_log()).then(|| 1.0 / length.max(SHORTEST))
     }
 
     /// Turns the frame by the estimated dpsi; from then on dpsi is a small angle, s = dpsi and c

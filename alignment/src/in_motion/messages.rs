@@ -2,8 +2,8 @@
 
 use insd_base::satellites::SatelliteRanges;
 use insd_base::{
-    ExternalReference, FixQuality, Geodetic, GnssFix, LogReference, LogVelocity, Rejection, Source,
-    earth,
+    ExternalReference, FixQuality, Geodetic, GnssFix, LogReference, LogVelocity, Party, Rejection,
+    Source, earth,
 };
 use insd_estimation::Innovation;
 use insd_nav::antenna::AntennaMotion;
@@ -153,6 +153,10 @@ impl EightState {
             enter(&mut report, log.time, source, aid, Rejection::NotUsable);
             return report;
         };
+        if self.config.docket.is_excluded(Party::Log) {
+            enter(&mut report, log.time, source, aid, Rejection::SourceSuspect);
+            return report;
+        }
         self.settle();
         let std = floors::scalar(log.std, &self.config.floors.log);
         if std.replaced {

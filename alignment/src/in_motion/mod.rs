@@ -96,6 +96,8 @@ pub struct EightState {
     leap: LeapWatch,
     heading: (f64, f64),
     centred: bool,
+    /// Of a log that takes the heading off the circle.
+    gain_of_log: Option<f64>,
 }
 
 /// So much is way, m/s.
@@ -167,6 +169,7 @@ impl EightState {
             leap: LeapWatch::default(),
             heading: (0.0, circle::UNKNOWN),
             centred: false,
+            gain_of_log: None,
         };
         filter.renew(start.position_std, start.velocity_std);
         filter
@@ -190,7 +193,7 @@ impl EightState {
         let hull = self.scene().hull;
         let cross = leaning * hull * bias;
         self.belief.correlate_pair(x::TILT, k::ACCEL, &cross);
-        self.centred = false;
+        (self.centred, self.gain_of_log) = (false, None);
         self.note_heading();
     }
 
@@ -219,7 +222,14 @@ impl EightState {
     pub fn finished(&self) -> bool {
         let waits = self.polish.is_some_and(|polish| polish.goes_on(self.time));
         let goal = if waits && self.strides() { FINE_GOAL } else { GOAL };
-        self.heading.1 < goal
+        self.heading.1 < goal && self.gain_of_log.is_none()
+    }
+
+    /// How many times her speed the log tells, where that is why the heading is not found: no turn takes what it says to what the
+    /// receiver says.
+    #[must_use]
+    pub fn gain_of_log(&self) -> Option<f64> {
+        self.gain_of_log
     }
 
     /// Share of what was seen of the heading that may be noise; nothing of a craft that has made way.

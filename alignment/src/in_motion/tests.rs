@@ -286,6 +286,17 @@ fn gnss_and_a_bottom_log_show_the_heading_at_once_and_without_a_manoeuvre() {
 }
 
 #[test]
+fn a_log_in_other_units_is_found_out_and_finds_no_heading() {
+    for (gain, found) in [(3.6, true), (1.944, true), (1.1, false)] {
+        let mut run = Run::new(&Ship::at(35.0), &mems_imu(), 9).with_log();
+        run.log_gain = gain;
+        run.sail(20.0);
+        let told = run.filter.gain_of_log().filter(|told| (told - gain).abs() < 0.1 * gain);
+        assert_eq!((told.is_some(), run.filter.finished()), (found, !found), "{gain}: {told:?}");
+    }
+}
+
+#[test]
 fn a_log_through_the_water_is_believed_no_better_than_the_current() {
     for (i, heading) in ALL_HEADINGS.into_iter().enumerate() {
         let ship = Ship { heading: heading * DEG, roll: 0.0, ..Ship::at(35.0) };

@@ -42,6 +42,12 @@ impl Engine {
             }
             ImuState::Wrong => return self.condemn_imu(time),
         }
+        if let Some(gain) = line.estimator().gain_of_log() {
+            let docket = self.nav.docket.without_gain(gain, time);
+            self.start_over(time, ModeReason::HeadingRefuted);
+            self.nav = self.nav.with_docket(docket);
+            return;
+        }
         let Some(misled) = line.estimator().refuted_by() else {
             if self.surveyor.is_refuted {
                 let condemned = self.surveyor.condemned;

@@ -131,6 +131,14 @@ impl Ship {
         }
     }
 
+    /// How many times her speed a log tells that keeps the heading from being found.
+    pub(crate) fn gain_of_log(&self) -> Option<f64> {
+        match self {
+            Ship::InMotion { finder, .. } => finder.gain_of_log(),
+            _ => None,
+        }
+    }
+
     /// What is to be done about the IMU.
     pub(crate) fn imu_state(&self) -> ImuState {
         match self {

@@ -193,6 +193,8 @@ fn a_log_that_was_found_out_is_not_believed_by_an_alignment_that_begins_anew() {
     }
     let sailed = sail(voyage);
     assert!(sailed.end().0 < 3.0 && sailed.end().1 < 3.0, "{:?}", sailed.end());
+    let named = sailed.told.iter().any(|found| found.to_string().contains("kilometres"));
+    assert!(named, "{:?}", sailed.told);
 }
 
 #[test]

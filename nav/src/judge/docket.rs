@@ -234,6 +234,13 @@ impl Docket {
         self
     }
 
+    /// With a log left out that tells so many times her speed.
+    #[must_use]
+    pub fn without_gain(mut self, gain: f64, now: Time) -> Self {
+        self.convict(Fault::LogGain, now, (Vector2::new(gain - 1.0, 0.0), 0.0));
+        self
+    }
+
     /// How all stand, each by its own name.
     pub fn all(&self) -> impl Iterator<Item = Stands> {
         let heard = usize::from(self.parts.heard);

@@ -160,6 +160,8 @@ pub(super) struct Run {
     current: Vector3<f64>,
     /// By which the receiver's positions are off to the north, m.
     pub(super) jump: f64,
+    /// How many times her speed the log tells.
+    pub(super) log_gain: f64,
 }
 
 impl Run {
@@ -197,6 +199,7 @@ impl Run {
             log: None,
             current: Vector3::zeros(),
             jump: 0.0,
+            log_gain: 1.0,
         }
     }
 
@@ -311,8 +314,7 @@ impl Run {
         let Some(reference) = self.log else { return };
         let lever = self.config.lever_arms.log.0;
         let through = self.true_velocity() - self.current;
-        let u = self.truth().c_nb().transpose() * through
-            + self.swing(&lever)
+        let u = (self.truth().c_nb().transpose() * through + self.swing(&lever)) * self.log_gain
             + self.dice.vector(LOG_STD);
         let reading = LogVelocity {
             time: Time::START + Span::from_seconds(self.now()),

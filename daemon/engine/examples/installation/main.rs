@@ -2,7 +2,8 @@
 //!
 //! `installation [SEEDS] [VOYAGE] [MISTAKE]`: each mistake of the table, or those whose name begins so, on the
 //! shipped voyages, beside the same voyages with the right configuration. Errors are judged from fifteen
-//! minutes under way. `SEED=3` in the environment takes one of the seeds, `COMPASS=1` has an honest compass aboard.
+//! minutes under way. `SEED=3` in the environment takes one of the seeds, `COMPASS=1` has an honest compass aboard,
+//! `WORDS=1` prints what is said, and `TRACE=1` errors and claims with all that happens.
 
 mod mistakes;
 mod outcome;

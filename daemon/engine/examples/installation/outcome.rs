@@ -11,7 +11,7 @@ use crate::mistakes::Mistake;
 /// What is beyond so many claimed sigmas misleads.
 const CLAIMED: f64 = 3.0;
 /// What is traced is printed so often, s.
-const TRACED: f64 = 6.0;
+const TRACED: f64 = 1.0;
 
 /// Errors of one voyage, or of all seeds together.
 #[derive(Clone, Debug, Default)]
@@ -119,6 +119,9 @@ pub(crate) fn sail(voyage: Voyage, mistake: &Mistake, from: f64) -> Outcome {
                         outcome.told.get_or_insert(time.as_seconds());
                     }
                 }
+                Output::Event(event) if std::env::var_os("TRACE").is_some() => {
+                    eprintln!("{event:?}");
+                }
                 _ => {}
             }
         }
@@ -126,7 +129,7 @@ pub(crate) fn sail(voyage: Voyage, mistake: &Mistake, from: f64) -> Outcome {
     judged.finish(outcome)
 }
 
-/// Prints errors and claims ten times a minute, where that is asked for.
+/// Prints errors and claims once a second, where that is asked for.
 fn trace(solution: &Solution, truth: &Truth) {
     let at = solution.time.as_seconds();
     if at % TRACED > 0.0 || std::env::var_os("TRACE").is_none() {
