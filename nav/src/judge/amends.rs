@@ -4,12 +4,9 @@
 //! again after he has agreed with somebody who would see it, or went back by as much as he had come.
 
 use insd_base::{Party, Span, Time};
-use insd_estimation::Weighed;
-use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use super::aid::DOCKING_AIDS;
-use super::rows::{self, Direct};
 
 /// Who agrees for so long is heard again, s; each time he relapses for twice as long, up to this.
 pub(super) const QUARANTINE: f64 = 60.0;
@@ -26,13 +23,6 @@ const SHOWS: f64 = 3.0;
 const BACK: f64 = 0.3;
 const NOISE: f64 = 4.0;
 const SUCCESSIVE: f64 = 3.0;
-
-/// Whether a log that is off by a gain would be seen to be by what it says at this moment: of a ship that lies still nobody sees it.
-/// `direct` is what faults add to it.
-pub(super) fn would_show(gain: &Vector2<f64>, weighed: &Weighed, direct: &Direct) -> bool {
-    let lie = rows::of_gain(direct, gain);
-    weighed.whiten(lie).norm_squared() > SHOWS * SHOWS * weighed.rows() as f64
-}
 
 /// What he was off by, and how he has agreed since.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -123,22 +113,7 @@ impl Numbers {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Matrix3, Vector3};
-
     use super::*;
-    use crate::error_state::{Covariance, Innovation, Jacobian, all_states};
-
-    #[test]
-    fn a_log_that_is_reversed_would_show_under_way_and_not_at_the_berth() {
-        let noise = Matrix3::from_diagonal_element(0.05 * 0.05);
-        let innovation = Innovation::new(&Vector3::zeros(), Jacobian::none(3), &noise);
-        let weighed = innovation.weigh(&Covariance::zeros(&all_states())).unwrap();
-        let shows = |speed: f64| {
-            let direct = rows::of_log(&Vector3::new(speed, 0.0, 0.0), &Matrix3::identity());
-            would_show(&Vector2::new(-2.0, 0.0), &weighed, &direct)
-        };
-        assert!(shows(2.0) && !shows(0.05));
-    }
 
     /// When one who was found off by so much is heard again, s, who tells this each second to a navigator that is as unsure as this.
     fn heard_again(off: f64, told: fn(u32) -> f64, sigma: fn(u32) -> f64) -> Option<u32> {

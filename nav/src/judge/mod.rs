@@ -444,7 +444,7 @@ impl Judge {
             return self.docket.follow_number(aid, now, (weighed.z()[0], square), sigmas);
         }
         let gain = self.docket.gain_of_log().filter(|_| party == Party::Log);
-        let is_hidden = gain.is_some_and(|gain| !amends::would_show(&gain, weighed, direct));
+        let is_hidden = gain.is_some_and(|gain| !rows::would_show(direct, &gain, weighed));
         if square.is_none() || !is_hidden {
             self.docket.watch(party, now, square);
         }

@@ -11,7 +11,11 @@ use nalgebra::{DMatrix, Matrix3, SMatrix, Vector2, Vector3};
 use super::aid::DOCKING_AIDS;
 use crate::error_state::{
     ACCEL_BIAS, ATTITUDE, Effects, GNSS_DELAY, GYRO_BIAS, GYRO_SCALE, RANGING_MARKS, VELOCITY,
+    Weighed,
 };
+
+/// Sigmas from which on the gain of a log is seen.
+const SHOWN: f64 = 3.0;
 
 const GNSS_JUMP: usize = 0;
 const GNSS_DRAG: usize = 3;
@@ -244,12 +248,14 @@ pub fn told_by_log(direct: &Direct, row: usize) -> [f64; 2] {
     [direct[(LOG_GAIN, row)], -direct[(LOG_GAIN + 1, row)]]
 }
 
-/// What a log adds to each row that has such a gain, along and across, more.
+/// Whether a log that is off by a gain, along and across, would be seen to be by what it says at this moment: of a ship that lies still
+/// nobody sees it.
 #[must_use]
-pub fn of_gain(direct: &Direct, gain: &Vector2<f64>) -> Direct {
-    Direct::from_fn(1, direct.ncols(), |_, row| {
+pub fn would_show(direct: &Direct, gain: &Vector2<f64>, weighed: &Weighed) -> bool {
+    let lie = Direct::from_fn(1, direct.ncols(), |_, row| {
         gain.x * direct[(LOG_GAIN, row)] + gain.y * direct[(LOG_GAIN + 1, row)]
-    })
+    });
+    weighed.whiten(lie).norm_squared() > SHOWN * SHOWN * weighed.rows() as f64
 }
 
 /// Of a heading.
@@ -319,6 +325,19 @@ pub fn of_docking(number: usize, place: usize, age: f64) -> Direct {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error_state::{Covariance, Innovation, Jacobian, all_states};
+
+    #[test]
+    fn a_log_that_is_reversed_would_show_under_way_and_not_at_the_berth() {
+        let noise = Matrix3::from_diagonal_element(0.05 * 0.05);
+        let innovation = Innovation::new(&Vector3::zeros(), Jacobian::none(3), &noise);
+        let weighed = innovation.weigh(&Covariance::zeros(&all_states())).unwrap();
+        let shows = |speed: f64| {
+            let direct = of_log(&Vector3::new(speed, 0.0, 0.0), &Matrix3::identity());
+            would_show(&direct, &Vector2::new(-2.0, 0.0), &weighed)
+        };
+        assert!(shows(2.0) && !shows(0.05));
+    }
 
     #[test]
     fn every_row_belongs_to_a_group() {
