@@ -139,7 +139,7 @@ impl Blind {
         match self.images.likeliest(&self.finder) {
             Some(Seat::Other(_, odds)) if (odds - self.odds()).abs() < LEADS => Word::Open,
             Some(Seat::Other(finder, odds)) if odds > self.odds() => Word::Elsewhere(finder),
-            Some(Seat::Mirrored) => Word::Open,
+            Some(Seat::Mirrored | Seat::Open) => Word::Open,
             _ => Word::Refuted,
         }
     }

@@ -28,6 +28,8 @@ pub(crate) const LEADS: f64 = 4.0;
 /// Mean square of the innovations, of which one is expected, up to which it explains them all, and how many are asked for.
 const HONEST: f64 = 1.6;
 const ENOUGH: f64 = 100.0;
+/// Whoever finds the heading knows it to this, 1-sigma, rad.
+const FINDS: f64 = 0.5;
 /// Headings apart by less than so many sigmas are the same.
 const ALIKE: f64 = 3.0;
 
@@ -163,7 +165,9 @@ impl Images {
     fn verdict(&self, best: &Image, told: &EightState) -> Verdict {
         let is_below = best.is_below(told);
         if is_below && best.fits() {
-            return Verdict::Mirrored;
+            // whom it helps to find no heading it explains nothing
+            let knows_heading = best.finder.heading().1 < FINDS;
+            return if knows_heading { Verdict::Mirrored } else { Verdict::Open };
         }
         let is_doubtful = is_below || best.unsure() > UNSURE && !best.fits();
         let vague = self.0.iter().find(|image| is_doubtful && image.knows_nothing());
