@@ -1,7 +1,9 @@
 //! Who makes reports of raw recordings: another process, which gives way to the navigator in everything.
 
 use std::ffi::OsStr;
+use std::fs::DirBuilder;
 use std::num::NonZeroU32;
+use std::os::unix::fs::DirBuilderExt;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -81,6 +83,7 @@ impl Reports {
 
     /// The order, and where the report will be. What this process was told by its environment is nothing to the other.
     fn order(&self, subject: &Subject, recording: &Path) -> (Command, PathBuf) {
+        self.renew_folder();
         let out = self.folder.path().join("report.html");
         let mut order = Command::new(&self.program);
         let (language, run) = (subject.language.code(), subject.run.to_string());
@@ -96,6 +99,14 @@ impl Reports {
             .kill_on_drop(true);
         (order, out)
     }
+
+    /// Whoever tidies up temporary files may have taken the folder. Where it cannot be made the report says so.
+    fn renew_folder(&self) {
+        let made = DirBuilder::new().recursive(true).mode(0o700).create(self.folder.path());
+        if let Err(fault) = made {
+            tracing::warn!(%fault, "no folder for reports");
+        }
+    }
 }
 
 impl Last {
@@ -106,7 +117,7 @@ impl Last {
             None if is_it => Some(Answer::BeingMade),
             None => Some(Answer::AnotherIsBeingMade),
             Some(Ok(made)) => {
-                let stands = self.bytes == bytes || is_recent(made);
+                let stands = made.is_file() && (self.bytes == bytes || is_recent(made));
                 (is_it && stands).then(|| Answer::Made(made.clone()))
             }
             Some(Err(why)) => is_it.then(|| Answer::Failed(why.clone())),
@@ -130,4 +141,26 @@ async fn carry_out(mut order: Command, out: PathBuf) -> Result<PathBuf, String> 
     let said = String::from_utf8_lossy(&output.stderr);
     let last = said.lines().rev().map(str::trim).find(|line| !line.is_empty());
     Err(last.map_or_else(|| output.status.to_string(), str::to_owned))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reports_whose_folder_was_tidied_away_are_made_again() {
+        let reports = Reports::by(PathBuf::from("insd")).unwrap();
+        let folder = reports.folder.path();
+        std::fs::remove_dir(folder).unwrap();
+        let run = NonZeroU32::MIN;
+        let subject = Subject { name: "today".to_owned(), run, language: Language::English };
+        let (_, out) = reports.order(&subject, Path::new("today.insdraw"));
+        assert!(folder.is_dir());
+        std::fs::write(&out, "a report").unwrap();
+        let outcome = Some(Ok(out.clone()));
+        let last = Last { subject: subject.clone(), bytes: 5, outcome };
+        assert!(matches!(last.answer(&subject, 5), Some(Answer::Made(_))));
+        std::fs::remove_file(out).unwrap();
+        assert!(last.answer(&subject, 5).is_none());
+    }
 }
