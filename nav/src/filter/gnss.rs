@@ -1,7 +1,7 @@
 //! A GNSS fix: velocity first, then position, each through its gates.
 
 use insd_base::{FixQuality, GnssFix, Rejection, Source, earth};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::entry::{Judged, NO_INNOVATION, POSITION_AID, VELOCITY_AID, enter};
 use super::found_lever::FoundLever;
@@ -44,6 +44,8 @@ const LOST_ATTITUDE: f64 = 0.05;
 const OF_GNSS: f64 = 0.5;
 /// So long a mistake of the installation that would explain a receiver is given to show, s.
 const MISTAKEN: f64 = 15.0;
+/// A receiver that was refused for so long, s, disputes where she is.
+const DISPUTED: f64 = 2.0;
 /// A receiver that was not used for so long, s, comes back.
 const UNHEARD: f64 = 30.0;
 
@@ -215,12 +217,21 @@ impl Filter {
             self.exceeds_dop_limit(fix, &innovation).then_some(Rejection::DopTest)
         };
         let judged = self.gated_as(weighed.as_ref(), refused);
-        match enter(report, fix.time, source, POSITION_AID, &judged) {
+        let outcome = enter(report, fix.time, source, POSITION_AID, &judged);
+        self.note_dispute(outcome == Outcome::Accepted || is_out, &innovation);
+        match outcome {
             Outcome::Accepted => self.receiver.trust.used(self.state.time),
             Outcome::Rejected(_) => {
                 self.consider_reset(&measured, velocity.map(|(fix, _)| fix), report);
             }
         }
+    }
+
+    /// A filter that goes on to refuse a receiver which nobody has found to lie may be wrong itself.
+    fn note_dispute(&mut self, is_settled: bool, innovation: &Innovation) {
+        let lasts = !is_settled && self.receiver.trust.refused(self.state.time) >= DISPUTED;
+        let apart = Vector2::new(innovation.z[0], innovation.z[1]);
+        self.receiver.disputed = if lasts { apart } else { Vector2::zeros() };
     }
 
     /// Of a receiver with a wrong height that counts for nothing, but is watched.

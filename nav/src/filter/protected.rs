@@ -75,8 +75,16 @@ impl Filter {
     /// 1-sigma where nothing is made of fixes beside ranges.
     fn sigma_of_one(&self, view: &View, acceleration: &Vector3<f64>) -> SolutionSigma {
         let own = solution_sigma(view, acceleration, &self.dating(), &self.state.covariance);
-        let own = self.with_held(view, self.with_base_error(own));
+        let own = self.with_dispute(self.with_held(view, self.with_base_error(own)));
         self.court.covered.map_or(own, |covered| own.greatest(&covered))
+    }
+
+    /// The claim covers where a receiver has her that the filter refuses though nobody has found it to lie.
+    fn with_dispute(&self, mut own: SolutionSigma) -> SolutionSigma {
+        let apart = self.receiver.disputed.abs();
+        own.position.0.x = own.position.0.x.max(apart.x);
+        own.position.0.y = own.position.0.y.max(apart.y);
+        own
     }
 
     /// What the judge has of everybody.

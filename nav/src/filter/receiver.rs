@@ -2,6 +2,7 @@
 //! and how that moves.
 
 use insd_base::Time;
+use nalgebra::Vector2;
 
 use super::found_lever::FoundLever;
 use super::velocity_epoch::VelocityEpoch;
@@ -27,6 +28,8 @@ pub(super) struct Receiver {
     pub(super) found_lever: FoundLever,
     pub(super) own_word: OwnWord,
     pub(super) echo: Echo,
+    /// How far it has her from where the filter does that refuses it and may be wrong, north and east, m.
+    pub(super) disputed: Vector2<f64>,
 }
 
 impl Receiver {
@@ -45,6 +48,7 @@ impl Receiver {
             found_lever: FoundLever::default(),
             own_word: OwnWord::default(),
             echo: Echo::default(),
+            disputed: Vector2::zeros(),
         }
     }
 

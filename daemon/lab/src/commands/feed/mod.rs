@@ -54,7 +54,8 @@ pub struct FeedArgs {
 /// # Errors
 /// The voyage cannot be had, or the terminals cannot be made.
 pub fn run(args: &FeedArgs, clock: &dyn Clock) -> anyhow::Result<()> {
-    let found = voyage::find(&args.voyage, args.seed, &args.sets)?;
+    let is_filmed = sensors::may_see(&args.sensors);
+    let found = voyage::find(&args.voyage, args.seed, &args.sets, is_filmed)?;
     let sensors = sensors::chosen(&args.sensors, &found);
     let mut lines = Lines::open(&args.folder, sensors.iter().map(|sensor| sensor.name.as_str()))?;
     for sensor in &sensors {

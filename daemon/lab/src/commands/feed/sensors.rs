@@ -37,6 +37,11 @@ impl FromStr for Sensor {
     }
 }
 
+/// Whether a camera is among the sensors that are asked for, or may be among the usual ones.
+pub(super) fn may_see(asked: &[Sensor]) -> bool {
+    asked.is_empty() || asked.iter().any(|sensor| sensor.encoding == Encoding::Tracks)
+}
+
 /// The sensors that are asked for, or the usual ones as far as the voyage has them.
 pub(super) fn chosen(asked: &[Sensor], found: &Found) -> Vec<Sensor> {
     if !asked.is_empty() {
@@ -60,6 +65,15 @@ pub(super) fn chosen(asked: &[Sensor], found: &Found) -> Vec<Sensor> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn images_are_made_where_a_camera_may_be_asked_for() {
+        let asked = |words: &[&str]| -> Vec<Sensor> {
+            words.iter().map(|word| word.parse().unwrap()).collect()
+        };
+        assert!(may_see(&[]) && may_see(&asked(&["imu=sbg", "eye=camera"])));
+        assert!(!may_see(&asked(&["imu=sbg", "gnss=ubx"])));
+    }
 
     #[test]
     fn a_sensor_is_named_as_in_a_configuration() {

@@ -15,14 +15,21 @@ pub(super) struct Found {
     pub(super) frames: Vec<CameraFrame>,
 }
 
-/// A voyage directory, or a voyage of a scenario.
-pub(super) fn find(word: &str, seed: u64, sets: &[Override]) -> anyhow::Result<Found> {
+/// A voyage directory, or a voyage of a scenario; what her camera sees is long in the making, and there only if it `is_filmed`.
+pub(super) fn find(
+    word: &str,
+    seed: u64,
+    sets: &[Override],
+    is_filmed: bool,
+) -> anyhow::Result<Found> {
     let path = Path::new(word);
     if path.is_dir() {
-        return Ok(Found { voyage: read(path)?, frames: read_images(path)? });
+        let frames = if is_filmed { read_images(path)? } else { Vec::new() };
+        return Ok(Found { voyage: read(path)?, frames });
     }
     let scenario = scenario::find(word, sets)?.scenario;
-    let frames = footage(&scenario, seed).map(|own| own.frames).unwrap_or_default();
+    let footage = is_filmed.then(|| footage(&scenario, seed)).flatten();
+    let frames = footage.map(|own| own.frames).unwrap_or_default();
     Ok(Found { voyage: simulate(&scenario, seed), frames })
 }
 
