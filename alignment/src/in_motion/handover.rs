@@ -5,7 +5,7 @@
 //!
 //! phi' = phi - R(dpsi') a,   (1-c', s') = R(-d) (1-c, s),   dpsi' = dpsi - d.
 
-use insd_base::{Time, earth};
+use insd_base::earth;
 use insd_nav::antenna::AntennaMotion;
 use insd_nav::declaration::Carried;
 use insd_nav::error_state::carried;
@@ -96,9 +96,8 @@ impl EightState {
     /// the receiver, turned, so that where it tells n times her speed the two are found n times too short. Of a ship that lies still
     /// noise makes them so, too.
     fn off_circle(&self) -> Option<f64> {
-        let hears_receiver = |last: Time| (self.time - last).as_seconds() < HEARD;
-        let makes_way =
-            self.motion.velocity.norm() > WAY && self.gnss_used.is_some_and(hears_receiver);
+        let hears_receiver = (self.time - self.heard_height).as_seconds() < HEARD;
+        let makes_way = self.motion.velocity.norm() > WAY && hears_receiver;
         let direction = Vector2::new(1.0 - self.motion.versine, self.motion.sine);
         let length = direction.norm();
         let along = direction / length.max(SHORTEST);
