@@ -100,8 +100,9 @@ pub struct EightState {
     gain_of_log: Option<f64>,
 }
 
-/// So much is way, m/s.
+/// So much is way, m/s, and so much tells a log from noise.
 const LEFT: f64 = 2.0;
+const WAY: f64 = 1.5;
 /// Heading sigma at which the phase ends, rad.
 pub const GOAL: f64 = 5.0 * DEG;
 /// While phases tell how she moves it goes on to this one, rad.
@@ -225,11 +226,17 @@ impl EightState {
         self.heading.1 < goal && self.gain_of_log.is_none()
     }
 
+    /// Whether a log keeps the heading from being found.
+    #[must_use]
+    pub fn is_off_circle(&self) -> bool {
+        self.gain_of_log.is_some()
+    }
+
     /// How many times her speed the log tells, where that is why the heading is not found: no turn takes what it says to what the
-    /// receiver says.
+    /// receiver says. Of a ship that lies still it may be noise that does so.
     #[must_use]
     pub fn gain_of_log(&self) -> Option<f64> {
-        self.gain_of_log
+        self.gain_of_log.filter(|_| self.motion.velocity.norm() > WAY)
     }
 
     /// Share of what was seen of the heading that may be noise; nothing of a craft that has made way.

@@ -166,7 +166,7 @@ impl Images {
         let is_below = best.is_below(told);
         if is_below && best.fits() {
             // whom it helps to find no heading it explains nothing
-            let knows_heading = best.finder.heading().1 < FINDS;
+            let knows_heading = best.finder.heading().1 < FINDS && !best.finder.is_off_circle();
             return if knows_heading { Verdict::Mirrored } else { Verdict::Open };
         }
         let is_doubtful = is_below || best.unsure() > UNSURE && !best.fits();
