@@ -28,8 +28,6 @@ const SHORTEST: f64 = 1e-6;
 /// By so much, and so many sigmas, (s, 1-c) must be off the circle for a log to have another gain.
 const OFF: f64 = 0.25;
 const SURELY: f64 = 7.0;
-/// A receiver is heard that was so lately, s.
-const HEARD: f64 = 3.0;
 
 impl EightState {
     /// Levels the frame: turns it by the a that leaves the least mean square tilt, E|phi - R(dpsi) a|^2,
@@ -94,14 +92,13 @@ impl EightState {
     /// The gain of a log that takes (cos dpsi, sin dpsi) off the circle, if one does: she goes by log the way that she goes by
     /// the receiver, turned, so that where it tells n times her speed the two are found n times too short.
     fn off_circle(&self) -> Option<f64> {
-        let hears_receiver = (self.time - self.heard_height).as_seconds() < HEARD;
         let direction = Vector2::new(1.0 - self.motion.versine, self.motion.sine);
         let length = direction.norm();
         let along = direction / length.max(SHORTEST);
         let variance = along.dot(&(self.belief.direction_covariance() * along));
         let off = (length - 1.0).abs();
         let is_off = off > OFF && off > SURELY * variance.max(0.0).sqrt();
-        (is_off && hears_receiver && self.has_heard_log()).then(|| 1.0 / length.max(SHORTEST))
+        (is_off && self.hears_height() && self.has_heard_log()).then(|| 1.0 / length.max(SHORTEST))
     }
 
     /// Turns the frame by the estimated dpsi; from then on dpsi is a small angle, s = dpsi and c

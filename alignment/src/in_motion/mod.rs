@@ -296,6 +296,11 @@ impl EightState {
         (self.motion.versine, self.motion.sine) = (1.0 - mean.x, mean.y);
     }
 
+    /// Whether a receiver tells the height.
+    fn hears_height(&self) -> bool {
+        (self.time - self.heard_height).as_seconds() <= SILENT
+    }
+
     /// Brings the belief up to the time of the estimate.
     fn settle(&mut self) {
         if self.stretch.duration <= 0.0 {
@@ -315,7 +320,7 @@ impl EightState {
             }
         }
         self.vertical.settle(self.stretch.duration, self.belief.prior[k::ACCEL].sqrt());
-        if (self.time - self.heard_height).as_seconds() > SILENT {
+        if !self.hears_height() {
             self.vertical.hold_afloat();
         }
         self.motion.place.height = self.vertical.height;

@@ -4,7 +4,7 @@ use insd_base::{Estimates, Event, Finding, GnssFix, Message, Mode, ModeReason, R
 use insd_nav::Estimator;
 use insd_nav::config::LeverFound;
 use insd_nav::filter::judged::ImuState;
-use insd_nav::judge::Aid;
+use insd_nav::judge::{Aid, Docket};
 
 use crate::ship::Ship;
 use crate::trial::Misled;
@@ -42,12 +42,6 @@ impl Engine {
             }
             ImuState::Wrong => return self.condemn_imu(time),
         }
-        if let Some(gain) = line.estimator().gain_of_log() {
-            let docket = self.nav.docket.without_gain(gain, time);
-            self.start_over(time, ModeReason::HeadingRefuted);
-            self.nav = self.nav.with_docket(docket);
-            return;
-        }
         let Some(misled) = line.estimator().refuted_by() else {
             if self.surveyor.is_refuted {
                 let condemned = self.surveyor.condemned;
@@ -68,10 +62,10 @@ impl Engine {
                     return self.condemn_imu(time);
                 }
                 let fault = line.estimator().fault_of_heading();
-                let docket = self.nav.docket.without(fault, time);
-                self.start_over(time, ModeReason::HeadingRefuted);
-                self.nav = self.nav.with_docket(docket);
-                return;
+                return self.start_over_with(self.nav.docket.without(fault, time), time);
+            }
+            Misled::Log(gain) => {
+                return self.start_over_with(self.nav.docket.without_gain(gain, time), time);
             }
             Misled::Imu => {
                 self.surveyor.is_refuted = true;
@@ -86,6 +80,12 @@ impl Engine {
         }
         self.retried = self.retried.saturating_add(1);
         self.start_over(time, ModeReason::HeadingRefuted);
+    }
+
+    /// A heading is sought anew by who stands so.
+    fn start_over_with(&mut self, docket: Docket, time: Time) {
+        self.start_over(time, ModeReason::HeadingRefuted);
+        self.nav = self.nav.with_docket(docket);
     }
 
     /// The IMU is of no use for a while.

@@ -113,7 +113,8 @@ impl Ship {
     pub(crate) fn refuted_by(&self) -> Option<Misled> {
         match self {
             Ship::InMotion { finder, images, .. } => {
-                images.is_mirrored(finder).then_some(Misled::Imu)
+                let by_imu = || images.is_mirrored(finder).then_some(Misled::Imu);
+                finder.gain_of_log().map(Misled::Log).or_else(by_imu)
             }
             Ship::Navigating { navigator, .. }
                 if navigator.filter().finds_the_impossible()
@@ -127,14 +128,6 @@ impl Ship {
             Ship::Navigating { navigator, trial: Some(trial), .. } => {
                 trial.refuted_by(navigator.filter())
             }
-            _ => None,
-        }
-    }
-
-    /// How many times her speed a log tells that keeps the heading from being found.
-    pub(crate) fn gain_of_log(&self) -> Option<f64> {
-        match self {
-            Ship::InMotion { finder, .. } => finder.gain_of_log(),
             _ => None,
         }
     }

@@ -28,6 +28,8 @@ pub(crate) enum Misled {
     Unknown,
     /// By the IMU: an installation as it tells it is none.
     Imu,
+    /// By a log that tells so many times her speed.
+    Log(f64),
 }
 
 impl Trial {

@@ -125,9 +125,9 @@ impl Filter {
         match aid.party().filter(|_| is_left_out) {
             Some(Party::Gnss) if judge.docket().leaves_out_gnss() => judge.note_word(aid, now),
             Some(party) => {
-                let seen = weighed.as_ref().map(|weighed| (innovation, weighed));
-                seen.into_iter()
-                    .for_each(|seen| judge.watch((party, aid), now, seen, &direct(0.0)));
+                if let Some(weighed) = &weighed {
+                    judge.watch((party, aid), now, (innovation, weighed), &direct(0.0));
+                }
             }
             None => judge.hear(aid, now, innovation, &attitude, direct),
         }

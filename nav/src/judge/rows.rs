@@ -253,7 +253,8 @@ pub fn told_by_log(direct: &Direct, row: usize) -> [f64; 2] {
 #[must_use]
 pub fn would_show(direct: &Direct, gain: &Vector2<f64>, weighed: &Weighed) -> bool {
     let lie = Direct::from_fn(1, direct.ncols(), |_, row| {
-        gain.x * direct[(LOG_GAIN, row)] + gain.y * direct[(LOG_GAIN + 1, row)]
+        let [through, across] = told_by_log(direct, row);
+        gain.x * through - gain.y * across
     });
     weighed.whiten(lie).norm_squared() > SHOWN * SHOWN * weighed.rows() as f64
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use insd_base::units::{DEG, wrap_pi};
-use insd_base::{Event, Mode, Solution, Truth, Voyage, earth};
+use insd_base::{Attitude, Event, Mode, Solution, Truth, Voyage, earth};
 use insd_engine::{Engine, EngineConfig, Output};
 
 use crate::mistakes::Mistake;
@@ -129,22 +129,17 @@ pub(crate) fn sail(voyage: Voyage, mistake: &Mistake, from: f64) -> Outcome {
     judged.finish(outcome)
 }
 
-/// Prints errors and claims once a second, where that is asked for.
-fn trace(solution: &Solution, truth: &Truth) {
+/// Prints errors, of the place, m, and of the heading, rad, and claims once a second, where that is asked for.
+fn trace(solution: &Solution, off: f64, turned: Option<f64>) {
     let at = solution.time.as_seconds();
     if at % TRACED > 0.0 || std::env::var_os("TRACE").is_none() {
         return;
     }
-    let apart = earth::ecef(&solution.position).0 - earth::ecef(&truth.position).0;
-    let off = (earth::c_ne(&truth.position) * apart).xy().norm();
     let std = solution.sigma.position.0.xy().norm();
-    let heading = truth
-        .attitude
-        .map_or(0.0, |truth| wrap_pi(solution.attitude.heading - truth.heading) / DEG);
-    let claimed = solution.sigma.heading / DEG;
+    let [turned, claimed] = [turned.unwrap_or(f64::NAN), solution.sigma.heading].map(|a| a / DEG);
     let (mode, judgement) = (solution.mode, solution.judgement.integrity);
     eprintln!(
-        "{at} s: {off:.1} m off, {std:.1} claimed; heading {heading:.1} deg, {claimed:.1}; {mode:?} {judgement:?}"
+        "{at} s: {off:.1} m off, {std:.1} claimed; heading {turned:.1} deg, {claimed:.1}; {mode:?} {judgement:?}"
     );
 }
 
@@ -162,11 +157,13 @@ struct Judged {
 
 impl Judged {
     fn judge(&mut self, solution: &Solution, truth: &Truth, outcome: &mut Outcome) {
-        trace(solution, truth);
         let apart = earth::ecef(&solution.position).0 - earth::ecef(&truth.position).0;
         let error = earth::c_ne(&truth.position) * apart;
         let std = solution.sigma.position.0;
         let (off, at) = (error.xy().norm(), solution.time.as_seconds());
+        let heading = |truth: Attitude| wrap_pi(solution.attitude.heading - truth.heading);
+        let turned = truth.attitude.map(heading);
+        trace(solution, off, turned);
         if !matches!(solution.mode, Mode::CoarseAlignment | Mode::Standby | Mode::Fault) {
             let sigmas = off / std.xy().norm();
             let raise = |greatest: &mut f64, to: f64| *greatest = greatest.max(to);
@@ -184,9 +181,8 @@ impl Judged {
         self.vertical += error.z * error.z;
         let scaled = error.component_div(&std);
         self.nees += scaled.xy().norm_squared() / 2.0;
-        if let Some(attitude) = truth.attitude {
-            let heading = wrap_pi(solution.attitude.heading - attitude.heading);
-            self.heading_nees += (heading / solution.sigma.heading).powi(2);
+        if let Some(turned) = turned {
+            self.heading_nees += (turned / solution.sigma.heading).powi(2);
         }
     }
 
